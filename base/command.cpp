@@ -1,0 +1,64 @@
+#include "base/command.h"
+
+#include <unistd.h>
+
+#include <iostream>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace cleft {
+
+int run_command(CLI::App& app, int argc, char** argv, const std::function<void()>& body) {
+  app.set_version_flag("--version", producer());
+  app.get_formatter()->column_width(34);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
+    std::cerr << app.get_name() << ": error: " << e.what() << " (see " << app.get_name() << " --help)\n";
+    return 2;
+  }
+  try {
+    body();
+    if (!std::cout.flush()) throw std::runtime_error("standard output could not be written");
+    return 0;
+  } catch (const InputError& e) {
+    std::cerr << app.get_name() << ": error: " << e.what() << '\n';
+    return 2;
+  } catch (const std::exception& e) {
+    std::cerr << app.get_name() << ": failed: " << e.what() << '\n';
+    return 1;
+  }
+}
+
+void print_figures(const Json& figures, bool as_json) {
+  if (as_json) {
+    std::cout << figures.dump(2) << '\n';
+    return;
+  }
+  for (const auto& [name, value] : figures.items()) {
+    if (value.is_object()) {
+      std::cout << name << ":\n";
+      for (const auto& [inner, figure] : value.items())
+        std::cout << "  " << inner << ": " << (figure.is_string() ? figure.get<std::string>() : figure.dump())
+                  << '\n';
+    } else {
+      std::cout << name << ": " << (value.is_string() ? value.get<std::string>() : value.dump()) << '\n';
+    }
+  }
+}
+
+Progress::Progress(std::string task) : task_(std::move(task)), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (written_) std::cerr << "\r\033[K" << std::flush;
+}
+
+void Progress::operator()(const std::string& state) {
+  if (!terminal_) return;
+  std::cerr << "\r\033[K" << task_ << ": " << state << std::flush;
+  written_ = true;
+}
+
+}  // namespace cleft

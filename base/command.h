@@ -1,0 +1,34 @@
+// What every command shares: exit codes, --version, progress, and figures as text or JSON.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace cleft {
+
+using Json = nlohmann::ordered_json;
+
+/// Parses the command line and runs `body`. Exit codes: 0 done, 1 failed, 2 wrong usage or input.
+/// Messages go to stderr as "cleft solve: error: ...".
+int run_command(CLI::App& app, int argc, char** argv, const std::function<void()>& body);
+
+/// Figures on stdout: one JSON object with `as_json`, else a line "name: value" for each.
+void print_figures(const Json& figures, bool as_json);
+
+/// A line of progress on stderr, overwritten in place on a terminal, and silent otherwise.
+class Progress {
+ public:
+  explicit Progress(std::string task);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void operator()(const std::string& state);
+
+ private:
+  std::string task_;
+  bool terminal_, written_ = false;
+};
+
+}  // namespace cleft

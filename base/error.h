@@ -1,0 +1,36 @@
+// The two kinds of errors: what a user can mend, and a broken invariant.
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace cleft {
+
+/// Wrong input. The message names the value, where it stands and the remedy. Commands exit with code 2.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A file that cannot be read as what it should be: "case.h5: <what is wrong>".
+struct FileError : InputError {
+  FileError(const std::string& file, const std::string& what) : InputError(file + ": " + what) {}
+};
+
+[[noreturn]] inline void broken_invariant(const char* file, int line, const std::string& what) {
+  throw std::logic_error(std::string(file) + ":" + std::to_string(line) + ": broken invariant: " + what);
+}
+
+}  // namespace cleft
+
+/// A check for bugs, always on: prints both operands. Not for users' mistakes.
+#define CLEFT_CHECK(left, op, right)                                                                     \
+  do {                                                                                                   \
+    const auto& cleft_left = (left);                                                                     \
+    const auto& cleft_right = (right);                                                                   \
+    if (!(cleft_left op cleft_right)) {                                                                  \
+      std::ostringstream cleft_message;                                                                  \
+      cleft_message << #left " " #op " " #right " (" << cleft_left << " against " << cleft_right << ")"; \
+      ::cleft::broken_invariant(__FILE__, __LINE__, cleft_message.str());                                \
+    }                                                                                                    \
+  } while (false)

@@ -1,0 +1,98 @@
+// HDF5 with every call checked. Files use the latest format, whose metadata carry checksums, and every
+// dataset is chunked with Fletcher-32, so that damage is found when it is read.
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cleft::h5 {
+
+/// Owns an HDF5 identifier.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle() = default;
+  Handle(hid_t id, Close closer) : id_(id), close_(closer) {}
+  Handle(Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle();
+  operator hid_t() const { return id_; }  // NOLINT: meant to be passed to HDF5 calls
+  /// Closes now and says whether it went well, which a destructor cannot.
+  bool close();
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+using Shape = std::vector<hsize_t>;
+
+/// How a dataset is stored beside its checksums.
+enum class Packing { plain, deflate };
+
+/// Supported element types: double, float, std::int32_t, std::int64_t, std::uint8_t.
+/// Reading throws FileError (what is missing or damaged); writing throws std::runtime_error (disk full, ...).
+class File {
+ public:
+  static File create(const std::string& path);
+  static File open(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  bool has(const std::string& name) const;
+  Shape shape(const std::string& name) const;
+  std::vector<std::string> attribute_names(const std::string& object) const;
+  std::vector<std::string> members(const std::string& group) const;
+
+  /// The whole dataset, which must have the shape where one is given (0 = any extent).
+  template <class T>
+  std::vector<T> read(const std::string& name, const Shape& expected = {}) const;
+  /// Rows first .. first + count - 1, slowest index first; out holds count times the product of the other
+  /// extents.
+  template <class T>
+  void read_rows(const std::string& name, hsize_t first, hsize_t count, std::span<T> out) const;
+  double read_number(const std::string& object, const std::string& attribute) const;
+  std::string read_text(const std::string& object, const std::string& attribute) const;
+  bool has_attribute(const std::string& object, const std::string& attribute) const;
+
+  void create_group(const std::string& name);
+  template <class T>
+  void write(const std::string& name, std::span<const T> data, const Shape& shape,
+             Packing packing = Packing::plain);
+  /// An empty dataset to be filled with write_rows; a chunk holds `chunk_rows` rows.
+  template <class T>
+  void create_dataset(const std::string& name, const Shape& shape, hsize_t chunk_rows,
+                      Packing packing = Packing::plain);
+  template <class T>
+  void write_rows(const std::string& name, hsize_t first, hsize_t count, std::span<const T> data);
+  void write_number(const std::string& object, const std::string& attribute, double value);
+  void write_integers(const std::string& object, const std::string& attribute,
+                      std::span<const std::int64_t> values);
+  void write_text(const std::string& object, const std::string& attribute, const std::string& text);
+
+  /// Flushes and closes; a full disk is found here.
+  void close();
+
+ private:
+  File(std::string path, Handle file) : path_(std::move(path)), file_(std::move(file)) {}
+  Handle open_dataset(const std::string& name) const;
+  hid_t check_write(hid_t result, const std::string& what) const;
+  void write_attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,
+                       const void* data);
+
+  std::string path_;
+  Handle file_;
+};
+
+}  // namespace cleft::h5
+
+namespace cleft {
+
+/// The root attribute "format" of a file of ours; empty where it has none. Throws FileError where it is no
+/// HDF5 file.
+std::string format_of(const std::string& path);
+
+}  // namespace cleft

@@ -1,0 +1,60 @@
+#include "base/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace cleft {
+
+namespace fs = std::filesystem;
+
+OutputFile::OutputFile(std::string final_path) : final_(std::move(final_path)) {
+  const fs::path target(final_);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (target.filename().empty() || fs::is_directory(target))
+    throw InputError("--out " + final_ + ": is a folder; give a file name");
+  if (!fs::is_directory(folder))
+    throw InputError("--out " + final_ + ": the folder '" + folder.string() +
+                     "' does not exist; create it first");
+  if (access(folder.c_str(), W_OK) != 0)
+    throw InputError("--out " + final_ + ": the folder '" + folder.string() + "' cannot be written");
+  temporary_ = (folder / ("." + target.stem().string() + "." + std::to_string(getpid()) + ".part" +
+                          target.extension().string()))
+                   .string();
+}
+
+OutputFile::~OutputFile() {
+  std::error_code ignored;
+  if (!committed_) fs::remove(temporary_, ignored);
+}
+
+void OutputFile::commit() {
+  flush_to_disk(temporary_);
+  fs::rename(temporary_, final_);
+  committed_ = true;
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  OutputFile out(path);
+  std::ofstream file(out.path(), std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path + ": could not be written: is the disk full?");
+  out.commit();
+}
+
+void flush_to_disk(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = file >= 0 && fsync(file) == 0;
+  const int error = errno;
+  if (file >= 0) close(file);
+  if (!done) throw std::runtime_error(path + ": could not be flushed to disk: " + std::strerror(error));
+}
+
+}  // namespace cleft

@@ -1,0 +1,33 @@
+// A file that appears whole or not at all.
+#pragma once
+
+#include <string>
+
+namespace cleft {
+
+/// Write to path(), then commit(): the file is flushed to disk and takes its final name in one step. Without
+/// a commit (an exception on the way) nothing is left behind and an older file of that name stays as it was.
+class OutputFile {
+ public:
+  /// Throws InputError where the folder does not exist or cannot be written.
+  explicit OutputFile(std::string final_path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// The temporary name beside the final one, with the same ending.
+  const std::string& path() const { return temporary_; }
+  void commit();
+
+ private:
+  std::string final_, temporary_;
+  bool committed_ = false;
+};
+
+/// Writes `text` to `path` through an OutputFile.
+void write_text_file(const std::string& path, const std::string& text);
+
+/// fsync on a file or folder; throws std::runtime_error with the path where the system refuses.
+void flush_to_disk(const std::string& path);
+
+}  // namespace cleft

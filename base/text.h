@@ -1,0 +1,41 @@
+// Small helpers for messages and text files.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cleft {
+
+/// The shortest decimal text that reads back as the same double.
+std::string shortest(double value);
+
+/// Of `names` the one with the least edit distance to `word`; empty where none is close enough to be meant.
+std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
+
+/// " (did you mean 'x'?)", or nothing where no name is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
+
+/// Reads a whole number or a decimal; throws InputError "<where>: '<text>' is not a number".
+double parse_number(std::string_view text, const std::string& where);
+
+/// "cleft 0.1.0": what wrote a file.
+std::string producer();
+
+/// The whole text of a file; throws FileError where it cannot be read.
+std::string read_text_file(const std::string& path);
+
+/// A table of numbers with a header line of column names, as in CSV files.
+struct NumberTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+
+  /// Index of a column, or -1.
+  int column(std::string_view name) const;
+};
+
+/// Reads comma-separated numbers under a header line. Empty lines and lines that begin with # are skipped.
+/// Throws FileError with line and column of what is no number, or of a row with too few or too many columns.
+NumberTable read_csv(const std::string& path);
+
+}  // namespace cleft

@@ -1,0 +1,52 @@
+// cleft: runs the subcommand that stands beside it, cleft solve -> cleft-solve.
+#include <unistd.h>
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "base/process.h"
+#include "base/text.h"
+
+namespace {
+
+struct Command {
+  std::string name, help;
+};
+const std::vector<Command> commands = {
+    {"run", "run a study of many cases"},       {"status", "what of a study is done"},
+    {"solve", "simulate a growing cut"},        {"encode", "fit a field to a snapshot"},
+    {"eval", "displacements of a field"},       {"cut", "cut a surface mesh along a path"},
+    {"explore", "look at a study, or draw it"}, {"info", "what a file holds"},
+    {"check", "verify files and studies"},
+};
+
+std::string usage() {
+  std::string text = "Usage: cleft COMMAND [OPTIONS]\n\nCommands (each has --help):\n";
+  for (const auto& [name, help] : commands)
+    text += "  " + name + std::string(10 - name.size(), ' ') + help + "\n";
+  return text + "\nOptions: --help, --version. Exit codes: 0 done, 1 failed, 2 wrong usage or input.\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word == "--help" || word == "-h") return std::cout << usage(), 0;
+  if (word == "--version") return std::cout << cleft::producer() << "\n", 0;
+  if (word.empty()) return std::cerr << usage(), 2;
+
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.name);
+  for (const std::string& name : names)
+    if (name == word) {
+      const std::string program = cleft::executable_folder() + "/cleft-" + name;
+      execv(program.c_str(), argv + 1);
+      return std::cerr << "cleft: failed: " << program
+                       << " could not be started; is the installation complete?\n",
+             1;
+    }
+  return std::cerr << "cleft: error: unknown command '" << word << "'" << cleft::did_you_mean(word, names)
+                   << " (see cleft --help)\n",
+         2;
+}

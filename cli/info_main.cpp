@@ -1,0 +1,77 @@
+// cleft info: what a snapshot or a field holds.
+#include <filesystem>
+
+#include "base/command.h"
+#include "base/error.h"
+#include "encoder/field/field_file.h"
+#include "solver/snapshot/snapshot.h"
+
+using namespace cleft;
+
+namespace {
+
+Json parameters_of(const std::map<std::string, std::variant<double, std::string>>& parameters) {
+  Json list = Json::object();
+  for (const auto& [name, value] : parameters)
+    std::visit([&, &key = name](const auto& v) { list[key] = v; }, value);
+  return list;
+}
+
+Json info_of_snapshot(const std::string& file) {
+  const SnapshotReader reader(file);
+  const Snapshot& s = reader.snapshot();
+  return {{"format", "cleft-snapshot"},
+          {"case", s.case_hash},
+          {"nodes", s.points.size()},
+          {"cells", s.cell_types.size()},
+          {"skin_triangles", s.skin().size()},
+          {"pairs", s.pairs.size()},
+          {"frames", s.frames()},
+          {"duration_mm", s.times.back()},
+          {"cut", {{"start", s.cut_start}, {"length", s.cut_length}, {"depth", s.cut_depth}}},
+          {"bytes", std::filesystem::file_size(file)},
+          {"parameters", parameters_of(s.parameters)}};
+}
+
+Json info_of_field(const std::string& file) {
+  const Field field = read_field(file);
+  Json counts = Json::array(), domain = Json::object();
+  for (int axis = 0; axis < 4; ++axis) {
+    counts.push_back(field.basis(axis).size());
+    domain[std::string(1, "uvwt"[axis])] = {field.basis(axis).front(), field.basis(axis).back()};
+  }
+  const FitReport& r = field.report;
+  return {
+      {"format", "cleft-field"},
+      {"case", field.case_hash},
+      {"control_points", counts},
+      {"domain_mm", domain},
+      {"cut", {{"start", field.cut().start}, {"length", field.cut().length}, {"depth", field.cut().depth}}},
+      {"report",
+       {{"relative_l2", r.relative_l2},
+        {"node_error", r.node_error},
+        {"spline_error", r.spline_error},
+        {"gape_error", r.gape_error},
+        {"false_gap", r.false_gap},
+        {"largest_displacement_mm", r.largest_displacement}}},
+      {"bytes", std::filesystem::file_size(file)},
+      {"parameters", field.parameters}};
+}
+
+Json info_of(const std::string& file) {
+  const std::string format = format_of(file);
+  if (format == "cleft-snapshot") return info_of_snapshot(file);
+  if (format == "cleft-field") return info_of_field(file);
+  throw FileError(file, "is neither a snapshot nor a field");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Shows what a snapshot or a field holds.", "cleft info");
+  std::string file;
+  bool json = false;
+  app.add_option("FILE", file, "case.h5 or case.dffd")->required();
+  app.add_flag("--json", json, "print as JSON");
+  return run_command(app, argc, argv, [&] { print_figures(info_of(file), json); });
+}

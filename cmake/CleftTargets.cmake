@@ -1,0 +1,42 @@
+# The few functions with which every folder declares its libraries, commands and tests.
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+find_package(Threads REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HDF5_SERIAL REQUIRED IMPORTED_TARGET hdf5-serial)
+pkg_check_modules(HDF5_MPI REQUIRED IMPORTED_TARGET hdf5-openmpi)
+
+add_library(cleft_warnings INTERFACE)
+target_compile_options(cleft_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wno-restrict)  # GCC 12 reports sound std::string additions (GCC bug 105329)
+
+add_library(cleft_options INTERFACE)
+if(CLEFT_SANITIZE)
+  target_compile_options(cleft_options INTERFACE -fsanitize=${CLEFT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(cleft_options INTERFACE -fsanitize=${CLEFT_SANITIZE})
+endif()
+
+# cleft_library(NAME SOURCES... [LINK ...]): a static library; the target is Cleft::NAME too.
+function(cleft_library name)
+  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+  add_library(cleft_${name} STATIC ${arg_UNPARSED_ARGUMENTS})
+  add_library(Cleft::${name} ALIAS cleft_${name})
+  set_target_properties(cleft_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(cleft_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cleft>)
+  target_link_libraries(cleft_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:cleft_warnings>)
+  target_link_libraries(cleft_${name} PUBLIC $<BUILD_INTERFACE:cleft_options>)
+endfunction()
+
+# cleft_command(NAME SOURCE LINK...): the executable cleft-NAME (or `cleft` itself), installed beside the others.
+function(cleft_command name source)
+  add_executable(${name} ${source})
+  target_link_libraries(${name} PRIVATE ${ARGN} cleft_command cleft_warnings)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()

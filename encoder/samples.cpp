@@ -1,0 +1,25 @@
+#include "encoder/samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cleft {
+
+std::vector<Sample> samples_of(const Snapshot& snapshot) {
+  double half_width = 0;
+  for (const Vec3& p : snapshot.points) half_width = std::max(half_width, std::abs(p.y));
+  const double on_plane = 1e-9 * half_width;
+  std::vector<Sample> samples;
+  samples.reserve(snapshot.points.size());
+  for (Vec3 p : snapshot.points) {
+    if (std::abs(p.y) <= on_plane) p.y = 0;
+    samples.push_back({p, side_of(p.y)});
+  }
+  for (const auto& [left, right] : snapshot.pairs) {
+    samples[static_cast<std::size_t>(left)].side = Side::left;
+    samples[static_cast<std::size_t>(right)].side = Side::right;
+  }
+  return samples;
+}
+
+}  // namespace cleft

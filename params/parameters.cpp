@@ -1,0 +1,187 @@
+#include "params/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "params/hash.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int hash_version = 1;  // raise when the same parameters no longer give the same snapshot
+
+#define CLEFT_NUMBER(path) +[](Parameters& p) -> double& { return p.path; }
+#define CLEFT_TEXT(path) +[](Parameters& p) -> std::string& { return p.path; }
+
+std::vector<Parameter> make_table() {
+  const auto positive = [](std::string name, std::string unit, std::string help, Parameter::Access access) {
+    return Parameter{std::move(name), std::move(unit), 0, infinity, true, {}, std::move(help), access};
+  };
+  const auto not_negative = [](std::string name, std::string unit, std::string help,
+                               Parameter::Access access) {
+    return Parameter{std::move(name), std::move(unit), 0, infinity, false, {}, std::move(help), access};
+  };
+  const auto stress = [](std::string name, std::string help, Parameter::Access access) {
+    return Parameter{std::move(name), "MPa", -infinity, infinity, false, {}, std::move(help), access};
+  };
+  const auto poisson = [](std::string name, double greatest, std::string help, Parameter::Access access) {
+    return Parameter{std::move(name), "", 0, greatest, false, {}, std::move(help), access};
+  };
+  return {
+      positive("patch.length", "mm", "length of the tissue patch along the cut (u)",
+               CLEFT_NUMBER(patch.length)),
+      positive("patch.width", "mm", "width of the patch across the cut (v)", CLEFT_NUMBER(patch.width)),
+      positive("patch.height", "mm", "height of the patch below the skin (w)", CLEFT_NUMBER(patch.height)),
+      positive("cut.length", "mm", "length of the cut, centred on the patch", CLEFT_NUMBER(cut.length)),
+      positive("cut.depth", "mm", "depth of the cut below the skin", CLEFT_NUMBER(cut.depth)),
+      {"cut.frames",
+       "",
+       0,
+       0,
+       false,
+       {"column", "pair"},
+       "a frame for every released column of node pairs, or for every pair",
+       CLEFT_TEXT(cut.frames)},
+      positive("mesh.element_size", "mm", "largest edge of an element along u, v and w",
+               CLEFT_NUMBER(mesh.element_size)),
+      positive("skin.thickness", "mm", "thickness of the skin membrane", CLEFT_NUMBER(skin.thickness)),
+      positive("skin.young_modulus", "MPa", "Young's modulus of the skin", CLEFT_NUMBER(skin.young_modulus)),
+      poisson("skin.poisson_ratio", 0.5, "Poisson's ratio of the skin (plane stress)",
+              CLEFT_NUMBER(skin.poisson_ratio)),
+      stress("skin.prestress_u", "prestress of the skin along the cut", CLEFT_NUMBER(skin.prestress_u)),
+      stress("skin.prestress_v", "prestress of the skin across the cut", CLEFT_NUMBER(skin.prestress_v)),
+      stress("skin.prestress_uv", "shear prestress of the skin", CLEFT_NUMBER(skin.prestress_uv)),
+      positive("tissue.young_modulus", "MPa", "Young's modulus of the tissue below the skin",
+               CLEFT_NUMBER(tissue.young_modulus)),
+      poisson("tissue.poisson_ratio", 0.49, "Poisson's ratio of the tissue",
+              CLEFT_NUMBER(tissue.poisson_ratio)),
+      positive("foundation.stiffness", "N/mm^3", "springs under the bottom",
+               CLEFT_NUMBER(foundation.stiffness)),
+      not_negative("foundation.side_stiffness", "N/mm^3", "springs on the four sides",
+                   CLEFT_NUMBER(foundation.side_stiffness)),
+  };
+}
+
+std::string range_text(const Parameter& p) {
+  const std::string unit = p.unit.empty() ? "" : " " + p.unit;
+  if (p.greatest == infinity)
+    return std::string(p.open ? "greater than " : "at least ") + shortest(p.least) + unit;
+  return "between " + shortest(p.least) + " and " + shortest(p.greatest) + unit;
+}
+
+}  // namespace
+
+const std::vector<Parameter>& parameter_table() {
+  static const std::vector<Parameter> table = make_table();
+  return table;
+}
+
+std::vector<std::string> parameter_names() {
+  std::vector<std::string> names;
+  for (const Parameter& row : parameter_table()) names.push_back(row.name);
+  return names;
+}
+
+const Parameter& find_parameter(const std::string& name, const std::string& where) {
+  for (const Parameter& row : parameter_table())
+    if (row.name == name) return row;
+  throw InputError(where + ": unknown parameter '" + name + "'" + did_you_mean(name, parameter_names()));
+}
+
+void check_value(const Parameter& parameter, const Value& value, const std::string& where) {
+  const auto refuse = [&](const std::string& rule) {
+    throw InputError(where + ": " + parameter.name + " = " + to_text(value) + ": must be " + rule);
+  };
+  if (parameter.is_text()) {
+    std::string list;
+    for (const std::string& choice : parameter.choices)
+      list += (list.empty() ? "\"" : " or \"") + choice + "\"";
+    const std::string* text = std::get_if<std::string>(&value);
+    if (!text ||
+        std::find(parameter.choices.begin(), parameter.choices.end(), *text) == parameter.choices.end())
+      refuse(list);
+    return;
+  }
+  const double* number = std::get_if<double>(&value);
+  if (!number || !std::isfinite(*number)) refuse("a number");
+  if (*number < parameter.least || *number > parameter.greatest ||
+      (parameter.open && *number == parameter.least))
+    refuse(range_text(parameter));
+}
+
+void set_parameter(Parameters& parameters, const std::string& name, const Value& value,
+                   const std::string& where) {
+  const Parameter& row = find_parameter(name, where);
+  check_value(row, value, where);
+  if (row.is_text())
+    std::get<1>(row.access)(parameters) = std::get<std::string>(value);
+  else
+    std::get<0>(row.access)(parameters) = std::get<double>(value);
+}
+
+void set_from_text(Parameters& parameters, const std::string& assignment, const std::string& where) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos) throw InputError(where + " " + assignment + ": expected NAME=VALUE");
+  const std::string name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+  const bool is_text = find_parameter(name, where).is_text();
+  set_parameter(parameters, name, is_text ? Value(text) : Value(parse_number(text, where + " " + name)),
+                where);
+}
+
+Value get_parameter(const Parameters& parameters, const Parameter& row) {
+  auto& readable = const_cast<Parameters&>(parameters);  // the accessors serve reading and writing alike
+  if (row.is_text()) return std::get<1>(row.access)(readable);
+  return std::get<0>(row.access)(readable);
+}
+
+std::string to_text(const Value& value) {
+  const double* number = std::get_if<double>(&value);
+  return number ? shortest(*number) : std::get<std::string>(value);
+}
+
+std::string parameter_help() {
+  std::string text = "Parameters (defaults; lengths mm, stresses MPa):\n";
+  for (const Parameter& row : parameter_table()) {
+    std::string line = "  " + row.name + " = " + to_text(get_parameter(Parameters(), row)) + " " + row.unit;
+    line.resize(std::max<std::size_t>(line.size() + 1, 40), ' ');
+    text += line + row.help + "\n";
+  }
+  return text;
+}
+
+void check_consistency(const Parameters& p, const std::string& where) {
+  const auto need = [&](bool good, const std::string& message) {
+    if (!good) throw InputError(where + ": " + message);
+  };
+  need(p.cut.length < p.patch.length,
+       "cut.length = " + shortest(p.cut.length) +
+           " mm: must be less than patch.length = " + shortest(p.patch.length) + " mm");
+  need(p.cut.depth < p.patch.height, "cut.depth = " + shortest(p.cut.depth) +
+                                         " mm: must be less than patch.height = " + shortest(p.patch.height) +
+                                         " mm");
+  need(2 * p.mesh.element_size <= p.cut.length,
+       "mesh.element_size = " + shortest(p.mesh.element_size) + " mm: at most half of cut.length = " +
+           shortest(p.cut.length) + " mm, so that the cut has a node to open");
+  need(2 * p.mesh.element_size <= p.patch.width,
+       "mesh.element_size = " + shortest(p.mesh.element_size) +
+           " mm: at most half of patch.width = " + shortest(p.patch.width) + " mm");
+  need(p.skin.prestress_u * p.skin.prestress_v >= p.skin.prestress_uv * p.skin.prestress_uv &&
+           p.skin.prestress_u >= 0 && p.skin.prestress_v >= 0,
+       "skin.prestress_u, _v, _uv = " + shortest(p.skin.prestress_u) + ", " + shortest(p.skin.prestress_v) +
+           ", " + shortest(p.skin.prestress_uv) +
+           " MPa: the skin would be compressed in some direction; a membrane carries tension only");
+}
+
+std::string solve_hash(const Parameters& parameters) {
+  std::string text = "cleft case " + std::to_string(hash_version) + "\n";
+  for (const Parameter& row : parameter_table())
+    text += row.name + "=" + to_text(get_parameter(parameters, row)) + "\n";
+  return sha256(text).substr(0, 16);
+}
+
+}  // namespace cleft

@@ -1,0 +1,63 @@
+// Study and case files (TOML), and the cases they stand for.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "params/parameters.h"
+
+namespace cleft {
+
+/// [encode]: how a case is fitted.
+struct EncodeSettings {
+  std::optional<std::array<int, 4>>
+      control_points;  ///< along u, v (both sides together), w, t; unset: the encoder's own
+};
+
+/// One case, resolved.
+struct Case {
+  Parameters parameters;
+  EncodeSettings encode;
+
+  /// Identity of the case as encoded; solve_hash(parameters) is the solver's half of it.
+  std::string hash() const;
+};
+
+/// Values that one parameter takes, in the order of the file.
+struct Variation {
+  std::string name;
+  std::vector<Value> values;
+};
+
+struct Study {
+  std::string name = "study";
+  Case base;
+  std::vector<Variation> vary;
+  std::string sampling = "grid";
+  std::string text;  ///< the file as read
+};
+
+/// Reads a study or case file. All mistakes are reported at once, each with file, line and, for unknown
+/// names, the nearest one: throws InputError.
+Study read_study(const std::string& path);
+
+/// The one case of a file without [vary]; `assignments` are NAME=VALUE from --set. Throws InputError where
+/// the file varies.
+Case read_case(const std::string& path, const std::vector<std::string>& assignments);
+
+/// The cases of a study by its sampling method, each checked for consistency; throws InputError naming every
+/// case's mistake.
+std::vector<Case> cases_of(const Study& study);
+
+/// Text of a case file that read_case resolves to the same case: every parameter, with its unit.
+std::string case_file_text(const Case& a_case);
+
+/// "26,16,9,16", as --control-points takes it.
+std::string control_points_text(const std::array<int, 4>& counts);
+
+/// Throws InputError "<where>: ..." where a count is too small for cubic splines.
+void check_control_points(const std::array<int, 4>& counts, const std::string& where);
+
+}  // namespace cleft

@@ -1,0 +1,171 @@
+#include "params/study_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "base/text.h"
+#include "params/hash.h"
+
+namespace cleft {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::string new_token() {
+  std::random_device random;
+  std::string token;
+  for (int i = 0; i < 8; ++i) token += "0123456789abcdef"[random() % 16];
+  return token + "-" + std::to_string(getpid());
+}
+
+std::vector<std::string> folders_in(const std::string& path) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(path, none))
+    if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+std::string to_text(CaseState state) {
+  switch (state) {
+    case CaseState::published:
+      return "published";
+    case CaseState::running:
+      return "running";
+    case CaseState::failed:
+      return "failed";
+    default:
+      return "missing";
+  }
+}
+
+Lock::Lock(const std::string& path) : file_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+  if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) != 0)
+    throw std::runtime_error(path + ": could not be locked");
+}
+
+Lock::~Lock() {
+  if (file_ >= 0) close(file_);
+}
+
+bool Lock::is_held(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool held = flock(file, LOCK_SH | LOCK_NB) != 0;
+  close(file);
+  return held;
+}
+
+StudyFolder::StudyFolder(std::string path) : path_(std::move(path)) {
+  if (!fs::is_directory(path_))
+    throw InputError(path_ + ": no such folder; cleft run STUDY.toml --out " + path_ + " makes one");
+  if (!fs::is_regular_file(study_file()))
+    throw InputError(path_ + ": is not a study folder (it has no study.toml); cleft run makes one");
+}
+
+StudyFolder StudyFolder::create(const std::string& path, const Study& study) {
+  if (fs::exists(path) && !fs::is_directory(path))
+    throw InputError("--out " + path + ": is a file; give a folder");
+  if (fs::is_directory(path) && !fs::is_empty(path) && !fs::exists(path + "/study.toml"))
+    throw InputError("--out " + path +
+                     ": the folder holds other files; give a new one, or the folder of a study");
+  std::error_code error;
+  fs::create_directories(path + "/cases", error);
+  if (!error) fs::create_directories(path + "/attempts", error);
+  if (error) throw InputError("--out " + path + ": could not be created: " + error.message());
+  write_text_file(path + "/study.toml", study.text);
+  return StudyFolder(path);
+}
+
+std::vector<std::string> StudyFolder::published_cases() const { return folders_in(path_ + "/cases"); }
+
+Json StudyFolder::manifest(const std::string& hash) const {
+  const std::string file = published(hash) + "/manifest.json";
+  try {
+    return Json::parse(read_text_file(file));
+  } catch (const Json::exception& e) {
+    throw FileError(file, std::string("is damaged: ") + e.what());
+  }
+}
+
+CaseStatus StudyFolder::status(const std::string& hash) const {
+  if (fs::exists(published(hash) + "/manifest.json")) return {CaseState::published, ""};
+  CaseStatus status;
+  const std::string attempts = path_ + "/attempts/" + hash;
+  for (const std::string& token : folders_in(attempts)) {
+    if (Lock::is_held(attempts + "/" + token + "/lock")) return {CaseState::running, ""};
+    const std::string reason = attempts + "/" + token + "/failed.txt";
+    if (fs::exists(reason)) status = {CaseState::failed, read_text_file(reason)};
+  }
+  return status;
+}
+
+Attempt StudyFolder::begin(const std::string& hash) const {
+  const std::string attempts = path_ + "/attempts/" + hash, token = new_token();
+  for (const std::string& old : folders_in(attempts))  // what a killed or failed run left
+    if (!Lock::is_held(attempts + "/" + old + "/lock")) fs::remove_all(attempts + "/" + old);
+  fs::create_directories(attempts + "/" + token);
+  return {attempts + "/" + token, token, Lock(attempts + "/" + token + "/lock")};
+}
+
+void StudyFolder::fail(const Attempt& attempt, const std::string& reason) const {
+  write_text_file(attempt.folder + "/failed.txt", reason);
+}
+
+bool StudyFolder::publish(const Attempt& attempt, const std::string& hash, Json manifest,
+                          const std::vector<std::string>& files) const {
+  for (const std::string& name : files) {
+    const std::string file = attempt.folder + "/" + name;
+    flush_to_disk(file);
+    manifest["files"][name] = {{"bytes", fs::file_size(file)}, {"sha256", sha256_of_file(file)}};
+  }
+  manifest["token"] = attempt.token;
+  write_text_file(attempt.folder + "/manifest.json", manifest.dump(2) + "\n");
+  fs::remove(attempt.folder + "/lock");  // the open descriptor keeps nobody out of a published case
+  flush_to_disk(attempt.folder);
+  std::error_code taken;
+  fs::rename(attempt.folder, published(hash), taken);
+  if (taken && !fs::exists(published(hash) + "/manifest.json"))
+    throw std::runtime_error(published(hash) + ": could not be published: " + taken.message());
+  flush_to_disk(path_ + "/cases");
+  std::error_code ignored;
+  fs::remove_all(path_ + "/attempts/" + hash, ignored);
+  return !taken;
+}
+
+std::optional<std::string> StudyFolder::solved_before(const std::string& solve_hash) const {
+  for (const std::string& hash : published_cases())
+    if (manifest(hash).value("solve", "") == solve_hash) return published(hash);
+  return std::nullopt;
+}
+
+void StudyFolder::verify(const std::string& hash) const {
+  const Json listed = manifest(hash);
+  if (listed.value("case", "") != hash || !listed.contains("files"))
+    throw FileError(published(hash) + "/manifest.json", "is not the manifest of case " + hash);
+  for (const auto& [name, entry] : listed["files"].items()) {
+    const std::string file = published(hash) + "/" + name;
+    if (!fs::exists(file))
+      throw FileError(file, "is missing; delete the case's folder and run the study again");
+    if (fs::file_size(file) != entry.value("bytes", std::uintmax_t{0}) ||
+        sha256_of_file(file) != entry.value("sha256", ""))
+      throw FileError(
+          file,
+          "differs from its manifest (size or SHA-256); delete the case's folder and run the study again");
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,58 @@
+// The skin: a constant-strain triangle in plane stress that carries a prestress and no bending. Paper,
+// section 3.1.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "base/vec3.h"
+#include "params/parameters.h"
+
+namespace cleft {
+
+/// The skin lies in a plane w = const; u and v are its directions, and w carries no stiffness.
+class Membrane {
+ public:
+  explicit Membrane(const Parameters::Skin& skin) : thickness_(skin.thickness) {
+    const double nu = skin.poisson_ratio;
+    elasticity_ << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
+    elasticity_ *= skin.young_modulus / (1 - nu * nu);
+    prestress_ << skin.prestress_u, skin.prestress_v, skin.prestress_uv;
+  }
+
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+  /// t A B^T D B over (u, v) of the three corners.
+  Matrix6 stiffness(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const Strain strain = strain_of(a, b, c);
+    return thickness_ * area(a, b, c) * strain.transpose() * elasticity_ * strain;
+  }
+
+  /// The pull of the prestress on the corners: -t A B^T sigma_0.
+  Vector6 load(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    return -thickness_ * area(a, b, c) * strain_of(a, b, c).transpose() * prestress_;
+  }
+
+ private:
+  using Strain = Eigen::Matrix<double, 3, 6>;
+
+  static double area(const Vec3& a, const Vec3& b, const Vec3& c) { return norm(cross(b - a, c - a)) / 2; }
+
+  /// (e_uu, e_vv, 2 e_uv) from the displacements of the corners.
+  static Strain strain_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double twice_area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    const double du[] = {b.y - c.y, c.y - a.y, a.y - b.y}, dv[] = {c.x - b.x, a.x - c.x, b.x - a.x};
+    Strain strain = Strain::Zero();
+    for (int i = 0; i < 3; ++i) {
+      strain(0, 2 * i) = strain(2, 2 * i + 1) = du[i] / twice_area;
+      strain(1, 2 * i + 1) = strain(2, 2 * i) = dv[i] / twice_area;
+    }
+    return strain;
+  }
+
+  double thickness_;
+  Eigen::Matrix3d elasticity_;
+  Eigen::Vector3d prestress_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+namespace {
+
+std::vector<Vec3> as_vectors(const std::vector<double>& numbers) {
+  std::vector<Vec3> vectors(numbers.size() / 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    vectors[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+  return vectors;
+}
+
+template <std::size_t K>
+std::vector<std::array<std::int32_t, K>> read_table(const h5::File& file, const std::string& name) {
+  if (!file.has(name)) return {};
+  const auto numbers = file.read<std::int32_t>(name, {0, K});
+  std::vector<std::array<std::int32_t, K>> rows(numbers.size() / K);
+  for (std::size_t i = 0; i < numbers.size(); ++i) rows[i / K][i % K] = numbers[i];
+  return rows;
+}
+
+/// The checks that make the rest of the program safe: sizes agree and indices lie in range.
+class SnapshotCheck {
+ public:
+  SnapshotCheck(const std::string& path, const Snapshot& snapshot) : path_(path), s_(snapshot) {}
+
+  void run() const {
+    require(!s_.points.empty(), "holds no points");
+    require(s_.frames() > 0, "holds no frames");
+    require(std::all_of(s_.points.begin(), s_.points.end(),
+                        [](const Vec3& p) { return std::isfinite(squared_norm(p)); }),
+            "a point is not finite");
+    check_cells();
+    check_table("/foundation/triangles", s_.foundation_triangles);
+    check_table("/foundation/quads", s_.foundation_quads);
+    check_table("/cut/pairs", s_.pairs);
+    check_cut();
+  }
+
+ private:
+  void require(bool good, const std::string& what) const {
+    if (!good) throw FileError(path_, what);
+  }
+
+  void check_cells() const {
+    const auto& offsets = s_.cell_offsets;
+    require(offsets.size() == s_.cell_types.size() + 1 && offsets.front() == 0 &&
+                std::is_sorted(offsets.begin(), offsets.end()) &&
+                offsets.back() == static_cast<std::int64_t>(s_.connectivity.size()),
+            "/VTKHDF/Offsets does not agree with Types and Connectivity");
+    const auto points = static_cast<std::int64_t>(s_.points.size());
+    require(std::all_of(s_.connectivity.begin(), s_.connectivity.end(),
+                        [=](std::int64_t i) { return 0 <= i && i < points; }),
+            "/VTKHDF/Connectivity names a point that does not exist");
+  }
+
+  template <std::size_t K>
+  void check_table(const std::string& name, const std::vector<std::array<std::int32_t, K>>& rows) const {
+    const auto points = static_cast<std::int64_t>(s_.points.size());
+    for (const auto& row : rows)
+      require(std::all_of(row.begin(), row.end(), [=](std::int32_t i) { return 0 <= i && i < points; }),
+              name + " names a point that does not exist");
+  }
+
+  void check_cut() const {
+    const auto increasing = [](const auto& list) {
+      return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+    };
+    require(std::all_of(s_.times.begin(), s_.times.end(), [](double t) { return std::isfinite(t); }) &&
+                increasing(s_.times),
+            "/VTKHDF/Steps/Values do not increase");
+    require(s_.released.size() == s_.frames() && s_.position.size() == s_.frames(),
+            "/cut/released and position must have a value a frame");
+    require(s_.released.front() == 0, "/cut/released: frame 0 must be closed");
+    require(std::is_sorted(s_.released.begin(), s_.released.end()) &&
+                s_.released.back() <= static_cast<std::int64_t>(s_.pairs.size()),
+            "/cut/released must not decrease, nor exceed the number of pairs");
+  }
+
+  const std::string& path_;
+  const Snapshot& s_;
+};
+
+void check_format(const h5::File& file) {
+  if (!file.has_attribute("/", "format") || file.read_text("/", "format") != "cleft-snapshot")
+    throw FileError(file.path(),
+                    "is not a snapshot (no attribute format = \"cleft-snapshot\"); cleft solve writes one");
+  const double found = file.read_number("/", "version");
+  if (found != snapshot_format_version)
+    throw FileError(file.path(), "snapshot format version " + std::to_string(static_cast<int>(found)) +
+                                     "; this program reads version " +
+                                     std::to_string(snapshot_format_version));
+}
+
+Snapshot read_all_but_displacements(const h5::File& file) {
+  check_format(file);
+  Snapshot s;
+  s.points = as_vectors(file.read<double>("/VTKHDF/Points", {0, 3}));
+  s.cell_types = file.read<std::uint8_t>("/VTKHDF/Types", {0});
+  s.cell_offsets = file.read<std::int64_t>("/VTKHDF/Offsets", {0});
+  s.connectivity = file.read<std::int64_t>("/VTKHDF/Connectivity", {0});
+  s.times = file.read<double>("/VTKHDF/Steps/Values", {0});
+  s.foundation_triangles = read_table<3>(file, "/foundation/triangles");
+  s.foundation_quads = read_table<4>(file, "/foundation/quads");
+  s.pairs = read_table<2>(file, "/cut/pairs");
+  s.released = file.read<std::int32_t>("/cut/released", {0});
+  s.position = file.read<double>("/cut/position", {0});
+  s.cut_start = file.read_number("/cut", "start");
+  s.cut_length = file.read_number("/cut", "length");
+  s.cut_depth = file.read_number("/cut", "depth");
+  s.smallest_gap = file.read<double>("/frames/smallest_gap", {s.frames()});
+  s.residual_equilibrium = file.read<double>("/frames/residual_equilibrium", {s.frames()});
+  s.residual_closure = file.read<double>("/frames/residual_closure", {s.frames()});
+  s.case_hash = file.read_text("/", "case");
+  for (const std::string& name : file.attribute_names("/parameters")) {
+    try {
+      s.parameters[name] = file.read_number("/parameters", name);
+    } catch (const FileError&) {
+      s.parameters[name] = file.read_text("/parameters", name);
+    }
+  }
+  const h5::Shape shape = file.shape("/VTKHDF/PointData/displacement");
+  if (shape != h5::Shape{s.frames() * s.points.size(), 3})
+    throw FileError(file.path(), "/VTKHDF/PointData/displacement must have a row a frame and point");
+  SnapshotCheck(file.path(), s).run();
+  return s;
+}
+
+}  // namespace
+
+std::vector<std::array<int, 3>> Snapshot::skin() const {
+  std::vector<std::array<int, 3>> triangles;
+  for (std::size_t c = 0; c < cell_types.size(); ++c)
+    if (cell_types[c] == triangle) {
+      const auto* corner = &connectivity[static_cast<std::size_t>(cell_offsets[c])];
+      triangles.push_back(
+          {static_cast<int>(corner[0]), static_cast<int>(corner[1]), static_cast<int>(corner[2])});
+    }
+  return triangles;
+}
+
+SnapshotReader::SnapshotReader(const std::string& path)
+    : file_(h5::File::open(path)), snapshot_(read_all_but_displacements(file_)) {}
+
+std::vector<Vec3> SnapshotReader::displacement(std::size_t frame) const {
+  return displacement(frame, 0, snapshot_.points.size());
+}
+
+std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t first,
+                                               std::size_t count) const {
+  CLEFT_CHECK(frame, <, snapshot_.frames());
+  std::vector<double> numbers(3 * count);
+  file_.read_rows<double>("/VTKHDF/PointData/displacement", frame * snapshot_.points.size() + first, count,
+                          numbers);
+  std::vector<Vec3> vectors = as_vectors(numbers);
+  for (const Vec3& d : vectors)
+    if (!std::isfinite(squared_norm(d)))
+      throw FileError(file_.path(),
+                      "frame " + std::to_string(frame) + " holds a displacement that is not finite");
+  return vectors;
+}
+
+void check_snapshot(const std::string& path) {
+  const SnapshotReader reader(path);
+  for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) reader.displacement(j);
+}
+
+}  // namespace cleft

@@ -1,0 +1,87 @@
+// The snapshot file case.h5 (docs/formats.md): a finite element time series with a growing cut.
+// It is also a VTKHDF 2.0 temporal UnstructuredGrid.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/h5.h"
+#include "base/output_file.h"
+#include "base/vec3.h"
+
+namespace cleft {
+
+inline constexpr int snapshot_format_version = 1;
+
+/// Everything but the displacements. N points, C cells, P pairs, F frames. Lengths in mm.
+struct Snapshot {
+  static constexpr std::uint8_t triangle = 5, wedge = 13;  ///< VTK's cell types: skin and tissue
+
+  std::vector<Vec3> points;                ///< N stress-free positions (u, v, w)
+  std::vector<std::uint8_t> cell_types;    ///< C
+  std::vector<std::int64_t> cell_offsets;  ///< C + 1
+  std::vector<std::int64_t> connectivity;
+
+  std::vector<std::array<std::int32_t, 3>>
+      foundation_triangles;                                   ///< bottom faces; may be empty in imported data
+  std::vector<std::array<std::int32_t, 4>> foundation_quads;  ///< side faces, in cyclic order
+
+  std::vector<std::array<std::int32_t, 2>> pairs;  ///< P: left node, right node, in release order
+  std::vector<std::int32_t> released;              ///< F: number of pairs open in each frame; 0 in frame 0
+  std::vector<double> position;                    ///< F: u of the first node ahead that is still closed
+  double cut_start = 0, cut_length = 0, cut_depth = 0;
+
+  std::vector<double> times;                                                 ///< F: t, the length cut, from 0
+  std::vector<double> smallest_gap, residual_equilibrium, residual_closure;  ///< F each
+
+  std::map<std::string, std::variant<double, std::string>> parameters;
+  std::string case_hash;
+
+  std::size_t frames() const { return times.size(); }
+  /// The skin: all triangles, as indices into points.
+  std::vector<std::array<int, 3>> skin() const;
+};
+
+/// Writes a snapshot whole or not at all: displacement frame by frame, then finish().
+class SnapshotWriter {
+ public:
+  /// Takes mesh, cut, times and parameters; the figures of the frames are taken by finish().
+  SnapshotWriter(const std::string& path, const Snapshot& snapshot);
+  /// Displacements from `points`, N of them, of frames first, first + 1, ...: one or more whole frames.
+  void write_frames(std::size_t first, std::span<const Vec3> displacements);
+  /// Writes smallest_gap and the residuals, flushes, and gives the file its name.
+  void finish(const Snapshot& snapshot);
+
+ private:
+  OutputFile out_;
+  h5::File file_;
+  std::size_t points_;
+};
+
+/// Opens, reads and checks all but the displacements, which are read frame by frame or in slabs of nodes.
+class SnapshotReader {
+ public:
+  /// Throws FileError where the file is no snapshot, is damaged, or contradicts itself.
+  explicit SnapshotReader(const std::string& path);
+
+  const Snapshot& snapshot() const { return snapshot_; }
+  /// Displacements from `points` in a frame, N of them.
+  std::vector<Vec3> displacement(std::size_t frame) const;
+  /// Displacements of the nodes first .. first + count - 1 in a frame.
+  std::vector<Vec3> displacement(std::size_t frame, std::size_t first, std::size_t count) const;
+
+ private:
+  h5::File file_;
+  Snapshot snapshot_;
+};
+
+/// Reads every byte of a snapshot and throws FileError at the first fault.
+void check_snapshot(const std::string& path);
+
+}  // namespace cleft

@@ -1,0 +1,113 @@
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+namespace {
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "Vec3 is written as three doubles");
+
+std::span<const double> as_numbers(std::span<const Vec3> vectors) {
+  return {vectors.empty() ? nullptr : &vectors.front().x, 3 * vectors.size()};
+}
+
+template <std::size_t K>
+void write_table(h5::File& file, const std::string& name,
+                 const std::vector<std::array<std::int32_t, K>>& rows) {
+  file.write<std::int32_t>(name, {rows.empty() ? nullptr : rows.front().data(), K * rows.size()},
+                           {rows.size(), K});
+}
+
+template <class T>
+void write_list(h5::File& file, const std::string& name, const std::vector<T>& values) {
+  file.write<T>(name, values, {values.size()});
+}
+
+void write_vtk_mesh(h5::File& file, const Snapshot& s) {
+  file.create_group("/VTKHDF");
+  file.write_integers("/VTKHDF", "Version", std::array<std::int64_t, 2>{2, 0});
+  file.write_text("/VTKHDF", "Type", "UnstructuredGrid");
+  const auto count = [](std::size_t n) { return std::vector<std::int64_t>{static_cast<std::int64_t>(n)}; };
+  write_list(file, "/VTKHDF/NumberOfPoints", count(s.points.size()));
+  write_list(file, "/VTKHDF/NumberOfCells", count(s.cell_types.size()));
+  write_list(file, "/VTKHDF/NumberOfConnectivityIds", count(s.connectivity.size()));
+  file.write<double>("/VTKHDF/Points", as_numbers(s.points), {s.points.size(), 3});
+  write_list(file, "/VTKHDF/Types", s.cell_types);
+  write_list(file, "/VTKHDF/Offsets", s.cell_offsets);
+  write_list(file, "/VTKHDF/Connectivity", s.connectivity);
+}
+
+/// One mesh for all steps: every geometric offset is 0, and the displacements of step j begin at row j N.
+void write_vtk_steps(h5::File& file, const Snapshot& s) {
+  const hsize_t frames = s.frames(), points = s.points.size();
+  const std::vector<std::int64_t> zeros(frames, 0), ones(frames, 1);
+  std::vector<std::int64_t> rows(frames);
+  for (hsize_t j = 0; j < frames; ++j) rows[j] = static_cast<std::int64_t>(j * points);
+  file.create_group("/VTKHDF/Steps");
+  file.write_integers("/VTKHDF/Steps", "NSteps",
+                      std::array<std::int64_t, 1>{static_cast<std::int64_t>(frames)});
+  write_list(file, "/VTKHDF/Steps/Values", s.times);
+  write_list(file, "/VTKHDF/Steps/PartOffsets", zeros);
+  write_list(file, "/VTKHDF/Steps/NumberOfParts", ones);
+  write_list(file, "/VTKHDF/Steps/PointOffsets", zeros);
+  file.write<std::int64_t>("/VTKHDF/Steps/CellOffsets", zeros, {frames, 1});
+  file.write<std::int64_t>("/VTKHDF/Steps/ConnectivityIdOffsets", zeros, {frames, 1});
+  write_list(file, "/VTKHDF/Steps/PointDataOffsets/displacement", rows);
+  constexpr hsize_t chunk_rows = 32768;  // 0.75 MB: one chunk is read to get one node's neighbourhood
+  file.create_dataset<double>("/VTKHDF/PointData/displacement", {frames * points, 3},
+                              std::min(points, chunk_rows));
+}
+
+void write_cut(h5::File& file, const Snapshot& s) {
+  write_table(file, "/cut/pairs", s.pairs);
+  write_list(file, "/cut/released", s.released);
+  write_list(file, "/cut/position", s.position);
+  file.write_number("/cut", "start", s.cut_start);
+  file.write_number("/cut", "length", s.cut_length);
+  file.write_number("/cut", "depth", s.cut_depth);
+}
+
+void write_parameters(h5::File& file, const Snapshot& s) {
+  file.create_group("/parameters");
+  for (const auto& [name, value] : s.parameters)
+    if (const double* number = std::get_if<double>(&value))
+      file.write_number("/parameters", name, *number);
+    else
+      file.write_text("/parameters", name, std::get<std::string>(value));
+}
+
+}  // namespace
+
+SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s)
+    : out_(path), file_(h5::File::create(out_.path())), points_(s.points.size()) {
+  file_.write_text("/", "format", "cleft-snapshot");
+  file_.write_number("/", "version", snapshot_format_version);
+  file_.write_text("/", "units", "mm N MPa");
+  file_.write_text("/", "case", s.case_hash);
+  file_.write_text("/", "producer", producer());
+  write_vtk_mesh(file_, s);
+  write_vtk_steps(file_, s);
+  write_table(file_, "/foundation/triangles", s.foundation_triangles);
+  write_table(file_, "/foundation/quads", s.foundation_quads);
+  write_cut(file_, s);
+  write_parameters(file_, s);
+}
+
+void SnapshotWriter::write_frames(std::size_t first, std::span<const Vec3> displacements) {
+  CLEFT_CHECK(displacements.size() % points_, ==, 0u);
+  file_.write_rows<double>("/VTKHDF/PointData/displacement", first * points_, displacements.size(),
+                           as_numbers(displacements));
+}
+
+void SnapshotWriter::finish(const Snapshot& s) {
+  write_list(file_, "/frames/smallest_gap", s.smallest_gap);
+  write_list(file_, "/frames/residual_equilibrium", s.residual_equilibrium);
+  write_list(file_, "/frames/residual_closure", s.residual_closure);
+  file_.close();
+  out_.commit();
+}
+
+}  // namespace cleft

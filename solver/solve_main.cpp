@@ -1,0 +1,58 @@
+// cleft solve: a case file to a snapshot.
+#include <deal.II/base/mpi.h>
+
+#include <cstdio>
+
+#include "base/command.h"
+#include "params/study.h"
+#include "solver/solve.h"
+
+using namespace cleft;
+
+namespace {
+
+Json figures_of(const SolveReport& r) {
+  return {{"ranks", r.ranks},
+          {"nodes", r.nodes},
+          {"unknowns", r.unknowns},
+          {"pairs", r.pairs},
+          {"frames", r.frames},
+          {"gape_mm", r.gape},
+          {"largest_displacement_mm", r.largest_displacement},
+          {"smallest_gap_mm", r.smallest_gap},
+          {"residual_equilibrium", r.worst_equilibrium},
+          {"residual_closure", r.worst_closure},
+          {"seconds",
+           {{"assemble", r.seconds_assemble}, {"factor", r.seconds_factor}, {"frames", r.seconds_frames}}}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  // One voice for all ranks.
+  if (!root && !(std::freopen("/dev/null", "w", stdout) && std::freopen("/dev/null", "w", stderr))) return 1;
+
+  CLI::App app("Solves a growing cut and writes its time series. Runs under mpirun too.", "cleft solve");
+  std::string case_file, out;
+  std::vector<std::string> assignments;
+  bool json = false;
+  app.add_option("CASE.toml", case_file, "case file")->required();
+  app.add_option("--out", out, "snapshot to write, case.h5")->required();
+  app.add_option("--set", assignments, "NAME=VALUE: overrides a parameter of the case (repeatable)");
+  app.add_flag("--json", json, "print the figures as JSON");
+  app.footer([] { return parameter_help(); });
+
+  const int code = run_command(app, argc, argv, [&] {
+    const Case a_case = read_case(case_file, assignments);
+    Progress progress("solving");
+    const SolveReport report = solve_case(a_case.parameters, out, MPI_COMM_WORLD,
+                                          [&](const std::string& state) { progress(state); });
+    if (root) print_figures(figures_of(report), json);
+  });
+  // What one rank alone ran into must not leave the others waiting; wrong input all of them see alike.
+  if (code == 1 && dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    MPI_Abort(MPI_COMM_WORLD, code);
+  return code;
+}
