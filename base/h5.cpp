@@ -92,7 +92,9 @@ File File::open(const std::string& path) {
 bool File::has(const std::string& name) const {
   // H5Lexists wants every intermediate group to exist.
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
-    if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    const htri_t exists = H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT);
+    if (exists < 0) throw FileError(path_, "group above " + name + " is damaged");
+    if (exists == 0) return false;
     if (end == std::string::npos) return true;
   }
 }
@@ -140,8 +142,10 @@ std::vector<std::string> File::attribute_names(const std::string& object) const 
 }
 
 bool File::has_attribute(const std::string& object, const std::string& attribute) const {
-  return (object == "/" || has(object)) &&
-         H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
+  if (object != "/" && !has(object)) return false;
+  const htri_t exists = H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT);
+  if (exists < 0) throw FileError(path_, "attributes of " + object + " are damaged");
+  return exists > 0;
 }
 
 template <class T>
@@ -227,8 +231,15 @@ hid_t File::check_write(hid_t result, const std::string& what) const {
 }
 
 void File::create_group(const std::string& name) {
-  const Handle group(
-      check_write(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name), H5Gclose);
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);  // the same content gives the same bytes
+  const Handle group(check_write(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), name),
+                     H5Gclose);
+}
+
+void File::create_groups_above(const std::string& name) {
+  for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
+    if (!has(name.substr(0, end))) create_group(name.substr(0, end));
 }
 
 template <class T>
@@ -242,9 +253,10 @@ void File::create_dataset(const std::string& name, const Shape& shape, hsize_t c
     if (packing == Packing::deflate) H5Pset_shuffle(creation), H5Pset_deflate(creation, 6);
     H5Pset_fletcher32(creation);
   }
-  H5Pset_create_intermediate_group(links, 1);
+  create_groups_above(name);
   const Handle dataset(
-      check_write(H5Dcreate2(file_, name.c_str(), native<T>(), space, links, creation, H5P_DEFAULT), name),
+      check_write(H5Dcreate2(file_, name.c_str(), native<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                  name),
       H5Dclose);
 }
 

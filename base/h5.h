@@ -79,6 +79,7 @@ class File {
  private:
   File(std::string path, Handle file) : path_(std::move(path)), file_(std::move(file)) {}
   Handle open_dataset(const std::string& name) const;
+  void create_groups_above(const std::string& name);
   hid_t check_write(hid_t result, const std::string& what) const;
   void write_attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,
                        const void* data);

@@ -85,10 +85,8 @@ std::string producer() { return "cleft " CLEFT_VERSION; }
 
 std::string read_text_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), {});
-  if (!file.is_open() || file.bad() || std::filesystem::is_directory(path))
-    throw FileError(path, "cannot be read: does it exist, and is it a file?");
-  return text;
+  if (!file || std::filesystem::is_directory(path)) throw FileError(path, "cannot be read: does it exist, and is it a file?");
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 int NumberTable::column(std::string_view name) const {

@@ -37,6 +37,17 @@ std::vector<std::string> folders_in(const std::string& path) {
   return names;
 }
 
+/// Removes what killed and failed runs left, never what another process works in; the folder too when it is
+/// empty.
+void remove_abandoned(const std::string& attempts) {
+  std::error_code ignored;
+  for (const std::string& token : folders_in(attempts)) {
+    const std::string lock = attempts + "/" + token + "/lock";
+    if (fs::exists(lock) && !Lock::is_held(lock)) fs::remove_all(attempts + "/" + token, ignored);
+  }
+  fs::remove(attempts, ignored);
+}
+
 }  // namespace
 
 std::string to_text(CaseState state) {
@@ -115,8 +126,7 @@ CaseStatus StudyFolder::status(const std::string& hash) const {
 
 Attempt StudyFolder::begin(const std::string& hash) const {
   const std::string attempts = path_ + "/attempts/" + hash, token = new_token();
-  for (const std::string& old : folders_in(attempts))  // what a killed or failed run left
-    if (!Lock::is_held(attempts + "/" + old + "/lock")) fs::remove_all(attempts + "/" + old);
+  remove_abandoned(attempts);
   fs::create_directories(attempts + "/" + token);
   return {attempts + "/" + token, token, Lock(attempts + "/" + token + "/lock")};
 }
@@ -141,8 +151,8 @@ bool StudyFolder::publish(const Attempt& attempt, const std::string& hash, Json 
   if (taken && !fs::exists(published(hash) + "/manifest.json"))
     throw std::runtime_error(published(hash) + ": could not be published: " + taken.message());
   flush_to_disk(path_ + "/cases");
-  std::error_code ignored;
-  fs::remove_all(path_ + "/attempts/" + hash, ignored);
+  if (taken) fs::remove_all(attempt.folder);
+  remove_abandoned(path_ + "/attempts/" + hash);
   return !taken;
 }
 

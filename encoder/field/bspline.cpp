@@ -25,10 +25,10 @@ BSplineBasis::BSplineBasis(int degree, std::vector<double> knots)
   if (degree < 1 || degree > max_degree)
     throw InputError("degree " + std::to_string(degree) + " of a B-spline: must be 1 to 5");
   const std::size_t order = degree + 1;
-  const bool valid = knots_.size() >= 2 * order && std::is_sorted(knots_.begin(), knots_.end()) &&
-                     std::isfinite(knots_.front()) && std::isfinite(knots_.back()) &&
-                     knots_[order - 1] == knots_.front() && knots_[knots_.size() - order] == knots_.back() &&
-                     knots_.front() < knots_.back();
+  const auto finite = [](double knot) { return std::isfinite(knot); };
+  const bool valid = knots_.size() >= 2 * order && std::all_of(knots_.begin(), knots_.end(), finite) &&
+                     std::is_sorted(knots_.begin(), knots_.end()) && knots_[order - 1] == knots_.front() &&
+                     knots_[knots_.size() - order] == knots_.back() && knots_.front() < knots_.back();
   if (!valid)
     throw InputError("a knot vector of degree " + std::to_string(degree) +
                      " must be sorted, finite and open at both ends");

@@ -61,7 +61,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--out", out, "CSV to write, columns du,dv,dw (default: standard output)");
   return run_command(app, argc, argv, [&] {
-    const std::string text = evaluate_rows(read_field(file), read_csv(points), points);
+    const Field field = read_field(file);
+    const std::string text = evaluate_rows(field, read_csv(points), points);
     if (out.empty())
       std::cout << text;
     else

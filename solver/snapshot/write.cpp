@@ -30,10 +30,13 @@ void write_vtk_mesh(h5::File& file, const Snapshot& s) {
   file.create_group("/VTKHDF");
   file.write_integers("/VTKHDF", "Version", std::array<std::int64_t, 2>{2, 0});
   file.write_text("/VTKHDF", "Type", "UnstructuredGrid");
-  const auto count = [](std::size_t n) { return std::vector<std::int64_t>{static_cast<std::int64_t>(n)}; };
-  write_list(file, "/VTKHDF/NumberOfPoints", count(s.points.size()));
-  write_list(file, "/VTKHDF/NumberOfCells", count(s.cell_types.size()));
-  write_list(file, "/VTKHDF/NumberOfConnectivityIds", count(s.connectivity.size()));
+  const auto write_count = [&file](const std::string& name, std::size_t count) {
+    const auto number = static_cast<std::int64_t>(count);
+    file.write<std::int64_t>(name, {&number, 1}, {1});
+  };
+  write_count("/VTKHDF/NumberOfPoints", s.points.size());
+  write_count("/VTKHDF/NumberOfCells", s.cell_types.size());
+  write_count("/VTKHDF/NumberOfConnectivityIds", s.connectivity.size());
   file.write<double>("/VTKHDF/Points", as_numbers(s.points), {s.points.size(), 3});
   write_list(file, "/VTKHDF/Types", s.cell_types);
   write_list(file, "/VTKHDF/Offsets", s.cell_offsets);

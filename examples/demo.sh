@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# demo.sh: from nothing to an open wound. Installs what is missing, builds, runs the study examples/demo.toml, encodes
+# it, cuts a head along a curved path, and opens the explorer; where there is no display it writes pictures instead.
+# Its files are in out/demo. Run again, it does only what is left to do.
+set -eu
+cd "$(dirname "$0")/.."
+out=out/demo
+bin=build/release/bin
+mkdir -p $out
+
+step() { echo; echo "== $*"; }
+
+step "1/5 Packages"
+./setup/install.sh
+echo "All packages are there."
+
+step "2/5 Build"
+cmake --preset release > /dev/null
+cmake --build --preset release --target commands
+
+step "3/5 A head to cut, and a study of four cases"
+$bin/make-head --out $out/head.stl --path $out/path.csv
+$bin/cleft run examples/demo.toml --out $out/study
+$bin/cleft status $out/study
+
+step "4/5 A cut along a curved path"
+case=$(ls -d $out/study/cases/*/ | head -1)
+$bin/cleft cut --mesh $out/head.stl --path $out/path.csv --field "${case}case.dffd" --out $out/cut.vtp
+echo "The cut head: $out/cut.vtp"
+
+step "5/5 Explore"
+if [ -n "${DISPLAY:-}" ]; then
+  echo "The explorer opens; sliders choose the time and the case. Close its window to end."
+  exec $bin/cleft explore $out/study --mesh $out/head.stl --path $out/path.csv
+fi
+for view in left:-35,15 right:35,15; do
+  for time in 10 25 60; do
+    picture=$out/wound-${view%%:*}-${time}mm.png
+    $bin/cleft explore $out/study --case 4 --mesh $out/head.stl --path $out/path.csv --time $time --view="${view#*:}" --screenshot $picture
+    echo "picture: $picture"
+  done
+done
+$bin/cleft explore $out/study --case 4 --screenshot $out/patch.png
+echo "picture: $out/patch.png"
+$bin/cleft explore $out/study --case 4 --mesh $out/head.stl --path $out/path.csv --zoom 0.3 --screenshot $out/head.png
+echo "picture: $out/head.png"
+echo "There is no display, so pictures were written. With one, this opens the explorer:"
+echo "  $bin/cleft explore $out/study --mesh $out/head.stl --path $out/path.csv"

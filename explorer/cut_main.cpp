@@ -1,0 +1,121 @@
+// cleft cut: one cut through one surface mesh, without a window.
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "base/command.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+#include "explorer/incision/incision.h"
+#include "explorer/io/mesh_file.h"
+#include "explorer/scene/replay.h"
+
+namespace {
+
+using namespace cleft;
+
+struct Options {
+  std::string mesh, path, field, out;
+  bool rest = false, json = false;
+  double scale = 1;                 // mm per mesh unit
+  double depth = 0, progress = -1;  // mm; 0 and -1: not given
+  std::optional<double> max_edge;   // mm
+};
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+ScalpelPath read_path(const Options& options, const std::optional<Field>& field) {
+  const NumberTable table = read_csv(options.path);
+  ScalpelPath path = ScalpelPath::from_table(table, options.path);
+  if (options.depth > 0)
+    path.set_depth(options.depth / options.scale);
+  else if (table.column("depth") < 0 && field)
+    path.set_depth(field->cut().depth / options.scale);
+  else if (table.column("depth") < 0)
+    throw FileError(options.path, "has no column 'depth', and --rest knows none: give --depth in mm");
+  return path;
+}
+
+std::vector<PointArray> point_arrays(const Incision& incision, const std::vector<Vec3>& moved, double scale) {
+  PointArray displacement{"displacement", 3, {}}, depth{"depth", 1, {}}, region{"region", 1, {}},
+      s{"s", 1, {}};
+  const CutMesh& mesh = incision.mesh();
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const CutMesh::Vertex& v = mesh.vertices()[i];
+    const Vec3 d = moved[i] - v.position;
+    displacement.values.insert(displacement.values.end(), {d.x, d.y, d.z});
+    const bool on_cut = v.kind != VertexKind::skin;
+    depth.values.push_back(on_cut ? v.depth_fraction * incision.path().depth(v.s) * scale : 0);
+    region.values.push_back(v.depth_fraction == 0 ? 0 : side_of(v.kind) == Side::right ? 2 : 1);
+    s.values.push_back(scale * (on_cut ? v.s : incision.path().coordinates(v.position).s));
+  }
+  return {displacement, depth, region, s};
+}
+
+void cut(const Options& options) {
+  std::optional<Field> field;
+  if (!options.field.empty()) field = read_field(options.field);
+  const SurfaceMesh surface = read_mesh(options.mesh);
+  const ScalpelPath path = read_path(options, field);
+
+  const auto start = std::chrono::steady_clock::now();
+  IncisionOptions incision_options;
+  if (options.max_edge) incision_options.max_edge = *options.max_edge / options.scale;
+  Incision incision(surface, path, incision_options);
+  const double length = path.length() * options.scale;
+  const double progress = options.progress < 0 ? length : std::min(options.progress, length);
+  incision.advance_to(progress / options.scale);
+  const double cutting = milliseconds_since(start);
+
+  SurfaceMesh result = incision.mesh().surface();
+  Json figures{{"triangles_before", surface.triangles.size()},
+               {"triangles_after", result.triangles.size()},
+               {"triangles_added", result.triangles.size() - surface.triangles.size()},
+               {"cut_length_mm", (incision.tip() - incision.start()) * options.scale},
+               {"cut_ms", cutting}};
+  if (field) {
+    const Replay replay(*field, incision, options.scale);
+    replay.positions(progress, result.points);  // the second frame is timed: memory is warm then
+    const auto frame = std::chrono::steady_clock::now();
+    replay.positions(progress, result.points);
+    figures["frame_ms"] = milliseconds_since(frame);
+    double largest = 0;
+    for (std::size_t i = 0; i < result.points.size(); ++i)
+      largest = std::max(largest, norm(result.points[i] - replay.rest()[i]));
+    figures["active_vertices"] = replay.active().size();
+    figures["largest_displacement_mm"] = largest * options.scale;
+  }
+  write_mesh(options.out, result, point_arrays(incision, result.points, options.scale));
+  print_figures(figures, options.json);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Cuts a surface mesh along a path and opens it as a field says.", "cleft cut");
+  Options o;
+  app.add_option("--mesh", o.mesh, "surface mesh: .stl .obj .ply .vtp")->required();
+  app.add_option("--path", o.path, "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units")
+      ->required();
+  auto* field = app.add_option("--field", o.field, "field file case.dffd that opens the cut");
+  auto* rest = app.add_flag("--rest", o.rest, "leave the cut closed");
+  field->excludes(rest);
+  app.add_option("--out", o.out, "the cut mesh: .vtp (with point arrays) .obj .stl")->required();
+  app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--progress", o.progress, "how far the blade has come, mm [the whole path]")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--max-edge", o.max_edge, "split longer edges near the path, mm; 0 leaves them [1/30 of the path]")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--scale", o.scale, "mm per unit of the mesh")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--json", o.json, "figures as JSON");
+  return run_command(app, argc, argv, [&] {
+    if (o.field.empty() && !o.rest) throw InputError("give --field case.dffd, or --rest for the closed cut");
+    cut(o);
+  });
+}

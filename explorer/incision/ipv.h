@@ -1,0 +1,40 @@
+// The incision parametrisation volume: the canonical (u, v, w) of every vertex near a cut, and the frame in
+// which a canonical displacement comes back. Paper, section 3.5.
+//
+// u runs with the path's arc length; a path longer than the canonical cut keeps its first and last half, and
+// between them the steady state of the middle. v is the distance from the path across it: exact on a plane;
+// on a curved surface the straight distance in the plane across the path, or where the way along the surface
+// is far longer, two thirds of that way along the mesh's edges. w is 0 on the skin; the walls reach from
+// there to the canonical depth, whatever their own. On which side a vertex lies is told by the surface, from
+// which lip it is reached first, never by space: a vertex that lies opposite the cut but far along the
+// surface takes no part.
+#pragma once
+
+#include <vector>
+
+#include "encoder/field/field.h"
+#include "explorer/incision/incision.h"
+
+namespace cleft {
+
+struct ActiveVertex {
+  int vertex = 0;
+  Vec3 uvw;                     ///< canonical, mm, inside the field's patch
+  Side side = Side::both;       ///< never against the sign of v
+  Vec3 along, across, outward;  ///< unit vectors T, B, N of the path in the mesh's space
+  double s = 0;                 ///< mm along the path
+  double time_offset = 0;  ///< tau: with the blade at p the field's time is clamp(p + tau, 0, cut length)
+  double weight = 1;       ///< 1 in the patch, falling to 0 over a quarter of its width beside it
+  bool on_cut = false;     ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
+};
+
+/// Where the place s of a path of length `length` (all mm) lies on the canonical cut.
+struct CanonicalPlace {
+  double u, time_offset;
+};
+CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut);
+
+/// All vertices the field can move. `scale` is mm per mesh unit.
+std::vector<ActiveVertex> active_vertices(const Incision& incision, const Field& field, double scale);
+
+}  // namespace cleft

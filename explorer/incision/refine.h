@@ -1,0 +1,15 @@
+// Smaller triangles near the path, before it is cut: a smooth wound needs triangles smaller than the wound.
+#pragma once
+
+#include "explorer/incision/cut_mesh.h"
+#include "explorer/incision/scalpel_path.h"
+
+namespace cleft {
+
+/// Splits edges at their middles by longest-edge bisection (Rivara 1984: angles stay above half the smallest
+/// of the input, and the mesh conforming) until triangles within `band` of the path have edges up to
+/// `max_edge`. Beyond the band the limit grows with the distance. `height` is that of the skin over the path.
+/// The surface itself does not change.
+void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double max_edge, double band);
+
+}  // namespace cleft

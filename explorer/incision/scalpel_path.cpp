@@ -1,0 +1,216 @@
+#include "explorer/incision/scalpel_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace cleft {
+
+namespace {
+
+/// Natural cubic spline through values at parameters: C2, and a straight line where the data are one.
+class NaturalSpline {
+ public:
+  NaturalSpline(const std::vector<double>& x, const std::vector<Vec3>& y) : x_(x), y_(y), m_(x.size()) {
+    const std::size_t n = x.size();
+    std::vector<double> c(n);  // Thomas algorithm for the second derivatives m
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const double h0 = x[i] - x[i - 1], h1 = x[i + 1] - x[i];
+      const double pivot = 2 * (h0 + h1) - h0 * c[i - 1];
+      c[i] = h1 / pivot;
+      m_[i] =
+          (1 / pivot) * (6 * ((1 / h1) * (y[i + 1] - y[i]) - (1 / h0) * (y[i] - y[i - 1])) - h0 * m_[i - 1]);
+    }
+    for (std::size_t i = n - 1; i-- > 1;) m_[i] -= c[i] * m_[i + 1];
+  }
+  Vec3 value(std::size_t i, double a) const {  // a in [0, 1] over interval i
+    const double h = x_[i + 1] - x_[i], b = 1 - a;
+    return lerp(y_[i], y_[i + 1], a) + (h * h / 6) * ((b * b * b - b) * m_[i] + (a * a * a - a) * m_[i + 1]);
+  }
+  Vec3 derivative(std::size_t i, double a) const {
+    const double h = x_[i + 1] - x_[i], b = 1 - a;
+    return (1 / h) * (y_[i + 1] - y_[i]) + (h / 6) * ((1 - 3 * b * b) * m_[i] + (3 * a * a - 1) * m_[i + 1]);
+  }
+
+ private:
+  const std::vector<double>& x_;
+  const std::vector<Vec3>& y_;
+  std::vector<Vec3> m_;
+};
+
+/// Arc length over [a0, a1] of interval i, by Gauss's five points.
+double arc_length(const NaturalSpline& curve, std::size_t i, double step, double a0, double a1) {
+  constexpr double node[] = {0, 0.5384693101056831, 0.9061798459386640};
+  constexpr double weight[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+  const double middle = (a0 + a1) / 2, half = (a1 - a0) / 2;
+  double sum = 0;
+  for (int k = -2; k <= 2; ++k) {
+    const int j = std::abs(k);
+    sum += weight[j] * norm(curve.derivative(i, middle + (k < 0 ? -half : half) * node[j]));
+  }
+  return sum * half * step;
+}
+
+}  // namespace
+
+ScalpelPath::ScalpelPath(const std::vector<Point>& points) {
+  std::vector<double> chord;
+  std::vector<Vec3> position, outward;
+  std::vector<double> depth;
+  double extent = 0;
+  for (const Point& p : points) extent = std::max(extent, norm(p.position - points.front().position));
+  for (const Point& p : points) {
+    const double step = position.empty() ? 0 : norm(p.position - position.back());
+    if (!position.empty() && step <= 1e-9 * extent) continue;
+    chord.push_back(position.empty() ? 0 : chord.back() + step);
+    position.push_back(p.position);
+    if (norm(p.outward) == 0)
+      throw InputError("a scalpel path: the direction (nx, ny, nz) of point " +
+                       std::to_string(&p - points.data() + 1) + " is zero; it must point out of the surface");
+    outward.push_back(normalized(p.outward));
+    depth.push_back(p.depth);
+  }
+  if (position.size() < 2)
+    throw InputError("a scalpel path needs at least 2 different points; it has " +
+                     std::to_string(position.size()));
+
+  const NaturalSpline curve(chord, position), direction(chord, outward);
+  const std::size_t segments = position.size() - 1;
+  const std::size_t pieces = std::max<std::size_t>(2, (256 + segments - 1) / segments);
+  double s = 0;
+  for (std::size_t i = 0; i < segments; ++i)
+    for (std::size_t k = 0; k < pieces + (i + 1 == segments); ++k) {
+      const double a = double(k) / pieces;
+      if (k > 0) s += arc_length(curve, i, chord[i + 1] - chord[i], double(k - 1) / pieces, a);
+      const double d = (1 - a) * depth[i] + a * depth[i + 1];
+      samples_.push_back(
+          {s, curve.value(i, a), normalized(curve.derivative(i, a)), normalized(direction.value(i, a)), d});
+      if (k + 1 == pieces && i + 1 < segments) s += arc_length(curve, i, chord[i + 1] - chord[i], a, 1);
+    }
+  for (const Sample& sample : samples_)
+    if (norm(cross(sample.tangent, sample.outward)) < 0.05)
+      throw InputError("a scalpel path: near arc length " + shortest(sample.s) +
+                       " the direction (nx, ny, nz) runs along the path; it must point out of the surface");
+}
+
+ScalpelPath ScalpelPath::from_table(const NumberTable& table, const std::string& name) {
+  int column[6];
+  const char* names[6] = {"x", "y", "z", "nx", "ny", "nz"};
+  for (int i = 0; i < 6; ++i) {
+    column[i] = table.column(names[i]);
+    if (column[i] < 0)
+      throw FileError(name, std::string("has no column '") + names[i] +
+                                "'; a path needs x,y,z,nx,ny,nz and may have depth");
+  }
+  const int depth = table.column("depth");
+  std::vector<Point> points;
+  for (const auto& row : table.rows) {
+    points.push_back({{row[column[0]], row[column[1]], row[column[2]]},
+                      {row[column[3]], row[column[4]], row[column[5]]},
+                      depth < 0 ? 0 : row[depth]});
+    if (depth >= 0 && !(row[depth] > 0))
+      throw FileError(name, "row " + std::to_string(points.size()) + ": depth " + shortest(row[depth]) +
+                                " must be greater than 0");
+  }
+  try {
+    return ScalpelPath(points);
+  } catch (const InputError& error) {
+    throw FileError(name, error.what());
+  }
+}
+
+std::size_t ScalpelPath::interval(double s) const {
+  const auto next = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, s,
+                                     [](double value, const Sample& sample) { return value < sample.s; });
+  return static_cast<std::size_t>(next - samples_.begin()) - 1;
+}
+
+PathFrame ScalpelPath::at(double s) const {
+  const std::size_t i = interval(s);
+  const Sample &p = samples_[i], &q = samples_[i + 1];
+  const double h = q.s - p.s, a = std::clamp((s - p.s) / h, 0.0, 1.0), b = 1 - a;
+  PathFrame frame;
+  frame.position = b * b * (1 + 2 * a) * p.position + a * a * (3 - 2 * a) * q.position +
+                   a * b * h * (b * p.tangent - a * q.tangent);
+  Vec3 tangent = (6 * a * b / h) * (q.position - p.position) + (b * (b - 2 * a)) * p.tangent +
+                 (a * (a - 2 * b)) * q.tangent;
+  frame.outward = normalized(lerp(p.outward, q.outward, a));
+  frame.along = normalized(tangent - dot(tangent, frame.outward) * frame.outward);
+  frame.across = cross(frame.outward, frame.along);
+  frame.position += (s - std::clamp(s, 0.0, length())) * frame.along;
+  return frame;
+}
+
+double ScalpelPath::depth(double s) const {
+  const std::size_t i = interval(s);
+  const Sample &p = samples_[i], &q = samples_[i + 1];
+  const double a = std::clamp((s - p.s) / (q.s - p.s), 0.0, 1.0);
+  return (1 - a) * p.depth + a * q.depth;
+}
+
+double ScalpelPath::largest_depth() const {
+  double depth = samples_.front().depth;
+  for (const Sample& sample : samples_) depth = std::max(depth, sample.depth);
+  return depth;
+}
+
+double ScalpelPath::smallest_depth() const {
+  double depth = samples_.front().depth;
+  for (const Sample& sample : samples_) depth = std::min(depth, sample.depth);
+  return depth;
+}
+
+void ScalpelPath::set_depth(double depth) {
+  for (Sample& sample : samples_) sample.depth = depth;
+}
+
+PathCoordinates ScalpelPath::coordinates(const Vec3& x) const { return coordinates(x, 0, length()); }
+
+PathCoordinates ScalpelPath::coordinates(const Vec3& x, double from, double to) const {
+  // The nearest sample in the window, then the zero of g(s) = (x - C(s)) . along(s) beside it.
+  const std::size_t first = interval(std::max(from, 0.0)), last = interval(std::min(to, length())) + 1;
+  std::size_t nearest = first;
+  double least = squared_norm(x - samples_[first].position);
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    const double distance = squared_norm(x - samples_[i].position);
+    if (distance < least) least = distance, nearest = i;
+  }
+  const auto ahead = [&](double s) {
+    const PathFrame f = at(s);
+    return dot(x - f.position, f.along);
+  };
+  double lo = samples_[nearest].s, hi = lo, g_lo = ahead(lo), g_hi = g_lo;
+  std::size_t i = nearest;
+  while (g_hi > 0 && i + 1 < samples_.size() && i < last)
+    lo = hi, g_lo = g_hi, g_hi = ahead(hi = samples_[++i].s);
+  while (g_lo < 0 && i > 0 && i > first) hi = lo, g_hi = g_lo, g_lo = ahead(lo = samples_[--i].s);
+  double s = lo;
+  if (g_lo < 0)
+    s = lo + g_lo;  // before the start: the frame is constant there (or the window's end)
+  else if (g_hi > 0)
+    s = hi + g_hi;
+  else if (g_lo > 0 && g_hi < 0) {
+    double g = g_lo;
+    for (int k = 0; k < 60; ++k) {  // secant, kept inside by the bracket (Illinois)
+      s = lo + (hi - lo) * g_lo / (g_lo - g_hi);
+      const double before = g;
+      g = ahead(s);
+      if (std::abs(g) <= 1e-15 * length()) break;
+      if (g > 0) {
+        lo = s, g_lo = g;
+        if (before > 0) g_hi /= 2;
+      } else {
+        hi = s, g_hi = g;
+        if (before < 0) g_lo /= 2;
+      }
+      if (hi - lo <= 1e-15 * length()) break;
+    }
+  } else {
+    s = g_lo == 0 ? lo : hi;
+  }
+  const PathFrame f = at(s);
+  return {s, dot(x - f.position, f.across), dot(x - f.position, f.outward)};
+}
+
+}  // namespace cleft

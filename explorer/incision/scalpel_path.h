@@ -1,0 +1,64 @@
+// The scalpel's path: C(s) with outward direction N(s) and depth(s). Paper, section 3.4.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/text.h"
+#include "base/vec3.h"
+
+namespace cleft {
+
+/// The blade's orthonormal frame at s. Right-handed (u, v, w): along = T made perpendicular to N, outward =
+/// N, across = N x T. Left of the cut is where the component along `across` is negative.
+struct PathFrame {
+  Vec3 position, along, across, outward;
+};
+
+/// Where a point lies beside the path: x = C(s) + v B(s) + w N(s), all in the path's units.
+struct PathCoordinates {
+  double s = 0, v = 0, w = 0;
+};
+
+class ScalpelPath {
+ public:
+  struct Point {
+    Vec3 position, outward;
+    double depth = 0;
+  };
+
+  /// Needs at least two different positions; steps of no length are merged. Throws InputError.
+  explicit ScalpelPath(const std::vector<Point>& points);
+
+  /// Columns x, y, z, nx, ny, nz and, where present, depth; all in the mesh's units. Throws InputError naming
+  /// `name` and the row.
+  static ScalpelPath from_table(const NumberTable& table, const std::string& name);
+
+  double length() const { return samples_.back().s; }
+
+  /// The frame at arc length s; before 0 and beyond length() straight on along T.
+  PathFrame at(double s) const;
+
+  /// 0 where no depth is known.
+  double depth(double s) const;
+  double largest_depth() const;
+  double smallest_depth() const;
+  void set_depth(double depth);
+
+  /// Coordinates of x by the nearest place of the path with arc length in [from, to]; v = 0 is the blade's
+  /// ruled surface C(s) + w N(s). Only the ends of the path itself are extended.
+  PathCoordinates coordinates(const Vec3& x, double from, double to) const;
+  PathCoordinates coordinates(const Vec3& x) const;
+
+ private:
+  struct Sample {
+    double s;
+    Vec3 position, tangent, outward;
+    double depth;
+  };
+  std::size_t interval(double s) const;
+
+  std::vector<Sample> samples_;  // cubic Hermite between them; several to each input segment
+};
+
+}  // namespace cleft

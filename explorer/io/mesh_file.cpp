@@ -1,0 +1,212 @@
+#include "explorer/io/mesh_file.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCleanPolyData.h>
+#include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkOBJWriter.h>
+#include <vtkPLYReader.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSTLReader.h>
+#include <vtkSTLWriter.h>
+#include <vtkTriangleFilter.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "base/text.h"
+
+namespace cleft {
+
+namespace {
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+/// VTK reports errors as events: keep the first one.
+class Listener {
+ public:
+  template <class Algorithm>
+  explicit Listener(Algorithm* algorithm) {
+    command_->SetClientData(&message_);
+    command_->SetCallback([](vtkObject*, unsigned long, void* message, void* text) {
+      auto& first = *static_cast<std::string*>(message);
+      if (first.empty()) first = text ? static_cast<const char*>(text) : "unknown error";
+    });
+    algorithm->AddObserver("ErrorEvent", command_);
+    algorithm->GetExecutive()->AddObserver("ErrorEvent", command_);
+    vtkNew<vtkCallbackCommand> silent;  // what a warning means shows in the result
+    silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+    algorithm->AddObserver("WarningEvent", silent);
+    if constexpr (requires { algorithm->SetParserErrorObserver(command_); })
+      algorithm->SetParserErrorObserver(command_);
+  }
+  const std::string& message() const { return message_; }
+
+ private:
+  vtkNew<vtkCallbackCommand> command_;
+  std::string message_;
+};
+
+/// The part of VTK's message that says what is wrong, on one line.
+std::string reason(std::string text) {
+  const auto colon = text.rfind("): ");
+  if (colon != std::string::npos) text.erase(0, colon + 3);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+template <class Reader>
+vtkSmartPointer<vtkPolyData> read_with(const std::string& path) {
+  vtkNew<Reader> reader;
+  reader->SetFileName(path.c_str());
+  const Listener reading(reader.Get());
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(reader->GetOutputPort());
+  triangles->PassLinesOff();
+  triangles->PassVertsOff();
+  vtkNew<vtkCleanPolyData> clean;  // merges equal points, also of texture seams and STL's loose corners
+  clean->SetInputConnection(triangles->GetOutputPort());
+  clean->ToleranceIsAbsoluteOn();
+  clean->SetAbsoluteTolerance(0);
+  clean->Update();
+  if (!reading.message().empty())
+    throw FileError(path, "cannot be read as a mesh: " + reason(reading.message()));
+  return clean->GetOutput();
+}
+
+/// VTK's reader of .ply crashes where the header has no end or the body ends early: look first.
+void check_ply(const std::string& path) {
+  const std::string text = read_text_file(path);
+  const auto end = text.find("end_header");
+  if (!text.starts_with("ply") || end == std::string::npos)
+    throw FileError(path, "has no header of a .ply file");
+  std::istringstream header(text.substr(0, end));
+  std::size_t elements = 0;
+  for (std::string word; header >> word;)
+    if (word == "element") {
+      std::size_t count = 0;
+      header >> word >> count;
+      elements += count;
+    }
+  // Every element takes a line of text, or a byte at least and usually many more.
+  const bool ascii = text.find("format ascii") < end;
+  const std::size_t there = ascii ? static_cast<std::size_t>(std::count(
+                                        text.begin() + static_cast<std::ptrdiff_t>(end), text.end(), '\n'))
+                                  : text.size() - end;
+  if (elements == 0 || there < elements)
+    throw FileError(path, "ends before the elements its header promises");
+}
+
+vtkSmartPointer<vtkPolyData> read_any(const std::string& path) {
+  const std::string ending = ending_of(path);
+  const bool known = ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".vtp";
+  if (known && !std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
+  if (ending == ".ply") check_ply(path);
+  if (ending == ".stl") return read_with<vtkSTLReader>(path);
+  if (ending == ".obj") return read_with<vtkOBJReader>(path);
+  if (ending == ".ply") return read_with<vtkPLYReader>(path);
+  if (ending == ".vtp") return read_with<vtkXMLPolyDataReader>(path);
+  throw InputError(path + ": unknown ending '" + ending + "' of a mesh; known are .stl .obj .ply .vtp");
+}
+
+vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vec3& p : mesh.points) points->InsertNextPoint(p.x, p.y, p.z);
+  vtkNew<vtkCellArray> cells;
+  for (const auto& t : mesh.triangles) {
+    const vtkIdType corners[3] = {t[0], t[1], t[2]};
+    cells->InsertNextCell(3, corners);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  for (const PointArray& array : arrays) {
+    CLEFT_CHECK(array.values.size(), ==, mesh.points.size() * array.components);
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(array.name.c_str());
+    values->SetNumberOfComponents(array.components);
+    values->SetNumberOfTuples(static_cast<vtkIdType>(mesh.points.size()));
+    std::copy(array.values.begin(), array.values.end(), values->GetPointer(0));
+    data->GetPointData()->AddArray(values);
+  }
+  return data;
+}
+
+template <class Writer>
+void write_with(const vtkNew<Writer>& writer, vtkPolyData* data, const std::string& path) {
+  OutputFile file(path);
+  const Listener writing(writer.Get());
+  writer->SetFileName(file.path().c_str());
+  writer->SetInputData(data);
+  if (writer->Write() == 0 || !writing.message().empty())
+    throw std::runtime_error(path + ": could not be written: " + reason(writing.message()));
+  file.commit();
+}
+
+}  // namespace
+
+SurfaceMesh read_mesh(const std::string& path) {
+  const auto data = read_any(path);
+  SurfaceMesh mesh;
+  std::vector<int> number(data->GetNumberOfPoints(), -1);
+  vtkCellArray* cells = data->GetPolys();
+  vtkIdType size;
+  const vtkIdType* corners;
+  for (cells->InitTraversal(); cells->GetNextCell(size, corners);) {
+    if (size != 3) continue;
+    Vec3 p[3];
+    for (int i = 0; i < 3; ++i) {
+      data->GetPoint(corners[i], &p[i].x);
+      if (!std::isfinite(p[i].x + p[i].y + p[i].z))
+        throw FileError(path, "point " + std::to_string(corners[i]) + " is not a number");
+    }
+    if (norm(cross(p[1] - p[0], p[2] - p[0])) == 0) continue;
+    auto& triangle = mesh.triangles.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      int& n = number[corners[i]];
+      if (n < 0) n = static_cast<int>(mesh.points.size()), mesh.points.push_back(p[i]);
+      triangle[i] = n;
+    }
+  }
+  if (mesh.triangles.empty()) throw FileError(path, "has no triangles");
+  return mesh;
+}
+
+void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
+  const std::string ending = ending_of(path);
+  if (ending == ".vtp") {
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    write_with(writer, to_vtk(mesh, arrays), path);
+  } else if (ending == ".obj") {
+    write_with(vtkNew<vtkOBJWriter>(), to_vtk(mesh, {}), path);
+  } else if (ending == ".stl") {
+    vtkNew<vtkSTLWriter> writer;
+    writer->SetFileTypeToBinary();
+    write_with(writer, to_vtk(mesh, {}), path);
+  } else {
+    throw InputError("--out " + path + ": unknown ending '" + ending +
+                     "' of a mesh; known are .vtp .obj .stl");
+  }
+}
+
+}  // namespace cleft

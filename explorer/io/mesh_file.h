@@ -1,0 +1,26 @@
+// Surface meshes from and to files, through VTK. Its own types stay out of here.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "explorer/incision/surface_mesh.h"
+
+namespace cleft {
+
+/// Reads .stl, .obj, .ply or .vtp: polygons become triangles, points at the same place one point, and
+/// triangles without area or points without triangles are dropped. Throws InputError for another ending and
+/// FileError for a file that is missing, damaged or has no triangles.
+SurfaceMesh read_mesh(const std::string& path);
+
+/// Numbers that belong to the points of a mesh.
+struct PointArray {
+  std::string name;
+  int components = 1;          ///< 1 or 3
+  std::vector<double> values;  ///< components for each point
+};
+
+/// Writes .vtp, .obj or .stl by the ending of `path`, whole or not at all. Only .vtp keeps the arrays.
+void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays = {});
+
+}  // namespace cleft

@@ -1,0 +1,41 @@
+// The wound at any position of the blade: every frame is computed from the REST positions, so that time runs
+// both ways and nothing accumulates.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "encoder/field/field.h"
+#include "explorer/incision/incision.h"
+#include "explorer/incision/ipv.h"
+
+namespace cleft {
+
+class Replay {
+ public:
+  /// Contracts the field once for each active vertex. `scale` is mm per mesh unit.
+  Replay(const Field& field, const Incision& incision, double scale);
+
+  /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
+  /// for each vertex of the incision's mesh. Allocates nothing.
+  void positions(double s, std::span<Vec3> out) const;
+
+  double path_length() const { return path_length_; }  ///< mm
+  std::size_t vertex_count() const { return rest_.size(); }
+  const std::vector<ActiveVertex>& active() const { return active_; }
+  const std::vector<Vec3>& rest() const { return rest_; }
+
+ private:
+  void append_history(const Field& field, const ActiveVertex& vertex, Side side, double scale);
+
+  BSplineBasis time_;
+  double cut_length_, path_length_;
+  std::vector<Vec3> rest_;
+  std::vector<ActiveVertex> active_;
+  // Histories over the field's t, already turned into the mesh's space, weighted and in its units: one after
+  // the other, a vertex of the cut has a second one for the time before the blade has passed it.
+  std::vector<Vec3> histories_;
+  std::vector<std::size_t> first_;  // of each active vertex, in histories_
+};
+
+}  // namespace cleft

@@ -1,0 +1,87 @@
+#include "explorer/scene/study.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/h5.h"
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+
+namespace cleft {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> published_fields(const fs::path& study) {
+  std::vector<std::string> files;
+  std::error_code absent;
+  for (const fs::directory_entry& entry : fs::directory_iterator(study / "cases", absent))
+    if (fs::exists(entry.path() / "manifest.json") && fs::exists(entry.path() / "case.dffd"))
+      files.push_back((entry.path() / "case.dffd").string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The header alone: coefficients stay on disk.
+std::map<std::string, double> read_parameters(const std::string& path) {
+  const h5::File file = h5::File::open(path);
+  if (!file.has_attribute("/", "format") || file.read_text("/", "format") != "cleft-field")
+    throw FileError(path, "is not a field file; cleft encode writes one");
+  std::map<std::string, double> parameters;
+  for (const std::string& name : file.attribute_names("/parameters"))
+    parameters[name] = file.read_number("/parameters", name);
+  return parameters;
+}
+
+}  // namespace
+
+Study::Study(const std::string& path) {
+  if (!fs::exists(path))
+    throw InputError(path + ": no such file or folder (give a study folder or a case.dffd)");
+  std::vector<std::string> files{path};
+  if (fs::is_directory(path)) files = published_fields(path);
+  if (files.empty())
+    throw InputError(path +
+                     ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
+                     "STUDY.toml --out " +
+                     path + "` first");
+  for (const std::string& file : files) cases_.push_back({file, "", read_parameters(file), std::nullopt});
+  name_and_sort();
+}
+
+void Study::name_and_sort() {
+  std::vector<std::string> varying;
+  for (const auto& [name, value] : cases_.front().parameters) {
+    const auto differs = [&name = name, value = value](const Case& c) {
+      const auto found = c.parameters.find(name);
+      return found == c.parameters.end() || found->second != value;
+    };
+    if (std::any_of(cases_.begin(), cases_.end(), differs)) varying.push_back(name);
+  }
+  const auto values = [&varying](const Case& c) {
+    std::vector<double> row;
+    for (const std::string& name : varying) {
+      const auto found = c.parameters.find(name);
+      row.push_back(found == c.parameters.end() ? -HUGE_VAL : found->second);
+    }
+    return row;
+  };
+  std::stable_sort(cases_.begin(), cases_.end(),
+                   [&](const Case& a, const Case& b) { return values(a) < values(b); });
+  for (Case& c : cases_) {
+    for (const std::string& name : varying)
+      if (const auto found = c.parameters.find(name); found != c.parameters.end())
+        c.name += (c.name.empty() ? "" : " ") + name + "=" + shortest(found->second);
+    const fs::path file(c.file);
+    if (c.name.empty()) c.name = (cases_.size() > 1 ? file.parent_path() : file).filename().string();
+  }
+}
+
+const Field& Study::field(int i) {
+  Case& wanted = cases_.at(i);
+  if (!wanted.field) wanted.field = read_field(wanted.file);
+  return *wanted.field;
+}
+
+}  // namespace cleft

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# install.sh: installs the Debian packages of packages.txt that are missing, and nothing else. Says what it will do;
+# works as root or through sudo; does nothing when all is there.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+
+missing=()
+while read -r package; do
+  case $package in '' | '#'*) continue ;; esac
+  [ "$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)" = "install ok installed" ] || missing+=("$package")
+done < "$here/packages.txt"
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+echo "Installing ${#missing[@]} Debian packages with apt-get: ${missing[*]}"
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo > /dev/null || { echo "This needs root: run it as root, or install sudo." >&2; exit 1; }
+  as_root=(sudo)
+fi
+log=$(mktemp)
+export DEBIAN_FRONTEND=noninteractive
+start=$SECONDS
+if ! { "${as_root[@]}" apt-get update -q &&
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"; } > "$log" 2>&1; then
+  tail -20 "$log" >&2
+  echo "apt-get failed; its whole output is in $log" >&2
+  exit 1
+fi
+rm -f "$log"
+echo "Installed in $((SECONDS - start)) s."

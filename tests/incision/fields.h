@@ -1,0 +1,42 @@
+// Fields made up for tests: a wound that opens where it is cut and pulls its surroundings along.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "encoder/field/field.h"
+
+namespace cleft::testing {
+
+/// Control points stand at Greville abscissae with the values of
+///   d = (0.1 g, side g, 0.2 g),   g = gape * half ellipse over [start, start + t] * decay(v) * (1 + w /
+///   depth)
+/// so that the spline follows them roughly; tests only need a field that is smooth, opens, and is known
+/// exactly.
+inline Field opening_field(const CanonicalCut& cut, double length, double width, double height, double gape) {
+  const BSplineBasis u = BSplineBasis::uniform(3, 32, cut.start - (length - cut.length) / 2,
+                                               cut.start + (length + cut.length) / 2);
+  const BSplineBasis v = BSplineBasis::broken(3, 16, -width / 2, 0, width / 2);
+  const BSplineBasis w = BSplineBasis::uniform(3, 8, -height, 0),
+                     t = BSplineBasis::uniform(3, 12, 0, cut.length);
+  const auto greville = [](const BSplineBasis& b, int i) {
+    double sum = 0;
+    for (int k = 1; k <= b.degree(); ++k) sum += b.knots()[i + k];
+    return sum / b.degree();
+  };
+  std::vector<Vec3> c;
+  for (int i = 0; i < u.size(); ++i)
+    for (int j = 0; j < v.size(); ++j)
+      for (int k = 0; k < w.size(); ++k)
+        for (int l = 0; l < t.size(); ++l) {
+          const double time = greville(t, l), x = greville(u, i) - cut.start, y = greville(v, j);
+          const double inside = std::max(0.0, x * (time - x));
+          const double side = j < v.size() / 2 ? -1 : 1;
+          const double depth = std::max(0.0, 1 + greville(w, k) / cut.depth);
+          const double g = gape * std::sqrt(inside) / cut.length * std::exp(-3 * std::abs(y) / width) * depth;
+          c.push_back({0.1 * g, side * g, 0.2 * g});
+        }
+  return {u, v, w, t, std::move(c), cut};
+}
+
+}  // namespace cleft::testing

@@ -1,0 +1,175 @@
+#include "explorer/scene/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/incision/fields.h"
+#include "tests/incision/meshes.h"
+
+namespace cleft {
+namespace {
+
+using namespace testing;
+
+const CanonicalCut canonical{-5, 10, 3};
+
+IncisionOptions unrefined() {
+  IncisionOptions options;
+  options.max_edge = 0;
+  return options;
+}
+
+/// Any coefficients at all: nothing about the field helps the replay.
+Field random_field(double length, double width) {
+  Field field = opening_field(canonical, length, width, 6, 1);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  std::vector<Vec3> coefficients(field.coefficients().size());
+  for (Vec3& c : coefficients) c = {value(random), value(random), value(random)};
+  return {field.basis(0), field.basis(1), field.basis(2), field.basis(3), std::move(coefficients), canonical};
+}
+
+struct Straight {
+  SurfaceMesh plane = grid(20, 16, -10, -8, 1);
+  Incision incision{plane, path_through({{-5, 0, 0}, {5, 0, 0}}, up, canonical.depth), unrefined()};
+  Straight() { incision.advance_to(10); }
+};
+
+TEST(Replay, IsTheFieldItselfOnAFlatPatch) {
+  const Straight cut;
+  const CutMesh& mesh = cut.incision.mesh();
+  for (const Field& field : {opening_field(canonical, 20, 16, 6, 2), random_field(20, 16)}) {
+    const Replay replay(field, cut.incision, 1);
+    EXPECT_EQ(replay.active().size(), mesh.vertices().size());
+    std::vector<Vec3> moved(mesh.vertices().size());
+    for (double t = 0; t <= 10; t += 0.25) {
+      replay.positions(t, moved);
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        const CutMesh::Vertex& v = mesh.vertices()[i];
+        const bool on_skin = i < cut.plane.points.size() || v.depth_fraction == 0;
+        const Vec3& p = v.position;
+        ASSERT_TRUE(!on_skin || p.z == 0);
+        Side side = v.kind == VertexKind::skin ? side_of(p.y) : side_of(v.kind);
+        if (v.kind != VertexKind::skin && v.s >= t) side = Side::both;
+        const Vec3 expected = p + field.displacement(p, side, t);
+        ASSERT_LT(norm(moved[i] - expected), 1e-12) << "vertex " << i << " at t = " << t;
+      }
+    }
+  }
+}
+
+TEST(Replay, TheChainAheadOfTheTipIsClosedAndBehindItOpen) {
+  const Straight cut;
+  const Replay replay(opening_field(canonical, 20, 16, 6, 2), cut.incision, 1);
+  std::vector<Vec3> moved(replay.vertex_count());
+  for (const double t : {0.0, 0.5, 3.0, 7.3, 10.0}) {
+    replay.positions(t, moved);
+    for (const auto& c : cut.incision.chain()) {
+      if (c.left == c.right) continue;
+      if (c.s >= t) {
+        EXPECT_EQ(moved[c.left], moved[c.right]);
+      } else {
+        EXPECT_GT(moved[c.right].y - moved[c.left].y, 0.01);
+      }
+    }
+  }
+}
+
+TEST(Replay, FollowsThePathsFrameAndTheMeshsUnits) {
+  // The flat patch turned in space, in cm: displacements turn along.
+  const Straight flat;
+  const Vec3 a = normalized({1, 2, 2}), b = normalized(cross({0, 0, 1}, a)), c = cross(a, b);
+  const auto turned = [&](const Vec3& p) { return 0.1 * (p.x * a + p.y * b + p.z * c) + Vec3{5, -7, 1}; };
+  SurfaceMesh mesh = flat.plane;
+  for (Vec3& p : mesh.points) p = turned(p);
+  Incision incision(
+      mesh,
+      path_through(
+          {turned({-5, 0, 0}), turned({5, 0, 0})}, [&](const Vec3&) { return c; }, canonical.depth / 10),
+      unrefined());
+  incision.advance_to(1);
+  const Field field = opening_field(canonical, 20, 16, 6, 2);
+  const Replay flat_replay(field, flat.incision, 1), replay(field, incision, 10);
+  ASSERT_EQ(replay.vertex_count(), flat_replay.vertex_count());
+  std::vector<Vec3> flat_moved(replay.vertex_count()), moved(replay.vertex_count());
+  for (const double t : {1.5, 6.5, 10.0}) {
+    flat_replay.positions(t, flat_moved);
+    replay.positions(t, moved);
+    // v = 0 to rounding only: the spline is Lipschitz there, a slope of some gape / width.
+    for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_LT(norm(moved[i] - turned(flat_moved[i])), 1e-11);
+  }
+}
+
+TEST(Replay, FadesOutBesideThePatch) {
+  const Straight cut;
+  const Field field = opening_field(canonical, 14, 8, 6, 2);  // smaller than the mesh
+  const Replay replay(field, cut.incision, 1);
+  EXPECT_LT(replay.active().size(), replay.vertex_count());
+  for (const ActiveVertex& a : replay.active()) {
+    const Vec3& p = replay.rest()[a.vertex];
+    const bool inside = std::abs(p.x) <= 7 && std::abs(p.y) <= 4;
+    EXPECT_EQ(a.weight == 1, inside);
+    EXPECT_GT(a.weight, 0);
+    EXPECT_LT(std::hypot(std::abs(p.x) - std::min(std::abs(p.x), 7.0),
+                         std::abs(p.y) - std::min(std::abs(p.y), 4.0)),
+              2);  // a quarter of the patch's width
+  }
+}
+
+TEST(Replay, DoesNotReachThroughSpace) {
+  // A sheet folded back under itself, 1 mm below: 10 mm of upper side beyond the cut, then the lower side.
+  SurfaceMesh sheet = grid(40, 64, -20, -10, 0.5 * 2);
+  for (Vec3& p : sheet.points) {
+    const double beyond = p.y - 10;
+    if (beyond > 0) p = {p.x, std::max(-40.0, 10 - std::max(0.0, beyond - 1)), -std::min(1.0, beyond)};
+  }
+  const SurfaceMesh flat = grid(40, 64, -20, -10, 1);
+  Incision incision(sheet, path_through({{-5, 0.3, 0}, {5, 0.3, 0}}, up, 0.5));
+  incision.advance_to(10);
+  const Field field = opening_field(canonical, 20, 16, 6, 2);
+  for (const ActiveVertex& a : active_vertices(incision, field, 1)) {
+    if (a.vertex >= static_cast<int>(flat.points.size())) continue;
+    EXPECT_LT(flat.points[a.vertex].y, 21) << "reached the lower side under the cut";
+  }
+}
+
+TEST(Replay, LongPathsKeepBothEndsAndAreSteadyBetween) {
+  const double length = 37;
+  double before_u = -1e9, before_offset = 0;
+  for (double s = -2; s <= length + 2; s += 0.01) {
+    const CanonicalPlace place = canonical_place(s, length, canonical);
+    EXPECT_GE(place.u, before_u);
+    if (before_u > -1e8) {
+      EXPECT_LE(place.u - before_u, 0.01 + 1e-9);
+      EXPECT_LE(std::abs(place.time_offset - before_offset), 0.01 + 1e-9);
+    }
+    before_u = place.u, before_offset = place.time_offset;
+    EXPECT_NEAR(place.time_offset, place.u - canonical.start - s, 1e-12);  // the blade passes at its own time
+  }
+  EXPECT_DOUBLE_EQ(canonical_place(3, length, canonical).u, -2);
+  EXPECT_DOUBLE_EQ(canonical_place(20, length, canonical).u, 0);
+  EXPECT_DOUBLE_EQ(canonical_place(length, length, canonical).u, 5);
+  EXPECT_DOUBLE_EQ(canonical_place(6, 8, canonical).u, 1);
+  EXPECT_DOUBLE_EQ(canonical_place(6, 8, canonical).time_offset, 0);
+}
+
+TEST(Replay, ALongCutIsEquallyWideInItsMiddle) {
+  const ScalpelPath path = path_through({{-15, 0, 0}, {15, 0, 0}}, up, canonical.depth);
+  Incision incision(grid(50, 16, -25, -8, 1), path, unrefined());
+  incision.advance_to(30);
+  const Replay replay(opening_field(canonical, 20, 16, 6, 2), incision, 1);
+  std::vector<Vec3> moved(replay.vertex_count());
+  replay.positions(30, moved);
+  double width = -1;
+  for (const auto& c : incision.chain()) {
+    const double gape = moved[c.right].y - moved[c.left].y;
+    if (c.s < 5 || c.s > 25) continue;
+    if (width < 0) width = gape;
+    EXPECT_NEAR(gape, width, 1e-12);
+  }
+  EXPECT_GT(width, 0.1);
+}
+
+}  // namespace
+}  // namespace cleft

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# check_includes.sh ROOT: keeps the one-way dependencies of docs/architecture.md. A part may include itself and what
+# its line names; third-party headers that only some parts may see are named below.
+set -u
+root=$1; bad=0
+
+complain() { echo "$1: a file here must not include $2:"; sed 's/^/  /' <<<"$3"; bad=1; }
+
+# part : parts it may include, as extended regular expressions of paths
+while IFS=: read -r part allowed; do
+  [ -n "$part" ] || continue
+  [ -d "$root/$part" ] || { echo "$part: no such folder"; bad=1; continue; }
+  nested=$(case $part in solver) echo "$root/solver/snapshot" ;; encoder) echo "$root/encoder/field" ;; *) echo /nowhere ;; esac)
+  found=$(find "$root/$part" -path "$nested" -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 |
+    xargs -0 -r grep -HnE '#include "(base|params|solver|encoder|haptic|explorer|cli|examples)/' |
+    grep -vE "#include \"($part|$allowed)/")
+  [ -z "$found" ] || complain "$part" "anything but $allowed" "$found"
+done <<'PARTS'
+base:base
+params:base
+solver/snapshot:base
+solver:base|params
+encoder/field:base
+encoder:base|solver/snapshot
+haptic:base|encoder/field
+explorer/incision:base|encoder/field|haptic
+explorer/io:base|explorer/incision
+explorer/scene:base|encoder/field|haptic|explorer/incision|solver/snapshot|params
+explorer/view:base|encoder/field|explorer/incision|explorer/scene|explorer/io
+cli:base|params|solver/snapshot|encoder/field
+examples:base
+PARTS
+
+# forbid NAME PATTERN FOLDER...: no file of the folders may include a header that matches
+forbid() {
+  local name=$1 pattern=$2 found; shift 2
+  found=$(cd "$root" && grep -rnE --include='*.h' --include='*.cpp' "#include <($pattern)" "$@")
+  [ -z "$found" ] || complain "$*" "$name" "$found"
+}
+forbid "deal.II or Trilinos" 'deal\.II/|Epetra|ml_|Teuchos|dmumps' base params solver/snapshot encoder haptic explorer cli examples
+forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer cli examples
+forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/scene cli
+forbid "Eigen" 'Eigen/' base params encoder/field haptic
+forbid "HDF5" 'hdf5|H5' params solver encoder haptic explorer cli examples
+exit $bad

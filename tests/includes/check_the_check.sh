@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# check_the_check.sh ROOT: adds one forbidden include at a time to a copy of the sources; each must be found.
+set -eu
+root=$1; here=$(cd "$(dirname "$0")" && pwd)
+copy=$(mktemp -d); trap 'rm -rf "$copy"' EXIT
+(cd "$root" && find base params solver encoder haptic explorer cli examples \( -name '*.h' -o -name '*.cpp' \) -print0 |
+  xargs -0 cp --parents -t "$copy"); mkdir -p "$copy/haptic"
+"$here/check_includes.sh" "$copy" || { echo "the copy itself fails"; exit 1; }
+while IFS='|' read -r folder include; do
+  printf '#include %s\n' "$include" > "$copy/$folder/forbidden.h"
+  if "$here/check_includes.sh" "$copy" > /dev/null; then echo "not found: $include in $folder"; exit 1; fi
+  rm "$copy/$folder/forbidden.h"
+done <<'CASES'
+base|"params/study.h"
+params|"solver/solve.h"
+solver/snapshot|"params/study.h"
+solver|"encoder/encode.h"
+encoder|"solver/solve.h"
+encoder/field|"encoder/encode.h"
+encoder|"explorer/scene/study.h"
+haptic|"explorer/incision/incision.h"
+explorer/incision|"explorer/view/wound_view.h"
+explorer/scene|<vtkPolyData.h>
+explorer/incision|<QWidget>
+explorer/view|<deal.II/grid/tria.h>
+encoder/field|<Eigen/Core>
+explorer/scene|<hdf5.h>
+CASES
+echo "every forbidden include was found"

@@ -1,0 +1,87 @@
+#include "params/study_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "base/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Study small_study() {
+  Study study;
+  study.text = "[vary]\n'skin.thickness' = [1, 2]\n";
+  return study;
+}
+
+void write_file(const Attempt& attempt, const std::string& text) {
+  std::FILE* file = std::fopen((attempt.folder + "/case.h5").c_str(), "w");
+  std::fputs(text.c_str(), file);
+  std::fclose(file);
+}
+
+}  // namespace
+
+TEST(StudyFolder, APublishedCaseVerifiesUntilAByteChanges) {
+  const TemporaryFolder place;
+  const StudyFolder folder = StudyFolder::create(place / "study", small_study());
+  EXPECT_EQ(folder.status("a").state, CaseState::missing);
+  {
+    const Attempt attempt = folder.begin("a");
+    EXPECT_EQ(folder.status("a").state, CaseState::running);
+    write_file(attempt, "data");
+    EXPECT_TRUE(folder.publish(attempt, "a", {{"case", "a"}, {"solve", "s"}}, {"case.h5"}));
+  }
+  EXPECT_EQ(folder.status("a").state, CaseState::published);
+  EXPECT_NO_THROW(folder.verify("a"));
+  EXPECT_EQ(folder.solved_before("s"), folder.published("a"));
+  EXPECT_EQ(folder.solved_before("other"), std::nullopt);
+  std::FILE* file = std::fopen((folder.published("a") + "/case.h5").c_str(), "r+");
+  std::fputc('D', file);
+  std::fclose(file);
+  EXPECT_THROW(folder.verify("a"), FileError);
+}
+
+TEST(StudyFolder, ExactlyOneOfTwoWritersWins) {
+  const TemporaryFolder place;
+  const StudyFolder folder = StudyFolder::create(place / "study", small_study());
+  const Attempt first = folder.begin("a"), second = folder.begin("a");
+  write_file(first, "first");
+  write_file(second, "second");
+  EXPECT_TRUE(folder.publish(second, "a", {{"case", "a"}}, {"case.h5"}));
+  EXPECT_TRUE(fs::exists(first.folder)) << "the folder of a running attempt was removed";
+  EXPECT_FALSE(folder.publish(first, "a", {{"case", "a"}}, {"case.h5"}))
+      << "a published case was overwritten";
+  EXPECT_EQ(folder.manifest("a")["token"], second.token);
+  EXPECT_FALSE(fs::exists(first.folder));
+}
+
+TEST(StudyFolder, AKilledAttemptIsMissingAgainAndAFailedOneKeepsItsReason) {
+  const TemporaryFolder place;
+  const StudyFolder folder = StudyFolder::create(place / "study", small_study());
+  { const Attempt killed = folder.begin("a"); }
+  EXPECT_EQ(folder.status("a").state, CaseState::missing);
+  {
+    const Attempt failed = folder.begin("a");
+    folder.fail(failed, "out of salt");
+  }
+  EXPECT_EQ(folder.status("a").state, CaseState::failed);
+  EXPECT_EQ(folder.status("a").reason, "out of salt");
+}
+
+TEST(StudyFolder, OtherPeoplesFoldersAreLeftAlone) {
+  const TemporaryFolder place;
+  place.write("precious.txt", "");
+  EXPECT_THROW(StudyFolder::create(place.path(), small_study()), InputError);
+  EXPECT_EQ(place.entries(), 1);
+  EXPECT_THROW(StudyFolder{place.path()}, InputError);
+  EXPECT_THROW(StudyFolder{place / "absent"}, InputError);
+}
+
+}  // namespace cleft

@@ -1,0 +1,166 @@
+// Wrong input: a clear message, exit code 2, and no file left.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+#include "tests/field/random_field.h"
+#include "tests/pipeline/commands.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace {
+
+class BadInput : public testing::Test {
+ protected:
+  TemporaryFolder in, out;
+
+  void expect_refused(const std::string& command, const std::vector<std::string>& arguments,
+                      const std::vector<std::string>& parts) {
+    const Outcome outcome = run_cleft(command, arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    for (const std::string& part : parts)
+      EXPECT_NE(outcome.output.find(part), std::string::npos)
+          << "missing '" << part << "' in: " << outcome.output;
+    EXPECT_EQ(out.entries(), 0) << "something was left behind";
+  }
+
+  std::string solved() {
+    in.write("good.toml",
+             "[case]\npatch.length = 12\npatch.width = 8\npatch.height = 4\ncut.length = 6\ncut.depth = "
+             "2\nmesh.element_size = 2\n");
+    expect_success(run_cleft("solve", {in / "good.toml", "--out", in / "good.h5"}));
+    return in / "good.h5";
+  }
+  std::string field() {
+    write_field(in / "field.dffd", random_field());
+    return in / "field.dffd";
+  }
+  std::string flat_mesh() {
+    return in.write("flat.obj", "v -40 -30 0\nv 40 -30 0\nv 40 30 0\nv -40 30 0\nf 1 2 3\nf 1 3 4\n");
+  }
+  std::string path(double z) {
+    return in.write("path.csv",
+                    "x,y,z,nx,ny,nz\n-10,0," + shortest(z) + ",0,0,1\n10,0," + shortest(z) + ",0,0,1\n");
+  }
+};
+
+}  // namespace
+
+TEST_F(BadInput, UnknownParameter) {
+  for (const char* command : {"solve", "run"})
+    expect_refused(command, {in.write("a.toml", "[case]\ntisue.young_modulus = 1\n"), "--out", out / "x"},
+                   {"line 2", "'tisue.young_modulus'", "did you mean 'tissue.young_modulus'"});
+}
+
+TEST_F(BadInput, ValueOutOfRange) {
+  for (const char* command : {"solve", "run"})
+    expect_refused(command, {in.write("a.toml", "[case]\nskin.thickness = -1\n"), "--out", out / "x"},
+                   {"line 2", "skin.thickness = -1", "greater than 0 mm"});
+  expect_refused("solve",
+                 {in.write("a.toml", ""), "--out", out / "x.h5", "--set", "tissue.poisson_ratio=0.7"},
+                 {"tissue.poisson_ratio = 0.7", "between 0 and 0.49"});
+}
+
+TEST_F(BadInput, CutLongerThanThePatch) {
+  for (const char* command : {"solve", "run"})
+    expect_refused(command, {in.write("a.toml", "[case]\ncut.length = 61\n"), "--out", out / "x"},
+                   {"cut.length = 61 mm", "patch.length = 60 mm"});
+}
+
+TEST_F(BadInput, MissingFiles) {
+  expect_refused("solve", {in / "absent.toml", "--out", out / "x.h5"}, {"absent.toml"});
+  expect_refused("run", {in / "absent.toml", "--out", out / "x"}, {"absent.toml"});
+  expect_refused("encode", {in / "absent.h5", "--out", out / "x.dffd"}, {"absent.h5", "no such file"});
+  expect_refused("eval", {in / "absent.dffd", "--points", in / "p.csv", "--out", out / "x.csv"},
+                 {"absent.dffd"});
+  expect_refused("cut",
+                 {"--mesh", in / "absent.stl", "--path", path(0), "--field", field(), "--out", out / "x.vtp"},
+                 {"absent.stl"});
+  expect_refused(
+      "cut", {"--mesh", flat_mesh(), "--path", in / "absent.csv", "--field", field(), "--out", out / "x.vtp"},
+      {"absent.csv"});
+  expect_refused("info", {in / "absent.h5"}, {"absent.h5"});
+  expect_refused("check", {in / "absent.h5"}, {"absent.h5"});
+  expect_refused("status", {in / "absent"}, {"absent"});
+  expect_refused("explore", {in / "absent", "--screenshot", out / "x.png"}, {"absent"});
+  expect_refused("solve", {in.write("a.toml", ""), "--out", out / "absent/x.h5"}, {"does not exist"});
+}
+
+TEST_F(BadInput, TruncatedAndFlippedFiles) {
+  const std::string snapshot = read_text_file(solved()), field_bytes = read_text_file(field());
+  const auto truncated = [](const std::string& bytes) { return bytes.substr(0, bytes.size() * 2 / 3); };
+  // One bit of the data: of a point's coordinates in the snapshot, and amid the packed control points of the
+  // field.
+  const auto flipped = [](std::string bytes) {
+    const double corner[] = {-6, -4, 0};
+    const std::size_t found = bytes.find(std::string(reinterpret_cast<const char*>(corner), sizeof corner));
+    const std::size_t at = found == std::string::npos ? bytes.size() / 2 : found + 5;
+    bytes[at] = static_cast<char>(bytes[at] ^ 16);
+    return bytes;
+  };
+  for (const bool cut_short : {true, false}) {
+    const std::string s = in.write("bad.h5", cut_short ? truncated(snapshot) : flipped(snapshot));
+    const std::string f = in.write("bad.dffd", cut_short ? truncated(field_bytes) : flipped(field_bytes));
+    expect_refused("encode", {s, "--out", out / "x.dffd"}, {"bad.h5"});
+    expect_refused("check", {s}, {"bad.h5"});
+    expect_refused("check", {f}, {"bad.dffd"});
+    expect_refused("eval",
+                   {f, "--points", in.write("p.csv", "u,v,w,side,t\n0,1,0,0,1\n"), "--out", out / "x.csv"},
+                   {"bad.dffd"});
+    expect_refused("cut", {"--mesh", flat_mesh(), "--path", path(0), "--field", f, "--out", out / "x.vtp"},
+                   {"bad.dffd"});
+    expect_refused("explore", {f, "--screenshot", out / "x.png"}, {"bad.dffd"});
+  }
+  expect_refused("encode", {field(), "--out", out / "x.dffd"}, {"is not a snapshot"});
+  expect_refused("eval", {solved(), "--points", in / "p.csv", "--out", out / "x.csv"}, {"is not a field"});
+}
+
+TEST_F(BadInput, MeshWithoutTriangles) {
+  for (const char* name : {"empty.obj", "empty.ply", "empty.stl", "empty.vtp"})
+    expect_refused(
+        "cut", {"--mesh", in.write(name, ""), "--path", path(0), "--field", field(), "--out", out / "x.vtp"},
+        {name});
+  expect_refused("cut",
+                 {"--mesh", in.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "--path", path(0),
+                  "--field", field(), "--out", out / "x.vtp"},
+                 {"points.obj", "triangle"});
+  expect_refused("cut",
+                 {"--mesh", in.write("mesh.xyz", "0 0 0\n"), "--path", path(0), "--field", field(), "--out",
+                  out / "x.vtp"},
+                 {"mesh.xyz", ".stl"});
+}
+
+TEST_F(BadInput, PathThatNeverTouchesTheMesh) {
+  expect_refused("cut",
+                 {"--mesh", flat_mesh(), "--path", path(500), "--field", field(), "--out", out / "x.vtp"},
+                 {"never touches", "500"});
+}
+
+TEST_F(BadInput, Usage) {
+  EXPECT_EQ(run_cleft("encoode", {}).exit_code, 2);
+  EXPECT_NE(run_cleft("encoode", {}).output.find("did you mean 'encode'"), std::string::npos);
+  expect_refused("encode", {}, {"CASE.h5"});
+  expect_refused("solve", {"a.toml", "--out", out / "x.h5", "--nonsense"}, {"--nonsense"});
+  expect_refused("eval", {field(), "--points", in.write("p.csv", "u,v,w,side,t\n0,1,0,0,99\n")},
+                 {"row 1", "t = 99"});
+  expect_refused("eval", {field(), "--points", in.write("p.csv", "u,v,w,t\n0,1,0,9\n")}, {"'side'"});
+  expect_refused("encode", {solved(), "--out", out / "x.dffd", "--control-points", "3,8,4,4"},
+                 {"3 control points"});
+}
+
+TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
+  for (const char* command :
+       {"run", "status", "solve", "encode", "eval", "cut", "explore", "info", "check"}) {
+    EXPECT_NE(
+        expect_success(run_cleft(command, {"--help"})).output.find("Usage: cleft " + std::string(command)),
+        std::string::npos)
+        << command;
+    EXPECT_EQ(expect_success(run_cleft(command, {"--version"})).output, producer() + "\n") << command;
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,41 @@
+#include "tests/pipeline/commands.h"
+
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+#include "base/text.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+Outcome run(const std::vector<std::string>& argv) {
+  const TemporaryFolder folder;
+  const cleft::ProcessResult result = cleft::run_process(
+      argv, folder / "log", {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}});
+  return {result.signal ? -result.signal : result.exit_code, cleft::read_text_file(folder / "log")};
+}
+
+}  // namespace
+
+Outcome run_cleft(const std::string& command, const std::vector<std::string>& arguments) {
+  std::vector<std::string> argv = {CLEFT_BIN "/cleft", command};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  return run(argv);
+}
+
+Outcome solve_on_ranks(int ranks, const std::vector<std::string>& arguments) {
+  std::vector<std::string> argv = {"mpirun",
+                                   "--oversubscribe",
+                                   "--bind-to",
+                                   "none",
+                                   "-n",
+                                   std::to_string(ranks),
+                                   CLEFT_BIN "/cleft-solve"};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  return run(argv);
+}
+
+Outcome expect_success(Outcome outcome) {
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  return outcome;
+}

@@ -1,0 +1,19 @@
+// Runs the commands as a user would.
+#pragma once
+
+#include <string>
+#include <vector>
+
+struct Outcome {
+  int exit_code;
+  std::string output;  ///< standard output and error
+};
+
+/// Runs a program of the build, e.g. run_cleft("solve", {"a.toml", "--out", "a.h5"}).
+Outcome run_cleft(const std::string& command, const std::vector<std::string>& arguments);
+
+/// The same of `cleft solve` under mpirun.
+Outcome solve_on_ranks(int ranks, const std::vector<std::string>& arguments);
+
+/// Fails the test, with the output, where the exit code differs.
+Outcome expect_success(Outcome outcome);

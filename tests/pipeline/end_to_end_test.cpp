@@ -1,0 +1,174 @@
+// From a case file to a cut mesh, through the commands and the files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+#include "explorer/io/mesh_file.h"
+#include "solver/snapshot/snapshot.h"
+#include "tests/pipeline/commands.h"
+#include "tests/pipeline/cut_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr const char* coarse_case = R"(
+[case]
+patch.length = 24
+patch.width = 16
+patch.height = 5
+cut.length = 12
+cut.depth = 2
+mesh.element_size = 1
+)";
+
+/// A solved and encoded case, made once for all tests of this file.
+class EndToEnd : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    folder->write("case.toml", coarse_case);
+    expect_success(run_cleft("solve", {*folder / "case.toml", "--out", *folder / "case.h5"}));
+    expect_success(run_cleft(
+        "encode", {*folder / "case.h5", "--out", *folder / "case.dffd", "--control-points", "20,14,8,9"}));
+  }
+  static void TearDownTestSuite() { delete folder; }
+  static TemporaryFolder* folder;
+};
+TemporaryFolder* EndToEnd::folder = nullptr;
+
+/// The skin at its stress-free positions, as a mesh without the cut: left and right nodes are one vertex
+/// again. node_of[i]: the snapshot's (left) node of vertex i.
+SurfaceMesh uncut_skin(const Snapshot& s, std::vector<int>& node_of) {
+  std::map<int, int> left_of, vertex_of;
+  for (const auto& [left, right] : s.pairs) left_of[right] = left;
+  SurfaceMesh mesh;
+  for (const auto& triangle : s.skin()) {
+    std::array<int, 3> corners;
+    for (int c = 0; c < 3; ++c) {
+      const int node = left_of.contains(triangle[c]) ? left_of[triangle[c]] : triangle[c];
+      if (!vertex_of.contains(node)) {
+        vertex_of[node] = static_cast<int>(mesh.points.size());
+        mesh.points.push_back(s.points[node]);
+        node_of.push_back(node);
+      }
+      corners[c] = vertex_of[node];
+    }
+    mesh.triangles.push_back(corners);
+  }
+  return mesh;
+}
+
+/// A path straight along the canonical cut.
+std::string canonical_path(const Snapshot& s) {
+  std::string text = "x,y,z,nx,ny,nz\n";
+  for (int i = 0; i <= 12; ++i) text += shortest(s.cut_start + s.cut_length * i / 12) + ",0,0,0,0,1\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_F(EndToEnd, ACutFlatSkinFollowsTheFiniteElementsAtEveryFrame) {
+  const SnapshotReader reader(*folder / "case.h5");
+  const Snapshot& s = reader.snapshot();
+  const FitReport report = read_field(*folder / "case.dffd").report;
+  ASSERT_LT(report.spline_error, 0.25) << "a field this bad proves nothing";
+  std::vector<int> node_of;
+  write_mesh(*folder / "skin.vtp", uncut_skin(s, node_of), {});
+  folder->write("path.csv", canonical_path(s));
+  std::map<int, int> right_of;
+  for (const auto& [left, right] : s.pairs) right_of[left] = right;
+  std::map<std::pair<double, double>, int> nodes_at;
+  for (const int node : node_of) nodes_at[{s.points[node].x, s.points[node].y}] = node;
+
+  const double bound = report.spline_error * report.largest_displacement * (1 + 1e-9);
+  const auto closed = reader.displacement(0);
+  for (std::size_t j = 1; j < s.frames(); ++j) {
+    expect_success(run_cleft("cut", {"--mesh", *folder / "skin.vtp", "--path", *folder / "path.csv",
+                                     "--field", *folder / "case.dffd", "--progress", shortest(s.times[j]),
+                                     "--max-edge", "0", "--out", *folder / "cut.vtp"}));
+    const CutFile cut = read_cut(*folder / "cut.vtp");
+    const auto frame = reader.displacement(j);
+    int open = 0;
+    std::size_t skin_vertices = 0;
+    for (std::size_t i = 0; i < cut.rest.size(); ++i) {
+      if (cut.depth[i] > 0) continue;  // walls
+      ++skin_vertices;
+      const auto place = nodes_at.find({cut.rest[i].x, cut.rest[i].y});
+      ASSERT_NE(place, nodes_at.end())
+          << "a vertex that is no node at " << cut.rest[i].x << ", " << cut.rest[i].y;
+      int node = place->second;
+      if (const auto pair = right_of.find(node); pair != right_of.end() && s.points[node].x < s.position[j]) {
+        if (cut.side[i] > 0) node = pair->second;
+        ++open;
+      }
+      const double error = norm(cut.displacement[i] - (frame[node] - closed[node]));
+      EXPECT_LE(error, bound) << "frame " << j << " at " << cut.rest[i].x << ", " << cut.rest[i].y;
+    }
+    // Each open column shows both of its nodes, and nothing else was added to the skin.
+    EXPECT_EQ(open, 2 * static_cast<int>(j)) << "frame " << j;
+    EXPECT_EQ(skin_vertices, node_of.size() + j) << "frame " << j;
+  }
+}
+
+TEST_F(EndToEnd, EvalAgreesWithTheSnapshotAtItsNodes) {
+  const SnapshotReader reader(*folder / "case.h5");
+  const Snapshot& s = reader.snapshot();
+  const FitReport report = read_field(*folder / "case.dffd").report;
+  std::string points = "u,v,w,side,t\n";
+  std::vector<Vec3> expected;
+  const std::size_t j = s.frames() - 1;
+  const auto closed = reader.displacement(0), open = reader.displacement(j);
+  for (std::size_t p = 0; p < s.pairs.size(); ++p)
+    for (const int side : {0, 1}) {
+      const int node = s.pairs[p][side];
+      points += shortest(s.points[node].x) + ",0," + shortest(s.points[node].z) + "," +
+                (side ? "1," : "-1,") + shortest(s.times[j]) + "\n";
+      expected.push_back(open[node] - closed[node]);
+    }
+  expect_success(run_cleft("eval", {*folder / "case.dffd", "--points", folder->write("points.csv", points),
+                                    "--out", *folder / "d.csv"}));
+  const NumberTable table = read_csv(*folder / "d.csv");
+  ASSERT_EQ(table.rows.size(), expected.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_LE(norm(Vec3{table.rows[i][0], table.rows[i][1], table.rows[i][2]} - expected[i]),
+              report.spline_error * report.largest_displacement * (1 + 1e-9));
+    largest = std::max(largest, norm(expected[i]));
+  }
+  EXPECT_GT(largest, 0.5 * report.largest_displacement) << "the lips must move for this to mean anything";
+}
+
+TEST_F(EndToEnd, OneAndTwoRanksGiveTheSameSnapshot) {
+  expect_success(solve_on_ranks(2, {*folder / "case.toml", "--out", *folder / "two.h5"}));
+  const SnapshotReader one(*folder / "case.h5"), two(*folder / "two.h5");
+  EXPECT_EQ(one.snapshot().points, two.snapshot().points);
+  EXPECT_EQ(one.snapshot().connectivity, two.snapshot().connectivity);
+  EXPECT_EQ(one.snapshot().pairs, two.snapshot().pairs);
+  for (std::size_t j = 0; j < one.snapshot().frames(); ++j) {
+    const auto a = one.displacement(j), b = two.displacement(j);
+    double difference = 0, size = 0;
+    for (std::size_t n = 0; n < a.size(); ++n)
+      difference += squared_norm(a[n] - b[n]), size += squared_norm(a[n]);
+    EXPECT_LT(std::sqrt(difference), 1e-9 * std::sqrt(size)) << "frame " << j;
+  }
+}
+
+TEST_F(EndToEnd, InfoAndCheckSpeakOfTheFiles) {
+  const std::string text = expect_success(run_cleft("info", {*folder / "case.dffd", "--json"})).output;
+  EXPECT_NE(text.find("\"tissue.young_modulus\": 0.02"), std::string::npos) << text;
+  expect_success(run_cleft("info", {*folder / "case.h5"}));
+  expect_success(run_cleft("check", {*folder / "case.h5", *folder / "case.dffd"}));
+}
+
+TEST_F(EndToEnd, ExploreDrawsAPicture) {
+  expect_success(run_cleft(
+      "explore", {*folder / "case.dffd", "--screenshot", *folder / "patch.png", "--size", "320,200"}));
+  EXPECT_EQ(read_text_file(*folder / "patch.png").substr(1, 3), "PNG");
+}
+
+}  // namespace cleft

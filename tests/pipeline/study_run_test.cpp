@@ -1,0 +1,125 @@
+// A study, run, interrupted, damaged and run again.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "tests/pipeline/commands.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* study = R"(
+name = "small"
+[case]
+patch.length = 14
+patch.width = 8
+patch.height = 4
+cut.length = 8
+cut.depth = 2
+mesh.element_size = 1.5
+[vary]
+"tissue.young_modulus" = [0.01, 0.03]
+"skin.prestress_v" = [0.02, 0.04]
+[encode]
+control_points = [12, 10, 6, 6]
+)";
+
+nlohmann::json status(const std::string& folder) {
+  return nlohmann::json::parse(expect_success(run_cleft("status", {folder, "--json"})).output);
+}
+
+}  // namespace
+
+TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", study), folder = place / "out";
+  EXPECT_NE(expect_success(run_cleft("run", {file, "--out", folder, "--dry-run"})).output.find("4 cases"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(folder)) << "--dry-run must write nothing";
+  expect_success(run_cleft("run", {file, "--out", folder}));
+  EXPECT_EQ(status(folder)["published"], 4);
+  expect_success(run_cleft("check", {folder}));
+  EXPECT_TRUE(fs::is_empty(folder + "/attempts"));
+
+  const auto before = fs::last_write_time(folder + "/cases");
+  EXPECT_NE(expect_success(run_cleft("run", {file, "--out", folder, "--json"}))
+                .output.find("\"already_published\": 4"),
+            std::string::npos);
+  EXPECT_EQ(fs::last_write_time(folder + "/cases"), before);
+
+  // A case that is lost is the only one made again.
+  const std::string lost = status(folder)["cases"][2]["case"];
+  fs::remove_all(folder + "/cases/" + lost);
+  EXPECT_EQ(status(folder)["missing"], 1);
+  EXPECT_NE(expect_success(run_cleft("run", {file, "--out", folder, "--json", "--ranks", "2"}))
+                .output.find("\"published\": 1"),
+            std::string::npos);
+  expect_success(run_cleft("check", {folder}));
+
+  // A new [encode] encodes again and does not solve again.
+  std::string finer = study;
+  finer.replace(finer.find("[12, 10, 6, 6]"), 14, "[14, 10, 6, 6]");
+  expect_success(run_cleft("run", {place.write("study.toml", finer), "--out", folder}));
+  const std::string encoded = status(folder)["cases"][0]["case"];
+  EXPECT_EQ(fs::hard_link_count(folder + "/cases/" + encoded + "/case.h5"), 2u);
+  expect_success(run_cleft("check", {folder}));
+
+  // A damaged byte is found.
+  const std::string victim = folder + "/cases/" + encoded + "/case.dffd";
+  std::string bytes = read_text_file(victim);
+  bytes[bytes.size() / 2] ^= 1;
+  place.write("out/cases/" + encoded + "/case.dffd", bytes);
+  const Outcome found = run_cleft("check", {folder});
+  EXPECT_EQ(found.exit_code, 2);
+  EXPECT_NE(found.output.find(encoded), std::string::npos) << found.output;
+}
+
+TEST(StudyRun, AFailedCaseKeepsItsLogAndStopsNoOther) {
+  const TemporaryFolder place;
+  // Without springs the patch floats: K is singular, and the factorisation says so.
+  std::string text = study;
+  const std::string varied = "\"skin.prestress_v\" = [0.02, 0.04]";
+  text.replace(text.find(varied), varied.size(), "\"foundation.stiffness\" = [0.005, 1e-300]");
+  text.insert(text.find("[vary]"), "foundation.side_stiffness = 0\n");
+  const Outcome outcome = run_cleft("run", {place.write("study.toml", text), "--out", place / "out"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  const auto now = status(place / "out");
+  EXPECT_EQ(now["published"], 2) << now.dump(2);
+  EXPECT_EQ(now["failed"], 2) << now.dump(2);
+  for (const auto& one : now["cases"]) {
+    const std::string reason = one.value("reason", "");
+    EXPECT_EQ(one["state"] == "failed", reason.find("not positive definite") != std::string::npos) << one;
+  }
+}
+
+TEST(StudyRun, AKilledRunIsFinishedByTheNext) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", study), folder = place / "out";
+  for (const int milliseconds : {100, 400, 700}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      setpgid(0, 0);
+      execl(CLEFT_BIN "/cleft", "cleft", "run", file.c_str(), "--out", folder.c_str(), nullptr);
+      _exit(127);
+    }
+    usleep(1000 * milliseconds);
+    kill(-child, SIGKILL);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+  }
+  expect_success(run_cleft("run", {file, "--out", folder}));
+  EXPECT_EQ(status(folder)["published"], 4);
+  EXPECT_TRUE(fs::is_empty(folder + "/attempts"));
+  expect_success(run_cleft("check", {folder}));
+}
+
+}  // namespace cleft

@@ -1,0 +1,115 @@
+#include "solver/snapshot/snapshot.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "base/error.h"
+#include "tests/support/damage.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace {
+
+/// A wedge under a triangle, with one duplicated node and three frames.
+Snapshot small_snapshot() {
+  Snapshot s;
+  s.points = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+  s.cell_types = {Snapshot::triangle, Snapshot::wedge};
+  s.cell_offsets = {0, 3, 9};
+  s.connectivity = {3, 4, 5, 3, 4, 5, 0, 1, 2};
+  s.foundation_triangles = {{0, 1, 2}};
+  s.foundation_quads = {{0, 1, 4, 3}};
+  s.pairs = {{4, 6}};
+  s.released = {0, 0, 1};
+  s.position = {-1, 0, 1};
+  s.cut_start = -1, s.cut_length = 2, s.cut_depth = 0.5;
+  s.times = {0, 1, 2};
+  s.smallest_gap = {0, 0, 0.25}, s.residual_equilibrium = {1e-15, 2e-15, 3e-15},
+  s.residual_closure = {0, 0, 0};
+  s.parameters = {{"skin.thickness", 1.5}, {"cut.frames", "column"}};
+  s.case_hash = "0123456789abcdef";
+  return s;
+}
+
+std::vector<Vec3> frame(int j) {
+  std::vector<Vec3> d(7);
+  for (int n = 0; n < 7; ++n) d[n] = {j + n / 7.0, j * n / 3.0, -1.0 * j};
+  return d;
+}
+
+std::string write(const TemporaryFolder& folder, const Snapshot& s) {
+  SnapshotWriter writer(folder / "case.h5", s);
+  for (int j = 0; j < 3; ++j) writer.write_frames(j, frame(j));
+  writer.finish(s);
+  return folder / "case.h5";
+}
+
+bool same(const SnapshotReader& reader) {
+  const Snapshot &a = reader.snapshot(), b = small_snapshot();
+  for (int j = 0; j < 3; ++j)
+    if (reader.displacement(j) != frame(j)) return false;
+  return a.points == b.points && a.cell_types == b.cell_types && a.cell_offsets == b.cell_offsets &&
+         a.connectivity == b.connectivity && a.foundation_triangles == b.foundation_triangles &&
+         a.foundation_quads == b.foundation_quads && a.pairs == b.pairs && a.released == b.released &&
+         a.position == b.position && a.times == b.times && a.smallest_gap == b.smallest_gap &&
+         a.residual_equilibrium == b.residual_equilibrium && a.residual_closure == b.residual_closure &&
+         a.parameters == b.parameters && a.case_hash == b.case_hash && a.cut_start == b.cut_start &&
+         a.cut_length == b.cut_length && a.cut_depth == b.cut_depth;
+}
+
+}  // namespace
+
+TEST(Snapshot, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  const SnapshotReader reader(write(folder, small_snapshot()));
+  EXPECT_TRUE(same(reader));
+  EXPECT_EQ(reader.displacement(2, 3, 2), (std::vector<Vec3>{frame(2)[3], frame(2)[4]}));
+  EXPECT_EQ(reader.snapshot().skin(), (std::vector<std::array<int, 3>>{{3, 4, 5}}));
+  EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(Snapshot, AnUnfinishedOneLeavesNothing) {
+  const TemporaryFolder folder;
+  { SnapshotWriter writer(folder / "case.h5", small_snapshot()); }
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(Snapshot, DamageIsNoticed) {
+  const TemporaryFolder folder;
+  std::optional<SnapshotReader> reader;
+  EXPECT_EQ(unnoticed_damages(
+                write(folder, small_snapshot()), 700,
+                [&](const std::string& file) {
+                  check_snapshot(file);
+                  reader.emplace(file);
+                },
+                [&] { return same(*reader); }),
+            0);
+}
+
+TEST(Snapshot, ContradictionsAreNamed) {
+  const auto refuse = [](auto change, const std::string& part) {
+    const TemporaryFolder folder;
+    Snapshot s = small_snapshot();
+    change(s);
+    const std::string file = write(folder, s);
+    try {
+      SnapshotReader reader(file);
+      ADD_FAILURE() << "accepted: " << part;
+    } catch (const FileError& e) {
+      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
+    }
+  };
+  refuse([](Snapshot& s) { s.connectivity[0] = 7; }, "Connectivity");
+  refuse([](Snapshot& s) { s.cell_offsets[1] = 10; }, "Offsets");
+  refuse([](Snapshot& s) { s.pairs[0][1] = -1; }, "pairs");
+  refuse([](Snapshot& s) { s.released = {0, 1, 0}; }, "released");
+  refuse([](Snapshot& s) { s.released = {1, 1, 1}; }, "frame 0");
+  refuse([](Snapshot& s) { s.released = {0, 1, 2}; }, "released");
+  refuse([](Snapshot& s) { s.times = {0, 2, 2}; }, "Steps/Values");
+  refuse([](Snapshot& s) { s.foundation_quads[0][0] = 99; }, "quads");
+}
+
+}  // namespace cleft

@@ -1,0 +1,117 @@
+// The assembled patch against closed forms: energies of linear displacements are exact for these elements.
+#include "solver/patch_system.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/solver/small_patch.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double none = 1e-14;  // moduli must be positive: this one vanishes against all others
+
+/// A patch of which only one part is stiff.
+Parameters bare_patch() {
+  Parameters p = small_patch();
+  p.tissue.young_modulus = p.skin.young_modulus = p.foundation.stiffness = none;
+  p.foundation.side_stiffness = 0;
+  p.skin.prestress_u = p.skin.prestress_v = p.skin.prestress_uv = 0;
+  return p;
+}
+
+using Gradient = std::array<Vec3, 3>;  // row i: gradient of displacement component i
+
+Eigen::VectorXd linear(const PatchMesh& mesh, const PatchSystem& system, const Gradient& g,
+                       const Vec3& shift = {}) {
+  Eigen::VectorXd u(system.size());
+  for (std::size_t n = 0; n < mesh.points.size(); ++n)
+    for (int i = 0; i < 3; ++i)
+      u(system.unknown(static_cast<int>(n), i)) = dot(g[i], mesh.points[n]) + shift[i];
+  return u;
+}
+
+const Gradient stretch = {{{0.3, -0.2, 0.5}, {0.1, 0.7, -0.4}, {0.6, 0.2, -0.9}}};
+
+struct Assembled {
+  explicit Assembled(const Parameters& p) : mesh(make_patch_mesh(p)), system(mesh, p, MPI_COMM_WORLD) {}
+  double energy(const Eigen::VectorXd& u) const { return u.dot(Eigen::VectorXd(system.multiply(u))) / 2; }
+  PatchMesh mesh;
+  PatchSystem system;
+};
+
+}  // namespace
+
+TEST(PatchSystem, TissueHasTheEnergyOfHookesLawAndBalancesInside) {
+  Parameters p = bare_patch();
+  p.tissue.young_modulus = 0.02, p.tissue.poisson_ratio = 0.4;
+  const Assembled patch(p);
+  const double lambda = 0.02 * 0.4 / (1.4 * 0.2), mu = 0.02 / 2.8;
+  double trace = 0, squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    trace += stretch[i][i];
+    for (int j = 0; j < 3; ++j) squared += std::pow((stretch[i][j] + stretch[j][i]) / 2, 2);
+  }
+  const double density = lambda / 2 * trace * trace + mu * squared;
+  const Eigen::VectorXd u = linear(patch.mesh, patch.system, stretch);
+  EXPECT_NEAR(patch.energy(u) / (density * 10 * 6 * 3), 1, 1e-11);
+
+  // A constant stress needs no force inside; the two nodes of a pair share theirs.
+  const Eigen::VectorXd force = patch.system.multiply(u);
+  std::vector<bool> single(patch.mesh.points.size(), true);
+  for (const auto& [left, right] : patch.mesh.pairs) single[left] = single[right] = false;
+  for (std::size_t n = 0; n < patch.mesh.points.size(); ++n) {
+    const Vec3& at = patch.mesh.points[n];
+    const bool inside = std::abs(at.x) < 5 && std::abs(at.y) < 3 && at.z < 0 && at.z > -3;
+    for (int i = 0; i < 3 && inside && single[n]; ++i)
+      EXPECT_NEAR(force(patch.system.unknown(static_cast<int>(n), i)), 0, 1e-14);
+  }
+}
+
+TEST(PatchSystem, RigidMotionCostsNothingWithoutSprings) {
+  Parameters p = bare_patch();
+  p.tissue.young_modulus = 0.02;
+  p.skin.young_modulus = 0.13;
+  const Assembled patch(p);
+  const Gradient rotation = {{{0, -1, 2}, {1, 0, -3}, {-2, 3, 0}}};
+  const Eigen::VectorXd u = linear(patch.mesh, patch.system, rotation, {5, 6, 7});
+  // The flat membrane is stiff in its plane only, where this motion is a rotation too.
+  EXPECT_NEAR(patch.energy(u), 0, 1e-12 * u.squaredNorm());
+}
+
+TEST(PatchSystem, SkinHasTheEnergyOfPlaneStress) {
+  Parameters p = bare_patch();
+  p.skin.young_modulus = 0.13, p.skin.poisson_ratio = 0.4, p.skin.thickness = 1.5;
+  const Assembled patch(p);
+  const double e = stretch[0].x, f = stretch[1].y, shear = stretch[0].y + stretch[1].x, c = 0.13 / (1 - 0.16);
+  const double density = c / 2 * (e * e + f * f + 2 * 0.4 * e * f + 0.3 * shear * shear);
+  EXPECT_NEAR(patch.energy(linear(patch.mesh, patch.system, stretch)) / (density * 1.5 * 10 * 6), 1, 1e-10);
+}
+
+TEST(PatchSystem, PrestressDoesTheWorkOfItsStress) {
+  Parameters p = bare_patch();
+  p.skin.prestress_u = 0.011, p.skin.prestress_v = 0.03, p.skin.prestress_uv = 0.007;
+  const Assembled patch(p);
+  const double work =
+      -1.5 * 10 * 6 * (0.011 * stretch[0].x + 0.03 * stretch[1].y + 0.007 * (stretch[0].y + stretch[1].x));
+  EXPECT_NEAR(patch.system.load().dot(linear(patch.mesh, patch.system, stretch)), work, 1e-13);
+}
+
+TEST(PatchSystem, SpringsAreIntegratedConsistently) {
+  // 1/2 k of the integral of |u|^2 over the faces, for u = (x, 0, 0): the integral of x^2 over the bottom,
+  // and the sides.
+  Parameters p = bare_patch();
+  p.foundation.stiffness = 0.005;
+  const Gradient along = {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+  const double bottom = 6 * 2 * std::pow(5, 3) / 3;
+  {
+    const Assembled patch(p);
+    EXPECT_NEAR(patch.energy(linear(patch.mesh, patch.system, along)) / (0.005 / 2 * bottom), 1, 1e-9);
+  }
+  p.foundation.stiffness = none, p.foundation.side_stiffness = 0.002;
+  const Assembled patch(p);
+  const double sides = 2 * 6 * 3 * 25 + 2 * 3 * 2 * std::pow(5, 3) / 3;
+  EXPECT_NEAR(patch.energy(linear(patch.mesh, patch.system, along)) / (0.002 / 2 * sides), 1, 1e-9);
+}
+
+}  // namespace cleft

@@ -1,0 +1,103 @@
+// Opening a study folder.
+#include "explorer/scene/study.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "encoder/field/field_file.h"
+#include "tests/view/synthetic_field.h"
+
+namespace cleft {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StudyTest : public testing::Test {
+ protected:
+  StudyTest() {
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("cleft_study_") + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "cases");
+  }
+  ~StudyTest() override { fs::remove_all(folder_); }
+
+  std::string add_case(const std::string& name, std::map<std::string, double> parameters,
+                       bool published = true) {
+    const fs::path folder = folder_ / "cases" / name;
+    fs::create_directories(folder);
+    Field field = synthetic_field(3);
+    field.parameters = std::move(parameters);
+    field.case_hash = name;
+    write_field((folder / "case.dffd").string(), field);
+    if (published) write_text_file((folder / "manifest.json").string(), "{}");
+    return (folder / "case.dffd").string();
+  }
+
+  static std::string message_of(const std::string& path) {
+    try {
+      Study study(path);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(StudyTest, CasesAreNamedByWhatVariesAndSortedByValue) {
+  add_case("a", {{"cut.depth", 6}, {"skin.prestress_v", 0.03}, {"tissue.young_modulus", 0.1}});
+  add_case("b", {{"cut.depth", 6}, {"skin.prestress_v", 0.03}, {"tissue.young_modulus", 0.02}});
+  add_case("c", {{"cut.depth", 6}, {"skin.prestress_v", 0.005}, {"tissue.young_modulus", 0.1}});
+  Study study(folder_.string());
+  ASSERT_EQ(study.size(), 3);
+  EXPECT_EQ(study.name(0), "skin.prestress_v=0.005 tissue.young_modulus=0.1");
+  EXPECT_EQ(study.name(1), "skin.prestress_v=0.03 tissue.young_modulus=0.02");
+  EXPECT_EQ(study.name(2), "skin.prestress_v=0.03 tissue.young_modulus=0.1");
+  const char* hashes[] = {"c", "b", "a"};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(study.field(i).case_hash, hashes[i]);
+    EXPECT_EQ(study.field(i).parameters, study.parameters(i));
+  }
+}
+
+TEST_F(StudyTest, FieldsAreReadWhenAskedForAndKept) {
+  add_case("a", {{"cut.depth", 6}});
+  const std::string second = add_case("b", {{"cut.depth", 7}});
+  Study study(folder_.string());
+  const Field& kept = study.field(1);
+  fs::remove(second);
+  EXPECT_EQ(&study.field(1), &kept);
+  EXPECT_EQ(study.field(0).parameters.at("cut.depth"), 6);
+}
+
+TEST_F(StudyTest, WhatIsNotPublishedIsNotThere) {
+  add_case("a", {{"cut.depth", 6}});
+  add_case("b", {{"cut.depth", 7}}, false);
+  EXPECT_EQ(Study(folder_.string()).size(), 1);
+}
+
+TEST_F(StudyTest, ASingleFileIsAStudyOfOneCase) {
+  const std::string file = add_case("a", {{"cut.depth", 6}});
+  Study study(file);
+  ASSERT_EQ(study.size(), 1);
+  EXPECT_EQ(study.name(0), "case.dffd");
+}
+
+TEST_F(StudyTest, NothingToShowNamesTheRemedy) {
+  EXPECT_NE(message_of(folder_.string()).find("cleft run"), std::string::npos);
+  EXPECT_NE(message_of((folder_ / "absent").string()).find("no such file"), std::string::npos);
+}
+
+TEST_F(StudyTest, ADamagedFieldIsNamed) {
+  const std::string file = add_case("a", {{"cut.depth", 6}});
+  write_text_file(file, "this is no HDF5 file");
+  EXPECT_NE(message_of(folder_.string()).find(file), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cleft
