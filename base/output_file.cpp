@@ -18,12 +18,11 @@ OutputFile::OutputFile(std::string final_path) : final_(std::move(final_path)) {
   const fs::path target(final_);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (target.filename().empty() || fs::is_directory(target))
-    throw InputError("--out " + final_ + ": is a folder; give a file name");
+    throw InputError(final_ + ": is a folder; give a file name");
   if (!fs::is_directory(folder))
-    throw InputError("--out " + final_ + ": the folder '" + folder.string() +
-                     "' does not exist; create it first");
+    throw InputError(final_ + ": the folder '" + folder.string() + "' does not exist; create it first");
   if (access(folder.c_str(), W_OK) != 0)
-    throw InputError("--out " + final_ + ": the folder '" + folder.string() + "' cannot be written");
+    throw InputError(final_ + ": the folder '" + folder.string() + "' cannot be written");
   temporary_ = (folder / ("." + target.stem().string() + "." + std::to_string(getpid()) + ".part" +
                           target.extension().string()))
                    .string();

@@ -85,7 +85,8 @@ std::string producer() { return "cleft " CLEFT_VERSION; }
 
 std::string read_text_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw FileError(path, "cannot be read: does it exist, and is it a file?");
+  if (!file || std::filesystem::is_directory(path))
+    throw FileError(path, "cannot be read: does it exist, and is it a file?");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -30,6 +30,7 @@ function(cleft_library name)
   set_target_properties(cleft_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(cleft_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cleft>)
+  target_compile_features(cleft_${name} PUBLIC cxx_std_20)
   target_link_libraries(cleft_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:cleft_warnings>)
   target_link_libraries(cleft_${name} PUBLIC $<BUILD_INTERFACE:cleft_options>)
 endfunction()

@@ -3,6 +3,7 @@
 
 #include "base/command.h"
 #include "base/error.h"
+#include "base/output_file.h"
 #include "encoder/encode.h"
 #include "encoder/field/field_file.h"
 

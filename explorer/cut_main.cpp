@@ -5,6 +5,7 @@
 
 #include "base/command.h"
 #include "base/error.h"
+#include "base/output_file.h"
 #include "base/text.h"
 #include "encoder/field/field_file.h"
 #include "explorer/incision/incision.h"
@@ -56,6 +57,8 @@ std::vector<PointArray> point_arrays(const Incision& incision, const std::vector
 }
 
 void cut(const Options& options) {
+  check_mesh_ending(options.out);  // a bad name is told before the work
+  const OutputFile probe(options.out);
   std::optional<Field> field;
   if (!options.field.empty()) field = read_field(options.field);
   const SurfaceMesh surface = read_mesh(options.mesh);
@@ -108,7 +111,8 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--progress", o.progress, "how far the blade has come, mm [the whole path]")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--max-edge", o.max_edge, "split longer edges near the path, mm; 0 leaves them [1/30 of the path]")
+  app.add_option("--max-edge", o.max_edge,
+                 "split longer edges near the path, mm; 0 leaves them [1/30 of the path]")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--scale", o.scale, "mm per unit of the mesh")
       ->check(CLI::PositiveNumber)

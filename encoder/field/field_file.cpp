@@ -43,6 +43,13 @@ void check_format(const h5::File& file) {
                                      "; this program reads version " + std::to_string(field_format_version));
 }
 
+std::map<std::string, double> read_parameters(const h5::File& file) {
+  std::map<std::string, double> parameters;
+  for (const std::string& name : file.attribute_names("/parameters"))
+    parameters[name] = file.read_number("/parameters", name);
+  return parameters;
+}
+
 }  // namespace
 
 void write_field(const std::string& path, const Field& field) {
@@ -96,10 +103,15 @@ Field read_field(const std::string& path) {
                          file.read_number("/cut", "depth")};
   Field field(std::move(u), std::move(v), std::move(w), std::move(t), std::move(coefficients), cut);
   field.case_hash = file.read_text("/", "case");
-  for (const std::string& name : file.attribute_names("/parameters"))
-    field.parameters[name] = file.read_number("/parameters", name);
+  field.parameters = read_parameters(file);
   for (const Figure& figure : figures) field.report.*figure.value = file.read_number("/report", figure.name);
   return field;
+}
+
+std::map<std::string, double> read_field_parameters(const std::string& path) {
+  const h5::File file = h5::File::open(path);
+  check_format(file);
+  return read_parameters(file);
 }
 
 }  // namespace cleft

@@ -1,6 +1,7 @@
 // The field file case.dffd (docs/formats.md): read and write.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "encoder/field/field.h"
@@ -14,5 +15,8 @@ void write_field(const std::string& path, const Field& field);
 
 /// Reads and checks a field file; throws FileError naming what is missing, damaged or out of range.
 Field read_field(const std::string& path);
+
+/// The case's parameters alone, by dotted name: coefficients stay on disk.
+std::map<std::string, double> read_field_parameters(const std::string& path);
 
 }  // namespace cleft

@@ -5,6 +5,7 @@
 #include <vtkCleanPolyData.h>
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkOBJWriter.h>
@@ -74,6 +75,7 @@ std::string reason(std::string text) {
 
 template <class Reader>
 vtkSmartPointer<vtkPolyData> read_with(const std::string& path) {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   const Listener reading(reader.Get());
@@ -190,7 +192,14 @@ SurfaceMesh read_mesh(const std::string& path) {
   return mesh;
 }
 
+void check_mesh_ending(const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (ending != ".vtp" && ending != ".obj" && ending != ".stl")
+    throw InputError(path + ": unknown ending '" + ending + "' of a mesh to write; known are .vtp .obj .stl");
+}
+
 void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
+  check_mesh_ending(path);
   const std::string ending = ending_of(path);
   if (ending == ".vtp") {
     vtkNew<vtkXMLPolyDataWriter> writer;
@@ -199,13 +208,10 @@ void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vec
     write_with(writer, to_vtk(mesh, arrays), path);
   } else if (ending == ".obj") {
     write_with(vtkNew<vtkOBJWriter>(), to_vtk(mesh, {}), path);
-  } else if (ending == ".stl") {
+  } else {
     vtkNew<vtkSTLWriter> writer;
     writer->SetFileTypeToBinary();
     write_with(writer, to_vtk(mesh, {}), path);
-  } else {
-    throw InputError("--out " + path + ": unknown ending '" + ending +
-                     "' of a mesh; known are .vtp .obj .stl");
   }
 }
 

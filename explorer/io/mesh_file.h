@@ -20,6 +20,9 @@ struct PointArray {
   std::vector<double> values;  ///< components for each point
 };
 
+/// Throws InputError where write_mesh knows no format for the ending: to be asked before long work.
+void check_mesh_ending(const std::string& path);
+
 /// Writes .vtp, .obj or .stl by the ending of `path`, whole or not at all. Only .vtp keeps the arrays.
 void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays = {});
 

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/h5.h"
 #include "base/text.h"
 #include "encoder/field/field_file.h"
 
@@ -23,20 +22,9 @@ std::vector<std::string> published_fields(const fs::path& study) {
   return files;
 }
 
-/// The header alone: coefficients stay on disk.
-std::map<std::string, double> read_parameters(const std::string& path) {
-  const h5::File file = h5::File::open(path);
-  if (!file.has_attribute("/", "format") || file.read_text("/", "format") != "cleft-field")
-    throw FileError(path, "is not a field file; cleft encode writes one");
-  std::map<std::string, double> parameters;
-  for (const std::string& name : file.attribute_names("/parameters"))
-    parameters[name] = file.read_number("/parameters", name);
-  return parameters;
-}
-
 }  // namespace
 
-Study::Study(const std::string& path) {
+PublishedStudy::PublishedStudy(const std::string& path) {
   if (!fs::exists(path))
     throw InputError(path + ": no such file or folder (give a study folder or a case.dffd)");
   std::vector<std::string> files{path};
@@ -46,11 +34,12 @@ Study::Study(const std::string& path) {
                      ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
                      "STUDY.toml --out " +
                      path + "` first");
-  for (const std::string& file : files) cases_.push_back({file, "", read_parameters(file), std::nullopt});
+  for (const std::string& file : files)
+    cases_.push_back({file, "", read_field_parameters(file), std::nullopt});
   name_and_sort();
 }
 
-void Study::name_and_sort() {
+void PublishedStudy::name_and_sort() {
   std::vector<std::string> varying;
   for (const auto& [name, value] : cases_.front().parameters) {
     const auto differs = [&name = name, value = value](const Case& c) {
@@ -78,7 +67,7 @@ void Study::name_and_sort() {
   }
 }
 
-const Field& Study::field(int i) {
+const Field& PublishedStudy::field(int i) {
   Case& wanted = cases_.at(i);
   if (!wanted.field) wanted.field = read_field(wanted.file);
   return *wanted.field;

@@ -10,12 +10,12 @@
 
 namespace cleft {
 
-class Study {
+class PublishedStudy {
  public:
   /// `path` is a study folder (every published case: cases/<case>/manifest.json beside case.dffd) or a single
   /// field file. Reads the parameters of all cases, and no coefficients. Throws InputError where there is no
   /// published case, FileError where a field file is damaged.
-  explicit Study(const std::string& path);
+  explicit PublishedStudy(const std::string& path);
 
   int size() const { return static_cast<int>(cases_.size()); }
 

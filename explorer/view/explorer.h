@@ -25,13 +25,13 @@ class Explorer {
   void show_case(int i);
   int shown_case() const { return shown_; }
 
-  Study& study() { return study_; }
+  PublishedStudy& study() { return study_; }
   WoundView& view() { return view_; }
 
  private:
   struct Patient;  ///< the mesh to cut and the path, in mm
 
-  Study study_;
+  PublishedStudy study_;
   std::unique_ptr<Patient> patient_;
   WoundView view_;
   int shown_ = -1;

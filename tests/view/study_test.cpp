@@ -39,7 +39,7 @@ class StudyTest : public testing::Test {
 
   static std::string message_of(const std::string& path) {
     try {
-      Study study(path);
+      PublishedStudy study(path);
     } catch (const InputError& e) {
       return e.what();
     }
@@ -53,7 +53,7 @@ TEST_F(StudyTest, CasesAreNamedByWhatVariesAndSortedByValue) {
   add_case("a", {{"cut.depth", 6}, {"skin.prestress_v", 0.03}, {"tissue.young_modulus", 0.1}});
   add_case("b", {{"cut.depth", 6}, {"skin.prestress_v", 0.03}, {"tissue.young_modulus", 0.02}});
   add_case("c", {{"cut.depth", 6}, {"skin.prestress_v", 0.005}, {"tissue.young_modulus", 0.1}});
-  Study study(folder_.string());
+  PublishedStudy study(folder_.string());
   ASSERT_EQ(study.size(), 3);
   EXPECT_EQ(study.name(0), "skin.prestress_v=0.005 tissue.young_modulus=0.1");
   EXPECT_EQ(study.name(1), "skin.prestress_v=0.03 tissue.young_modulus=0.02");
@@ -68,7 +68,7 @@ TEST_F(StudyTest, CasesAreNamedByWhatVariesAndSortedByValue) {
 TEST_F(StudyTest, FieldsAreReadWhenAskedForAndKept) {
   add_case("a", {{"cut.depth", 6}});
   const std::string second = add_case("b", {{"cut.depth", 7}});
-  Study study(folder_.string());
+  PublishedStudy study(folder_.string());
   const Field& kept = study.field(1);
   fs::remove(second);
   EXPECT_EQ(&study.field(1), &kept);
@@ -78,12 +78,12 @@ TEST_F(StudyTest, FieldsAreReadWhenAskedForAndKept) {
 TEST_F(StudyTest, WhatIsNotPublishedIsNotThere) {
   add_case("a", {{"cut.depth", 6}});
   add_case("b", {{"cut.depth", 7}}, false);
-  EXPECT_EQ(Study(folder_.string()).size(), 1);
+  EXPECT_EQ(PublishedStudy(folder_.string()).size(), 1);
 }
 
 TEST_F(StudyTest, ASingleFileIsAStudyOfOneCase) {
   const std::string file = add_case("a", {{"cut.depth", 6}});
-  Study study(file);
+  PublishedStudy study(file);
   ASSERT_EQ(study.size(), 1);
   EXPECT_EQ(study.name(0), "case.dffd");
 }

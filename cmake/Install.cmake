@@ -1,0 +1,16 @@
+# cmake --install: the commands, and for other programs the field library and the snapshot reader (find_package(Cleft)).
+include(CMakePackageConfigHelpers)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Cleft)
+install(TARGETS cleft_base cleft_h5 cleft_field cleft_field_file cleft_snapshot EXPORT CleftTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT CleftTargets NAMESPACE Cleft:: DESTINATION ${package_folder})
+foreach(folder base encoder/field solver/snapshot)
+  file(GLOB headers ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+  list(REMOVE_ITEM headers ${PROJECT_SOURCE_DIR}/base/command.h)
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cleft/${folder})
+endforeach()
+
+configure_package_config_file(cmake/CleftConfig.cmake.in ${PROJECT_BINARY_DIR}/CleftConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/CleftConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/CleftConfig.cmake ${PROJECT_BINARY_DIR}/CleftConfigVersion.cmake DESTINATION ${package_folder})
