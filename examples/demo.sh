@@ -33,16 +33,17 @@ if [ -n "${DISPLAY:-}" ]; then
   echo "The explorer opens; sliders choose the time and the case. Close its window to end."
   exec $bin/cleft explore $out/study --mesh $out/head.stl --path $out/path.csv
 fi
-for view in left:-35,15 right:35,15; do
-  for time in 10 25 60; do
-    picture=$out/wound-${view%%:*}-${time}mm.png
-    $bin/cleft explore $out/study --case 4 --mesh $out/head.stl --path $out/path.csv --time $time --view="${view#*:}" --screenshot $picture
+look="$bin/cleft explore $out/study --case 3 --mesh $out/head.stl --path $out/path.csv"
+for side in front:-38,12 back:32,8; do
+  for millimetres in 12 34 68; do
+    picture=$out/wound-${side%%:*}-$millimetres.png
+    $look --time $millimetres --view="${side#*:}" --zoom 2.4 --size 900,900 --screenshot $picture
     echo "picture: $picture"
   done
 done
-$bin/cleft explore $out/study --case 4 --screenshot $out/patch.png
-echo "picture: $out/patch.png"
-$bin/cleft explore $out/study --case 4 --mesh $out/head.stl --path $out/path.csv --zoom 0.3 --screenshot $out/head.png
+$look --screenshot $out/head.png
 echo "picture: $out/head.png"
+$bin/cleft explore $out/study --case 3 --screenshot $out/patch.png
+echo "picture: $out/patch.png"
 echo "There is no display, so pictures were written. With one, this opens the explorer:"
 echo "  $bin/cleft explore $out/study --mesh $out/head.stl --path $out/path.csv"

@@ -1,10 +1,9 @@
 // cleft solve: a case file to a snapshot.
-#include <deal.II/base/mpi.h>
-
 #include <cstdio>
 
 #include "base/command.h"
 #include "params/study.h"
+#include "solver/mpi_session.h"
 #include "solver/solve.h"
 
 using namespace cleft;
@@ -29,8 +28,8 @@ Json figures_of(const SolveReport& r) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  const MpiSession mpi(argc, argv);
+  const bool root = mpi.rank() == 0;
   // One voice for all ranks.
   if (!root && !(std::freopen("/dev/null", "w", stdout) && std::freopen("/dev/null", "w", stderr))) return 1;
 
@@ -40,7 +39,8 @@ int main(int argc, char** argv) {
   bool json = false;
   app.add_option("CASE.toml", case_file, "case file")->required();
   app.add_option("--out", out, "snapshot to write, case.h5")->required();
-  app.add_option("--set", assignments, "NAME=VALUE: overrides a parameter of the case (repeatable)");
+  app.add_option("--set", assignments, "NAME=VALUE: overrides a parameter of the case (repeatable)")
+      ->allow_extra_args(false);
   app.add_flag("--json", json, "print the figures as JSON");
   app.footer([] { return parameter_help(); });
 
@@ -52,7 +52,6 @@ int main(int argc, char** argv) {
     if (root) print_figures(figures_of(report), json);
   });
   // What one rank alone ran into must not leave the others waiting; wrong input all of them see alike.
-  if (code == 1 && dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-    MPI_Abort(MPI_COMM_WORLD, code);
+  if (code == 1 && mpi.ranks() > 1) MPI_Abort(MPI_COMM_WORLD, code);
   return code;
 }

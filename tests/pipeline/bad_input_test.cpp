@@ -159,7 +159,8 @@ TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
         expect_success(run_cleft(command, {"--help"})).output.find("Usage: cleft " + std::string(command)),
         std::string::npos)
         << command;
-    EXPECT_EQ(expect_success(run_cleft(command, {"--version"})).output, producer() + "\n") << command;
+    // MPI may complain on standard error about the machine first.
+    EXPECT_TRUE(expect_success(run_cleft(command, {"--version"})).output.ends_with(producer() + "\n")) << command;
   }
 }
 

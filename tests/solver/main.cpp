@@ -1,11 +1,10 @@
 // GoogleTest under MPI.
 #include <gtest/gtest.h>
-#include <mpi.h>
+
+#include "solver/mpi_session.h"
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
+  const cleft::MpiSession mpi(argc, argv);
   testing::InitGoogleTest(&argc, argv);
-  const int result = RUN_ALL_TESTS();
-  MPI_Finalize();
-  return result;
+  return RUN_ALL_TESTS();
 }
