@@ -104,6 +104,10 @@ ScalpelPath ScalpelPath::from_table(const NumberTable& table, const std::string&
                                 "'; a path needs x,y,z,nx,ny,nz and may have depth");
   }
   const int depth = table.column("depth");
+  for (const std::string& given : table.columns)
+    if (given != "depth" && std::find(names, names + 6, given) == names + 6)
+      throw FileError(name, "unknown column '" + given + "'" + did_you_mean(given, {"depth"}) +
+                                "; a path has x,y,z,nx,ny,nz and may have depth");
   std::vector<Point> points;
   for (const auto& row : table.rows) {
     points.push_back({{row[column[0]], row[column[1]], row[column[2]]},

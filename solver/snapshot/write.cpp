@@ -46,9 +46,12 @@ void write_vtk_mesh(h5::File& file, const Snapshot& s) {
 /// One mesh for all steps: every geometric offset is 0, and the displacements of step j begin at row j N.
 void write_vtk_steps(h5::File& file, const Snapshot& s) {
   const hsize_t frames = s.frames(), points = s.points.size();
-  const std::vector<std::int64_t> zeros(frames, 0), ones(frames, 1);
-  std::vector<std::int64_t> rows(frames);
-  for (hsize_t j = 0; j < frames; ++j) rows[j] = static_cast<std::int64_t>(j * points);
+  std::vector<std::int64_t> zeros, ones, rows;
+  for (hsize_t j = 0; j < frames; ++j) {
+    zeros.push_back(0);
+    ones.push_back(1);
+    rows.push_back(static_cast<std::int64_t>(j * points));
+  }
   file.create_group("/VTKHDF/Steps");
   file.write_integers("/VTKHDF/Steps", "NSteps",
                       std::array<std::int64_t, 1>{static_cast<std::int64_t>(frames)});

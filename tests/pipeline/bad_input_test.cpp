@@ -138,6 +138,14 @@ TEST_F(BadInput, PathThatNeverTouchesTheMesh) {
   expect_refused("cut",
                  {"--mesh", flat_mesh(), "--path", path(500), "--field", field(), "--out", out / "x.vtp"},
                  {"never touches", "500"});
+  expect_refused("cut",
+                 {"--mesh", flat_mesh(), "--path",
+                  in.write("p.csv", "x,y,z,nx,ny,nz,dept\n0,0,0,0,0,1,2\n9,0,0,0,0,1,2\n"), "--field",
+                  field(), "--out", out / "x.vtp"},
+                 {"unknown column 'dept'", "did you mean 'depth'"});
+  expect_refused("cut",
+                 {"--mesh", flat_mesh(), "--path", path(0), "--field", field(), "--out", out / "x.xyz"},
+                 {"x.xyz", ".vtp"});
 }
 
 TEST_F(BadInput, Usage) {
@@ -160,7 +168,8 @@ TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
         std::string::npos)
         << command;
     // MPI may complain on standard error about the machine first.
-    EXPECT_TRUE(expect_success(run_cleft(command, {"--version"})).output.ends_with(producer() + "\n")) << command;
+    EXPECT_TRUE(expect_success(run_cleft(command, {"--version"})).output.ends_with(producer() + "\n"))
+        << command;
   }
 }
 
