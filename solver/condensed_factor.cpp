@@ -42,7 +42,8 @@ struct CondensedFactor::Mumps {
   }
 };
 
-CondensedFactor::CondensedFactor(const PatchSystem& system, const std::vector<int>& kept)
+CondensedFactor::CondensedFactor(const PatchSystem& system, const std::vector<int>& kept,
+                                 const std::vector<int>& order)
     : mumps_(std::make_unique<Mumps>()) {
   Mumps& m = *mumps_;
   m.rank = rank_of(system.communicator());
@@ -51,6 +52,7 @@ CondensedFactor::CondensedFactor(const PatchSystem& system, const std::vector<in
   m.id.sym = 1;
   m.run(-1, "setting up the factorisation");
   for (const int output : {1, 2, 3, 4}) m.icntl(output) = output == 4 ? 0 : -1;  // silent
+  m.icntl(7) = 1;                                                                // order given by the user
   m.icntl(14) = 40;                                                              // percent of extra workspace
   m.icntl(18) = 3;   // matrix distributed by the user
   m.icntl(19) = 1;   // Schur complement, whole, on rank 0
@@ -69,9 +71,13 @@ CondensedFactor::CondensedFactor(const PatchSystem& system, const std::vector<in
   m.id.listvar_schur = m.kept.data();
   if (m.rank == 0) m.schur.resize(m.id.size_schur, m.id.size_schur);
   m.id.schur = m.schur.data();
+  std::vector<int> position(order);
+  for (int& p : position) ++p;
+  m.id.perm_in = position.data();
   m.run(4, "factorising the stiffness matrix");
   m.id.irn_loc = m.id.jcn_loc = nullptr;
   m.id.a_loc = nullptr;
+  m.id.perm_in = nullptr;
   // MUMPS fills one triangle of a symmetric complement, by rows: the upper one as Eigen stores it.
   if (m.rank == 0) m.schur = Eigen::MatrixXd(m.schur.selfadjointView<Eigen::Upper>());
 }

@@ -15,7 +15,8 @@ namespace cleft {
 /// std::runtime_error with MUMPS's own codes where K is not positive definite or memory runs out.
 class CondensedFactor {
  public:
-  CondensedFactor(const PatchSystem& system, const std::vector<int>& kept);
+  /// `order`: position of every unknown in the order of elimination, the kept ones last, as in `kept`.
+  CondensedFactor(const PatchSystem& system, const std::vector<int>& kept, const std::vector<int>& order);
   ~CondensedFactor();
 
   const Eigen::MatrixXd& schur() const;  ///< in the order of `kept`; rank 0

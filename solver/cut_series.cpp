@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/elimination_order.h"
+
 namespace cleft {
 
 namespace {
@@ -31,7 +33,7 @@ CutSeries::CutSeries(const PatchMesh& mesh, const PatchSystem& system)
     : mesh_(mesh),
       system_(system),
       cut_unknowns_(cut_unknowns(mesh, system)),
-      factor_(system, cut_unknowns_),
+      factor_(system, cut_unknowns_, elimination_order(mesh, system, cut_unknowns_)),
       opening_(factor_.schur(), condensed_load(system, factor_, cut_unknowns_)) {}
 
 Eigen::MatrixXd CutSeries::frames(int first, int count) {

@@ -14,8 +14,9 @@ class MpiSession {
   int ranks() const { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }
 
  private:
-  /// A process of its own, started by neither mpirun nor srun, talks to nobody: without these Open MPI would start a
-  /// daemon for it and share a folder with all others of its kind, which now and then fails when many start together.
+  /// A process of its own, started by neither mpirun nor srun, talks to nobody: without these Open MPI would
+  /// start a daemon for it and share a folder with all others of its kind, which now and then fails when many
+  /// start together.
   static int& prepared(int& argc) {
     for (const char* by_launcher : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
       if (getenv(by_launcher)) return argc;
