@@ -29,8 +29,30 @@ int run_command(CLI::App& app, int argc, char** argv, const std::function<void()
   } catch (const std::exception& e) {
     std::cerr << app.get_name() << ": failed: " << e.what() << '\n';
     return 1;
+  } catch (...) {  // Trilinos throws numbers
+    std::cerr << app.get_name() << ": failed: an error without a message\n";
+    return 1;
   }
 }
+
+namespace {
+
+CLI::Validator bounded(double least, bool open) {
+  return {[=](const std::string& text) -> std::string {
+            try {
+              const double value = parse_number(text, "option");
+              if (open ? value > least : value >= least) return {};
+            } catch (const InputError&) {  // said below
+            }
+            return "'" + text + "' must be a number " + (open ? "above " : "of at least ") + shortest(least);
+          },
+          std::string(open ? "> " : ">= ") + shortest(least)};
+}
+
+}  // namespace
+
+CLI::Validator at_least(double least) { return bounded(least, false); }
+CLI::Validator above(double least) { return bounded(least, true); }
 
 void print_figures(const Json& figures, bool as_json) {
   if (as_json) {

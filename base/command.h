@@ -14,6 +14,10 @@ using Json = nlohmann::ordered_json;
 /// Messages go to stderr as "cleft solve: error: ...".
 int run_command(CLI::App& app, int argc, char** argv, const std::function<void()>& body);
 
+/// A check for options: a finite number of at least `least`, or above it.
+CLI::Validator at_least(double least);
+CLI::Validator above(double least);
+
 /// Figures on stdout: one JSON object with `as_json`, else a line "name: value" for each.
 void print_figures(const Json& figures, bool as_json);
 

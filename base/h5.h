@@ -58,6 +58,9 @@ class File {
   std::string read_text(const std::string& object, const std::string& attribute) const;
   bool has_attribute(const std::string& object, const std::string& attribute) const;
 
+  /// Reads every dataset and attribute, known or not; throws FileError at the first that is damaged.
+  void read_everything() const;
+
   void create_group(const std::string& name);
   template <class T>
   void write(const std::string& name, std::span<const T> data, const Shape& shape,

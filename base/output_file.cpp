@@ -19,6 +19,8 @@ OutputFile::OutputFile(std::string final_path) : final_(std::move(final_path)) {
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (target.filename().empty() || fs::is_directory(target))
     throw InputError(final_ + ": is a folder; give a file name");
+  if (fs::exists(target) && !fs::is_regular_file(target))
+    throw InputError(final_ + ": exists and is not a file; give another name");
   if (!fs::is_directory(folder))
     throw InputError(final_ + ": the folder '" + folder.string() + "' does not exist; create it first");
   if (access(folder.c_str(), W_OK) != 0)
@@ -37,6 +39,13 @@ void OutputFile::commit() {
   flush_to_disk(temporary_);
   fs::rename(temporary_, final_);
   committed_ = true;
+}
+
+void refuse_to_overwrite(const std::string& out, const std::vector<std::string>& inputs) {
+  std::error_code absent;
+  for (const std::string& input : inputs)
+    if (fs::equivalent(out, input, absent))
+      throw InputError("--out " + out + ": is the input; give another name");
 }
 
 void write_text_file(const std::string& path, const std::string& text) {

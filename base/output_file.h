@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace cleft {
 
@@ -23,6 +24,9 @@ class OutputFile {
   std::string final_, temporary_;
   bool committed_ = false;
 };
+
+/// Throws InputError where a file to be written is one of those that are read: the input would be lost.
+void refuse_to_overwrite(const std::string& out, const std::vector<std::string>& inputs);
 
 /// Writes `text` to `path` through an OutputFile.
 void write_text_file(const std::string& path, const std::string& text);

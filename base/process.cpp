@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
@@ -39,7 +40,8 @@ std::string executable_folder() {
 }
 
 ProcessResult run_process(const std::vector<std::string>& argv, const std::string& log,
-                          const std::map<std::string, std::string>& environment) {
+                          const std::map<std::string, std::string>& environment,
+                          const volatile std::sig_atomic_t* stop) {
   std::vector<std::string> arguments = argv, variables = merged_environment(environment);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -50,10 +52,16 @@ ProcessResult run_process(const std::vector<std::string>& argv, const std::strin
   const int error = posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr, pointers(arguments).data(),
                                  pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) return {127, 0};
+  if (error != 0) throw std::runtime_error(argv[0] + " could not be started: " + std::strerror(error));
   int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) throw std::runtime_error(argv[0] + ": its end could not be awaited");
+  bool told = false;
+  for (;;) {
+    const pid_t ended = waitpid(child, &status, stop ? WNOHANG : 0);
+    if (ended == child) break;
+    if (ended < 0 && errno != EINTR) throw std::runtime_error(argv[0] + ": its end could not be awaited");
+    if (stop && *stop && !told) told = kill(child, SIGTERM) == 0;
+    if (ended == 0) usleep(10'000);
+  }
   if (WIFSIGNALED(status)) return {0, WTERMSIG(status)};
   return {WEXITSTATUS(status), 0};
 }

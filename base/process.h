@@ -1,6 +1,7 @@
 // Child processes.
 #pragma once
 
+#include <csignal>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,8 +18,10 @@ struct ProcessResult {
 };
 
 /// Runs a program (argv[0] is its path or a name on PATH) to its end; both its outputs go to the file `log`.
-/// `environment` is added to this process's own. Exit code 127 where the program cannot be started.
+/// `environment` is added to this process's own. Once *stop is a signal's number, the child is sent SIGTERM.
+/// Throws std::runtime_error naming the program where it cannot be started.
 ProcessResult run_process(const std::vector<std::string>& argv, const std::string& log,
-                          const std::map<std::string, std::string>& environment);
+                          const std::map<std::string, std::string>& environment,
+                          const volatile std::sig_atomic_t* stop = nullptr);
 
 }  // namespace cleft

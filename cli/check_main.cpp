@@ -17,32 +17,50 @@ void check_file(const std::string& file) {
   if (format == "cleft-snapshot")
     check_snapshot(file);
   else if (format == "cleft-field")
-    read_field(file);
+    read_field(file), h5::File::open(file).read_everything();
   else
     throw FileError(file, "is neither a snapshot nor a field");
 }
 
+/// Every mistake is told, not only the first.
+class Mistakes {
+ public:
+  template <class Function>
+  bool collect(Function&& function) {
+    try {
+      function();
+      return true;
+    } catch (const InputError& e) {
+      text_ += (text_.empty() ? "" : "\n  ") + std::string(e.what());
+      return false;
+    }
+  }
+  void throw_if_any() const {
+    if (!text_.empty()) throw InputError(text_);
+  }
+
+ private:
+  std::string text_;
+};
+
 void check_study(const std::string& path) {
   const StudyFolder folder(path);
-  for (const std::string& hash : folder.published_cases()) {
-    folder.verify(hash);
-    for (const char* name : {"/case.h5", "/case.dffd"}) check_file(folder.published(hash) + name);
-  }
+  Mistakes mistakes;
+  for (const std::string& hash : folder.published_cases())
+    mistakes.collect([&] {
+      folder.verify(hash);
+      for (const char* name : {"/case.h5", "/case.dffd"}) check_file(folder.published(hash) + name);
+    });
+  mistakes.throw_if_any();
 }
 
-/// Every mistake is told, not only the first.
 void check_all(const std::vector<std::string>& places) {
-  std::string mistakes;
-  for (const std::string& place : places) try {
-      if (std::filesystem::is_directory(place))
-        check_study(place);
-      else
-        check_file(place);
-      std::cout << place << ": sound\n";
-    } catch (const InputError& e) {
-      mistakes += (mistakes.empty() ? "" : "\n  ") + std::string(e.what());
-    }
-  if (!mistakes.empty()) throw InputError(mistakes);
+  Mistakes mistakes;
+  for (const std::string& place : places) {
+    const auto check = std::filesystem::is_directory(place) ? check_study : check_file;
+    if (mistakes.collect([&] { check(place); })) std::cout << place << ": sound\n";
+  }
+  mistakes.throw_if_any();
 }
 
 }  // namespace

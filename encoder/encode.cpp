@@ -118,7 +118,6 @@ FitReport measure(const Field& field, const SnapshotReader& reader) {
   const BSplineBasis& time = field.basis(3);
   std::vector<std::vector<Vec3>> history,
       jump_history;  // of nodes; of right minus left where the plane is uncut
-  std::vector<std::size_t> uncut;
   for (std::size_t n = 0; n < samples.size(); ++n) {
     history.push_back(field.contract(samples[n].uvw, samples[n].side));
     if (samples[n].uvw.y == 0 && samples[n].side == Side::both) {

@@ -4,12 +4,15 @@
 #include "base/command.h"
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/text.h"
 #include "encoder/encode.h"
 #include "encoder/field/field_file.h"
 
 using namespace cleft;
 
 namespace {
+
+constexpr double most_control_points = 2e7;  // a file of 240 MB: no summary any more
 
 Json figures_of(const Field& field, const std::string& snapshot, const std::string& out) {
   const FitReport& r = field.report;
@@ -31,6 +34,17 @@ Json figures_of(const Field& field, const std::string& snapshot, const std::stri
 
 std::array<int, 4> four_counts(const std::vector<int>& counts) {
   if (counts.size() != 4) throw InputError("--control-points: expected four whole numbers U,V,W,T");
+  double product = 1;
+  for (int axis = 0; axis < 4; ++axis) {
+    const int least = axis == 1 ? 8 : 4;
+    if (counts[axis] < least)
+      throw InputError(std::string("--control-points: ") + std::to_string(counts[axis]) +
+                       " control points along " + "uvwt"[axis] + ": at least " + std::to_string(least));
+    product *= counts[axis];
+  }
+  if (product > most_control_points)
+    throw InputError("--control-points: " + shortest(product) + " in all; at most " +
+                     shortest(most_control_points));
   return {counts[0], counts[1], counts[2], counts[3]};
 }
 
@@ -54,6 +68,7 @@ int main(int argc, char** argv) {
 
   return run_command(app, argc, argv, [&] {
     if (!counts.empty()) options.control_points = four_counts(counts);
+    refuse_to_overwrite(out, {snapshot});
     const OutputFile probe(out);  // a bad name is told before the work
     Progress progress("encoding");
     const Field field =

@@ -58,6 +58,7 @@ std::vector<PointArray> point_arrays(const Incision& incision, const std::vector
 
 void cut(const Options& options) {
   check_mesh_ending(options.out);  // a bad name is told before the work
+  refuse_to_overwrite(options.out, {options.mesh, options.path, options.field});
   const OutputFile probe(options.out);
   std::optional<Field> field;
   if (!options.field.empty()) field = read_field(options.field);
@@ -66,6 +67,10 @@ void cut(const Options& options) {
 
   const auto start = std::chrono::steady_clock::now();
   IncisionOptions incision_options;
+  if (options.max_edge && *options.max_edge > 0 && *options.max_edge < path.length() * options.scale / 1000)
+    throw InputError("--max-edge " + shortest(*options.max_edge) +
+                     ": at least a thousandth of the path's length, " +
+                     shortest(path.length() * options.scale / 1000) + " mm");
   if (options.max_edge) incision_options.max_edge = *options.max_edge / options.scale;
   Incision incision(surface, path, incision_options);
   const double length = path.length() * options.scale;
@@ -108,15 +113,13 @@ int main(int argc, char** argv) {
   field->excludes(rest);
   app.add_option("--out", o.out, "the cut mesh: .vtp (with point arrays) .obj .stl")->required();
   app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
-      ->check(CLI::PositiveNumber);
+      ->check(above(0));
   app.add_option("--progress", o.progress, "how far the blade has come, mm [the whole path]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least(0));
   app.add_option("--max-edge", o.max_edge,
                  "split longer edges near the path, mm; 0 leaves them [1/30 of the path]")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--scale", o.scale, "mm per unit of the mesh")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->check(at_least(0));
+  app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
   app.add_flag("--json", o.json, "figures as JSON");
   return run_command(app, argc, argv, [&] {
     if (o.field.empty() && !o.rest) throw InputError("give --field case.dffd, or --rest for the closed cut");

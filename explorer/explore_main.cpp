@@ -27,14 +27,15 @@ void add_options(CLI::App& app, Options& o) {
   mesh->needs(path), path->needs(mesh);
   app.add_option("--scale", o.input.scale, "mm in a unit of the mesh and the path")
       ->needs(mesh)
-      ->check(CLI::PositiveNumber)
+      ->check(above(0))
       ->capture_default_str();
   app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
   app.add_option("--case", o.shown_case, "The case to begin with, from 1")->capture_default_str();
-  app.add_option("--time", o.time, "Length cut, mm; default: the end")->check(CLI::NonNegativeNumber);
+  app.add_option("--time", o.time, "Length cut, mm; default: the end")->check(at_least(0));
   app.add_option("--view", o.view, "AZIMUTH,ELEVATION from the cut's normal, degrees")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->check(at_least(-360));
   app.add_option("--zoom", o.zoom, "1: everything is in the picture")
       ->check(CLI::Range(0.1, 100.))
       ->capture_default_str();

@@ -13,7 +13,9 @@ namespace cleft {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int hash_version = 1;  // raise when the same parameters no longer give the same snapshot
+constexpr double most_nodes = 1e7;  // unknowns and their neighbours are counted in 32 bits
+constexpr int hash_version =
+    1;  // raise when the same parameters no longer give the same snapshot, or its format changes
 
 #define CLEFT_NUMBER(path) +[](Parameters& p) -> double& { return p.path; }
 #define CLEFT_TEXT(path) +[](Parameters& p) -> std::string& { return p.path; }
@@ -170,6 +172,11 @@ void check_consistency(const Parameters& p, const std::string& where) {
   need(2 * p.mesh.element_size <= p.patch.width,
        "mesh.element_size = " + shortest(p.mesh.element_size) +
            " mm: at most half of patch.width = " + shortest(p.patch.width) + " mm");
+  const double h = p.mesh.element_size;
+  const double nodes = (p.patch.length / h + 3) * (p.patch.width / h + 2) * (p.patch.height / h + 2);
+  need(nodes < most_nodes, "mesh.element_size = " + shortest(h) + " mm: the patch would have about " +
+                               shortest(std::round(nodes)) + " nodes; at most " + shortest(most_nodes) +
+                               ": raise it, or make the patch smaller");
   need(p.skin.prestress_u * p.skin.prestress_v >= p.skin.prestress_uv * p.skin.prestress_uv &&
            p.skin.prestress_u >= 0 && p.skin.prestress_v >= 0,
        "skin.prestress_u, _v, _uv = " + shortest(p.skin.prestress_u) + ", " + shortest(p.skin.prestress_v) +

@@ -12,14 +12,26 @@ using namespace cleft;
 
 namespace {
 
-void list_cases(const Study& study, const std::vector<Case>& cases, const std::string& out) {
+/// The cases, their states and the values that vary.
+void list_cases(const Study& study, const std::vector<Case>& cases, const std::string& out, bool as_json) {
+  const bool exists = std::filesystem::exists(out + "/study.toml");
+  Json list = Json::array();
   for (const Case& one : cases) {
-    const bool exists = std::filesystem::exists(out + "/study.toml");
-    std::cout << one.hash() << "  "
-              << (exists ? to_text(StudyFolder(out).status(one.hash()).state) : "missing");
+    Json entry = {{"case", one.hash()},
+                  {"state", exists ? to_text(StudyFolder(out).status(one.hash()).state) : "missing"}};
     for (const Variation& v : study.vary)
-      std::cout << "  " << v.name << "="
-                << to_text(get_parameter(one.parameters, find_parameter(v.name, study.name)));
+      std::visit([&](const auto& value) { entry[v.name] = value; },
+                 get_parameter(one.parameters, find_parameter(v.name, study.name)));
+    list.push_back(entry);
+  }
+  if (as_json) {
+    std::cout << Json{{"cases", list}}.dump(2) << "\n";
+    return;
+  }
+  for (const Json& entry : list) {
+    for (const auto& [name, value] : entry.items())
+      std::cout << (name == "case" || name == "state" ? "" : name + "=")
+                << (value.is_string() ? value.get<std::string>() : value.dump()) << "  ";
     std::cout << "\n";
   }
   std::cout << cases.size() << " cases\n";
@@ -43,9 +55,9 @@ int main(int argc, char** argv) {
   app.add_option("STUDY.toml", file, "study file")->required();
   app.add_option("--out", out, "study folder")->required();
   app.add_option("--jobs", options.jobs, "cases at a time (default: as many as there are cores)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 4096));
   app.add_option("--ranks", options.ranks, "MPI ranks of each solve")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   app.add_option("--launcher", launcher, "where cases run")
       ->check(CLI::IsMember({"local"}))
@@ -56,7 +68,7 @@ int main(int argc, char** argv) {
   return run_command(app, argc, argv, [&] {
     const Study study = read_study(file);
     const std::vector<Case> cases = cases_of(study);
-    if (dry_run) return list_cases(study, cases, out);
+    if (dry_run) return list_cases(study, cases, out, json);
     if (options.jobs == 0)
       options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / options.ranks);
     const RunReport report = run_local(StudyFolder::create(out, study), cases, options);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -14,6 +15,7 @@ namespace cleft {
 
 namespace {
 
+constexpr std::int64_t most_values = 100'000;  // of one parameter
 constexpr const char* axis_names[] = {"u", "v", "w", "t"};
 
 /// Collects mistakes so that a user sees them all at once.
@@ -123,9 +125,10 @@ class StudyReader {
   std::vector<Value> range_values(const std::string& name, const toml::table& range) const {
     const auto from = range["from"].value<double>(), to = range["to"].value<double>();
     const auto count = range["count"].value<std::int64_t>();
-    if (!from || !to || !count || *count < 2 || range.size() != 3)
+    if (!from || !to || !count || *count < 2 || *count > most_values || range.size() != 3)
       throw InputError(where(range) + ": " + name +
-                       ": a range is { from = a, to = b, count = n } with n at least 2");
+                       ": a range is { from = a, to = b, count = n } with n from 2 to " +
+                       std::to_string(most_values));
     std::vector<Value> values;
     for (std::int64_t i = 0; i < *count; ++i)
       values.emplace_back(i + 1 == *count ? *to
@@ -164,7 +167,8 @@ class StudyReader {
     if (!list || list->size() != 4)
       throw InputError(where(node) + ": encode.control_points must be a list of four: [U, V, W, T]");
     for (std::size_t i = 0; i < 4; ++i)
-      counts[i] = static_cast<int>((*list)[i].value<std::int64_t>().value_or(0));
+      counts[i] = static_cast<int>(
+          std::clamp<std::int64_t>((*list)[i].value<std::int64_t>().value_or(0), 0, 1 << 20));
     check_control_points(counts, where(node));
     return counts;
   }
@@ -208,18 +212,21 @@ Case read_case(const std::string& path, const std::vector<std::string>& assignme
     throw InputError(path +
                      ": is a study with [vary]; use cleft run, or remove [vary] to solve its base case");
   for (const std::string& assignment : assignments) set_from_text(study.base.parameters, assignment, "--set");
-  check_consistency(study.base.parameters, path);
+  check_consistency(study.base.parameters, assignments.empty() ? path : path + " with --set");
   return study.base;
 }
 
 std::vector<Case> cases_of(const Study& study) {
   std::vector<Case> cases = find_sampling(study.sampling, study.name)(study);
   Mistakes mistakes;
+  std::set<std::string> identities;
   for (const Case& one : cases) {
     std::string which = study.name;
     for (const Variation& v : study.vary)
       which += ", " + v.name + " = " + to_text(get_parameter(one.parameters, find_parameter(v.name, which)));
     mistakes.collect([&] { check_consistency(one.parameters, which); });
+    if (!identities.insert(one.hash()).second)
+      mistakes.add(which + ": the case stands twice in the study; remove the repeated value");
   }
   mistakes.throw_if_any();
   return cases;

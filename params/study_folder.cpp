@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -37,14 +38,30 @@ std::vector<std::string> folders_in(const std::string& path) {
   return names;
 }
 
+/// Held for the moment in which attempts come, go or are looked at, by all processes of a study.
+class Moment {
+ public:
+  explicit Moment(const std::string& study)
+      : file_(open((study + "/.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+    while (file_ >= 0 && flock(file_, LOCK_EX) != 0)
+      if (errno != EINTR) break;
+  }
+  ~Moment() {
+    if (file_ >= 0) close(file_);
+  }
+  Moment(const Moment&) = delete;
+  Moment& operator=(const Moment&) = delete;
+
+ private:
+  int file_;
+};
+
 /// Removes what killed and failed runs left, never what another process works in; the folder too when it is
-/// empty.
+/// empty. In a Moment of the study.
 void remove_abandoned(const std::string& attempts) {
   std::error_code ignored;
-  for (const std::string& token : folders_in(attempts)) {
-    const std::string lock = attempts + "/" + token + "/lock";
-    if (fs::exists(lock) && !Lock::is_held(lock)) fs::remove_all(attempts + "/" + token, ignored);
-  }
+  for (const std::string& token : folders_in(attempts))
+    if (!Lock::is_held(attempts + "/" + token + "/lock")) fs::remove_all(attempts + "/" + token, ignored);
   fs::remove(attempts, ignored);
 }
 
@@ -88,6 +105,7 @@ StudyFolder::StudyFolder(std::string path) : path_(std::move(path)) {
 }
 
 StudyFolder StudyFolder::create(const std::string& path, const Study& study) {
+  if (path.empty()) throw InputError("--out: give a folder");
   if (fs::exists(path) && !fs::is_directory(path))
     throw InputError("--out " + path + ": is a file; give a folder");
   if (fs::is_directory(path) && !fs::is_empty(path) && !fs::exists(path + "/study.toml"))
@@ -106,7 +124,9 @@ std::vector<std::string> StudyFolder::published_cases() const { return folders_i
 Json StudyFolder::manifest(const std::string& hash) const {
   const std::string file = published(hash) + "/manifest.json";
   try {
-    return Json::parse(read_text_file(file));
+    Json listed = Json::parse(read_text_file(file));
+    if (!listed.is_object()) throw FileError(file, "is not a manifest");
+    return listed;
   } catch (const Json::exception& e) {
     throw FileError(file, std::string("is damaged: ") + e.what());
   }
@@ -114,6 +134,7 @@ Json StudyFolder::manifest(const std::string& hash) const {
 
 CaseStatus StudyFolder::status(const std::string& hash) const {
   if (fs::exists(published(hash) + "/manifest.json")) return {CaseState::published, ""};
+  const Moment moment(path_);
   CaseStatus status;
   const std::string attempts = path_ + "/attempts/" + hash;
   for (const std::string& token : folders_in(attempts)) {
@@ -126,6 +147,7 @@ CaseStatus StudyFolder::status(const std::string& hash) const {
 
 Attempt StudyFolder::begin(const std::string& hash) const {
   const std::string attempts = path_ + "/attempts/" + hash, token = new_token();
+  const Moment moment(path_);
   remove_abandoned(attempts);
   fs::create_directories(attempts + "/" + token);
   return {attempts + "/" + token, token, Lock(attempts + "/" + token + "/lock")};
@@ -144,22 +166,26 @@ bool StudyFolder::publish(const Attempt& attempt, const std::string& hash, Json 
   }
   manifest["token"] = attempt.token;
   write_text_file(attempt.folder + "/manifest.json", manifest.dump(2) + "\n");
-  fs::remove(attempt.folder + "/lock");  // the open descriptor keeps nobody out of a published case
   flush_to_disk(attempt.folder);
   std::error_code taken;
   fs::rename(attempt.folder, published(hash), taken);
   if (taken && !fs::exists(published(hash) + "/manifest.json"))
     throw std::runtime_error(published(hash) + ": could not be published: " + taken.message());
   flush_to_disk(path_ + "/cases");
+  const Moment moment(path_);
+  if (!taken) fs::remove(published(hash) + "/lock");
   if (taken) fs::remove_all(attempt.folder);
   remove_abandoned(path_ + "/attempts/" + hash);
   return !taken;
 }
 
-std::optional<std::string> StudyFolder::solved_before(const std::string& solve_hash) const {
-  for (const std::string& hash : published_cases())
-    if (manifest(hash).value("solve", "") == solve_hash) return published(hash);
-  return std::nullopt;
+std::map<std::string, std::string> StudyFolder::solved_cases() const {
+  std::map<std::string, std::string> solved;
+  for (const std::string& hash : published_cases()) try {
+      solved[manifest(hash).value("solve", "")] = published(hash);
+    } catch (const FileError&) {  // no case of ours: cleft check says so
+    }
+  return solved;
 }
 
 void StudyFolder::verify(const std::string& hash) const {

@@ -1,8 +1,8 @@
 // A study on disk: attempts/<case>/<token>/ while a case runs, cases/<case>/ once it is published.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,8 +62,8 @@ class StudyFolder {
   bool publish(const Attempt& attempt, const std::string& hash, nlohmann::ordered_json manifest,
                const std::vector<std::string>& files) const;
 
-  /// A published case whose solver saw the same: its snapshot serves again. Its folder, or nothing.
-  std::optional<std::string> solved_before(const std::string& solve_hash) const;
+  /// Folders of published cases by the identity of what their solver saw: their snapshots serve again.
+  std::map<std::string, std::string> solved_cases() const;
 
   /// Recomputes sizes and checksums of a published case; throws FileError at the first that differs.
   void verify(const std::string& hash) const;

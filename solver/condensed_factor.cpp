@@ -2,6 +2,7 @@
 
 #include <dmumps_c.h>
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +15,14 @@ int rank_of(MPI_Comm communicator) {
   MPI_Comm_rank(communicator, &rank);
   return rank;
 }
+
+}  // namespace
+
+namespace {
+
+struct NotEnoughWorkspace : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 }  // namespace
 
@@ -35,7 +44,9 @@ struct CondensedFactor::Mumps {
     if (id.infog[0] == -10 || id.infog[0] == -40)
       throw std::runtime_error(what + ": the stiffness matrix is not positive definite (MUMPS, " + codes +
                                "); are the springs and moduli large enough?");
-    if (id.infog[0] == -9 || id.infog[0] == -13)
+    if (id.infog[0] == -9)
+      throw NotEnoughWorkspace(what + ": MUMPS needs more workspace than it estimated, " + codes);
+    if (id.infog[0] == -13)
       throw std::runtime_error(what + ": not enough memory (MUMPS, " + codes +
                                "); raise mesh.element_size or use more ranks");
     throw std::runtime_error(what + ": MUMPS failed with " + codes);
@@ -74,15 +85,23 @@ CondensedFactor::CondensedFactor(const PatchSystem& system, const std::vector<in
   std::vector<int> position(order);
   for (int& p : position) ++p;
   m.id.perm_in = position.data();
-  m.run(4, "factorising the stiffness matrix");
+  try {
+    m.run(4, "factorising the stiffness matrix");
+  } catch (const NotEnoughWorkspace&) {  // the estimate was too small: once more with five times the extra
+    m.icntl(14) = 200;
+    m.run(4, "factorising the stiffness matrix");
+  }
   m.id.irn_loc = m.id.jcn_loc = nullptr;
   m.id.a_loc = nullptr;
   m.id.perm_in = nullptr;
   // MUMPS fills one triangle of a symmetric complement, by rows: the upper one as Eigen stores it.
-  if (m.rank == 0) m.schur = Eigen::MatrixXd(m.schur.selfadjointView<Eigen::Upper>());
+  if (m.rank == 0) m.schur.triangularView<Eigen::StrictlyLower>() = m.schur.transpose();
 }
 
 CondensedFactor::~CondensedFactor() {
+  // Ending MUMPS is collective: while an exception unwinds this rank, the others stand elsewhere and would
+  // not join.
+  if (std::uncaught_exceptions() > exceptions_at_birth_) return;
   mumps_->id.job = -2;
   dmumps_c(&mumps_->id);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <exception>
 #include <memory>
 #include <vector>
 
@@ -28,6 +29,7 @@ class CondensedFactor {
  private:
   struct Mumps;
   std::unique_ptr<Mumps> mumps_;
+  int exceptions_at_birth_ = std::uncaught_exceptions();
 };
 
 }  // namespace cleft

@@ -2,7 +2,13 @@
 #pragma once
 
 #include <deal.II/base/mpi.h>
+#include <fcntl.h>
 #include <stdlib.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
 
 namespace cleft {
 
@@ -12,6 +18,27 @@ class MpiSession {
 
   int rank() const { return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)); }
   int ranks() const { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }
+
+  /// Standard output and error of this rank go nowhere from here on, but for what abort() says.
+  void silence() {
+    error_ = dup(STDERR_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+
+  /// Ends all ranks at once after a failure on this one: the others may wait for it, and libraries that
+  /// failed half-way (HDF5 on a full disk) do not survive their own end. Rank 0 has said why; another rank
+  /// gives it time to.
+  [[noreturn]] void abort(int code) const {
+    if (rank() > 0) {
+      sleep(2);
+      dprintf(error_, "cleft: failed on rank %d of %d\n", rank(), ranks());
+    }
+    std::cout.flush(), std::cerr.flush();
+    if (ranks() > 1) MPI_Abort(MPI_COMM_WORLD, code);
+    std::_Exit(code);
+  }
 
  private:
   /// A process of its own, started by neither mpirun nor srun, talks to nobody: without these Open MPI would
@@ -27,6 +54,7 @@ class MpiSession {
   }
 
   dealii::Utilities::MPI::MPI_InitFinalize session_;
+  int error_ = STDERR_FILENO;
 };
 
 }  // namespace cleft

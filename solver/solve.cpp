@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/output_file.h"
+#include "base/text.h"
 #include "solver/cut_series.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -12,7 +13,8 @@ namespace cleft {
 
 namespace {
 
-constexpr int block_of_frames = 64;  // right-hand sides solved together
+constexpr double largest_residual = 1e-6;  // of the loads: beyond it the numbers mean nothing
+constexpr int block_of_frames = 64;        // right-hand sides solved together
 
 class Stopwatch {
  public:
@@ -80,7 +82,13 @@ void add_figures(SolveReport& report, Snapshot& s, const std::vector<FrameFigure
     s.smallest_gap.push_back(f.smallest_gap);
     s.residual_equilibrium.push_back(f.residual_equilibrium);
     s.residual_closure.push_back(f.residual_closure);
-    report.smallest_gap = std::min(report.smallest_gap, f.smallest_gap);
+    if (s.smallest_gap.size() > 1)
+      report.smallest_gap =
+          s.smallest_gap.size() == 2 ? f.smallest_gap : std::min(report.smallest_gap, f.smallest_gap);
+    if (!(f.residual_equilibrium < largest_residual))
+      throw std::runtime_error("the forces do not balance (relative residual " +
+                               shortest(f.residual_equilibrium) +
+                               "): the parameters differ by too many orders of magnitude");
     report.worst_equilibrium = std::max(report.worst_equilibrium, f.residual_equilibrium);
     report.worst_closure = std::max(report.worst_closure, f.residual_closure);
   }

@@ -1,7 +1,6 @@
 // cleft solve: a case file to a snapshot.
-#include <cstdio>
-
 #include "base/command.h"
+#include "base/output_file.h"
 #include "params/study.h"
 #include "solver/mpi_session.h"
 #include "solver/solve.h"
@@ -28,10 +27,9 @@ Json figures_of(const SolveReport& r) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const MpiSession mpi(argc, argv);
+  MpiSession mpi(argc, argv);
   const bool root = mpi.rank() == 0;
-  // One voice for all ranks.
-  if (!root && !(std::freopen("/dev/null", "w", stdout) && std::freopen("/dev/null", "w", stderr))) return 1;
+  if (mpi.rank() > 0) mpi.silence();  // one voice for all ranks
 
   CLI::App app("Solves a growing cut and writes its time series. Runs under mpirun too.", "cleft solve");
   std::string case_file, out;
@@ -45,13 +43,13 @@ int main(int argc, char** argv) {
   app.footer([] { return parameter_help(); });
 
   const int code = run_command(app, argc, argv, [&] {
+    refuse_to_overwrite(out, {case_file});
     const Case a_case = read_case(case_file, assignments);
     Progress progress("solving");
     const SolveReport report = solve_case(a_case.parameters, out, MPI_COMM_WORLD,
                                           [&](const std::string& state) { progress(state); });
     if (root) print_figures(figures_of(report), json);
   });
-  // What one rank alone ran into must not leave the others waiting; wrong input all of them see alike.
-  if (code == 1 && mpi.ranks() > 1) MPI_Abort(MPI_COMM_WORLD, code);
+  if (code == 1) mpi.abort(code);
   return code;
 }

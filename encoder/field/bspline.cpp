@@ -28,7 +28,8 @@ BSplineBasis::BSplineBasis(int degree, std::vector<double> knots)
   const auto finite = [](double knot) { return std::isfinite(knot); };
   const bool valid = knots_.size() >= 2 * order && std::all_of(knots_.begin(), knots_.end(), finite) &&
                      std::is_sorted(knots_.begin(), knots_.end()) && knots_[order - 1] == knots_.front() &&
-                     knots_[knots_.size() - order] == knots_.back() && knots_.front() < knots_.back();
+                     knots_[knots_.size() - order] == knots_.back() && knots_.front() < knots_[order] &&
+                     knots_[knots_.size() - order - 1] < knots_.back();
   if (!valid)
     throw InputError("a knot vector of degree " + std::to_string(degree) +
                      " must be sorted, finite and open at both ends");

@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--out", out, "CSV to write, columns du,dv,dw (default: standard output)");
   return run_command(app, argc, argv, [&] {
+    refuse_to_overwrite(out, {file, points});
     const Field field = read_field(file);
     const std::string text = evaluate_rows(field, read_csv(points), points);
     if (out.empty())

@@ -10,6 +10,7 @@ namespace cleft {
 
 namespace {
 
+constexpr const char* parametrization = "fixed";
 constexpr const char* axis_names[] = {"u", "v", "w", "t"};
 
 /// The report's figures by their names in the file.
@@ -59,7 +60,7 @@ void write_field(const std::string& path, const Field& field) {
   file.write_number("/", "version", field_format_version);
   file.write_text("/", "units", "mm N MPa");
   file.write_text("/", "case", field.case_hash);
-  file.write_text("/", "parametrization", "fixed");
+  file.write_text("/", "parametrization", parametrization);
   file.create_group("/basis");
   h5::Shape shape;
   for (int axis = 0; axis < 4; ++axis) {
@@ -92,6 +93,11 @@ Field read_field(const std::string& path) {
   check_format(file);
   BSplineBasis u = read_basis(file, "u"), v = read_basis(file, "v"), w = read_basis(file, "w"),
                t = read_basis(file, "t");
+  if (const std::string found = file.read_text("/", "parametrization"); found != parametrization)
+    throw FileError(path, "parametrization '" + found + "'; this program reads '" + parametrization + "'");
+  if (v.front() >= 0 || v.back() <= 0 ||
+      v.evaluate(0, Limit::from_left).first + v.degree() >= v.evaluate(0, Limit::from_right).first)
+    throw FileError(path, "/basis/v has no knot of full multiplicity at 0");
   const auto size = [](const BSplineBasis& basis) { return static_cast<hsize_t>(basis.size()); };
   const auto packed = file.read<float>("/control_points", {size(u), size(v), size(w), size(t), 3});
   std::vector<Vec3> coefficients(packed.size() / 3);

@@ -20,6 +20,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -116,11 +118,24 @@ void check_ply(const std::string& path) {
     throw FileError(path, "ends before the elements its header promises");
 }
 
+/// A binary .stl says how many triangles it holds; VTK's reader takes fewer without a word.
+void check_stl(const std::string& path) {
+  const std::string bytes = read_text_file(path);
+  if (bytes.starts_with("solid") && bytes.find("facet") != std::string::npos) return;
+  std::uint32_t count = 0;
+  if (bytes.size() >= 84) std::memcpy(&count, bytes.data() + 80, 4);
+  const std::size_t promised = 84 + 50 * static_cast<std::size_t>(count);
+  if (bytes.size() < promised)
+    throw FileError(path, "is no whole .stl file: " + std::to_string(bytes.size()) +
+                              " bytes, where its header promises " + std::to_string(promised));
+}
+
 vtkSmartPointer<vtkPolyData> read_any(const std::string& path) {
   const std::string ending = ending_of(path);
   const bool known = ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".vtp";
   if (known && !std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
   if (ending == ".ply") check_ply(path);
+  if (ending == ".stl") check_stl(path);
   if (ending == ".stl") return read_with<vtkSTLReader>(path);
   if (ending == ".obj") return read_with<vtkOBJReader>(path);
   if (ending == ".ply") return read_with<vtkPLYReader>(path);

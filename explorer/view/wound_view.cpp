@@ -112,23 +112,29 @@ void WoundView::show(std::shared_ptr<const WoundScene> scene) {
 }
 
 void WoundView::add_actors() {
-  renderer_->RemoveAllViewProps();
+  for (vtkProp* prop : props_) renderer_->RemoveViewProp(prop);  // the window's sliders stay
+  props_.clear();
   vtkSmartPointer<vtkLookupTable> skin;
   if (scene_->shows_displacement()) {
     skin = displacement_colors(largest_displacement(*scene_));
-    renderer_->AddActor2D(make_legend(skin));
+    add_prop(make_legend(skin));
   }
   const vtkSmartPointer<vtkActor> skin_actor = make_actor(*skin_, skin);
   if (skin) {  // colours must be read against the legend
     skin_actor->GetProperty()->SetAmbient(0.35);
     skin_actor->GetProperty()->SetDiffuse(0.62);
   }
-  renderer_->AddActor(skin_actor);
+  add_prop(skin_actor);
   vtkSmartPointer<vtkActor> walls = make_actor(*walls_, tissue_colors());
   walls->GetProperty()->SetSpecular(0.3);  // moist
   walls->GetProperty()->SetSpecularPower(40);
-  renderer_->AddActor(walls);
+  add_prop(walls);
   walls_->color([this](int p) { return scene_->surface().depth_fraction[p]; });
+}
+
+void WoundView::add_prop(vtkProp* prop) {
+  renderer_->AddViewProp(prop);
+  props_.push_back(prop);
 }
 
 void WoundView::set_time(double t) {

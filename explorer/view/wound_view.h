@@ -2,7 +2,9 @@
 #pragma once
 
 #include <vtkNew.h>
+#include <vtkProp.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include <memory>
 #include <optional>
@@ -40,8 +42,10 @@ class WoundView {
  private:
   void add_lights();
   void add_actors();
+  void add_prop(vtkProp* prop);
 
   vtkNew<vtkRenderer> renderer_;
+  std::vector<vtkSmartPointer<vtkProp>> props_;  // what the scene put into the renderer
   std::shared_ptr<const WoundScene> scene_;
   std::optional<SurfacePart> skin_, walls_;
   std::vector<Vec3> points_;

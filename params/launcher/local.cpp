@@ -40,6 +40,7 @@ class LocalRun {
  public:
   LocalRun(const StudyFolder& folder, const std::vector<Case>& cases, const LocalOptions& options)
       : folder_(folder), cases_(cases), options_(options), bin_(executable_folder()) {
+    solved_ = folder.solved_cases();
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     environment_["OPENBLAS_NUM_THREADS"] = environment_["OMP_NUM_THREADS"] =
         std::to_string(std::max(1, cores / (options.jobs * options.ranks)));
@@ -52,19 +53,19 @@ class LocalRun {
     std::vector<std::thread> workers;
     for (int i = 0; i < options_.jobs; ++i) workers.emplace_back([this] { work(); });
     for (std::thread& worker : workers) worker.join();
-    if (internal_error_) std::rethrow_exception(internal_error_);
+    const int ended = report_.already_published + report_.published + report_.superseded + report_.failed;
+    report_.interrupted = report_.cases - ended;  // running or not yet begun when the run was stopped
     return report_;
   }
 
  private:
   void work() {
     for (std::size_t i; !stop_signal && (i = next_++) < cases_.size();) {
+      const std::string hash = cases_[i].hash();
       try {
         run_case(cases_[i]);
-      } catch (...) {
-        const std::lock_guard guard(mutex_);
-        internal_error_ = std::current_exception();
-        return;
+      } catch (const std::exception& e) {  // a full disk, say: this case's failure, not the others'
+        count(&RunReport::failed, hash, std::string("failed: ") + e.what());
       }
     }
   }
@@ -82,13 +83,17 @@ class LocalRun {
       manifest["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const bool won = folder_.publish(attempt, hash, std::move(manifest),
                                        {"case.toml", "case.h5", "case.dffd", "solve.log", "encode.log"});
+      if (won) {
+        const std::lock_guard guard(mutex_);
+        solved_[solve_hash(one.parameters)] = folder_.published(hash);
+      }
       count(won ? &RunReport::published : &RunReport::superseded, hash,
             won ? "published" : "superseded: another run published it first");
     } catch (const CaseFailure& e) {
       folder_.fail(attempt, e.what());
       count(&RunReport::failed, hash, std::string("failed: ") + e.what() + " (log: " + attempt.folder + ")");
     } catch (const Interrupted&) {
-      count(&RunReport::interrupted, hash, "interrupted");
+      say(hash, "interrupted");
     }
   }
 
@@ -97,10 +102,7 @@ class LocalRun {
                       field = attempt.folder + "/case.dffd";
     write_text_file(file, case_file_text(one));
     const std::string solve_identity = solve_hash(one.parameters);
-    const auto before = folder_.solved_before(solve_identity);
-    if (before)
-      reuse(*before, attempt.folder);
-    else
+    if (!reuse(solve_identity, attempt.folder))
       child("solve", {file, "--out", snapshot, "--json"}, attempt.folder + "/solve.log");
     std::vector<std::string> encode = {snapshot, "--out", field, "--json"};
     if (one.encode.control_points)
@@ -121,14 +123,25 @@ class LocalRun {
     return manifest;
   }
 
-  /// A new [encode] does not solve again: the snapshot is the same file, or a copy where links are not
-  /// possible.
-  static void reuse(const std::string& published, const std::string& attempt) {
+  /// A new [encode] does not solve again: where a published snapshot of the same solve is sound it serves
+  /// again, as the same file, or as a copy where links are not possible.
+  bool reuse(const std::string& solve_identity, const std::string& attempt) {
+    std::string published;
+    {
+      const std::lock_guard guard(mutex_);
+      const auto found = solved_.find(solve_identity);
+      if (found == solved_.end()) return false;
+      published = found->second;
+    }
+    const ProcessResult check = run_process({bin_ + "/cleft-check", published + "/case.h5"},
+                                            attempt + "/check.log", environment_, &stop_signal);
+    if (!check.success()) return false;
     for (const char* name : {"/case.h5", "/solve.log"}) {
       std::error_code error;
       fs::create_hard_link(published + name, attempt + name, error);
       if (error) fs::copy_file(published + name, attempt + name);
     }
+    return true;
   }
 
   void child(const std::string& command, const std::vector<std::string>& arguments,
@@ -138,17 +151,24 @@ class LocalRun {
       argv = {"mpirun", "--bind-to", "none", "--oversubscribe", "-n", std::to_string(options_.ranks)};
     argv.push_back(bin_ + "/cleft-" + command);
     argv.insert(argv.end(), arguments.begin(), arguments.end());
-    const ProcessResult result = run_process(argv, log, environment_);
-    if (result.success()) return;
+    const ProcessResult result = run_process(argv, log, environment_, &stop_signal);
     if (stop_signal) throw Interrupted();
+    if (result.success()) return;
     if (result.signal) throw CaseFailure(command + " was ended by signal " + std::to_string(result.signal));
     throw CaseFailure(command + " ended with exit code " + std::to_string(result.exit_code) + ": " +
                       last_line(log));
   }
 
   void count(int RunReport::*counter, const std::string& hash, const std::string& what) {
+    {
+      const std::lock_guard guard(mutex_);
+      ++(report_.*counter);
+    }
+    say(hash, what);
+  }
+
+  void say(const std::string& hash, const std::string& what) {
     const std::lock_guard guard(mutex_);
-    ++(report_.*counter);
     std::cerr << "[" << ++done_ << "/" << cases_.size() << "] " << hash << " " << what << "\n";
   }
 
@@ -161,7 +181,7 @@ class LocalRun {
   std::mutex mutex_;
   std::size_t done_ = 0;
   RunReport report_;
-  std::exception_ptr internal_error_;
+  std::map<std::string, std::string> solved_;  // published folders by what their solver saw
 };
 
 }  // namespace

@@ -1,10 +1,16 @@
+#include "base/error.h"
 #include "params/sampling/sampling.h"
 
 namespace cleft {
 
+constexpr std::size_t most_cases = 1'000'000;
+
 std::vector<Case> sample_grid(const Study& study) {
   std::vector<Case> cases = {study.base};
   for (const Variation& variation : study.vary) {
+    if (cases.size() * variation.values.size() > most_cases)
+      throw InputError(study.name + ": the grid has more than " + std::to_string(most_cases) +
+                       " cases; give fewer values");
     std::vector<Case> next;
     for (const Case& one : cases)
       for (const Value& value : variation.values) {

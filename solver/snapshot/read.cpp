@@ -54,6 +54,14 @@ class SnapshotCheck {
                 offsets.back() == static_cast<std::int64_t>(s_.connectivity.size()),
             "/VTKHDF/Offsets does not agree with Types and Connectivity");
     const auto points = static_cast<std::int64_t>(s_.points.size());
+    for (std::size_t c = 0; c < s_.cell_types.size(); ++c) {
+      const std::int64_t corners = offsets[c + 1] - offsets[c];
+      const bool fits = s_.cell_types[c] == Snapshot::triangle ? corners == 3
+                        : s_.cell_types[c] == Snapshot::wedge  ? corners == 6
+                                                               : corners > 0;
+      require(fits, "cell " + std::to_string(c) + " of /VTKHDF/Types " + std::to_string(s_.cell_types[c]) +
+                        " has " + std::to_string(corners) + " corners");
+    }
     require(std::all_of(s_.connectivity.begin(), s_.connectivity.end(),
                         [=](std::int64_t i) { return 0 <= i && i < points; }),
             "/VTKHDF/Connectivity names a point that does not exist");
@@ -76,6 +84,11 @@ class SnapshotCheck {
             "/VTKHDF/Steps/Values do not increase");
     require(s_.released.size() == s_.frames() && s_.position.size() == s_.frames(),
             "/cut/released and position must have a value a frame");
+    require(std::all_of(s_.position.begin(), s_.position.end(), [](double u) { return std::isfinite(u); }),
+            "/cut/position is not finite");
+    require(std::isfinite(s_.cut_start) && s_.cut_length > 0 && std::isfinite(s_.cut_length) &&
+                s_.cut_depth > 0 && std::isfinite(s_.cut_depth),
+            "/cut: length and depth must be positive");
     require(s_.released.front() == 0, "/cut/released: frame 0 must be closed");
     require(std::is_sorted(s_.released.begin(), s_.released.end()) &&
                 s_.released.back() <= static_cast<std::int64_t>(s_.pairs.size()),
@@ -166,6 +179,7 @@ std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t fi
 }
 
 void check_snapshot(const std::string& path) {
+  h5::File::open(path).read_everything();
   const SnapshotReader reader(path);
   for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) reader.displacement(j);
 }

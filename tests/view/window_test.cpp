@@ -76,6 +76,8 @@ TEST_F(Window, SlidersMoveTimeAndCase) {
   drag(window.case_slider(), 1.7);
   EXPECT_EQ(explorer_->shown_case(), 1);
   EXPECT_EQ(explorer_->view().time(), 9);
+  for (vtkSliderWidget* slider : {window.time_slider(), window.case_slider()})
+    EXPECT_TRUE(explorer_->view().renderer()->HasViewProp(slider->GetRepresentation())) << "a slider vanished";
   drag(window.time_slider(), 4);
   const std::vector<Vec3> points = explorer_->view().points();
   drag(window.time_slider(), 20);
