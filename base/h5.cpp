@@ -37,9 +37,13 @@ hsize_t product(const Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
 
-/// Errors are reported through exceptions: HDF5's own printing is switched off once.
-void silence_hdf5() {
-  static const herr_t done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+/// Once, before the first call. Errors are reported through exceptions, not printed; and files are closed here, checked,
+/// not at the program's end, where HDF5 1.10 crashes over one that a full disk kept it from closing.
+void begin_hdf5() {
+  static const bool done = [] {
+    H5dont_atexit();
+    return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+  }();
   (void)done;
 }
 
@@ -74,14 +78,14 @@ bool Handle::close() {
 }
 
 File File::create(const std::string& path) {
-  silence_hdf5();
+  begin_hdf5();
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()), H5Fclose);
   if (file < 0) throw std::runtime_error(path + ": could not be created");
   return {path, std::move(file)};
 }
 
 File File::open(const std::string& path) {
-  silence_hdf5();
+  begin_hdf5();
   if (!std::filesystem::is_regular_file(path)) throw FileError(path, "no such file");
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose);
   if (file < 0)

@@ -29,6 +29,14 @@ TEST(OutputFile, AnOlderFileSurvivesAFailure) {
   EXPECT_EQ(read_text_file(folder / "a.txt"), "old");
 }
 
+TEST(OutputFile, NeitherInputsNorDevicesAreOverwritten) {
+  const TemporaryFolder folder;
+  const std::string input = folder.write("a.txt", "input");
+  EXPECT_THROW(refuse_to_overwrite(folder.path() + "/./a.txt", {"", input}), InputError);
+  EXPECT_NO_THROW(refuse_to_overwrite(folder / "b.txt", {input}));
+  EXPECT_THROW(OutputFile("/dev/null"), InputError);
+}
+
 TEST(OutputFile, BadPlacesAreInputErrors) {
   const TemporaryFolder folder;
   EXPECT_THROW(OutputFile(folder / "absent/a.txt"), InputError);

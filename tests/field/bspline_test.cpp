@@ -64,6 +64,8 @@ TEST(BSpline, BadKnotsAreRefused) {
   EXPECT_THROW(BSplineBasis(3, {0, 0, 0, 0, 1, 1, 1}), InputError);
   EXPECT_THROW(BSplineBasis(1, {0, 0, 2, 1, 3, 3}), InputError);
   EXPECT_THROW(BSplineBasis(1, {0, 0, std::nan(""), 1, 1}), InputError);
+  EXPECT_THROW(BSplineBasis(1, {0, 0.1, 0.5, 1, 1}), InputError);
+  EXPECT_THROW(BSplineBasis(1, {0, 0, 1, 1, 1}), InputError);
   EXPECT_THROW(BSplineBasis(0, {0, 1}), InputError);
   EXPECT_THROW(BSplineBasis::uniform(3, 3, 0, 1), InputError);
   EXPECT_THROW(BSplineBasis::broken(3, 7, -1, 0, 1), InputError);

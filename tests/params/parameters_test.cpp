@@ -50,12 +50,19 @@ TEST(Parameters, AnUnknownNameSuggestsTheNearest) {
 }
 
 TEST(Parameters, TheCutMustLieInThePatch) {
-  for (const char* assignment : {"cut.length=60", "cut.depth=8", "mesh.element_size=16",
-                                 "skin.prestress_uv=0.02", "skin.prestress_v=-0.1"}) {
+  for (const char* assignment :
+       {"cut.length=60", "cut.depth=8", "mesh.element_size=16", "skin.prestress_uv=0.02",
+        "skin.prestress_v=-0.1", "patch.width=1.5", "mesh.element_size=0.001"}) {
     Parameters p;
     set_from_text(p, assignment, "--set");
     EXPECT_THROW(check_consistency(p, "here"), InputError) << assignment;
   }
+}
+
+TEST(Parameters, AMembraneCarriesNoCompressionInBothDirectionsEither) {
+  Parameters p;
+  p.skin.prestress_u = p.skin.prestress_v = -0.1;
+  EXPECT_THROW(check_consistency(p, "here"), InputError);
 }
 
 TEST(Hash, MatchesThePublishedVector) {  // FIPS 180-4: SHA-256 of "abc"

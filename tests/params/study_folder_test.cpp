@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
-#include <optional>
+#include <map>
+#include <thread>
 
 #include "base/error.h"
 #include "tests/support/temporary_folder.h"
@@ -22,6 +24,7 @@ Study small_study() {
 
 void write_file(const Attempt& attempt, const std::string& text) {
   std::FILE* file = std::fopen((attempt.folder + "/case.h5").c_str(), "w");
+  ASSERT_NE(file, nullptr);
   std::fputs(text.c_str(), file);
   std::fclose(file);
 }
@@ -72,6 +75,38 @@ TEST(StudyFolder, AKilledAttemptIsMissingAgainAndAFailedOneKeepsItsReason) {
   }
   EXPECT_EQ(folder.status("a").state, CaseState::failed);
   EXPECT_EQ(folder.status("a").reason, "out of salt");
+}
+
+TEST(StudyFolder, AManifestOfAnotherCaseOrNoneIsTold) {
+  const TemporaryFolder place;
+  const StudyFolder folder = StudyFolder::create(place / "study", small_study());
+  {
+    const Attempt attempt = folder.begin("a");
+    write_file(attempt, "data");
+    EXPECT_TRUE(folder.publish(attempt, "a", {{"case", "b"}, {"solve", "s"}}, {"case.h5"}));
+  }
+  EXPECT_THROW(folder.verify("a"), FileError);
+  place.write("study/cases/a/manifest.json", "[]");
+  EXPECT_THROW(folder.manifest("a"), FileError);
+  fs::create_directories(place / "study/cases/stray");
+  EXPECT_TRUE(folder.solved_cases().empty()) << "what is no case of ours stops nobody";
+}
+
+TEST(StudyFolder, ManyBeginAtOnceAndNoneLosesItsFolder) {
+  const TemporaryFolder place;
+  const StudyFolder folder = StudyFolder::create(place / "study", small_study());
+  std::vector<std::thread> threads;
+  std::atomic<int> lost = 0;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 200; ++k) {
+        const Attempt attempt = folder.begin("a");
+        folder.status("a");
+        if (!fs::exists(attempt.folder + "/lock")) ++lost;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(lost, 0);
 }
 
 TEST(StudyFolder, OtherPeoplesFoldersAreLeftAlone) {

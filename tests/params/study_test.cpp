@@ -103,6 +103,25 @@ TEST(Case, EncodingAgainIsNotSolvingAgain) {
   EXPECT_EQ(solve_hash(one.parameters), solve_hash(other.parameters));
 }
 
+TEST(Case, SetOverridesTheFile) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("case.toml", "[case]\nskin.thickness = 1\n");
+  EXPECT_EQ(read_case(file, {"skin.thickness=2.5"}).parameters.skin.thickness, 2.5);
+}
+
+TEST(Study, ACaseThatStandsTwiceIsNamed) {
+  EXPECT_NE(message_of("[vary]\n'skin.thickness' = [1, 2, 1]\n").find("stands twice"), std::string::npos);
+}
+
+TEST(Study, TooManyCasesAreRefusedBeforeTheyAreMade) {
+  EXPECT_NE(message_of("[vary]\n'skin.thickness' = { from = 1, to = 2, count = 100000000 }\n"), "");
+  EXPECT_NE(message_of("[vary]\n'skin.thickness' = { from = 1, to = 2, count = 10000 }\n"
+                       "'cut.depth' = { from = 1, to = 2, count = 10000 }\n"),
+            "");
+  EXPECT_NE(message_of("[vary]\n'skin.thickness' = { from = 1, to = 2, count = 3, cuont = 4 }\n"), "");
+  EXPECT_NE(message_of("[encode]\ncontrol_points = [4294967322, 16, 9, 16]\n"), "");
+}
+
 TEST(Case, AStudyIsNoCase) {
   const TemporaryFolder folder;
   EXPECT_THROW(read_case(folder.write("s.toml", "[vary]\n'skin.thickness' = [1, 2]\n"), {}), InputError);

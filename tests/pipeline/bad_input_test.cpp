@@ -148,6 +148,66 @@ TEST_F(BadInput, PathThatNeverTouchesTheMesh) {
                  {"x.xyz", ".vtp"});
 }
 
+TEST_F(BadInput, AnOutputThatIsTheInput) {
+  const std::string snapshot = solved(), kept = read_text_file(snapshot);
+  expect_refused("encode", {snapshot, "--out", snapshot}, {"is the input"});
+  EXPECT_EQ(read_text_file(snapshot), kept);
+  expect_refused("solve", {in / "good.toml", "--out", in / "good.toml"}, {"is the input"});
+  expect_refused("cut",
+                 {"--mesh", flat_mesh(), "--path", path(0), "--field", field(), "--out", in / "flat.obj"},
+                 {"is the input"});
+  expect_refused(
+      "eval",
+      {field(), "--points", in.write("p.csv", "u,v,w,side,t\n0,1,0,0,1\n"), "--out", in / "field.dffd"},
+      {"is the input"});
+  expect_refused("encode", {snapshot, "--out", "/dev/null"}, {"/dev/null", "not a file"});
+}
+
+TEST_F(BadInput, NumbersThatAreNone) {
+  const std::vector<std::string> cut = {"--mesh",  flat_mesh(), "--path", path(0),
+                                        "--field", field(),     "--out",  out / "x.vtp"};
+  for (const char* option : {"--progress", "--depth", "--scale", "--max-edge"}) {
+    std::vector<std::string> arguments = cut;
+    arguments.insert(arguments.end(), {option, "nan"});
+    expect_refused("cut", arguments, {option, "'nan'"});
+  }
+}
+
+TEST_F(BadInput, AMeshFileThatEndsEarly) {
+  expect_success(run_cleft("cut", {"--mesh", flat_mesh(), "--path", path(0), "--rest", "--depth", "2",
+                                   "--out", in / "whole.stl"}));
+  const std::string bytes = read_text_file(in / "whole.stl");
+  expect_refused("cut",
+                 {"--mesh", in.write("half.stl", bytes.substr(0, bytes.size() / 2)), "--path", path(0),
+                  "--field", field(), "--out", out / "x.vtp"},
+                 {"half.stl", "promises"});
+}
+
+/// What is no user's mistake ends with exit code 1, and leaves nothing either.
+TEST_F(BadInput, AFullDiskIsTold) {
+  const std::string snapshot = solved();
+  for (const std::string& command : {"solve " + (in / "good.toml") + " --out " + (out / "x.h5"),
+                                    "encode " + snapshot + " --out " + (out / "x.dffd")}) {
+    const Outcome outcome = on_a_full_disk(8, std::string(CLEFT_BIN) + "/cleft " + command);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+    EXPECT_NE(outcome.output.find("disk full"), std::string::npos) << outcome.output;
+    EXPECT_EQ(out.entries(), 0);
+  }
+}
+
+TEST_F(BadInput, AFailureOnOneOfTwoRanksEndsBoth) {
+  solved();
+  const Outcome floating =
+      solve_on_ranks(2, {in / "good.toml", "--out", out / "x.h5", "--set", "foundation.stiffness=1e-300",
+                         "--set", "foundation.side_stiffness=0"});
+  EXPECT_NE(floating.exit_code, 0);
+  EXPECT_NE(floating.output.find("not positive definite"), std::string::npos) << floating.output;
+  EXPECT_EQ(out.entries(), 0);
+  const Outcome wrong =
+      solve_on_ranks(2, {in / "good.toml", "--out", out / "x.h5", "--set", "cut.length=99"});
+  EXPECT_EQ(wrong.exit_code, 2) << wrong.output;
+}
+
 TEST_F(BadInput, Usage) {
   EXPECT_EQ(run_cleft("encoode", {}).exit_code, 2);
   EXPECT_NE(run_cleft("encoode", {}).output.find("did you mean 'encode'"), std::string::npos);

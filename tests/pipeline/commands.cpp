@@ -35,6 +35,12 @@ Outcome solve_on_ranks(int ranks, const std::vector<std::string>& arguments) {
   return run(argv);
 }
 
+Outcome on_a_full_disk(int kilobytes, const std::string& command) {
+  // The signal is ignored, so that writing fails as it does where no space is left. ulimit counts blocks of
+  // 1024 bytes.
+  return run({"bash", "-c", "trap '' XFSZ; ulimit -f " + std::to_string(kilobytes) + "; " + command});
+}
+
 Outcome expect_success(Outcome outcome) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   return outcome;

@@ -15,5 +15,8 @@ Outcome run_cleft(const std::string& command, const std::vector<std::string>& ar
 /// The same of `cleft solve` under mpirun.
 Outcome solve_on_ranks(int ranks, const std::vector<std::string>& arguments);
 
+/// `command` of the shell where no file may grow beyond `kilobytes`, as on a full disk.
+Outcome on_a_full_disk(int kilobytes, const std::string& command);
+
 /// Fails the test, with the output, where the exit code differs.
 Outcome expect_success(Outcome outcome);

@@ -12,7 +12,7 @@ struct CutFile {
   std::vector<Vec3> rest;          ///< position before the displacement
   std::vector<Vec3> displacement;  ///< mesh units
   std::vector<double> depth;       ///< mm below the skin
-  std::vector<double> side;      ///< its sign: where the skin around the vertex lies in y, at rest
+  std::vector<double> side;        ///< its sign: where the skin around the vertex lies in y, at rest
 };
 
 CutFile read_cut(const std::string& path);

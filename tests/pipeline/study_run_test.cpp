@@ -44,6 +44,11 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   const std::string file = place.write("study.toml", study), folder = place / "out";
   EXPECT_NE(expect_success(run_cleft("run", {file, "--out", folder, "--dry-run"})).output.find("4 cases"),
             std::string::npos);
+  EXPECT_EQ(
+      nlohmann::json::parse(
+          expect_success(run_cleft("run", {file, "--out", folder, "--dry-run", "--json"})).output)["cases"]
+          .size(),
+      4u);
   EXPECT_FALSE(fs::exists(folder)) << "--dry-run must write nothing";
   expect_success(run_cleft("run", {file, "--out", folder}));
   EXPECT_EQ(status(folder)["published"], 4);
@@ -99,6 +104,28 @@ TEST(StudyRun, AFailedCaseKeepsItsLogAndStopsNoOther) {
     const std::string reason = one.value("reason", "");
     EXPECT_EQ(one["state"] == "failed", reason.find("not positive definite") != std::string::npos) << one;
   }
+}
+
+TEST(StudyRun, ATerminatedRunGivesUpAtOnceAndSaysSo) {
+  const TemporaryFolder place;
+  // Cases that take minutes each: it must not wait for them.
+  const std::string file =
+      place.write("study.toml", "[case]\nmesh.element_size = 0.4\n[vary]\n'skin.thickness' = [1, 2, 3]\n");
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(CLEFT_BIN "/cleft", "cleft", "run", file.c_str(), "--out", (place / "out").c_str(), "--jobs", "1",
+          nullptr);
+    _exit(127);
+  }
+  usleep(1'500'000);
+  kill(child, SIGTERM);
+  int result = 0;
+  for (int i = 0; i < 200 && waitpid(child, &result, WNOHANG) == 0; ++i) usleep(100'000);
+  ASSERT_TRUE(WIFEXITED(result)) << "it did not end within 20 s";
+  EXPECT_EQ(WEXITSTATUS(result), 1);
+  const auto now = status(place / "out");
+  EXPECT_EQ(now["published"], 0);
+  EXPECT_EQ(now["missing"], 3) << now.dump(2);
 }
 
 TEST(StudyRun, AKilledRunIsFinishedByTheNext) {

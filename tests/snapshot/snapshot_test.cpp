@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "tests/support/damage.h"
 #include "tests/support/temporary_folder.h"
 
@@ -89,6 +91,30 @@ TEST(Snapshot, DamageIsNoticed) {
             0);
 }
 
+TEST(Snapshot, ADisplacementThatIsNoNumberIsTold) {
+  const TemporaryFolder folder;
+  SnapshotWriter writer(folder / "case.h5", small_snapshot());
+  for (int j = 0; j < 3; ++j) {
+    std::vector<Vec3> d = frame(j);
+    if (j == 1) d[3].z = std::nan("");
+    writer.write_frames(j, d);
+  }
+  writer.finish(small_snapshot());
+  EXPECT_THROW(check_snapshot(folder / "case.h5"), FileError);
+}
+
+TEST(Snapshot, DamageInWhatOnlyOtherProgramsReadIsFoundByCheck) {
+  const TemporaryFolder folder;
+  const std::string file = write(folder, small_snapshot());
+  std::string bytes = read_text_file(file);
+  // /VTKHDF/Steps/PointDataOffsets/displacement: rows 0, 7, 14 as 64-bit integers stand nowhere else.
+  const std::int64_t rows[] = {0, 7, 14};
+  const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(rows), sizeof rows));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 8] ^= 1;
+  EXPECT_THROW(check_snapshot(folder.write("bad.h5", bytes)), FileError);
+}
+
 TEST(Snapshot, ContradictionsAreNamed) {
   const auto refuse = [](auto change, const std::string& part) {
     const TemporaryFolder folder;
@@ -104,6 +130,9 @@ TEST(Snapshot, ContradictionsAreNamed) {
   };
   refuse([](Snapshot& s) { s.connectivity[0] = 7; }, "Connectivity");
   refuse([](Snapshot& s) { s.cell_offsets[1] = 10; }, "Offsets");
+  refuse([](Snapshot& s) { s.cell_offsets[1] = 2; }, "has 2 corners");
+  refuse([](Snapshot& s) { s.cut_length = -1; }, "positive");
+  refuse([](Snapshot& s) { s.position[1] = std::nan(""); }, "position");
   refuse([](Snapshot& s) { s.pairs[0][1] = -1; }, "pairs");
   refuse([](Snapshot& s) { s.released = {0, 1, 0}; }, "released");
   refuse([](Snapshot& s) { s.released = {1, 1, 1}; }, "frame 0");

@@ -92,6 +92,17 @@ TEST(CutSeries, FiguresTellResidualsAndGaps) {
   const FrameFigures nudged = series.figures(0, frames.leftCols(1))[0];
   EXPECT_NEAR(nudged.residual_closure, nudge / frames.col(0).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT(nudged.residual_equilibrium, 1e-3);
+
+  // The open mesh: the residual is f - K u over all unknowns, and the smallest gap that of the narrowest
+  // pair.
+  const int last = static_cast<int>(mesh.released.size()) - 1;
+  Eigen::MatrixXd open = series.frames(last, 1);
+  open(system.unknown(mesh.pairs[2][1], 1), 0) = open(system.unknown(mesh.pairs[2][0], 1), 0) - nudge;
+  const FrameFigures pinched = series.figures(last, open)[0];
+  const Eigen::VectorXd residual = system.load() - dense_stiffness(system) * open.col(0);
+  EXPECT_NEAR(pinched.residual_equilibrium,
+              residual.cwiseAbs().maxCoeff() / system.load().cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_NEAR(pinched.smallest_gap, -nudge, 1e-12);
 }
 
 }  // namespace cleft

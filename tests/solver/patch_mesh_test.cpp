@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "tests/solver/small_patch.h"
 
@@ -83,6 +85,20 @@ TEST(PatchMesh, TheCutIsFittedAndOpensInOrder) {
         }
       }
     }
+}
+
+TEST(PatchMesh, TheSkinIsItsOwnMirrorImage) {
+  const PatchMesh mesh = make_patch_mesh(small_patch());
+  using Corners = std::set<std::pair<double, double>>;
+  std::set<Corners> triangles, mirrored;
+  for (const auto& t : mesh.skin) {
+    Corners corners, mirror;
+    for (const int n : t)
+      corners.insert({mesh.points[n].x, mesh.points[n].y}),
+          mirror.insert({mesh.points[n].x, -mesh.points[n].y});
+    triangles.insert(corners), mirrored.insert(mirror);
+  }
+  EXPECT_EQ(triangles, mirrored);
 }
 
 TEST(PatchMesh, ElementsOfTheTwoSidesShareNoCutNode) {
