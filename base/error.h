@@ -17,6 +17,29 @@ struct FileError : InputError {
   FileError(const std::string& file, const std::string& what) : InputError(file + ": " + what) {}
 };
 
+/// Collects users' mistakes, so that they are told all at once.
+class Mistakes {
+ public:
+  /// Runs a function and keeps the InputError it may throw; whether it threw none.
+  template <class Function>
+  bool collect(Function&& function) {
+    try {
+      function();
+      return true;
+    } catch (const InputError& e) {
+      add(e.what());
+      return false;
+    }
+  }
+  void add(const std::string& what) { text_ += (text_.empty() ? "" : "\n  ") + what; }
+  void throw_if_any() const {
+    if (!text_.empty()) throw InputError(text_);
+  }
+
+ private:
+  std::string text_;
+};
+
 [[noreturn]] inline void broken_invariant(const char* file, int line, const std::string& what) {
   throw std::logic_error(std::string(file) + ":" + std::to_string(line) + ": broken invariant: " + what);
 }

@@ -86,7 +86,7 @@ File File::create(const std::string& path) {
 
 File File::open(const std::string& path) {
   begin_hdf5();
-  if (!std::filesystem::is_regular_file(path)) throw FileError(path, "no such file");
+  if (!std::filesystem::is_regular_file(path)) throw FileError(path, "no such file, or not a file");
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose);
   if (file < 0)
     throw FileError(path, "is not an HDF5 file, or is cut short or damaged; write or copy it again");

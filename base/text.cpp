@@ -96,7 +96,9 @@ int NumberTable::column(std::string_view name) const {
 }
 
 NumberTable read_csv(const std::string& path) {
-  std::istringstream text(read_text_file(path));
+  std::string bytes = read_text_file(path);
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);  // the mark some editors put first
+  std::istringstream text(bytes);
   NumberTable table;
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) {

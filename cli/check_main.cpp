@@ -22,27 +22,6 @@ void check_file(const std::string& file) {
     throw FileError(file, "is neither a snapshot nor a field");
 }
 
-/// Every mistake is told, not only the first.
-class Mistakes {
- public:
-  template <class Function>
-  bool collect(Function&& function) {
-    try {
-      function();
-      return true;
-    } catch (const InputError& e) {
-      text_ += (text_.empty() ? "" : "\n  ") + std::string(e.what());
-      return false;
-    }
-  }
-  void throw_if_any() const {
-    if (!text_.empty()) throw InputError(text_);
-  }
-
- private:
-  std::string text_;
-};
-
 void check_study(const std::string& path) {
   const StudyFolder folder(path);
   Mistakes mistakes;

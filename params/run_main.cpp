@@ -5,6 +5,7 @@
 
 #include "base/command.h"
 #include "base/error.h"
+#include "params/case_list.h"
 #include "params/launcher/local.h"
 #include "params/study.h"
 
@@ -12,28 +13,13 @@ using namespace cleft;
 
 namespace {
 
-/// The cases, their states and the values that vary.
 void list_cases(const Study& study, const std::vector<Case>& cases, const std::string& out, bool as_json) {
   const bool exists = std::filesystem::exists(out + "/study.toml");
   Json list = Json::array();
-  for (const Case& one : cases) {
-    Json entry = {{"case", one.hash()},
-                  {"state", exists ? to_text(StudyFolder(out).status(one.hash()).state) : "missing"}};
-    for (const Variation& v : study.vary)
-      std::visit([&](const auto& value) { entry[v.name] = value; },
-                 get_parameter(one.parameters, find_parameter(v.name, study.name)));
-    list.push_back(entry);
-  }
-  if (as_json) {
-    std::cout << Json{{"cases", list}}.dump(2) << "\n";
-    return;
-  }
-  for (const Json& entry : list) {
-    for (const auto& [name, value] : entry.items())
-      std::cout << (name == "case" || name == "state" ? "" : name + "=")
-                << (value.is_string() ? value.get<std::string>() : value.dump()) << "  ";
-    std::cout << "\n";
-  }
+  for (const Case& one : cases)
+    list.push_back(case_entry(study, one, exists ? StudyFolder(out).status(one.hash()) : CaseStatus{}));
+  if (as_json) return print_figures({{"cases", list}}, true);
+  print_cases(list);
   std::cout << cases.size() << " cases\n";
 }
 

@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "base/command.h"
-#include "params/study_folder.h"
+#include "params/case_list.h"
 
 using namespace cleft;
 
@@ -14,23 +14,15 @@ Json status_of(const StudyFolder& folder) {
                  {"failed", 0},         {"missing", 0},   {"cases", Json::array()}};
   for (const Case& one : cases_of(study)) {
     const CaseStatus status = folder.status(one.hash());
-    const std::string state = to_text(status.state);
-    result[state] = result[state].get<int>() + 1;
-    Json entry = {{"case", one.hash()}, {"state", state}};
-    if (!status.reason.empty()) entry["reason"] = status.reason;
-    for (const Variation& v : study.vary)
-      entry[v.name] = to_text(get_parameter(one.parameters, find_parameter(v.name, study.name)));
-    result["cases"].push_back(entry);
+    result["cases"].push_back(case_entry(study, one, status));
+    int count = result[to_text(status.state)];
+    result[to_text(status.state)] = count + 1;
   }
   return result;
 }
 
 void print_table(const Json& status) {
-  for (const Json& entry : status["cases"]) {
-    for (const auto& [name, value] : entry.items())
-      std::cout << (name == "case" || name == "state" ? "" : name + "=") << value.get<std::string>() << "  ";
-    std::cout << "\n";
-  }
+  print_cases(status["cases"]);
   for (const char* state : {"published", "running", "failed", "missing"})
     std::cout << state << ": " << status[state] << "\n";
 }

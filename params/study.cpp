@@ -18,28 +18,6 @@ namespace {
 constexpr std::int64_t most_values = 100'000;  // of one parameter
 constexpr const char* axis_names[] = {"u", "v", "w", "t"};
 
-/// Collects mistakes so that a user sees them all at once.
-class Mistakes {
- public:
-  template <class Function>
-  void collect(Function&& function) {
-    try {
-      function();
-    } catch (const InputError& e) {
-      text_ += (text_.empty() ? "" : "\n  ") + std::string(e.what());
-    }
-  }
-  void add(const std::string& what) {
-    collect([&] { throw InputError(what); });
-  }
-  void throw_if_any() const {
-    if (!text_.empty()) throw InputError(text_);
-  }
-
- private:
-  std::string text_;
-};
-
 /// Reads one parsed file into a Study.
 class StudyReader {
  public:
@@ -90,6 +68,7 @@ class StudyReader {
   }
 
   Value value_of(const toml::node& node, const std::string& name) const {
+    find_parameter(name, where(node));  // an unknown name is told first
     if (const auto number = node.value<double>(); number && !node.is_boolean()) return *number;
     if (const auto text = node.value<std::string>()) return *text;
     throw InputError(where(node) + ": " + name + ": must be a number or a text");

@@ -26,7 +26,7 @@ TEST(Text, NumbersThatAreNoneAreRefused) {
 
 TEST(Csv, ReadsColumnsAndSkipsComments) {
   const TemporaryFolder folder;
-  const NumberTable table = read_csv(folder.write("a.csv", "x, y\n# note\n1,2\n\n3 , -4e1\r\n"));
+  const NumberTable table = read_csv(folder.write("a.csv", "\xEF\xBB\xBFx, y\n# note\n1,2\n\n3 , -4e1\r\n"));
   EXPECT_EQ(table.columns, (std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(table.rows, (std::vector<std::vector<double>>{{1, 2}, {3, -40}}));
   EXPECT_EQ(table.column("y"), 1);
