@@ -14,11 +14,9 @@ namespace {
 
 constexpr double most_control_points = 2e7;  // a file of 240 MB: no summary any more
 
-Json figures_of(const Field& field, const std::string& snapshot, const std::string& out) {
+Json figures_of(const Field& field, const Snapshot& snapshot, const std::string& out) {
   const FitReport& r = field.report;
-  const double raw = 3.0 * sizeof(float) *
-                     static_cast<double>(SnapshotReader(snapshot).snapshot().points.size() *
-                                         SnapshotReader(snapshot).snapshot().frames());
+  const double raw = 3.0 * sizeof(float) * static_cast<double>(snapshot.points.size() * snapshot.frames());
   const double bytes = static_cast<double>(std::filesystem::file_size(out));
   return {{"control_points",
            {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
@@ -71,9 +69,9 @@ int main(int argc, char** argv) {
     refuse_to_overwrite(out, {snapshot});
     const OutputFile probe(out);  // a bad name is told before the work
     Progress progress("encoding");
-    const Field field =
-        encode(SnapshotReader(snapshot), options, [&](const std::string& state) { progress(state); });
+    const SnapshotReader reader(snapshot);
+    const Field field = encode(reader, options, [&](const std::string& state) { progress(state); });
     write_field(out, field);
-    print_figures(figures_of(field, snapshot, out), json);
+    print_figures(figures_of(field, reader.snapshot(), out), json);
   });
 }

@@ -16,10 +16,6 @@ int rank_of(MPI_Comm communicator) {
   return rank;
 }
 
-}  // namespace
-
-namespace {
-
 struct NotEnoughWorkspace : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -29,7 +29,7 @@ Json figures_of(const SolveReport& r) {
 int main(int argc, char** argv) {
   MpiSession mpi(argc, argv);
   const bool root = mpi.rank() == 0;
-  if (mpi.rank() > 0) mpi.silence();  // one voice for all ranks
+  if (!root) mpi.silence();  // one voice for all ranks
 
   CLI::App app("Solves a growing cut and writes its time series. Runs under mpirun too.", "cleft solve");
   std::string case_file, out;
