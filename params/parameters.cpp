@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_nodes = 1e7;  // unknowns and their neighbours are counted in 32 bits
 constexpr int hash_version =
-    1;  // raise when the same parameters no longer give the same snapshot, or its format changes
+    2;  // raise when the same parameters no longer give the same snapshot, or its format changes
 
 #define CLEFT_NUMBER(path) +[](Parameters& p) -> double& { return p.path; }
 #define CLEFT_TEXT(path) +[](Parameters& p) -> std::string& { return p.path; }
@@ -34,6 +34,15 @@ std::vector<Parameter> make_table() {
   const auto poisson = [](std::string name, double greatest, std::string help, Parameter::Access access) {
     return Parameter{std::move(name), "", 0, greatest, false, {}, std::move(help), access};
   };
+  const auto choice = [](std::string name, std::vector<std::string> choices, std::string help,
+                         Parameter::Access access) {
+    return Parameter{std::move(name), "", 0, 0, false, std::move(choices), std::move(help), access};
+  };
+  const auto between = [](std::string name, std::string unit, double least, double greatest, std::string help,
+                          Parameter::Access access) {
+    return Parameter{std::move(name), std::move(unit), least, greatest, false, {}, std::move(help), access};
+  };
+  const std::vector<std::string> no_or_yes = {"false", "true"};
   return {
       positive("patch.length", "mm", "length of the tissue patch along the cut (u)",
                CLEFT_NUMBER(patch.length)),
@@ -41,16 +50,30 @@ std::vector<Parameter> make_table() {
       positive("patch.height", "mm", "height of the patch below the skin (w)", CLEFT_NUMBER(patch.height)),
       positive("cut.length", "mm", "length of the cut, centred on the patch", CLEFT_NUMBER(cut.length)),
       positive("cut.depth", "mm", "depth of the cut below the skin", CLEFT_NUMBER(cut.depth)),
-      {"cut.frames",
-       "",
-       0,
-       0,
-       false,
-       {"column", "pair"},
-       "a frame for every released column of node pairs, or for every pair",
-       CLEFT_TEXT(cut.frames)},
-      positive("mesh.element_size", "mm", "largest edge of an element along u, v and w",
+      choice("cut.contact", no_or_yes, "true: the lips of the cut press on each other, without friction",
+             CLEFT_TEXT(cut.contact)),
+      not_negative("cut.radius", "mm", "radius of a cut that curves toward +v; 0: straight",
+                   CLEFT_NUMBER(cut.radius)),
+      between("cut.tilt", "degrees", -60, 60, "tilt of the blade: the cut's bottom lies toward +v",
+              CLEFT_NUMBER(cut.tilt)),
+      between("cut.count", "", 1, 100, "parallel cuts, made one after the other from -v to +v",
+              CLEFT_NUMBER(cut.count)),
+      positive("cut.spacing", "mm", "distance between parallel cuts", CLEFT_NUMBER(cut.spacing)),
+      not_negative("cut.branch", "mm",
+                   "length of a second cut, from the middle of the first toward +v; 0: none",
+                   CLEFT_NUMBER(cut.branch)),
+      choice("cut.frames", {"column", "pair"},
+             "a frame for every released column of node pairs, or for every pair", CLEFT_TEXT(cut.frames)),
+      positive("mesh.element_size", "mm", "largest edge of an element along u, v and w, at the cut",
                CLEFT_NUMBER(mesh.element_size)),
+      between("mesh.grading", "", 1, 2, "growth from one element to the next away from the cut; 1: none",
+              CLEFT_NUMBER(mesh.grading)),
+      not_negative(
+          "mesh.cut_length", "mm",
+          "longest cut the mesh is made for: the case's own ends at its nearest nodes; 0: the case's own",
+          CLEFT_NUMBER(mesh.cut_length)),
+      not_negative("mesh.cut_depth", "mm", "deepest cut the mesh is made for; 0: the case's own",
+                   CLEFT_NUMBER(mesh.cut_depth)),
       positive("skin.thickness", "mm", "thickness of the skin membrane", CLEFT_NUMBER(skin.thickness)),
       positive("skin.young_modulus", "MPa", "Young's modulus of the skin", CLEFT_NUMBER(skin.young_modulus)),
       poisson("skin.poisson_ratio", 0.5, "Poisson's ratio of the skin (plane stress)",
@@ -58,10 +81,16 @@ std::vector<Parameter> make_table() {
       stress("skin.prestress_u", "prestress of the skin along the cut", CLEFT_NUMBER(skin.prestress_u)),
       stress("skin.prestress_v", "prestress of the skin across the cut", CLEFT_NUMBER(skin.prestress_v)),
       stress("skin.prestress_uv", "shear prestress of the skin", CLEFT_NUMBER(skin.prestress_uv)),
+      choice("skin.initial_stress_stiffness", no_or_yes,
+             "true: the prestress stiffens the skin against bending and stretching (geometric stiffness)",
+             CLEFT_TEXT(skin.initial_stress_stiffness)),
       positive("tissue.young_modulus", "MPa", "Young's modulus of the tissue below the skin",
                CLEFT_NUMBER(tissue.young_modulus)),
-      poisson("tissue.poisson_ratio", 0.49, "Poisson's ratio of the tissue",
+      poisson("tissue.poisson_ratio", 0.4999, "Poisson's ratio of the tissue",
               CLEFT_NUMBER(tissue.poisson_ratio)),
+      choice("tissue.formulation", {"displacement", "mean-dilatation"},
+             "mean-dilatation: the volume of an element changes as a whole, for nearly incompressible tissue",
+             CLEFT_TEXT(tissue.formulation)),
       positive("foundation.stiffness", "N/mm^3", "springs under the bottom",
                CLEFT_NUMBER(foundation.stiffness)),
       not_negative("foundation.side_stiffness", "N/mm^3", "springs on the four sides",
@@ -172,6 +201,9 @@ void check_consistency(const Parameters& p, const std::string& where) {
   need(2 * p.mesh.element_size <= p.patch.width,
        "mesh.element_size = " + shortest(p.mesh.element_size) +
            " mm: at most half of patch.width = " + shortest(p.patch.width) + " mm");
+  need(p.tissue.poisson_ratio <= 0.49 || p.tissue.formulation == "mean-dilatation",
+       "tissue.poisson_ratio = " + shortest(p.tissue.poisson_ratio) +
+           ": above 0.49 linear wedges lock; set tissue.formulation = \"mean-dilatation\"");
   const double h = p.mesh.element_size;
   const double nodes = (p.patch.length / h + 3) * (p.patch.width / h + 2) * (p.patch.height / h + 2);
   need(nodes < most_nodes, "mesh.element_size = " + shortest(h) + " mm: the patch would have about " +

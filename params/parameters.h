@@ -14,24 +14,29 @@ struct Parameters {
   } patch;
   struct Cut {
     double length = 30, depth = 3;
+    std::string contact = "false";
+    double radius = 0, tilt = 0, count = 1, spacing = 5, branch = 0;
     std::string frames = "column";
   } cut;
   struct Mesh {
-    double element_size = 1;
+    double element_size = 1, grading = 1;
+    double cut_length = 0, cut_depth = 0;
   } mesh;
   struct Skin {
     double thickness = 1.5, young_modulus = 0.13, poisson_ratio = 0.4;
     double prestress_u = 0.01, prestress_v = 0.03, prestress_uv = 0;
+    std::string initial_stress_stiffness = "false";
   } skin;
   struct Tissue {
     double young_modulus = 0.02, poisson_ratio = 0.4;
+    std::string formulation = "displacement";
   } tissue;
   struct Foundation {
     double stiffness = 0.005, side_stiffness = 0.005;
   } foundation;
 };
 
-/// One row of the table. A value is a number, or one of `choices`.
+/// One row of the table. A value is a number, or one of `choices`; a switch is "false" or "true".
 struct Parameter {
   using Access = std::variant<double& (*)(Parameters&), std::string& (*)(Parameters&)>;
   std::string name;  ///< dotted, as in study files

@@ -69,7 +69,8 @@ class StudyReader {
 
   Value value_of(const toml::node& node, const std::string& name) const {
     find_parameter(name, where(node));  // an unknown name is told first
-    if (const auto number = node.value<double>(); number && !node.is_boolean()) return *number;
+    if (const toml::value<bool>* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+    if (const auto number = node.value<double>()) return *number;
     if (const auto text = node.value<std::string>()) return *text;
     throw InputError(where(node) + ": " + name + ": must be a number or a text");
   }

@@ -1,5 +1,6 @@
 #include "solver/patch_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -30,12 +31,10 @@ class PatchMesher {
         plane_(static_cast<int>(v_.size()) / 2) {}
 
   PatchMesh mesh() {
-    mesh_.cut_start = -p_.cut.length / 2;
     add_points();
     add_pairs();
     add_elements();
     add_sides();
-    add_frames();
     return std::move(mesh_);
   }
 
@@ -51,17 +50,26 @@ class PatchMesher {
       for (const double v : v_)
         for (const double u : u_) mesh_.points.push_back({u, v, w});
     right_of_.resize(mesh_.points.size());
-    for (std::size_t n = 0; n < right_of_.size(); ++n) right_of_[n] = static_cast<int>(n);
+    for (std::size_t n = 0; n < right_of_.size(); ++n) {
+      right_of_[n] = static_cast<int>(n);
+      mesh_.skin_above.push_back(static_cast<int>(n % (u_.size() * v_.size())));
+    }
   }
 
-  /// Release order: column after column along u, each from the skin down. The right node is the duplicate.
+  /// The right node is the duplicate.
   void add_pairs() {
+    mesh_.lines_along.emplace_back();
+    for (const double u : u_)
+      if (std::abs(u) <= p_.cut.length / 2) mesh_.lines_along[0].push_back(u);
+    for (const double w : w_)
+      if (w >= -p_.cut.depth) mesh_.lines_depth.push_back(-w);
     for (int i = 0; i < static_cast<int>(u_.size()); ++i)
       for (int k = 0; k < static_cast<int>(w_.size()); ++k)
         if (is_cut(i, k)) {
           const int left = node(i, plane_, k), right = static_cast<int>(mesh_.points.size());
           mesh_.points.push_back(mesh_.points[left]);
-          mesh_.pairs.push_back({left, right});
+          mesh_.skin_above.push_back(k == 0 ? right : right_of_[node(i, plane_, 0)]);
+          mesh_.pairs.push_back({left, right, {0, 1, 0}, 0, u_[i], -w_[k]});
           right_of_[left] = right;
         }
   }
@@ -110,31 +118,6 @@ class PatchMesher {
     }
   }
 
-  /// Frame 0 is closed; then a frame for each released column, or pair. A column of m of its M pairs released
-  /// has brought the tip the fraction m / M of the way to the next column.
-  void add_frames() {
-    mesh_.released = {0};
-    mesh_.position = {mesh_.cut_start};
-    const int pairs = static_cast<int>(mesh_.pairs.size());
-    int first_of_column = 0;
-    for (int n = 1; n <= pairs; ++n) {
-      const double u = mesh_.points[mesh_.pairs[n - 1][0]].x;
-      const bool last_of_column = n == pairs || mesh_.points[mesh_.pairs[n][0]].x != u;
-      if (last_of_column || p_.cut.frames == "pair") {
-        int depth = 1;
-        while (first_of_column + depth < pairs &&
-               mesh_.points[mesh_.pairs[first_of_column + depth][0]].x == u)
-          ++depth;
-        const double next = first_of_column + depth < pairs
-                                ? mesh_.points[mesh_.pairs[first_of_column + depth][0]].x
-                                : -mesh_.cut_start;
-        mesh_.released.push_back(n);
-        mesh_.position.push_back(u + (next - u) * (n - first_of_column) / depth);
-      }
-      if (last_of_column) first_of_column = n;
-    }
-  }
-
   const Parameters& p_;
   std::vector<double> u_, v_, w_;
   int plane_;  ///< index of v = 0
@@ -145,5 +128,42 @@ class PatchMesher {
 }  // namespace
 
 PatchMesh make_patch_mesh(const Parameters& parameters) { return PatchMesher(parameters).mesh(); }
+
+Release make_release(const PatchMesh& mesh, const Parameters& p) {
+  Release r;
+  const auto nearest = [](const std::vector<double>& lines, double place) {
+    return *std::min_element(lines.begin(), lines.end(),
+                             [=](double a, double b) { return std::abs(a - place) < std::abs(b - place); });
+  };
+  const std::vector<double>& lines = mesh.lines_along[0];
+  r.start = nearest(lines, -p.cut.length / 2);
+  const double end = nearest(lines, p.cut.length / 2);
+  r.length = end - r.start;
+  r.depth = nearest(mesh.lines_depth, p.cut.depth);
+  r.released = {0};
+  r.position = {r.start};
+  r.times = {0};
+  const auto open = [&](const NodePair& pair) {
+    return pair.along > r.start && pair.along < end && pair.depth < r.depth;
+  };
+  for (std::size_t n = 0; n < mesh.pairs.size();) {
+    std::vector<int> column;
+    const double along = mesh.pairs[n].along;
+    for (; n < mesh.pairs.size() && mesh.pairs[n].along == along; ++n)
+      if (open(mesh.pairs[n])) column.push_back(static_cast<int>(n));
+    const double next = *std::upper_bound(lines.begin(), lines.end(), along);
+    for (std::size_t m = 0; m < column.size(); ++m) {
+      r.order.push_back(column[m]);
+      if (m + 1 < column.size() && p.cut.frames != "pair") continue;
+      r.released.push_back(static_cast<int>(r.order.size()));
+      r.position.push_back(along +
+                           (next - along) * static_cast<double>(m + 1) / static_cast<double>(column.size()));
+      r.times.push_back(r.position.back() - r.start);
+    }
+  }
+  for (std::size_t n = 0; n < mesh.pairs.size(); ++n)
+    if (!open(mesh.pairs[n])) r.order.push_back(static_cast<int>(n));
+  return r;
+}
 
 }  // namespace cleft

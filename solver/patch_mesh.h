@@ -10,6 +10,15 @@
 
 namespace cleft {
 
+/// Two nodes at one place, on either side of a cut.
+struct NodePair {
+  int left, right;   ///< a right node is the left one of later pairs only
+  Vec3 normal;       ///< of the cut, unit, from left to right
+  int incision = 0;  ///< which of several cuts: 0, 1, ... in the order in which they are made
+  double along = 0;  ///< mm along the cut, from its middle (a branch: from where it leaves the first cut)
+  double depth = 0;  ///< mm below the skin
+};
+
 /// Node numbers index `points`. The mesh depends on the parameters alone, not on the number of ranks.
 struct PatchMesh {
   std::vector<Vec3> points;                ///< (u, v, w), stress-free, mm
@@ -17,14 +26,34 @@ struct PatchMesh {
   std::vector<std::array<int, 3>> skin;    ///< top faces, counter-clockwise from above
   std::vector<std::array<int, 3>> bottom;  ///< bottom faces
   std::vector<std::array<int, 4>> sides;   ///< side faces, cyclic
-  std::vector<std::array<int, 2>> pairs;   ///< left and right node of each duplicated node, in release order
-  std::vector<int> released;               ///< pairs open in each frame; released[0] = 0
-  std::vector<double> position;            ///< u of the tip in each frame
-  double cut_start = 0;                    ///< u where the cut begins
+  std::vector<int> skin_above;             ///< by node: the node of the skin in the same column
+  std::vector<NodePair>
+      pairs;  ///< every duplicated node: incision by incision, along each, from the skin down
+  /// Where the nodes of each incision lie, its ends and its bottom included (they are single): mm along it,
+  /// and mm below the skin; both increase.
+  std::vector<std::vector<double>> lines_along;
+  std::vector<double> lines_depth;
 };
 
-/// Elements are no longer than mesh.element_size along any axis, and the cut's ends, its bottom and the plane
-/// v = 0 coincide with element faces. The triangles' diagonals are mirrored in v = 0.
+/// Elements are no longer than mesh.element_size at the cut, and grow by mesh.grading away from it. The ends,
+/// the bottom and the plane of every cut coincide with element faces; the longest and deepest cut the mesh is
+/// made for is mesh.cut_length by mesh.cut_depth. A straight cut's triangles are mirrored in v = 0.
 PatchMesh make_patch_mesh(const Parameters& parameters);
+
+/// How the cut of a case opens in its mesh.
+struct Release {
+  std::vector<int> order;     ///< all pairs of the mesh in release order; those that stay closed last
+  std::vector<int> released;  ///< by frame: how many of them are open; released[0] = 0
+  std::vector<double>
+      position;  ///< by frame: place of the tip along the incision being made, mm; u for a straight cut
+  std::vector<double> times;                ///< by frame: length cut so far, mm
+  double start = 0, length = 0, depth = 0;  ///< of the first cut, as it lies in the mesh
+};
+
+/// Frame 0 is closed; then a frame for each released column, or pair (cut.frames). Columns open one after the
+/// other along an incision, each from the skin down. A column of m of its M pairs released has brought the
+/// tip the fraction m / M of the way to the next column. The cut of the case ends at the nodes nearest to
+/// cut.length and cut.depth.
+Release make_release(const PatchMesh& mesh, const Parameters& parameters);
 
 }  // namespace cleft
