@@ -2,31 +2,87 @@
 
 #include <dmumps_c.h>
 
+#include <algorithm>
 #include <exception>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "base/error.h"
 
 namespace cleft {
 
 namespace {
 
-int rank_of(MPI_Comm communicator) {
-  int rank = 0;
-  MPI_Comm_rank(communicator, &rank);
-  return rank;
-}
-
 struct NotEnoughWorkspace : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// Moves the entries of a solution from where MUMPS left them to the ranks that own the unknowns.
+class Redistribution {
+ public:
+  /// `unknowns`: global numbers of the entries on this rank.
+  Redistribution(const PatchSystem& system, const std::vector<int>& unknowns) : system_(&system) {
+    const auto& offsets = system.offsets();
+    const int ranks = static_cast<int>(offsets.size()) - 1;
+    const auto owner = [&](int unknown) {
+      return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), unknown) - offsets.begin()) -
+             1;
+    };
+    send_order_.resize(unknowns.size());
+    std::iota(send_order_.begin(), send_order_.end(), 0);
+    std::stable_sort(send_order_.begin(), send_order_.end(),
+                     [&](int a, int b) { return owner(unknowns[a]) < owner(unknowns[b]); });
+    send_counts_.assign(ranks, 0);
+    std::vector<int> sent;
+    for (const int entry : send_order_) {
+      ++send_counts_[owner(unknowns[entry])];
+      sent.push_back(unknowns[entry]);
+    }
+    receive_counts_.resize(ranks);
+    MPI_Alltoall(send_counts_.data(), 1, MPI_INT, receive_counts_.data(), 1, MPI_INT, system.communicator());
+    rows_.resize(std::accumulate(receive_counts_.begin(), receive_counts_.end(), std::size_t{0}));
+    exchange(sent.data(), rows_.data(), MPI_INT);
+    for (int& row : rows_) row -= system.first();
+  }
+
+  /// Puts a column of entries into a column of owned unknowns.
+  void operator()(const double* entries, double* owned) const {
+    std::vector<double> send(send_order_.size()), received(rows_.size());
+    for (std::size_t i = 0; i < send.size(); ++i) send[i] = entries[send_order_[i]];
+    exchange(send.data(), received.data(), MPI_DOUBLE);
+    for (std::size_t i = 0; i < rows_.size(); ++i) owned[rows_[i]] = received[i];
+  }
+
+ private:
+  void exchange(const void* send, void* receive, MPI_Datatype type) const {
+    const auto displacements = [](const std::vector<int>& counts) {
+      std::vector<int> d(counts.size(), 0);
+      std::partial_sum(counts.begin(), counts.end() - 1, d.begin() + 1);
+      return d;
+    };
+    MPI_Alltoallv(send, send_counts_.data(), displacements(send_counts_).data(), type, receive,
+                  receive_counts_.data(), displacements(receive_counts_).data(), type,
+                  system_->communicator());
+  }
+
+  const PatchSystem* system_;
+  std::vector<int> send_order_, send_counts_, receive_counts_, rows_;
 };
 
 }  // namespace
 
 struct CondensedFactor::Mumps {
+  explicit Mumps(const PatchSystem& s) : system(s) {}
+
+  const PatchSystem& system;
   DMUMPS_STRUC_C id{};
   std::vector<int> kept;  // 1-based
-  int rank;
+  PatchSystem::Entries entries;
   Eigen::MatrixXd schur;
+  std::vector<int> solution_rows;              // 1-based unknowns of this rank's part of a solution
+  std::optional<Redistribution> redistribute;  // known with the first solution
 
   /// Control parameters are numbered from 1, as in the manual.
   MUMPS_INT& icntl(int number) { return id.icntl[number - 1]; }
@@ -38,60 +94,49 @@ struct CondensedFactor::Mumps {
     const std::string codes =
         "INFOG(1:2) = " + std::to_string(id.infog[0]) + ", " + std::to_string(id.infog[1]);
     if (id.infog[0] == -10 || id.infog[0] == -40)
-      throw std::runtime_error(what + ": the stiffness matrix is not positive definite (MUMPS, " + codes +
-                               "); are the springs and moduli large enough?");
+      throw std::runtime_error(
+          what + ": the stiffness matrix is not positive definite (MUMPS, " + codes +
+          "); are the springs and moduli large enough, and the skin nowhere compressed?");
     if (id.infog[0] == -9)
       throw NotEnoughWorkspace(what + ": MUMPS needs more workspace than it estimated, " + codes);
     if (id.infog[0] == -13)
       throw std::runtime_error(what + ": not enough memory (MUMPS, " + codes +
-                               "); raise mesh.element_size or use more ranks");
+                               "); raise mesh.element_size, use more ranks, or --method iterative");
     throw std::runtime_error(what + ": MUMPS failed with " + codes);
   }
 };
 
 CondensedFactor::CondensedFactor(const PatchSystem& system, const std::vector<int>& kept,
                                  const std::vector<int>& order)
-    : mumps_(std::make_unique<Mumps>()) {
+    : mumps_(std::make_unique<Mumps>(system)) {
   Mumps& m = *mumps_;
-  m.rank = rank_of(system.communicator());
   m.id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(system.communicator()));
   m.id.par = 1;
   m.id.sym = 1;
   m.run(-1, "setting up the factorisation");
   for (const int output : {1, 2, 3, 4}) m.icntl(output) = output == 4 ? 0 : -1;  // silent
   m.icntl(7) = 1;                                                                // order given by the user
-  m.icntl(14) = 40;                                                              // percent of extra workspace
-  m.icntl(18) = 3;   // matrix distributed by the user
-  m.icntl(19) = 1;   // Schur complement, whole, on rank 0
-  m.icntl(27) = 64;  // right-hand sides in one block
+  m.icntl(14) =
+      system.offsets().size() > 2 ? 30 : 5;  // percent of extra workspace: alone, the estimate is exact
+  m.icntl(18) = 3;                           // matrix distributed by the user
+  m.icntl(19) = 1;                           // Schur complement, whole, on rank 0
 
-  PatchSystem::Entries entries = system.lower_triangle();
-  for (int& row : entries.row) ++row;
-  for (int& column : entries.column) ++column;
+  m.entries = system.lower_triangle();
+  for (int& row : m.entries.row) ++row;
+  for (int& column : m.entries.column) ++column;
   m.id.n = system.size();
-  m.id.nnz_loc = static_cast<MUMPS_INT8>(entries.value.size());
-  m.id.irn_loc = entries.row.data();
-  m.id.jcn_loc = entries.column.data();
-  m.id.a_loc = entries.value.data();
+  m.id.nnz_loc = static_cast<MUMPS_INT8>(m.entries.value.size());
+  m.id.irn_loc = m.entries.row.data();
+  m.id.jcn_loc = m.entries.column.data();
+  m.id.a_loc = m.entries.value.data();
   for (const int unknown : kept) m.kept.push_back(unknown + 1);
   m.id.size_schur = static_cast<MUMPS_INT>(m.kept.size());
   m.id.listvar_schur = m.kept.data();
-  if (m.rank == 0) m.schur.resize(m.id.size_schur, m.id.size_schur);
-  m.id.schur = m.schur.data();
   std::vector<int> position(order);
   for (int& p : position) ++p;
   m.id.perm_in = position.data();
-  try {
-    m.run(4, "factorising the stiffness matrix");
-  } catch (const NotEnoughWorkspace&) {  // the estimate was too small: once more with five times the extra
-    m.icntl(14) = 200;
-    m.run(4, "factorising the stiffness matrix");
-  }
-  m.id.irn_loc = m.id.jcn_loc = nullptr;
-  m.id.a_loc = nullptr;
+  m.run(1, "analysing the stiffness matrix");
   m.id.perm_in = nullptr;
-  // MUMPS fills one triangle of a symmetric complement, by rows: the upper one as Eigen stores it.
-  if (m.rank == 0) m.schur.triangularView<Eigen::StrictlyLower>() = m.schur.transpose();
 }
 
 CondensedFactor::~CondensedFactor() {
@@ -102,16 +147,74 @@ CondensedFactor::~CondensedFactor() {
   dmumps_c(&mumps_->id);
 }
 
+double CondensedFactor::bytes_needed() const { return 1e6 * mumps_->id.info[14]; }
+double CondensedFactor::operations() const { return mumps_->id.rinfog[0]; }
+
+void CondensedFactor::factorize() {
+  Mumps& m = *mumps_;
+  if (m.system.rank() == 0) m.schur.resize(m.id.size_schur, m.id.size_schur);
+  m.id.schur = m.schur.data();
+  try {
+    m.run(2, "factorising the stiffness matrix");
+  } catch (const NotEnoughWorkspace&) {  // the estimate was too small: once more with much more
+    m.icntl(14) = 200;
+    m.run(2, "factorising the stiffness matrix");
+  }
+  m.entries = {};
+  m.id.irn_loc = m.id.jcn_loc = nullptr;
+  m.id.a_loc = nullptr;
+  // MUMPS fills one triangle of a symmetric complement, by rows: the upper one as Eigen stores it.
+  if (m.system.rank() == 0) m.schur.triangularView<Eigen::StrictlyLower>() = m.schur.transpose();
+}
+
 const Eigen::MatrixXd& CondensedFactor::schur() const { return mumps_->schur; }
 
-void CondensedFactor::solve(Eigen::MatrixXd& block) {
+Block CondensedFactor::solve(const SparseColumns& right) {
   Mumps& m = *mumps_;
-  m.id.nrhs = static_cast<MUMPS_INT>(block.cols());
-  m.id.lrhs = m.id.n;
-  m.id.rhs = block.data();
-  m.run(3, "solving for the displacements");
-  for (const int unknown : m.kept)
-    if (m.rank == 0) block.row(unknown - 1).setZero();
+  constexpr int most_columns = 64;  // solved together
+  int columns = static_cast<int>(right.cols());
+  MPI_Bcast(&columns, 1, MPI_INT, 0, m.system.communicator());
+  Block solution = Block::Zero(m.system.owned(), columns);
+  for (int first = 0; first < columns; first += most_columns) {
+    const int count = std::min(most_columns, columns - first);
+    SparseColumns block;
+    std::vector<MUMPS_INT> rows, starts;
+    if (m.system.rank() == 0) {
+      block = right.middleCols(first, count);
+      block.makeCompressed();
+      rows.assign(block.innerIndexPtr(), block.innerIndexPtr() + block.nonZeros());
+      starts.assign(block.outerIndexPtr(), block.outerIndexPtr() + count + 1);
+      for (auto& row : rows) ++row;
+      for (auto& start : starts) ++start;
+    }
+    m.icntl(20) = 1;             // right-hand sides sparse, on rank 0
+    m.icntl(21) = 1;             // solution distributed as the factor is
+    m.icntl(27) = most_columns;  // in one block
+    m.id.nrhs = count;
+    m.id.nz_rhs = static_cast<MUMPS_INT>(rows.size());
+    m.id.irhs_sparse = rows.data();
+    m.id.irhs_ptr = starts.data();
+    m.id.rhs_sparse = block.valuePtr();
+    const int length = std::max<int>(1, m.id.info[22]);
+    m.solution_rows.resize(static_cast<std::size_t>(length));
+    std::vector<double> values(static_cast<std::size_t>(length) * count);
+    m.id.lsol_loc = length;
+    m.id.isol_loc = m.solution_rows.data();
+    m.id.sol_loc = values.data();
+    m.run(3, "solving for the displacements");
+    if (!m.redistribute) {
+      std::vector<int> unknowns(m.solution_rows.begin(), m.solution_rows.begin() + m.id.info[22]);
+      for (int& unknown : unknowns) --unknown;
+      m.redistribute.emplace(m.system, unknowns);
+    }
+    for (int c = 0; c < count; ++c)
+      (*m.redistribute)(values.data() + static_cast<std::size_t>(c) * length, solution.col(first + c).data());
+  }
+  for (const int unknown : m.kept) {
+    const int local = unknown - 1 - m.system.first();
+    if (local >= 0 && local < m.system.owned()) solution.row(local).setZero();
+  }
+  return solution;
 }
 
 }  // namespace cleft

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <exception>
 #include <memory>
 #include <vector>
@@ -12,19 +13,24 @@
 namespace cleft {
 
 /// MUMPS, symmetric positive definite, distributed over the system's ranks. With `kept` unknowns c and the
-/// rest i: schur() = K_cc - K_ci K_ii^-1 K_ic. Blocks live on rank 0; all calls are collective. Throws
-/// std::runtime_error with MUMPS's own codes where K is not positive definite or memory runs out.
+/// rest i: schur() = K_cc - K_ci K_ii^-1 K_ic. Calls are collective. Throws std::runtime_error with MUMPS's
+/// own codes where K is not positive definite or memory runs out.
 class CondensedFactor {
  public:
-  /// `order`: position of every unknown in the order of elimination, the kept ones last, as in `kept`.
+  /// Analyses only. `order`: position of every unknown in the order of elimination, the kept ones last, as in
+  /// `kept`; rank 0.
   CondensedFactor(const PatchSystem& system, const std::vector<int>& kept, const std::vector<int>& order);
   ~CondensedFactor();
 
+  double bytes_needed() const;  ///< by the factorisation on this rank, as estimated
+  double operations() const;    ///< of the factorisation, on all ranks
+
+  void factorize();
   const Eigen::MatrixXd& schur() const;  ///< in the order of `kept`; rank 0
 
-  /// Solves K_ii x_i = b_i for every column of `block` (unknowns by rows) in place; rows of kept unknowns
-  /// become 0.
-  void solve(Eigen::MatrixXd& block);
+  using SparseColumns = Eigen::SparseMatrix<double>;
+  /// x_i = K_ii^-1 b_i for every column; rows of kept unknowns are 0. `right` is read on rank 0.
+  Block solve(const SparseColumns& right);
 
  private:
   struct Mumps;

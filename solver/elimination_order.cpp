@@ -16,8 +16,7 @@ struct NodeGraph {
 
   explicit NodeGraph(const PatchMesh& mesh) {
     std::vector<int> number(mesh.points.size(), 0);
-    for (const auto& pair : mesh.pairs)
-      for (const int n : pair) number[n] = -1;
+    for (const NodePair& pair : mesh.pairs) number[pair.left] = number[pair.right] = -1;
     for (std::size_t n = 0; n < number.size(); ++n)
       if (number[n] == 0) {
         number[n] = static_cast<int>(node.size());

@@ -5,29 +5,56 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "params/parameters.h"
 #include "solver/patch_mesh.h"
 
-namespace dealii::TrilinosWrappers {
-class SparseMatrix;
-}
+class Epetra_CrsMatrix;
 
 namespace cleft {
 
-/// Assembled in parallel over the ranks of a communicator. Vectors and blocks of vectors live whole on rank 0
-/// and are empty elsewhere; all calls are collective. Unknowns are numbered by deal.II: unknown(node, axis).
+/// Vectors of unknowns, a column each: the rows that this rank owns.
+using Block = Eigen::MatrixXd;
+
+enum class WedgeRule {
+  full,  ///< three points in the triangle by two along the axis: exact for wedges of parallel faces
+  centroid_by_two,  ///< one by two, as CalculiX integrates its C3D6: to compare with it
+};
+
+/// Who divides the elements among the ranks.
+enum class Partitioner { metis, zorder, zoltan };
+
+struct Discretization {
+  WedgeRule rule = WedgeRule::full;
+  Partitioner partitioner = Partitioner::metis;
+};
+
+/// Assembled in parallel; the mesh's elements, K and all blocks are distributed over the ranks of a
+/// communicator, and all calls but the plain accessors are collective. Unknowns are numbered by deal.II,
+/// those of a rank contiguously.
 class PatchSystem {
  public:
-  PatchSystem(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator);
+  PatchSystem(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
+              const Discretization& discretization = {});
   ~PatchSystem();
 
   MPI_Comm communicator() const;
-  int size() const;                                              ///< number of unknowns, three a node
-  int unknown(int node, int axis) const;                         ///< known on every rank
-  const Eigen::VectorXd& load() const;                           ///< f, N; rank 0
-  Eigen::MatrixXd multiply(const Eigen::MatrixXd& block) const;  ///< K block; rank 0
+  int rank() const;
+  int size() const;                         ///< number of unknowns, three a node
+  int first() const;                        ///< this rank owns the unknowns first() .. first() + owned() - 1
+  int owned() const;                        ///<
+  int unknown(int node, int axis) const;    ///< of any node, known on every rank
+  const std::vector<int>& offsets() const;  ///< first() of every rank, then size()
+
+  /// The pull of a unit prestress (1 MPa) uu, vv, uv: three columns, N.
+  const Block& unit_loads() const;
+  /// f of a case: its prestress times the unit loads, N.
+  Block load(const Parameters::Skin& prestress) const;
+
+  const Epetra_CrsMatrix& stiffness() const;
+  Block multiply(const Block& block) const;  ///< K block
 
   /// Lower triangle of this rank's rows of K, 0-based.
   struct Entries {
@@ -36,9 +63,27 @@ class PatchSystem {
   };
   Entries lower_triangle() const;
 
+  /// Places of the owned unknowns: the node's coordinates and the axis, as owned() rows (u, v, w, axis).
+  Eigen::MatrixX4d places() const;
+
+  /// dK/dp block - df/dp for a parameter of skin, tissue or foundation, by differences of fourth order of the
+  /// assembled system: exact up to rounding where K is linear in p.
+  class Derivative;
+  std::unique_ptr<Derivative> derivative(const Parameters& parameters, const std::string& name) const;
+
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+class PatchSystem::Derivative {
+ public:
+  virtual ~Derivative() = default;
+  virtual Block multiply(const Block& block) const = 0;  ///< dK/dp block
+  virtual Block load() const = 0;                        ///< df/dp, a column
+};
+
+/// Rows of a distributed block, by number of the unknown: on rank 0, empty elsewhere. Collective.
+Eigen::MatrixXd gather_rows(const PatchSystem& system, const Block& block, const std::vector<int>& unknowns);
 
 }  // namespace cleft

@@ -3,23 +3,30 @@
 
 #include <deal.II/base/tensor.h>
 
+#include "params/parameters.h"
+
 namespace cleft {
 
-/// Lame's moduli in MPa.
+/// Moduli in MPa.
 struct LinearIsotropic {
-  double lambda, mu;
+  double bulk, shear;
 
-  LinearIsotropic(double young_modulus, double poisson_ratio)
-      : lambda(young_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))),
-        mu(young_modulus / (2 * (1 + poisson_ratio))) {}
+  explicit LinearIsotropic(const Parameters::Tissue& t)
+      : bulk(t.young_modulus / (3 * (1 - 2 * t.poisson_ratio))),
+        shear(t.young_modulus / (2 * (1 + t.poisson_ratio))) {}
 
-  /// What a point contributes to the stiffness between two shape functions with gradients a and b:
-  /// K_ij = lambda a_i b_j + mu (b_i a_j + a.b delta_ij).
-  dealii::Tensor<2, 3> stiffness(const dealii::Tensor<1, 3>& a, const dealii::Tensor<1, 3>& b) const {
-    dealii::Tensor<2, 3> k = lambda * outer_product(a, b) + mu * outer_product(b, a);
-    const double shear = mu * (a * b);
-    for (unsigned d = 0; d < 3; ++d) k[d][d] += shear;
+  /// What a point contributes to the stiffness between two shape functions with gradients a and b, but for the
+  /// change of volume: mu (b_i a_j + a.b delta_ij - 2/3 a_i b_j).
+  dealii::Tensor<2, 3> deviatoric(const dealii::Tensor<1, 3>& a, const dealii::Tensor<1, 3>& b) const {
+    dealii::Tensor<2, 3> k = shear * outer_product(b, a) - 2. / 3 * shear * outer_product(a, b);
+    const double both = shear * (a * b);
+    for (unsigned d = 0; d < 3; ++d) k[d][d] += both;
     return k;
+  }
+
+  /// What the change of volume contributes: kappa a_i b_j.
+  dealii::Tensor<2, 3> volumetric(const dealii::Tensor<1, 3>& a, const dealii::Tensor<1, 3>& b) const {
+    return bulk * outer_product(a, b);
   }
 };
 

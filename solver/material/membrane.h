@@ -9,18 +9,19 @@
 
 namespace cleft {
 
-/// The skin lies in a plane w = const; u and v are its directions, and w carries no stiffness.
+/// The skin lies in a plane w = const; u and v are its directions, and w carries no stiffness but that of the
+/// prestress.
 class Membrane {
  public:
   explicit Membrane(const Parameters::Skin& skin) : thickness_(skin.thickness) {
     const double nu = skin.poisson_ratio;
     elasticity_ << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
     elasticity_ *= skin.young_modulus / (1 - nu * nu);
-    prestress_ << skin.prestress_u, skin.prestress_v, skin.prestress_uv;
+    prestress_ << skin.prestress_u, skin.prestress_uv, skin.prestress_uv, skin.prestress_v;
   }
 
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
   /// t A B^T D B over (u, v) of the three corners.
   Matrix6 stiffness(const Vec3& a, const Vec3& b, const Vec3& c) const {
@@ -28,9 +29,18 @@ class Membrane {
     return thickness_ * area(a, b, c) * strain.transpose() * elasticity_ * strain;
   }
 
-  /// The pull of the prestress on the corners: -t A B^T sigma_0.
-  Vector6 load(const Vec3& a, const Vec3& b, const Vec3& c) const {
-    return -thickness_ * area(a, b, c) * strain_of(a, b, c).transpose() * prestress_;
+  /// The pull of a unit prestress uu, vv, uv on (u, v) of the corners: -t A B^T, a column each.
+  Matrix63 unit_loads(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    return -thickness_ * area(a, b, c) * strain_of(a, b, c).transpose();
+  }
+
+  /// Geometric stiffness of the prestress between the corners, the same for each of the three directions:
+  /// t A grad N_a . sigma_0 . grad N_b.
+  Eigen::Matrix3d initial_stress_stiffness(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const Strain strain = strain_of(a, b, c);
+    Eigen::Matrix<double, 2, 3> gradient;
+    for (int i = 0; i < 3; ++i) gradient.col(i) << strain(0, 2 * i), strain(1, 2 * i + 1);
+    return thickness_ * area(a, b, c) * gradient.transpose() * prestress_ * gradient;
   }
 
  private:
@@ -52,7 +62,7 @@ class Membrane {
 
   double thickness_;
   Eigen::Matrix3d elasticity_;
-  Eigen::Vector3d prestress_;
+  Eigen::Matrix2d prestress_;
 };
 
 }  // namespace cleft

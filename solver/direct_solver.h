@@ -1,0 +1,40 @@
+// All frames for about one factorisation of K: MUMPS, with the cut's unknowns as its Schur complement.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <optional>
+
+#include "solver/condensed_factor.h"
+#include "solver/frame_solver.h"
+#include "solver/opening.h"
+
+namespace cleft {
+
+class DirectSolver : public FrameSolver {
+ public:
+  /// Analyses only: factorize() before all else.
+  DirectSolver(const PatchMesh& mesh, const PatchSystem& system);
+
+  double bytes_needed() const;  ///< on this rank
+  double operations() const { return factor_.operations(); }
+  void factorize();
+
+  void set_release(const Release& release) override;
+  void set_loads(Block loads) override;
+  Block solve(const std::vector<Column>& columns) override;
+
+ private:
+  const PatchSystem& system_;
+  std::vector<int> cut_nodes_, cut_unknowns_;  // of the mesh, and of K
+  std::vector<std::array<int, 2>> cut_pairs_;  // among cut_nodes_
+  std::vector<Vec3> normals_;                  // by pair
+  CondensedFactor factor_;
+  std::vector<int> neighbors_;            // unknowns that the cut's act on; rank 0, as all below
+  Eigen::SparseMatrix<double> coupling_;  // K_ic: rows as neighbors_, columns as cut_unknowns_
+  std::optional<CutCondensation> condensation_;
+  std::optional<Opening> opening_;
+  std::vector<Opening::Load> loads_;
+  Block interior_;  // K_ii^-1 f_i of every load; on all ranks
+};
+
+}  // namespace cleft

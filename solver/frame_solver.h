@@ -1,0 +1,52 @@
+// What solves the patch with its cut open as far as in a frame: directly, or by iterations.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/patch_mesh.h"
+#include "solver/patch_system.h"
+
+namespace cleft {
+
+/// Keeps what all frames share. Calls are collective over the system's ranks.
+class FrameSolver {
+ public:
+  virtual ~FrameSolver() = default;
+
+  /// How the cut opens from here on. Forgets the loads.
+  virtual void set_release(const Release& release) = 0;
+
+  /// The loads to solve for, a column each, N.
+  virtual void set_loads(Block loads) = 0;
+
+  /// A displacement to be found: under one of the loads, with the first pairs of the release open; with
+  /// contact their lips press on each other where they would overlap.
+  struct Column {
+    int load = 0, open = 0;
+    bool contact = false;
+  };
+  /// K u + C^T v = f, C u = 0, a column each. Columns in the order of a release are the quickest.
+  virtual Block solve(const std::vector<Column>& columns) = 0;
+
+  /// Iterations of every column solved so far; empty for a direct solver.
+  virtual std::vector<int> iterations() const { return {}; }
+};
+
+enum class Method { automatic, direct, iterative };
+
+/// What was chosen, and why.
+struct ChosenSolver {
+  std::unique_ptr<FrameSolver> solver;
+  Method method;
+  std::string reason;
+};
+
+/// Takes the direct solver where its factor fits into memory, unless a method is forced. Throws InputError
+/// where neither fits. `progress` is told what is being done.
+ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system, Method method,
+                               const std::function<void(const std::string&)>& progress);
+
+}  // namespace cleft

@@ -1,0 +1,29 @@
+// Frames by conjugate gradients, for patches whose factor does not fit into memory.
+#pragma once
+
+#include <memory>
+
+#include "solver/frame_solver.h"
+
+namespace cleft {
+
+/// Conjugate gradients on the displacements that keep closed pairs together, preconditioned by smoothed
+/// aggregation (Trilinos ML) with the six rigid-body modes. Copies that are tied take their mean: with that
+/// projection P, P K P is solved with P M P, so one hierarchy M of the open patch serves every frame. A
+/// column starts from the one before.
+class IterativeSolver : public FrameSolver {
+ public:
+  IterativeSolver(const PatchMesh& mesh, const PatchSystem& system);
+  ~IterativeSolver() override;
+
+  void set_release(const Release& release) override;
+  void set_loads(Block loads) override;
+  Block solve(const std::vector<Column>& columns) override;
+  std::vector<int> iterations() const override;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace cleft
