@@ -3,7 +3,7 @@ direct solver, and compares the displacements; sums the forces on the foundation
 
 The bound is 1e-8 of the largest displacement. Both programs solve the same equations in double precision by stable
 eliminations, so they may differ by the rounding of 1e-16 times the condition number of the stiffness: 2e3 for the
-default materials, 3e5 at nu = 0.4999, 2e6 on springs a thousandth of the default; 1e8 leaves room. Every parameter,
+default materials, 3e5 at nu = 0.4999, 2e6 on bottom springs of 1e-5 N/mm^3 alone; 1e8 leaves room. Every parameter,
 face and pair counts for more: one part in a million of any modulus, or of the prestress, changes 1e-7 or more."""
 
 import argparse
