@@ -1,0 +1,185 @@
+"""calculix.py SNAPSHOT.h5: writes frames of a snapshot as CalculiX decks, runs ccx, and compares the displacements.
+
+The snapshot must be solved with the wedges integrated as ccx integrates its C3D6: the triangle's centroid times two
+points along the axis (a few percent from the full rule on coarse meshes). Its frames are compared with ccx's, and so
+are those of tests/solver/independent, solved here with the same rule.
+
+A deck has C3D6 for the tissue; M3D3 for the skin; *INITIAL CONDITIONS, TYPE=STRESS for its prestress; *EQUATION for
+closed pairs; and the foundation's consistent springs as SPRING1 with the row sums of their matrix M and SPRING2 of
+stiffness -M_ab between neighbours a, b: the same quadratic form. ccx makes a solid of a membrane; so that it stays a
+membrane, the skin is thin in the deck, and its modulus and prestress are as much higher.
+
+The prestress is scaled in the deck so that the largest displacement is just below 10: ccx prints 7 digits, which is
+then 5e-8 of it. The bound is four times that, for the skin's small bending stiffness and ccx's own rounding."""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "independent"))
+from patch import Patch, foundation, np, solve, sparse, stiffness  # noqa: E402
+
+BOUND = 2e-7
+LARGEST_PRINTED = 9.9  # mm
+SKIN_THICKNESS = 0.002  # mm, in the deck
+SKIPPED = 77
+
+
+def number(value):
+    """At most 12 digits: ccx cuts fields at 20 characters."""
+    return f"{value:.11e}"
+
+
+class Deck:
+    """The text of a deck and the elements in it; nodes and elements are numbered from 1."""
+
+    def __init__(self, patch):
+        self.patch, self.lines, self.elements = patch, [], 0
+        self.lines += ["*NODE, NSET=ALL"]
+        self.lines += [f"{i}, " + ", ".join(map(number, x)) for i, x in enumerate(patch.points, 1)]
+
+    def add_elements(self, kind, name, cells):
+        self.lines.append(f"*ELEMENT, TYPE={kind}, ELSET={name}")
+        for cell in cells:
+            self.elements += 1
+            self.lines.append(", ".join(str(i) for i in (self.elements, *(cell + 1))))
+
+    def add_material(self, name, young, poisson):
+        self.lines += [f"*MATERIAL, NAME={name}", "*ELASTIC", f"{number(young)}, {number(poisson)}"]
+
+    def add_tissue(self):
+        wedges, points = self.patch.wedges, self.patch.points
+        corners = points[wedges]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        inverted = np.einsum("ei,ei->e", normal, corners[:, 3] - corners[:, 0]) < 0
+        wedges = np.where(inverted[:, None], wedges[:, [3, 4, 5, 0, 1, 2]], wedges)  # ccx wants them upright
+        self.add_elements("C3D6", "TISSUE", wedges)
+        self.add_material("TISSUE", self.patch["tissue.young_modulus"], self.patch["tissue.poisson_ratio"])
+        self.lines.append("*SOLID SECTION, ELSET=TISSUE, MATERIAL=TISSUE")
+
+    def add_skin(self, load_scale):
+        patch, first = self.patch, self.elements + 1
+        thicker = patch["skin.thickness"] / SKIN_THICKNESS
+        self.add_elements("M3D3", "SKIN", patch.skin)
+        self.add_material("SKIN", patch["skin.young_modulus"] * thicker, patch["skin.poisson_ratio"])
+        self.lines += ["*MEMBRANE SECTION, ELSET=SKIN, MATERIAL=SKIN", number(SKIN_THICKNESS)]
+        (u, uv), (_, v) = patch.prestress() * thicker * load_scale
+        stress = ", ".join(map(number, (u, v, 0, uv, 0, 0)))
+        self.lines.append("*INITIAL CONDITIONS, TYPE=STRESS")
+        for element in range(first, self.elements + 1):
+            self.lines += [f"{element}, {point}, {stress}" for point in (1, 2)]
+
+    def add_springs(self):
+        """An element set for each different stiffness."""
+        matrix = foundation(self.patch)
+        to_ground = np.asarray(matrix.sum(axis=1)).ravel()
+        between = sparse.triu(matrix, k=1).tocoo()
+        for kind, cells, constants in (("SPRING1", np.arange(len(to_ground))[:, None], to_ground),
+                                       ("SPRING2", np.stack([between.row, between.col], axis=1), -between.data)):
+            texts = np.array([number(k) for k in constants])
+            for text in np.unique(texts[constants != 0]):
+                for dof in (1, 2, 3):
+                    name = f"{kind}_{text}_{dof}".replace(".", "P").replace("+", "P").replace("-", "M")
+                    self.add_elements(kind, name, cells[texts == text])
+                    self.lines += [f"*SPRING, ELSET={name}", f"{dof}" if kind == "SPRING1" else f"{dof}, {dof}", text]
+
+    def add_closed_pairs(self, frame):
+        stands = self.patch.joined(frame)
+        for node in np.flatnonzero(stands != np.arange(len(stands))):
+            for dof in (1, 2, 3):
+                self.lines += ["*EQUATION", "2", f"{node + 1}, {dof}, 1., {stands[node] + 1}, {dof}, -1."]
+
+    def add_step(self):
+        self.lines += ["*STEP", "*STATIC", "*NODE PRINT, NSET=ALL", "U", "*END STEP"]
+
+    def text(self):
+        return "\n".join(self.lines) + "\n"
+
+
+def deck_of(patch, frame, load_scale):
+    if patch["tissue.formulation"] != "displacement" or patch["skin.initial_stress_stiffness"] == "true":
+        raise SystemExit("ccx has no mean dilatation in C3D6, nor a prestress that stiffens a linear step")
+    deck = Deck(patch)
+    deck.add_tissue()
+    deck.add_skin(load_scale)
+    deck.add_springs()
+    deck.add_closed_pairs(frame)
+    deck.add_step()
+    return deck.text()
+
+
+def run_ccx(folder, deck):
+    """Seconds, and the displacements as printed."""
+    (folder / "deck.inp").write_text(deck)
+    threads = {"OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS", "1")}
+    start = time.perf_counter()
+    done = subprocess.run(["ccx", "-i", "deck"], cwd=folder, env=os.environ | threads, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    seconds = time.perf_counter() - start
+    if done.returncode != 0 or "*ERROR" in done.stdout or not (folder / "deck.dat").exists():
+        raise SystemExit(f"ccx failed with {done.returncode}:\n{done.stdout[-3000:]}")
+    return seconds, (folder / "deck.dat").read_text()
+
+
+def displacements(printed, count):
+    """(N, 3) from *NODE PRINT."""
+    result = np.full((count, 3), np.nan)
+    for line in printed.splitlines():
+        fields = line.split()
+        if re.fullmatch(r"\d+", fields[0] if fields else ""):
+            result[int(fields[0]) - 1] = [float(f) for f in fields[1:4]]
+    return result
+
+
+def compare(patch, frames, folder):
+    matrix, worst = stiffness(patch, "centroid"), []
+    for frame in frames:
+        independent = solve(patch, matrix, frame)
+        load_scale = LARGEST_PRINTED / np.abs(independent).max()
+        _, printed = run_ccx(folder, deck_of(patch, frame, load_scale))
+        expected = displacements(printed, len(patch.points)) / load_scale
+        largest = np.abs(expected).max()
+        errors = [np.abs(found - expected).max() / largest for found in (patch.displacement[frame], independent)]
+        print(f"frame {frame}: {len(patch.pairs) - patch.released[frame]} pairs closed, largest displacement "
+              f"{largest:.4g} mm, relative error of the snapshot {errors[0]:.1e}, "
+              f"of the independent solver {errors[1]:.1e}")
+        worst += errors
+    print(f"worst {np.max(worst):.1e}, allowed {BOUND:.0e}")
+    return 0 if np.max(worst) <= BOUND else 1  # NaN fails too
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("snapshot")
+    parser.add_argument("--frames", type=lambda text: [int(i) for i in text.split(",")],
+                        help="for example 0,3,-1; default: the first, the middle one, the last")
+    parser.add_argument("--keep", metavar="DIR", help="keep the last deck and what ccx wrote")
+    parser.add_argument("--time", action="store_true",
+                        help="compare nothing; run the last frame's deck once and print a line of JSON")
+    options = parser.parse_args()
+    if not shutil.which("ccx"):
+        print("Skipped: no ccx. Debian has it in calculix-ccx.")
+        return SKIPPED
+
+    patch = Patch(options.snapshot)
+    count = len(patch.released)
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(options.keep or temporary)
+        folder.mkdir(exist_ok=True)
+        if options.time:
+            seconds, _ = run_ccx(folder, deck_of(patch, count - 1, 1))
+            unknowns = 3 * len(patch.points)
+            print(json.dumps({"program": "ccx *STATIC", "unknowns": unknowns, "seconds": round(seconds, 3)}))
+            return 0
+        return compare(patch, [j % count for j in options.frames or (0, count // 2, count - 1)], folder)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,182 @@
+"""A snapshot's patch of tissue, assembled and solved from the file and docs/formats.md alone (its section "What the
+displacements solve"): none of the solver's code is used, and no formula was taken from it."""
+
+import sys
+
+try:
+    import h5py
+    import numpy as np
+    import scipy.sparse as sparse
+    from scipy.sparse.linalg import splu
+except ImportError as missing:
+    print(f"Skipped: {missing}. Debian has python3-numpy, python3-scipy and python3-h5py.")
+    sys.exit(77)
+
+TRIANGLE, WEDGE = 5, 13  # VTK's cell types
+
+# Parameters that a file of an older version lacks: what its solver did.
+BEFORE_THEY_CAME = {
+    "tissue.formulation": "displacement",
+    "skin.initial_stress_stiffness": "false",
+    "cut.contact": "false",
+}
+
+# Rules on the reference wedge a, b, 1 - a - b >= 0 and -1 <= c <= 1, of volume 1: points (a, b, c) and weights.
+AXIS = (-1 / np.sqrt(3), 1 / np.sqrt(3))
+RULES = {
+    "full": [(a, b, c, 1 / 6) for a, b in ((1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3)) for c in AXIS],
+    "centroid": [(1 / 3, 1 / 3, c, 1 / 2) for c in AXIS],
+}
+
+
+class Patch:
+    """N points; displacement is (F, N, 3)."""
+
+    def __init__(self, path):
+        with h5py.File(path, "r") as file:
+            vtk = file["VTKHDF"]
+            self.points = vtk["Points"][:]
+            types, offsets, connectivity = vtk["Types"][:], vtk["Offsets"][:], vtk["Connectivity"][:]
+
+            def cells(kind, corners):
+                return connectivity[offsets[:-1][types == kind][:, None] + np.arange(corners)]
+
+            self.skin, self.wedges = cells(TRIANGLE, 3), cells(WEDGE, 6)
+            self.bottom, self.sides = file["foundation/triangles"][:], file["foundation/quads"][:]
+            self.pairs, self.released = file["cut/pairs"][:], file["cut/released"][:]
+            self.displacement = vtk["PointData/displacement"][:].reshape(len(self.released), -1, 3)
+            self.parameters = dict(BEFORE_THEY_CAME)
+            for name, value in file["parameters"].attrs.items():
+                self.parameters[name] = value.decode() if isinstance(value, bytes) else value
+        if self.parameters["cut.contact"] == "true":
+            raise SystemExit("cut.contact = true: its frames solve no linear system")
+        if np.abs(self.points[self.skin][:, :, 2]).max() > 0:
+            raise SystemExit("the skin does not lie at w = 0")
+
+    def __getitem__(self, name):
+        return self.parameters[name]
+
+    def prestress(self):
+        """2 x 2, MPa."""
+        u, v, uv = (self[f"skin.prestress_{axes}"] for axes in ("u", "v", "uv"))
+        return np.array([[u, uv], [uv, v]])
+
+    def joined(self, frame):
+        """For each node the one that stands for it in a frame: closed pairs are one node, over several pairs too."""
+        stands = np.arange(len(self.points))
+        for left, right in self.pairs[self.released[frame]:]:
+            keep, drop = sorted((stands[left], stands[right]))
+            stands[stands == drop] = keep
+        return stands
+
+
+def scatter(cells, blocks, nodes):
+    """(E, n, 3, n, 3) element matrices to one matrix; unknown 3 i + c is component c of node i."""
+    unknowns = (3 * cells[:, :, None] + np.arange(3)).reshape(len(cells), -1)
+    size = unknowns.shape[1]
+    rows, columns = np.repeat(unknowns, size, axis=1).ravel(), np.tile(unknowns, (1, size)).ravel()
+    return sparse.coo_matrix((blocks.ravel(), (rows, columns)), shape=(3 * nodes, 3 * nodes)).tocsc()
+
+
+def tissue_stiffness(patch, rule):
+    """Linear wedges, isotropic: lambda tr(e) I + 2 mu e; or, with the mean dilatation, 2 mu dev(e) point by point and
+    the bulk modulus on the element's mean of tr(e)."""
+    young, poisson = patch["tissue.young_modulus"], patch["tissue.poisson_ratio"]
+    mu, lam = young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+    mean = patch["tissue.formulation"] == "mean-dilatation"
+    corners = patch.points[patch.wedges]
+    count = len(corners)
+    blocks = np.zeros((count, 6, 3, 6, 3))
+    volume, mean_gradient = np.zeros(count), np.zeros((count, 6, 3))
+    for a, b, c, weight in RULES[rule]:
+        corner = np.array([1 - a - b, a, b])
+        corner_slope = np.array([[-1, -1], [1, 0], [0, 1]])
+        slope = np.zeros((6, 3))  # of the shape functions, in (a, b, c)
+        for half, sign in ((slice(0, 3), -1), (slice(3, 6), 1)):
+            slope[half, :2] = corner_slope * (1 + sign * c) / 2
+            slope[half, 2] = corner * sign / 2
+        jacobian = np.einsum("eni,nk->eik", corners, slope)  # dx_i / dxi_k
+        gradient = np.einsum("nk,eki->eni", slope, np.linalg.inv(jacobian))
+        scale = weight * np.abs(np.linalg.det(jacobian))
+        volume += scale
+        mean_gradient += scale[:, None, None] * gradient
+        dilatation = -2 / 3 * mu if mean else lam
+        blocks += np.einsum("e,eai,ebj->eaibj", scale * dilatation, gradient, gradient)
+        blocks += np.einsum("e,eaj,ebi->eaibj", scale * mu, gradient, gradient)
+        blocks += np.einsum("e,eak,ebk,ij->eaibj", scale * mu, gradient, gradient, np.eye(3))
+    if mean:
+        blocks += np.einsum("e,eai,ebj->eaibj", (lam + 2 / 3 * mu) / volume, mean_gradient, mean_gradient)
+    return scatter(patch.wedges, blocks, len(patch.points))
+
+
+def skin_gradients(patch):
+    """Gradients (E, 3, 2) of the triangles' shape functions, and areas."""
+    first, second, third = (patch.points[patch.skin[:, i], :2] for i in range(3))
+    edges = np.stack([second - first, third - first], axis=2)  # dx_i / dxi_k
+    slope = np.array([[-1, -1], [1, 0], [0, 1]])
+    return np.einsum("nk,eki->eni", slope, np.linalg.inv(edges)), np.abs(np.linalg.det(edges)) / 2
+
+
+def skin_stiffness(patch):
+    """Constant-strain triangles in plane stress; with the prestress's geometric stiffness where the case has it."""
+    gradient, area = skin_gradients(patch)
+    young, poisson, thickness = (patch[f"skin.{n}"] for n in ("young_modulus", "poisson_ratio", "thickness"))
+    mu, lam = young / (2 * (1 + poisson)), young * poisson / (1 - poisson**2)
+    blocks = np.zeros((len(area), 3, 3, 3, 3))
+    flat = lam * np.einsum("eai,ebj->eaibj", gradient, gradient) + mu * np.einsum("eaj,ebi->eaibj", gradient, gradient)
+    flat += mu * np.einsum("eak,ebk,ij->eaibj", gradient, gradient, np.eye(2))
+    blocks[:, :, :2, :, :2] = (area * thickness)[:, None, None, None, None] * flat
+    if patch["skin.initial_stress_stiffness"] == "true":
+        tension = np.einsum("eak,kl,ebl->eab", gradient, patch.prestress(), gradient)
+        blocks += np.einsum("e,eab,ij->eaibj", area * thickness, tension, np.eye(3))
+    return scatter(patch.skin, blocks, len(patch.points))
+
+
+def load(patch):
+    """(N, 3): what the prestress does to its nodes, - t A B^T sigma0."""
+    gradient, area = skin_gradients(patch)
+    force = np.zeros((len(patch.points), 3))
+    parts = -(area * patch["skin.thickness"])[:, None, None] * (gradient @ patch.prestress())
+    np.add.at(force[:, :2], patch.skin.ravel(), parts.reshape(-1, 2))
+    return force
+
+
+def foundation(patch):
+    """(N, N), N/mm: what the springs under the bottom and at the sides do in each direction."""
+    count = len(patch.points)
+    first, second, third = (patch.points[patch.bottom[:, i]] for i in range(3))
+    area = np.linalg.norm(np.cross(second - first, third - first), axis=1) / 2
+    under = patch["foundation.stiffness"] * area[:, None, None] * (np.ones((3, 3)) + np.eye(3)) / 12
+    beside = np.zeros((len(patch.sides), 4, 4))
+    corners = patch.points[patch.sides]
+    for a in AXIS:
+        for b in AXIS:
+            shape = np.array([(1 - a) * (1 - b), (1 + a) * (1 - b), (1 + a) * (1 + b), (1 - a) * (1 + b)]) / 4
+            along = np.einsum("eni,n->ei", corners, np.array([b - 1, 1 - b, 1 + b, -1 - b]) / 4)
+            across = np.einsum("eni,n->ei", corners, np.array([a - 1, -1 - a, 1 + a, 1 - a]) / 4)
+            scale = np.linalg.norm(np.cross(along, across), axis=1)
+            beside += patch["foundation.side_stiffness"] * scale[:, None, None] * np.outer(shape, shape)
+
+    def gather(cells, blocks):
+        size = cells.shape[1]
+        rows, columns = np.repeat(cells, size, axis=1).ravel(), np.tile(cells, (1, size)).ravel()
+        return sparse.coo_matrix((blocks.ravel(), (rows, columns)), shape=(count, count)).tocsc()
+
+    return gather(patch.bottom, under) + gather(patch.sides, beside)
+
+
+def stiffness(patch, rule="full"):
+    springs = sparse.kron(foundation(patch), sparse.eye(3))
+    return (tissue_stiffness(patch, rule) + skin_stiffness(patch) + springs).tocsc()
+
+
+def solve(patch, matrix, frame):
+    """(N, 3): each closed pair is one node."""
+    stands, renumbered = np.unique(patch.joined(frame), return_inverse=True)
+    unknowns = (3 * renumbered[:, None] + np.arange(3)).ravel()
+    spread = sparse.csc_matrix((np.ones(len(unknowns)), (np.arange(len(unknowns)), unknowns)))
+    merged, force = (spread.T @ matrix @ spread).tocsc(), spread.T @ load(patch).ravel()
+    factor = splu(merged, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0, options={"SymmetricMode": True})
+    result = factor.solve(force)
+    result += factor.solve(force - merged @ result)
+    return (spread @ result).reshape(-1, 3)
