@@ -201,8 +201,9 @@ void File::read_rows(const std::string& name, hsize_t first, hsize_t count, std:
   const Handle dataset = open_dataset(name);
   const auto [file_space, memory_space] = row_selection(dataset, first, count);
   CLEFT_CHECK(static_cast<hsize_t>(H5Sget_select_npoints(file_space)), ==, out.size());
-  if (!same_class(dataset, native<T>()) ||
-      H5Dread(dataset, native<T>(), memory_space, file_space, H5P_DEFAULT, out.data()) < 0)
+  if (!same_class(dataset, native<T>()))
+    throw FileError(path_, "dataset " + name + " holds another type than its format says");
+  if (H5Dread(dataset, native<T>(), memory_space, file_space, H5P_DEFAULT, out.data()) < 0)
     throw FileError(path_, "dataset " + name + " is damaged (its checksum does not match)");
 }
 

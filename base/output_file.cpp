@@ -14,6 +14,13 @@ namespace cleft {
 
 namespace fs = std::filesystem;
 
+void check_output_folder(const std::string& folder, const std::string& output) {
+  if (!fs::is_directory(folder))
+    throw InputError(output + ": the folder '" + folder + "' does not exist; create it first");
+  if (access(folder.c_str(), W_OK) != 0)
+    throw InputError(output + ": the folder '" + folder + "' cannot be written");
+}
+
 OutputFile::OutputFile(std::string final_path) : final_(std::move(final_path)) {
   const fs::path target(final_);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -21,10 +28,7 @@ OutputFile::OutputFile(std::string final_path) : final_(std::move(final_path)) {
     throw InputError(final_ + ": is a folder; give a file name");
   if (fs::exists(target) && !fs::is_regular_file(target))
     throw InputError(final_ + ": exists and is not a file; give another name");
-  if (!fs::is_directory(folder))
-    throw InputError(final_ + ": the folder '" + folder.string() + "' does not exist; create it first");
-  if (access(folder.c_str(), W_OK) != 0)
-    throw InputError(final_ + ": the folder '" + folder.string() + "' cannot be written");
+  check_output_folder(folder.string(), final_);
   temporary_ = (folder / ("." + target.stem().string() + "." + std::to_string(getpid()) + ".part" +
                           target.extension().string()))
                    .string();

@@ -28,6 +28,9 @@ class OutputFile {
 /// Throws InputError where a file to be written is one of those that are read: the input would be lost.
 void refuse_to_overwrite(const std::string& out, const std::vector<std::string>& inputs);
 
+/// Throws InputError, as a sentence about `output`, where `folder` does not exist or cannot be written.
+void check_output_folder(const std::string& folder, const std::string& output);
+
 /// Writes `text` to `path` through an OutputFile.
 void write_text_file(const std::string& path, const std::string& text);
 

@@ -18,7 +18,7 @@ const std::vector<Command> commands = {
     {"solve", "simulate a growing cut"},        {"encode", "fit a field to a snapshot"},
     {"eval", "displacements of a field"},       {"cut", "cut a surface mesh along a path"},
     {"explore", "look at a study, or draw it"}, {"info", "what a file holds"},
-    {"check", "verify files and studies"},
+    {"check", "verify files and studies"},      {"export", "write files for ParaView"},
 };
 
 std::string usage() {

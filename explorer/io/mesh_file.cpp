@@ -1,10 +1,8 @@
 #include "explorer/io/mesh_file.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
 #include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
@@ -29,6 +27,7 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "explorer/io/vtk_listener.h"
 
 namespace cleft {
 
@@ -41,46 +40,12 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-/// VTK reports errors as events: keep the first one.
-class Listener {
- public:
-  template <class Algorithm>
-  explicit Listener(Algorithm* algorithm) {
-    command_->SetClientData(&message_);
-    command_->SetCallback([](vtkObject*, unsigned long, void* message, void* text) {
-      auto& first = *static_cast<std::string*>(message);
-      if (first.empty()) first = text ? static_cast<const char*>(text) : "unknown error";
-    });
-    algorithm->AddObserver("ErrorEvent", command_);
-    algorithm->GetExecutive()->AddObserver("ErrorEvent", command_);
-    vtkNew<vtkCallbackCommand> silent;  // what a warning means shows in the result
-    silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-    algorithm->AddObserver("WarningEvent", silent);
-    if constexpr (requires { algorithm->SetParserErrorObserver(command_); })
-      algorithm->SetParserErrorObserver(command_);
-  }
-  const std::string& message() const { return message_; }
-
- private:
-  vtkNew<vtkCallbackCommand> command_;
-  std::string message_;
-};
-
-/// The part of VTK's message that says what is wrong, on one line.
-std::string reason(std::string text) {
-  const auto colon = text.rfind("): ");
-  if (colon != std::string::npos) text.erase(0, colon + 3);
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
-}
-
 template <class Reader>
 vtkSmartPointer<vtkPolyData> read_with(const std::string& path) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
-  const Listener reading(reader.Get());
+  const VtkListener reading(reader.Get());
   vtkNew<vtkTriangleFilter> triangles;
   triangles->SetInputConnection(reader->GetOutputPort());
   triangles->PassLinesOff();
@@ -90,8 +55,7 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path) {
   clean->ToleranceIsAbsoluteOn();
   clean->SetAbsoluteTolerance(0);
   clean->Update();
-  if (!reading.message().empty())
-    throw FileError(path, "cannot be read as a mesh: " + reason(reading.message()));
+  if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
   return clean->GetOutput();
 }
 
@@ -170,11 +134,11 @@ vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<P
 template <class Writer>
 void write_with(const vtkNew<Writer>& writer, vtkPolyData* data, const std::string& path) {
   OutputFile file(path);
-  const Listener writing(writer.Get());
+  const VtkListener writing(writer.Get());
   writer->SetFileName(file.path().c_str());
   writer->SetInputData(data);
-  if (writer->Write() == 0 || !writing.message().empty())
-    throw std::runtime_error(path + ": could not be written: " + reason(writing.message()));
+  if (writer->Write() == 0 || writing.failed())
+    throw std::runtime_error(path + ": could not be written: " + writing.reason());
   file.commit();
 }
 

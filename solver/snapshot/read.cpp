@@ -8,6 +8,8 @@ namespace cleft {
 
 namespace {
 
+const std::string point_data = "/VTKHDF/PointData", displacements = point_data + "/displacement";
+
 std::vector<Vec3> as_vectors(const std::vector<double>& numbers) {
   std::vector<Vec3> vectors(numbers.size() / 3);
   for (std::size_t i = 0; i < vectors.size(); ++i)
@@ -137,9 +139,9 @@ Snapshot read_all_but_displacements(const h5::File& file) {
       s.parameters[name] = file.read_text("/parameters", name);
     }
   }
-  const h5::Shape shape = file.shape("/VTKHDF/PointData/displacement");
+  const h5::Shape shape = file.shape(displacements);
   if (shape != h5::Shape{s.frames() * s.points.size(), 3})
-    throw FileError(file.path(), "/VTKHDF/PointData/displacement must have a row a frame and point");
+    throw FileError(file.path(), displacements + " must have a row a frame and point");
   SnapshotCheck(file.path(), s).run();
   return s;
 }
@@ -168,8 +170,7 @@ std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t fi
                                                std::size_t count) const {
   CLEFT_CHECK(frame, <, snapshot_.frames());
   std::vector<double> numbers(3 * count);
-  file_.read_rows<double>("/VTKHDF/PointData/displacement", frame * snapshot_.points.size() + first, count,
-                          numbers);
+  file_.read_rows<double>(displacements, frame * snapshot_.points.size() + first, count, numbers);
   std::vector<Vec3> vectors = as_vectors(numbers);
   for (const Vec3& d : vectors)
     if (!std::isfinite(squared_norm(d)))
@@ -178,10 +179,36 @@ std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t fi
   return vectors;
 }
 
+std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
+  const hsize_t points = snapshot_.points.size(), frames = snapshot_.frames();
+  std::vector<SnapshotArray> arrays;
+  for (const std::string& name : file_.members(point_data)) {
+    if (name == "displacement") continue;
+    const std::string dataset = point_data + "/" + name;
+    const h5::Shape shape = file_.shape(dataset);
+    const bool table = shape.size() == 1 || (shape.size() == 2 && shape[1] > 0);
+    if (!table || (shape[0] != points && shape[0] != frames * points))
+      throw FileError(file_.path(), dataset + " must have a row a point (" + std::to_string(points) +
+                                        "), or a row a frame and point (" + std::to_string(frames * points) +
+                                        ")");
+    arrays.push_back({name, shape.size() == 1 ? 1 : shape[1], shape[0] != points});
+  }
+  return arrays;
+}
+
+std::vector<double> SnapshotReader::point_array(const SnapshotArray& array, std::size_t frame) const {
+  CLEFT_CHECK(frame, <, snapshot_.frames());
+  const std::size_t points = snapshot_.points.size();
+  std::vector<double> numbers(array.components * points);
+  file_.read_rows<double>(point_data + "/" + array.name, array.varies ? frame * points : 0, points, numbers);
+  return numbers;
+}
+
 void check_snapshot(const std::string& path) {
   h5::File::open(path).read_everything();
   const SnapshotReader reader(path);
   for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) reader.displacement(j);
+  reader.point_arrays();
 }
 
 }  // namespace cleft

@@ -64,6 +64,14 @@ class SnapshotWriter {
   std::size_t points_;
 };
 
+/// An array of the points beside the displacement: /VTKHDF/PointData/<name>, one for all frames or one a
+/// frame.
+struct SnapshotArray {
+  std::string name;
+  std::size_t components = 1;  ///< numbers for each point
+  bool varies = false;         ///< F N rows instead of N
+};
+
 /// Opens, reads and checks all but the displacements, which are read frame by frame or in slabs of nodes.
 class SnapshotReader {
  public:
@@ -75,6 +83,12 @@ class SnapshotReader {
   std::vector<Vec3> displacement(std::size_t frame) const;
   /// Displacements of the nodes first .. first + count - 1 in a frame.
   std::vector<Vec3> displacement(std::size_t frame, std::size_t first, std::size_t count) const;
+
+  /// All arrays of /VTKHDF/PointData but the displacement, by name. Throws FileError where one has neither a
+  /// row a point nor a row a frame and point.
+  std::vector<SnapshotArray> point_arrays() const;
+  /// N times its components, point by point; of `frame` where it varies.
+  std::vector<double> point_array(const SnapshotArray& array, std::size_t frame) const;
 
  private:
   h5::File file_;

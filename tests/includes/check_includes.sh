@@ -24,7 +24,7 @@ encoder/field:base
 encoder:base|solver/snapshot
 haptic:base|encoder/field
 explorer/incision:base|encoder/field|haptic
-explorer/io:base|explorer/incision
+explorer/io:base|explorer/incision|solver/snapshot
 explorer/scene:base|encoder/field|haptic|explorer/incision|solver/snapshot|params
 explorer/view:base|encoder/field|explorer/incision|explorer/scene|explorer/io
 cli:base|params|solver/snapshot|encoder/field

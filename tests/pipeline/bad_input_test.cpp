@@ -187,7 +187,7 @@ TEST_F(BadInput, AMeshFileThatEndsEarly) {
 TEST_F(BadInput, AFullDiskIsTold) {
   const std::string snapshot = solved();
   for (const std::string& command : {"solve " + (in / "good.toml") + " --out " + (out / "x.h5"),
-                                    "encode " + snapshot + " --out " + (out / "x.dffd")}) {
+                                     "encode " + snapshot + " --out " + (out / "x.dffd")}) {
     const Outcome outcome = on_a_full_disk(8, std::string(CLEFT_BIN) + "/cleft " + command);
     EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
     EXPECT_NE(outcome.output.find("disk full"), std::string::npos) << outcome.output;
@@ -222,7 +222,7 @@ TEST_F(BadInput, Usage) {
 
 TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
   for (const char* command :
-       {"run", "status", "solve", "encode", "eval", "cut", "explore", "info", "check"}) {
+       {"run", "status", "solve", "encode", "eval", "cut", "explore", "export", "info", "check"}) {
     EXPECT_NE(
         expect_success(run_cleft(command, {"--help"})).output.find("Usage: cleft " + std::string(command)),
         std::string::npos)

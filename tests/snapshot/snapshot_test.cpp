@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "tests/snapshot/point_array.h"
 #include "tests/support/damage.h"
 #include "tests/support/temporary_folder.h"
 
@@ -70,6 +71,58 @@ TEST(Snapshot, ReadsBackWhatWasWritten) {
   EXPECT_EQ(reader.displacement(2, 3, 2), (std::vector<Vec3>{frame(2)[3], frame(2)[4]}));
   EXPECT_EQ(reader.snapshot().skin(), (std::vector<std::array<int, 3>>{{3, 4, 5}}));
   EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(Snapshot, FurtherArraysOfThePointsAreRead) {
+  const TemporaryFolder folder;
+  const std::string file = write(folder, small_snapshot());
+  EXPECT_TRUE(SnapshotReader(file).point_arrays().empty());
+  std::vector<double> numbers(7 * 3 * 3);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 1.0 / (1.0 + i);
+  add_point_array(file, "compliance", numbers, {7});
+  add_point_array(file, "dent", numbers, {7, 3});
+  add_point_array(file, "displacement_per_skin.prestress_v", numbers, {21, 3});
+  add_point_array(file, "gap", numbers, {21});
+  check_snapshot(file);
+
+  const SnapshotReader reader(file);
+  EXPECT_TRUE(same(reader));
+  const auto arrays = reader.point_arrays();
+  ASSERT_EQ(arrays.size(), 4u);
+  const auto expect = [&](int i, const char* name, std::size_t components, bool varies) {
+    EXPECT_EQ(arrays[i].name, name);
+    EXPECT_EQ(arrays[i].components, components);
+    EXPECT_EQ(arrays[i].varies, varies);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto* first = &numbers[varies ? j * 7 * components : 0];
+      EXPECT_EQ(reader.point_array(arrays[i], j), std::vector<double>(first, first + 7 * components));
+    }
+  };
+  expect(0, "compliance", 1, false);
+  expect(1, "dent", 3, false);
+  expect(2, "displacement_per_skin.prestress_v", 3, true);
+  expect(3, "gap", 1, true);
+}
+
+TEST(Snapshot, ArraysThatDoNotFitThePointsAreNamed) {
+  for (const h5::Shape& shape : std::vector<h5::Shape>{{6}, {14, 3}, {3, 7}, {7, 1, 1}, {1, 21}}) {
+    const TemporaryFolder folder;
+    const std::string file = write(folder, small_snapshot());
+    add_point_array(file, "odd", std::vector<double>(64), shape);
+    EXPECT_THROW(check_snapshot(file), FileError);
+    try {
+      SnapshotReader(file).point_arrays();
+      ADD_FAILURE() << "accepted";
+    } catch (const FileError& e) {
+      EXPECT_NE(std::string(e.what()).find("PointData/odd must have a row a point (7)"), std::string::npos)
+          << e.what();
+    }
+  }
+  const TemporaryFolder folder;
+  const std::string file = write(folder, small_snapshot());
+  add_point_array(file, "integers", std::vector<double>(7), {7}, H5T_NATIVE_INT);
+  const SnapshotReader reader(file);
+  EXPECT_THROW(reader.point_array(reader.point_arrays().at(0), 0), FileError);
 }
 
 TEST(Snapshot, AnUnfinishedOneLeavesNothing) {

@@ -1,0 +1,36 @@
+// Snapshots as the time series that ParaView and VTK read everywhere: NAME.pvd, and a .vtu file a frame in
+// NAME/.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+struct ExportFigures {
+  std::size_t files = 0, frames = 0;
+  std::uintmax_t bytes = 0;
+
+  ExportFigures& operator+=(const ExportFigures& other);
+};
+
+/// Writes folder/NAME.pvd and folder/NAME/frame_0000.vtu, ... In each: the points at their stress-free
+/// positions, the displacement and all further arrays of the points in this frame, on cells `part` (0 skin, 1
+/// tissue), and t as TimeValue. `progress` is told the frame. Throws FileError where the snapshot is damaged,
+/// std::runtime_error where the disk is full. What is written before an exception stays: `folder` is a
+/// temporary one.
+ExportFigures write_paraview_series(const SnapshotReader& reader, const std::string& folder,
+                                    const std::string& name,
+                                    const std::function<void(std::size_t)>& progress = {});
+
+/// Throws InputError where folder/NAME.pvd or folder/NAME is there and is not what write_paraview_series
+/// wrote.
+void refuse_to_replace_series(const std::string& folder, const std::string& name);
+
+/// The same for a folder of series, and nothing else.
+void refuse_to_replace_folder_of_series(const std::string& folder);
+
+}  // namespace cleft

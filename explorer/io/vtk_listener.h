@@ -1,0 +1,50 @@
+// VTK's errors as values. For the sources of this folder only.
+#pragma once
+
+#include <vtkCallbackCommand.h>
+#include <vtkExecutive.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <string>
+
+namespace cleft {
+
+/// VTK reports errors as events: keeps the first one of a reader or writer, and what it is silent about is
+/// not printed.
+class VtkListener {
+ public:
+  template <class Algorithm>
+  explicit VtkListener(Algorithm* algorithm) {
+    command_->SetClientData(&message_);
+    command_->SetCallback([](vtkObject*, unsigned long, void* message, void* text) {
+      auto& first = *static_cast<std::string*>(message);
+      if (first.empty()) first = text ? static_cast<const char*>(text) : "unknown error";
+    });
+    algorithm->AddObserver("ErrorEvent", command_);
+    algorithm->GetExecutive()->AddObserver("ErrorEvent", command_);
+    vtkNew<vtkCallbackCommand> silent;  // what a warning means shows in the result
+    silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+    algorithm->AddObserver("WarningEvent", silent);
+    if constexpr (requires { algorithm->SetParserErrorObserver(command_); })
+      algorithm->SetParserErrorObserver(command_);
+  }
+  VtkListener(const VtkListener&) = delete;
+  VtkListener& operator=(const VtkListener&) = delete;
+
+  bool failed() const { return !message_.empty(); }
+  /// The part of the message that says what is wrong, on one line.
+  std::string reason() const {
+    const auto colon = message_.rfind("): ");
+    std::string text = colon == std::string::npos ? message_ : message_.substr(colon + 3);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+  }
+
+ private:
+  vtkNew<vtkCallbackCommand> command_;
+  std::string message_;
+};
+
+}  // namespace cleft
