@@ -40,8 +40,14 @@ class File {
  public:
   static File create(const std::string& path);
   static File open(const std::string& path);
+  static File open_to_write(const std::string& path);
+#ifdef H5_HAVE_PARALLEL
+  /// An existing file, by all ranks together: write_rows() and close() are collective then.
+  static File open_to_write(const std::string& path, MPI_Comm communicator);
+#endif
 
   const std::string& path() const { return path_; }
+  bool is_open() const { return file_ >= 0; }
   bool has(const std::string& name) const;
   Shape shape(const std::string& name) const;
   std::vector<std::string> attribute_names(const std::string& object) const;
@@ -89,6 +95,7 @@ class File {
 
   std::string path_;
   Handle file_;
+  bool collective_ = false;
 };
 
 }  // namespace cleft::h5

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "solver/elimination_order.h"
 
@@ -13,19 +12,6 @@ namespace cleft {
 namespace {
 
 using Triplet = Eigen::Triplet<double, int>;
-
-std::vector<int> nodes_of(const std::vector<NodePair>& pairs) {
-  std::set<int> nodes;
-  for (const NodePair& pair : pairs) nodes.insert({pair.left, pair.right});
-  return {nodes.begin(), nodes.end()};
-}
-
-std::vector<int> unknowns_of(const PatchSystem& system, const std::vector<int>& nodes) {
-  std::vector<int> unknowns;
-  for (const int node : nodes)
-    for (int axis = 0; axis < 3; ++axis) unknowns.push_back(system.unknown(node, axis));
-  return unknowns;
-}
 
 /// The triplets of all ranks, on rank 0.
 std::vector<Triplet> gather(const PatchSystem& system, const std::vector<Triplet>& local) {
@@ -45,22 +31,14 @@ std::vector<Triplet> gather(const PatchSystem& system, const std::vector<Triplet
 
 DirectSolver::DirectSolver(const PatchMesh& mesh, const PatchSystem& system)
     : system_(system),
-      cut_nodes_(nodes_of(mesh.pairs)),
-      cut_unknowns_(unknowns_of(system, cut_nodes_)),
-      factor_(system, cut_unknowns_,
-              system.rank() == 0 ? elimination_order(mesh, system, cut_unknowns_) : std::vector<int>()) {
-  const auto place = [&](int node) {
-    return static_cast<int>(std::lower_bound(cut_nodes_.begin(), cut_nodes_.end(), node) -
-                            cut_nodes_.begin());
-  };
-  for (const NodePair& pair : mesh.pairs) {
-    cut_pairs_.push_back({place(pair.left), place(pair.right)});
-    normals_.push_back(pair.normal);
-  }
+      cut_(mesh, system),
+      factor_(system, cut_.unknowns,
+              system.rank() == 0 ? elimination_order(mesh, system, cut_.unknowns) : std::vector<int>()) {
+  for (const NodePair& pair : mesh.pairs) normals_.push_back(pair.normal);
 }
 
 double DirectSolver::bytes_needed() const {
-  const double cut = static_cast<double>(cut_unknowns_.size());
+  const double cut = static_cast<double>(cut_.unknowns.size());
   const double dense = system_.rank() == 0 ? 6 * cut * cut : 0;
   constexpr double blocks = 4 * 64;  // of frames: displacements, residuals and what they are made of
   return factor_.bytes_needed() + 8 * (dense + blocks * system_.owned());
@@ -69,7 +47,7 @@ double DirectSolver::bytes_needed() const {
 void DirectSolver::factorize() {
   factor_.factorize();
   std::map<int, int> cut_place;
-  for (std::size_t i = 0; i < cut_unknowns_.size(); ++i) cut_place[cut_unknowns_[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < cut_.unknowns.size(); ++i) cut_place[cut_.unknowns[i]] = static_cast<int>(i);
   std::vector<Triplet> entries;
   const Epetra_CrsMatrix& matrix = system_.stiffness();
   for (int row = 0; row < matrix.NumMyRows(); ++row) {
@@ -91,9 +69,9 @@ void DirectSolver::factorize() {
                               neighbors_.begin()),
              entry.col(), entry.value()};
   coupling_.resize(static_cast<Eigen::Index>(neighbors_.size()),
-                   static_cast<Eigen::Index>(cut_unknowns_.size()));
+                   static_cast<Eigen::Index>(cut_.unknowns.size()));
   coupling_.setFromTriplets(entries.begin(), entries.end());
-  condensation_.emplace(factor_.schur(), cut_pairs_);
+  condensation_.emplace(factor_.schur(), cut_.pairs);
 }
 
 void DirectSolver::set_release(const Release& release) {
@@ -105,8 +83,8 @@ void DirectSolver::set_release(const Release& release) {
 }
 
 void DirectSolver::set_loads(Block loads) {
-  const Eigen::MatrixXd at_cut = gather_rows(system_, loads, cut_unknowns_);
-  for (const int unknown : cut_unknowns_) {
+  const Eigen::MatrixXd at_cut = gather_rows(system_, loads, cut_.unknowns);
+  for (const int unknown : cut_.unknowns) {
     const int local = unknown - system_.first();
     if (local >= 0 && local < system_.owned()) loads.row(local).setZero();
   }
@@ -119,7 +97,7 @@ void DirectSolver::set_loads(Block loads) {
   Eigen::SparseMatrix<double> right(system_.size(), loads.cols());
   right.setFromTriplets(entries.begin(), entries.end());
   interior_ = factor_.solve(right);
-  const Eigen::MatrixXd carried = gather_rows(system_, system_.multiply(interior_), cut_unknowns_);
+  const Eigen::MatrixXd carried = gather_rows(system_, system_.multiply(interior_), cut_.unknowns);
   loads_.clear();
   if (system_.rank() == 0)
     for (Eigen::Index c = 0; c < loads.cols(); ++c)
@@ -128,7 +106,7 @@ void DirectSolver::set_loads(Block loads) {
 
 Block DirectSolver::solve(const std::vector<Column>& columns) {
   const auto count = static_cast<Eigen::Index>(columns.size());
-  Eigen::MatrixXd at_cut(static_cast<Eigen::Index>(cut_unknowns_.size()), count);
+  Eigen::MatrixXd at_cut(static_cast<Eigen::Index>(cut_.unknowns.size()), count);
   Eigen::SparseMatrix<double> right(system_.size(), count);
   if (system_.rank() == 0) {
     for (Eigen::Index c = 0; c < count; ++c) {
@@ -145,8 +123,8 @@ Block DirectSolver::solve(const std::vector<Column>& columns) {
   Block solution = factor_.solve(right);
   for (Eigen::Index c = 0; c < count; ++c)
     solution.col(c) += interior_.col(columns[static_cast<std::size_t>(c)].load);
-  for (std::size_t i = 0; i < cut_unknowns_.size(); ++i) {
-    const int local = cut_unknowns_[i] - system_.first();
+  for (std::size_t i = 0; i < cut_.unknowns.size(); ++i) {
+    const int local = cut_.unknowns[i] - system_.first();
     if (local >= 0 && local < system_.owned()) solution.row(local) = at_cut.row(static_cast<Eigen::Index>(i));
   }
   return solution;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "solver/condensed_factor.h"
+#include "solver/cut_nodes.h"
 #include "solver/frame_solver.h"
 #include "solver/opening.h"
 
@@ -25,12 +26,11 @@ class DirectSolver : public FrameSolver {
 
  private:
   const PatchSystem& system_;
-  std::vector<int> cut_nodes_, cut_unknowns_;  // of the mesh, and of K
-  std::vector<std::array<int, 2>> cut_pairs_;  // among cut_nodes_
-  std::vector<Vec3> normals_;                  // by pair
+  CutNodes cut_;
+  std::vector<Vec3> normals_;  // by pair
   CondensedFactor factor_;
   std::vector<int> neighbors_;            // unknowns that the cut's act on; rank 0, as all below
-  Eigen::SparseMatrix<double> coupling_;  // K_ic: rows as neighbors_, columns as cut_unknowns_
+  Eigen::SparseMatrix<double> coupling_;  // K_ic: rows as neighbors_, columns as cut_.unknowns
   std::optional<CutCondensation> condensation_;
   std::optional<Opening> opening_;
   std::vector<Opening::Load> loads_;

@@ -6,10 +6,10 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "base/text.h"
+#include "solver/cut_nodes.h"
 
 namespace cleft {
 
@@ -35,8 +35,8 @@ Block rigid_body_modes(const PatchSystem& system) {
 
 }  // namespace
 
-/// A hierarchy for the patch with some of its pairs tied. The matrix keeps its size: rows of tied unknowns are
-/// added to those of the first of their group, and become those of the unit matrix.
+/// A hierarchy for the patch with some of its pairs tied. The matrix keeps its size: rows of tied unknowns
+/// are added to those of the first of their group, and become those of the unit matrix.
 class Multigrid {
  public:
   /// `first`: by local column of K, the global unknown that stands for it.
@@ -67,13 +67,16 @@ class Multigrid {
     list.set("null space: vectors", modes_.data());
     list.set("aggregation: type", "Uncoupled");
     list.set("aggregation: threshold", 0.);
-    list.set("smoother: type", getenv("SM")?getenv("SM"):"Chebyshev");
-    list.set("smoother: sweeps", getenv("SW")?atoi(getenv("SW")):3);
-    if(getenv("AG")) list.set("aggregation: type", getenv("AG"));
-    if(getenv("CH")) list.set("smoother: Chebyshev alpha", atof(getenv("CH")));
-    if(getenv("DF")) list.set("aggregation: damping factor", atof(getenv("DF")));
-    if(getenv("EA")) {list.set("eigen-analysis: type", "power-method"); list.set("eigen-analysis: iterations", atoi(getenv("EA")));}
-    if(getenv("CM")) list.set("coarse: max size", atoi(getenv("CM")));
+    list.set("smoother: type", getenv("SM") ? getenv("SM") : "Chebyshev");
+    list.set("smoother: sweeps", getenv("SW") ? atoi(getenv("SW")) : 4);
+    if (getenv("AG")) list.set("aggregation: type", getenv("AG"));
+    if (getenv("CH")) list.set("smoother: Chebyshev alpha", atof(getenv("CH")));
+    if (getenv("DF")) list.set("aggregation: damping factor", atof(getenv("DF")));
+    if (getenv("EA")) {
+      list.set("eigen-analysis: type", "power-method");
+      list.set("eigen-analysis: iterations", atoi(getenv("EA")));
+    }
+    if (getenv("CM")) list.set("coarse: max size", atoi(getenv("CM")));
     list.set("coarse: type", "Amesos-KLU");
     list.set("coarse: max size", 2000);
     levels_ = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(tied_, list, true);
@@ -94,20 +97,16 @@ class Multigrid {
 };
 
 struct IterativeSolver::Parts {
-  Parts(const PatchMesh& m, const PatchSystem& s) : mesh(m), system(s), modes(rigid_body_modes(s)) {
-    for (const NodePair& pair : mesh.pairs)
-      for (const int node : {pair.left, pair.right})
-        if (place.emplace(node, static_cast<int>(nodes.size())).second) nodes.push_back(node);
-  }
+  Parts(const PatchMesh& m, const PatchSystem& s)
+      : mesh(m), system(s), cut(m, s), modes(rigid_body_modes(s)) {}
 
   const PatchMesh& mesh;
   const PatchSystem& system;
+  CutNodes cut;
   Block modes;
   std::unique_ptr<Multigrid> multigrid;
   std::vector<int> multigrid_groups;
   int multigrid_open = -1;  // pairs open in the patch that it was made for
-  std::vector<int> nodes;    // of the cut
-  std::map<int, int> place;  // of a node in `nodes`
   Release release;
   Block loads;
   std::vector<Block> last;  // solution of every load, to start from
@@ -121,26 +120,26 @@ struct IterativeSolver::Parts {
 
   /// Groups of tied copies: by node of the cut, the first of its group.
   std::vector<int> groups(int open) const {
-    std::vector<int> first(nodes.size());
+    std::vector<int> first(cut.nodes.size());
     std::iota(first.begin(), first.end(), 0);
     std::vector<bool> closed(mesh.pairs.size(), false);
     for (std::size_t i = open; i < release.order.size(); ++i) closed[release.order[i]] = true;
     for (std::size_t p = 0; p < mesh.pairs.size(); ++p)  // a right node is the left one of later pairs only
-      if (closed[p]) first[place.at(mesh.pairs[p].right)] = first[place.at(mesh.pairs[p].left)];
+      if (closed[p]) first[cut.pairs[p][1]] = first[cut.pairs[p][0]];
     return first;
   }
 
-  /// Adds up the entries of every group of tied copies, and gives each copy what `share` makes of the sum, the
-  /// group's size and whether the copy is the first.
+  /// Adds up the entries of every group of tied copies, and gives each copy what `share` makes of the sum,
+  /// the group's size and whether the copy is the first.
   template <class Share>
   void collect(const std::vector<int>& first, Eigen::VectorXd& x, const Share& share) const {
     const int begin = system.first(), end = begin + system.owned();
-    std::vector<double> sum(3 * nodes.size(), 0);
-    std::vector<int> count(nodes.size(), 0);
+    std::vector<double> sum(3 * cut.nodes.size(), 0);
+    std::vector<int> count(cut.nodes.size(), 0);
     const auto each = [&](auto&& visit) {
-      for (std::size_t n = 0; n < nodes.size(); ++n)
+      for (std::size_t n = 0; n < cut.nodes.size(); ++n)
         for (int axis = 0; axis < 3; ++axis) {
-          const int unknown = system.unknown(nodes[n], axis);
+          const int unknown = cut.unknowns[3 * n + axis];
           if (begin <= unknown && unknown < end) visit(static_cast<int>(n), axis, x(unknown - begin));
         }
     };
@@ -168,17 +167,17 @@ struct IterativeSolver::Parts {
 
   /// A hierarchy serves frames that are closed a little further than the one it was made for.
   void prepare(int open) {
-    const int all = release.released.back(), ahead = std::max(1, all / 16);
+    const int all = release.released.back(), ahead = 1 + all / 64;
     if (multigrid && open <= multigrid_open && multigrid_open < open + ahead) return;
     multigrid_open = open == 0 ? 0 : std::min(all, open + ahead - 1);
     multigrid_groups = groups(multigrid_open);
     const Epetra_CrsMatrix& k = system.stiffness();
     std::vector<int> stands_for(k.NumMyCols());
     for (int c = 0; c < k.NumMyCols(); ++c) stands_for[c] = k.GCID(c);
-    for (std::size_t n = 0; n < nodes.size(); ++n)
+    for (std::size_t n = 0; n < cut.nodes.size(); ++n)
       for (int axis = 0; axis < 3; ++axis)
-        if (const int local = k.LCID(system.unknown(nodes[n], axis)); local >= 0)
-          stands_for[local] = system.unknown(nodes[multigrid_groups[n]], axis);
+        if (const int local = k.LCID(cut.unknowns[3 * n + axis]); local >= 0)
+          stands_for[local] = cut.unknowns[3 * multigrid_groups[n] + axis];
     multigrid.reset();
     multigrid = std::make_unique<Multigrid>(system, stands_for, modes);
   }

@@ -48,13 +48,26 @@ struct Snapshot {
   std::vector<std::array<int, 3>> skin() const;
 };
 
-/// Writes a snapshot whole or not at all: displacement frame by frame, then finish().
+/// An array of the points beside the displacement: /VTKHDF/PointData/<name>, one for all frames or one a
+/// frame.
+struct SnapshotArray {
+  std::string name;
+  std::size_t components = 1;  ///< numbers for each point
+  bool varies = false;         ///< F N rows instead of N
+};
+
+/// Writes a snapshot whole or not at all: displacement frame by frame, further arrays, then finish().
 class SnapshotWriter {
  public:
-  /// Takes mesh, cut, times and parameters; the figures of the frames are taken by finish().
-  SnapshotWriter(const std::string& path, const Snapshot& snapshot);
+  /// Takes mesh, cut, times and parameters, and makes room for `arrays`; the figures of the frames are taken by
+  /// finish().
+  SnapshotWriter(const std::string& path, const Snapshot& snapshot,
+                 const std::vector<SnapshotArray>& arrays = {});
   /// Displacements from `points`, N of them, of frames first, first + 1, ...: one or more whole frames.
   void write_frames(std::size_t first, std::span<const Vec3> displacements);
+  /// The name the file has until finish(): others may add rows to it between close() and finish().
+  const std::string& path() const { return out_.path(); }
+  void close() { file_.close(); }
   /// Writes smallest_gap and the residuals, flushes, and gives the file its name.
   void finish(const Snapshot& snapshot);
 
@@ -64,13 +77,22 @@ class SnapshotWriter {
   std::size_t points_;
 };
 
-/// An array of the points beside the displacement: /VTKHDF/PointData/<name>, one for all frames or one a
-/// frame.
-struct SnapshotArray {
-  std::string name;
-  std::size_t components = 1;  ///< numbers for each point
-  bool varies = false;         ///< F N rows instead of N
+#ifdef H5_HAVE_PARALLEL
+/// Rows of point arrays of a snapshot on its way, written by all ranks of a communicator. Calls are collective,
+/// but a communicator of one rank needs no MPI-IO.
+class SnapshotRows {
+ public:
+  SnapshotRows(const std::string& path, std::size_t points, MPI_Comm communicator);
+  /// Nodes first, first + 1, ... of an array ("displacement" or another) in a frame; `numbers` node by node.
+  void write(const std::string& array, std::size_t components, std::size_t frame, std::size_t first,
+             std::span<const double> numbers);
+  void close() { file_.close(); }
+
+ private:
+  h5::File file_;
+  std::size_t points_;
 };
+#endif
 
 /// Opens, reads and checks all but the displacements, which are read frame by frame or in slabs of nodes.
 class SnapshotReader {

@@ -44,7 +44,7 @@ void write_vtk_mesh(h5::File& file, const Snapshot& s) {
 }
 
 /// One mesh for all steps: every geometric offset is 0, and the displacements of step j begin at row j N.
-void write_vtk_steps(h5::File& file, const Snapshot& s) {
+void write_vtk_steps(h5::File& file, const Snapshot& s, const std::vector<SnapshotArray>& arrays) {
   const hsize_t frames = s.frames(), points = s.points.size();
   std::vector<std::int64_t> zeros, ones, rows;
   for (hsize_t j = 0; j < frames; ++j) {
@@ -61,10 +61,16 @@ void write_vtk_steps(h5::File& file, const Snapshot& s) {
   write_list(file, "/VTKHDF/Steps/PointOffsets", zeros);
   file.write<std::int64_t>("/VTKHDF/Steps/CellOffsets", zeros, {frames, 1});
   file.write<std::int64_t>("/VTKHDF/Steps/ConnectivityIdOffsets", zeros, {frames, 1});
-  write_list(file, "/VTKHDF/Steps/PointDataOffsets/displacement", rows);
-  constexpr hsize_t chunk_rows = 32768;  // 0.75 MB: one chunk is read to get one node's neighbourhood
-  file.create_dataset<double>("/VTKHDF/PointData/displacement", {frames * points, 3},
-                              std::min(points, chunk_rows));
+  std::vector<SnapshotArray> all = {{"displacement", 3, true}};
+  all.insert(all.end(), arrays.begin(), arrays.end());
+  for (const SnapshotArray& array : all) {
+    write_list(file, "/VTKHDF/Steps/PointDataOffsets/" + array.name, array.varies ? rows : zeros);
+    constexpr hsize_t chunk_rows = 32768;  // 0.75 MB: one chunk is read to get one node's neighbourhood
+    const hsize_t length = array.varies ? frames * points : points;
+    h5::Shape shape = {length};
+    if (array.components > 1) shape.push_back(array.components);
+    file.create_dataset<double>("/VTKHDF/PointData/" + array.name, shape, std::min(points, chunk_rows));
+  }
 }
 
 void write_cut(h5::File& file, const Snapshot& s) {
@@ -87,7 +93,8 @@ void write_parameters(h5::File& file, const Snapshot& s) {
 
 }  // namespace
 
-SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s)
+SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
+                               const std::vector<SnapshotArray>& arrays)
     : out_(path), file_(h5::File::create(out_.path())), points_(s.points.size()) {
   file_.write_text("/", "format", "cleft-snapshot");
   file_.write_number("/", "version", snapshot_format_version);
@@ -95,7 +102,7 @@ SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s)
   file_.write_text("/", "case", s.case_hash);
   file_.write_text("/", "producer", producer());
   write_vtk_mesh(file_, s);
-  write_vtk_steps(file_, s);
+  write_vtk_steps(file_, s, arrays);
   write_table(file_, "/foundation/triangles", s.foundation_triangles);
   write_table(file_, "/foundation/quads", s.foundation_quads);
   write_cut(file_, s);
@@ -109,11 +116,35 @@ void SnapshotWriter::write_frames(std::size_t first, std::span<const Vec3> displ
 }
 
 void SnapshotWriter::finish(const Snapshot& s) {
+  if (!file_.is_open()) file_ = h5::File::open_to_write(out_.path());
   write_list(file_, "/frames/smallest_gap", s.smallest_gap);
   write_list(file_, "/frames/residual_equilibrium", s.residual_equilibrium);
   write_list(file_, "/frames/residual_closure", s.residual_closure);
   file_.close();
   out_.commit();
 }
+
+#ifdef H5_HAVE_PARALLEL
+
+namespace {
+
+h5::File open_by_all(const std::string& path, MPI_Comm communicator) {
+  int ranks = 1;
+  MPI_Comm_size(communicator, &ranks);
+  return ranks == 1 ? h5::File::open_to_write(path) : h5::File::open_to_write(path, communicator);
+}
+
+}  // namespace
+
+SnapshotRows::SnapshotRows(const std::string& path, std::size_t points, MPI_Comm communicator)
+    : file_(open_by_all(path, communicator)), points_(points) {}
+
+void SnapshotRows::write(const std::string& array, std::size_t components, std::size_t frame,
+                         std::size_t first, std::span<const double> numbers) {
+  file_.write_rows<double>("/VTKHDF/PointData/" + array, frame * points_ + first, numbers.size() / components,
+                           numbers);
+}
+
+#endif
 
 }  // namespace cleft

@@ -1,0 +1,44 @@
+// How well a frame holds: what is left of its forces, and the gaps across its cut.
+#pragma once
+
+#include <vector>
+
+#include "solver/cut_nodes.h"
+#include "solver/frame_solver.h"
+
+namespace cleft {
+
+struct FrameFigures {
+  double smallest_gap = 0;  ///< mm: least opening along the cut's normal over the open pairs; 0 where none is
+  double gape = 0;          ///< mm: greatest such opening
+  double residual_equilibrium = 0;  ///< largest force left over, / largest load
+  double residual_closure = 0;      ///< largest gap of a closed pair / largest displacement
+};
+
+/// What the figures of frames are computed from; linear in displacement and load, so that figures of combined
+/// frames cost no product with K.
+class FrameResidual {
+ public:
+  FrameResidual(const PatchMesh& mesh, const PatchSystem& system);
+
+  /// f - K u for every column. Collective.
+  Block left_over(const Block& loads, const Block& displacements) const {
+    return loads - system_.multiply(displacements);
+  }
+
+  /// Figures of columns with so many open pairs of a release, from their displacements, from what is left
+  /// over and from the largest load. Collective; the same on every rank.
+  std::vector<FrameFigures> figures(const Release& release, const std::vector<FrameSolver::Column>& columns,
+                                    const Block& displacements, const Block& left_over,
+                                    double largest_load) const;
+
+ private:
+  FrameFigures at_cut(const Release& release, const FrameSolver::Column& column,
+                      const Eigen::VectorXd& displacement, Eigen::VectorXd force) const;
+
+  const PatchMesh& mesh_;
+  const PatchSystem& system_;
+  CutNodes cut_;
+};
+
+}  // namespace cleft
