@@ -202,7 +202,7 @@ class Releaser {
       if (m < column.size() && p_.cut.frames != "pair") continue;
       const double part = static_cast<double>(m) / static_cast<double>(column.size());
       r_.released.push_back(static_cast<int>(r_.order.size()));
-      r_.position.push_back(m == column.size() ? next : first.along + (next - first.along) * part);
+      r_.position.push_back(first.along + (next - first.along) * part);
       r_.times.push_back(cut_before + r_.position.back() - (is_branch(first) ? 0 : r_.start));
     }
     return n;

@@ -117,8 +117,24 @@ TEST(Release, TheCaseEndsAtTheNearestNodes) {
         EXPECT_NEAR(r.start + r.length, -r.start, 1e-12) << "stays centred";
         EXPECT_NEAR(std::abs(r.depth - p.cut.depth), nearest(mesh.lines_depth, p.cut.depth), 1e-12);
         EXPECT_GT(r.released.back(), 0);
+        for (const double position : r.position)
+          EXPECT_EQ(std::count(lines.begin(), lines.end(), position), 1) << "not even rounded";
         EXPECT_NEAR(r.times.back(), r.length, 1e-12);
       }
+}
+
+TEST(Release, RoundingLeavesAColumnAndARowToOpen) {
+  Parameters p;
+  for (double size = 0.7; size < 1.5; size += 0.0137) {
+    p.mesh.element_size = size;
+    p.mesh.cut_length = 5 * size, p.cut.length = 2 * size;  // ends half-way between two nodes
+    p.mesh.cut_depth = 3 * size * (1 + 2e-10), p.cut.depth = size / 2 * (1 + 1e-10);
+    check_consistency(p, "here");
+    const Release r = make_release(make_patch_mesh(p), p);
+    EXPECT_GE(r.released.back(), 1) << size;
+    EXPECT_NEAR(r.length, 3 * size, 1e-9) << size;
+    EXPECT_NEAR(r.depth, size, 1e-9) << size;
+  }
 }
 
 }  // namespace cleft

@@ -34,6 +34,7 @@ inline std::vector<Shape> shapes() {
   return {
       shape("straight", small, [](Parameters&) {}),
       shape("awkward", awkward, [](Parameters&) {}),
+      shape("odd", small, [](Parameters& p) { p.cut.length = 4.7; }),
       shape("graded", awkward, [](Parameters& p) { p.mesh.grading = 1.3; }),
       shape("larger mesh", small, [](Parameters& p) { p.mesh.cut_length = 8.2, p.mesh.cut_depth = 2.7; }),
       shape("arc", awkward, [](Parameters& p) { p.cut.radius = 8; }),
@@ -47,6 +48,11 @@ inline std::vector<Shape> shapes() {
             [](Parameters& p) {
               p.cut.count = 2, p.cut.spacing = 2.9, p.cut.radius = 12, p.cut.tilt = -20, p.mesh.grading = 1.1;
             }),
+      shape("two of one column", small,
+            [](Parameters& p) { p.cut.count = 2, p.cut.length = 2, p.cut.spacing = 0.3; }),
+      shape("branch of one column", small, [](Parameters& p) { p.cut.branch = 1, p.cut.length = 2; }),
+      shape("branch longer than the cut", small,
+            [](Parameters& p) { p.cut.branch = 3.7, p.cut.length = 2.9, p.patch.width = 10; }),
       shape("branch", small, [](Parameters& p) { p.cut.branch = 1.9; }),
       shape("branch, awkward, larger mesh", awkward,
             [](Parameters& p) {
