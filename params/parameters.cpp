@@ -13,7 +13,6 @@ namespace cleft {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double most_nodes = 1e7;  // unknowns and their neighbours are counted in 32 bits
 constexpr int hash_version =
     2;  // raise when the same parameters no longer give the same snapshot, or its format changes
 
@@ -48,7 +47,8 @@ std::vector<Parameter> make_table() {
                CLEFT_NUMBER(patch.length)),
       positive("patch.width", "mm", "width of the patch across the cut (v)", CLEFT_NUMBER(patch.width)),
       positive("patch.height", "mm", "height of the patch below the skin (w)", CLEFT_NUMBER(patch.height)),
-      positive("cut.length", "mm", "length of the cut, centred on the patch", CLEFT_NUMBER(cut.length)),
+      positive("cut.length", "mm", "length of the cut (an arc: along it), centred on the patch",
+               CLEFT_NUMBER(cut.length)),
       positive("cut.depth", "mm", "depth of the cut below the skin", CLEFT_NUMBER(cut.depth)),
       choice("cut.contact", no_or_yes, "true: the lips of the cut press on each other, without friction",
              CLEFT_TEXT(cut.contact)),
@@ -58,9 +58,9 @@ std::vector<Parameter> make_table() {
               CLEFT_NUMBER(cut.tilt)),
       between("cut.count", "", 1, 100, "parallel cuts, made one after the other from -v to +v",
               CLEFT_NUMBER(cut.count)),
-      positive("cut.spacing", "mm", "distance between parallel cuts", CLEFT_NUMBER(cut.spacing)),
+      positive("cut.spacing", "mm", "distance between parallel cuts (v)", CLEFT_NUMBER(cut.spacing)),
       not_negative("cut.branch", "mm",
-                   "length of a second cut, from the middle of the first toward +v; 0: none",
+                   "length of a second cut, from the middle of the first toward +v, made after it; 0: none",
                    CLEFT_NUMBER(cut.branch)),
       choice("cut.frames", {"column", "pair"},
              "a frame for every released column of node pairs, or for every pair", CLEFT_TEXT(cut.frames)),
@@ -183,37 +183,6 @@ std::string parameter_help() {
     text += line + row.help + "\n";
   }
   return text;
-}
-
-void check_consistency(const Parameters& p, const std::string& where) {
-  const auto need = [&](bool good, const std::string& message) {
-    if (!good) throw InputError(where + ": " + message);
-  };
-  need(p.cut.length < p.patch.length,
-       "cut.length = " + shortest(p.cut.length) +
-           " mm: must be less than patch.length = " + shortest(p.patch.length) + " mm");
-  need(p.cut.depth < p.patch.height, "cut.depth = " + shortest(p.cut.depth) +
-                                         " mm: must be less than patch.height = " + shortest(p.patch.height) +
-                                         " mm");
-  need(2 * p.mesh.element_size <= p.cut.length,
-       "mesh.element_size = " + shortest(p.mesh.element_size) + " mm: at most half of cut.length = " +
-           shortest(p.cut.length) + " mm, so that the cut has a node to open");
-  need(2 * p.mesh.element_size <= p.patch.width,
-       "mesh.element_size = " + shortest(p.mesh.element_size) +
-           " mm: at most half of patch.width = " + shortest(p.patch.width) + " mm");
-  need(p.tissue.poisson_ratio <= 0.49 || p.tissue.formulation == "mean-dilatation",
-       "tissue.poisson_ratio = " + shortest(p.tissue.poisson_ratio) +
-           ": above 0.49 linear wedges lock; set tissue.formulation = \"mean-dilatation\"");
-  const double h = p.mesh.element_size;
-  const double nodes = (p.patch.length / h + 3) * (p.patch.width / h + 2) * (p.patch.height / h + 2);
-  need(nodes < most_nodes, "mesh.element_size = " + shortest(h) + " mm: the patch would have about " +
-                               shortest(std::round(nodes)) + " nodes; at most " + shortest(most_nodes) +
-                               ": raise it, or make the patch smaller");
-  need(p.skin.prestress_u * p.skin.prestress_v >= p.skin.prestress_uv * p.skin.prestress_uv &&
-           p.skin.prestress_u >= 0 && p.skin.prestress_v >= 0,
-       "skin.prestress_u, _v, _uv = " + shortest(p.skin.prestress_u) + ", " + shortest(p.skin.prestress_v) +
-           ", " + shortest(p.skin.prestress_uv) +
-           " MPa: the skin would be compressed in some direction; a membrane carries tension only");
 }
 
 std::string solve_hash(const Parameters& parameters) {

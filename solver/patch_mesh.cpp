@@ -2,113 +2,140 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "solver/patch_mesh_grid.h"
 
 namespace cleft {
 
 namespace {
 
-/// Coordinates from the first to the last stop, each stretch between stops in equal steps of at most `step`.
-std::vector<double> lines(const std::vector<double>& stops, double step) {
-  std::vector<double> result = {stops.front()};
-  for (std::size_t i = 1; i < stops.size(); ++i) {
-    const double from = stops[i - 1], length = stops[i] - from;
-    const int count = static_cast<int>(std::ceil(std::abs(length) / step - 1e-9));
-    for (int k = 1; k < count; ++k) result.push_back(from + length * k / count);
-    result.push_back(stops[i]);
-  }
-  return result;
-}
+constexpr double flattest = 0.05;  // area of a triangle over its area before its nodes were moved
 
 class PatchMesher {
  public:
-  explicit PatchMesher(const Parameters& p)
-      : p_(p),
-        u_(lines({-p.patch.length / 2, -p.cut.length / 2, p.cut.length / 2, p.patch.length / 2},
-                 p.mesh.element_size)),
-        v_(lines({-p.patch.width / 2, 0, p.patch.width / 2}, p.mesh.element_size)),
-        w_(lines({0, -p.cut.depth, -p.patch.height}, p.mesh.element_size)),
-        plane_(static_cast<int>(v_.size()) / 2) {}
+  explicit PatchMesher(const Parameters& p) : p_(p), grid_(make_patch_grid(p)) {}
 
   PatchMesh mesh() {
     add_points();
-    add_pairs();
+    add_cuts();
+    if (p_.cut.branch > 0) add_branch();
     add_elements();
     add_sides();
     return std::move(mesh_);
   }
 
  private:
-  int node(int i, int j, int k) const {
-    return (k * static_cast<int>(v_.size()) + j) * static_cast<int>(u_.size()) + i;
-  }
-
-  bool is_cut(int i, int k) const { return std::abs(u_[i]) < p_.cut.length / 2 && w_[k] > -p_.cut.depth; }
+  int columns_u() const { return static_cast<int>(grid_.u.size()); }
+  int columns_v() const { return static_cast<int>(grid_.v.size()); }
+  int layers() const { return static_cast<int>(grid_.w.size()) - 1; }
+  int node(int i, int j, int k) const { return (k * columns_v() + j) * columns_u() + i; }
 
   void add_points() {
-    for (const double w : w_)
-      for (const double v : v_)
-        for (const double u : u_) mesh_.points.push_back({u, v, w});
+    for (int k = 0; k <= layers(); ++k)
+      for (int j = 0; j < columns_v(); ++j)
+        for (int i = 0; i < columns_u(); ++i) {
+          mesh_.points.push_back(grid_.point(i, j, k));
+          mesh_.skin_above.push_back(node(i, j, 0));
+        }
+    for (int k = 0; k <= grid_.bottom; ++k) mesh_.lines_depth.push_back(std::abs(grid_.w[k]));
+  }
+
+  void add_cuts() {
     right_of_.resize(mesh_.points.size());
-    for (std::size_t n = 0; n < right_of_.size(); ++n) {
-      right_of_[n] = static_cast<int>(n);
-      mesh_.skin_above.push_back(static_cast<int>(n % (u_.size() * v_.size())));
+    std::iota(right_of_.begin(), right_of_.end(), 0);
+    const int ends = static_cast<int>(grid_.along.size()) - 1;
+    mesh_.start = grid_.point(grid_.cut_from, grid_.planes[0], 0);
+    for (const int plane : grid_.planes) {
+      const int incision = static_cast<int>(mesh_.lines_along.size());
+      mesh_.lines_along.push_back(grid_.along);
+      for (int n = 1; n < ends; ++n)
+        split_column(grid_.cut_from + n, plane, right_of_,
+                     {0, 0, grid_.cut_normal(n), incision, grid_.along[n]});
     }
   }
 
-  /// The right node is the duplicate.
-  void add_pairs() {
-    mesh_.lines_along.emplace_back();
-    for (const double u : u_)
-      if (std::abs(u) <= p_.cut.length / 2) mesh_.lines_along[0].push_back(u);
-    for (const double w : w_)
-      if (w >= -p_.cut.depth) mesh_.lines_depth.push_back(-w);
-    for (int i = 0; i < static_cast<int>(u_.size()); ++i)
-      for (int k = 0; k < static_cast<int>(w_.size()); ++k)
-        if (is_cut(i, k)) {
-          const int left = node(i, plane_, k), right = static_cast<int>(mesh_.points.size());
-          mesh_.points.push_back(mesh_.points[left]);
-          mesh_.skin_above.push_back(k == 0 ? right : right_of_[node(i, plane_, 0)]);
-          mesh_.pairs.push_back({left, right, {0, 1, 0}, 0, u_[i], -w_[k]});
-          right_of_[left] = right;
-        }
+  void add_branch() {
+    right_of_branch_.resize(mesh_.points.size());
+    std::iota(right_of_branch_.begin(), right_of_branch_.end(), 0);
+    std::vector<double> lines;
+    for (int j = grid_.planes[0]; j <= grid_.branch_v; ++j) {
+      lines.push_back(grid_.v[j]);
+      if (j < grid_.branch_v)
+        split_column(grid_.branch_u, j, right_of_branch_, {0, 0, {1, 0, 0}, 1, grid_.v[j]});
+    }
+    mesh_.lines_along.push_back(lines);
   }
 
-  /// The node at a grid place as seen by an element that reaches to the right (j >= plane) or to the left of
-  /// the cut.
-  int seen(int i, int j, int k, bool from_right) const {
-    return from_right ? right_of_[node(i, j, k)] : node(i, j, k);
+  /// Doubles the nodes of a column from the skin to the cut's bottom, with `pair` for what they have in
+  /// common. The right node is the duplicate; where a branch begins, of the first cut's right node.
+  void split_column(int i, int j, std::vector<int>& right_of, NodePair pair) {
+    const int top = static_cast<int>(mesh_.points.size());
+    for (int k = 0; k < grid_.bottom; ++k) {
+      pair.left = right_of_[node(i, j, k)];
+      pair.right = static_cast<int>(mesh_.points.size());
+      pair.depth = mesh_.lines_depth[k];
+      mesh_.points.push_back(mesh_.points[pair.left]);
+      mesh_.skin_above.push_back(top);
+      mesh_.pairs.push_back(pair);
+      right_of[pair.left] = pair.right;
+    }
+  }
+
+  using Place = std::pair<int, int>;  // u line, v line
+
+  /// The node at a place of the grid as the elements of a square see it; the square's first corner tells on
+  /// which side of the cuts they lie.
+  int seen(Place place, int k, Place square) const {
+    const auto [i, j] = place;
+    const int n = square.second == j ? right_of_[node(i, j, k)] : node(i, j, k);
+    return square.first == i && i == grid_.branch_u ? right_of_branch_[n] : n;
   }
 
   void add_elements() {
-    const int bottom_layer = static_cast<int>(w_.size()) - 1;
-    for (int k = 0; k < bottom_layer; ++k)
-      for (int j = 0; j + 1 < static_cast<int>(v_.size()); ++j)
-        for (int i = 0; i + 1 < static_cast<int>(u_.size()); ++i)
+    for (int k = 0; k < layers(); ++k)
+      for (int j = 0; j + 1 < columns_v(); ++j)
+        for (int i = 0; i + 1 < columns_u(); ++i)
           for (const auto& triangle : triangles_of_square(i, j)) {
             std::array<int, 3> upper, lower;
             for (int c = 0; c < 3; ++c) {
-              const auto [ci, cj] = triangle[c];
-              upper[c] = seen(ci, cj, k, j >= plane_);
-              lower[c] = seen(ci, cj, k + 1, j >= plane_);
+              upper[c] = seen(triangle[c], k, {i, j});
+              lower[c] = seen(triangle[c], k + 1, {i, j});
             }
+            check_area(upper, i, j);
+            check_area(lower, i, j);
             mesh_.wedges.push_back({lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]});
             if (k == 0) mesh_.skin.push_back(upper);
-            if (k + 1 == bottom_layer) mesh_.bottom.push_back(lower);
+            if (k + 1 == layers()) mesh_.bottom.push_back(lower);
           }
   }
 
-  using Corner = std::pair<int, int>;
-  std::array<std::array<Corner, 3>, 2> triangles_of_square(int i, int j) const {
-    const Corner a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
-    if (j >= plane_) return {{{a, b, c}, {a, c, d}}};
+  std::array<std::array<Place, 3>, 2> triangles_of_square(int i, int j) const {
+    const Place a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
+    if (grid_.v[j] + grid_.v[j + 1] > 0) return {{{a, b, c}, {a, c, d}}};
     return {{{a, b, d}, {b, c, d}}};
   }
 
+  /// A wedge's horizontal sections change linearly from its lower to its upper triangle, since nodes move in
+  /// v only: it is sound where both are.
+  void check_area(const std::array<int, 3>& triangle, int i, int j) const {
+    const Vec3 a = mesh_.points[triangle[0]], b = mesh_.points[triangle[1]], c = mesh_.points[triangle[2]];
+    const double before = std::abs((grid_.u[i + 1] - grid_.u[i]) * (grid_.v[j + 1] - grid_.v[j]));
+    if (cross(b - a, c - a).z < flattest * before)
+      throw InputError("cut.radius = " + shortest(p_.cut.radius) + " mm, cut.tilt = " +
+                       shortest(p_.cut.tilt) + " degrees: the elements at u, v, w = " + shortest(a.x) + ", " +
+                       shortest(a.y) + ", " + shortest(a.z) +
+                       " mm would be flat or turned over; make the cut straighter, or raise "
+                       "patch.width = " +
+                       shortest(p_.patch.width) + " mm");
+  }
+
   void add_sides() {
-    const int nu = static_cast<int>(u_.size()), nv = static_cast<int>(v_.size()),
-              nw = static_cast<int>(w_.size());
-    for (int k = 0; k + 1 < nw; ++k) {
+    const int nu = columns_u(), nv = columns_v();
+    for (int k = 0; k < layers(); ++k) {
       for (int i = 0; i + 1 < nu; ++i)
         for (const int j : {0, nv - 1})
           mesh_.sides.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j, k + 1), node(i, j, k + 1)});
@@ -119,51 +146,81 @@ class PatchMesher {
   }
 
   const Parameters& p_;
-  std::vector<double> u_, v_, w_;
-  int plane_;  ///< index of v = 0
-  std::vector<int> right_of_;
+  const PatchGrid grid_;
+  std::vector<int> right_of_, right_of_branch_;  // by node: itself where it is not doubled
   PatchMesh mesh_;
+};
+
+std::size_t nearest(const std::vector<double>& lines, double place) {
+  return std::min_element(lines.begin(), lines.end(),
+                          [=](double a, double b) { return std::abs(a - place) < std::abs(b - place); }) -
+         lines.begin();
+}
+
+/// Opens the incisions of a mesh one after the other.
+class Releaser {
+ public:
+  Releaser(const PatchMesh& mesh, const Parameters& p) : mesh_(mesh), p_(p) {
+    // Where the case's ends lie half-way between nodes, rounding must not leave it without a node to open.
+    const std::vector<double>& lines = mesh.lines_along[0];
+    const std::size_t skipped = std::min(nearest(lines, -p.cut.length / 2), (lines.size() - 3) / 2);
+    r_.start = lines[skipped];
+    end_ = lines[lines.size() - 1 - skipped];
+    r_.length = end_ - r_.start;
+    r_.depth = mesh.lines_depth[std::max<std::size_t>(1, nearest(mesh.lines_depth, p.cut.depth))];
+  }
+
+  Release release() {
+    r_.released = {0};
+    r_.position = {r_.start};
+    r_.times = {0};
+    for (std::size_t n = 0; n < mesh_.pairs.size();) n = open_column(n);
+    for (std::size_t n = 0; n < mesh_.pairs.size(); ++n)
+      if (!opens(mesh_.pairs[n])) r_.order.push_back(static_cast<int>(n));
+    return std::move(r_);
+  }
+
+ private:
+  bool is_branch(const NodePair& pair) const { return p_.cut.branch > 0 && pair.incision == 1; }
+
+  bool opens(const NodePair& pair) const {
+    return pair.depth < r_.depth && (is_branch(pair) || (pair.along > r_.start && pair.along < end_));
+  }
+
+  /// Opens the column that begins with the n-th pair; the number of the next column's first pair.
+  std::size_t open_column(std::size_t n) {
+    const NodePair& first = mesh_.pairs[n];
+    std::vector<int> column;
+    for (; n < mesh_.pairs.size() && mesh_.pairs[n].incision == first.incision &&
+           mesh_.pairs[n].along == first.along;
+         ++n)
+      if (opens(mesh_.pairs[n])) column.push_back(static_cast<int>(n));
+    const std::vector<double>& lines = mesh_.lines_along[first.incision];
+    const double next = *std::upper_bound(lines.begin(), lines.end(), first.along);
+    const double cut_before = first.incision * r_.length;  // a branch is the second incision
+    for (std::size_t m = 1; m <= column.size(); ++m) {
+      r_.order.push_back(column[m - 1]);
+      if (m < column.size() && p_.cut.frames != "pair") continue;
+      const double part = static_cast<double>(m) / static_cast<double>(column.size());
+      r_.released.push_back(static_cast<int>(r_.order.size()));
+      r_.position.push_back(first.along + (next - first.along) * part);
+      r_.times.push_back(cut_before + r_.position.back() - (is_branch(first) ? 0 : r_.start));
+    }
+    return n;
+  }
+
+  const PatchMesh& mesh_;
+  const Parameters& p_;
+  double end_ = 0;
+  Release r_;
 };
 
 }  // namespace
 
 PatchMesh make_patch_mesh(const Parameters& parameters) { return PatchMesher(parameters).mesh(); }
 
-Release make_release(const PatchMesh& mesh, const Parameters& p) {
-  Release r;
-  const auto nearest = [](const std::vector<double>& lines, double place) {
-    return *std::min_element(lines.begin(), lines.end(),
-                             [=](double a, double b) { return std::abs(a - place) < std::abs(b - place); });
-  };
-  const std::vector<double>& lines = mesh.lines_along[0];
-  r.start = nearest(lines, -p.cut.length / 2);
-  const double end = nearest(lines, p.cut.length / 2);
-  r.length = end - r.start;
-  r.depth = nearest(mesh.lines_depth, p.cut.depth);
-  r.released = {0};
-  r.position = {r.start};
-  r.times = {0};
-  const auto open = [&](const NodePair& pair) {
-    return pair.along > r.start && pair.along < end && pair.depth < r.depth;
-  };
-  for (std::size_t n = 0; n < mesh.pairs.size();) {
-    std::vector<int> column;
-    const double along = mesh.pairs[n].along;
-    for (; n < mesh.pairs.size() && mesh.pairs[n].along == along; ++n)
-      if (open(mesh.pairs[n])) column.push_back(static_cast<int>(n));
-    const double next = *std::upper_bound(lines.begin(), lines.end(), along);
-    for (std::size_t m = 0; m < column.size(); ++m) {
-      r.order.push_back(column[m]);
-      if (m + 1 < column.size() && p.cut.frames != "pair") continue;
-      r.released.push_back(static_cast<int>(r.order.size()));
-      r.position.push_back(along +
-                           (next - along) * static_cast<double>(m + 1) / static_cast<double>(column.size()));
-      r.times.push_back(r.position.back() - r.start);
-    }
-  }
-  for (std::size_t n = 0; n < mesh.pairs.size(); ++n)
-    if (!open(mesh.pairs[n])) r.order.push_back(static_cast<int>(n));
-  return r;
+Release make_release(const PatchMesh& mesh, const Parameters& parameters) {
+  return Releaser(mesh, parameters).release();
 }
 
 }  // namespace cleft

@@ -29,15 +29,20 @@ struct PatchMesh {
   std::vector<int> skin_above;             ///< by node: the node of the skin in the same column
   std::vector<NodePair>
       pairs;  ///< every duplicated node: incision by incision, along each, from the skin down
-  /// Where the nodes of each incision lie, its ends and its bottom included (they are single): mm along it,
-  /// and mm below the skin; both increase.
+  /// Where the nodes of each incision lie, its ends and its bottom included (they are single, but for a
+  /// branch's start): mm along it, and mm below the skin; both increase.
   std::vector<std::vector<double>> lines_along;
   std::vector<double> lines_depth;
+  Vec3 start;  ///< of the first cut, on the skin
 };
 
-/// Elements are no longer than mesh.element_size at the cut, and grow by mesh.grading away from it. The ends,
-/// the bottom and the plane of every cut coincide with element faces; the longest and deepest cut the mesh is
-/// made for is mesh.cut_length by mesh.cut_depth. A straight cut's triangles are mirrored in v = 0.
+/// The ends, the bottom and the surface of every cut coincide with element faces. Elements are no longer than
+/// mesh.element_size within the cut (an arc: along it), between parallel cuts and along a branch; away from
+/// them they grow by mesh.grading. The cut the mesh is made for is mesh.cut_length by mesh.cut_depth where
+/// given; a branch has its own length always, and leaves toward +v where u = 0: its nodes on the first cut
+/// have three copies, in the pairs (left, right with u < 0) and then (right with u < 0, right with u > 0).
+/// Nodes move in v only onto a curved or tilted cut, and the patch stays a box. A straight cut's triangles
+/// are mirrored in v = 0. Throws InputError where moving the nodes would flatten an element.
 PatchMesh make_patch_mesh(const Parameters& parameters);
 
 /// How the cut of a case opens in its mesh.
@@ -53,7 +58,7 @@ struct Release {
 /// Frame 0 is closed; then a frame for each released column, or pair (cut.frames). Columns open one after the
 /// other along an incision, each from the skin down. A column of m of its M pairs released has brought the
 /// tip the fraction m / M of the way to the next column. The cut of the case ends at the nodes nearest to
-/// cut.length and cut.depth.
+/// cut.length and cut.depth (the nearest ones that leave a pair to open).
 Release make_release(const PatchMesh& mesh, const Parameters& parameters);
 
 }  // namespace cleft

@@ -1,0 +1,146 @@
+#include "solver/patch_mesh_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cleft {
+
+namespace {
+
+enum class Cut { before, after, both };  // on which side of a stretch of lines the cut lies
+
+/// Continues the lines to `to`, by the fewest elements that fit. Their nominal size is `step` at the cut, and
+/// `growth` times more from one to the next away from it; all are scaled down alike to fit.
+void add_stretch(std::vector<double>& lines, double to, double step, Cut cut = Cut::both, double growth = 1) {
+  const double from = lines.back(), length = to - from;
+  if (cut == Cut::both) growth = 1;
+  std::vector<double> sums = {0};  // 1 + growth + growth^2 + ...
+  do sums.push_back(sums.back() * growth + 1);
+  while (sums.back() < std::abs(length) / step - 1e-9);
+  const std::size_t count = sums.size() - 1;
+  for (std::size_t k = 1; k < count; ++k) {
+    const double part = cut == Cut::after ? sums[count] - sums[count - k] : sums[k];
+    lines.push_back(from + length * part / sums[count]);
+  }
+  lines.push_back(to);
+}
+
+/// Size of the mesh's cut, and how far its nodes are moved.
+struct Shape {
+  double length, depth, half_angle, half_span, arc_rise, tilt, tilt_reach;
+
+  explicit Shape(const Parameters& p)
+      : length(p.mesh.cut_length > 0 ? p.mesh.cut_length : p.cut.length),
+        depth(p.mesh.cut_depth > 0 ? p.mesh.cut_depth : p.cut.depth),
+        half_angle(p.cut.radius > 0 ? length / 2 / p.cut.radius : 0),
+        half_span(p.cut.radius > 0 ? p.cut.radius * std::sin(half_angle) : length / 2),
+        arc_rise(rise(p.cut.radius, half_angle)),
+        tilt(p.cut.tilt * std::numbers::pi / 180),
+        tilt_reach(std::min(depth, p.patch.height - depth)) {}
+
+  /// How far an arc has come in v where it has turned by `angle`: r (1 - cos angle).
+  static double rise(double radius, double angle) {
+    const double s = std::sin(angle / 2);
+    return 2 * radius * s * s;
+  }
+
+  /// The tilted plane goes on below the cut's bottom and becomes upright over `tilt_reach`.
+  double tilt_shift(double below_skin) const {
+    const double x = std::clamp(below_skin - depth, 0.0, tilt_reach);
+    return std::tan(tilt) * (std::min(below_skin, depth) + x - x * x / (2 * tilt_reach));
+  }
+};
+
+class GridMaker {
+ public:
+  explicit GridMaker(const Parameters& p) : p_(p), shape_(p) {}
+
+  PatchGrid grid() {
+    add_u_lines();
+    add_v_lines();
+    add_w_lines();
+    set_shifts();
+    return std::move(grid_);
+  }
+
+ private:
+  void add_u_lines() {
+    const double end = p_.patch.length / 2, step = p_.mesh.element_size;
+    grid_.along = {-shape_.length / 2};
+    if (p_.cut.branch > 0) add_stretch(grid_.along, 0, step);
+    add_stretch(grid_.along, shape_.length / 2, step);
+    grid_.u = {-end};
+    add_stretch(grid_.u, -shape_.half_span, step, Cut::after, p_.mesh.grading);
+    grid_.u.pop_back();
+    grid_.cut_from = static_cast<int>(grid_.u.size());
+    for (const double along : grid_.along) {
+      const double r = p_.cut.radius, angle = r > 0 ? along / r : 0;
+      if (along == 0 && p_.cut.branch > 0) grid_.branch_u = static_cast<int>(grid_.u.size());
+      grid_.u.push_back(r > 0 ? r * std::sin(angle) : along);
+      grid_.angle.push_back(angle);
+    }
+    add_stretch(grid_.u, end, step, Cut::before, p_.mesh.grading);
+  }
+
+  /// The elements beside the outermost cuts are made so much smaller as moving the nodes stretches them.
+  void add_v_lines() {
+    const double half = p_.patch.width / 2, step = p_.mesh.element_size;
+    const double first = (1 - p_.cut.count) / 2 * p_.cut.spacing;
+    const double last = p_.cut.branch > 0 ? p_.cut.branch : -first;
+    const double tilted = shape_.tilt_shift(p_.patch.height);
+    const double most = shape_.arc_rise + std::max(tilted, 0.0), least = std::min(tilted, 0.0);
+    const int count = static_cast<int>(p_.cut.count);
+    grid_.v = {-half};
+    for (int n = 0; n < count; ++n) {
+      if (n == 0)
+        add_stretch(grid_.v, first, step / (1 + most / (half + first)), Cut::after, p_.mesh.grading);
+      else
+        add_stretch(grid_.v, first + n * p_.cut.spacing, step);
+      grid_.planes.push_back(static_cast<int>(grid_.v.size()) - 1);
+    }
+    if (p_.cut.branch > 0) add_stretch(grid_.v, last, step);
+    grid_.branch_v = static_cast<int>(grid_.v.size()) - 1;
+    add_stretch(grid_.v, half, step / (1 - least / (half - last)), Cut::before, p_.mesh.grading);
+  }
+
+  void add_w_lines() {
+    grid_.w = {0};
+    add_stretch(grid_.w, -shape_.depth, p_.mesh.element_size);
+    grid_.bottom = static_cast<int>(grid_.w.size()) - 1;
+    add_stretch(grid_.w, -p_.patch.height, p_.mesh.element_size, Cut::before, p_.mesh.grading);
+  }
+
+  /// All v lines from the first cut to the last (or the branch's end) move alike, the others ever less toward
+  /// the patch's sides.
+  void set_shifts() {
+    grid_.tilt = shape_.tilt;
+    for (std::size_t i = 0; i < grid_.u.size(); ++i) grid_.shift_u.push_back(arc_shift(i));
+    for (const double w : grid_.w) grid_.shift_w.push_back(shape_.tilt_shift(-w));
+    const double half = p_.patch.width / 2;
+    const double first = grid_.v[grid_.planes.front()], last = grid_.v[grid_.branch_v];
+    for (const double v : grid_.v)
+      grid_.blend.push_back(v < first  ? (half + v) / (half + first)
+                            : v > last ? (half - v) / (half - last)
+                                       : 1);
+  }
+
+  double arc_shift(std::size_t i) const {
+    const std::size_t n = i - grid_.cut_from;
+    if (n < grid_.angle.size()) return Shape::rise(p_.cut.radius, grid_.angle[n]);
+    const double end = p_.patch.length / 2, x = (end - std::abs(grid_.u[i])) / (end - shape_.half_span);
+    return shape_.arc_rise * x * x * (3 - 2 * x);
+  }
+
+  const Parameters& p_;
+  const Shape shape_;
+  PatchGrid grid_;
+};
+
+}  // namespace
+
+Vec3 PatchGrid::cut_normal(int n) const { return normalized({-std::tan(angle[n]), 1, std::tan(tilt)}); }
+
+PatchGrid make_patch_grid(const Parameters& parameters) { return GridMaker(parameters).grid(); }
+
+}  // namespace cleft

@@ -1,0 +1,33 @@
+// The grid under a patch's mesh: its lines along u, v and w, where the cuts run in it, and how its nodes are
+// moved onto a curved or tilted cut.
+#pragma once
+
+#include <vector>
+
+#include "base/vec3.h"
+#include "params/parameters.h"
+
+namespace cleft {
+
+/// Indices count the lines. Nodes move in v only, by (shift_u[i] + shift_w[k]) * blend[j], so that the u and
+/// w lines stay where they are.
+struct PatchGrid {
+  std::vector<double> u, v, w;      ///< the lines, mm; all increase but w, which falls from the skin at 0
+  std::vector<double> along;        ///< of the u lines of a cut, ends included: mm along it from its middle
+  std::vector<double> angle;        ///< of the same lines: direction of the cut, radians from u toward v
+  int cut_from = 0;                 ///< u line of the cuts' start
+  std::vector<int> planes;          ///< v lines of the parallel cuts, from -v to +v
+  int branch_u = -1, branch_v = 0;  ///< u line that a branch follows, and v line of its end
+  int bottom = 0;                   ///< w line of the cuts' bottom
+  double tilt = 0;                  ///< radians
+  std::vector<double> shift_u, shift_w, blend;
+
+  Vec3 point(int i, int j, int k) const { return {u[i], v[j] + (shift_u[i] + shift_w[k]) * blend[j], w[k]}; }
+
+  /// Of the cut at its n-th u line (start: 0), unit, toward +v.
+  Vec3 cut_normal(int n) const;
+};
+
+PatchGrid make_patch_grid(const Parameters& parameters);
+
+}  // namespace cleft
