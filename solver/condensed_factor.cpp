@@ -6,17 +6,16 @@
 #include <exception>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
-#include "base/error.h"
+#include "solver/frame_solver.h"
 
 namespace cleft {
 
 namespace {
 
-struct NotEnoughWorkspace : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct NotEnoughWorkspace : SolveError {
+  using SolveError::SolveError;
 };
 
 /// Moves the entries of a solution from where MUMPS left them to the ranks that own the unknowns.
@@ -94,15 +93,14 @@ struct CondensedFactor::Mumps {
     const std::string codes =
         "INFOG(1:2) = " + std::to_string(id.infog[0]) + ", " + std::to_string(id.infog[1]);
     if (id.infog[0] == -10 || id.infog[0] == -40)
-      throw std::runtime_error(
-          what + ": the stiffness matrix is not positive definite (MUMPS, " + codes +
-          "); are the springs and moduli large enough, and the skin nowhere compressed?");
+      throw SolveError(what + ": the stiffness matrix is not positive definite (MUMPS, " + codes +
+                       "); are the springs and moduli large enough, and the skin nowhere compressed?");
     if (id.infog[0] == -9)
       throw NotEnoughWorkspace(what + ": MUMPS needs more workspace than it estimated, " + codes);
     if (id.infog[0] == -13)
-      throw std::runtime_error(what + ": not enough memory (MUMPS, " + codes +
-                               "); raise mesh.element_size, use more ranks, or --method iterative");
-    throw std::runtime_error(what + ": MUMPS failed with " + codes);
+      throw SolveError(what + ": not enough memory (MUMPS, " + codes +
+                       "); raise mesh.element_size, use more ranks, or --method iterative");
+    throw SolveError(what + ": MUMPS failed with " + codes);
   }
 };
 

@@ -60,7 +60,13 @@ void DirectSolver::factorize() {
         entries.emplace_back(matrix.GRID(row), found->second, values[i]);
   }
   entries = gather(system_, entries);
-  if (system_.rank() != 0) return;
+  on_root(system_, [&] {
+    keep_coupling(std::move(entries));
+    condensation_.emplace(factor_.schur(), cut_.pairs);
+  });
+}
+
+void DirectSolver::keep_coupling(std::vector<Eigen::Triplet<double>> entries) {
   for (const Triplet& entry : entries) neighbors_.push_back(entry.row());
   std::sort(neighbors_.begin(), neighbors_.end());
   neighbors_.erase(std::unique(neighbors_.begin(), neighbors_.end()), neighbors_.end());
@@ -71,15 +77,15 @@ void DirectSolver::factorize() {
   coupling_.resize(static_cast<Eigen::Index>(neighbors_.size()),
                    static_cast<Eigen::Index>(cut_.unknowns.size()));
   coupling_.setFromTriplets(entries.begin(), entries.end());
-  condensation_.emplace(factor_.schur(), cut_.pairs);
 }
 
 void DirectSolver::set_release(const Release& release) {
   loads_.clear();
-  if (system_.rank() == 0)
+  on_root(system_, [&] {
     opening_.emplace(*condensation_,
                      std::vector<int>(release.order.begin(), release.order.begin() + release.released.back()),
                      normals_);
+  });
 }
 
 void DirectSolver::set_loads(Block loads) {
@@ -108,7 +114,7 @@ Block DirectSolver::solve(const std::vector<Column>& columns) {
   const auto count = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd at_cut(static_cast<Eigen::Index>(cut_.unknowns.size()), count);
   Eigen::SparseMatrix<double> right(system_.size(), count);
-  if (system_.rank() == 0) {
+  on_root(system_, [&] {
     for (Eigen::Index c = 0; c < count; ++c) {
       const Column& column = columns[static_cast<std::size_t>(c)];
       at_cut.col(c) = opening_->displacement(loads_[column.load], column.open, column.contact);
@@ -118,7 +124,7 @@ Block DirectSolver::solve(const std::vector<Column>& columns) {
     for (Eigen::Index c = 0; c < count; ++c)
       for (std::size_t i = 0; i < neighbors_.size(); ++i)
         right.insert(neighbors_[i], c) = -pull(static_cast<Eigen::Index>(i), c);
-  }
+  });
   MPI_Bcast(at_cut.data(), static_cast<int>(at_cut.size()), MPI_DOUBLE, 0, system_.communicator());
   Block solution = factor_.solve(right);
   for (Eigen::Index c = 0; c < count; ++c)

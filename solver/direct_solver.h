@@ -25,6 +25,8 @@ class DirectSolver : public FrameSolver {
   Block solve(const std::vector<Column>& columns) override;
 
  private:
+  void keep_coupling(std::vector<Eigen::Triplet<double>> entries);
+
   const PatchSystem& system_;
   CutNodes cut_;
   std::vector<Vec3> normals_;  // by pair

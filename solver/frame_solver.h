@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,14 @@
 #include "solver/patch_system.h"
 
 namespace cleft {
+
+/// What went wrong in a solve, thrown on all ranks alike.
+struct SolveError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs `work` on rank 0; a std::runtime_error there becomes a SolveError on every rank. Collective.
+void on_root(const PatchSystem& system, const std::function<void()>& work);
 
 /// Keeps what all frames share. Calls are collective over the system's ranks.
 class FrameSolver {
@@ -27,6 +36,7 @@ class FrameSolver {
   struct Column {
     int load = 0, open = 0;
     bool contact = false;
+    double residual = 1e-10;  ///< where iterations may end, relative to the load
   };
   /// K u + C^T v = f, C u = 0, a column each. Columns in the order of a release are the quickest.
   virtual Block solve(const std::vector<Column>& columns) = 0;
@@ -45,7 +55,7 @@ struct ChosenSolver {
 };
 
 /// Takes the direct solver where its factor fits into memory, unless a method is forced. Throws InputError
-/// where neither fits. `progress` is told what is being done.
+/// where what is left does not fit. `progress` is told what is being done.
 ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system, Method method,
                                const std::function<void(const std::string&)>& progress);
 

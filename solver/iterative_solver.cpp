@@ -15,7 +15,6 @@ namespace cleft {
 
 namespace {
 
-constexpr double tolerance = 1e-10;  // of the residual, over the load
 constexpr int most_iterations = 2000;
 
 /// Translations along u, v, w and rotations about them, at every owned unknown: what the coarse levels must
@@ -67,16 +66,8 @@ class Multigrid {
     list.set("null space: vectors", modes_.data());
     list.set("aggregation: type", "Uncoupled");
     list.set("aggregation: threshold", 0.);
-    list.set("smoother: type", getenv("SM") ? getenv("SM") : "Chebyshev");
-    list.set("smoother: sweeps", getenv("SW") ? atoi(getenv("SW")) : 4);
-    if (getenv("AG")) list.set("aggregation: type", getenv("AG"));
-    if (getenv("CH")) list.set("smoother: Chebyshev alpha", atof(getenv("CH")));
-    if (getenv("DF")) list.set("aggregation: damping factor", atof(getenv("DF")));
-    if (getenv("EA")) {
-      list.set("eigen-analysis: type", "power-method");
-      list.set("eigen-analysis: iterations", atoi(getenv("EA")));
-    }
-    if (getenv("CM")) list.set("coarse: max size", atoi(getenv("CM")));
+    list.set("smoother: type", "Chebyshev");
+    list.set("smoother: sweeps", 4);
     list.set("coarse: type", "Amesos-KLU");
     list.set("coarse: max size", 2000);
     levels_ = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(tied_, list, true);
@@ -183,13 +174,13 @@ struct IterativeSolver::Parts {
   }
 
   /// From x, which is replaced by the solution.
-  void solve(const Eigen::VectorXd& load, int open, Eigen::VectorXd& x) {
-    prepare(open);
-    const std::vector<int> first = groups(open);
+  void solve(const Eigen::VectorXd& load, const Column& column, Eigen::VectorXd& x) {
+    prepare(column.open);
+    const std::vector<int> first = groups(column.open);
     project(first, x);
     Eigen::VectorXd r = load;
     project(first, r);
-    const double enough = tolerance * std::sqrt(dot(r, r));
+    const double enough = column.residual * std::sqrt(dot(r, r));
     Eigen::VectorXd product = system.multiply(x);
     project(first, product);
     r -= product;
@@ -198,8 +189,8 @@ struct IterativeSolver::Parts {
     int n = 0;
     for (; std::sqrt(dot(r, r)) > enough; ++n) {
       if (n == most_iterations)
-        throw std::runtime_error("no solution after " + std::to_string(n) +
-                                 " iterations: the stiffness is badly conditioned");
+        throw SolveError("no solution after " + std::to_string(n) +
+                         " iterations: the stiffness is badly conditioned");
       const Eigen::VectorXd z = precondition(first, r);
       const double previous = rz;
       rz = dot(r, z);
@@ -211,7 +202,7 @@ struct IterativeSolver::Parts {
       project(first, product);
       const double energy = dot(direction, product);
       if (!(energy > 0) || !(rz > 0))
-        throw std::runtime_error(
+        throw SolveError(
             "the stiffness matrix is not positive definite; are the springs and moduli large enough, and the "
             "skin nowhere compressed?");
       x += rz / energy * direction;
@@ -220,6 +211,11 @@ struct IterativeSolver::Parts {
     iterations.push_back(n);
   }
 };
+
+double IterativeSolver::bytes_needed(const PatchSystem& system) {
+  // K once more with its tied pairs, the coarser levels, the blocks and CG's vectors.
+  return 12. * 1.5 * system.stiffness().NumMyNonzeros() + 8. * 100 * system.owned();
+}
 
 IterativeSolver::IterativeSolver(const PatchMesh& mesh, const PatchSystem& system)
     : parts_(std::make_unique<Parts>(mesh, system)) {}
@@ -240,7 +236,7 @@ Block IterativeSolver::solve(const std::vector<Column>& columns) {
   Block solution(parts_->loads.rows(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
     Eigen::VectorXd x = parts_->last[columns[c].load];
-    parts_->solve(parts_->loads.col(columns[c].load), columns[c].open, x);
+    parts_->solve(parts_->loads.col(columns[c].load), columns[c], x);
     parts_->last[columns[c].load] = x;
     solution.col(static_cast<Eigen::Index>(c)) = x;
   }

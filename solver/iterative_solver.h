@@ -16,6 +16,8 @@ class IterativeSolver : public FrameSolver {
   IterativeSolver(const PatchMesh& mesh, const PatchSystem& system);
   ~IterativeSolver() override;
 
+  static double bytes_needed(const PatchSystem& system);  ///< on this rank
+
   void set_release(const Release& release) override;
   void set_loads(Block loads) override;
   Block solve(const std::vector<Column>& columns) override;

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
 #include <optional>
 
+#include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
-#include "solver/cut_series.h"
+#include "solver/compliance.h"
+#include "solver/frame_figures.h"
+#include "solver/memory.h"
+#include "solver/node_slabs.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft {
@@ -14,21 +21,47 @@ namespace cleft {
 namespace {
 
 constexpr double largest_residual = 1e-6;  // of the loads: beyond it the numbers mean nothing
-constexpr int block_of_frames = 64;        // right-hand sides solved together
+constexpr double block_bytes = 1e8;        // of the displacements held at a time, on a rank
+constexpr int most_columns = 64;           // right-hand sides solved together
+constexpr const char* prestress_names[] = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
 
-class Stopwatch {
- public:
-  /// Seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
+Eigen::Vector3d prestress(const Parameters& p) {
+  return {p.skin.prestress_u, p.skin.prestress_v, p.skin.prestress_uv};
+}
+
+/// What K depends on, as text: equal texts, equal K.
+std::string stiffness_key(Parameters p) {
+  if (p.skin.initial_stress_stiffness != "true")
+    p.skin.prestress_u = p.skin.prestress_v = p.skin.prestress_uv = 0;
+  if (p.mesh.cut_length == 0) p.mesh.cut_length = p.cut.length;
+  if (p.mesh.cut_depth == 0) p.mesh.cut_depth = p.cut.depth;
+  const Parameters defaults;
+  p.cut.length = defaults.cut.length, p.cut.depth = defaults.cut.depth;
+  p.cut.frames = defaults.cut.frames, p.cut.contact = defaults.cut.contact;
+  std::string key;
+  for (const Parameter& row : parameter_table()) key += to_text(get_parameter(p, row)) + ";";
+  return key;
+}
+
+/// How the cut opens in a given mesh.
+std::string release_key(const Parameters& p) {
+  return shortest(p.cut.length) + ";" + shortest(p.cut.depth) + ";" + p.cut.frames;
+}
+
+/// Indices of the cases, together where their keys are equal.
+template <class Key>
+std::vector<std::vector<std::size_t>> grouped(const std::vector<std::size_t>& cases, const Key& key) {
+  std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
+  for (const std::size_t c : cases) {
+    const std::string k = key(c);
+    auto found = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == k; });
+    if (found == groups.end()) found = groups.insert(groups.end(), {k, {}});
+    found->second.push_back(c);
   }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
+  std::vector<std::vector<std::size_t>> result;
+  for (auto& group : groups) result.push_back(std::move(group.second));
+  return result;
+}
 
 void add_cells(Snapshot& s, const PatchMesh& mesh) {
   s.cell_offsets = {0};
@@ -42,102 +75,465 @@ void add_cells(Snapshot& s, const PatchMesh& mesh) {
   for (const auto& w : mesh.wedges) add(Snapshot::wedge, {w[3], w[4], w[5], w[0], w[1], w[2]});
 }
 
-Snapshot describe(const Parameters& parameters, const PatchMesh& mesh) {
+Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Release& release) {
   Snapshot s;
   s.points = mesh.points;
   add_cells(s, mesh);
   s.foundation_triangles = mesh.bottom;
   s.foundation_quads = mesh.sides;
-  s.pairs = mesh.pairs;
-  s.released = mesh.released;
-  s.position = mesh.position;
-  s.cut_start = mesh.cut_start;
-  s.cut_length = parameters.cut.length;
-  s.cut_depth = parameters.cut.depth;
-  for (const double u : mesh.position) s.times.push_back(u - mesh.cut_start);
+  for (const int pair : release.order) s.pairs.push_back({mesh.pairs[pair].left, mesh.pairs[pair].right});
+  s.released = release.released;
+  s.position = release.position;
+  s.times = release.times;
+  s.cut_start = release.start;
+  s.cut_length = release.length;
+  s.cut_depth = release.depth;
   for (const Parameter& row : parameter_table()) s.parameters[row.name] = get_parameter(parameters, row);
   s.case_hash = solve_hash(parameters);
   return s;
 }
 
-/// One frame's unknowns as displacements of the nodes.
-std::vector<Vec3> by_node(const PatchSystem& system, const Eigen::VectorXd& frame, std::size_t nodes) {
-  std::vector<Vec3> displacement(nodes);
-  for (std::size_t n = 0; n < nodes; ++n)
-    for (int axis = 0; axis < 3; ++axis)
-      displacement[n][axis] = frame(system.unknown(static_cast<int>(n), axis));
-  return displacement;
-}
+/// Times and memory of one phase after the other.
+class Phases {
+ public:
+  explicit Phases(MPI_Comm communicator) : communicator_(communicator) {}
 
-void add_opening(SolveReport& report, const Snapshot& s, const std::vector<Vec3>& closed,
-                 const std::vector<Vec3>& frame) {
-  for (std::size_t n = 0; n < frame.size(); ++n)
-    report.largest_displacement = std::max(report.largest_displacement, norm(frame[n] - closed[n]));
-  for (const auto& [left, right] : s.pairs)
-    report.gape = std::max(report.gape, frame[right].y - frame[left].y);
-}
-
-void add_figures(SolveReport& report, Snapshot& s, const std::vector<FrameFigures>& figures) {
-  for (const FrameFigures& f : figures) {
-    s.smallest_gap.push_back(f.smallest_gap);
-    s.residual_equilibrium.push_back(f.residual_equilibrium);
-    s.residual_closure.push_back(f.residual_closure);
-    if (s.smallest_gap.size() > 1)
-      report.smallest_gap =
-          s.smallest_gap.size() == 2 ? f.smallest_gap : std::min(report.smallest_gap, f.smallest_gap);
-    if (!(f.residual_equilibrium < largest_residual))
-      throw std::runtime_error("the forces do not balance (relative residual " +
-                               shortest(f.residual_equilibrium) +
-                               "): the parameters differ by too many orders of magnitude");
-    report.worst_equilibrium = std::max(report.worst_equilibrium, f.residual_equilibrium);
-    report.worst_closure = std::max(report.worst_closure, f.residual_closure);
+  /// What was done since the last call. Collective.
+  void end(const std::string& name) {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    double peak = peak_memory();
+    MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_SUM, communicator_);
+    for (Phase& phase : list)
+      if (phase.name == name) {
+        phase.seconds += seconds, phase.peak_memory = peak;
+        return;
+      }
+    list.push_back({name, seconds, peak});
   }
+
+  std::vector<Phase> list;
+
+ private:
+  MPI_Comm communicator_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// A snapshot on its way, written by all ranks.
+class Writing {
+ public:
+  Writing(const std::string& out, Snapshot snapshot, const std::vector<SnapshotArray>& arrays,
+          const NodeSlabs& slabs, const PatchSystem& system)
+      : snapshot_(std::move(snapshot)), slabs_(slabs) {
+    std::string name;
+    if (system.rank() == 0) {
+      writer_.emplace(out, snapshot_, arrays);
+      writer_->close();
+      name = writer_->path();
+    }
+    int length = static_cast<int>(name.size());
+    MPI_Bcast(&length, 1, MPI_INT, 0, system.communicator());
+    name.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(name.data(), length, MPI_CHAR, 0, system.communicator());
+    rows_.emplace(name, snapshot_.points.size(), system.communicator());
+  }
+
+  Snapshot& snapshot() { return snapshot_; }
+
+  void write_vectors(const std::string& array, std::size_t frame, const std::vector<Vec3>& slab) {
+    rows_->write(array, 3, frame, slabs_.first(),
+                 {slab.empty() ? nullptr : &slab.front().x, 3 * slab.size()});
+  }
+
+  /// `values` of all nodes, known on rank 0.
+  void write_scalars(const std::string& array, std::vector<double> values, MPI_Comm communicator) {
+    values.resize(snapshot_.points.size());
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, communicator);
+    rows_->write(array, 1, 0, slabs_.first(),
+                 std::span<const double>(values).subspan(slabs_.first(), slabs_.count()));
+  }
+
+  void finish() {
+    rows_->close();
+    if (writer_) writer_->finish(snapshot_);
+  }
+
+ private:
+  Snapshot snapshot_;
+  const NodeSlabs& slabs_;
+  std::optional<SnapshotWriter> writer_;  // rank 0
+  std::optional<SnapshotRows> rows_;
+};
+
+/// All cases of one K.
+class SharedStiffness {
+ public:
+  SharedStiffness(const std::vector<CaseToSolve>& cases, const std::vector<std::size_t>& members,
+                  const SolveOptions& options, MPI_Comm communicator,
+                  const std::function<void(const std::string&)>& progress, std::vector<SolveReport>& reports)
+      : cases_(cases), options_(options), progress_(progress), reports_(reports), phases_(communicator) {
+    const Parameters& parameters = cases[members.front()].parameters;
+    progress_("meshing and assembling");
+    mesh_ = make_patch_mesh(parameters);
+    system_.emplace(mesh_, parameters, communicator, options.discretization);
+    slabs_.emplace(*system_, mesh_.points.size());
+    residual_.emplace(mesh_, *system_);
+    phases_.end("assemble");
+    chosen_ = make_frame_solver(mesh_, *system_, options.method, progress);
+    phases_.end(chosen_.method == Method::direct ? "factor" : "set up");
+    for (const std::size_t c : members) describe_shared(reports_[c], static_cast<int>(members.size()));
+    reports_[members.front()].first_of_sharing = true;
+  }
+
+  /// Cases whose cut opens alike.
+  void solve(const std::vector<std::size_t>& members);
+
+  const std::vector<Phase>& phases() const { return phases_.list; }
+
+ private:
+  class Batch;
+
+  void describe_shared(SolveReport& report, int sharing) const {
+    MPI_Comm_size(system_->communicator(), &report.ranks);
+    report.nodes = static_cast<int>(mesh_.points.size());
+    report.unknowns = system_->size();
+    report.method = chosen_.method == Method::direct ? "direct" : "iterative";
+    report.reason = chosen_.reason;
+    report.cases_sharing = sharing;
+  }
+
+  const std::vector<CaseToSolve>& cases_;
+  const SolveOptions& options_;
+  const std::function<void(const std::string&)>& progress_;
+  std::vector<SolveReport>& reports_;
+  Phases phases_;
+  PatchMesh mesh_;
+  std::optional<PatchSystem> system_;
+  std::optional<NodeSlabs> slabs_;
+  std::optional<FrameResidual> residual_;
+  ChosenSolver chosen_;
+  Compliance compliance_;
+};
+
+/// Cases of one K and one release, written together.
+class SharedStiffness::Batch {
+ public:
+  Batch(SharedStiffness& shared, const Release& release, const std::vector<std::size_t>& members)
+      : shared_(shared), system_(*shared.system_), release_(release) {
+    choose_loads(members);
+    for (const std::size_t c : members) open_case(c);
+  }
+
+  void solve() {
+    const int frames = static_cast<int>(release_.released.size()), loads = static_cast<int>(loads_.cols());
+    const double column_bytes = 8. * std::max(1, system_.size()) * loads;
+    const int at_once = std::clamp(static_cast<int>(block_bytes / column_bytes), 1,
+                                   std::max(1, most_columns / std::max(1, loads)));
+    shared_.chosen_.solver->set_loads(loads_);
+    const auto start = std::chrono::steady_clock::now();
+    for (int first = 0; first < frames; first += at_once) {
+      const int count = std::min(at_once, frames - first);
+      const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      shared_.progress_(
+          "frame " + std::to_string(first) + " of " + std::to_string(frames) +
+          (first > 0 ? ", " + std::to_string(std::lround(spent / first * (frames - first))) + " s left"
+                     : std::string()));
+      solve_block(first, count);
+    }
+    for (Member& member : members_)
+      if (member.writing) member.writing->finish();
+    shared_.phases_.end("write");
+  }
+
+ private:
+  struct Member {
+    std::size_t number;                // among all cases
+    Eigen::VectorXd share;             // of every load
+    double largest_load = 0;           // N
+    std::unique_ptr<Writing> writing;  // none once the case has failed
+    std::vector<Vec3> closed;          // frame 0, this rank's nodes
+  };
+
+  const Parameters& parameters(const Member& member) const {
+    return shared_.cases_[member.number].parameters;
+  }
+
+  /// One case: its own load. Several, or the unit series: unit prestresses, of which their frames are sums.
+  /// With contact a series is not linear, and solved for itself.
+  void choose_loads(const std::vector<std::size_t>& members) {
+    const auto& cases = shared_.cases_;
+    const auto linear = [&](std::size_t c) { return cases[c].parameters.cut.contact != "true"; };
+    const auto linear_cases = std::count_if(members.begin(), members.end(), linear);
+    const bool by_units = linear_cases > 1 || shared_.options_.unit_prestress;
+    std::vector<Eigen::VectorXd> columns;
+    if (by_units) {
+      Eigen::Vector3d used = Eigen::Vector3d::Constant(shared_.options_.unit_prestress ? 1. : 0.);
+      for (const std::size_t c : members)
+        if (linear(c)) used += prestress(cases[c].parameters).cwiseAbs();
+      for (int d = 0; d < 3; ++d)
+        if (used(d) > 0) {
+          units_.push_back(d);
+          columns.emplace_back(system_.unit_loads().col(d));
+        }
+    }
+    contact_.assign(columns.size(), false);
+    for (const std::size_t c : members) {
+      Member member{c, Eigen::VectorXd(), 0, nullptr, {}};
+      if (!by_units || !linear(c)) {
+        columns.emplace_back(system_.load(cases[c].parameters.skin));
+        contact_.push_back(!linear(c));
+      }
+      members_.push_back(std::move(member));
+    }
+    loads_.resize(system_.owned(), static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t i = 0; i < columns.size(); ++i) loads_.col(static_cast<Eigen::Index>(i)) = columns[i];
+    Eigen::Index own = static_cast<Eigen::Index>(units_.size());
+    for (Member& member : members_) {
+      member.share = Eigen::VectorXd::Zero(loads_.cols());
+      if (!by_units || !linear(member.number))
+        member.share(own++) = 1;
+      else
+        for (std::size_t i = 0; i < units_.size(); ++i)
+          member.share(static_cast<Eigen::Index>(i)) = prestress(parameters(member))(units_[i]);
+      const Eigen::VectorXd load = loads_ * member.share;
+      member.largest_load = load.size() > 0 ? load.cwiseAbs().maxCoeff() : 0;
+      MPI_Allreduce(MPI_IN_PLACE, &member.largest_load, 1, MPI_DOUBLE, MPI_MAX, system_.communicator());
+    }
+  }
+
+  void open_case(std::size_t c) {
+    Member& member =
+        *std::find_if(members_.begin(), members_.end(), [c](const Member& m) { return m.number == c; });
+    SolveReport& report = shared_.reports_[c];
+    report.pairs = static_cast<int>(shared_.mesh_.pairs.size());
+    report.constraints = 3 * report.pairs;
+    report.frames = static_cast<int>(release_.released.size());
+    std::vector<SnapshotArray> arrays = {{"compliance", 1, false}, {"dent", 3, false}};
+    for (const std::string& name : derivatives()) arrays.push_back({array_of(name), 3, true});
+    member.writing = std::make_unique<Writing>(shared_.cases_[c].out,
+                                               describe(parameters(member), shared_.mesh_, release_), arrays,
+                                               *shared_.slabs_, system_);
+    member.writing->write_scalars("compliance", shared_.compliance_.at_node, system_.communicator());
+    member.writing->write_vectors("dent", 0, (*shared_.slabs_)(shared_.compliance_.dent.data()));
+    shared_.phases_.end("write");
+  }
+
+  static std::string array_of(const std::string& parameter) { return "displacement_per_" + parameter; }
+
+  std::vector<std::string> derivatives() const {
+    std::vector<std::string> names = shared_.options_.sensitivities;
+    if (shared_.options_.unit_prestress)
+      names.insert(names.end(), std::begin(prestress_names), std::end(prestress_names));
+    return names;
+  }
+
+  void solve_block(int first, int count) {
+    std::vector<FrameSolver::Column> columns;
+    for (int load = 0; load < loads_.cols(); ++load)
+      for (int j = first; j < first + count; ++j)
+        columns.push_back({load, release_.released[j], contact_[load], 1e-10});
+    const Block displacements = shared_.chosen_.solver->solve(columns);
+    Block expanded(loads_.rows(), displacements.cols());
+    for (Eigen::Index c = 0; c < expanded.cols(); ++c) expanded.col(c) = loads_.col(c / count);
+    const Block left_over = shared_.residual_->left_over(expanded, displacements);
+    expanded.resize(0, 0);
+    shared_.phases_.end("frames");
+    for (Member& member : members_) {
+      if (!member.writing) continue;
+      const std::vector<FrameSolver::Column> own(columns.begin(), columns.begin() + count);
+      finish_block(member, first, own, displacements, left_over);
+    }
+    if (!shared_.options_.sensitivities.empty()) shared_.chosen_.solver->set_loads(loads_);
+  }
+
+  /// A case's part of a block: sums of its loads' frames.
+  void finish_block(Member& member, int first, std::vector<FrameSolver::Column> columns,
+                    const Block& displacements, const Block& left_over) {
+    const Eigen::Index count = static_cast<Eigen::Index>(columns.size());
+    for (auto& column : columns) column.contact = parameters(member).cut.contact == "true";
+    const auto combined = [&](const Block& block) {
+      Block sum = Block::Zero(block.rows(), count);
+      for (Eigen::Index load = 0; load < member.share.size(); ++load)
+        if (member.share(load) != 0) sum += member.share(load) * block.middleCols(load * count, count);
+      return sum;
+    };
+    const Block frames = combined(displacements);
+    const std::vector<FrameFigures> figures =
+        shared_.residual_->figures(release_, columns, frames, combined(left_over), member.largest_load);
+    shared_.phases_.end("frames");
+    if (!add_figures(member, figures)) return;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const std::vector<Vec3> slab = (*shared_.slabs_)(frames.col(j).data());
+      if (first + j == 0) member.closed = slab;
+      add_largest(member, slab);
+      member.writing->write_vectors("displacement", static_cast<std::size_t>(first + j), slab);
+    }
+    for (std::size_t i = 0; shared_.options_.unit_prestress && i < units_.size(); ++i)
+      write_derivative(member, prestress_names[units_[i]], first,
+                       displacements.middleCols(static_cast<Eigen::Index>(i) * count, count));
+    shared_.phases_.end("write");
+    for (const std::string& name : shared_.options_.sensitivities) {
+      progress_of(name, first);
+      write_derivative(member, name, first, sensitivity(member, name, columns, frames));
+      shared_.phases_.end("sensitivities");
+    }
+  }
+
+  void progress_of(const std::string& name, int first) const {
+    shared_.progress_("sensitivity to " + name + ", frame " + std::to_string(first) + " of " +
+                      std::to_string(release_.released.size()));
+  }
+
+  /// K u + C^T v = f differentiated: the same system under df/dp - dK/dp u.
+  Block sensitivity(const Member& member, const std::string& name, std::vector<FrameSolver::Column> columns,
+                    const Block& frames) {
+    auto& derivative = derivatives_[name + "/" + std::to_string(member.number)];
+    if (!derivative) derivative = system_.derivative(parameters(member), name);
+    Block loads = -derivative->multiply(frames);
+    loads.colwise() += Eigen::VectorXd(derivative->load().col(0));
+    Block solution(frames.rows(), frames.cols());
+    constexpr Eigen::Index at_once = 16;  // these loads are full
+    for (Eigen::Index c = 0; c < frames.cols(); c += at_once) {
+      const Eigen::Index count = std::min(at_once, frames.cols() - c);
+      std::vector<FrameSolver::Column> some(columns.begin() + c, columns.begin() + c + count);
+      for (Eigen::Index i = 0; i < count; ++i) some[static_cast<std::size_t>(i)].load = static_cast<int>(i);
+      shared_.chosen_.solver->set_loads(loads.middleCols(c, count));
+      solution.middleCols(c, count) = shared_.chosen_.solver->solve(some);
+    }
+    return solution;
+  }
+
+  void write_derivative(Member& member, const std::string& name, int first, const Block& frames) {
+    for (Eigen::Index j = 0; j < frames.cols(); ++j)
+      member.writing->write_vectors(array_of(name), static_cast<std::size_t>(first + j),
+                                    (*shared_.slabs_)(frames.col(j).data()));
+  }
+
+  /// Largest displacement from frame 0.
+  void add_largest(const Member& member, const std::vector<Vec3>& slab) const {
+    double largest = 0;
+    for (std::size_t n = 0; n < slab.size(); ++n)
+      largest = std::max(largest, norm(slab[n] - member.closed[n]));
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, system_.communicator());
+    double& of_case = shared_.reports_[member.number].largest_displacement;
+    of_case = std::max(of_case, largest);
+  }
+
+  /// Whether the case goes on.
+  bool add_figures(Member& member, const std::vector<FrameFigures>& figures) {
+    SolveReport& report = shared_.reports_[member.number];
+    Snapshot& s = member.writing->snapshot();
+    for (const FrameFigures& f : figures) {
+      s.smallest_gap.push_back(f.smallest_gap);
+      s.residual_equilibrium.push_back(f.residual_equilibrium);
+      s.residual_closure.push_back(f.residual_closure);
+      if (s.smallest_gap.size() > 1)
+        report.smallest_gap =
+            s.smallest_gap.size() == 2 ? f.smallest_gap : std::min(report.smallest_gap, f.smallest_gap);
+      if (!(f.residual_equilibrium < largest_residual)) {
+        report.failure = "the forces of frame " + std::to_string(s.smallest_gap.size() - 1) +
+                         " do not balance (relative residual " + shortest(f.residual_equilibrium) +
+                         "): the parameters differ by too many orders of magnitude";
+        member.writing.reset();
+        return false;
+      }
+      report.gape = f.gape;
+      report.worst_equilibrium = std::max(report.worst_equilibrium, f.residual_equilibrium);
+      report.worst_closure = std::max(report.worst_closure, f.residual_closure);
+    }
+    return true;
+  }
+
+  SharedStiffness& shared_;
+  const PatchSystem& system_;
+  const Release& release_;
+  std::vector<int> units_;     // directions of the first loads
+  std::vector<bool> contact_;  // by load
+  Block loads_;
+  std::vector<Member> members_;
+  std::map<std::string, std::unique_ptr<PatchSystem::Derivative>> derivatives_;
+};
+
+void SharedStiffness::solve(const std::vector<std::size_t>& members) {
+  const Release release = make_release(mesh_, cases_[members.front()].parameters);
+  chosen_.solver->set_release(release);
+  if (compliance_.at_node.empty() && compliance_.dent.size() == 0) {
+    progress_("compliance of the skin");
+    compliance_ = compliance_of(mesh_, *system_, *chosen_.solver);
+    phases_.end("compliance");
+  }
+  const std::size_t iterations_before = chosen_.solver->iterations().size();
+  // Few enough files open at a time.
+  constexpr std::size_t at_once = 64;
+  for (std::size_t first = 0; first < members.size(); first += at_once) {
+    const std::size_t end = std::min(members.size(), first + at_once);
+    Batch batch(*this, release,
+                {members.begin() + static_cast<long>(first), members.begin() + static_cast<long>(end)});
+    batch.solve();
+  }
+  const std::vector<int> iterations = chosen_.solver->iterations();
+  reports_[members.front()].iterations.assign(iterations.begin() + static_cast<long>(iterations_before),
+                                              iterations.end());
 }
 
 }  // namespace
 
-SolveReport solve_case(const Parameters& parameters, const std::string& out, MPI_Comm communicator,
-                       const std::function<void(const std::string&)>& progress) {
-  const OutputFile probe(out);  // a bad name is told before the work, on every rank
-  Stopwatch watch;
-  SolveReport report;
-  int rank = 0;
-  MPI_Comm_rank(communicator, &rank);
-  MPI_Comm_size(communicator, &report.ranks);
+void check_options(const Parameters& p, const SolveOptions& options, const std::string& where) {
+  const bool contact = p.cut.contact == "true", tense = p.skin.initial_stress_stiffness == "true";
+  if (options.unit_prestress && (contact || tense))
+    throw InputError(where + ": --unit-prestress: the series is not linear in the prestress with " +
+                     (contact ? "cut.contact" : "skin.initial_stress_stiffness") +
+                     " = true; set it to false");
+  if (!options.sensitivities.empty() && contact)
+    throw InputError(where +
+                     ": --sensitivities: the series has no derivative where lips begin to touch; set "
+                     "cut.contact to false");
+  for (const std::string& name : options.sensitivities) {
+    const Parameter& row = find_parameter(name, where + ": --sensitivities");
+    const std::string part = name.substr(0, name.find('.'));
+    if (row.is_text() || (part != "skin" && part != "tissue" && part != "foundation"))
+      throw InputError(where + ": --sensitivities " + name +
+                       ": must be a number of skin, tissue or foundation");
+    if (options.unit_prestress && name.find("prestress") != std::string::npos)
+      throw InputError(where + ": --sensitivities " + name +
+                       ": --unit-prestress writes it already; leave one out");
+  }
+}
 
-  progress("meshing and assembling");
-  const PatchMesh mesh = make_patch_mesh(parameters);
-  const PatchSystem system(mesh, parameters, communicator);
-  report.nodes = static_cast<int>(mesh.points.size());
-  report.unknowns = system.size();
-  report.pairs = static_cast<int>(mesh.pairs.size());
-  report.frames = static_cast<int>(mesh.released.size());
-  report.seconds_assemble = watch.lap();
+std::vector<SolveReport> solve_cases(const std::vector<CaseToSolve>& cases, const SolveOptions& options,
+                                     MPI_Comm communicator,
+                                     const std::function<void(const std::string&)>& progress) {
+  std::vector<SolveReport> reports(cases.size());
+  std::vector<std::size_t> all;
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    check_options(cases[c].parameters, options, cases[c].out);
+    const OutputFile probe(cases[c].out);  // a bad name is told before the work, on every rank
+    reports[c].out = cases[c].out;
+    all.push_back(c);
+  }
+  const auto stiffness = [&](std::size_t c) { return stiffness_key(cases[c].parameters); };
+  for (const auto& group : grouped(all, stiffness)) {
+    const auto fail = [&](const std::vector<std::size_t>& members, const std::string& why) {
+      for (const std::size_t c : members)
+        if (reports[c].failure.empty()) reports[c].failure = why;
+    };
+    try {
+      SharedStiffness shared(cases, group, options, communicator, progress, reports);
 
-  progress("factorising " + std::to_string(system.size()) + " unknowns");
-  CutSeries series(mesh, system);
-  report.seconds_factor = watch.lap();
-
-  Snapshot snapshot = describe(parameters, mesh);
-  std::optional<SnapshotWriter> writer;
-  if (rank == 0) writer.emplace(out, snapshot);
-  std::vector<Vec3> closed;
-  for (int first = 0; first < report.frames; first += block_of_frames) {
-    const int count = std::min(block_of_frames, report.frames - first);
-    progress("frames " + std::to_string(first) + " to " + std::to_string(first + count - 1) + " of " +
-             std::to_string(report.frames));
-    const Eigen::MatrixXd frames = series.frames(first, count);
-    add_figures(report, snapshot, series.figures(first, frames));
-    for (Eigen::Index j = 0; j < frames.cols(); ++j) {
-      const std::vector<Vec3> frame = by_node(system, frames.col(j), mesh.points.size());
-      if (first == 0 && j == 0) closed = frame;
-      add_opening(report, snapshot, closed, frame);
-      writer->write_frames(static_cast<std::size_t>(first + j), frame);
+      for (const auto& members :
+           grouped(group, [&](std::size_t c) { return release_key(cases[c].parameters); }))
+        try {
+          shared.solve(members);
+        } catch (const SolveError& e) {
+          fail(members, e.what());
+        }
+      reports[group.front()].phases = shared.phases();
+    } catch (const SolveError& e) {
+      fail(group, e.what());
     }
   }
-  if (writer) writer->finish(snapshot);
-  report.seconds_frames = watch.lap();
-  return report;
+  return reports;
 }
 
 }  // namespace cleft

@@ -1,26 +1,57 @@
-// From a case to its snapshot.
+// From cases to their snapshots.
 #pragma once
 
 #include <mpi.h>
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "params/parameters.h"
+#include "solver/frame_solver.h"
 
 namespace cleft {
 
+struct SolveOptions {
+  Method method = Method::automatic;
+  Discretization discretization = {};
+  bool unit_prestress = false;             ///< write the series of the unit prestresses uu, vv and uv as well
+  std::vector<std::string> sensitivities;  ///< parameters to differentiate the series by
+};
+
+struct CaseToSolve {
+  Parameters parameters;
+  std::string out;  ///< the snapshot's path
+};
+
+/// A step of the work: seconds, and the most bytes the ranks together have held so far.
+struct Phase {
+  std::string name;
+  double seconds, peak_memory;
+};
+
 struct SolveReport {
-  int ranks = 1, nodes = 0, unknowns = 0, pairs = 0, frames = 0;
-  double seconds_assemble = 0, seconds_factor = 0, seconds_frames = 0;
-  double gape = 0;                  ///< mm: largest opening along v in the last frame
+  std::string out, failure;  ///< what went wrong, empty where the snapshot was written
+  int ranks = 1, nodes = 0, unknowns = 0, constraints = 0, pairs = 0, frames = 0;
+  std::string method, reason;
+  int cases_sharing = 1;          ///< that use the same factorisation, this one included
+  bool first_of_sharing = false;  ///< whose phases hold the shared work
+  std::vector<Phase> phases;
+  std::vector<int> iterations;      ///< of every frame, where it was solved by iterations
+  double gape = 0;                  ///< mm: largest opening in the last frame
   double largest_displacement = 0;  ///< mm, from frame 0
   double worst_equilibrium = 0, worst_closure = 0, smallest_gap = 0;
 };
 
-/// Solves a case and writes its snapshot to `out`, which appears whole or not at all. Collective; the report
-/// is complete on rank 0. `progress` is told what is being done.
-SolveReport solve_case(const Parameters& parameters, const std::string& out, MPI_Comm communicator,
-                       const std::function<void(const std::string&)>& progress);
+/// Throws InputError where a case cannot be had with these options.
+void check_options(const Parameters& parameters, const SolveOptions& options, const std::string& where);
+
+/// Solves cases and writes their snapshots, each of which appears whole or not at all. Cases of the same K
+/// share its factorisation; of them, those that differ in prestress only share the frames too, which are
+/// linear in it. A case that fails does not keep the others from being solved. Collective; the reports, in
+/// the order of the cases, are the same on every rank. `progress` is told what is being done.
+std::vector<SolveReport> solve_cases(const std::vector<CaseToSolve>& cases, const SolveOptions& options,
+                                     MPI_Comm communicator,
+                                     const std::function<void(const std::string&)>& progress);
 
 }  // namespace cleft

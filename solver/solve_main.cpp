@@ -1,5 +1,9 @@
-// cleft solve: a case file to a snapshot.
+// cleft solve: case files to snapshots.
+#include <filesystem>
+#include <set>
+
 #include "base/command.h"
+#include "base/error.h"
 #include "base/output_file.h"
 #include "params/study.h"
 #include "solver/mpi_session.h"
@@ -10,18 +14,47 @@ using namespace cleft;
 namespace {
 
 Json figures_of(const SolveReport& r) {
-  return {{"ranks", r.ranks},
-          {"nodes", r.nodes},
-          {"unknowns", r.unknowns},
-          {"pairs", r.pairs},
-          {"frames", r.frames},
-          {"gape_mm", r.gape},
-          {"largest_displacement_mm", r.largest_displacement},
-          {"smallest_gap_mm", r.smallest_gap},
-          {"residual_equilibrium", r.worst_equilibrium},
-          {"residual_closure", r.worst_closure},
-          {"seconds",
-           {{"assemble", r.seconds_assemble}, {"factor", r.seconds_factor}, {"frames", r.seconds_frames}}}};
+  Json seconds, memory;
+  for (const Phase& phase : r.phases) {
+    seconds[phase.name] = phase.seconds;
+    memory[phase.name] = std::round(phase.peak_memory / 1e6);
+  }
+  Json figures = {{"out", r.out},
+                  {"method", r.method},
+                  {"reason", r.reason},
+                  {"ranks", r.ranks},
+                  {"nodes", r.nodes},
+                  {"unknowns", r.unknowns},
+                  {"constraints", r.constraints},
+                  {"pairs", r.pairs},
+                  {"frames", r.frames},
+                  {"cases_sharing", r.cases_sharing},
+                  {"gape_mm", r.gape},
+                  {"largest_displacement_mm", r.largest_displacement},
+                  {"smallest_gap_mm", r.smallest_gap},
+                  {"residual_equilibrium", r.worst_equilibrium},
+                  {"residual_closure", r.worst_closure}};
+  if (!r.iterations.empty()) figures["iterations"] = r.iterations;
+  if (!r.phases.empty()) figures["seconds"] = seconds, figures["peak_memory_mb"] = memory;
+  return figures;
+}
+
+/// --out FILE for one case; --out FOLDER for several, each under its file's name.
+std::vector<std::string> outputs(const std::vector<std::string>& cases, const std::string& out) {
+  namespace fs = std::filesystem;
+  if (cases.size() == 1 && !fs::is_directory(out)) return {out};
+  if (!fs::is_directory(out))
+    throw InputError("--out " + out + ": must be a folder that exists, for " + std::to_string(cases.size()) +
+                     " cases");
+  std::vector<std::string> files;
+  std::set<std::string> names;
+  for (const std::string& file : cases) {
+    const std::string name = fs::path(file).stem().string() + ".h5";
+    if (!names.insert(name).second)
+      throw InputError(file + ": another case is called " + name + " too; rename one");
+    files.push_back((fs::path(out) / name).string());
+  }
+  return files;
 }
 
 }  // namespace
@@ -31,24 +64,67 @@ int main(int argc, char** argv) {
   const bool root = mpi.rank() == 0;
   if (!root) mpi.silence();  // one voice for all ranks
 
-  CLI::App app("Solves a growing cut and writes its time series. Runs under mpirun too.", "cleft solve");
-  std::string case_file, out;
-  std::vector<std::string> assignments;
+  CLI::App app(
+      "Solves a growing cut and writes its time series. Cases of the same stiffness share its factorisation. "
+      "Runs under mpirun too.",
+      "cleft solve");
+  std::vector<std::string> case_files, assignments;
+  std::string out;
+  SolveOptions options;
   bool json = false;
-  app.add_option("CASE.toml", case_file, "case file")->required();
-  app.add_option("--out", out, "snapshot to write, case.h5")->required();
-  app.add_option("--set", assignments, "NAME=VALUE: overrides a parameter of the case (repeatable)")
+  const std::map<std::string, Method> methods = {
+      {"auto", Method::automatic}, {"direct", Method::direct}, {"iterative", Method::iterative}};
+  const std::map<std::string, Partitioner> partitioners = {
+      {"metis", Partitioner::metis}, {"zorder", Partitioner::zorder}, {"zoltan", Partitioner::zoltan}};
+  app.add_option("CASE.toml", case_files, "case files")->required();
+  app.add_option("--out", out, "snapshot to write, case.h5; for several cases a folder: DIR/CASE.h5")
+      ->required();
+  app.add_option("--set", assignments, "NAME=VALUE: overrides a parameter of the cases (repeatable)")
       ->allow_extra_args(false);
-  app.add_flag("--json", json, "print the figures as JSON");
+  app.add_option(
+         "--method", options.method,
+         "direct: one factorisation for all frames; iterative: conjugate gradients, for what does not fit "
+         "into memory; auto: direct where it fits")
+      ->transform(CLI::CheckedTransformer(methods).description("{auto,direct,iterative}"))
+      ->default_str("auto");
+  app.add_option("--partitioner", options.discretization.partitioner, "who divides the elements among ranks")
+      ->transform(CLI::CheckedTransformer(partitioners).description("{metis,zorder,zoltan}"))
+      ->default_str("metis");
+  app.add_flag(
+      "--unit-prestress", options.unit_prestress,
+      "write the series per unit of skin.prestress_u, _v and _uv too, of which any other prestress is a sum");
+  app.add_option("--sensitivities", options.sensitivities,
+                 "NAME,...: write the derivative of the series with respect to these parameters, mm per unit")
+      ->delimiter(',');
+  app.add_flag("--json", json, "print the figures as JSON; several cases: a list");
   app.footer([] { return parameter_help(); });
 
   const int code = run_command(app, argc, argv, [&] {
-    refuse_to_overwrite(out, {case_file});
-    const Case a_case = read_case(case_file, assignments);
+    const std::vector<std::string> outs = outputs(case_files, out);
+    std::vector<CaseToSolve> cases;
+    Mistakes mistakes;
+    for (std::size_t c = 0; c < case_files.size(); ++c)
+      mistakes.collect([&] {
+        refuse_to_overwrite(outs[c], case_files);
+        cases.push_back({read_case(case_files[c], assignments).parameters, outs[c]});
+        check_options(cases.back().parameters, options, case_files[c]);
+      });
+    mistakes.throw_if_any();
     Progress progress("solving");
-    const SolveReport report = solve_case(a_case.parameters, out, MPI_COMM_WORLD,
-                                          [&](const std::string& state) { progress(state); });
-    if (root) print_figures(figures_of(report), json);
+    const std::vector<SolveReport> reports =
+        solve_cases(cases, options, MPI_COMM_WORLD, [&](const std::string& state) { progress(state); });
+    std::string failures;
+    Json list = Json::array();
+    for (const SolveReport& report : reports)
+      if (report.failure.empty())
+        list.push_back(figures_of(report));
+      else
+        failures += (failures.empty() ? "" : "\n  ") + report.out + ": " + report.failure;
+    if (root && json && cases.size() > 1)
+      print_figures(list, true);
+    else if (root)
+      for (const Json& figures : list) print_figures(figures, json);
+    if (!failures.empty()) throw std::runtime_error(failures);
   });
   if (code == 1) mpi.abort(code);
   return code;

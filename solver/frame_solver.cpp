@@ -1,0 +1,87 @@
+#include "solver/frame_solver.h"
+
+#include <sstream>
+
+#include "base/error.h"
+#include "solver/direct_solver.h"
+#include "solver/iterative_solver.h"
+#include "solver/memory.h"
+
+namespace cleft {
+
+namespace {
+
+std::string gigabytes(double bytes) {
+  std::ostringstream text;
+  text.precision(2);
+  text << bytes / 1e9 << " GB";
+  return text.str();
+}
+
+/// Need and supply of the machine this rank runs on, where they are scarcest.
+struct Memory {
+  double needed = 0, available = 0;
+  bool fits() const { return needed < 0.9 * available; }
+  std::string text() const { return gigabytes(needed) + " of " + gigabytes(available) + " free"; }
+};
+
+Memory memory_on_machines(const PatchSystem& system, double needed_here) {
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(system.communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  Memory here;
+  MPI_Allreduce(&needed_here, &here.needed, 1, MPI_DOUBLE, MPI_SUM, machine);
+  const double available = available_memory();
+  MPI_Allreduce(&available, &here.available, 1, MPI_DOUBLE, MPI_MIN, machine);
+  MPI_Comm_free(&machine);
+  struct {
+    double share;
+    int rank;
+  } tightest{here.needed / here.available, system.rank()};
+  MPI_Allreduce(MPI_IN_PLACE, &tightest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, system.communicator());
+  MPI_Bcast(&here, sizeof here, MPI_BYTE, tightest.rank, system.communicator());
+  return here;
+}
+
+}  // namespace
+
+void on_root(const PatchSystem& system, const std::function<void()>& work) {
+  std::string failure;
+  if (system.rank() == 0) try {
+      work();
+    } catch (const std::runtime_error& e) {
+      failure = e.what();
+    }
+  int length = static_cast<int>(failure.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, system.communicator());
+  failure.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(failure.data(), length, MPI_CHAR, 0, system.communicator());
+  if (!failure.empty()) throw SolveError(failure);
+}
+
+ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system, Method method,
+                               const std::function<void(const std::string&)>& progress) {
+  std::string reason = "forced";
+  if (method != Method::iterative) {
+    progress("analysing " + std::to_string(system.size()) + " unknowns");
+    auto direct = std::make_unique<DirectSolver>(mesh, system);
+    const Memory memory = memory_on_machines(system, direct->bytes_needed());
+    if (memory.fits()) {
+      progress("factorising " + std::to_string(system.size()) + " unknowns, " + gigabytes(memory.needed));
+      direct->factorize();
+      return {std::move(direct), Method::direct,
+              method == Method::direct ? "forced" : "its factor fits: " + memory.text()};
+    }
+    if (method == Method::direct)
+      throw InputError("the factor of " + std::to_string(system.size()) + " unknowns needs " + memory.text() +
+                       ": raise mesh.element_size or mesh.grading, use more machines, or --method iterative");
+    reason = "a factor does not fit: " + memory.text();
+  }
+  progress("setting up iterations for " + std::to_string(system.size()) + " unknowns");
+  const Memory memory = memory_on_machines(system, IterativeSolver::bytes_needed(system));
+  if (!memory.fits())
+    throw InputError("the iterations for " + std::to_string(system.size()) + " unknowns need " +
+                     memory.text() + ": raise mesh.element_size or mesh.grading, or use more machines");
+  return {std::make_unique<IterativeSolver>(mesh, system), Method::iterative, reason};
+}
+
+}  // namespace cleft
