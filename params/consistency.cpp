@@ -146,6 +146,9 @@ class ConsistencyCheck {
   }
 
   void check_materials() const {
+    need(p_.foundation.stiffness > 0 || p_.foundation.side_stiffness > 0,
+         "foundation.stiffness and foundation.side_stiffness = 0: the patch would float; hold it by one of "
+         "them");
     need(p_.tissue.poisson_ratio <= 0.49 || p_.tissue.formulation == "mean-dilatation",
          with_value("tissue.poisson_ratio", "", p_.tissue.poisson_ratio) +
              ": above 0.49 linear wedges lock; set tissue.formulation = \"mean-dilatation\"");

@@ -91,8 +91,8 @@ std::vector<Parameter> make_table() {
       choice("tissue.formulation", {"displacement", "mean-dilatation"},
              "mean-dilatation: the volume of an element changes as a whole, for nearly incompressible tissue",
              CLEFT_TEXT(tissue.formulation)),
-      positive("foundation.stiffness", "N/mm^3", "springs under the bottom",
-               CLEFT_NUMBER(foundation.stiffness)),
+      not_negative("foundation.stiffness", "N/mm^3", "springs under the bottom",
+                   CLEFT_NUMBER(foundation.stiffness)),
       not_negative("foundation.side_stiffness", "N/mm^3", "springs on the four sides",
                    CLEFT_NUMBER(foundation.side_stiffness)),
   };

@@ -1,6 +1,7 @@
 #include "solver/condensed_factor.h"
 
 #include <dmumps_c.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <exception>
@@ -104,8 +105,8 @@ struct CondensedFactor::Mumps {
   }
 };
 
-CondensedFactor::CondensedFactor(const PatchSystem& system, const std::vector<int>& kept,
-                                 const std::vector<int>& order)
+CondensedFactor::CondensedFactor(const PatchSystem& system, PatchSystem::Entries entries,
+                                 const std::vector<int>& kept, const std::vector<int>& order)
     : mumps_(std::make_unique<Mumps>(system)) {
   Mumps& m = *mumps_;
   m.id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(system.communicator()));
@@ -119,7 +120,7 @@ CondensedFactor::CondensedFactor(const PatchSystem& system, const std::vector<in
   m.icntl(18) = 3;                           // matrix distributed by the user
   m.icntl(19) = 1;                           // Schur complement, whole, on rank 0
 
-  m.entries = system.lower_triangle();
+  m.entries = std::move(entries);
   for (int& row : m.entries.row) ++row;
   for (int& column : m.entries.column) ++column;
   m.id.n = system.size();
@@ -152,6 +153,7 @@ void CondensedFactor::factorize() {
   Mumps& m = *mumps_;
   if (m.system.rank() == 0) m.schur.resize(m.id.size_schur, m.id.size_schur);
   m.id.schur = m.schur.data();
+  malloc_trim(0);  // what was freed on the way here goes back to the system first
   try {
     m.run(2, "factorising the stiffness matrix");
   } catch (const NotEnoughWorkspace&) {  // the estimate was too small: once more with much more

@@ -1,5 +1,4 @@
-// A sparse Cholesky factor of K that keeps a few chosen unknowns: their Schur complement comes with the
-// factor.
+// A sparse Cholesky factor that keeps a few chosen unknowns: their Schur complement comes with the factor.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +12,15 @@
 namespace cleft {
 
 /// MUMPS, symmetric positive definite, distributed over the system's ranks. With `kept` unknowns c and the
-/// rest i: schur() = K_cc - K_ci K_ii^-1 K_ic. Calls are collective. Throws std::runtime_error with MUMPS's
-/// own codes where K is not positive definite or memory runs out.
+/// rest i of a matrix K: schur() = K_cc - K_ci K_ii^-1 K_ic. Calls are collective. Throws std::runtime_error
+/// with MUMPS's own codes where the matrix is not positive definite or memory runs out.
 class CondensedFactor {
  public:
-  /// Analyses only. `order`: position of every unknown in the order of elimination, the kept ones last, as in
-  /// `kept`; rank 0.
-  CondensedFactor(const PatchSystem& system, const std::vector<int>& kept, const std::vector<int>& order);
+  /// Analyses only. `entries`: lower or upper triangle of the matrix, anywhere on the ranks; repeated ones
+  /// are added. It has the unknowns of the system, which says where they live. `order`: position of every
+  /// unknown in the order of elimination, the kept ones last, as in `kept`; rank 0.
+  CondensedFactor(const PatchSystem& system, PatchSystem::Entries entries, const std::vector<int>& kept,
+                  const std::vector<int>& order);
   ~CondensedFactor();
 
   double bytes_needed() const;  ///< by the factorisation on this rank, as estimated

@@ -10,6 +10,8 @@
 
 namespace cleft {
 
+/// The displacements of a pair's nodes are u_left and u_right = u_left + a: with the jumps a in place of
+/// u_right, u = T x. A closed pair has a = 0.
 struct CutNodes {
   CutNodes(const PatchMesh& mesh, const PatchSystem& system) {
     for (const NodePair& pair : mesh.pairs) nodes.insert(nodes.end(), {pair.left, pair.right});
@@ -22,6 +24,16 @@ struct CutNodes {
 
   int place(int node) const {
     return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+  }
+
+  /// T: jumps, in the rows of right nodes, to displacements. Columns of vectors of these nodes.
+  void to_displacements(Eigen::MatrixXd& x) const {
+    for (const auto& [left, right] : pairs) x.middleRows<3>(3 * right) += x.middleRows<3>(3 * left);
+  }
+  /// T^T: forces on the nodes to what pulls at them together, and at the jumps.
+  void to_pulls(Eigen::MatrixXd& f) const {
+    for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair)
+      f.middleRows<3>(3 * (*pair)[0]) += f.middleRows<3>(3 * (*pair)[1]);
   }
 
   std::vector<int> nodes;                 ///< of the mesh, each once

@@ -1,9 +1,7 @@
 #include "solver/direct_solver.h"
 
-#include <Epetra_CrsMatrix.h>
-
 #include <algorithm>
-#include <map>
+#include <unordered_map>
 
 #include "solver/elimination_order.h"
 
@@ -27,112 +25,151 @@ std::vector<Triplet> gather(const PatchSystem& system, const std::vector<Triplet
   return all;
 }
 
+std::vector<int> right_unknowns(const PatchMesh& mesh, const PatchSystem& system) {
+  std::vector<int> unknowns;
+  for (const NodePair& pair : mesh.pairs)
+    for (int axis = 0; axis < 3; ++axis) unknowns.push_back(system.unknown(pair.right, axis));
+  return unknowns;
+}
+
 }  // namespace
 
 DirectSolver::DirectSolver(const PatchMesh& mesh, const PatchSystem& system)
     : system_(system),
       cut_(mesh, system),
-      factor_(system, cut_.unknowns,
-              system.rank() == 0 ? elimination_order(mesh, system, cut_.unknowns) : std::vector<int>()) {
+      jump_unknowns_(right_unknowns(mesh, system)),
+      factor_(system, stiffness_with_jumps(), jump_unknowns_,
+              system.rank() == 0 ? elimination_order(mesh, system, jump_unknowns_) : std::vector<int>()) {
   for (const NodePair& pair : mesh.pairs) normals_.push_back(pair.normal);
 }
 
+PatchSystem::Entries DirectSolver::stiffness_with_jumps() {
+  std::unordered_map<int, int> left_of,
+      number;  // by unknown of a right node: that of the left one, of the jump
+  for (const auto& [left, right] : cut_.pairs)
+    for (int axis = 0; axis < 3; ++axis)
+      left_of[cut_.unknowns[3 * right + axis]] = cut_.unknowns[3 * left + axis];
+  for (std::size_t i = 0; i < jump_unknowns_.size(); ++i) number[jump_unknowns_[i]] = static_cast<int>(i);
+  std::vector<bool> is_jump(static_cast<std::size_t>(system_.size()), false);
+  for (const int unknown : jump_unknowns_) is_jump[unknown] = true;
+  // A displacement is the sum of these: itself, or its jump, that of its left node, ...
+  const auto terms = [&](int unknown) {
+    std::vector<int> list = {unknown};
+    while (is_jump[list.back()]) list.push_back(left_of.at(list.back()));
+    return list;
+  };
+
+  PatchSystem::Entries entries = system_.lower_triangle();
+  const std::size_t count = entries.value.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const int row = entries.row[i], column = entries.column[i];
+    if (!is_jump[row] && !is_jump[column]) continue;
+    const double value = entries.value[i];
+    const bool diagonal = row == column;  // any other entry stands for its mirror image too
+    for (const int a : terms(row))
+      for (const int b : terms(column)) {
+        if (diagonal && a > b) continue;
+        const double part = !diagonal && a == b ? 2 * value : value;
+        if (is_jump[a] != is_jump[b])
+          coupling_entries_.emplace_back(is_jump[a] ? b : a, number[is_jump[a] ? a : b], part);
+        if (a == row && b == column) continue;  // the entry itself
+        entries.row.push_back(a), entries.column.push_back(b), entries.value.push_back(part);
+      }
+  }
+  return entries;
+}
+
 double DirectSolver::bytes_needed() const {
-  const double cut = static_cast<double>(cut_.unknowns.size());
-  const double dense = system_.rank() == 0 ? 6 * cut * cut : 0;
+  const double jumps = static_cast<double>(jump_unknowns_.size());
+  const double dense = system_.rank() == 0 ? 4 * jumps * jumps : 0;
   constexpr double blocks = 4 * 64;  // of frames: displacements, residuals and what they are made of
   return factor_.bytes_needed() + 8 * (dense + blocks * system_.owned());
 }
 
 void DirectSolver::factorize() {
   factor_.factorize();
-  std::map<int, int> cut_place;
-  for (std::size_t i = 0; i < cut_.unknowns.size(); ++i) cut_place[cut_.unknowns[i]] = static_cast<int>(i);
-  std::vector<Triplet> entries;
-  const Epetra_CrsMatrix& matrix = system_.stiffness();
-  for (int row = 0; row < matrix.NumMyRows(); ++row) {
-    if (cut_place.count(matrix.GRID(row))) continue;
-    int count = 0, *columns = nullptr;
-    double* values = nullptr;
-    matrix.ExtractMyRowView(row, count, values, columns);
-    for (int i = 0; i < count; ++i)
-      if (const auto found = cut_place.find(matrix.GCID(columns[i])); found != cut_place.end())
-        entries.emplace_back(matrix.GRID(row), found->second, values[i]);
-  }
-  entries = gather(system_, entries);
-  on_root(system_, [&] {
-    keep_coupling(std::move(entries));
-    condensation_.emplace(factor_.schur(), cut_.pairs);
-  });
-}
-
-void DirectSolver::keep_coupling(std::vector<Eigen::Triplet<double>> entries) {
+  std::vector<Triplet> entries = gather(system_, coupling_entries_);
+  coupling_entries_ = {};
   for (const Triplet& entry : entries) neighbors_.push_back(entry.row());
   std::sort(neighbors_.begin(), neighbors_.end());
   neighbors_.erase(std::unique(neighbors_.begin(), neighbors_.end()), neighbors_.end());
-  for (Triplet& entry : entries)
-    entry = {static_cast<int>(std::lower_bound(neighbors_.begin(), neighbors_.end(), entry.row()) -
-                              neighbors_.begin()),
-             entry.col(), entry.value()};
-  coupling_.resize(static_cast<Eigen::Index>(neighbors_.size()),
-                   static_cast<Eigen::Index>(cut_.unknowns.size()));
-  coupling_.setFromTriplets(entries.begin(), entries.end());
+  if (system_.rank() == 0) {
+    for (Triplet& entry : entries)
+      entry = {static_cast<int>(std::lower_bound(neighbors_.begin(), neighbors_.end(), entry.row()) -
+                                neighbors_.begin()),
+               entry.col(), entry.value()};
+    coupling_.resize(static_cast<Eigen::Index>(neighbors_.size()),
+                     static_cast<Eigen::Index>(jump_unknowns_.size()));
+    coupling_.setFromTriplets(entries.begin(), entries.end());
+  }
+  int count = static_cast<int>(neighbors_.size());
+  MPI_Bcast(&count, 1, MPI_INT, 0, system_.communicator());
+  neighbors_.resize(static_cast<std::size_t>(count));
+  MPI_Bcast(neighbors_.data(), count, MPI_INT, 0, system_.communicator());
 }
 
 void DirectSolver::set_release(const Release& release) {
   loads_.clear();
   on_root(system_, [&] {
-    opening_.emplace(*condensation_,
+    opening_.emplace(factor_.schur(),
                      std::vector<int>(release.order.begin(), release.order.begin() + release.released.back()),
                      normals_);
   });
 }
 
 void DirectSolver::set_loads(Block loads) {
-  const Eigen::MatrixXd at_cut = gather_rows(system_, loads, cut_.unknowns);
-  for (const int unknown : cut_.unknowns) {
-    const int local = unknown - system_.first();
-    if (local >= 0 && local < system_.owned()) loads.row(local).setZero();
-  }
+  const Eigen::Index columns = loads.cols();
+  Eigen::MatrixXd pulls = all_gather_rows(system_, loads, cut_.unknowns);
+  cut_.to_pulls(pulls);
+  set_rows(system_, loads, cut_.unknowns, pulls);
+  for (const int unknown : jump_unknowns_)
+    if (const int local = unknown - system_.first(); local >= 0 && local < system_.owned())
+      loads.row(local).setZero();
   std::vector<Triplet> entries;
-  for (Eigen::Index c = 0; c < loads.cols(); ++c)
+  for (Eigen::Index c = 0; c < columns; ++c)
     for (Eigen::Index i = 0; i < loads.rows(); ++i)
       if (loads(i, c) != 0)
         entries.emplace_back(system_.first() + static_cast<int>(i), static_cast<int>(c), loads(i, c));
   entries = gather(system_, entries);
-  Eigen::SparseMatrix<double> right(system_.size(), loads.cols());
+  Eigen::SparseMatrix<double> right(system_.size(), columns);
   right.setFromTriplets(entries.begin(), entries.end());
   interior_ = factor_.solve(right);
-  const Eigen::MatrixXd carried = gather_rows(system_, system_.multiply(interior_), cut_.unknowns);
+  const Eigen::MatrixXd near = gather_rows(system_, interior_, neighbors_);
   loads_.clear();
-  if (system_.rank() == 0)
-    for (Eigen::Index c = 0; c < loads.cols(); ++c)
-      loads_.push_back(opening_->prepare(at_cut.col(c) - carried.col(c)));
+  if (system_.rank() != 0) return;
+  const Eigen::MatrixXd carried = coupling_.transpose() * near;
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    Eigen::VectorXd pull = -carried.col(c);
+    for (std::size_t p = 0; p < cut_.pairs.size(); ++p)
+      pull.segment<3>(3 * p) += pulls.col(c).segment<3>(3 * cut_.pairs[p][1]);
+    loads_.push_back(opening_->prepare(pull));
+  }
 }
 
 Block DirectSolver::solve(const std::vector<Column>& columns) {
   const auto count = static_cast<Eigen::Index>(columns.size());
-  Eigen::MatrixXd at_cut(static_cast<Eigen::Index>(cut_.unknowns.size()), count);
+  Eigen::MatrixXd jumps(static_cast<Eigen::Index>(jump_unknowns_.size()), count);
   Eigen::SparseMatrix<double> right(system_.size(), count);
   on_root(system_, [&] {
     for (Eigen::Index c = 0; c < count; ++c) {
       const Column& column = columns[static_cast<std::size_t>(c)];
-      at_cut.col(c) = opening_->displacement(loads_[column.load], column.open, column.contact);
+      jumps.col(c) = opening_->jumps(loads_[column.load], column.open, column.contact);
     }
-    const Eigen::MatrixXd pull = coupling_ * at_cut;  // K_ii u_i = f_i - K_ic u_c
+    const Eigen::MatrixXd pull = coupling_ * jumps;  // K_ii x_i = f_i - K_ia a
     right.reserve(Eigen::VectorXi::Constant(count, static_cast<int>(neighbors_.size())));
     for (Eigen::Index c = 0; c < count; ++c)
       for (std::size_t i = 0; i < neighbors_.size(); ++i)
-        right.insert(neighbors_[i], c) = -pull(static_cast<Eigen::Index>(i), c);
+        if (const double p = pull(static_cast<Eigen::Index>(i), c); p != 0)
+          right.insert(neighbors_[i], c) = -p;
   });
-  MPI_Bcast(at_cut.data(), static_cast<int>(at_cut.size()), MPI_DOUBLE, 0, system_.communicator());
+  MPI_Bcast(jumps.data(), static_cast<int>(jumps.size()), MPI_DOUBLE, 0, system_.communicator());
   Block solution = factor_.solve(right);
   for (Eigen::Index c = 0; c < count; ++c)
     solution.col(c) += interior_.col(columns[static_cast<std::size_t>(c)].load);
-  for (std::size_t i = 0; i < cut_.unknowns.size(); ++i) {
-    const int local = cut_.unknowns[i] - system_.first();
-    if (local >= 0 && local < system_.owned()) solution.row(local) = at_cut.row(static_cast<Eigen::Index>(i));
-  }
+  set_rows(system_, solution, jump_unknowns_, jumps);
+  Eigen::MatrixXd at_cut = all_gather_rows(system_, solution, cut_.unknowns);
+  cut_.to_displacements(at_cut);
+  set_rows(system_, solution, cut_.unknowns, at_cut);
   return solution;
 }
 

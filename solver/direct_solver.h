@@ -25,15 +25,17 @@ class DirectSolver : public FrameSolver {
   Block solve(const std::vector<Column>& columns) override;
 
  private:
-  void keep_coupling(std::vector<Eigen::Triplet<double>> entries);
+  /// T^T K T: the unknowns of right nodes are jumps. Keeps its entries between a jump and another unknown.
+  PatchSystem::Entries stiffness_with_jumps();
 
   const PatchSystem& system_;
   CutNodes cut_;
-  std::vector<Vec3> normals_;  // by pair
+  std::vector<Vec3> normals_;                                  // by pair
+  std::vector<int> jump_unknowns_;                             // those of the right nodes, by pair
+  std::vector<Eigen::Triplet<double, int>> coupling_entries_;  // until they are gathered
   CondensedFactor factor_;
-  std::vector<int> neighbors_;            // unknowns that the cut's act on; rank 0, as all below
-  Eigen::SparseMatrix<double> coupling_;  // K_ic: rows as neighbors_, columns as cut_.unknowns
-  std::optional<CutCondensation> condensation_;
+  std::vector<int> neighbors_;            // unknowns that jumps act on
+  Eigen::SparseMatrix<double> coupling_;  // between neighbors_ and jumps; rank 0, as all below
   std::optional<Opening> opening_;
   std::vector<Opening::Load> loads_;
   Block interior_;  // K_ii^-1 f_i of every load; on all ranks

@@ -1,58 +1,68 @@
 #include "solver/elimination_order.h"
 
-#include <metis.h>
-
 #include <algorithm>
-#include <stdexcept>
+#include <array>
+
+#include "base/error.h"
 
 namespace cleft {
 
 namespace {
 
-/// Neighbours of the nodes that share a wedge, among those not in a pair; numbered without the pairs.
-struct NodeGraph {
-  std::vector<idx_t> first, neighbors;
-  std::vector<int> node;  // by number
-
-  explicit NodeGraph(const PatchMesh& mesh) {
-    std::vector<int> number(mesh.points.size(), 0);
-    for (const NodePair& pair : mesh.pairs) number[pair.left] = number[pair.right] = -1;
-    for (std::size_t n = 0; n < number.size(); ++n)
-      if (number[n] == 0) {
-        number[n] = static_cast<int>(node.size());
-        node.push_back(static_cast<int>(n));
-      }
-    std::vector<std::vector<idx_t>> lists(node.size());
-    for (const auto& wedge : mesh.wedges)
-      for (const int a : wedge)
-        for (const int b : wedge)
-          if (a != b && number[a] >= 0 && number[b] >= 0) lists[number[a]].push_back(number[b]);
-    first.push_back(0);
-    for (auto& list : lists) {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-      neighbors.insert(neighbors.end(), list.begin(), list.end());
-      first.push_back(static_cast<idx_t>(neighbors.size()));
-    }
+/// Nested dissection of the grid under the closed mesh: a box is cut across its longest side by a plane of
+/// nodes, which comes after the two halves.
+class Dissection {
+ public:
+  explicit Dissection(const std::array<int, 3>& grid) : grid_(grid) {
+    order_.reserve(static_cast<std::size_t>(grid[0]) * grid[1] * grid[2]);
+    dissect({0, 0, 0}, grid);
   }
+
+  const std::vector<int>& order() const { return order_; }  ///< node after node
+
+ private:
+  using Corner = std::array<int, 3>;
+
+  void dissect(const Corner& from, const Corner& to) {
+    int axis = 0;
+    for (const int a : {1, 2})
+      if (to[a] - from[a] > to[axis] - from[axis]) axis = a;
+    const int length = to[axis] - from[axis];
+    if (length <= smallest) {
+      append(from, to);
+      return;
+    }
+    const int middle = from[axis] + length / 2;
+    Corner before = to, after = from, plane_from = from, plane_to = to;
+    before[axis] = plane_from[axis] = middle;
+    after[axis] = plane_to[axis] = middle + 1;
+    dissect(from, before);
+    dissect(after, to);
+    append(plane_from, plane_to);
+  }
+
+  void append(const Corner& from, const Corner& to) {
+    for (int k = from[2]; k < to[2]; ++k)
+      for (int j = from[1]; j < to[1]; ++j)
+        for (int i = from[0]; i < to[0]; ++i) order_.push_back((k * grid_[1] + j) * grid_[0] + i);
+  }
+
+  static constexpr int smallest = 3;  // boxes of so many nodes a side are not divided further
+  Corner grid_;
+  std::vector<int> order_;
 };
 
 }  // namespace
 
 std::vector<int> elimination_order(const PatchMesh& mesh, const PatchSystem& system,
                                    const std::vector<int>& kept) {
-  NodeGraph graph(mesh);
-  idx_t count = static_cast<idx_t>(graph.node.size());
-  std::vector<idx_t> old_of(graph.node.size()), new_of(graph.node.size());
-  if (METIS_NodeND(&count, graph.first.data(), graph.neighbors.data(), nullptr, nullptr, old_of.data(),
-                   new_of.data()) != METIS_OK)
-    throw std::runtime_error("ordering the unknowns failed: METIS ran out of memory");
-  std::vector<int> position(system.size());
-  for (std::size_t i = 0; i < graph.node.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis)
-      position[system.unknown(graph.node[i], axis)] = 3 * static_cast<int>(new_of[i]) + axis;
-  int next = 3 * static_cast<int>(count);
+  std::vector<int> position(static_cast<std::size_t>(system.size()));
+  int next = 0;
+  const Dissection dissection(mesh.grid);
+  for (const int node : dissection.order())
+    for (int axis = 0; axis < 3; ++axis) position[system.unknown(node, axis)] = next++;
   for (const int unknown : kept) position[unknown] = next++;
+  CLEFT_CHECK(next, ==, system.size());
   return position;
 }
 

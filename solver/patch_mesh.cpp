@@ -35,6 +35,7 @@ class PatchMesher {
   int node(int i, int j, int k) const { return (k * columns_v() + j) * columns_u() + i; }
 
   void add_points() {
+    mesh_.grid = {columns_u(), columns_v(), layers() + 1};
     for (int k = 0; k <= layers(); ++k)
       for (int j = 0; j < columns_v(); ++j)
         for (int i = 0; i < columns_u(); ++i) {

@@ -34,6 +34,9 @@ struct PatchMesh {
   std::vector<std::vector<double>> lines_along;
   std::vector<double> lines_depth;
   Vec3 start;  ///< of the first cut, on the skin
+  /// The nodes but the duplicates (the right ones of pairs) are those of a grid: number (k grid[1] + j)
+  /// grid[0] + i, i along u, j along v, k downward.
+  std::array<int, 3> grid{};
 };
 
 /// The ends, the bottom and the surface of every cut coincide with element faces. Elements are no longer than

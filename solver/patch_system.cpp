@@ -81,14 +81,18 @@ Block apply(const Epetra_CrsMatrix& matrix, const Block& block) {
 struct PatchSystem::Parts {
   Parts(const PatchMesh& patch, const Parameters& p, MPI_Comm comm, const Discretization& d)
       : communicator(comm),
+        mesh(patch),
         parameters(p),
         discretization(d),
         triangulation(comm),
         element(FE_WedgeP<3>(1), 3),
         mapping(FE_WedgeP<3>(1)),
         dofs(triangulation) {
-    create_triangulation(patch);
-    distribute_unknowns(patch);
+    create_triangulation();
+    distribute_unknowns();
+  }
+
+  void assemble_system() {
     make_empty(3, system);
     assemble(parameters, 1, Eigen::Matrix3d::Identity(), system);
     finish(system);
@@ -96,8 +100,15 @@ struct PatchSystem::Parts {
     system.loads.clear();
   }
 
-  void create_triangulation(const PatchMesh& patch);
-  void distribute_unknowns(const PatchMesh& patch);
+  /// The elements have done their work; a factor will want their memory.
+  void forget_elements() {
+    dofs.clear();
+    triangulation.clear();
+    pattern.clear();
+  }
+
+  void create_triangulation();
+  void distribute_unknowns();
   void make_empty(int loads, Assembled& empty) const;
   /// Adds factor K to the matrix, and factor times the unit loads, combined by columns, to the loads.
   void assemble(const Parameters& p, double factor, const Eigen::Matrix3Xd& combination,
@@ -109,6 +120,7 @@ struct PatchSystem::Parts {
                 FullMatrix<double>& cell_matrix, FullMatrix<double>& cell_loads) const;
 
   MPI_Comm communicator;
+  const PatchMesh& mesh;
   const Parameters parameters;
   const Discretization discretization;
   parallel::fullydistributed::Triangulation<3> triangulation;
@@ -123,15 +135,15 @@ struct PatchSystem::Parts {
   Block unit_loads;
 };
 
-void PatchSystem::Parts::create_triangulation(const PatchMesh& patch) {
+void PatchSystem::Parts::create_triangulation() {
   const double small = 1e-9 * parameters.patch.length;
   const auto near = [&](double a, double b) { return std::abs(a - b) < small; };
   // Rank 0 makes the whole mesh, divides it and hands out the parts.
   const auto make_whole = [&](Triangulation<3>& whole) {
     std::vector<Point<3>> vertices;
-    for (const Vec3& p : patch.points) vertices.emplace_back(p.x, p.y, p.z);
+    for (const Vec3& p : mesh.points) vertices.emplace_back(p.x, p.y, p.z);
     std::vector<CellData<3>> cells;
-    for (const auto& wedge : patch.wedges) {
+    for (const auto& wedge : mesh.wedges) {
       CellData<3>& cell = cells.emplace_back(6);
       for (unsigned i = 0; i < 6; ++i) cell.vertices[i] = wedge[i];
     }
@@ -159,7 +171,7 @@ void PatchSystem::Parts::create_triangulation(const PatchMesh& patch) {
           communicator, static_cast<int>(ranks)));
 }
 
-void PatchSystem::Parts::distribute_unknowns(const PatchMesh& patch) {
+void PatchSystem::Parts::distribute_unknowns() {
   dofs.distribute_dofs(element);
   offsets = {0};
   for (const IndexSet& owned : Utilities::MPI::all_gather(communicator, dofs.locally_owned_dofs())) {
@@ -167,12 +179,12 @@ void PatchSystem::Parts::distribute_unknowns(const PatchMesh& patch) {
     offsets.push_back(offsets.back() + static_cast<int>(owned.n_elements()));
   }
   rank = static_cast<int>(Utilities::MPI::this_mpi_process(communicator));
-  std::vector<int> known(patch.points.size(), -1);
+  std::vector<int> known(mesh.points.size(), -1);
   for (const auto& cell : dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    const auto& wedge = patch.wedges[cell->id().get_coarse_cell_id()];
+    const auto& wedge = mesh.wedges[cell->id().get_coarse_cell_id()];
     for (const unsigned v : cell->vertex_indices()) {
-      const Vec3& at = patch.points[wedge[v]];
+      const Vec3& at = mesh.points[wedge[v]];
       CLEFT_CHECK(cell->vertex(v).distance({at.x, at.y, at.z}), ==, 0);
       known[wedge[v]] = static_cast<int>(cell->vertex_dof_index(v, 0));
       CLEFT_CHECK(cell->vertex_dof_index(v, 2), ==, cell->vertex_dof_index(v, 0) + 2);
@@ -301,7 +313,10 @@ void PatchSystem::Parts::add_skin(const Parameters& p, const DoFHandler<3>::acti
 
 PatchSystem::PatchSystem(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
                          const Discretization& discretization)
-    : parts_(std::make_unique<Parts>(mesh, parameters, communicator, discretization)) {}
+    : parts_(std::make_unique<Parts>(mesh, parameters, communicator, discretization)) {
+  parts_->assemble_system();
+  parts_->forget_elements();
+}
 
 PatchSystem::~PatchSystem() = default;
 
@@ -343,13 +358,11 @@ PatchSystem::Entries PatchSystem::lower_triangle() const {
 
 Eigen::MatrixX4d PatchSystem::places() const {
   Eigen::MatrixX4d places(owned(), 4);
-  for (const auto& cell : parts_->dofs.active_cell_iterators())
-    for (const unsigned v : cell->vertex_indices())
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!cell->is_locally_owned()) continue;
-        const long row = static_cast<long>(cell->vertex_dof_index(v, axis)) - first();
-        if (row >= 0 && row < owned())
-          places.row(row) << cell->vertex(v)[0], cell->vertex(v)[1], cell->vertex(v)[2], axis;
+  for (std::size_t n = 0; n < parts_->mesh.points.size(); ++n)
+    for (int axis = 0; axis < 3; ++axis)
+      if (const int local = parts_->first_unknown[n] + axis - first(); local >= 0 && local < owned()) {
+        const Vec3& at = parts_->mesh.points[n];
+        places.row(local) << at.x, at.y, at.z, axis;
       }
   return places;
 }
@@ -377,18 +390,22 @@ std::unique_ptr<PatchSystem::Derivative> PatchSystem::derivative(const Parameter
   // Poisson's ratios act through 1 / (1 - 2 nu): the step follows the distance from 1/2.
   const double scale = row.greatest < 1 ? std::max(0.5 - at, 1e-4) : std::max(std::abs(at), 1e-3);
   const double step = 1e-3 * scale;
+  Parts elements(parts_->mesh, parameters, parts_->communicator, parts_->discretization);
   Assembled sum;
-  parts_->make_empty(1, sum);
+  elements.make_empty(1, sum);
   for (const auto& [steps, weight] : {std::pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}}) {
     Parameters moved = parameters;
     std::get<0>(row.access)(moved) = at + steps * step;
-    parts_->assemble(moved, weight / (12 * step), directions(moved.skin), sum);
+    elements.assemble(moved, weight / (12 * step), directions(moved.skin), sum);
   }
   Parts::finish(sum);
   return std::make_unique<AssembledDerivative>(std::move(sum));
 }
 
-Eigen::MatrixXd gather_rows(const PatchSystem& system, const Block& block, const std::vector<int>& unknowns) {
+namespace {
+
+/// The rows that this rank owns, 0 for the others.
+Eigen::MatrixXd own_rows(const PatchSystem& system, const Block& block, const std::vector<int>& unknowns) {
   int columns = static_cast<int>(block.cols());
   MPI_Allreduce(MPI_IN_PLACE, &columns, 1, MPI_INT, MPI_MAX, system.communicator());
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(unknowns.size()), columns);
@@ -396,10 +413,33 @@ Eigen::MatrixXd gather_rows(const PatchSystem& system, const Block& block, const
     const int local = unknowns[i] - system.first();
     if (local >= 0 && local < system.owned()) rows.row(static_cast<Eigen::Index>(i)) = block.row(local);
   }
+  return rows;
+}
+
+}  // namespace
+
+Eigen::MatrixXd gather_rows(const PatchSystem& system, const Block& block, const std::vector<int>& unknowns) {
+  Eigen::MatrixXd rows = own_rows(system, block, unknowns);
   const bool root = system.rank() == 0;
   MPI_Reduce(root ? MPI_IN_PLACE : rows.data(), rows.data(), static_cast<int>(rows.size()), MPI_DOUBLE,
              MPI_SUM, 0, system.communicator());
   return root ? rows : Eigen::MatrixXd();
+}
+
+Eigen::MatrixXd all_gather_rows(const PatchSystem& system, const Block& block,
+                                const std::vector<int>& unknowns) {
+  Eigen::MatrixXd rows = own_rows(system, block, unknowns);
+  MPI_Allreduce(MPI_IN_PLACE, rows.data(), static_cast<int>(rows.size()), MPI_DOUBLE, MPI_SUM,
+                system.communicator());
+  return rows;
+}
+
+void set_rows(const PatchSystem& system, Block& block, const std::vector<int>& unknowns,
+              const Eigen::MatrixXd& rows) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const int local = unknowns[i] - system.first();
+    if (local >= 0 && local < system.owned()) block.row(local) = rows.row(static_cast<Eigen::Index>(i));
+  }
 }
 
 }  // namespace cleft

@@ -36,6 +36,7 @@ struct Discretization {
 /// those of a rank contiguously.
 class PatchSystem {
  public:
+  /// Keeps a reference to the mesh.
   PatchSystem(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
               const Discretization& discretization = {});
   ~PatchSystem();
@@ -85,5 +86,11 @@ class PatchSystem::Derivative {
 
 /// Rows of a distributed block, by number of the unknown: on rank 0, empty elsewhere. Collective.
 Eigen::MatrixXd gather_rows(const PatchSystem& system, const Block& block, const std::vector<int>& unknowns);
+/// The same on every rank.
+Eigen::MatrixXd all_gather_rows(const PatchSystem& system, const Block& block,
+                                const std::vector<int>& unknowns);
+/// Sets the rows that this rank owns.
+void set_rows(const PatchSystem& system, Block& block, const std::vector<int>& unknowns,
+              const Eigen::MatrixXd& rows);
 
 }  // namespace cleft

@@ -21,7 +21,7 @@ namespace cleft {
 namespace {
 
 constexpr double largest_residual = 1e-6;  // of the loads: beyond it the numbers mean nothing
-constexpr double block_bytes = 1e8;        // of the displacements held at a time, on a rank
+constexpr double block_bytes = 3e7;        // of the displacements held at a time, by all ranks
 constexpr int most_columns = 64;           // right-hand sides solved together
 constexpr const char* prestress_names[] = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
 
