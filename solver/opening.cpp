@@ -3,6 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <stdexcept>
+#include <string>
+
+#include "solver/frame_solver.h"
 
 namespace cleft {
 
@@ -27,7 +30,9 @@ CutCondensation::CutCondensation(Eigen::MatrixXd stiffness, std::vector<std::arr
   if (first.empty()) return;
   closed_factor_.compute(stiffness(first, first));
   if (closed_factor_.info() != Eigen::Success)
-    throw std::runtime_error("the closed patch is not held: its stiffness is not positive definite");
+    throw std::runtime_error(
+        std::string("the closed patch is not held: its stiffness is not positive definite; ") +
+        cause_of_indefinite);
   coupling_ = stiffness(first, jump);
   carried_ = closed_factor_.solve(coupling_);
   jump_stiffness_.noalias() -= coupling_.transpose() * carried_;
@@ -65,7 +70,9 @@ Opening::Opening(const CutCondensation& condensation, std::vector<int> order, co
     for (int axis = 0; axis < 3; ++axis) unknowns.push_back(3 * pair + axis);
   factor_.compute(condensation_.jump_stiffness()(unknowns, unknowns));
   if (factor_.info() != Eigen::Success)
-    throw std::runtime_error("the open patch is not held: its stiffness is not positive definite");
+    throw std::runtime_error(
+        std::string("the open patch is not held: its stiffness is not positive definite; ") +
+        cause_of_indefinite);
   normal_forward_ = Eigen::MatrixXd::Zero(factor_.rows(), static_cast<Eigen::Index>(order_.size()));
   for (std::size_t p = 0; p < order_.size(); ++p)
     for (int axis = 0; axis < 3; ++axis)
