@@ -236,9 +236,8 @@ Block IterativeSolver::solve(const std::vector<Column>& columns) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (columns[c].contact)
       throw SolveError(
-          "cut.contact = true: contact is found with the factor, not by iterations; raise mesh.element_size "
-          "or "
-          "mesh.grading until it fits into memory, use --method direct, or set cut.contact to false");
+          "cut.contact = true: contact is found with the factor, not by iterations; set it to false, use "
+          "--method direct, or raise mesh.element_size or mesh.grading until the factor fits into memory");
     Eigen::VectorXd x = parts_->last[columns[c].load];
     parts_->solve(parts_->loads.col(columns[c].load), columns[c], x);
     parts_->last[columns[c].load] = x;
