@@ -17,6 +17,10 @@ struct SolveError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What to look at where K is not positive definite.
+inline constexpr const char* cause_of_indefinite =
+    "are the springs and moduli large enough, and the skin nowhere compressed?";
+
 /// Runs `work` on rank 0; a std::runtime_error there becomes a SolveError on every rank. Collective.
 void on_root(const PatchSystem& system, const std::function<void()>& work);
 

@@ -202,9 +202,8 @@ struct IterativeSolver::Parts {
       project(first, product);
       const double energy = dot(direction, product);
       if (!(energy > 0) || !(rz > 0))
-        throw SolveError(
-            "the stiffness matrix is not positive definite; are the springs and moduli large enough, and the "
-            "skin nowhere compressed?");
+        throw SolveError(std::string("the stiffness matrix is not positive definite; ") +
+                         cause_of_indefinite);
       x += rz / energy * direction;
       r -= rz / energy * product;
     }
@@ -235,6 +234,10 @@ void IterativeSolver::set_loads(Block loads) {
 Block IterativeSolver::solve(const std::vector<Column>& columns) {
   Block solution(parts_->loads.rows(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (columns[c].contact)
+      throw SolveError(
+          "cut.contact = true: contact is found with the factor, not by iterations; set it to false, use "
+          "--method direct, or raise mesh.element_size or mesh.grading until the factor fits into memory");
     Eigen::VectorXd x = parts_->last[columns[c].load];
     parts_->solve(parts_->loads.col(columns[c].load), columns[c], x);
     parts_->last[columns[c].load] = x;

@@ -3,6 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <stdexcept>
+#include <string>
+
+#include "solver/frame_solver.h"
 
 namespace cleft {
 
@@ -14,7 +17,9 @@ Opening::Opening(const Eigen::MatrixXd& stiffness, std::vector<int> order, const
     for (int axis = 0; axis < 3; ++axis) rows.push_back(3 * pair + axis);
   factor_.compute(stiffness(rows, rows));
   if (factor_.info() != Eigen::Success)
-    throw std::runtime_error("the open patch is not held: its stiffness is not positive definite");
+    throw std::runtime_error(
+        std::string("the open patch is not held: its stiffness is not positive definite; ") +
+        cause_of_indefinite);
   normal_forward_ = Eigen::MatrixXd::Zero(factor_.rows(), static_cast<Eigen::Index>(order_.size()));
   for (std::size_t p = 0; p < order_.size(); ++p)
     for (int axis = 0; axis < 3; ++axis)

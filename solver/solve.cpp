@@ -431,10 +431,13 @@ class SharedStiffness::Batch {
       if (s.smallest_gap.size() > 1)
         report.smallest_gap =
             s.smallest_gap.size() == 2 ? f.smallest_gap : std::min(report.smallest_gap, f.smallest_gap);
-      if (!(f.residual_equilibrium < largest_residual)) {
-        report.failure = "the forces of frame " + std::to_string(s.smallest_gap.size() - 1) +
-                         " do not balance (relative residual " + shortest(f.residual_equilibrium) +
-                         "): the parameters differ by too many orders of magnitude";
+      if (!(f.residual_equilibrium < largest_residual) || !std::isfinite(f.gape)) {
+        const std::string frame = "frame " + std::to_string(s.smallest_gap.size() - 1);
+        report.failure =
+            (std::isfinite(f.gape) ? "the forces of " + frame + " do not balance (relative residual " +
+                                         shortest(f.residual_equilibrium) + ")"
+                                   : "the displacements of " + frame + " overflow") +
+            ": the parameters differ by too many orders of magnitude";
         member.writing.reset();
         return false;
       }
@@ -485,6 +488,10 @@ void check_options(const Parameters& p, const SolveOptions& options, const std::
     throw InputError(where + ": --unit-prestress: the series is not linear in the prestress with " +
                      (contact ? "cut.contact" : "skin.initial_stress_stiffness") +
                      " = true; set it to false");
+  if (options.method == Method::iterative && contact)
+    throw InputError(where +
+                     ": --method iterative: contact is found with the factor; set cut.contact to false, or "
+                     "use --method direct");
   if (!options.sensitivities.empty() && contact)
     throw InputError(where +
                      ": --sensitivities: the series has no derivative where lips begin to touch; set "

@@ -10,8 +10,10 @@ namespace {
 
 Outcome run(const std::vector<std::string>& argv) {
   const TemporaryFolder folder;
-  const cleft::ProcessResult result = cleft::run_process(
-      argv, folder / "log", {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}});
+  const cleft::ProcessResult result = cleft::run_process(argv, folder / "log",
+                                                         {{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+                                                          {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+                                                          {"OMPI_MCA_mpi_yield_when_idle", "1"}});
   return {result.signal ? -result.signal : result.exit_code, cleft::read_text_file(folder / "log")};
 }
 

@@ -1,0 +1,147 @@
+// Every frame of both solvers against the saddle-point system with its multipliers written out, in one dense
+// matrix. CMakeLists.txt runs these tests on several ranks too.
+#include "solver/frame_solver.h"
+
+#include <gtest/gtest.h>
+
+#include "solver/direct_solver.h"
+#include "solver/iterative_solver.h"
+#include "tests/solver/dense_patch.h"
+
+namespace cleft {
+
+namespace {
+
+/// What a frame may differ by, / its norm. The condition of these K is below 1e5: a direct solve loses five
+/// of sixteen digits; an iterative one has five of the 1e-13 its residual is made as small as.
+constexpr double direct_tolerance = 1e-10, iterative_tolerance = 1e-9, small_residual = 1e-14;
+
+/// The case's own load, and one that pulls at every unknown.
+Eigen::MatrixXd two_loads(const DensePatch& patch) {
+  std::srand(7);
+  Eigen::MatrixXd loads(patch.system.size(), 2);
+  loads << patch.load, 1e-3 * Eigen::VectorXd::Random(patch.system.size());
+  return loads;
+}
+
+/// Both solvers of a patch.
+struct Solvers {
+  explicit Solvers(const DensePatch& patch)
+      : direct(patch.mesh, patch.system), iterative(patch.mesh, patch.system) {
+    direct.factorize();
+  }
+  template <class Visit>
+  void each(const Visit& visit) {
+    visit("direct", direct, direct_tolerance);
+    visit("iterative", iterative, iterative_tolerance);
+  }
+  DirectSolver direct;
+  IterativeSolver iterative;
+};
+
+void expect_all_frames(const DensePatch& patch, const Release& release, Solvers& solvers) {
+  const Eigen::MatrixXd loads = two_loads(patch);
+  std::vector<Eigen::MatrixXd> expected;
+  for (const int open : release.released)
+    expected.push_back(patch.solve(patch.closure(release, open), loads));
+  EXPECT_GT((expected.back() - expected.front()).col(0).norm(), 0.05 * expected.front().col(0).norm())
+      << "the cut must open for this to mean anything";
+  std::vector<FrameSolver::Column> columns;
+  for (int load = 0; load < 2; ++load)
+    for (const int open : release.released) columns.push_back({load, open, false, small_residual});
+  solvers.each([&](const char* name, FrameSolver& solver, double tolerance) {
+    solver.set_release(release);
+    solver.set_loads(patch.own(loads));
+    const Eigen::MatrixXd frames = patch.whole(solver.solve(columns));
+    for (std::size_t j = 0; j < expected.size(); ++j)
+      for (int load = 0; load < 2; ++load) {
+        const Eigen::VectorXd of_load = expected[j].col(load);
+        const auto column = static_cast<Eigen::Index>(load * expected.size() + j);
+        EXPECT_LT((frames.col(column) - of_load).norm(), tolerance * of_load.norm())
+            << name << ", frame " << j << ", load " << load;
+      }
+  });
+}
+
+class FrameSolverOf : public testing::TestWithParam<DenseCase> {};
+
+std::string name_of(const testing::TestParamInfo<DenseCase>& tested) { return tested.param.name; }
+
+}  // namespace
+
+TEST_P(FrameSolverOf, FramesAreThoseWithMultipliers) {
+  const DensePatch patch(GetParam().parameters);
+  Solvers solvers(patch);
+  expect_all_frames(patch, patch.release, solvers);
+  EXPECT_EQ(solvers.iterative.iterations().size(), 2 * patch.release.released.size());
+  EXPECT_TRUE(solvers.direct.iterations().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, FrameSolverOf, testing::ValuesIn(dense_cases()), name_of);
+
+TEST(FrameSolver, AnotherCutOfTheSameMeshNeedsNoOtherSolver) {
+  Parameters longer = dense_patch_case(), shorter = longer;
+  longer.mesh.cut_length = shorter.mesh.cut_length = 6;
+  longer.mesh.cut_depth = shorter.mesh.cut_depth = 2;
+  shorter.cut.length = 4, shorter.cut.depth = 1, shorter.cut.frames = "pair";
+  const DensePatch patch(longer);
+  Solvers solvers(patch);
+  for (const Parameters& p : {longer, shorter, longer})
+    expect_all_frames(patch, make_release(patch.mesh, p), solvers);
+}
+
+TEST(FrameSolver, ColumnsComeInAnyOrder) {
+  const DensePatch patch(dense_patch_case());
+  Solvers solvers(patch);
+  const Eigen::MatrixXd loads = two_loads(patch);
+  solvers.each([&](const char* name, FrameSolver& solver, double tolerance) {
+    solver.set_release(patch.release);
+    solver.set_loads(patch.own(loads));
+    for (const auto& [load, open] : {std::pair(1, 10), {0, 0}, {1, 3}, {0, 4}}) {
+      const Eigen::VectorXd frame = patch.whole(solver.solve({{load, open, false, small_residual}}));
+      const Eigen::VectorXd expected = patch.solve(patch.closure(patch.release, open), loads.col(load));
+      EXPECT_LT((frame - expected).norm(), tolerance * expected.norm())
+          << name << ": " << load << ", " << open;
+    }
+  });
+}
+
+/// Large enough for several levels of the multigrid, which solves the small patches in one.
+TEST(FrameSolver, IterationsAgreeWithTheFactorOnALargerPatch) {
+  Parameters p = dense_patch_case();
+  p.patch.length = 24, p.patch.width = 16, p.patch.height = 5;
+  p.cut.length = 12, p.cut.branch = 3;
+  const PatchMesh mesh = make_patch_mesh(p);
+  const PatchSystem system(mesh, p, MPI_COMM_WORLD);
+  ASSERT_GT(system.size(), 7000);
+  const Release release = make_release(mesh, p);
+  DirectSolver direct(mesh, system);
+  direct.factorize();
+  IterativeSolver iterative(mesh, system);
+  std::vector<FrameSolver::Column> columns;
+  for (const int open : release.released) columns.push_back({0, open, false, 1e-12});
+  for (FrameSolver* solver : std::initializer_list<FrameSolver*>{&direct, &iterative}) {
+    solver->set_release(release);
+    solver->set_loads(system.load(p.skin));
+  }
+  const Block expected = direct.solve(columns), frames = iterative.solve(columns);
+  double largest[] = {(frames - expected).cwiseAbs().maxCoeff(), expected.cwiseAbs().maxCoeff()};
+  MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  EXPECT_LT(largest[0], iterative_tolerance * largest[1]);
+  for (const int n : iterative.iterations()) EXPECT_LT(n, 60);
+}
+
+TEST(FrameSolver, MethodIsDirectWhereItFitsUnlessForced) {
+  const DensePatch patch(dense_patch_case());
+  const auto silent = [](const std::string&) {};
+  const auto chosen = [&](Method m) { return make_frame_solver(patch.mesh, patch.system, m, silent); };
+  const ChosenSolver automatic = chosen(Method::automatic);
+  EXPECT_EQ(automatic.method, Method::direct);
+  EXPECT_NE(automatic.reason.find("its factor fits: "), std::string::npos) << automatic.reason;
+  EXPECT_EQ(chosen(Method::direct).reason, "forced");
+  const ChosenSolver iterative = chosen(Method::iterative);
+  EXPECT_EQ(iterative.method, Method::iterative);
+  EXPECT_EQ(iterative.reason, "forced");
+}
+
+}  // namespace cleft

@@ -1,0 +1,195 @@
+// Cases solved together against the same cases solved alone.
+#include <gtest/gtest.h>
+
+#include "tests/solver/small_patch.h"
+#include "tests/solver/solved_snapshot.h"
+
+namespace cleft {
+
+namespace {
+
+/// What a sum of unit series may differ by from the series of the sum, / the largest displacement: rounding,
+/// times a condition of K below 1e4.
+constexpr double rounding = 1e-12;
+
+Parameters changed(Parameters p, const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments) set_from_text(p, assignment, "test");
+  return p;
+}
+
+Parameters base() {
+  return changed(small_patch(), {"mesh.cut_length=6", "mesh.cut_depth=2", "skin.prestress_uv=0.012"});
+}
+
+const std::vector<std::vector<std::string>> of_one_stiffness = {
+    {},
+    {"skin.prestress_v=0.05"},
+    {"skin.prestress_u=0.2", "skin.prestress_v=0.002", "skin.prestress_uv=-0.008"},
+    {"cut.contact=true"},
+    {"cut.contact=true", "skin.prestress_u=0.3", "skin.prestress_v=0.01"},
+    {"cut.length=4"},
+    {"cut.length=4", "skin.prestress_v=0.05"},
+    {"cut.depth=1", "cut.frames=pair"},
+    {"cut.length=4", "cut.contact=true"},
+    {"skin.prestress_u=0", "skin.prestress_v=0", "skin.prestress_uv=0"},
+};
+
+std::vector<Parameters> cases_of_one_stiffness() {
+  std::vector<Parameters> cases;
+  for (const auto& assignments : of_one_stiffness) cases.push_back(changed(base(), assignments));
+  return cases;
+}
+
+void expect_as_alone(const SolveReport& report, const Parameters& p, double tolerance) {
+  ASSERT_EQ(report.failure, "");
+  check_snapshot(report.out);
+  const TemporaryFolder folder;
+  const SolveReport alone = solve_into(folder, {p})[0];
+  const Snapshot s = SnapshotReader(report.out).snapshot(), t = SnapshotReader(alone.out).snapshot();
+  EXPECT_EQ(s.case_hash, solve_hash(p));
+  EXPECT_EQ(s.case_hash, t.case_hash);
+  EXPECT_EQ(s.released, t.released);
+  EXPECT_EQ(s.pairs, t.pairs);
+  EXPECT_EQ(s.times, t.times);
+  const Eigen::MatrixXd u = displacement_of(report.out);
+  if (p.skin.prestress_v > 0) {
+    EXPECT_LT(difference(u, displacement_of(alone.out)), tolerance) << report.out;
+  } else {
+    EXPECT_EQ(u.cwiseAbs().maxCoeff(), 0);
+  }
+  for (const char* shared : {"compliance", "dent"})
+    EXPECT_LT(difference(array_of(report.out, shared), array_of(alone.out, shared)), tolerance);
+  for (std::size_t j = 0; j < s.frames(); ++j) {
+    EXPECT_NEAR(s.smallest_gap[j], t.smallest_gap[j], 1e-12) << report.out;
+    EXPECT_LT(s.residual_equilibrium[j], 1e-10);
+    EXPECT_LT(s.residual_closure[j], 1e-12);
+  }
+  EXPECT_NEAR(report.gape, alone.gape, 1e-12);
+  EXPECT_NEAR(report.largest_displacement, alone.largest_displacement, 1e-12);
+  EXPECT_NEAR(report.smallest_gap, alone.smallest_gap, 1e-12);
+  EXPECT_EQ(report.frames, alone.frames);
+  EXPECT_EQ(report.pairs, alone.pairs);
+}
+
+}  // namespace
+
+TEST(SolveCases, OfOneStiffnessAreAsAloneAfterOneFactorisation) {
+  const TemporaryFolder folder;
+  const std::vector<Parameters> cases = cases_of_one_stiffness();
+  const std::vector<SolveReport> reports = solve_into(folder, cases);
+  ASSERT_EQ(reports.size(), cases.size());
+  int with_phases = 0;
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    expect_as_alone(reports[c], cases[c], rounding);
+    EXPECT_EQ(reports[c].cases_sharing, static_cast<int>(cases.size()));
+    EXPECT_EQ(reports[c].first_of_sharing, c == 0);
+    EXPECT_EQ(reports[c].method, "direct");
+    with_phases += !reports[c].phases.empty();
+  }
+  EXPECT_EQ(with_phases, 1);
+  const auto& phases = reports[0].phases;
+  for (const char* name : {"assemble", "factor", "compliance", "frames", "write"})
+    EXPECT_EQ(std::count_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == name; }), 1)
+        << name;
+  EXPECT_LT(reports[3].smallest_gap, 1e-12) << "the lips must touch for contact to mean anything";
+  EXPECT_GT(reports[3].smallest_gap, -1e-12);
+  EXPECT_LT(reports[0].smallest_gap, -1e-3);
+}
+
+TEST(SolveCases, OfSeveralStiffnessesShareWithTheirOwn) {
+  const TemporaryFolder folder;
+  const std::vector<Parameters> cases = {
+      base(),
+      changed(base(), {"tissue.young_modulus=0.03"}),
+      changed(base(), {"skin.prestress_v=0.04"}),
+      changed(base(), {"tissue.young_modulus=0.03", "cut.length=4"}),
+      changed(base(), {"skin.initial_stress_stiffness=true"}),
+      changed(base(), {"skin.initial_stress_stiffness=true", "skin.prestress_v=0.04"}),
+      changed(base(), {"mesh.cut_length=8"}),
+  };
+  const std::vector<int> sharing = {2, 2, 2, 2, 1, 1, 1};
+  const std::vector<SolveReport> reports = solve_into(folder, cases);
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    expect_as_alone(reports[c], cases[c], rounding);
+    EXPECT_EQ(reports[c].cases_sharing, sharing[c]) << c;
+    EXPECT_EQ(reports[c].first_of_sharing, c != 2 && c != 3) << c;
+  }
+}
+
+TEST(SolveCases, OfOneStiffnessAreAsAloneByIterations) {
+  SolveOptions options;
+  options.method = Method::iterative;
+  const TemporaryFolder folder;
+  std::vector<Parameters> cases;
+  for (const Parameters& p : cases_of_one_stiffness())
+    if (p.cut.contact == "false") cases.push_back(p);
+  const std::vector<SolveReport> reports = solve_into(folder, cases, options);
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    EXPECT_EQ(reports[c].method, "iterative");
+    ASSERT_EQ(reports[c].failure, "");
+    if (cases[c].skin.prestress_v == 0) continue;
+    // Residuals of 1e-10, times the condition.
+    EXPECT_LT(difference(displacement_of(reports[c].out), solved_alone(cases[c])), 1e-7);
+  }
+  EXPECT_FALSE(reports[0].iterations.empty());
+}
+
+/// More cases than are written at a time, with so many loads that their frames come in several blocks.
+TEST(SolveCases, ManyAreAsAlone) {
+  const TemporaryFolder folder;
+  std::vector<Parameters> cases;
+  for (int c = 0; c < 67; ++c) {
+    cases.push_back(base());
+    cases.back().skin.prestress_u = 0.01 + 0.001 * c;
+    if (c % 4 == 0) cases.back().cut.contact = "true";
+  }
+  const std::vector<SolveReport> reports = solve_into(folder, cases);
+  for (const SolveReport& report : reports) {
+    EXPECT_EQ(report.failure, "");
+    EXPECT_EQ(report.cases_sharing, 67);
+  }
+  for (const std::size_t c : {0, 1, 60, 63, 64, 66}) expect_as_alone(reports[c], cases[c], rounding);
+}
+
+TEST(SolveCases, AFailureKeepsNoOtherCaseFromBeingWritten) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> overflow = {"skin.prestress_v=1e308", "skin.prestress_uv=0"};
+  const std::vector<Parameters> cases = {
+      base(),
+      changed(base(), overflow),  // as a sum of unit series, and solved for itself
+      changed(changed(base(), overflow), {"cut.contact=true"}),
+      changed(base(), {"tissue.young_modulus=1e14"}),  // its springs vanish in rounding
+      changed(base(), {"skin.prestress_v=0.04"}),
+      changed(base(), {"tissue.young_modulus=0.03"}),
+  };
+  const std::vector<SolveReport> reports = solve_into(folder, cases);
+  for (const std::size_t c : {0, 4, 5}) expect_as_alone(reports[c], cases[c], rounding);
+  for (const std::size_t c : {1, 2})
+    EXPECT_NE(reports[c].failure.find("orders of magnitude"), std::string::npos) << reports[c].failure;
+  EXPECT_NE(reports[3].failure.find("not positive definite"), std::string::npos) << reports[3].failure;
+  EXPECT_EQ(folder.entries(), 3) << "of what failed nothing is left";
+}
+
+TEST(SolveCases, UnitSeriesAddUpToAnyPrestress) {
+  SolveOptions options;
+  options.unit_prestress = true;
+  const TemporaryFolder folder;
+  const std::vector<Parameters> cases = {changed(base(), {"skin.prestress_uv=0"}),
+                                         changed(base(), {"cut.length=4", "skin.prestress_v=0.05"})};
+  const std::vector<SolveReport> reports = solve_into(folder, cases, options);
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    ASSERT_EQ(reports[c].failure, "");
+    check_snapshot(reports[c].out);
+    const auto unit = [&](const char* d) {
+      return array_of(reports[c].out, std::string("displacement_per_skin.prestress_") + d);
+    };
+    for (const auto& [u, v, uv] : {std::array{0.02, 0.05, -0.01}, {0., 0.03, 0.}, {0.04, 0.02, 0.02}}) {
+      Parameters other = cases[c];
+      other.skin.prestress_u = u, other.skin.prestress_v = v, other.skin.prestress_uv = uv;
+      EXPECT_LT(difference(u * unit("u") + v * unit("v") + uv * unit("uv"), solved_alone(other)), rounding);
+    }
+    expect_as_alone(reports[c], cases[c], rounding);
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,119 @@
+// `cleft solve` on several ranks, by every method and partitioner: the same snapshot.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/pipeline/commands.h"
+#include "tests/solver/solved_snapshot.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr const char* sheared_case = R"([case]
+patch.length = 10
+patch.width = 7
+patch.height = 3
+cut.length = 6
+cut.depth = 2
+cut.branch = 1
+cut.frames = "pair"
+mesh.cut_depth = 2.9
+skin.prestress_u = 0.02
+skin.prestress_uv = 0.012
+)";
+
+struct Way {
+  int ranks;
+  const char *method, *partitioner;
+};
+
+class SolveCommand : public testing::Test {
+ protected:
+  std::string solve(const Way& way, const std::vector<std::string>& more = {}) {
+    const std::string out = folder / std::to_string(way.ranks) + way.method + way.partitioner + ".h5";
+    std::vector<std::string> arguments = {folder.write("case.toml", sheared_case),
+                                          "--out",
+                                          out,
+                                          "--method",
+                                          way.method,
+                                          "--partitioner",
+                                          way.partitioner};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_success(way.ranks == 1 ? run_cleft("solve", arguments) : solve_on_ranks(way.ranks, arguments));
+    check_snapshot(out);
+    return out;
+  }
+
+  /// `tolerance`: / the largest entry.
+  void expect_same(const std::string& path, const std::string& reference, double tolerance,
+                   const std::vector<std::string>& arrays) {
+    const Snapshot s = SnapshotReader(path).snapshot(), t = SnapshotReader(reference).snapshot();
+    ASSERT_EQ(s.points.size(), t.points.size());
+    for (std::size_t n = 0; n < s.points.size(); ++n) ASSERT_EQ(norm(s.points[n] - t.points[n]), 0);
+    EXPECT_EQ(s.connectivity, t.connectivity);
+    EXPECT_EQ(s.pairs, t.pairs);
+    EXPECT_EQ(s.released, t.released);
+    EXPECT_EQ(s.case_hash, t.case_hash);
+    for (const std::string& array : arrays)
+      EXPECT_LT(difference(array_of(path, array), array_of(reference, array)), tolerance) << array;
+    for (std::size_t j = 0; j < s.frames(); ++j) {
+      EXPECT_NEAR(s.smallest_gap[j], t.smallest_gap[j], tolerance);
+      EXPECT_NEAR(s.residual_equilibrium[j], t.residual_equilibrium[j], tolerance);
+      EXPECT_NEAR(s.residual_closure[j], t.residual_closure[j], tolerance);
+    }
+  }
+
+  TemporaryFolder folder;
+};
+
+}  // namespace
+
+TEST_F(SolveCommand, RanksAndPartitionersGiveTheSameSnapshot) {
+  const std::vector<std::string> more = {"--unit-prestress", "--sensitivities",
+                                         "tissue.poisson_ratio,foundation.side_stiffness"};
+  std::vector<std::string> arrays = {"displacement", "compliance", "dent"};
+  for (const char* name : {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv",
+                           "tissue.poisson_ratio", "foundation.side_stiffness"})
+    arrays.push_back(std::string("displacement_per_") + name);
+  const std::string reference = solve({1, "direct", "metis"}, more);
+  // Rounding, times a condition of K below 1e5.
+  for (const Way& way : {Way{2, "direct", "metis"}, {3, "direct", "zorder"}, {4, "direct", "zoltan"}}) {
+    SCOPED_TRACE(std::to_string(way.ranks) + " ranks, " + way.partitioner);
+    expect_same(solve(way, more), reference, 1e-10, arrays);
+  }
+  // Residuals of 1e-10, times that; those of the compliance are 1e-5 for the sake of its 1 %.
+  const std::string by_iterations = solve({3, "iterative", "zoltan"});
+  expect_same(by_iterations, reference, 1e-8, {"displacement", "dent"});
+  EXPECT_LT(difference(array_of(by_iterations, "compliance"), array_of(reference, "compliance")), 1e-3);
+}
+
+TEST_F(SolveCommand, ContactIsTheSameOnSeveralRanks) {
+  const std::vector<std::string> contact = {"--set", "cut.contact=true"};
+  const std::string reference = solve({1, "direct", "metis"}, contact);
+  const std::vector<double> gaps = SnapshotReader(reference).snapshot().smallest_gap;
+  EXPECT_GT(*std::min_element(gaps.begin(), gaps.end()), -1e-12);
+  expect_same(solve({2, "direct", "zorder"}, contact), reference, 1e-10, {"displacement"});
+}
+
+TEST_F(SolveCommand, SeveralCasesGoIntoAFolderAndAListOfFigures) {
+  const std::string first = folder.write("first.toml", sheared_case);
+  const std::string second =
+      folder.write("second.toml", sheared_case + std::string("skin.prestress_v = 0.04\n"));
+  std::filesystem::create_directory(folder / "out");
+  const Outcome outcome =
+      expect_success(run_cleft("solve", {first, second, "--out", folder / "out", "--json"}));
+  const auto figures = nlohmann::json::parse(outcome.output);
+  ASSERT_EQ(figures.size(), 2);
+  EXPECT_EQ(figures[0]["out"], folder / "out/first.h5");
+  EXPECT_EQ(figures[1]["out"], folder / "out/second.h5");
+  for (const auto& f : figures) EXPECT_EQ(f["cases_sharing"], 2);
+  EXPECT_TRUE(figures[0].contains("seconds"));
+  EXPECT_FALSE(figures[1].contains("seconds"));
+  check_snapshot(folder / "out/first.h5");
+  check_snapshot(folder / "out/second.h5");
+  EXPECT_GT(figures[1]["gape_mm"], figures[0]["gape_mm"]);
+}
+
+}  // namespace cleft
