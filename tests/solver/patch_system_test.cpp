@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/solver/small_patch.h"
+#include "tests/solver/verification_support.h"
 
 namespace cleft {
 
 namespace {
-
-constexpr double none = 1e-14;  // moduli must be positive: this one vanishes against all others
 
 /// A patch of which only one part is stiff.
 Parameters bare_patch() {
@@ -35,7 +34,8 @@ const Gradient stretch = {{{0.3, -0.2, 0.5}, {0.1, 0.7, -0.4}, {0.6, 0.2, -0.9}}
 
 struct Assembled {
   explicit Assembled(const Parameters& p) : mesh(make_patch_mesh(p)), system(mesh, p, MPI_COMM_WORLD) {}
-  double energy(const Eigen::VectorXd& u) const { return u.dot(Eigen::VectorXd(system.multiply(u))) / 2; }
+  Eigen::VectorXd force(const Eigen::VectorXd& u) const { return system.multiply(u); }
+  double energy(const Eigen::VectorXd& u) const { return u.dot(force(u)) / 2; }
   PatchMesh mesh;
   PatchSystem system;
 };
@@ -57,9 +57,9 @@ TEST(PatchSystem, TissueHasTheEnergyOfHookesLawAndBalancesInside) {
   EXPECT_NEAR(patch.energy(u) / (density * 10 * 6 * 3), 1, 1e-11);
 
   // A constant stress needs no force inside; the two nodes of a pair share theirs.
-  const Eigen::VectorXd force = patch.system.multiply(u);
+  const Eigen::VectorXd force = patch.force(u);
   std::vector<bool> single(patch.mesh.points.size(), true);
-  for (const auto& [left, right] : patch.mesh.pairs) single[left] = single[right] = false;
+  for (const NodePair& pair : patch.mesh.pairs) single[pair.left] = single[pair.right] = false;
   for (std::size_t n = 0; n < patch.mesh.points.size(); ++n) {
     const Vec3& at = patch.mesh.points[n];
     const bool inside = std::abs(at.x) < 5 && std::abs(at.y) < 3 && at.z < 0 && at.z > -3;
@@ -92,9 +92,13 @@ TEST(PatchSystem, PrestressDoesTheWorkOfItsStress) {
   Parameters p = bare_patch();
   p.skin.prestress_u = 0.011, p.skin.prestress_v = 0.03, p.skin.prestress_uv = 0.007;
   const Assembled patch(p);
-  const double work =
-      -1.5 * 10 * 6 * (0.011 * stretch[0].x + 0.03 * stretch[1].y + 0.007 * (stretch[0].y + stretch[1].x));
-  EXPECT_NEAR(patch.system.load().dot(linear(patch.mesh, patch.system, stretch)), work, 1e-13);
+  const Eigen::VectorXd u = linear(patch.mesh, patch.system, stretch);
+  const Eigen::RowVector3d strain(stretch[0].x, stretch[1].y, stretch[0].y + stretch[1].x);
+  const Eigen::RowVector3d work = -1.5 * 10 * 6 * strain;
+  // Sums of some hundred terms: rounding of about 1e-14 of them.
+  EXPECT_NEAR((u.transpose() * patch.system.unit_loads() - work).norm(), 0, 1e-12 * work.norm());
+  const Eigen::Vector3d prestress(0.011, 0.03, 0.007);
+  EXPECT_NEAR(u.dot(patch.system.load(p.skin).col(0)), work.dot(prestress), 1e-13);
 }
 
 TEST(PatchSystem, SpringsAreIntegratedConsistently) {
