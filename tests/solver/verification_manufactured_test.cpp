@@ -143,8 +143,8 @@ TEST(Manufactured, ErrorsFallWithTheSquareOfTheElementSize) {
 }
 
 TEST(Manufactured, FinerMeshesKeepTheRate) {
-  const Errors coarse = solve_cube(8, 0.3, "displacement", swelling);
-  const Errors fine = solve_cube(16, 0.3, "displacement", swelling);
+  const Errors coarse = solve_cube(6, 0.3, "displacement", swelling);
+  const Errors fine = solve_cube(12, 0.3, "displacement", swelling);
   EXPECT_GT(std::log2(coarse.l2 / fine.l2), 1.95);
   EXPECT_GT(std::log2(coarse.h1 / fine.h1), 0.98);
 }
@@ -153,12 +153,14 @@ TEST(Manufactured, MeanDilatationDoesNotLockWhereTheHalvesOfSquaresAlternate) {
   const auto errors = [](int n, double nu, const char* formulation) {
     return solve_cube(n, nu, formulation, isochoric, Halving::alternating).l2;
   };
-  EXPECT_GT(std::log2(errors(4, 0.499, "mean-dilatation") / errors(8, 0.499, "mean-dilatation")), 1.9);
+  const double coarse = errors(4, 0.499, "mean-dilatation"), fine = errors(8, 0.499, "mean-dilatation");
+  EXPECT_GT(std::log2(coarse / fine), 1.9);
   // The answer does not depend on nu, and so the errors do not either.
-  EXPECT_NEAR(errors(8, 0.4999, "mean-dilatation") / errors(8, 0.499, "mean-dilatation"), 1, 0.01);
+  EXPECT_NEAR(errors(8, 0.4999, "mean-dilatation") / fine, 1, 0.01);
   // Without it the elements are far too stiff, and refining them once hardly helps.
-  EXPECT_GT(errors(8, 0.499, "displacement"), 3 * errors(8, 0.499, "mean-dilatation"));
-  EXPECT_LT(std::log2(errors(4, 0.499, "displacement") / errors(8, 0.499, "displacement")), 1);
+  const double locked = errors(8, 0.499, "displacement");
+  EXPECT_GT(locked, 3 * fine);
+  EXPECT_LT(std::log2(errors(4, 0.499, "displacement") / locked), 1);
 }
 
 TEST(Manufactured, MeanDilatationLocksLessWhereAllSquaresAreHalvedAlike) {
@@ -166,8 +168,9 @@ TEST(Manufactured, MeanDilatationLocksLessWhereAllSquaresAreHalvedAlike) {
   const auto errors = [](int n, const char* formulation) {
     return solve_cube(n, 0.499, formulation, isochoric).l2;
   };
-  EXPECT_GT(errors(8, "displacement"), 2 * errors(8, "mean-dilatation"));
-  EXPECT_GT(errors(4, "mean-dilatation"), 2 * errors(8, "mean-dilatation"));
+  const double fine = errors(8, "mean-dilatation");
+  EXPECT_GT(errors(8, "displacement"), 2 * fine);
+  EXPECT_GT(errors(4, "mean-dilatation"), 2 * fine);
 }
 
 }  // namespace cleft
