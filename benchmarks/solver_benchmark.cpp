@@ -1,0 +1,178 @@
+// What the solver's speed rests on, measured within one run: each figure beside what it is compared with.
+// cleft-benchmark-solver [ELEMENT_SIZE]: default 0.87 mm, about 110,000 unknowns and 120 frames. `--iterations`
+// counts iterations instead, at 100,000 and 500,000 unknowns.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <random>
+
+#include "solver/direct_solver.h"
+#include "solver/iterative_solver.h"
+#include "solver/memory.h"
+#include "solver/mpi_session.h"
+#include "solver/solve.h"
+
+using namespace cleft;
+
+namespace {
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+std::vector<FrameSolver::Column> columns_of(const Release& release) {
+  std::vector<FrameSolver::Column> columns;
+  for (const int open : release.released) columns.push_back({0, open});
+  return columns;
+}
+
+/// One factorisation and one solve, against all frames from the same factor, against a factorisation a frame.
+void series(const Parameters& p) {
+  const PatchMesh mesh = make_patch_mesh(p);
+  const Release release = make_release(mesh, p);
+  const PatchSystem system(mesh, p, MPI_COMM_WORLD);
+  const auto columns = columns_of(release);
+  std::printf("%d unknowns, %zu pairs, %zu frames\n", system.size(), mesh.pairs.size(), columns.size());
+  std::vector<double> factor, one, all;
+  for (int round = 0; round < 3; ++round) {
+    Stopwatch watch;
+    DirectSolver solver(mesh, system);
+    solver.factorize();
+    factor.push_back(watch.lap());
+    solver.set_release(release);
+    solver.set_loads(system.load(p.skin));
+    solver.solve({columns.back()});
+    one.push_back(watch.lap());
+    solver.set_release(release);
+    solver.set_loads(system.load(p.skin));
+    for (std::size_t first = 0; first < columns.size(); first += 64)
+      solver.solve({columns.begin() + static_cast<long>(first),
+                    columns.begin() + static_cast<long>(std::min(columns.size(), first + 64))});
+    all.push_back(watch.lap());
+  }
+  const double f = median(factor), s = median(one), a = median(all), frames = static_cast<double>(columns.size());
+  std::printf("factorisation               %8.3f s\n", f);
+  std::printf("one frame from it           %8.3f s\n", s);
+  std::printf("all frames from it          %8.3f s, %.2f ms a frame\n", a, 1e3 * a / frames);
+  std::printf("series / (factor + solve)   %8.2f\n", (f + a) / (f + s));
+  std::printf("a factor for each frame     %8.1f s (%zu measured), %.0f times the series\n", frames * (f + s),
+              factor.size(), frames * (f + s) / (f + a));
+}
+
+/// The dense part alone: what a released pair costs once the complement stands.
+void marching(int pairs) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(3 * pairs, 3 * pairs, [&] { return normal(random); });
+  const Eigen::MatrixXd stiffness =
+      a * a.transpose() + 3. * pairs * Eigen::MatrixXd::Identity(3 * pairs, 3 * pairs);
+  std::vector<int> order(static_cast<std::size_t>(pairs));
+  for (int p = 0; p < pairs; ++p) order[p] = p;
+  const Opening opening(stiffness, order, std::vector<Vec3>(static_cast<std::size_t>(pairs), {0, 1, 0}));
+  std::vector<double> times;
+  for (int round = 0; round < 5; ++round) {
+    Stopwatch watch;
+    const Opening::Load load = opening.prepare(Eigen::VectorXd::Ones(3 * pairs));
+    for (int open = 0; open <= pairs; ++open) opening.jumps(load, open, false);
+    times.push_back(watch.lap());
+  }
+  std::printf("jumps of the cut            %8.3f ms a released pair (%d pairs)\n", 1e3 * median(times) / pairs, pairs);
+}
+
+double computing(const std::vector<SolveReport>& reports) {
+  double seconds = 0;
+  for (const SolveReport& report : reports)
+    for (const Phase& phase : report.phases)
+      if (phase.name != "write") seconds += phase.seconds;
+  return seconds;
+}
+
+/// What a further case costs that shares K with the first.
+void sharing(Parameters p) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "cleft-benchmark-solver";
+  std::filesystem::create_directories(folder);
+  p.mesh.cut_length = p.cut.length, p.mesh.cut_depth = p.cut.depth;
+  Parameters tense = p, shorter = p;
+  tense.skin.prestress_v *= 1.3;
+  shorter.cut.length *= 0.7;
+  const auto file = [&](const char* name) { return (folder / name).string(); };
+  const auto seconds = [&](const std::vector<CaseToSolve>& cases) {
+    return computing(solve_cases(cases, {}, MPI_COMM_WORLD, [](const auto&) {}));
+  };
+  // Further prestresses: from three cases on, which share their unit series.
+  std::vector<CaseToSolve> three, many;
+  for (int i = 0; i < 11; ++i) {
+    Parameters other = p;
+    other.skin.prestress_v *= 1 + 0.1 * i;
+    (i < 3 ? three : many).push_back({other, file((std::to_string(i) + ".h5").c_str())});
+  }
+  many.insert(many.begin(), three.begin(), three.end());
+  std::vector<double> prestress, cut;
+  for (int round = 0; round < 3; ++round) {
+    const double alone = seconds({{p, file("a.h5")}});
+    prestress.push_back((seconds(many) - seconds(three)) / static_cast<double>(many.size() - three.size()) / alone);
+    cut.push_back(seconds({{p, file("a.h5")}, {shorter, file("b.h5")}}) / alone - 1);
+  }
+  std::filesystem::remove_all(folder);
+  std::printf("a further prestress         %8.1f %% of the first case\n", 100 * median(prestress));
+  std::printf("a further cut of 0.7 length %8.1f %% of the first case\n", 100 * median(cut));
+}
+
+void iterations() {
+  for (const double size : {0.9, 0.51})
+    for (const double nu : {0.3, 0.45, 0.49}) {
+      Parameters p;
+      p.mesh.element_size = size;
+      p.tissue.poisson_ratio = nu;
+      const PatchMesh mesh = make_patch_mesh(p);
+      const Release release = make_release(mesh, p);
+      const PatchSystem system(mesh, p, MPI_COMM_WORLD);
+      IterativeSolver solver(mesh, system);
+      solver.set_release(release);
+      const auto columns = columns_of(release);
+      Stopwatch watch;
+      for (const std::size_t c : {std::size_t{0}, columns.size() / 2, columns.size() - 1}) {
+        solver.set_loads(system.load(p.skin));  // every frame from zero
+        solver.solve({columns[c]});
+      }
+      std::string counts;
+      for (const int n : solver.iterations()) counts += " " + std::to_string(n);
+      if (system.rank() == 0)
+        std::printf("%7d unknowns, nu %.2f: iterations to 1e-10 in the first, middle and last frame%s; %.1f s\n",
+                    system.size(), nu, counts.c_str(), watch.lap());
+      std::fflush(stdout);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const MpiSession mpi(argc, argv);
+  if (argc > 1 && std::strcmp(argv[1], "--iterations") == 0) {
+    iterations();
+    return 0;
+  }
+  Parameters p;
+  p.mesh.element_size = argc > 1 ? std::atof(argv[1]) : 0.87;
+  p.cut.frames = "pair";
+  series(p);
+  marching(124);
+  sharing(p);
+  std::printf("peak memory                 %8.2f GB\n", peak_memory() / 1e9);
+}
