@@ -33,7 +33,7 @@ TEST(Memory, AvailableIsPartOfTheMachines) {
 
 /// What is promised must be enough, for the choice of the method trusts it, and no more than twice what is
 /// needed: MUMPS tells its workspace beforehand from the structure of K alone, room is left for blocks of 64
-/// frames, of which this cut has 19, and rounding up to pages and heaps adds a little.
+/// frames, of which this cut has 20, and rounding up to pages and heaps adds a little.
 TEST(Memory, OfTheDirectSolverIsWhatItSaysBeforehand) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer's own memory would be counted too";

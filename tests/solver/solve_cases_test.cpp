@@ -1,7 +1,8 @@
 // Cases solved together against the same cases solved alone.
 #include <gtest/gtest.h>
 
-#include "tests/solver/small_patch.h"
+#include "solver/compliance.h"
+#include "tests/solver/dense_patch.h"
 #include "tests/solver/solved_snapshot.h"
 
 namespace cleft {
@@ -72,6 +73,41 @@ void expect_as_alone(const SolveReport& report, const Parameters& p, double tole
 }
 
 }  // namespace
+
+/// Node by node, from the unknowns of a dense solve.
+TEST(SolveCases, TheSnapshotHoldsTheFramesOfTheSystem) {
+  for (const char* name : {"Branch", "MeshOfALargerCut"}) {
+    const auto all = dense_cases();
+    const Parameters p = std::find_if(all.begin(), all.end(), [&](const DenseCase& c) {
+                           return std::string(c.name) == name;
+                         })->parameters;
+    const TemporaryFolder folder;
+    const SolveReport report = solve_into(folder, {p})[0];
+    ASSERT_EQ(report.failure, "");
+    const DensePatch patch(p);
+    const auto by_node = [&](const Eigen::VectorXd& u) {
+      Eigen::VectorXd nodes(u.size());
+      for (int n = 0; n < u.size() / 3; ++n)
+        for (int axis = 0; axis < 3; ++axis) nodes(3 * n + axis) = u(patch.system.unknown(n, axis));
+      return nodes;
+    };
+    const Eigen::MatrixXd frames = displacement_of(report.out);
+    ASSERT_EQ(frames.cols(), static_cast<Eigen::Index>(patch.release.released.size()));
+    double largest = 0;
+    for (Eigen::Index j = 0; j < frames.cols(); ++j) {
+      const int open = patch.release.released[static_cast<std::size_t>(j)];
+      const Eigen::VectorXd expected = by_node(patch.solve(patch.closure(patch.release, open), patch.load));
+      EXPECT_LT(difference(frames.col(j), expected), 1e-10) << name << ", frame " << j;
+      for (int n = 0; n < expected.size() / 3; ++n)
+        largest = std::max(largest, (frames.col(j) - frames.col(0)).segment<3>(3 * n).norm());
+    }
+    EXPECT_NEAR(report.largest_displacement, largest, 1e-14);
+    const std::vector<Vec3> start = {patch.mesh.start};
+    const Eigen::VectorXd pressed = patch.solve(patch.closure(patch.release, 0),
+                                                patch.whole(disc_loads(patch.mesh, patch.system, start)));
+    EXPECT_LT(difference(array_of(report.out, "dent"), by_node(pressed)), 1e-10) << name;
+  }
+}
 
 TEST(SolveCases, OfOneStiffnessAreAsAloneAfterOneFactorisation) {
   const TemporaryFolder folder;
