@@ -1,6 +1,6 @@
 // What the solver's speed rests on, measured within one run: each figure beside what it is compared with.
-// cleft-benchmark-solver [ELEMENT_SIZE]: default 0.87 mm, about 110,000 unknowns and 120 frames. `--iterations`
-// counts iterations instead, at 100,000 and 500,000 unknowns.
+// cleft-benchmark-solver [ELEMENT_SIZE]: default 0.87 mm, about 110,000 unknowns and 120 frames.
+// `--iterations` counts iterations instead, at 100,000 and 500,000 unknowns.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -66,7 +66,8 @@ void series(const Parameters& p) {
                     columns.begin() + static_cast<long>(std::min(columns.size(), first + 64))});
     all.push_back(watch.lap());
   }
-  const double f = median(factor), s = median(one), a = median(all), frames = static_cast<double>(columns.size());
+  const double f = median(factor), s = median(one), a = median(all),
+               frames = static_cast<double>(columns.size());
   std::printf("factorisation               %8.3f s\n", f);
   std::printf("one frame from it           %8.3f s\n", s);
   std::printf("all frames from it          %8.3f s, %.2f ms a frame\n", a, 1e3 * a / frames);
@@ -79,7 +80,8 @@ void series(const Parameters& p) {
 void marching(int pairs) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(3 * pairs, 3 * pairs, [&] { return normal(random); });
+  const Eigen::MatrixXd a =
+      Eigen::MatrixXd::NullaryExpr(3 * pairs, 3 * pairs, [&] { return normal(random); });
   const Eigen::MatrixXd stiffness =
       a * a.transpose() + 3. * pairs * Eigen::MatrixXd::Identity(3 * pairs, 3 * pairs);
   std::vector<int> order(static_cast<std::size_t>(pairs));
@@ -92,7 +94,8 @@ void marching(int pairs) {
     for (int open = 0; open <= pairs; ++open) opening.jumps(load, open, false);
     times.push_back(watch.lap());
   }
-  std::printf("jumps of the cut            %8.3f ms a released pair (%d pairs)\n", 1e3 * median(times) / pairs, pairs);
+  std::printf("jumps of the cut            %8.3f ms a released pair (%d pairs)\n",
+              1e3 * median(times) / pairs, pairs);
 }
 
 double computing(const std::vector<SolveReport>& reports) {
@@ -126,7 +129,8 @@ void sharing(Parameters p) {
   std::vector<double> prestress, cut;
   for (int round = 0; round < 3; ++round) {
     const double alone = seconds({{p, file("a.h5")}});
-    prestress.push_back((seconds(many) - seconds(three)) / static_cast<double>(many.size() - three.size()) / alone);
+    prestress.push_back((seconds(many) - seconds(three)) / static_cast<double>(many.size() - three.size()) /
+                        alone);
     cut.push_back(seconds({{p, file("a.h5")}, {shorter, file("b.h5")}}) / alone - 1);
   }
   std::filesystem::remove_all(folder);
@@ -154,8 +158,9 @@ void iterations() {
       std::string counts;
       for (const int n : solver.iterations()) counts += " " + std::to_string(n);
       if (system.rank() == 0)
-        std::printf("%7d unknowns, nu %.2f: iterations to 1e-10 in the first, middle and last frame%s; %.1f s\n",
-                    system.size(), nu, counts.c_str(), watch.lap());
+        std::printf(
+            "%7d unknowns, nu %.2f: iterations to 1e-10 in the first, middle and last frame%s; %.1f s\n",
+            system.size(), nu, counts.c_str(), watch.lap());
       std::fflush(stdout);
     }
 }

@@ -79,11 +79,14 @@ Block apply(const Epetra_CrsMatrix& matrix, const Block& block) {
 }  // namespace
 
 struct PatchSystem::Parts {
-  Parts(const PatchMesh& patch, const Parameters& p, MPI_Comm comm, const Discretization& d)
+  /// `division`: that of earlier Parts, to get the same numbers of the unknowns; Zoltan's is never the same.
+  Parts(const PatchMesh& patch, const Parameters& p, MPI_Comm comm, const Discretization& d,
+        std::vector<unsigned> division = {})
       : communicator(comm),
         mesh(patch),
         parameters(p),
         discretization(d),
+        rank_of_cell(std::move(division)),
         triangulation(comm),
         element(FE_WedgeP<3>(1), 3),
         mapping(FE_WedgeP<3>(1)),
@@ -123,6 +126,7 @@ struct PatchSystem::Parts {
   const PatchMesh& mesh;
   const Parameters parameters;
   const Discretization discretization;
+  std::vector<unsigned> rank_of_cell;  // rank 0
   parallel::fullydistributed::Triangulation<3> triangulation;
   FESystem<3> element;
   MappingFE<3> mapping;
@@ -166,7 +170,13 @@ void PatchSystem::Parts::create_triangulation() {
       TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<3, 3>(
           make_whole,
           [&](Triangulation<3>& whole, const MPI_Comm&, unsigned) {
-            partition(whole, ranks, discretization.partitioner);
+            if (rank_of_cell.empty()) partition(whole, ranks, discretization.partitioner);
+            rank_of_cell.resize(whole.n_active_cells(), numbers::invalid_subdomain_id);
+            for (const auto& cell : whole.active_cell_iterators()) {
+              unsigned& owner = rank_of_cell[cell->active_cell_index()];
+              if (owner == numbers::invalid_subdomain_id) owner = cell->subdomain_id();
+              cell->set_subdomain_id(owner);
+            }
           },
           communicator, static_cast<int>(ranks)));
 }
@@ -390,7 +400,9 @@ std::unique_ptr<PatchSystem::Derivative> PatchSystem::derivative(const Parameter
   // Poisson's ratios act through 1 / (1 - 2 nu): the step follows the distance from 1/2.
   const double scale = row.greatest < 1 ? std::max(0.5 - at, 1e-4) : std::max(std::abs(at), 1e-3);
   const double step = 1e-3 * scale;
-  Parts elements(parts_->mesh, parameters, parts_->communicator, parts_->discretization);
+  Parts elements(parts_->mesh, parameters, parts_->communicator, parts_->discretization,
+                 parts_->rank_of_cell);
+  CLEFT_CHECK(elements.offsets == parts_->offsets, ==, true);
   Assembled sum;
   elements.make_empty(1, sum);
   for (const auto& [steps, weight] : {std::pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}}) {
