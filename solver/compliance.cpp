@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/interpolators/pchip.hpp>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -25,18 +24,51 @@ class Skin {
     std::array<double, 3> weights;  // barycentric
   };
 
-  /// The triangles that a disc may touch.
-  std::vector<int> near(const Vec3& center, double radius) const {
-    std::vector<int> triangles;
-    for (std::size_t t = 0; t < mesh_.skin.size(); ++t) {
-      const auto [u_least, u_most] = range(mesh_.skin[t], 0);
-      const auto [v_least, v_most] = range(mesh_.skin[t], 1);
-      if (u_least <= center.x + radius && u_most >= center.x - radius && v_least <= center.y + radius &&
-          v_most >= center.y - radius)
-        triangles.push_back(static_cast<int>(t));
+  /// The triangles that a square about a centre touches, in bins, so that few are looked at for a point.
+  class Near {
+   public:
+    Near(const Skin& skin, const Vec3& center, double radius)
+        : skin_(skin), center_(center), radius_(radius) {
+      std::vector<int> triangles;
+      for (std::size_t t = 0; t < skin.mesh_.skin.size(); ++t)
+        if (skin.touches(t, center.x - radius, center.x + radius, center.y - radius, center.y + radius))
+          triangles.push_back(static_cast<int>(t));
+      across_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(triangles.size()) / 2)));
+      bins_.resize(static_cast<std::size_t>(across_ * across_));
+      for (const int t : triangles) {
+        const auto [u_least, u_most] = skin.range(skin.mesh_.skin[static_cast<std::size_t>(t)], 0);
+        const auto [v_least, v_most] = skin.range(skin.mesh_.skin[static_cast<std::size_t>(t)], 1);
+        for (int j = bin(v_least, center.y); j <= bin(v_most, center.y); ++j)
+          for (int i = bin(u_least, center.x); i <= bin(u_most, center.x); ++i)
+            bins_[static_cast<std::size_t>(j * across_ + i)].push_back(t);
+        const auto& corner = skin.mesh_.skin[static_cast<std::size_t>(t)];
+        for (int c = 0; c < 3; ++c) {
+          const Vec3 &p = skin.mesh_.points[corner[c]], &q = skin.mesh_.points[corner[(c + 1) % 3]];
+          shortest_edge_ = std::min(shortest_edge_, std::hypot(q.x - p.x, q.y - p.y));
+        }
+      }
     }
-    return triangles;
-  }
+
+    bool find(double u, double v, Place& place) const {
+      return skin_.find(bins_[static_cast<std::size_t>(bin(v, center_.y) * across_ + bin(u, center_.x))], u,
+                        v, place);
+    }
+
+    double shortest_edge() const { return shortest_edge_; }
+
+   private:
+    int bin(double x, double middle) const {
+      if (radius_ == 0) return 0;
+      const double part = (x - middle + radius_) / (2 * radius_);
+      return std::clamp(static_cast<int>(std::floor(part * across_)), 0, across_ - 1);
+    }
+
+    const Skin& skin_;
+    Vec3 center_;
+    double radius_, shortest_edge_ = 2 * pressed_radius;
+    int across_ = 1;
+    std::vector<std::vector<int>> bins_;
+  };
 
   /// Whether one of the triangles holds the point, and where.
   bool find(const std::vector<int>& triangles, double u, double v, Place& place) const {
@@ -55,6 +87,12 @@ class Skin {
   }
 
  private:
+  bool touches(std::size_t t, double u_from, double u_to, double v_from, double v_to) const {
+    const auto [u_least, u_most] = range(mesh_.skin[t], 0);
+    const auto [v_least, v_most] = range(mesh_.skin[t], 1);
+    return u_least <= u_to && u_most >= u_from && v_least <= v_to && v_most >= v_from;
+  }
+
   std::pair<double, double> range(const std::array<int, 3>& corner, int axis) const {
     return std::minmax(
         {mesh_.points[corner[0]][axis], mesh_.points[corner[1]][axis], mesh_.points[corner[2]][axis]});
@@ -80,21 +118,24 @@ using Curve = boost::math::interpolators::pchip<std::vector<double>>;
 }  // namespace
 
 Block disc_loads(const PatchMesh& mesh, const PatchSystem& system, std::span<const Vec3> centers) {
-  // Exact in area: eight points along the radius by 32 around.
-  using Radial = boost::math::quadrature::gauss<double, 8>;
-  constexpr int around = 32;
   const Skin skin(mesh);
   Block loads = Block::Zero(system.owned(), static_cast<Eigen::Index>(centers.size()));
   for (std::size_t c = 0; c < centers.size(); ++c) {
-    const std::vector<int> triangles = skin.near(centers[c], pressed_radius);
-    const auto ring = [&](double x, double weight) {  // x in (-1, 1)
-      const double r = pressed_radius * (1 + x) / 2;
-      const double area = pressed_radius / 2 * weight * r * 2 * std::numbers::pi / around;
+    const Skin::Near near(skin, centers[c], pressed_radius);
+    // Rings in pairs of Gauss points, which is exact in area; points a third of the least edge apart.
+    const double apart = near.shortest_edge() / 3;
+    const int pairs = std::clamp(static_cast<int>(std::ceil(pressed_radius / apart / 2)), 4, 20);
+    const double eighth =
+        2 * std::numbers::pi * pressed_radius / apart / 8;  // so that the points are as symmetric
+    const int around = 8 * std::clamp(static_cast<int>(std::ceil(eighth)), 4, 32);
+    const double width = pressed_radius / pairs;
+    for (int ring = 0; ring < 2 * pairs; ++ring) {
+      const double r = width * (ring / 2 + 0.5 + (ring % 2 - 0.5) / std::numbers::sqrt3);
+      const double area = width / 2 * r * 2 * std::numbers::pi / around;
       for (int k = 0; k < around; ++k) {
         const double angle = 2 * std::numbers::pi * (k + 0.5) / around;
         Skin::Place place;
-        if (!skin.find(triangles, centers[c].x + r * std::cos(angle), centers[c].y + r * std::sin(angle),
-                       place))
+        if (!near.find(centers[c].x + r * std::cos(angle), centers[c].y + r * std::sin(angle), place))
           continue;
         for (int i = 0; i < 3; ++i) {
           const int local = system.unknown(place.nodes[i], 2) - system.first();
@@ -102,9 +143,7 @@ Block disc_loads(const PatchMesh& mesh, const PatchSystem& system, std::span<con
             loads(local, static_cast<Eigen::Index>(c)) -= area * place.weights[i];
         }
       }
-    };
-    for (std::size_t i = 0; i < Radial::abscissa().size(); ++i)
-      for (const double x : {-Radial::abscissa()[i], Radial::abscissa()[i]}) ring(x, Radial::weights()[i]);
+    }
   }
   return loads;
 }
@@ -133,7 +172,7 @@ Compliance compliance_of(const PatchMesh& mesh, const PatchSystem& system, Frame
     std::vector<int> unknowns;
     std::vector<Skin::Place> places(end - first);
     for (std::size_t c = first; c < end; ++c) {
-      CLEFT_CHECK(skin.find(skin.near(centers[c], 0), centers[c].x, centers[c].y, places[c - first]), ==,
+      CLEFT_CHECK(Skin::Near(skin, centers[c], 0).find(centers[c].x, centers[c].y, places[c - first]), ==,
                   true);
       for (const int node : places[c - first].nodes) unknowns.push_back(system.unknown(node, 2));
     }

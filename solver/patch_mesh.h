@@ -44,8 +44,10 @@ struct PatchMesh {
 /// them they grow by mesh.grading. The cut the mesh is made for is mesh.cut_length by mesh.cut_depth where
 /// given; a branch has its own length always, and leaves toward +v where u = 0: its nodes on the first cut
 /// have three copies, in the pairs (left, right with u < 0) and then (right with u < 0, right with u > 0).
-/// Nodes move in v only onto a curved or tilted cut, and the patch stays a box. A straight cut's triangles
-/// are mirrored in v = 0. Throws InputError where moving the nodes would flatten an element.
+/// Nodes move in v only onto a curved or tilted cut, and the patch stays a box. The diagonals that make
+/// triangles of squares alternate along u and v: an upright straight cut's triangles are mirrored in v = 0,
+/// and in u = 0 too where the squares along u are even in number (several cuts: the squares between them for
+/// v = 0). Throws InputError where moving the nodes would flatten an element.
 PatchMesh make_patch_mesh(const Parameters& parameters);
 
 /// How the cut of a case opens in its mesh.

@@ -418,22 +418,53 @@ TEST(PatchMesh, NodesFarFromTheCutReturnToTheBoxOrStandUpright) {
 }
 
 TEST(PatchMesh, TheSkinOfAStraightCutIsItsOwnMirrorImage) {
-  Parameters graded = awkward_patch(), two = small_patch();
+  Parameters graded = awkward_patch(), two = small_patch(), odd = small_patch();
   graded.mesh.grading = 1.3;
   two.cut.count = 2, two.cut.spacing = 2;
-  for (const Parameters& p : {small_patch(), graded, two}) {
+  odd.cut.length = 4.7;
+  int even = 0;
+  for (const Parameters& p : {small_patch(), graded, two, odd}) {
     const PatchMesh mesh = make_patch_mesh(p);
     using Corners = std::set<std::pair<long, long>>;
-    std::set<Corners> triangles, mirrored;
-    for (const auto& t : mesh.skin) {
-      Corners corners, mirror;
-      for (const int n : t) {
-        const long u = std::lround(mesh.points[n].x * 1e9), v = std::lround(mesh.points[n].y * 1e9);
-        corners.insert({u, v}), mirror.insert({u, -v});
+    const auto triangles = [&](double sign_u, double sign_v) {
+      std::set<Corners> all;
+      for (const auto& t : mesh.skin) {
+        Corners corners;
+        for (const int n : t)
+          corners.insert(
+              {std::lround(sign_u * mesh.points[n].x * 1e9), std::lround(sign_v * mesh.points[n].y * 1e9)});
+        all.insert(corners);
       }
-      triangles.insert(corners), mirrored.insert(mirror);
+      return all;
+    };
+    EXPECT_EQ(triangles(1, 1), triangles(1, -1));
+    if (mesh.grid[0] % 2 == 0) continue;  // lines, one more than squares
+    ++even;
+    EXPECT_EQ(triangles(1, 1), triangles(-1, 1));
+  }
+  EXPECT_GE(even, 2);
+  EXPECT_LT(even, 4);
+}
+
+TEST(PatchMesh, DiagonalsAlternate) {
+  // Inside the patch a node meets eight triangles or four; halved alike, it would meet six.
+  Parameters p = awkward_patch();
+  p.mesh.grading = 1.3;
+  for (const double tilt : {0., 20.}) {
+    p.cut.tilt = tilt;
+    const PatchMesh mesh = make_patch_mesh(p);
+    const std::vector<int> first = glued(mesh);
+    std::map<int, int> met;
+    for (const auto& t : mesh.skin)
+      for (const int n : t) ++met[first[n]];
+    for (const auto& [n, count] : met) {
+      const Vec3& at = mesh.points[n];
+      if (std::abs(at.x) == p.patch.length / 2 || std::abs(at.y) == p.patch.width / 2) continue;
+      EXPECT_TRUE(count == 8 || count == 4) << count;
+      if (at == mesh.start) {
+        EXPECT_EQ(count, 8);
+      }
     }
-    EXPECT_EQ(triangles, mirrored);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <string>
 
 #include "tests/solver/verification_support.h"
 
@@ -88,13 +89,12 @@ struct Errors {
   double l2 = 0, h1 = 0;
 };
 
-Errors solve_cube(int n, double nu, const char* formulation, const Waves& waves,
-                  Halving halving = Halving::one_way) {
+Errors solve_cube(int n, double nu, const char* formulation, const Waves& waves) {
   Parameters p;
   p.tissue.young_modulus = 1, p.tissue.poisson_ratio = nu, p.tissue.formulation = formulation;
   const double lambda = nu / ((1 + nu) * (1 - 2 * nu)), mu = 1 / (2 * (1 + nu));
   const std::vector<double> lines = even_lines(0, 1, n);
-  const PatchMesh mesh = box_mesh(lines, lines, lines, halving);
+  const PatchMesh mesh = box_mesh(lines, lines, lines);
   const PatchSystem system(mesh, p, MPI_COMM_WORLD);  // the skin lies on the surface, which is prescribed
   const auto place = [&](int node) {
     return Eigen::Vector3d(mesh.points[node].x, mesh.points[node].y, mesh.points[node].z);
@@ -136,9 +136,12 @@ TEST(Manufactured, ErrorsFallWithTheSquareOfTheElementSize) {
     const Errors fine = solve_cube(8, 0.3, formulation, swelling);
     EXPECT_GT(std::log2(coarse.l2 / fine.l2), 1.95) << formulation;
     EXPECT_GT(std::log2(coarse.h1 / fine.h1), 0.98) << formulation;
-    // Another program found 0.0217 and 0.574. How the squares are halved changes that by up to 7 and 4 %.
-    EXPECT_NEAR(fine.l2, 0.0217, 0.07 * 0.0217) << formulation;
-    EXPECT_NEAR(fine.h1, 0.574, 0.04 * 0.574) << formulation;
+    // A program of its own (dense sums over 28 points a wedge, conjugate gradients) found these for plain
+    // displacements; the quadrature here errs by 1e-4. Mean dilatation is another element: near by, not
+    // equal.
+    const bool plain = std::string(formulation) == "displacement";
+    EXPECT_NEAR(fine.l2, 0.021071, (plain ? 1e-3 : 0.05) * 0.021071) << formulation;
+    EXPECT_NEAR(fine.h1, 0.573417, (plain ? 1e-3 : 0.01) * 0.573417) << formulation;
   }
 }
 
@@ -149,11 +152,12 @@ TEST(Manufactured, FinerMeshesKeepTheRate) {
   EXPECT_GT(std::log2(coarse.h1 / fine.h1), 0.98);
 }
 
-TEST(Manufactured, MeanDilatationDoesNotLockWhereTheHalvesOfSquaresAlternate) {
+TEST(Manufactured, MeanDilatationDoesNotLock) {
   const auto errors = [](int n, double nu, const char* formulation) {
-    return solve_cube(n, nu, formulation, isochoric, Halving::alternating).l2;
+    return solve_cube(n, nu, formulation, isochoric).l2;
   };
   const double coarse = errors(4, 0.499, "mean-dilatation"), fine = errors(8, 0.499, "mean-dilatation");
+  // On meshes as coarse as these, the rate at nu = 0.3 is 1.91: no less here.
   EXPECT_GT(std::log2(coarse / fine), 1.9);
   // The answer does not depend on nu, and so the errors do not either.
   EXPECT_NEAR(errors(8, 0.4999, "mean-dilatation") / fine, 1, 0.01);
@@ -161,16 +165,6 @@ TEST(Manufactured, MeanDilatationDoesNotLockWhereTheHalvesOfSquaresAlternate) {
   const double locked = errors(8, 0.499, "displacement");
   EXPECT_GT(locked, 3 * fine);
   EXPECT_LT(std::log2(errors(4, 0.499, "displacement") / locked), 1);
-}
-
-TEST(Manufactured, MeanDilatationLocksLessWhereAllSquaresAreHalvedAlike) {
-  // Two elements a node and three unknowns: flat motions are still held too stiffly.
-  const auto errors = [](int n, const char* formulation) {
-    return solve_cube(n, 0.499, formulation, isochoric).l2;
-  };
-  const double fine = errors(8, "mean-dilatation");
-  EXPECT_GT(errors(8, "displacement"), 2 * fine);
-  EXPECT_GT(errors(4, "mean-dilatation"), 2 * fine);
 }
 
 }  // namespace cleft

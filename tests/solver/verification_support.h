@@ -14,13 +14,9 @@ inline constexpr double none = 1e-14;  ///< moduli must be positive: this one va
 /// `count` equal elements between two places.
 std::vector<double> even_lines(double from, double to, int count);
 
-/// How the squares of a mesh become triangles: all from the lower left to the upper right, or every other one
-/// across.
-enum class Halving { one_way, alternating };
-
-/// A box of wedges without a cut. Lines increase; w ends at the skin.
-PatchMesh box_mesh(const std::vector<double>& u, const std::vector<double>& v, const std::vector<double>& w,
-                   Halving halving = Halving::one_way);
+/// A box of wedges without a cut, the diagonals of its squares alternating. Lines increase; w ends at the
+/// skin.
+PatchMesh box_mesh(const std::vector<double>& u, const std::vector<double>& v, const std::vector<double>& w);
 
 /// One layer of wedges under the skin of a mesh, its open cut going through; the skin's nodes keep their
 /// order, and those below are `count` further, where `count` is half of them.
