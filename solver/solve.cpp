@@ -12,9 +12,8 @@
 #include "base/text.h"
 #include "solver/compliance.h"
 #include "solver/frame_figures.h"
-#include "solver/memory.h"
-#include "solver/node_slabs.h"
-#include "solver/snapshot/snapshot.h"
+#include "solver/phases.h"
+#include "solver/snapshot_output.h"
 
 namespace cleft {
 
@@ -62,109 +61,6 @@ std::vector<std::vector<std::size_t>> grouped(const std::vector<std::size_t>& ca
   for (auto& group : groups) result.push_back(std::move(group.second));
   return result;
 }
-
-void add_cells(Snapshot& s, const PatchMesh& mesh) {
-  s.cell_offsets = {0};
-  const auto add = [&s](std::uint8_t type, std::initializer_list<int> corners) {
-    s.cell_types.push_back(type);
-    s.connectivity.insert(s.connectivity.end(), corners.begin(), corners.end());
-    s.cell_offsets.push_back(static_cast<std::int64_t>(s.connectivity.size()));
-  };
-  for (const auto& t : mesh.skin) add(Snapshot::triangle, {t[0], t[1], t[2]});
-  // VTK's wedge begins with the face whose normal points outward: the upper one.
-  for (const auto& w : mesh.wedges) add(Snapshot::wedge, {w[3], w[4], w[5], w[0], w[1], w[2]});
-}
-
-Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Release& release) {
-  Snapshot s;
-  s.points = mesh.points;
-  add_cells(s, mesh);
-  s.foundation_triangles = mesh.bottom;
-  s.foundation_quads = mesh.sides;
-  for (const int pair : release.order) s.pairs.push_back({mesh.pairs[pair].left, mesh.pairs[pair].right});
-  s.released = release.released;
-  s.position = release.position;
-  s.times = release.times;
-  s.cut_start = release.start;
-  s.cut_length = release.length;
-  s.cut_depth = release.depth;
-  for (const Parameter& row : parameter_table()) s.parameters[row.name] = get_parameter(parameters, row);
-  s.case_hash = solve_hash(parameters);
-  return s;
-}
-
-/// Times and memory of one phase after the other.
-class Phases {
- public:
-  explicit Phases(MPI_Comm communicator) : communicator_(communicator) {}
-
-  /// What was done since the last call. Collective.
-  void end(const std::string& name) {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    double peak = peak_memory();
-    MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_SUM, communicator_);
-    for (Phase& phase : list)
-      if (phase.name == name) {
-        phase.seconds += seconds, phase.peak_memory = peak;
-        return;
-      }
-    list.push_back({name, seconds, peak});
-  }
-
-  std::vector<Phase> list;
-
- private:
-  MPI_Comm communicator_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// A snapshot on its way, written by all ranks.
-class Writing {
- public:
-  Writing(const std::string& out, Snapshot snapshot, const std::vector<SnapshotArray>& arrays,
-          const NodeSlabs& slabs, const PatchSystem& system)
-      : snapshot_(std::move(snapshot)), slabs_(slabs) {
-    std::string name;
-    if (system.rank() == 0) {
-      writer_.emplace(out, snapshot_, arrays);
-      writer_->close();
-      name = writer_->path();
-    }
-    int length = static_cast<int>(name.size());
-    MPI_Bcast(&length, 1, MPI_INT, 0, system.communicator());
-    name.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(name.data(), length, MPI_CHAR, 0, system.communicator());
-    rows_.emplace(name, snapshot_.points.size(), system.communicator());
-  }
-
-  Snapshot& snapshot() { return snapshot_; }
-
-  void write_vectors(const std::string& array, std::size_t frame, const std::vector<Vec3>& slab) {
-    rows_->write(array, 3, frame, slabs_.first(),
-                 {slab.empty() ? nullptr : &slab.front().x, 3 * slab.size()});
-  }
-
-  /// `values` of all nodes, known on rank 0.
-  void write_scalars(const std::string& array, std::vector<double> values, MPI_Comm communicator) {
-    values.resize(snapshot_.points.size());
-    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, communicator);
-    rows_->write(array, 1, 0, slabs_.first(),
-                 std::span<const double>(values).subspan(slabs_.first(), slabs_.count()));
-  }
-
-  void finish() {
-    rows_->close();
-    if (writer_) writer_->finish(snapshot_);
-  }
-
- private:
-  Snapshot snapshot_;
-  const NodeSlabs& slabs_;
-  std::optional<SnapshotWriter> writer_;  // rank 0
-  std::optional<SnapshotRows> rows_;
-};
 
 /// All cases of one K.
 class SharedStiffness {
@@ -248,11 +144,11 @@ class SharedStiffness::Batch {
 
  private:
   struct Member {
-    std::size_t number;                // among all cases
-    Eigen::VectorXd share;             // of every load
-    double largest_load = 0;           // N
-    std::unique_ptr<Writing> writing;  // none once the case has failed
-    std::vector<Vec3> closed;          // frame 0, this rank's nodes
+    std::size_t number;                       // among all cases
+    Eigen::VectorXd share;                    // of every load
+    double largest_load = 0;                  // N
+    std::unique_ptr<SnapshotOutput> writing;  // none once the case has failed
+    std::vector<Vec3> closed;                 // frame 0, this rank's nodes
   };
 
   const Parameters& parameters(const Member& member) const {
@@ -311,10 +207,10 @@ class SharedStiffness::Batch {
     report.frames = static_cast<int>(release_.released.size());
     std::vector<SnapshotArray> arrays = {{"compliance", 1, false}, {"dent", 3, false}};
     for (const std::string& name : derivatives()) arrays.push_back({array_of(name), 3, true});
-    member.writing = std::make_unique<Writing>(shared_.cases_[c].out,
-                                               describe(parameters(member), shared_.mesh_, release_), arrays,
-                                               *shared_.slabs_, system_);
-    member.writing->write_scalars("compliance", shared_.compliance_.at_node, system_.communicator());
+    member.writing = std::make_unique<SnapshotOutput>(shared_.cases_[c].out,
+                                                      describe(parameters(member), shared_.mesh_, release_),
+                                                      arrays, *shared_.slabs_, system_);
+    member.writing->write_scalars("compliance", shared_.compliance_.at_node);
     member.writing->write_vectors("dent", 0, (*shared_.slabs_)(shared_.compliance_.dent.data()));
     shared_.phases_.end("write");
   }
@@ -423,16 +319,13 @@ class SharedStiffness::Batch {
   /// Whether the case goes on.
   bool add_figures(Member& member, const std::vector<FrameFigures>& figures) {
     SolveReport& report = shared_.reports_[member.number];
-    Snapshot& s = member.writing->snapshot();
     for (const FrameFigures& f : figures) {
-      s.smallest_gap.push_back(f.smallest_gap);
-      s.residual_equilibrium.push_back(f.residual_equilibrium);
-      s.residual_closure.push_back(f.residual_closure);
-      if (s.smallest_gap.size() > 1)
-        report.smallest_gap =
-            s.smallest_gap.size() == 2 ? f.smallest_gap : std::min(report.smallest_gap, f.smallest_gap);
+      const std::size_t number = member.writing->frames_with_figures();
+      member.writing->add_figures(f);
+      if (number == 1 || (number > 1 && f.smallest_gap < report.smallest_gap))
+        report.smallest_gap = f.smallest_gap;
       if (!(f.residual_equilibrium < largest_residual) || !std::isfinite(f.gape)) {
-        const std::string frame = "frame " + std::to_string(s.smallest_gap.size() - 1);
+        const std::string frame = "frame " + std::to_string(number);
         report.failure =
             (std::isfinite(f.gape) ? "the forces of " + frame + " do not balance (relative residual " +
                                          shortest(f.residual_equilibrium) + ")"

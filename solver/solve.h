@@ -9,6 +9,7 @@
 
 #include "params/parameters.h"
 #include "solver/frame_solver.h"
+#include "solver/phases.h"
 
 namespace cleft {
 
@@ -22,12 +23,6 @@ struct SolveOptions {
 struct CaseToSolve {
   Parameters parameters;
   std::string out;  ///< the snapshot's path
-};
-
-/// A step of the work: seconds, and the most bytes the ranks together have held so far.
-struct Phase {
-  std::string name;
-  double seconds, peak_memory;
 };
 
 struct SolveReport {

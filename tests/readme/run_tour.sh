@@ -3,6 +3,7 @@
 # ones that would open a window are left out.
 set -eu
 source=$1 build=$2
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1  # mpirun refuses root otherwise
 place=$(mktemp -d); trap 'rm -rf "$place"' EXIT
 cd "$place"
 mkdir build; ln -s "$build" build/release; ln -s "$source/examples" examples
