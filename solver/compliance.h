@@ -11,7 +11,7 @@ namespace cleft {
 inline constexpr double pressed_radius = 2;  ///< mm, of the disc that is pressed
 
 /// Loads of unit pressure (1 MPa, into the skin) on a disc about each centre (u, v), a column each, N. Only
-/// the part of a disc that lies on the patch is pressed.
+/// the part of a disc that lies on the patch is pressed. By quadrature, points a third of an element apart.
 Block disc_loads(const PatchMesh& mesh, const PatchSystem& system, std::span<const Vec3> centers);
 
 struct Compliance {
@@ -19,9 +19,10 @@ struct Compliance {
   Block dent;  ///< mm/MPa: displacement under unit pressure on the disc about the cut's start
 };
 
-/// Of the closed frame. The closed patch is a homogeneous box, so one quarter of it is sampled, finer toward
-/// its edges, and interpolated monotonically (errors of about 1 % of the compliance). Sets the solver's
-/// loads. Collective.
+/// Of the closed frame. The closed patch is a homogeneous box, so nodes of one quarter of it are pressed,
+/// closer toward its edges (at most 48), and what they give way is interpolated monotonically. It is smooth:
+/// that nodes of four triangles give way less than those of eight is averaged out. Where h = 1 mm, within 2 %
+/// of the solves but on the edges. Sets the solver's loads. Collective.
 Compliance compliance_of(const PatchMesh& mesh, const PatchSystem& system, FrameSolver& solver);
 
 }  // namespace cleft

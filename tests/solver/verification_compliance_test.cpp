@@ -134,12 +134,11 @@ TEST(Compliance, InterpolationFollowsTheSolves) {
       worst = std::max(worst, error), sum += error;
     }
   }
-  // A dent is 1 - r^2 / (4 a^2) deep: where it is sampled in the middle of a square, h / sqrt(2) from the
-  // nodes that it is interpolated from, it lacks h^2 / (8 a^2) = 3 %; its kink where a disc reaches the edge
-  // is not sampled, which costs as much again. On the edge itself, which is left out, the answer depends on
-  // how the triangles lie.
-  EXPECT_LT(worst, 0.06);
-  EXPECT_LT(sum / static_cast<double>(nodes.size()), 0.03);
+  // Nodes give way alternately 1.1 % more and less than what is smooth, 1.7 % one element from the edge, and
+  // the cubics between the sampled lines err by a few parts in a thousand. The edge itself, where a node's
+  // neighbours are on one side only and they differ by 8 %, is left out.
+  EXPECT_LT(worst, 0.02);
+  EXPECT_LT(sum / static_cast<double>(nodes.size()), 0.01);
 }
 
 }  // namespace cleft
