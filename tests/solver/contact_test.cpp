@@ -66,6 +66,25 @@ Eigen::VectorXd pressures(const DensePatch& patch, const Eigen::VectorXd& load, 
   return found.tail(open);
 }
 
+/// `u` of a frame with contact, `without` of the same without.
+void expect_the_touching_set(const DensePatch& patch, int open, const Eigen::VectorXd& u,
+                             const Eigen::VectorXd& without) {
+  const Eigen::MatrixXd gaps = patch.gaps(patch.release, open);
+  const Eigen::VectorXd expected =
+      with_contact(patch.stiffness, patch.closure(patch.release, open), gaps, patch.load);
+  EXPECT_LT((u - expected).norm(), 1e-10 * expected.norm());
+  if (open == 0 || (gaps * without).minCoeff() > 0) {
+    EXPECT_LT((u - without).norm(), 1e-13 * without.norm()) << "nothing touches";
+    return;
+  }
+  EXPECT_GT((u - without).norm(), 1e-4 * without.norm());
+  const Eigen::VectorXd gap = gaps * u, x = pressures(patch, patch.load, u, open);
+  EXPECT_GT(gap.minCoeff(), -1e-12);
+  EXPECT_GT(x.minCoeff(), -1e-12);
+  EXPECT_LT(gap.cwiseAbs().cwiseMin(x.cwiseAbs()).maxCoeff(), 1e-12) << "a pressure across a gap";
+  EXPECT_GT(x.maxCoeff(), 1e-6);
+}
+
 /// Enough of everything that lips open, touch partly and touch everywhere.
 std::vector<DenseCase> pressed_cases() {
   std::vector<DenseCase> cases;
@@ -83,40 +102,22 @@ std::vector<DenseCase> pressed_cases() {
   return cases;
 }
 
-class ContactOf : public testing::TestWithParam<DenseCase> {};
-
-std::string name_of(const testing::TestParamInfo<DenseCase>& tested) { return tested.param.name; }
-
 }  // namespace
 
 /// Tolerances: five digits of sixteen lost to the condition of K.
-TEST_P(ContactOf, FramesAreThoseOfTheOneSetOfTouchingPairsThatFits) {
-  const DensePatch patch(GetParam().parameters);
-  const Eigen::MatrixXd frames = solve_frames(patch, patch.load, true);
-  const Eigen::MatrixXd free = solve_frames(patch, patch.load, false);
-  for (std::size_t j = 0; j < patch.release.released.size(); ++j) {
-    const int open = patch.release.released[j];
-    const Eigen::VectorXd u = frames.col(static_cast<Eigen::Index>(j));
-    const Eigen::VectorXd without = free.col(static_cast<Eigen::Index>(j));
-    const Eigen::MatrixXd gaps = patch.gaps(patch.release, open);
-    const Eigen::VectorXd expected =
-        with_contact(patch.stiffness, patch.closure(patch.release, open), gaps, patch.load);
-    EXPECT_LT((u - expected).norm(), 1e-10 * expected.norm()) << "frame " << j;
-    if (open == 0 || (gaps * without).minCoeff() > 0) {
-      EXPECT_LT((u - without).norm(), 1e-13 * without.norm()) << "frame " << j << ": nothing touches";
-      continue;
+TEST(Contact, FramesAreThoseOfTheOneSetOfTouchingPairsThatFits) {
+  for (const DenseCase& c : pressed_cases()) {
+    SCOPED_TRACE(c.name);
+    const DensePatch patch(c.parameters);
+    const Eigen::MatrixXd frames = solve_frames(patch, patch.load, true);
+    const Eigen::MatrixXd free = solve_frames(patch, patch.load, false);
+    for (std::size_t j = 0; j < patch.release.released.size(); ++j) {
+      SCOPED_TRACE("frame " + std::to_string(j));
+      expect_the_touching_set(patch, patch.release.released[j], frames.col(static_cast<Eigen::Index>(j)),
+                              free.col(static_cast<Eigen::Index>(j)));
     }
-    EXPECT_GT((u - without).norm(), 1e-4 * without.norm()) << "frame " << j;
-    const Eigen::VectorXd gap = gaps * u, x = pressures(patch, patch.load, u, open);
-    EXPECT_GT(gap.minCoeff(), -1e-12) << "frame " << j;
-    EXPECT_GT(x.minCoeff(), -1e-12) << "frame " << j;
-    EXPECT_LT(gap.cwiseAbs().cwiseMin(x.cwiseAbs()).maxCoeff(), 1e-12)
-        << "frame " << j << ": a pressure across a gap";
-    EXPECT_GT(x.maxCoeff(), 1e-6) << "frame " << j;
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Cases, ContactOf, testing::ValuesIn(pressed_cases()), name_of);
 
 TEST(Contact, APushedCutStaysClosedAlongItsNormal) {
   Parameters p = dense_patch_case();

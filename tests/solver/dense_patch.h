@@ -84,7 +84,10 @@ class DensePatch {
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& constraints, const Eigen::MatrixXd& loads) const {
-    return solve_with_multipliers(stiffness, constraints, loads);
+    Eigen::MatrixXd u(loads.rows(), loads.cols());
+    if (system.rank() == 0) u = solve_with_multipliers(stiffness, constraints, loads);
+    MPI_Bcast(u.data(), static_cast<int>(u.size()), MPI_DOUBLE, 0, system.communicator());
+    return u;
   }
 
   PatchMesh mesh;

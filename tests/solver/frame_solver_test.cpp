@@ -63,21 +63,18 @@ void expect_all_frames(const DensePatch& patch, const Release& release, Solvers&
   });
 }
 
-class FrameSolverOf : public testing::TestWithParam<DenseCase> {};
-
-std::string name_of(const testing::TestParamInfo<DenseCase>& tested) { return tested.param.name; }
-
 }  // namespace
 
-TEST_P(FrameSolverOf, FramesAreThoseWithMultipliers) {
-  const DensePatch patch(GetParam().parameters);
-  Solvers solvers(patch);
-  expect_all_frames(patch, patch.release, solvers);
-  EXPECT_EQ(solvers.iterative.iterations().size(), 2 * patch.release.released.size());
-  EXPECT_TRUE(solvers.direct.iterations().empty());
+TEST(FrameSolver, FramesAreThoseWithMultipliers) {
+  for (const DenseCase& c : dense_cases()) {
+    SCOPED_TRACE(c.name);
+    const DensePatch patch(c.parameters);
+    Solvers solvers(patch);
+    expect_all_frames(patch, patch.release, solvers);
+    EXPECT_EQ(solvers.iterative.iterations().size(), 2 * patch.release.released.size());
+    EXPECT_TRUE(solvers.direct.iterations().empty());
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(Cases, FrameSolverOf, testing::ValuesIn(dense_cases()), name_of);
 
 TEST(FrameSolver, AnotherCutOfTheSameMeshNeedsNoOtherSolver) {
   Parameters longer = dense_patch_case(), shorter = longer;
@@ -128,7 +125,8 @@ TEST(FrameSolver, IterationsAgreeWithTheFactorOnALargerPatch) {
   double largest[] = {(frames - expected).cwiseAbs().maxCoeff(), expected.cwiseAbs().maxCoeff()};
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
   EXPECT_LT(largest[0], iterative_tolerance * largest[1]);
-  for (const int n : iterative.iterations()) EXPECT_LT(n, 60);
+  for (const int n : iterative.iterations())
+    EXPECT_LT(n, 22) << "18 were seen, and 23 with a wrong rigid mode";
 }
 
 TEST(FrameSolver, MethodIsDirectWhereItFitsUnlessForced) {

@@ -28,6 +28,7 @@ const std::vector<std::vector<std::string>> of_one_stiffness = {
     {"skin.prestress_u=0.2", "skin.prestress_v=0.002", "skin.prestress_uv=-0.008"},
     {"cut.contact=true"},
     {"cut.contact=true", "skin.prestress_u=0.3", "skin.prestress_v=0.01"},
+    {"cut.frames=pair"},
     {"cut.length=4"},
     {"cut.length=4", "skin.prestress_v=0.05"},
     {"cut.depth=1", "cut.frames=pair"},
