@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
   std::string out;
   SolveOptions options;
   bool json = false;
+  std::string method = "auto", partitioner = "metis";
   const std::map<std::string, Method> methods = {
       {"auto", Method::automatic}, {"direct", Method::direct}, {"iterative", Method::iterative}};
   const std::map<std::string, Partitioner> partitioners = {
@@ -82,24 +83,27 @@ int main(int argc, char** argv) {
   app.add_option("--set", assignments, "NAME=VALUE: overrides a parameter of the cases (repeatable)")
       ->allow_extra_args(false);
   app.add_option(
-         "--method", options.method,
+         "--method", method,
          "direct: one factorisation for all frames; iterative: conjugate gradients, for what does not fit "
          "into memory; auto: direct where it fits")
-      ->transform(CLI::CheckedTransformer(methods).description("{auto,direct,iterative}"))
-      ->default_str("auto");
-  app.add_option("--partitioner", options.discretization.partitioner, "who divides the elements among ranks")
-      ->transform(CLI::CheckedTransformer(partitioners).description("{metis,zorder,zoltan}"))
-      ->default_str("metis");
+      ->check(CLI::IsMember({"auto", "direct", "iterative"}))
+      ->capture_default_str();
+  app.add_option("--partitioner", partitioner, "who divides the elements among ranks")
+      ->check(CLI::IsMember({"metis", "zorder", "zoltan"}))
+      ->capture_default_str();
   app.add_flag(
       "--unit-prestress", options.unit_prestress,
       "write the series per unit of skin.prestress_u, _v and _uv too, of which any other prestress is a sum");
   app.add_option("--sensitivities", options.sensitivities,
                  "NAME,...: write the derivative of the series with respect to these parameters, mm per unit")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_flag("--json", json, "print the figures as JSON; several cases: a list");
   app.footer([] { return parameter_help(); });
 
   const int code = run_command(app, argc, argv, [&] {
+    options.method = methods.at(method);
+    options.discretization.partitioner = partitioners.at(partitioner);
     const std::vector<std::string> outs = outputs(case_files, out);
     std::vector<CaseToSolve> cases;
     Mistakes mistakes;
