@@ -138,7 +138,10 @@ class SharedStiffness::Batch {
       solve_block(first, count);
     }
     for (Member& member : members_)
-      if (member.writing) member.writing->finish();
+      if (member.writing) {
+        member.writing->finish();
+        shared_.reports_[member.number].written = true;
+      }
     shared_.phases_.end("write");
   }
 
@@ -416,7 +419,7 @@ std::vector<SolveReport> solve_cases(const std::vector<CaseToSolve>& cases, cons
   for (const auto& group : grouped(all, stiffness)) {
     const auto fail = [&](const std::vector<std::size_t>& members, const std::string& why) {
       for (const std::size_t c : members)
-        if (reports[c].failure.empty()) reports[c].failure = why;
+        if (reports[c].failure.empty() && !reports[c].written) reports[c].failure = why;
     };
     try {
       SharedStiffness shared(cases, group, options, communicator, progress, reports);
@@ -430,6 +433,9 @@ std::vector<SolveReport> solve_cases(const std::vector<CaseToSolve>& cases, cons
         }
       reports[group.front()].phases = shared.phases();
     } catch (const SolveError& e) {
+      fail(group, e.what());
+    } catch (const InputError& e) {
+      if (cases.size() == 1) throw;
       fail(group, e.what());
     }
   }

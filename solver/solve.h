@@ -27,6 +27,7 @@ struct CaseToSolve {
 
 struct SolveReport {
   std::string out, failure;  ///< what went wrong, empty where the snapshot was written
+  bool written = false;
   int ranks = 1, nodes = 0, unknowns = 0, constraints = 0, pairs = 0, frames = 0;
   std::string method, reason;
   int cases_sharing = 1;          ///< that use the same factorisation, this one included
