@@ -239,9 +239,8 @@ Block disc_loads(const PatchMesh& mesh, const PatchSystem& system, std::span<con
         if (!near.find(centers[c].x + r * std::cos(angle), centers[c].y + r * std::sin(angle), place))
           continue;
         for (int i = 0; i < 3; ++i) {
-          const int local = system.unknown(place.nodes[i], 2) - system.first();
-          if (local >= 0 && local < system.owned())
-            loads(local, static_cast<Eigen::Index>(c)) -= area * place.weights[i];
+          if (const int row = system.row(system.unknown(place.nodes[i], 2)); row >= 0)
+            loads(row, static_cast<Eigen::Index>(c)) -= area * place.weights[i];
         }
       }
     }

@@ -217,10 +217,8 @@ Block CondensedFactor::solve(const SparseColumns& right) {
     for (int c = 0; c < count; ++c)
       (*m.redistribute)(values.data() + static_cast<std::size_t>(c) * length, solution.col(first + c).data());
   }
-  for (const int unknown : m.kept) {
-    const int local = unknown - 1 - m.system.first();
-    if (local >= 0 && local < m.system.owned()) solution.row(local).setZero();
-  }
+  for (const int unknown : m.kept)
+    if (const int row = m.system.row(unknown - 1); row >= 0) solution.row(row).setZero();
   return solution;
 }
 

@@ -123,8 +123,7 @@ void DirectSolver::set_loads(Block loads) {
   cut_.to_pulls(pulls);
   set_rows(system_, loads, cut_.unknowns, pulls);
   for (const int unknown : jump_unknowns_)
-    if (const int local = unknown - system_.first(); local >= 0 && local < system_.owned())
-      loads.row(local).setZero();
+    if (const int row = system_.row(unknown); row >= 0) loads.row(row).setZero();
   std::vector<Triplet> entries;
   for (Eigen::Index c = 0; c < columns; ++c)
     for (Eigen::Index i = 0; i < loads.rows(); ++i)

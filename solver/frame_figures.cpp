@@ -44,8 +44,7 @@ std::vector<FrameFigures> FrameResidual::figures(const Release& release,
   const Eigen::MatrixXd forces = gather_rows(system_, left_over, cut_.unknowns);
   std::vector<bool> of_cut(static_cast<std::size_t>(system_.owned()), false);
   for (const int unknown : cut_.unknowns)
-    if (const int local = unknown - system_.first(); local >= 0 && local < system_.owned())
-      of_cut[local] = true;
+    if (const int row = system_.row(unknown); row >= 0) of_cut[row] = true;
   const auto count = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd largest = Eigen::MatrixXd::Zero(2, count);  // force elsewhere, displacement
   for (Eigen::Index c = 0; c < count; ++c)

@@ -370,7 +370,7 @@ Eigen::MatrixX4d PatchSystem::places() const {
   Eigen::MatrixX4d places(owned(), 4);
   for (std::size_t n = 0; n < parts_->mesh.points.size(); ++n)
     for (int axis = 0; axis < 3; ++axis)
-      if (const int local = parts_->first_unknown[n] + axis - first(); local >= 0 && local < owned()) {
+      if (const int local = row(parts_->first_unknown[n] + axis); local >= 0) {
         const Vec3& at = parts_->mesh.points[n];
         places.row(local) << at.x, at.y, at.z, axis;
       }
@@ -422,8 +422,8 @@ Eigen::MatrixXd own_rows(const PatchSystem& system, const Block& block, const st
   MPI_Allreduce(MPI_IN_PLACE, &columns, 1, MPI_INT, MPI_MAX, system.communicator());
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(unknowns.size()), columns);
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    const int local = unknowns[i] - system.first();
-    if (local >= 0 && local < system.owned()) rows.row(static_cast<Eigen::Index>(i)) = block.row(local);
+    if (const int row = system.row(unknowns[i]); row >= 0)
+      rows.row(static_cast<Eigen::Index>(i)) = block.row(row);
   }
   return rows;
 }
@@ -449,8 +449,8 @@ Eigen::MatrixXd all_gather_rows(const PatchSystem& system, const Block& block,
 void set_rows(const PatchSystem& system, Block& block, const std::vector<int>& unknowns,
               const Eigen::MatrixXd& rows) {
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    const int local = unknowns[i] - system.first();
-    if (local >= 0 && local < system.owned()) block.row(local) = rows.row(static_cast<Eigen::Index>(i));
+    if (const int row = system.row(unknowns[i]); row >= 0)
+      block.row(row) = rows.row(static_cast<Eigen::Index>(i));
   }
 }
 

@@ -43,9 +43,14 @@ class PatchSystem {
 
   MPI_Comm communicator() const;
   int rank() const;
-  int size() const;                         ///< number of unknowns, three a node
-  int first() const;                        ///< this rank owns the unknowns first() .. first() + owned() - 1
-  int owned() const;                        ///<
+  int size() const;   ///< number of unknowns, three a node
+  int first() const;  ///< this rank owns the unknowns first() .. first() + owned() - 1
+  int owned() const;  ///<
+  /// Row of an unknown in this rank's blocks; -1 where another rank owns it.
+  int row(int unknown) const {
+    const int local = unknown - first();
+    return local >= 0 && local < owned() ? local : -1;
+  }
   int unknown(int node, int axis) const;    ///< of any node, known on every rank
   const std::vector<int>& offsets() const;  ///< first() of every rank, then size()
 
