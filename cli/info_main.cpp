@@ -38,13 +38,14 @@ Json info_of_field(const std::string& file) {
   Json counts = Json::array(), domain = Json::object();
   for (int axis = 0; axis < 4; ++axis) {
     counts.push_back(field.basis(axis).size());
-    domain[std::string(1, "uvwt"[axis])] = {field.basis(axis).front(), field.basis(axis).back()};
+    domain[std::string(1, "uvwt"[axis])] = {field.domain(axis).front, field.domain(axis).back};
   }
   const FitReport& r = field.report;
   return {
       {"format", "cleft-field"},
       {"case", field.case_hash},
       {"control_points", counts},
+      {"parametrization", field.parametrization().name()},
       {"domain_mm", domain},
       {"cut", {{"start", field.cut().start}, {"length", field.cut().length}, {"depth", field.cut().depth}}},
       {"report",

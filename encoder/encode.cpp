@@ -115,17 +115,6 @@ Field encode(const SnapshotReader& reader, const EncodeOptions& options,
 FitReport measure(const Field& field, const SnapshotReader& reader) {
   const Snapshot& s = reader.snapshot();
   const std::vector<Sample> samples = samples_of(s);
-  const BSplineBasis& time = field.basis(3);
-  std::vector<std::vector<Vec3>> history,
-      jump_history;  // of nodes; of right minus left where the plane is uncut
-  for (std::size_t n = 0; n < samples.size(); ++n) {
-    history.push_back(field.contract(samples[n].uvw, samples[n].side));
-    if (samples[n].uvw.y == 0 && samples[n].side == Side::both) {
-      jump_history.push_back(field.contract(samples[n].uvw, Side::right));
-      const auto left = field.contract(samples[n].uvw, Side::left);
-      for (std::size_t l = 0; l < left.size(); ++l) jump_history.back()[l] -= left[l];
-    }
-  }
 
   double squared_error = 0, squared_data = 0, largest = 0, worst = 0, worst_gape = 0, worst_false_gap = 0;
   const std::vector<Vec3> closed = reader.displacement(0);
@@ -133,7 +122,7 @@ FitReport measure(const Field& field, const SnapshotReader& reader) {
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = from_frame_0(reader, j, closed);
     for (std::size_t n = 0; n < d.size(); ++n) {
-      fitted[n] = evaluate(time, history[n], s.times[j]);
+      fitted[n] = field.displacement(samples[n].uvw, samples[n].side, s.times[j]);
       const double error = squared_norm(fitted[n] - d[n]), size = squared_norm(d[n]);
       squared_error += error, squared_data += size;
       worst = std::max(worst, error), largest = std::max(largest, size);
@@ -145,8 +134,11 @@ FitReport measure(const Field& field, const SnapshotReader& reader) {
       double& kind = static_cast<std::int32_t>(p) < s.released[j] ? worst_gape : worst_false_gap;
       kind = std::max(kind, error);
     }
-    for (const auto& jump : jump_history)
-      worst_false_gap = std::max(worst_false_gap, norm(evaluate(time, jump, s.times[j])));
+    for (const Sample& sample : samples)
+      if (sample.uvw.y == 0 && sample.side == Side::both)
+        worst_false_gap =
+            std::max(worst_false_gap, norm(field.displacement(sample.uvw, Side::right, s.times[j]) -
+                                           field.displacement(sample.uvw, Side::left, s.times[j])));
   }
   FitReport report;
   report.largest_displacement = std::sqrt(largest);

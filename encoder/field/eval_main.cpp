@@ -15,12 +15,11 @@ constexpr const char* columns[] = {"u", "v", "w", "side", "t"};
 
 /// A number of a row inside the field's domain; the field itself would clamp without a word.
 double inside(const Field& field, int axis, double value, const std::string& where) {
-  const BSplineBasis& basis = field.basis(axis);
-  const double slack = 1e-9 * (basis.back() - basis.front());
-  if (value >= basis.front() - slack && value <= basis.back() + slack) return value;
+  const auto [front, back] = field.domain(axis);
+  const double slack = 1e-9 * (back - front);
+  if (value >= front - slack && value <= back + slack) return value;
   throw InputError(where + ": " + columns[axis == 3 ? 4 : axis] + " = " + shortest(value) +
-                   ": the field reaches from " + shortest(basis.front()) + " to " + shortest(basis.back()) +
-                   " mm");
+                   ": the field reaches from " + shortest(front) + " to " + shortest(back) + " mm");
 }
 
 std::string evaluate_rows(const Field& field, const NumberTable& table, const std::string& file) {

@@ -6,12 +6,15 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/vec3.h"
 #include "encoder/field/bspline.h"
+#include "encoder/field/history.h"
+#include "encoder/field/parametrization.h"
 
 namespace cleft {
 
@@ -21,12 +24,6 @@ enum class Side : int { left = -1, both = 0, right = 1 };
 
 /// The side that the sign of v tells; `both` on the plane itself.
 inline Side side_of(double v) { return v < 0 ? Side::left : v > 0 ? Side::right : Side::both; }
-
-/// The canonical cut of a case: from (start, 0, 0) along u, `depth` below the skin, grown to `length` at the
-/// last frame.
-struct CanonicalCut {
-  double start = 0, length = 0, depth = 0;
-};
 
 /// The report of the fit that goes with a field; errors are over the largest displacement from frame 0 unless
 /// said.
@@ -41,8 +38,11 @@ struct FitReport {
 
 class Field {
  public:
-  /// A 4D grid of control points: coefficients[((iu * V + iv) * W + iw) * T + it], mm. The v basis must have
-  /// a knot of full multiplicity at 0.
+  /// A 4D grid of control points: coefficients[((i * V + j) * W + k) * T + l], mm, over the parameters along,
+  /// across, height and time of the parametrisation.
+  Field(std::shared_ptr<const Parametrization> parametrization, std::array<BSplineBasis, 4> bases,
+        std::vector<Vec3> coefficients);
+  /// The same over (u, v, w, t) themselves; the bases' ends are the domain.
   Field(BSplineBasis u, BSplineBasis v, BSplineBasis w, BSplineBasis t, std::vector<Vec3> coefficients,
         CanonicalCut cut);
 
@@ -51,26 +51,33 @@ class Field {
   /// is ignored.
   Vec3 displacement(const Vec3& uvw, Side side, double t) const;
 
-  /// The displacement's history at one point: coefficients of a B-spline over t, one for each control point
-  /// of basis t. evaluate() of them at t gives displacement(uvw, side, t), for a handful of multiply-adds.
-  std::vector<Vec3> contract(const Vec3& uvw, Side side) const;
+  /// The displacement's history at one point. Exact to rounding where the parametrisation does not move with
+  /// t; else pieces break where the tip passes, and are halved until values between agree within `tolerance`
+  /// mm.
+  void contract(const Vec3& uvw, Side side, double tolerance, History& out) const;
+  /// A tolerance for contract(), mm, that adds a tenth to the error of the fit.
+  double contraction_tolerance() const;
 
-  const BSplineBasis& basis(int axis) const { return bases_[axis]; }  ///< u, v, w, t = 0 .. 3
+  const Parametrization& parametrization() const { return *parametrization_; }
+  std::shared_ptr<const Parametrization> shared_parametrization() const { return parametrization_; }
+  const BSplineBasis& basis(int axis) const {
+    return bases_[axis];
+  }  ///< along, across, height, time = 0 .. 3
   const std::vector<Vec3>& coefficients() const { return coefficients_; }
-  const CanonicalCut& cut() const { return cut_; }
-  double duration() const { return bases_[3].back(); }  ///< t of the last frame, mm
+  const CanonicalCut& cut() const { return parametrization_->geometry().cut; }
+  const Interval& domain(int axis) const {
+    return parametrization_->domain()[axis];
+  }                                                   ///< u, v, w, t = 0 .. 3
+  double duration() const { return domain(3).back; }  ///< t of the last frame
 
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;
   FitReport report;
 
  private:
+  std::shared_ptr<const Parametrization> parametrization_;
   std::array<BSplineBasis, 4> bases_;
   std::vector<Vec3> coefficients_;
-  CanonicalCut cut_;
 };
-
-/// Value at t of a history made by Field::contract.
-Vec3 evaluate(const BSplineBasis& t_basis, std::span<const Vec3> history, double t);
 
 }  // namespace cleft

@@ -30,8 +30,8 @@ class Volume {
  public:
   Volume(const Incision& incision, const Field& field, double scale)
       : incision_(incision), mesh_(incision.mesh()), path_(incision.path()), field_(field), scale_(scale) {
-    const BSplineBasis& v = field.basis(1);
-    margin_ = (v.back() - v.front()) / 4;
+    const Interval v = field.domain(1);
+    margin_ = (v.back - v.front) / 4;
     for (const auto& c : incision.chain())
       skin_height_.push_back(path_.coordinates(mesh_.position(c.left), c.s, c.s).w);
   }
@@ -119,8 +119,8 @@ class Volume {
   bool add(int vertex, double s, double across, double w, Side side, bool on_cut) {
     const CanonicalPlace place = canonical_place(s * scale_, path_.length() * scale_, field_.cut());
     const double v = across * scale_;
-    const double u_in = std::clamp(place.u, field_.basis(0).front(), field_.basis(0).back());
-    const double v_in = std::clamp(v, field_.basis(1).front(), field_.basis(1).back());
+    const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
+    const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
     const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
     if (outside >= 1) return false;
     const double weight = 1 - outside * outside * (3 - 2 * outside);

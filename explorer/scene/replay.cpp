@@ -8,8 +8,7 @@
 namespace cleft {
 
 Replay::Replay(const Field& field, const Incision& incision, double scale)
-    : time_(field.basis(3)),
-      cut_length_(field.cut().length),
+    : cut_length_(field.cut().length),
       path_length_(incision.path().length() * scale),
       active_(active_vertices(incision, field, scale)) {
   rest_.reserve(incision.mesh().vertices().size());
@@ -27,25 +26,20 @@ Replay::Replay(const Field& field, const Incision& incision, double scale)
 }
 
 void Replay::append_history(const Field& field, const ActiveVertex& a, Side side, double scale) {
-  for (const Vec3& d : field.contract(a.uvw, side))
-    histories_.push_back(a.weight / scale * (d.x * a.along + d.y * a.across + d.z * a.outward));
+  History& history = histories_.emplace_back();
+  field.contract(a.uvw, side, field.contraction_tolerance(), history);
+  for (auto& piece : history.controls)
+    for (Vec3& d : piece) d = a.weight / scale * (d.x * a.along + d.y * a.across + d.z * a.outward);
 }
 
 void Replay::positions(double s, std::span<Vec3> out) const {
   CLEFT_CHECK(out.size(), ==, rest_.size());
   std::copy(rest_.begin(), rest_.end(), out.begin());
-  const std::size_t count = time_.size();
-  double t = -1;
-  BSplineBasis::Values basis{};
   for (std::size_t i = 0; i < active_.size(); ++i) {
     const ActiveVertex& a = active_[i];
     const double time = std::clamp(s + a.time_offset, 0.0, cut_length_);
-    if (time != t) basis = time_.evaluate(time), t = time;
     const bool closed = a.on_cut && a.side != Side::both && a.s >= s;
-    const Vec3* history = &histories_[first_[i] + (closed ? count : 0) + basis.first];
-    Vec3 moved;
-    for (int l = 0; l <= time_.degree(); ++l) moved += basis.value[l] * history[l];
-    out[a.vertex] += moved;
+    out[a.vertex] += evaluate(histories_[first_[i] + (closed ? 1 : 0)], time);
   }
 }
 

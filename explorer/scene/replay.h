@@ -28,13 +28,12 @@ class Replay {
  private:
   void append_history(const Field& field, const ActiveVertex& vertex, Side side, double scale);
 
-  BSplineBasis time_;
   double cut_length_, path_length_;
   std::vector<Vec3> rest_;
   std::vector<ActiveVertex> active_;
   // Histories over the field's t, already turned into the mesh's space, weighted and in its units: one after
   // the other, a vertex of the cut has a second one for the time before the blade has passed it.
-  std::vector<Vec3> histories_;
+  std::vector<History> histories_;
   std::vector<std::size_t> first_;  // of each active vertex, in histories_
 };
 

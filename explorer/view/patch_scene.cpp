@@ -21,17 +21,17 @@ std::vector<double> graded(double from, double to, double first, double growth) 
 PatchScene::PatchScene(const Field& field) : field_(field) {
   const CanonicalCut& cut = field.cut();
   const double end = cut.start + cut.length, step = cut.length / 120;
-  const BSplineBasis &u = field.basis(0), &v = field.basis(1);
+  const Interval u = field.domain(0), v = field.domain(1);
 
-  std::vector<double> us = graded(cut.start, u.front(), step, 1.15);
+  std::vector<double> us = graded(cut.start, u.front, step, 1.15);
   std::reverse(us.begin(), us.end());
   for (int i = 1; i <= 120; ++i) us.push_back(i == 120 ? end : cut.start + i * step);
-  const std::vector<double> beyond = graded(end, u.back(), step, 1.15);
+  const std::vector<double> beyond = graded(end, u.back, step, 1.15);
   us.insert(us.end(), beyond.begin() + 1, beyond.end());
 
-  std::vector<double> vs = graded(0, v.front(), step, 1.08);
+  std::vector<double> vs = graded(0, v.front, step, 1.08);
   std::reverse(vs.begin(), vs.end());
-  const std::vector<double> right = graded(0, v.back(), step, 1.08);
+  const std::vector<double> right = graded(0, v.back, step, 1.08);
   vs.insert(vs.end(), right.begin() + 1, right.end());
 
   add_skin(us, vs);

@@ -1,0 +1,75 @@
+// Where a point of the tissue lies in the parameters of the field's four bases. A new parametrisation is one
+// new file in parametrization/ and a line in parametrization.cpp.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cleft {
+
+/// The canonical cut of a case: from (start, 0, 0) along u, `depth` below the skin, grown to `length` at the
+/// last frame. mm; length 0: there is no cut, and the field has no break.
+struct CanonicalCut {
+  double start = 0, length = 0, depth = 0;
+};
+
+/// u of the tip over t, both mm: piecewise linear and never decreasing.
+struct TipPath {
+  std::vector<double> times, positions;
+
+  double at(double t) const;     ///< position, constant outside the times
+  double speed(double t) const;  ///< of the piece that begins at t or contains it
+  double passes(
+      double u) const;  ///< first time at which the tip stands at u or beyond; infinity where it never does
+};
+
+struct Interval {
+  double front = 0, back = 0;
+};
+
+/// All that a parametrisation is made from: what a field file holds of it beside its name.
+struct FieldGeometry {
+  std::array<Interval, 4> domain;  ///< u, v, w (mm) and t
+  CanonicalCut cut;
+  TipPath tip;
+};
+
+class Parametrization {
+ public:
+  explicit Parametrization(FieldGeometry geometry) : geometry_(std::move(geometry)) {}
+  virtual ~Parametrization() = default;
+
+  /// The parameter of the first basis, and its derivatives by u and t: the only one that may move with t.
+  struct Along {
+    double value, by_u, by_t;
+  };
+  /// A parameter of v, w or t alone, and its derivative.
+  struct Single {
+    double value, slope;
+  };
+  virtual std::string name() const = 0;
+  virtual Along along(double u, double t) const = 0;
+  virtual Single across(double v) const = 0;
+  virtual Single height(double w) const = 0;
+  virtual Single time(double t) const = 0;
+  /// Inverse of time(), for the knots of the fourth basis.
+  virtual double time_at(double parameter) const = 0;
+  /// Does along() depend on t? If not, contraction of a point to a history is exact.
+  virtual bool moves() const = 0;
+
+  const FieldGeometry& geometry() const { return geometry_; }
+  const std::array<Interval, 4>& domain() const { return geometry_.domain; }
+
+ private:
+  FieldGeometry geometry_;
+};
+
+/// "fixed" (u, v, w, t themselves; the paper's) or "tip". Throws InputError for any other name.
+std::shared_ptr<const Parametrization> make_parametrization(const std::string& name, FieldGeometry geometry);
+
+/// The names make_parametrization knows, the default first.
+const std::vector<std::string>& parametrization_names();
+
+}  // namespace cleft

@@ -1,0 +1,21 @@
+// The paper's parametrisation: the stress-free position and the length cut, as they are.
+#pragma once
+
+#include "encoder/field/parametrization.h"
+
+namespace cleft {
+
+class FixedParametrization final : public Parametrization {
+ public:
+  using Parametrization::Parametrization;
+  static constexpr const char* id = "fixed";
+  std::string name() const override { return id; }
+  Along along(double u, double) const override { return {u, 1, 0}; }
+  Single across(double v) const override { return {v, 1}; }
+  Single height(double w) const override { return {w, 1}; }
+  Single time(double t) const override { return {t, 1}; }
+  double time_at(double parameter) const override { return parameter; }
+  bool moves() const override { return false; }
+};
+
+}  // namespace cleft
