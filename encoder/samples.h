@@ -3,10 +3,17 @@
 
 #include <vector>
 
-#include "encoder/spatial_fit.h"
+#include "encoder/field/field.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft {
+
+/// Where data are given: a position, and the side for those on v = 0. Side::both asks both sides for the same
+/// value.
+struct Sample {
+  Vec3 uvw;
+  Side side;
+};
 
 /// One sample a node, in node order. On v = 0 a node's side comes from /cut/pairs; single nodes there are
 /// uncut.

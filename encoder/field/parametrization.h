@@ -54,7 +54,10 @@ class Parametrization {
   virtual Single across(double v) const = 0;
   virtual Single height(double w) const = 0;
   virtual Single time(double t) const = 0;
-  /// Inverse of time(), for the knots of the fourth basis.
+  // Inverses, for what is known of the bases: where their knots and control points lie.
+  virtual double u_at(double along, double t) const = 0;
+  virtual double v_at(double across) const = 0;
+  virtual double w_at(double height) const = 0;
   virtual double time_at(double parameter) const = 0;
   /// Does along() depend on t? If not, contraction of a point to a history is exact.
   virtual bool moves() const = 0;

@@ -14,6 +14,9 @@ class FixedParametrization final : public Parametrization {
   Single across(double v) const override { return {v, 1}; }
   Single height(double w) const override { return {w, 1}; }
   Single time(double t) const override { return {t, 1}; }
+  double u_at(double along, double) const override { return along; }
+  double v_at(double across) const override { return across; }
+  double w_at(double height) const override { return height; }
   double time_at(double parameter) const override { return parameter; }
   bool moves() const override { return false; }
 };

@@ -39,6 +39,25 @@ Parametrization::Single TipParametrization::time(double t) const {
   return {t / duration, 1 / duration};
 }
 
+double TipParametrization::u_at(double along, double t) const {
+  const auto [front, back] = domain()[0];
+  const double start = geometry().cut.start, tip = geometry().tip.at(t);
+  if (along <= 1) return front + along * (start - front);
+  if (along <= 2) return start + (along - 1) * (tip - start);
+  return tip + (along - 2) * (back - tip);
+}
+
+double TipParametrization::v_at(double across) const {
+  const auto [front, back] = domain()[1];
+  return across * (across < 0 ? -front : back);
+}
+
+double TipParametrization::w_at(double height) const {
+  const double bottom = domain()[2].front, depth = geometry().cut.depth;
+  if (depth >= -bottom) return height * -bottom;
+  return height > -1 ? height * depth : -depth + (height + 1) * (-bottom - depth);
+}
+
 double TipParametrization::time_at(double parameter) const { return parameter * domain()[3].back; }
 
 }  // namespace cleft

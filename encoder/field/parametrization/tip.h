@@ -18,6 +18,9 @@ class TipParametrization final : public Parametrization {
   Single across(double v) const override;
   Single height(double w) const override;
   Single time(double t) const override;
+  double u_at(double along, double t) const override;
+  double v_at(double across) const override;
+  double w_at(double height) const override;
   double time_at(double parameter) const override;
   bool moves() const override { return true; }
 };

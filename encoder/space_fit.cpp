@@ -1,0 +1,288 @@
+#include "encoder/space_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "base/error.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double roughness_strength = 1e-7;  // relative to the mean diagonal of B^T B
+constexpr double diagonal_strength = 1e-10;  // holds what neither data nor roughness reach
+constexpr int order = 4;                     // cubics: four functions an axis
+constexpr int cell_size = order * order;
+constexpr int reach = 2 * order - 1;  // control points meet only where indices differ by at most 3: a stencil
+
+/// The samples of one plane u = const within one span across and in height: what they add to B^T B.
+struct Cell {
+  int first_across, first_height;
+  std::vector<int> samples;                            // rows of `weights`
+  std::array<double, cell_size * cell_size> normal{};  // sum of w w^T over the samples
+};
+struct Plane {
+  double u;
+  std::vector<Cell> cells;
+};
+struct Weighted {
+  int sample;
+  std::array<double, cell_size> weight;  // N_j(across) N_k(height)
+};
+
+std::vector<double> greville(const BSplineBasis& basis) {
+  std::vector<double> places(basis.size(), 0.0);
+  for (int i = 0; i < basis.size(); ++i)
+    for (int k = 1; k <= basis.degree(); ++k) places[i] += basis.knots()[i + k] / basis.degree();
+  return places;
+}
+
+/// Second divided differences: rows of (first index, three weights), scaled by the mean spacing.
+struct Difference {
+  int first;
+  std::array<double, 3> weight;
+};
+std::vector<Difference> differences(const std::vector<double>& places) {
+  const int n = static_cast<int>(places.size());
+  const double spacing = (places.back() - places.front()) / (n - 1);
+  std::vector<Difference> rows;
+  for (int i = 1; i + 1 < n; ++i) {
+    const double before = places[i] - places[i - 1], after = places[i + 1] - places[i];
+    if (before <= 0 || after <= 0) continue;  // two control points in one place: the break at v = 0
+    rows.push_back({i - 1, {spacing / before, -spacing / before - spacing / after, spacing / after}});
+  }
+  return rows;
+}
+
+}  // namespace
+
+struct SpaceFit::Parts {
+  const Parametrization& parametrization;
+  std::array<BSplineBasis, 3> bases;
+  ControlTies ties;
+  std::vector<Plane> planes;
+  std::vector<Weighted> weights;
+  int V, W;
+  double scale = 0;  // mean diagonal of B^T B
+  std::vector<Difference> across_roughness, height_roughness;
+
+  /// A block of the normal matrix between control points of rows i and i + d: by row j W + k, then by the
+  /// differences across and in height, reach each.
+  using Stencil = std::vector<double>;
+  std::size_t stencil_size() const { return static_cast<std::size_t>(V) * W * reach * reach; }
+  static std::size_t offset(int dj, int dk) { return (dj + order - 1) * reach + dk + order - 1; }
+
+  Eigen::MatrixXd tie(const Stencil& stencil, int row, int column) const;
+  void add_roughness_in_row(Stencil& stencil, double strength) const;
+};
+
+struct SpaceFit::Factor::Parts {
+  const SpaceFit::Parts* fit;
+  double t;
+  std::vector<BSplineBasis::Values> along;            // of every plane
+  std::vector<Eigen::MatrixXd> diagonal;              // L of the diagonal blocks
+  std::vector<std::array<Eigen::MatrixXd, 3>> lower;  // L of rows i + 1 .. i + 3 in column i
+};
+
+SpaceFit::~SpaceFit() = default;
+SpaceFit::Factor::~Factor() = default;
+SpaceFit::Factor::Factor(Factor&&) noexcept = default;
+SpaceFit::Factor::Factor(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+const ControlTies& SpaceFit::ties() const { return parts_->ties; }
+
+SpaceFit::SpaceFit(const Parametrization& parametrization, const std::array<BSplineBasis, 3>& bases,
+                   const std::vector<Sample>& samples) {
+  auto parts = std::make_unique<Parts>(
+      Parts{parametrization,
+            bases,
+            parametrization.moves() ? ControlTies::following_tip(bases) : ControlTies::none(bases),
+            {},
+            {},
+            bases[1].size(),
+            bases[2].size()});
+  for (const BSplineBasis& basis : bases) CLEFT_CHECK(basis.degree() + 1, ==, int(order));
+  Parts& p = *parts;
+  std::map<double, std::map<std::array<int, 2>, Cell>> planes;
+  const bool ahead_is_tied = p.ties.size() < bases[0].size() * p.V * p.W;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    const auto& [uvw, side] = samples[s];
+    for (const Limit limit : {Limit::from_left, Limit::from_right}) {
+      const bool left = limit == Limit::from_left, uncut_plane = uvw.y == 0 && side == Side::both;
+      // Uncut tissue on the plane is both sides' business where nothing ties them.
+      if (uncut_plane ? ahead_is_tied && !left : left != (uvw.y < 0 || (uvw.y == 0 && side == Side::left)))
+        continue;
+      const auto v = bases[1].evaluate(parametrization.across(uvw.y).value, limit),
+                 w = bases[2].evaluate(parametrization.height(uvw.z).value);
+      Cell& cell =
+          planes[uvw.x].try_emplace({v.first, w.first}, Cell{v.first, w.first, {}, {}}).first->second;
+      Weighted weighted{static_cast<int>(s), {}};
+      for (int j = 0; j < order; ++j)
+        for (int k = 0; k < order; ++k) weighted.weight[j * order + k] = v.value[j] * w.value[k];
+      cell.samples.push_back(static_cast<int>(p.weights.size()));
+      p.weights.push_back(weighted);
+      for (int a = 0; a < cell_size; ++a)
+        for (int b = 0; b < cell_size; ++b)
+          cell.normal[a * cell_size + b] += weighted.weight[a] * weighted.weight[b];
+    }
+  }
+  for (auto& [u, cells] : planes) {
+    p.planes.push_back({u, {}});
+    for (auto& [key, cell] : cells) p.planes.back().cells.push_back(std::move(cell));
+  }
+  // Functions sum to 1, and so do their products: the mean diagonal is about the sum of squares over them.
+  for (const Weighted& w : p.weights)
+    for (const double value : w.weight) p.scale += value * value;
+  p.scale /= static_cast<double>(bases[0].size()) * p.V * p.W * 2;
+  std::vector<double> v_places = greville(bases[1]), w_places = greville(bases[2]);
+  for (double& v : v_places) v = parametrization.v_at(v);
+  for (double& w : w_places) w = parametrization.w_at(w);
+  p.across_roughness = differences(v_places), p.height_roughness = differences(w_places);
+  parts_ = std::move(parts);
+}
+
+void SpaceFit::Parts::add_roughness_in_row(Stencil& stencil, double strength) const {
+  const auto at = [&](int j, int k) { return (static_cast<std::size_t>(j) * W + k) * reach * reach; };
+  for (const auto& [first, weight] : across_roughness)
+    for (int k = 0; k < W; ++k)
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+          stencil[at(first + a, k) + offset(b - a, 0)] += strength * weight[a] * weight[b];
+  for (const auto& [first, weight] : height_roughness)
+    for (int j = 0; j < V; ++j)
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+          stencil[at(j, first + a) + offset(0, b - a)] += strength * weight[a] * weight[b];
+}
+
+/// The block between the unknowns of two rows: ties^T stencil ties.
+Eigen::MatrixXd SpaceFit::Parts::tie(const Stencil& stencil, int row, int column) const {
+  const auto &of_row = ties.row(row), &of_column = ties.row(column);
+  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(ties.row_size(row), ties.row_size(column));
+  for (int j = 0; j < V; ++j)
+    for (int k = 0; k < W; ++k) {
+      const ControlTies::Control& a = of_row[j * W + k];
+      const double* values = &stencil[(static_cast<std::size_t>(j) * W + k) * reach * reach];
+      for (int jj = std::max(0, j - order + 1); jj <= std::min(V - 1, j + order - 1); ++jj)
+        for (int kk = std::max(0, k - order + 1); kk <= std::min(W - 1, k + order - 1); ++kk) {
+          const double value = values[offset(jj - j, kk - k)];
+          if (value == 0) continue;
+          const ControlTies::Control& b = of_column[jj * W + kk];
+          for (int x = 0; x < a.terms; ++x)
+            for (int y = 0; y < b.terms; ++y)
+              block(a.term[x].unknown, b.term[y].unknown) += value * a.term[x].weight * b.term[y].weight;
+        }
+    }
+  return block;
+}
+
+SpaceFit::Factor SpaceFit::factorize(double t) const {
+  const Parts& p = *parts_;
+  const int rows = p.bases[0].size();
+  auto factor = std::make_unique<Factor::Parts>(Factor::Parts{parts_.get(), t, {}, {}, {}});
+  // B^T B: four block diagonals, i with i, i + 1, i + 2 and i + 3.
+  std::vector<std::array<Parts::Stencil, order>> stencils(rows);
+  for (auto& of_row : stencils)
+    for (auto& stencil : of_row) stencil.assign(p.stencil_size(), 0.0);
+  for (const Plane& plane : p.planes) {
+    factor->along.push_back(p.bases[0].evaluate(p.parametrization.along(plane.u, t).value));
+    const auto& [first, value] = factor->along.back();
+    for (int i = 0; i < order; ++i)
+      for (int d = 0; i + d < order; ++d) {
+        const double weight = value[i] * value[i + d];
+        if (weight == 0) continue;
+        Parts::Stencil& stencil = stencils[first + i][d];
+        for (const Cell& cell : plane.cells)
+          for (int a = 0; a < cell_size; ++a) {
+            const int aj = a / order, ak = a % order;
+            double* line =
+                &stencil[(static_cast<std::size_t>(cell.first_across + aj) * p.W + cell.first_height + ak) *
+                         reach * reach];
+            const double* normal = &cell.normal[a * cell_size];
+            for (int bj = 0; bj < order; ++bj) {
+              double* to = line + Parts::offset(bj - aj, -ak);
+              for (int bk = 0; bk < order; ++bk) to[bk] += weight * normal[bj * order + bk];
+            }
+          }
+      }
+  }
+  // Roughness, and a little of the identity.
+  const double strength = roughness_strength * p.scale;
+  for (int i = 0; i < rows; ++i) p.add_roughness_in_row(stencils[i][0], strength);
+  std::vector<double> places = greville(p.bases[0]);
+  for (double& place : places) place = p.parametrization.u_at(place, t);
+  const auto add_diagonal = [&](Parts::Stencil& stencil, double value) {
+    for (std::size_t at = Parts::offset(0, 0); at < stencil.size(); at += reach * reach) stencil[at] += value;
+  };
+  for (const auto& [first, weight] : differences(places))
+    for (int a = 0; a < 3; ++a)
+      for (int b = a; b < 3; ++b) add_diagonal(stencils[first + a][b - a], strength * weight[a] * weight[b]);
+  for (int i = 0; i < rows; ++i) add_diagonal(stencils[i][0], diagonal_strength * p.scale);
+
+  // Block Cholesky, column after column.
+  std::vector<std::array<Eigen::MatrixXd, order>> blocks(rows);
+  for (int i = 0; i < rows; ++i)
+    for (int d = 0; d < order && i + d < rows; ++d)
+      blocks[i][d] =
+          d == 0 ? p.tie(stencils[i][0], i, i) : Eigen::MatrixXd(p.tie(stencils[i][d], i, i + d).transpose());
+  factor->diagonal.resize(rows), factor->lower.resize(rows);
+  for (int i = 0; i < rows; ++i) {
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(blocks[i][0]);
+    if (cholesky.info() != Eigen::Success)
+      throw std::runtime_error("the fit's normal matrix is not positive definite");
+    factor->diagonal[i] = cholesky.matrixL();
+    const auto upper = factor->diagonal[i].transpose().triangularView<Eigen::Upper>();
+    for (int d = 1; d < order && i + d < rows; ++d)
+      factor->lower[i][d - 1] = upper.solve<Eigen::OnTheRight>(blocks[i][d]);
+    for (int d = 1; d < order && i + d < rows; ++d)
+      for (int e = d; e < order && i + e < rows; ++e)
+        blocks[i + d][e - d].noalias() -= factor->lower[i][e - 1] * factor->lower[i][d - 1].transpose();
+  }
+  return Factor(std::move(factor));
+}
+
+Eigen::MatrixXd SpaceFit::Factor::solve(const Eigen::Ref<const Eigen::MatrixXd>& values) const {
+  const SpaceFit::Parts& p = *parts_->fit;
+  const int rows = p.bases[0].size();
+  const auto columns = values.cols();
+  // ties^T B^T values, plane after plane.
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(p.ties.size(), columns);
+  using Grid = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  std::vector<Grid> sums(rows, Grid::Zero(p.V * p.W, columns));
+  Grid of_plane(p.V * p.W, columns);
+  for (std::size_t n = 0; n < p.planes.size(); ++n) {
+    of_plane.setZero();
+    for (const Cell& cell : p.planes[n].cells)
+      for (const int s : cell.samples) {
+        const Weighted& weighted = p.weights[s];
+        for (int j = 0; j < order; ++j)
+          for (int k = 0; k < order; ++k)
+            of_plane.row((cell.first_across + j) * p.W + cell.first_height + k) +=
+                weighted.weight[j * order + k] * values.row(weighted.sample);
+      }
+    const auto& [first, value] = parts_->along[n];
+    for (int i = 0; i < order; ++i) sums[first + i] += value[i] * of_plane;
+  }
+  for (int i = 0; i < rows; ++i) {
+    const auto& controls = p.ties.row(i);
+    for (std::size_t c = 0; c < controls.size(); ++c)
+      for (int k = 0; k < controls[c].terms; ++k)
+        x.row(p.ties.first(i) + controls[c].term[k].unknown) +=
+            controls[c].term[k].weight * sums[i].row(static_cast<Eigen::Index>(c));
+  }
+  const auto part = [&](int i) { return x.middleRows(p.ties.first(i), p.ties.row_size(i)); };
+  for (int i = 0; i < rows; ++i) {
+    parts_->diagonal[i].triangularView<Eigen::Lower>().solveInPlace(part(i));
+    for (int d = 1; d < order && i + d < rows; ++d)
+      part(i + d).noalias() -= parts_->lower[i][d - 1] * part(i);
+  }
+  for (int i = rows - 1; i >= 0; --i) {
+    for (int d = 1; d < order && i + d < rows; ++d)
+      part(i).noalias() -= parts_->lower[i][d - 1].transpose() * part(i + d);
+    parts_->diagonal[i].transpose().triangularView<Eigen::Upper>().solveInPlace(part(i));
+  }
+  return x;
+}
+
+}  // namespace cleft
