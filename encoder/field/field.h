@@ -34,6 +34,10 @@ struct FitReport {
   double gape_error = 0;            ///< largest error of the opening of a pair of nodes on the cut
   double false_gap = 0;             ///< largest opening across v = 0 at uncut nodes, where the truth is 0
   double largest_displacement = 0;  ///< mm, from frame 0
+  double frame_error = 0;           ///< largest error in any frame over that frame's own largest displacement
+  double worst_node = 0;            ///< node of spline_error, and its time
+  double worst_time = 0;            ///<
+  double condition = 0;             ///< of the fit's normal matrices, estimated
 };
 
 class Field {
@@ -70,6 +74,7 @@ class Field {
   }                                                   ///< u, v, w, t = 0 .. 3
   double duration() const { return domain(3).back; }  ///< t of the last frame
 
+  double quantum = 0;  ///< coefficients are multiples of it, mm; 0: any numbers
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;
   FitReport report;

@@ -21,7 +21,9 @@ struct Figure {
 constexpr Figure figures[] = {
     {"relative_l2", &FitReport::relative_l2},   {"node_error", &FitReport::node_error},
     {"spline_error", &FitReport::spline_error}, {"gape_error", &FitReport::gape_error},
-    {"false_gap", &FitReport::false_gap},       {"largest_displacement", &FitReport::largest_displacement}};
+    {"false_gap", &FitReport::false_gap},       {"largest_displacement", &FitReport::largest_displacement},
+    {"frame_error", &FitReport::frame_error},   {"worst_node", &FitReport::worst_node},
+    {"worst_time", &FitReport::worst_time},     {"condition", &FitReport::condition}};
 
 BSplineBasis read_basis(const h5::File& file, const std::string& axis) {
   const std::string name = "/basis/" + axis;

@@ -23,6 +23,9 @@ class TipParametrization final : public Parametrization {
   double w_at(double height) const override;
   double time_at(double parameter) const override;
   bool moves() const override { return true; }
+
+ private:
+  double scale() const;
 };
 
 }  // namespace cleft
