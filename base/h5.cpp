@@ -142,6 +142,11 @@ Shape File::shape(const std::string& name) const {
   return shape;
 }
 
+std::size_t File::element_size(const std::string& name) const {
+  const Handle dataset = open_dataset(name), type(H5Dget_type(dataset), H5Tclose);
+  return H5Tget_size(type);
+}
+
 std::vector<std::string> File::members(const std::string& group) const {
   std::vector<std::string> names;
   if (!has(group)) return names;

@@ -50,6 +50,8 @@ class File {
   bool is_open() const { return file_ >= 0; }
   bool has(const std::string& name) const;
   Shape shape(const std::string& name) const;
+  /// Bytes of an element as stored.
+  std::size_t element_size(const std::string& name) const;
   std::vector<std::string> attribute_names(const std::string& object) const;
   std::vector<std::string> members(const std::string& group) const;
 
