@@ -131,15 +131,16 @@ class Search {
 
   [[noreturn]] void refuse_scattered(const std::vector<Vec3>& parting) const {
     const Spread spread = spread_of(parting);
+    const bool many = spread.deviation[flat_ ? 0 : 1] <= tolerance_;
     double farthest = 0;
     for (const Vec3& p : parting)
-      farthest = std::max(farthest, std::abs(dot(spread.axis[2], p - spread.centre)));
-    const bool line = farthest <= tolerance_;
-    throw InputError(series_.path() + ": " + counted(nodes_in_groups(), "coincident node") + " at " +
-                     counted(groups_.size(), "place") +
-                     (line ? " stand on a line, which lies in many planes"
-                           : " lie in no common plane (up to " + shortest(farthest) + " from the best one)") +
-                     "; say which plane with --break nx,ny,nz,offset, or --break none");
+      farthest = std::max(farthest, std::abs(dot(spread.axis[flat_ ? 1 : 2], p - spread.centre)));
+    throw InputError(
+        series_.path() + ": " + counted(nodes_in_groups(), "coincident node") + " at " +
+        counted(groups_.size(), "place") +
+        (many ? std::string(flat_ ? " are a point" : " are on a line") + ", through which many planes go"
+              : " lie in no common plane (up to " + shortest(farthest) + " from the best one)") +
+        "; say which plane with --break nx,ny,nz,offset, or --break none");
   }
 
   /// The plane through the same line of a flat mesh, upright on it.
