@@ -64,7 +64,7 @@ std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int3
   std::vector<char> asked(mesh.points.size());
   for (const std::int32_t node : nodes) asked[static_cast<std::size_t>(node)] = 1;
   const auto grid = cells_at(mesh, asked);
-  const double tolerance = same_place(mesh);
+  const double tolerance = in_plane(mesh);
 
   std::map<std::vector<vtkIdType>, Face> faces;
   vtkNew<vtkGenericCell> cell;

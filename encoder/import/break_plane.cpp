@@ -20,8 +20,8 @@ std::string counted(std::size_t count, const std::string& what) {
 class Search {
  public:
   Search(const Series& series, const std::optional<Vec3>& flat)
-      : series_(series), mesh_(series.mesh()), flat_(flat), tolerance_(same_place(mesh_)) {
-    groups_ = coincident_groups(mesh_.points, tolerance_);
+      : series_(series), mesh_(series.mesh()), flat_(flat), tolerance_(in_plane(mesh_)) {
+    groups_ = coincident_groups(mesh_.points, same_place(mesh_));
   }
 
   const Groups& groups() const { return groups_; }

@@ -17,7 +17,7 @@ namespace {
 /// Places (u, v, w). Those on the break's plane, or in the plane of a flat mesh, are put there exactly.
 std::vector<Vec3> placed_points(const SourceMesh& mesh, const Placement& placement, bool has_break,
                                 bool is_flat) {
-  const double tolerance = same_place(mesh);
+  const double tolerance = in_plane(mesh);
   std::vector<Vec3> points;
   for (const Vec3& p : mesh.points) {
     Vec3 x = placement.placed(p);

@@ -122,7 +122,7 @@ void Placement::turn(std::vector<double>& values, int components) const {
 }
 
 std::optional<Vec3> flatness(const SourceMesh& mesh) {
-  const auto plane = common_plane(mesh.points, same_place(mesh));
+  const auto plane = common_plane(mesh.points, in_plane(mesh));
   if (!plane) return {};
   return plane->normal;
 }

@@ -27,4 +27,7 @@ double diagonal(const std::vector<Vec3>& points);
 /// single precision.
 inline double same_place(const SourceMesh& mesh) { return 1e-7 * diagonal(mesh.points); }
 
+/// What is closer than this to a plane counts as in it: more than rounding to the six digits of a text file.
+inline double in_plane(const SourceMesh& mesh) { return 2e-5 * diagonal(mesh.points); }
+
 }  // namespace cleft
