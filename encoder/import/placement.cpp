@@ -159,6 +159,7 @@ Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional
     plane = {-plane.normal, -plane.offset};
     for (NodePair& pair : found.pairs) std::swap(pair[0], pair[1]);
   }
+  for (Vec3* axis : {&u, &plane.normal, &w}) *axis += Vec3{};  // no -0
   const double middle = range_along(places, u).middle();
   const double top = flat         ? dot(w, mesh.points.front())
                      : open_above ? range_along(places, w).high

@@ -43,4 +43,7 @@ forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer cli ex
 except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/scene cli
 forbid "Eigen" 'Eigen/' base params encoder/field haptic
 forbid "HDF5" 'hdf5|H5' params solver encoder haptic explorer cli examples
+found=$(cd "$root" && grep -rn --include='*.h' --include='*.cpp' '#include "encoder/import/' base params solver encoder haptic \
+  explorer cli examples | grep -v '^encoder/import/')
+[ -z "$found" ] || complain "other folders" "encoder/import" "$found"
 exit $bad

@@ -30,5 +30,6 @@ base|<vtkPolyData.h>
 encoder/import|"encoder/encode.h"
 encoder/import|"explorer/io/mesh_file.h"
 encoder/import|<hdf5.h>
+encoder|"encoder/import/series.h"
 CASES
 echo "every forbidden include was found"

@@ -3,7 +3,7 @@
 A deck for each length of the crack: a plate of 10 x 24 x 1 mm of C3D8I under tension 1 MPa, with doubled nodes on y = 0
 up to x = 5, tied by *EQUATION where still closed. `leaning` has the plate at an angle in space. What is imported is
 compared with CalculiX's own numbers, and the mouth's opening with the handbook's (Tada, Paris, Irwin: single edge notch
-in tension, 1 % for any length; the mesh adds a few percent)."""
+in tension, 1 % for any length; the mesh takes up to 3 % off, and 6 % at twice the size)."""
 
 import math
 import pathlib
@@ -23,7 +23,7 @@ except ImportError as missing:
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from frd import Frd  # noqa: E402
 
-WIDTH, HALF_HEIGHT, DOUBLED, SIZE = 10, 12, 5, 0.5
+WIDTH, HALF_HEIGHT, DOUBLED, SIZE = 10, 12, 5, 0.25
 YOUNG, POISSON = 1000, 0.3
 LENGTHS = [0, 2, 3, 4, 5]  # mm, a frame each
 
@@ -164,7 +164,7 @@ def check(case, plate, axes, results):
             left, right = min(found, key=lambda pair: points[pair[0], 0])
             opening, handbook = (displacement[j, right] - displacement[j, left])[1], handbook_opening(length)
             print(f"crack of {length} mm: opens {opening:.5f} mm, handbook {handbook:.5f}")
-            expect(abs(opening / handbook - 1) < 0.06, f"frame {j}: the mouth opens {opening}")
+            expect(abs(opening / handbook - 1) < 0.04, f"frame {j}: the mouth opens {opening}")
     return wrong
 
 
