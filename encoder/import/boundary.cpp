@@ -7,7 +7,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace cleft {
@@ -17,7 +16,6 @@ namespace {
 struct Face {
   int cells = 0;
   Vec3 outward;
-  bool in_plane = false;
 };
 
 Vec3 place(const SourceMesh& mesh, vtkIdType node) { return mesh.points[static_cast<std::size_t>(node)]; }
@@ -59,12 +57,10 @@ Vec3 normal_of(const SourceMesh& mesh, vtkCell* face, const Vec3& inside) {
 
 }  // namespace
 
-std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int32_t>& nodes,
-                             const Plane& plane) {
+std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int32_t>& nodes) {
   std::vector<char> asked(mesh.points.size());
   for (const std::int32_t node : nodes) asked[static_cast<std::size_t>(node)] = 1;
   const auto grid = cells_at(mesh, asked);
-  const double tolerance = in_plane(mesh);
 
   std::map<std::vector<vtkIdType>, Face> faces;
   vtkNew<vtkGenericCell> cell;
@@ -79,17 +75,14 @@ std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int3
       if (corners.size() < 3 || std::none_of(corners.begin(), corners.end(),
                                              [&](vtkIdType i) { return asked[static_cast<std::size_t>(i)]; }))
         continue;
-      Face entry{1, normal_of(mesh, face, inside), true};
-      for (const vtkIdType i : corners)
-        entry.in_plane = entry.in_plane && std::abs(plane.distance(place(mesh, i))) <= tolerance;
       std::sort(corners.begin(), corners.end());
-      const auto [found, is_new] = faces.emplace(corners, entry);
+      const auto [found, is_new] = faces.try_emplace(corners, Face{1, normal_of(mesh, face, inside)});
       if (!is_new) ++found->second.cells;
     }
   }
   std::vector<Vec3> outward;
   for (const auto& [corners, face] : faces)
-    if (face.cells == 1 && !face.in_plane && face.outward != Vec3{}) outward.push_back(face.outward);
+    if (face.cells == 1 && face.outward != Vec3{}) outward.push_back(face.outward);
   return outward;
 }
 

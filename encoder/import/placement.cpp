@@ -146,7 +146,7 @@ Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional
     u = orthogonal(longest_direction(places, plane.normal), plane.normal);
     w = forward(cross(u, plane.normal));
     int above = 0, below = 0;
-    for (const Vec3& outward : outward_at(mesh, doubled, plane)) {
+    for (const Vec3& outward : outward_at(mesh, doubled)) {
       above += dot(outward, w) > 0.7;
       below += dot(outward, w) < -0.7;
     }

@@ -12,7 +12,7 @@ namespace {
 class Opening {
  public:
   Opening(const Snapshot& s, const Break& found)
-      : s_(s), found_(found), never_(static_cast<int>(s.frames())) {
+      : s_(s), found_(found), never_(static_cast<int>(s.frames())), rounding_(2e-5 * diagonal(s.points)) {
     for (std::size_t p = 0; p < found.pairs.size(); ++p) {
       const Vec3& x = place(p);
       low_ = {std::min(low_.x, x.x), 0, std::min(low_.z, x.z)};
@@ -29,11 +29,11 @@ class Opening {
   std::vector<std::size_t> order() const {
     std::vector<std::size_t> order(found_.pairs.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto rank = [this](std::size_t p) {
-      return std::tuple(found_.first_frame[p], place(p).x, -place(p).z);
+    const std::vector<int> column = columns(order);
+    const auto rank = [&](std::size_t p) {
+      return std::tuple(found_.first_frame[p], column[p], -place(p).z, p);
     };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) { return rank(i) < rank(k); });
     return order;
   }
 
@@ -57,7 +57,7 @@ class Opening {
       for (std::size_t p = 0; p < found_.pairs.size(); ++p)
         if (j > 0 && found_.first_frame[p] <= j) front = std::max(front, place(p).x);
       const auto see = [&](double u) {
-        if (u > front + 1e-9 * (high_.x - low_.x)) next = std::min(next, u);
+        if (u > front + rounding_) next = std::min(next, u);
       };
       for (std::size_t p = 0; p < found_.pairs.size(); ++p)
         if (j == 0 || found_.first_frame[p] > j) see(place(p).x);
@@ -68,6 +68,17 @@ class Opening {
   }
 
  private:
+  /// Pairs at the same u, up to rounding, are one column; columns count along u.
+  std::vector<int> columns(std::vector<std::size_t> along) const {
+    std::sort(along.begin(), along.end(),
+              [this](std::size_t i, std::size_t k) { return place(i).x < place(k).x; });
+    std::vector<int> column(along.size());
+    for (std::size_t i = 1; i < along.size(); ++i)
+      column[along[i]] =
+          column[along[i - 1]] + (place(along[i]).x - place(along[i - 1]).x > rounding_ ? 1 : 0);
+    return column;
+  }
+
   bool opens_at_once() const {
     int first = never_;
     for (const int f : found_.first_frame) first = std::min(first, std::max(f, 1));
@@ -81,10 +92,9 @@ class Opening {
     for (const auto& [left, right] : found_.pairs)
       paired[static_cast<std::size_t>(left)] = paired[static_cast<std::size_t>(right)] = 1;
     std::vector<double> places;
-    const double slack = 1e-9 * (high_.x - low_.x);
     for (std::size_t i = 0; i < s_.points.size(); ++i)
-      if (const Vec3& x = s_.points[i];
-          !paired[i] && x.y == 0 && low_.z - slack <= x.z && x.z <= high_.z + slack && x.x > high_.x)
+      if (const Vec3& x = s_.points[i]; !paired[i] && x.y == 0 && low_.z - rounding_ <= x.z &&
+                                        x.z <= high_.z + rounding_ && x.x > high_.x + rounding_)
         places.push_back(x.x);
     return places;
   }
@@ -92,6 +102,7 @@ class Opening {
   const Snapshot& s_;
   const Break& found_;
   int never_;
+  double rounding_;
   Vec3 low_{std::numeric_limits<double>::infinity(), 0, std::numeric_limits<double>::infinity()},
       high_ = -low_;
 };
