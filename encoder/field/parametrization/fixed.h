@@ -16,6 +16,7 @@ class FixedParametrization final : public Parametrization {
   Single time(double t) const override { return {t, 1}; }
   double time_at(double parameter) const override { return parameter; }
   bool moves() const override { return false; }
+  void map(std::span<const Place> places, BasisPlace* out) const override { map_each(*this, places, out); }
 };
 
 }  // namespace cleft

@@ -20,6 +20,8 @@ class TipParametrization final : public Parametrization {
   Single time(double t) const override;
   double time_at(double parameter) const override;
   bool moves() const override { return true; }
+  bool moves_at(double u) const override { return u > geometry().cut.start && u < domain()[0].back; }
+  void map(std::span<const Place> places, BasisPlace* out) const override { map_each(*this, places, out); }
 };
 
 }  // namespace cleft
