@@ -10,12 +10,12 @@ namespace cleft {
 void Field::collapse(double t, CollapsedField& out) const {
   out.field_ = this;
   out.time_ = parametrization_->inside(t, 3);
-  out.stride_[1] = 4 * axes_[2].size();
-  out.stride_[0] = out.stride_[1] * axes_[1].size();
-  const auto rows = static_cast<std::size_t>(axes_[0].size() * axes_[1].size() * axes_[2].size());
+  out.stride_[1] = 4 * (*axes_)[2].size();
+  out.stride_[0] = out.stride_[1] * (*axes_)[1].size();
+  const auto rows = static_cast<std::size_t>((*axes_)[0].size() * (*axes_)[1].size() * (*axes_)[2].size());
   out.values_.resize(4 * rows);
   double weight[4];
-  const int first = axes_[3].evaluate(parametrization_->time(out.time_).value, weight);
+  const int first = (*axes_)[3].evaluate(parametrization_->time(out.time_).value, weight);
   kernels_->collapse(grid_.data() + 4 * first, grid_.stride[2], weight, rows, out.values_.data());
 }
 
@@ -36,8 +36,7 @@ void CollapsedField::displacements(std::span<const Place> places, std::span<Vec3
     const std::size_t count = std::min(at_once, places.size() - begin);
     for (std::size_t i = 0; i < count; ++i) now[i] = {places[begin + i].uvw, places[begin + i].side, time_};
     field_->parametrization_->map({now, count}, mapped);
-    field_->kernels_->values_in_space(field_->axes_.data(), values_.data(), stride_, mapped, count,
-                                      &out[begin]);
+    field_->kernels_->values_in_space(*field_->axes_, values_.data(), stride_, mapped, count, &out[begin]);
   }
 }
 

@@ -103,8 +103,8 @@ void fit(const Net& net, double from, const double to, double tolerance, History
 std::vector<double> Field::knot_times() const {
   const auto [front, back] = domain(3);
   std::vector<double> times{front};
-  for (int i = 1; i < axes_[3].span_count(); ++i)
-    if (const double t = parametrization_->time_at(axes_[3].spans()[i].begin); front < t && t < back)
+  for (int i = 1; i < (*axes_)[3].span_count(); ++i)
+    if (const double t = parametrization_->time_at((*axes_)[3].spans()[i].begin); front < t && t < back)
       times.push_back(t);
   times.push_back(back);
   return times;
@@ -129,7 +129,7 @@ void Field::contract(const Vec3& uvw, Side side, double tolerance, std::span<con
 /// One coefficient for each function of time, and from them the Bezier controls of each span.
 void Field::contract_fixed(const BasisPlace& place, std::span<const double> stops, History& out) const {
   Stencil s;
-  kernels_->locate(axes_.data(), place, s);
+  kernels_->locate(*axes_, place, s);
   Rows rows;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
@@ -143,8 +143,8 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
 
   const auto [front, back] = domain(3);
   auto stop = stops.begin();
-  for (int i = 0; i < axes_[3].span_count(); ++i) {
-    const BasisSpan& span = axes_[3].spans()[i];
+  for (int i = 0; i < (*axes_)[3].span_count(); ++i) {
+    const BasisSpan& span = (*axes_)[3].spans()[i];
     Piece piece;
     for (int m = 0; m < 4; ++m) {
       const double* c = &out.scratch[static_cast<std::size_t>(4 * span.first)];
@@ -167,7 +167,7 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
 void Field::contract_moving(const Vec3& uvw, const BasisPlace& place, double tolerance,
                             std::span<const double> stops, History& out) const {
   Stencil s;
-  kernels_->locate(axes_.data(), place, s);
+  kernels_->locate(*axes_, place, s);
   Rows rows;
   rows.count = 16;
   for (int j = 0; j < 4; ++j)
@@ -177,7 +177,7 @@ void Field::contract_moving(const Vec3& uvw, const BasisPlace& place, double tol
       rows.weight[4 * j + k] = s.weight[1][j] * s.weight[2][k];
     }
   const auto row = static_cast<std::size_t>(grid_.stride[2]),
-             along = static_cast<std::size_t>(axes_[0].size());
+             along = static_cast<std::size_t>((*axes_)[0].size());
   out.scratch.resize(along * row);
   for (std::size_t i = 0; i < along; ++i) {
     kernels_->combine(rows, grid_.stride[2], &out.scratch[i * row]);
@@ -185,7 +185,7 @@ void Field::contract_moving(const Vec3& uvw, const BasisPlace& place, double tol
   }
   const Parametrization& p = *parametrization_;
   const double u = p.inside(uvw.x, 0), passes = p.geometry().tip.passes(u);
-  const Net net{p, axes_[0], axes_[3], u, out.scratch.data()};
+  const Net net{p, (*axes_)[0], (*axes_)[3], u, out.scratch.data()};
   const auto [front, back] = domain(3);
   auto stop = stops.begin();
   for (double from = front; from < back;) {

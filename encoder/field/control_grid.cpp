@@ -2,7 +2,7 @@
 
 namespace cleft {
 
-ControlGrid::ControlGrid(const std::array<BSplineBasis, 4>& bases, const std::array<SpanTable, 4>& axes,
+ControlGrid::ControlGrid(const std::array<BSplineBasis, 4>& bases, const Axes& axes,
                          std::span<const Vec3> coefficients) {
   stride[2] = 4 * axes[3].size();
   stride[1] = stride[2] * axes[2].size();

@@ -18,12 +18,12 @@ std::shared_ptr<const Parametrization> fixed_over(const std::array<BSplineBasis,
   return make_parametrization("fixed", std::move(geometry));
 }
 
-std::array<SpanTable, 4> tables_of(const Parametrization& parametrization,
-                                   const std::array<BSplineBasis, 4>& bases) {
+std::shared_ptr<const Axes> axes_of(const Parametrization& parametrization,
+                                    const std::array<BSplineBasis, 4>& bases) {
   std::array<SpanTable, 4> tables{SpanTable(bases[0]), SpanTable(bases[1]), SpanTable(bases[2]),
                                   SpanTable(bases[3])};
   tables[1].break_at(parametrization.across(0).value, bases[1]);
-  return tables;
+  return std::make_shared<const Axes>(std::move(tables));
 }
 
 void check_count(const std::array<BSplineBasis, 4>& bases, std::size_t coefficients) {
@@ -41,8 +41,8 @@ Field::Field(std::shared_ptr<const Parametrization> parametrization, std::array<
     : parametrization_(std::move(parametrization)),
       bases_(std::move(bases)),
       coefficients_((check_count(bases_, coefficients.size()), std::move(coefficients))),
-      axes_(tables_of(*parametrization_, bases_)),
-      grid_(bases_, axes_, coefficients_),
+      axes_(axes_of(*parametrization_, bases_)),
+      grid_(bases_, *axes_, coefficients_),
       kernels_(&kernel_table(available_kernels().back())) {
   for (const Vec3& c : coefficients_) largest_coefficient_ = std::max(largest_coefficient_, norm(c));
 }
@@ -61,7 +61,7 @@ BasisPlace Field::mapped(const Vec3& uvw, Side side, double t) const {
 Vec3 Field::displacement(const Vec3& uvw, Side side, double t) const {
   const BasisPlace place = mapped(uvw, side, t);
   Vec3 d;
-  kernels_->values(axes_.data(), grid_, &place, 1, &d);
+  kernels_->values(*axes_, grid_, &place, 1, &d);
   return d;
 }
 
@@ -72,7 +72,7 @@ void Field::displacements(std::span<const Place> places, std::span<Vec3> out) co
   for (std::size_t begin = 0; begin < places.size(); begin += at_once) {
     const std::size_t count = std::min(at_once, places.size() - begin);
     parametrization_->map(places.subspan(begin, count), mapped_places);
-    kernels_->values(axes_.data(), grid_, mapped_places, count, &out[begin]);
+    kernels_->values(*axes_, grid_, mapped_places, count, &out[begin]);
   }
 }
 
@@ -88,7 +88,7 @@ Derivatives Field::derivatives(const Vec3& uvw, Side side, double t) const {
   }
   if (v == 0 && side == Side::left) v = -std::numeric_limits<double>::min();  // for the slope from the left
   Gradient g;
-  kernels_->gradient(axes_.data(), grid_, place, g);
+  kernels_->gradient(*axes_, grid_, place, g);
   const auto along = p.along(p.inside(uvw.x, 0), time);
   return {three(g.value), along.by_u * three(g.by[0]), p.across(v).slope * three(g.by[1]),
           p.height(p.inside(uvw.z, 2)).slope * three(g.by[2]),
@@ -105,7 +105,7 @@ void Field::quantity(std::size_t index, const Vec3& uvw, Side side, double t, st
   CLEFT_CHECK(out.size(), ==, components);
   CLEFT_CHECK(q.coefficients.size(), ==, coefficients_.size() * components);
   Stencil s;
-  kernels_->locate(axes_.data(), mapped(uvw, side, t), s);
+  kernels_->locate(*axes_, mapped(uvw, side, t), s);
   std::size_t size[4], last[4];  // functions beyond a basis of lower degree have no coefficients
   for (int axis = 0; axis < 4; ++axis) {
     size[axis] = static_cast<std::size_t>(bases_[axis].size());

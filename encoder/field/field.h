@@ -118,7 +118,7 @@ class Field {
   std::shared_ptr<const Parametrization> parametrization_;
   std::array<BSplineBasis, 4> bases_;
   std::vector<Vec3> coefficients_;
-  std::array<SpanTable, 4> axes_;
+  std::shared_ptr<const Axes> axes_;  // one for all copies of the field: it is never changed
   ControlGrid grid_;
   const KernelTable* kernels_;
   double largest_coefficient_ = 0;

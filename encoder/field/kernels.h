@@ -46,17 +46,17 @@ struct PieceBlock {
 
 struct KernelTable {
   /// Field at n places: 256 terms each.
-  void (*values)(const SpanTable* axes, const ControlGrid& grid, const BasisPlace* places, std::size_t n,
+  void (*values)(const Axes& axes, const ControlGrid& grid, const BasisPlace* places, std::size_t n,
                  Vec3* out);
-  void (*gradient)(const SpanTable* axes, const ControlGrid& grid, const BasisPlace& place, Gradient& out);
+  void (*gradient)(const Axes& axes, const ControlGrid& grid, const BasisPlace& place, Gradient& out);
   /// The weights alone, for the sums below.
-  void (*locate)(const SpanTable* axes, const BasisPlace& place, Stencil& out);
+  void (*locate)(const Axes& axes, const BasisPlace& place, Stencil& out);
   void (*combine)(const Rows& rows, std::ptrdiff_t length, double* out);
   /// Sums over time: out[i] = sum over l < 4 of weight[l] * points[i * row + 4 l ..], i < count: points of 4.
   void (*collapse)(const double* points, std::ptrdiff_t row, const double (&weight)[4], std::size_t count,
                    double* out);
   /// A grid without time, with strides of doubles along two axes and 4 on the third: 64 terms each.
-  void (*values_in_space)(const SpanTable* axes, const double* points, const std::ptrdiff_t (&stride)[2],
+  void (*values_in_space)(const Axes& axes, const double* points, const std::ptrdiff_t (&stride)[2],
                           const BasisPlace* places, std::size_t n, Vec3* out);
   /// Positions rest + d of vertices number front .. back - 1 of `blocks`, at s = (clamp(time + offset) -
   /// begin) / length of the piece.

@@ -86,25 +86,37 @@ double SpanTable::bucket_of(double x) const {
 }
 
 void SpanTable::break_at(double x, const BSplineBasis& basis) {
-  const BasisSpan left = spans_[find(x, Limit::from_left)], right = spans_[find(x, Limit::from_right)];
-  const int p = basis.degree();
-  if (!(front_ < x && x < back_) || right.first != left.first + p + 1) return;
+  if (!(front_ < x && x < back_)) return;
+  const int behind = find(x), p = basis.degree();
+  const BasisSpan left = spans_[behind - 1], right = spans_[behind];
+  if (right.begin != x || right.first != left.first + p + 1) return;
   BasisSpan mean{{}, x, 1, left.first + p - 1};
   for (auto& share : mean.share) share[1] = share[2] = 0.5;
   break_ = x;
-  mean_ = static_cast<int>(spans_.size());
   spans_.push_back(mean);
 }
 
 int SpanTable::evaluate(double x, double (&value)[4]) const {
   x = std::clamp(x, front_, back_);
-  const BasisSpan& span = spans_[find(x, Limit::from_right)];
+  const BasisSpan& span = spans_[find(x)];
   const double s = (x - span.begin) / span.length, r = 1 - s;
   const double b[4] = {r * r * r, 3 * r * r * s, 3 * r * s * s, s * s * s};
   for (int i = 0; i < 4; ++i)
     value[i] =
         b[0] * span.share[0][i] + b[1] * span.share[1][i] + b[2] * span.share[2][i] + b[3] * span.share[3][i];
   return span.first;
+}
+
+Axes::Axes(std::array<SpanTable, 4> of_axes) : tables(std::move(of_axes)), break_at(tables[1].break_) {
+  for (int a = 0; a < 4; ++a) {
+    const SpanTable& table = tables[a];
+    front[a] = table.front_, scale[a] = table.scale_, last_bucket[a] = table.last_bucket_;
+    spans[a] = table.spans_.data(), ends[a] = table.ends_.data(), starts[a] = table.starts_.data();
+    ends_a_bucket = std::max(ends_a_bucket, table.ends_a_bucket_);
+  }
+  if (std::isnan(break_at)) return;
+  const int behind = tables[1].find(break_at);
+  at_break = {spans[1] + behind - 1, &tables[1].spans_.back(), spans[1] + behind};
 }
 
 }  // namespace cleft

@@ -2,6 +2,7 @@
 // the ends and never cancels, and a table of buckets instead of a search for the span.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,42 +24,54 @@ class SpanTable {
   /// Throws InputError where the degree is above 3.
   explicit SpanTable(const BSplineBasis& basis);
 
-  /// Lets find() answer Side::both at `x`, where the basis breaks, with the mean of the two limits. Does
-  /// nothing where the limits share functions.
+  /// Gives a basis that breaks at x, so that its limits there share no function, one span more: the mean of
+  /// both limits. Does nothing where they do share one.
   void break_at(double x, const BSplineBasis& basis);
 
   const BasisSpan* spans() const { return spans_.data(); }
   int span_count() const { return static_cast<int>(ends_.size()); }  ///< between knots, in their order
   int size() const { return size_; }  ///< control points, with zeros behind them where a span needs four
-  /// Number of the span in which x lies: x at a knot belongs to the span before it from the left, else to the
-  /// one behind it. Any x is allowed; those outside belong to the first or the last span.
-  int find(double x, Limit limit) const {
+  /// Number of the span in which x lies; a knot belongs to the span behind it. Any x is allowed: those
+  /// outside belong to the first or the last span.
+  int find(double x) const {
     const double bucket = (x - front_) * scale_;
     int span = starts_[bucket > 0 ? static_cast<int>(bucket < last_bucket_ ? bucket : last_bucket_) : 0];
-    if (limit == Limit::from_right)
-      for (int k = 0; k < ends_a_bucket_; ++k) span += x >= ends_[span];
-    else
-      for (int k = 0; k < ends_a_bucket_; ++k) span += x > ends_[span];
+    for (int k = 0; k < ends_a_bucket_; ++k) span += x >= ends_[span];
     return span;
-  }
-  /// The same for an axis that may break: `side` matters at the break only.
-  int find(double x, Side side) const {
-    if (x == break_ && side == Side::both) return mean_;
-    return find(x, side == Side::left ? Limit::from_left : Limit::from_right);
   }
 
   /// Values of functions first .. first + 3 at x, clamped; returns first.
   int evaluate(double x, double (&value)[4]) const;
 
  private:
+  friend struct Axes;
+
   double bucket_of(double x) const;
 
   double front_, back_, scale_, last_bucket_;
   double break_;  // NaN where there is none
-  int size_, mean_ = 0, ends_a_bucket_ = 0;
+  int size_, ends_a_bucket_ = 0;
   std::vector<BasisSpan> spans_;
-  std::vector<double> ends_;  // of the spans; infinite for the last
-  std::vector<std::uint16_t> starts_;
+  std::vector<double> ends_;           // of the spans between knots; infinite for the last
+  std::vector<std::uint16_t> starts_;  // first span of each bucket
+};
+
+/// The tables of all four axes, and what the kernels read of them side by side.
+struct Axes {
+  explicit Axes(std::array<SpanTable, 4> of_axes);
+  Axes(const Axes&) = delete;
+  Axes& operator=(const Axes&) = delete;
+
+  const SpanTable& operator[](int axis) const { return tables[axis]; }
+
+  std::array<SpanTable, 4> tables;
+  alignas(32) double front[4], scale[4], last_bucket[4];
+  std::array<const BasisSpan*, 4> spans;
+  std::array<const double*, 4> ends;
+  std::array<const std::uint16_t*, 4> starts;
+  int ends_a_bucket = 0;
+  double break_at;                             // of axis 1; NaN where there is none
+  std::array<const BasisSpan*, 3> at_break{};  // by side, left first
 };
 
 }  // namespace cleft

@@ -2,6 +2,7 @@
 #include "encoder/field/kernels/tables.h"
 
 #define CLEFT_TARGET
+#define CLEFT_WIDE false
 #define CLEFT_MANY_REGISTERS false
 #include "encoder/field/kernels/bodies.h"
 
