@@ -142,9 +142,10 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
   kernels_->combine(rows, grid_.stride[2], out.scratch.data());
 
   const auto [front, back] = domain(3);
+  const SpanTable& axis = (*axes_)[3];
   auto stop = stops.begin();
-  for (int i = 0; i < (*axes_)[3].span_count(); ++i) {
-    const BasisSpan& span = (*axes_)[3].spans()[i];
+  for (int i = 0; i < axis.span_count(); ++i) {
+    const BasisSpan& span = axis.spans()[i];
     Piece piece;
     for (int m = 0; m < 4; ++m) {
       const double* c = &out.scratch[static_cast<std::size_t>(4 * span.first)];
@@ -152,7 +153,9 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
       for (int r = 0; r < 4; ++r, c += 4) piece[m] += span.share[m][r] * Vec3{c[0], c[1], c[2]};
     }
     const double begin = parametrization_->time_at(span.begin),
-                 end = parametrization_->time_at(span.begin + span.length), last = std::min(end, back);
+                 end = i + 1 < axis.span_count() ? parametrization_->time_at(axis.spans()[i + 1].begin)
+                                                 : parametrization_->time_at(bases_[3].back()),
+                 last = std::min(end, back);
     for (double from = std::max(begin, front); from < last;) {
       while (stop != stops.end() && *stop <= from) ++stop;
       const double to = stop != stops.end() && *stop < last ? *stop : last;
