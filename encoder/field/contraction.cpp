@@ -67,15 +67,15 @@ Piece through(const Net& net, double from, double to) {
 
 double error_of(const Piece& piece, const Net& net, double from, double to) {
   double error = 0;
-  for (const double s : {0.03, 0.117, 0.21, 0.4, 0.5, 0.6, 0.79, 0.883, 0.97})
+  for (const double s : {0.03, 0.117, 0.21, 0.3, 0.4, 0.5, 0.6, 0.7, 0.79, 0.883, 0.97})
     error = std::max(error, norm(value(piece, s) - net.at(from + s * (to - from))));
   return error;
 }
 
 /// Pieces from one break to another, each as long as it may be: the error goes with the length to the fourth.
 void fit(const Net& net, double from, const double to, double tolerance, History& out) {
-  const double aim = 0.8 * tolerance;  // what lies between the points looked at may be a little larger
-  const double shortest = std::max(1e-9 * (to - from), 1e-12 * std::abs(to));
+  const double aim = 0.6 * tolerance;  // between the points looked at, beside knots, it may be larger
+  const double shortest = 1e-14 * std::max(std::abs(from), std::abs(to));
   double length = to - from;
   while (from < to) {
     const double left = to - from, pieces = std::ceil(left / length);
@@ -94,6 +94,10 @@ void fit(const Net& net, double from, const double to, double tolerance, History
         break;
       }
       end = from + std::max(std::min(next, 0.8 * h), shortest);
+      // A kink of the tip's way is the better end, should it be that which is in the way.
+      const auto& kinks = net.parametrization.geometry().tip.times;
+      const auto kink = std::lower_bound(kinks.begin(), kinks.end(), from + h - shortest);
+      if (kink != kinks.begin() && kink[-1] > from + shortest) end = std::max(end, kink[-1]);
     }
   }
 }
@@ -187,7 +191,11 @@ void Field::contract_moving(const Vec3& uvw, const BasisPlace& place, double tol
     for (int r = 0; r < rows.count; ++r) rows.row[r] += grid_.stride[0];
   }
   const Parametrization& p = *parametrization_;
-  const double u = p.inside(uvw.x, 0), passes = p.geometry().tip.passes(u);
+  const TipPath& tip = p.geometry().tip;
+  const double u = p.inside(uvw.x, 0);
+  double passes = tip.passes(u);
+  // The last time, to the bit, at which the point is not yet behind the tip.
+  while (passes > 0 && passes <= domain(3).back && tip.at(passes) > u) passes = std::nextafter(passes, 0);
   const Net net{p, (*axes_)[0], (*axes_)[3], u, out.scratch.data()};
   const auto [front, back] = domain(3);
   auto stop = stops.begin();
