@@ -3,7 +3,6 @@
 
 #define CLEFT_TARGET __attribute__((target("avx2,fma")))
 #define CLEFT_WIDE true
-#define CLEFT_MANY_REGISTERS false
 #include "encoder/field/kernels/bodies.h"
 
 namespace cleft {

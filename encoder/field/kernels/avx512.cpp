@@ -3,7 +3,6 @@
 
 #define CLEFT_TARGET __attribute__((target("avx2,fma,avx512f,avx512vl,avx512dq")))
 #define CLEFT_WIDE true
-#define CLEFT_MANY_REGISTERS true
 #include "encoder/field/kernels/bodies.h"
 
 namespace cleft {

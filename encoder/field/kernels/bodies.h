@@ -1,7 +1,6 @@
 // The kernels' bodies, compiled once for each width. The including file defines
 //   CLEFT_TARGET          the attribute of the machine the functions are for
 //   CLEFT_WIDE            whether it has registers of four doubles
-//   CLEFT_MANY_REGISTERS  whether sixteen weights fit into registers beside the sums
 // and gets KERNELS, the table's initialiser. Wide types are handed on by reference: machines of different
 // widths pass them differently.
 #include <algorithm>
@@ -75,54 +74,66 @@ CLEFT_TARGET void locate(const Axes& axes, const BasisPlace& place, Stencil& out
   weigh<4, false>(spans, place, out.weight, nullptr, out.first);
 }
 
-/// 256 terms, four control points of a row of time at once. Weights that are 0 add nothing, whatever the
-/// order: the limits at a break agree to the last bit where they meet.
-CLEFT_INLINE void sum(const Stencil& s, const ControlGrid& grid, Vec3& out) {
-  const double* points = grid.data() + offset_of(grid.stride, s.first);
-  const auto& [u, v, w, t] = s.weight;
-  Four along_t[4]{};
-  if constexpr (CLEFT_MANY_REGISTERS) {
-    Four weight[16];
-    for (int j = 0; j < 4; ++j)
-      for (int k = 0; k < 4; ++k) weight[4 * j + k] = splat(v[j]) * splat(w[k]);
-    for (int i = 0; i < 4; ++i, points += grid.stride[0]) {
-      Four even[4]{}, odd[4]{};
-      for (int j = 0; j < 4; ++j) {
-        const double* row = points + j * grid.stride[1];
-        for (int k = 0; k < 4; ++k, row += grid.stride[2])
-          for (int l = 0; l < 4; ++l) (k % 2 ? odd : even)[l] += weight[4 * j + k] * four(row + 4 * l);
-      }
-      for (int l = 0; l < 4; ++l) along_t[l] += u[i] * (even[l] + odd[l]);
+/// The 64 control points of a stencil at its t: [i][j][k], four doubles each.
+CLEFT_INLINE void collapse_stencil(const Stencil& s, const ControlGrid& grid, double* out) {
+  const double* corner = grid.data() + offset_of(grid.stride, s.first);
+  const auto& t = s.weight[3];
+  const Four t0 = splat(t[0]), t1 = splat(t[1]), t2 = splat(t[2]), t3 = splat(t[3]);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double* row = corner + i * grid.stride[0] + j * grid.stride[1];
+      for (int k = 0; k < 4; ++k, row += grid.stride[2], out += 4)
+        four(out) = (t0 * four(row) + t1 * four(row + 4)) + (t2 * four(row + 8) + t3 * four(row + 12));
     }
-  } else {
-    const Four w0 = splat(w[0]), w1 = splat(w[1]), w2 = splat(w[2]), w3 = splat(w[3]);
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const double *row0 = points + i * grid.stride[0] + j * grid.stride[1], *row1 = row0 + grid.stride[2],
-                     *row2 = row1 + grid.stride[2], *row3 = row2 + grid.stride[2];
-        const Four weight = splat(u[i] * v[j]);
-        for (int l = 0; l < 16; l += 4)
-          along_t[l / 4] += weight * (w0 * four(row0 + l) + w1 * four(row1 + l) + w2 * four(row2 + l) +
-                                      w3 * four(row3 + l));
-      }
-  }
-  store((t[0] * along_t[0] + t[1] * along_t[1]) + (t[2] * along_t[2] + t[3] * along_t[3]), out);
 }
 
-/// Stencils of many places first, then their sums: so the next place's weights do not wait for this one's
-/// sum.
-constexpr std::size_t places_at_once = 16;
+/// 64 terms. Weights that are 0 add nothing, whatever the order: the limits at a break agree to the last bit
+/// where they meet.
+CLEFT_INLINE void sum(const double (&weight)[4][4], const double* points, std::ptrdiff_t along,
+                      std::ptrdiff_t across, Vec3& out) {
+  const auto& [u, v, w, unused] = weight;
+  Four even[4]{}, odd[4]{};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double* row = points + i * along + j * across;
+      const Four both = splat(u[i] * v[j]);
+      for (int k = 0; k < 4; ++k) (j % 2 ? odd : even)[k] += both * four(row + 4 * k);
+    }
+  store((w[0] * (even[0] + odd[0]) + w[1] * (even[1] + odd[1])) +
+            (w[2] * (even[2] + odd[2]) + w[3] * (even[3] + odd[3])),
+        out);
+}
 
+/// Of many places the spans first, then the weights, then the sums: each step waits for nothing but loads.
+constexpr std::size_t places_at_once = 32;
+
+template <int count>
+CLEFT_INLINE void locate_all(const Axes& axes, const BasisPlace* places, std::size_t n, Stencil* stencils) {
+  Spans spans[places_at_once];
+  for (std::size_t i = 0; i < n; ++i) find(axes, places[i], spans[i]);
+  for (std::size_t i = 0; i < n; ++i)
+    weigh<count, false>(spans[i], places[i], stencils[i].weight, nullptr, stencils[i].first);
+}
+
+/// In two steps, over t and in space: neighbours in a list mostly share the first.
 CLEFT_TARGET void values(const Axes& axes, const ControlGrid& grid, const BasisPlace* places, std::size_t n,
                          Vec3* out) {
-  Spans spans[places_at_once];
   Stencil stencils[places_at_once];
+  alignas(64) double points[256];
+  std::array<int, 4> cell{-1, -1, -1, -1};
+  double t = 0;
   for (std::size_t begin = 0; begin < n; begin += places_at_once) {
     const std::size_t count = std::min(places_at_once, n - begin);
-    for (std::size_t i = 0; i < count; ++i) find(axes, places[begin + i], spans[i]);
-    for (std::size_t i = 0; i < count; ++i)
-      weigh<4, false>(spans[i], places[begin + i], stencils[i].weight, nullptr, stencils[i].first);
-    for (std::size_t i = 0; i < count; ++i) sum(stencils[i], grid, out[begin + i]);
+    locate_all<4>(axes, places + begin, count, stencils);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Stencil& s = stencils[i];
+      const std::array<int, 4> now{s.first[0], s.first[1], s.first[2], s.first[3]};
+      if (now != cell || !(places[begin + i].at[3] == t)) {
+        collapse_stencil(s, grid, points);
+        cell = now, t = places[begin + i].at[3];
+      }
+      sum(s.weight, points, 64, 16, out[begin + i]);
+    }
   }
 }
 
@@ -189,24 +200,15 @@ CLEFT_TARGET void collapse(const double* points, std::ptrdiff_t row, const doubl
 
 CLEFT_TARGET void values_in_space(const Axes& axes, const double* points, const std::ptrdiff_t (&stride)[2],
                                   const BasisPlace* places, std::size_t n, Vec3* out) {
-  for (std::size_t p = 0; p < n; ++p) {
-    alignas(32) double weight[4][4];
-    int first[4];
-    Spans spans;
-    find(axes, places[p], spans);
-    weigh<3, false>(spans, places[p], weight, nullptr, first);
-    const double* corner = points + first[0] * stride[0] + first[1] * stride[1] + 4 * first[2];
-    const auto& [u, v, w, unused] = weight;
-    Four even[4]{}, odd[4]{};
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const double* row = corner + i * stride[0] + j * stride[1];
-        const Four both = splat(u[i] * v[j]);
-        for (int k = 0; k < 4; ++k) (i % 2 ? odd : even)[k] += both * four(row + 4 * k);
-      }
-    store((w[0] * (even[0] + odd[0]) + w[1] * (even[1] + odd[1])) +
-              (w[2] * (even[2] + odd[2]) + w[3] * (even[3] + odd[3])),
-          out[p]);
+  Stencil stencils[places_at_once];
+  for (std::size_t begin = 0; begin < n; begin += places_at_once) {
+    const std::size_t count = std::min(places_at_once, n - begin);
+    locate_all<3>(axes, places + begin, count, stencils);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [first_u, first_v, first_w, unused] = stencils[i].first;
+      sum(stencils[i].weight, points + first_u * stride[0] + first_v * stride[1] + 4 * first_w, stride[0],
+          stride[1], out[begin + i]);
+    }
   }
 }
 

@@ -3,7 +3,6 @@
 
 #define CLEFT_TARGET
 #define CLEFT_WIDE false
-#define CLEFT_MANY_REGISTERS false
 #include "encoder/field/kernels/bodies.h"
 
 namespace cleft {

@@ -1,15 +1,17 @@
 #include "encoder/field/parametrization/tip.h"
 
+#include <limits>
+
 namespace cleft {
 
-Parametrization::Along TipParametrization::along(double u, double t) const {
+/// With the tip at `tip`, at which it moves by `speed` a unit of t.
+inline Parametrization::Along TipParametrization::along_at(double u, double tip, double speed) const {
   const auto [front, back] = domain()[0];
-  const double start = geometry().cut.start, tip = geometry().tip.at(t);
+  const double start = geometry().cut.start;
   if (u <= start) {
     const double length = start - front;
     return length > 0 ? Along{(u - front) / length, 1 / length, 0} : Along{1, 0, 0};
   }
-  const double speed = geometry().tip.speed(t);
   if (u < tip) {
     const double part = (u - start) / (tip - start);
     return {1 + part, 1 / (tip - start), -part * speed / (tip - start)};
@@ -18,6 +20,22 @@ Parametrization::Along TipParametrization::along(double u, double t) const {
   if (length <= 0) return {2, 0, 0};
   const double part = (u - tip) / length;
   return {2 + part, 1 / length, (part - 1) * speed / length};
+}
+
+Parametrization::Along TipParametrization::along(double u, double t) const {
+  return along_at(u, geometry().tip.at(t), geometry().tip.speed(t));
+}
+
+void TipParametrization::map(std::span<const Place> places, BasisPlace* out) const {
+  // Neighbours in a list are mostly of one time: the tip is looked up where t changes.
+  double t = std::numeric_limits<double>::quiet_NaN(), tip = t;
+  for (const Place& place : places) {
+    if (const double now = inside(place.t, 3); now != t) t = now, tip = geometry().tip.at(t);
+    const double v = inside(place.uvw.y, 1);
+    *out++ = {{along_at(inside(place.uvw.x, 0), tip, 0).value, across(v).value,
+               height(inside(place.uvw.z, 2)).value, time(t).value},
+              v == 0 ? place.side : side_of(v)};
+  }
 }
 
 Parametrization::Single TipParametrization::across(double v) const {

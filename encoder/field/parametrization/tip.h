@@ -21,7 +21,10 @@ class TipParametrization final : public Parametrization {
   double time_at(double parameter) const override;
   bool moves() const override { return true; }
   bool moves_at(double u) const override { return u > geometry().cut.start && u < domain()[0].back; }
-  void map(std::span<const Place> places, BasisPlace* out) const override { map_each(*this, places, out); }
+  void map(std::span<const Place> places, BasisPlace* out) const override;
+
+ private:
+  Along along_at(double u, double tip, double speed) const;
 };
 
 }  // namespace cleft
