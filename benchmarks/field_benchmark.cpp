@@ -7,6 +7,7 @@
 #include <string>
 
 #include "encoder/field/field.h"
+#include "explorer/scene/replay_pieces.h"
 
 using namespace cleft;
 
@@ -130,6 +131,57 @@ void contraction(const Field& field) {
   }
 }
 
+/// A plain sum of everything in memory.
+template <class T>
+double sum_of(const T* memory, std::size_t count) {
+  const auto* values = reinterpret_cast<const double*>(memory);
+  const std::size_t size = count * sizeof(T) / sizeof(double);
+  double sums[16]{};
+  for (std::size_t i = 0; i + 16 <= size; i += 16)
+    for (std::size_t k = 0; k < 16; ++k) sums[k] += values[i + k];
+  for (std::size_t k = 1; k < 16; ++k) sums[0] += sums[k];
+  return sums[0];
+}
+
+/// 10,000 vertices about the cut, frame after frame from one end of it to the other.
+void replay(const Field& field, double tolerance) {
+  const std::vector<Place> places = random_places();
+  const std::vector<double> times = replay_times(field, tolerance, places);
+  std::vector<int> vertices;
+  std::vector<Vec3> rest, out(places.size());
+  for (const Place& p : places) vertices.push_back(static_cast<int>(vertices.size())), rest.push_back(p.uvw);
+  const std::vector<double> offsets(places.size());
+  ReplayPieces pieces(times, offsets, vertices);
+  History history;
+  for (const Place& p : places) {
+    field.contract(p.uvw, p.side, tolerance, times, history);
+    pieces.append(history);
+  }
+  const std::size_t spans = times.size() - 1, blocks = pieces.blocks().size() / spans, frames = 200;
+  std::vector<double> frame_times, read_times;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const double s = 24. * static_cast<double>(frame) / frames;
+    const auto span =
+        static_cast<std::size_t>(std::upper_bound(times.begin(), times.end() - 1, s) - times.begin() - 1);
+    // Of another span: not what has just been read.
+    const std::size_t other = (span + spans / 2) % spans;
+    frame_times.push_back(nanoseconds(1, 1, [&] { pieces.positions(s, rest.data(), out.data()); }));
+    read_times.push_back(nanoseconds(1, 1, [&] {
+      kept += sum_of(&pieces.blocks()[other * blocks], blocks) + sum_of(rest.data(), rest.size()) +
+              sum_of(offsets.data(), offsets.size()) + sum_of(vertices.data(), vertices.size());
+    }));
+    kept += out[5].x;
+  }
+  const double frame = median(frame_times), read = median(read_times);
+  const double bytes = static_cast<double>(blocks * sizeof(PieceBlock) +
+                                           places.size() * (sizeof(Vec3) + sizeof(double) + sizeof(int)));
+  std::printf(
+      "  replay to %.0e: %.1f us a frame of 10,000 vertices, %.2f times reading its %.2f MB; %zu spans of "
+      "time, %.1f %% of the pieces divided\n",
+      tolerance, 1e-3 * frame, frame / read, 1e-6 * bytes, spans,
+      100. * static_cast<double>(pieces.exceptions()) / static_cast<double>(spans * places.size()));
+}
+
 }  // namespace
 
 int main() {
@@ -137,6 +189,7 @@ int main() {
     Field field = make_field(name);
     evaluation(field);
     contraction(field);
+    replay(field, 1e-2);
   }
   return kept == 12345.678;
 }

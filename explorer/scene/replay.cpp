@@ -22,42 +22,6 @@ struct Contractor {
   }
 };
 
-std::vector<double> subdivided(const std::vector<double>& times, int parts) {
-  std::vector<double> result{times.front()};
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    for (int k = 1; k < parts; ++k) result.push_back(times[i - 1] + (times[i] - times[i - 1]) * k / parts);
-    result.push_back(times[i]);
-  }
-  return result;
-}
-
-/// The field's knots in time, as far as the blade goes.
-std::vector<double> knot_times(const Field& field) {
-  std::vector<double> times = field.knot_times();
-  const double last = std::min(times.back(), field.cut().length);
-  while (times.size() > 1 && times.back() >= last) times.pop_back();
-  times.push_back(last);
-  return times;
-}
-
-/// The coarsest grid of times on which one cubic a span does for nearly all of a sample of the vertices.
-std::vector<double> choose_times(const Field& field, const std::vector<ActiveVertex>& active) {
-  const std::vector<double> knots = knot_times(field);
-  if (!field.parametrization().moves()) return knots;
-  History history;
-  const std::size_t step = std::max<std::size_t>(1, active.size() / 100);
-  for (int parts = 1;; parts *= 2) {
-    const std::vector<double> times = subdivided(knots, parts);
-    std::size_t spans = 0, further = 0;
-    for (std::size_t i = 0; i < active.size(); i += step) {
-      field.contract(active[i].uvw, active[i].side, field.contraction_tolerance(), times, history);
-      spans += times.size() - 1;
-      further += history.controls.size() - std::min(history.controls.size(), times.size() - 1);
-    }
-    if (further <= spans / 10 || parts == 8) return times;
-  }
-}
-
 std::vector<double> offsets_of(const std::vector<ActiveVertex>& active) {
   std::vector<double> offsets;
   for (const ActiveVertex& a : active) offsets.push_back(a.time_offset);
@@ -68,6 +32,12 @@ std::vector<int> vertices_of(const std::vector<ActiveVertex>& active) {
   std::vector<int> vertices;
   for (const ActiveVertex& a : active) vertices.push_back(a.vertex);
   return vertices;
+}
+
+std::vector<Place> places_of(const std::vector<ActiveVertex>& active) {
+  std::vector<Place> places;
+  for (const ActiveVertex& a : active) places.push_back({a.uvw, a.side, 0});
+  return places;
 }
 
 /// In order of time offset (few different ones, outside the steady state) and of memory.
@@ -83,7 +53,7 @@ std::vector<ActiveVertex> sorted(std::vector<ActiveVertex> active) {
 Replay::Replay(const Field& field, const Incision& incision, double scale)
     : path_length_(incision.path().length() * scale),
       active_(sorted(active_vertices(incision, field, scale))),
-      times_(choose_times(field, active_)),
+      times_(replay_times(field, field.contraction_tolerance(), places_of(active_))),
       pieces_(times_, offsets_of(active_), vertices_of(active_)) {
   rest_.reserve(incision.mesh().vertices().size());
   for (const CutMesh::Vertex& v : incision.mesh().vertices()) rest_.push_back(v.position);

@@ -7,6 +7,49 @@
 
 namespace cleft {
 
+namespace {
+
+std::vector<double> subdivided(const std::vector<double>& times, int parts) {
+  std::vector<double> result{times.front()};
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    for (int k = 1; k < parts; ++k) result.push_back(times[i - 1] + (times[i] - times[i - 1]) * k / parts);
+    result.push_back(times[i]);
+  }
+  return result;
+}
+
+/// The field's knots in time, as far as the blade goes.
+std::vector<double> knot_times(const Field& field) {
+  std::vector<double> times = field.knot_times();
+  const double last = std::min(times.back(), field.cut().length);
+  while (times.size() > 1 && times.back() >= last) times.pop_back();
+  times.push_back(last);
+  return times;
+}
+
+}  // namespace
+
+std::vector<double> replay_times(const Field& field, double tolerance, std::span<const Place> places) {
+  const std::vector<double> knots = knot_times(field);
+  if (!field.parametrization().moves()) return knots;
+  History history;
+  const std::size_t step = std::max<std::size_t>(1, places.size() / 100);
+  for (int parts = 1;; parts *= 2) {
+    std::vector<double> times = subdivided(knots, parts);
+    std::size_t spans = 0, divided = 0;
+    for (std::size_t i = 0; i < places.size(); i += step) {
+      field.contract(places[i].uvw, places[i].side, tolerance, times, history);
+      spans += times.size() - 1;
+      auto next = history.breaks.begin();
+      for (std::size_t span = 0; span + 1 < times.size(); ++span) {
+        next = std::upper_bound(next, history.breaks.end(), times[span]);
+        divided += next != history.breaks.end() && *next < times[span + 1];
+      }
+    }
+    if (divided <= spans / 10 || parts == 8) return times;
+  }
+}
+
 ReplayPieces::ReplayPieces(std::vector<double> times, std::vector<double> offsets, std::vector<int> vertices)
     : times_(std::move(times)),
       offsets_(std::move(offsets)),
@@ -15,7 +58,7 @@ ReplayPieces::ReplayPieces(std::vector<double> times, std::vector<double> offset
       blocks_(spans() * blocks_a_span_),
       of_span_(spans()) {
   CLEFT_CHECK(offsets_.size(), ==, vertices_.size());
-  offsets_.resize(4 * blocks_a_span_);  // blocks are read whole
+  offsets_.resize(4 * blocks_a_span_, offsets_.empty() ? 0 : offsets_.back());  // blocks are read whole
 }
 
 void ReplayPieces::append(const History& history) {

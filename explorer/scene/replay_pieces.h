@@ -5,12 +5,16 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include "encoder/field/history.h"
-#include "encoder/field/kernels.h"
+#include "encoder/field/field.h"
 
 namespace cleft {
+
+/// A grid of times for the histories of the given places: the coarsest that divides the field's knots evenly,
+/// up to eight parts each, on which one cubic a span keeps nearly all of a sample of them to `tolerance` mm.
+std::vector<double> replay_times(const Field& field, double tolerance, std::span<const Place> places);
 
 class ReplayPieces {
  public:
@@ -27,9 +31,6 @@ class ReplayPieces {
   void positions(double s, const Vec3* rest, Vec3* out) const;
 
   std::size_t exceptions() const { return exceptions_; }  ///< pairs of a vertex and a span of time
-  std::size_t frame_bytes() const {
-    return blocks_a_span_ * sizeof(PieceBlock);
-  }  ///< what a frame reads at most
   const std::vector<PieceBlock>& blocks() const { return blocks_; }
 
  private:

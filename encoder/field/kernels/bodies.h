@@ -4,6 +4,7 @@
 // and gets KERNELS, the table's initialiser. Wide types are handed on by reference: machines of different
 // widths pass them differently.
 #include <algorithm>
+#include <limits>
 
 namespace cleft {
 
@@ -217,14 +218,20 @@ CLEFT_TARGET void replay(const PieceBlock* blocks, const double* offsets, const 
                          const Vec3* rest, Vec3* out) {
   const Four zero = splat(0), one = splat(1);
   const double inverse = 1 / length;
+  Four b0 = zero, b1 = zero, b2 = zero, b3 = zero;
+  double same = std::numeric_limits<double>::quiet_NaN();  // the offset of four vertices with these weights
   for (std::size_t at = front; at < back;) {
     const std::size_t block = at / 4, end = std::min(back, 4 * block + 4);
+    const double* offset = offsets + 4 * block;
+    if (offset[0] != same || offset[3] != same) {
+      const Four s = clamped((splat(time - begin) + loose(offset)) * splat(inverse), zero, one), r = 1. - s;
+      b0 = r * r * r, b1 = 3. * r * r * s, b2 = 3. * r * s * s, b3 = s * s * s;
+      same = offset[0] == offset[3] ? offset[0] : std::numeric_limits<double>::quiet_NaN();
+    }
     const auto& c = blocks[block].control;
-    const Four s = clamped((splat(time - begin) + loose(offsets + 4 * block)) * splat(inverse), zero, one),
-               r = 1. - s, b0 = r * r * r, b1 = 3. * r * r * s, b2 = 3. * r * s * s, b3 = s * s * s;
     alignas(32) double d[3][4];
     for (int i = 0; i < 3; ++i)
-      four(d[i]) = b0 * loose(c[0][i]) + b1 * loose(c[1][i]) + b2 * loose(c[2][i]) + b3 * loose(c[3][i]);
+      four(d[i]) = (b0 * loose(c[0][i]) + b1 * loose(c[1][i])) + (b2 * loose(c[2][i]) + b3 * loose(c[3][i]));
     for (; at < end; ++at) {
       const Vec3& from = rest[vertices[at]];
       const std::size_t lane = at % 4;
