@@ -1,7 +1,6 @@
 #include "encoder/field/parametrization/tip.h"
 
-#include <cmath>
-#include <cstdlib>
+#include <limits>
 
 namespace cleft {
 
@@ -16,20 +15,21 @@ double from_end(double r, double l, double a) { return r * (l + a) / (l * (r + a
 
 }  // namespace
 
+/// Over what distance from the start and the tip knots lie as close as they are there.
 double TipParametrization::scale() const {
-  static const double factor = std::getenv("SCALE") ? std::atof(std::getenv("SCALE")) : 1;
-  return factor * geometry().cut.depth;
+  const CanonicalCut& cut = geometry().cut;
+  return cut.depth > 0 ? 3 * cut.depth : cut.length;
 }
 
-Parametrization::Along TipParametrization::along(double u, double t) const {
+/// With the tip at `tip`, at which it moves by `speed` a unit of t.
+inline Parametrization::Along TipParametrization::along_at(double u, double tip, double speed) const {
   const auto [front, back] = domain()[0];
-  const double start = geometry().cut.start, tip = geometry().tip.at(t), a = scale();
+  const double start = geometry().cut.start, a = scale();
   if (u <= start) {
     const double l = start - front, r = start - u;
     if (l <= 0) return {1, 0, 0};
     return {1 - from_end(r, l, a), (l + a) / l * a / ((r + a) * (r + a)), 0};
   }
-  const double speed = geometry().tip.speed(t);
   if (u < tip) {
     // Both ends count: (G(r) - G(l - r) + G(l)) / (2 G(l)), r from the start.
     const double l = tip - start, r = u - start, rest = l - r;
@@ -52,6 +52,22 @@ double TipParametrization::u_at(double along, double t) const {
     (this->along(middle, t).value < along ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+Parametrization::Along TipParametrization::along(double u, double t) const {
+  return along_at(u, geometry().tip.at(t), geometry().tip.speed(t));
+}
+
+void TipParametrization::map(std::span<const Place> places, BasisPlace* out) const {
+  // Neighbours in a list are mostly of one time: the tip is looked up where t changes.
+  double t = std::numeric_limits<double>::quiet_NaN(), tip = t;
+  for (const Place& place : places) {
+    if (const double now = inside(place.t, 3); now != t) t = now, tip = geometry().tip.at(t);
+    const double v = inside(place.uvw.y, 1);
+    *out++ = {{along_at(inside(place.uvw.x, 0), tip, 0).value, across(v).value,
+               height(inside(place.uvw.z, 2)).value, time(t).value},
+              v == 0 ? place.side : side_of(v)};
+  }
 }
 
 Parametrization::Single TipParametrization::across(double v) const {
