@@ -32,7 +32,8 @@ History contracted(const Field& field, const Vec3& p) {
   return history;
 }
 
-constexpr double rounding = 1e-13;  // a few hundred operations on numbers of size 1, a cubic through four points
+constexpr double rounding =
+    1e-13;  // a few hundred operations on numbers of size 1, a cubic through four points
 
 }  // namespace
 
