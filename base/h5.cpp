@@ -80,9 +80,15 @@ bool Handle::close() {
   return good;
 }
 
-File File::create(const std::string& path) {
+File File::create(const std::string& path, Growth growth) {
   begin_hdf5();
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()), H5Fclose);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access = file_access();
+  H5Pset_obj_track_times(creation, false);  // of the root: the same content gives the same bytes
+  if (growth == Growth::none) {
+    H5Pset_meta_block_size(access, 0);
+    H5Pset_small_data_block_size(access, 0);
+  }
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   if (file < 0) throw std::runtime_error(path + ": could not be created");
   return {path, std::move(file)};
 }
@@ -330,6 +336,7 @@ template <class T>
 void File::create_dataset(const std::string& name, const Shape& shape, hsize_t chunk_rows, Packing packing) {
   const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);  // the same content gives the same bytes
   if (product(shape) > 0) {
     Shape chunk = shape;
     chunk[0] = std::clamp<hsize_t>(chunk_rows, 1, shape[0]);

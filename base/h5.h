@@ -34,11 +34,15 @@ using Shape = std::vector<hsize_t>;
 /// How a dataset is stored beside its checksums.
 enum class Packing { plain, deflate };
 
+/// Whether a new file keeps room between its parts for more of them: what is written once, and small, need
+/// not.
+enum class Growth { usual, none };
+
 /// Supported element types: double, float, std::int32_t, std::int64_t, std::uint8_t.
 /// Reading throws FileError (what is missing or damaged); writing throws std::runtime_error (disk full, ...).
 class File {
  public:
-  static File create(const std::string& path);
+  static File create(const std::string& path, Growth growth = Growth::usual);
   static File open(const std::string& path);
   static File open_to_write(const std::string& path);
 #ifdef H5_HAVE_PARALLEL

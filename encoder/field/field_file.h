@@ -2,21 +2,31 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "encoder/field/field.h"
+#include "encoder/field/node_residual.h"
 
 namespace cleft {
 
-inline constexpr int field_format_version = 1;
+inline constexpr int field_format_version = 2;
 
-/// Writes the field whole or not at all. Coefficients are stored as 32-bit floats.
-void write_field(const std::string& path, const Field& field);
+/// Writes the field whole or not at all: coefficients as multiples of its quantum, or as 32-bit floats where
+/// it has none; and the residual where there is one.
+void write_field(const std::string& path, const Field& field, const NodeResidual* residual = nullptr,
+                 std::span<const std::int32_t> residual_order = {});
 
 /// Reads and checks a field file; throws FileError naming what is missing, damaged or out of range.
 Field read_field(const std::string& path);
 
 /// The case's parameters alone, by dotted name: coefficients stay on disk.
 std::map<std::string, double> read_field_parameters(const std::string& path);
+
+/// What the field leaves at the nodes of its snapshot; none where the file holds none. The order is the one
+/// it was written with.
+std::optional<NodeResidual> read_residual(const std::string& path,
+                                          std::span<const std::int32_t> residual_order = {});
 
 }  // namespace cleft

@@ -2,11 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numeric>
 #include <optional>
+#include <thread>
 
 #include "base/error.h"
 #include "base/h5.h"
+#include "base/text.h"
+#include "encoder/field/field_record.h"
 #include "tests/field/random_field.h"
 #include "tests/support/damage.h"
 #include "tests/support/temporary_folder.h"
@@ -21,67 +28,161 @@ bool same(const Field& a, const Field& b) {
       return false;
   return a.coefficients() == b.coefficients() && a.parameters == b.parameters && a.case_hash == b.case_hash &&
          a.cut().start == b.cut().start && a.cut().length == b.cut().length &&
-         a.cut().depth == b.cut().depth && a.report.node_error == b.report.node_error;
+         a.cut().depth == b.cut().depth && a.report.node_error == b.report.node_error &&
+         a.quantum == b.quantum && a.parametrization().name() == b.parametrization().name() &&
+         a.parametrization().geometry().tip.positions == b.parametrization().geometry().tip.positions;
+}
+
+NodeResidual random_residual() {
+  NodeResidual residual{0.003, 50, 7, std::vector<std::int32_t>(50 * 3 * 7)};
+  std::mt19937 random(4);
+  for (auto& value : residual.values) value = random() % 4 ? 0 : static_cast<int>(random() % 5) - 2;
+  return residual;
 }
 
 }  // namespace
 
 TEST(FieldFile, ReadsBackWhatWasWritten) {
+  for (const Field& field : {random_field(), following_field()}) {
+    const TemporaryFolder folder;
+    write_field(folder / "a.dffd", field);
+    EXPECT_TRUE(same(read_field(folder / "a.dffd"), field));
+    EXPECT_EQ(read_field_parameters(folder / "a.dffd"), field.parameters);
+    EXPECT_FALSE(read_residual(folder / "a.dffd"));
+    EXPECT_EQ(folder.entries(), 1);
+  }
+}
+
+TEST(FieldFile, WhatIsNotCoefficientsTakesFewBytes) {
   const TemporaryFolder folder;
-  write_field(folder / "a.dffd", random_field());
-  EXPECT_TRUE(same(read_field(folder / "a.dffd"), random_field()));
-  EXPECT_EQ(folder.entries(), 1);
+  const Field field = following_field();
+  write_field(folder / "a.dffd", field);
+  EXPECT_LE(std::filesystem::file_size(folder / "a.dffd"), record_of(field).coefficients.size() + 3000);
+}
+
+TEST(FieldFile, TheSameFieldGivesTheSameBytes) {
+  const TemporaryFolder folder;
+  write_field(folder / "a.dffd", following_field());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // times are stored in seconds, if at all
+  write_field(folder / "b.dffd", following_field());
+  EXPECT_TRUE(read_text_file(folder / "a.dffd") == read_text_file(folder / "b.dffd"));
 }
 
 TEST(FieldFile, DamageIsNoticed) {
-  const TemporaryFolder folder;
-  write_field(folder / "a.dffd", random_field());
-  const Field sound = random_field();
-  std::optional<Field> found;
-  EXPECT_EQ(unnoticed_damages(
-                folder / "a.dffd", 700, [&](const std::string& file) { found = read_field(file); },
-                [&] { return same(*found, sound); }),
-            0);
+  for (const Field& sound : {random_field(), following_field()}) {
+    const TemporaryFolder folder;
+    const NodeResidual residual = random_residual();
+    write_field(folder / "a.dffd", sound, &residual);
+    std::optional<Field> found;
+    std::optional<NodeResidual> left;
+    EXPECT_EQ(unnoticed_damages(
+                  folder / "a.dffd", 300,
+                  [&](const std::string& file) { found = read_field(file), left = read_residual(file); },
+                  [&] { return same(*found, sound) && left && left->values == residual.values; }),
+              0);
+  }
 }
 
 TEST(FieldFile, WhatTheFormatDoesNotAllowIsNamed) {
-  const auto refuse = [](const Field& field, const std::string& attribute, const std::string& part) {
-    const TemporaryFolder folder;
-    write_field(folder / "a.dffd", field);
-    // Another value of one root attribute, or of none: written again under the same name in a copy.
-    h5::File copy = h5::File::create(folder / "b.dffd");
-    const h5::File source = h5::File::open(folder / "a.dffd");
-    for (const std::string name : {"format", "units", "case", "parametrization"})
-      copy.write_text("/", name, name == attribute ? "other" : source.read_text("/", name));
-    copy.write_number("/", "version", attribute == "version" ? 2 : 1);
-    copy.create_group("/basis");
-    h5::Shape shape;
-    for (const std::string name : {"/basis/u", "/basis/v", "/basis/w", "/basis/t"}) {
-      const auto knots = source.read<double>(name);
-      copy.write<double>(name, knots, {knots.size()});
-      copy.write_number(name, "degree", 3);
-    }
-    const auto points = source.read<float>("/control_points");
-    copy.write<float>("/control_points", points, source.shape("/control_points"));
-    copy.close();
+  // The file of a field, its header changed, written again.
+  const auto refuse = [](const Field& field, const std::function<void(Json&)>& change,
+                         const std::string& part) {
+    FieldRecord record = record_of(field);
+    change(record.header);
     try {
-      read_field(folder / "b.dffd");
+      field_of({header_from(header_bytes(record.header)), record.coefficients});
       ADD_FAILURE() << "accepted: " << part;
-    } catch (const FileError& e) {
+    } catch (const InputError& e) {
       EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
     }
   };
+  const auto nothing = [](Json&) {};
+  for (const Field& field : {random_field(), following_field()}) {
+    for (const char* name :
+         {"case", "parametrization", "quantum", "bases", "domain", "cut", "tip", "parameters", "report"})
+      refuse(
+          field, [&](Json& h) { h.erase(name); }, name);
+    for (const char* name : {"parametrization", "quantum", "bases", "domain", "cut", "tip", "report"})
+      refuse(
+          field, [&](Json& h) { h[name] = "other"; }, "");
+    refuse(
+        field, [](Json& h) { h["quantum"] = -1; }, "quantum");
+    refuse(
+        field, [](Json& h) { h["quantum"] = nullptr; }, "quantum");
+    refuse(
+        field, [](Json& h) { h["bases"]["along"]["knots"][0] = 1e9; }, "along");
+    refuse(
+        field, [](Json& h) { h["bases"]["time"]["degree"] = 99; }, "time");
+    refuse(
+        field,
+        [](Json& h) {
+          h["domain"]["w"] = {0, 0};
+        },
+        "domain in w");
+    refuse(
+        field, [](Json& h) { h["tip"]["positions"].push_back(-1000); }, "tip");
+    refuse(
+        field,
+        [](Json& h) {
+          h["tip"]["times"] = {0, 0}, h["tip"]["positions"] = {0, 1};
+        },
+        "tip");
+    refuse(
+        field, [](Json& h) { h["cut"]["depth"] = nullptr; }, "depth");
+  }
   const Field field = random_field();
-  refuse(field, "format", "is not a field file");
-  refuse(field, "version", "version 2");
-  refuse(field, "parametrization", "parametrization 'other'");
   std::vector<Vec3> coefficients = field.coefficients();
   coefficients[5].y = std::nan("");
-  refuse(Field(field.basis(0), field.basis(1), field.basis(2), field.basis(3), coefficients, field.cut()), "",
-         "not a finite number");
+  refuse(Field(field.basis(0), field.basis(1), field.basis(2), field.basis(3), coefficients, field.cut()),
+         nothing, "not a finite number");
   const BSplineBasis unbroken = BSplineBasis::uniform(3, field.basis(1).size(), -20, 20);
   refuse(Field(field.basis(0), unbroken, field.basis(2), field.basis(3), field.coefficients(), field.cut()),
-         "", "full multiplicity");
+         nothing, "full multiplicity");
+  refuse(
+      following_field(), [](Json& h) { h["slices"] = 5; }, "slices");
+}
+
+TEST(FieldFile, OtherVersionsAreNamed) {
+  const TemporaryFolder folder;
+  for (const int version : {1, 3}) {
+    h5::File file = h5::File::create(folder / "a.dffd");
+    file.write_text("/", "format", "cleft-field");
+    file.write_number("/", "version", version);
+    file.close();
+    try {
+      read_field(folder / "a.dffd");
+      ADD_FAILURE() << "accepted";
+    } catch (const FileError& e) {
+      EXPECT_NE(std::string(e.what()).find("version " + std::to_string(version)), std::string::npos)
+          << e.what();
+    }
+  }
+}
+
+TEST(FieldFile, AFieldThatIsNotWhatItsUnknownsGiveIsABug) {
+  const Field field = following_field();
+  std::vector<Vec3> points = field.coefficients();
+  points[points.size() / 2].x += 0.3 * field.quantum;
+  Field other(field.shared_parametrization(),
+              {field.basis(0), field.basis(1), field.basis(2), field.basis(3)}, points);
+  other.quantum = field.quantum;
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_field(folder / "a.dffd", other), std::logic_error);
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(FieldFile, TheResidualComesBack) {
+  const TemporaryFolder folder;
+  const NodeResidual residual = random_residual();
+  std::vector<std::int32_t> order(static_cast<std::size_t>(residual.nodes));
+  std::iota(order.rbegin(), order.rend(), 0);
+  write_field(folder / "a.dffd", following_field(), &residual, order);
+  const auto found = read_residual(folder / "a.dffd", order);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->values, residual.values);
+  EXPECT_EQ(found->quantum, residual.quantum);
+  EXPECT_TRUE(same(read_field(folder / "a.dffd"), following_field()));
+  EXPECT_THROW(read_residual(folder / "a.dffd", std::vector<std::int32_t>(3)), FileError);
 }
 
 TEST(FieldFile, OtherFilesAreRefused) {

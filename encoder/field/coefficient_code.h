@@ -1,0 +1,35 @@
+// Lossless coding of a field's quantised coefficients in few bytes, and the choice of integers that cost few.
+// The bytes are stated in docs/formats.md.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cleft {
+
+/// Which unknowns stand where on the grid of control points along, across and in height.
+struct CoefficientGrid {
+  int along = 0, across = 0, height = 0;
+  std::vector<std::int32_t> unknown;  ///< of place (i across + j) height + k; -1: a place without one
+  int unknowns = 0;                   ///< each stands at one place
+};
+
+/// Values are numbered (component * slices + slice) * unknowns + unknown: three components, and slices of
+/// control points in t.
+/// The values may be anything from -2^40 to 2^40; smooth ones, and ones that mirror each other across the
+/// middle (even or odd, each component by itself), cost few bytes.
+std::vector<std::uint8_t> encode_coefficients(const CoefficientGrid& grid, int slices,
+                                              std::span<const std::int64_t> values);
+
+/// Throws InputError where the bytes are none that encode_coefficients() wrote for this grid, and can be told
+/// so.
+std::vector<std::int64_t> decode_coefficients(const CoefficientGrid& grid, int slices,
+                                              std::span<const std::uint8_t> bytes);
+
+/// Rounds values to integers that cost fewer bytes than the nearest: about a tenth at the same error. None is
+/// further away than `farthest`, 0.5 (the nearest) to 1.
+std::vector<std::int64_t> round_coefficients(const CoefficientGrid& grid, int slices,
+                                             std::span<const double> values, double farthest);
+
+}  // namespace cleft

@@ -1,0 +1,142 @@
+#include "encoder/field/node_residual.h"
+
+#include <cstdlib>
+#include <limits>
+
+#include "base/error.h"
+#include "encoder/field/range_coder.h"
+
+namespace cleft {
+
+namespace {
+
+using code::Chance;
+using code::Mixer;
+
+constexpr int components = 3, earlier_nodes = 3;
+
+/// One component of a node over the frames, with a margin of zeros before and after.
+class History {
+ public:
+  explicit History(int frames) : data_(static_cast<std::size_t>(frames) + 4, 0) {}
+  std::int32_t& operator[](int frame) { return data_[static_cast<std::size_t>(frame + 2)]; }
+  std::int32_t operator[](int frame) const { return data_[static_cast<std::size_t>(frame + 2)]; }
+
+ private:
+  std::vector<std::int32_t> data_;
+};
+
+int size_of(std::int32_t value) {
+  return static_cast<int>(std::min<std::int64_t>(std::abs(std::int64_t{value}), 40));
+}
+
+int level_of(int sum) {
+  constexpr std::array<std::uint8_t, 40> levels = {0, 1, 2,  3,  4,  4,  5,  5,  6,  6,  6,  7, 7, 7,
+                                                   7, 8, 8,  8,  8,  8,  9,  9,  9,  9,  9,  9, 9, 9,
+                                                   9, 9, 10, 10, 10, 10, 10, 10, 10, 10, 10, 10};
+  return sum < 40 ? levels[static_cast<std::size_t>(sum)] : sum < 80 ? 11 : sum < 160 ? 12 : 13;
+}
+
+int sign_of(std::int32_t value) { return value < 0 ? 0 : value > 0 ? 2 : 1; }
+
+template <class Coder>
+class Model {
+ public:
+  Model(Coder& coder, int frames) : coder_(coder) {
+    for (int n = 0; n <= earlier_nodes; ++n)
+      nodes_.push_back({History(frames), History(frames), History(frames)});
+    for (auto& mixer : mixers_) mixer.weight = {26214, 26214, 26214};
+  }
+
+  /// One node: 3 x frames values, read where the coder decodes.
+  void code_node(std::int32_t* values, int frames) {
+    std::rotate(nodes_.begin(), nodes_.end() - 1, nodes_.end());
+    for (int c = 0; c < components; ++c) {
+      History& own = nodes_[0][c];
+      const History &last = nodes_[1][c], &second = nodes_[2][c], &third = nodes_[3][c];
+      const History *other = c > 0 ? &nodes_[0][c - 1] : nullptr, *another = c > 1 ? &nodes_[0][0] : nullptr;
+      for (int f = 0; f < frames; ++f) {
+        const int in_time = 2 * size_of(own[f - 1]) + size_of(own[f - 2]);
+        const int beside =
+            2 * size_of(last[f]) + size_of(last[f + 1]) + size_of(second[f]) + size_of(third[f]);
+        const int across = (other ? size_of((*other)[f]) : 0) + (another ? size_of((*another)[f]) : 0);
+        const int all = level_of(in_time + beside + across);
+        const int signs =
+            sign_of(own[f - 1]) * 27 + sign_of(last[f]) * 9 + sign_of(second[f]) * 3 + sign_of(own[f - 2]);
+        const Contexts contexts{(level_of(in_time) * 14 + level_of(beside)) * 16,
+                                (signs * 6 + std::min(all, 5)) * 16,
+                                ((c * 14 + all) * 6 + std::min(level_of(across), 5)) * 16, all};
+        std::int32_t& value = values[static_cast<std::size_t>(c) * frames + f];
+        own[f] = value = code_value(contexts, value);
+      }
+    }
+  }
+
+ private:
+  struct Contexts {
+    int first, second, third, selected;
+  };
+
+  int decide(const Contexts& at, int decision, int wanted) {
+    Chance &a = first_[at.first + decision], &b = second_[at.second + decision],
+           &c = third_[at.third + decision];
+    const int bit = mixers_[decision * 14 + at.selected].code(
+        coder_, std::array<int, 3>{code::stretch(a.p), code::stretch(b.p), code::stretch(c.p)}, wanted);
+    a.learn(bit, 1023), b.learn(bit, 1023), c.learn(bit, 1023);
+    return bit;
+  }
+
+  std::int32_t code_value(const Contexts& at, std::int32_t value) {
+    if (!decide(at, 0, value != 0)) return 0;
+    const int negative = decide(at, 1, value < 0);
+    const std::int64_t beyond = std::abs(std::int64_t{value}) - 1;
+    std::int64_t more = 0;
+    while (more < 14 && decide(at, 2 + static_cast<int>(more), beyond > more)) ++more;
+    if (more == 14)
+      more += static_cast<std::int64_t>(code::code_plain(coder_, static_cast<std::uint64_t>(beyond - 14)));
+    if (more > std::numeric_limits<std::int32_t>::max() - 1) throw InputError("a coded number is too large");
+    return static_cast<std::int32_t>(negative ? -more - 1 : more + 1);
+  }
+
+  Coder& coder_;
+  std::vector<std::array<History, components>> nodes_;  // this one, and those before it
+  std::vector<Chance> first_ = std::vector<Chance>(14 * 14 * 16);
+  std::vector<Chance> second_ = std::vector<Chance>(81 * 6 * 16);
+  std::vector<Chance> third_ = std::vector<Chance>(components * 14 * 6 * 16);
+  std::array<Mixer<3>, 16 * 14> mixers_;
+};
+
+template <class Coder>
+void code_nodes(Coder& coder, int nodes, int frames, std::int32_t* values,
+                std::span<const std::int32_t> order) {
+  Model<Coder> model(coder, frames);
+  for (int n = 0; n < nodes; ++n) {
+    const std::size_t node = static_cast<std::size_t>(order.empty() ? n : order[static_cast<std::size_t>(n)]);
+    model.code_node(values + node * components * static_cast<std::size_t>(frames), frames);
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_residual(const NodeResidual& residual, std::span<const std::int32_t> order) {
+  CLEFT_CHECK(
+      residual.values.size(), ==,
+      static_cast<std::size_t>(components) * residual.nodes * static_cast<std::size_t>(residual.frames));
+  code::Encoder coder;
+  // The model gives back what it was given.
+  std::vector<std::int32_t> values = residual.values;
+  code_nodes(coder, residual.nodes, residual.frames, values.data(), order);
+  return coder.finish();
+}
+
+std::vector<std::int32_t> decode_residual(int nodes, int frames, std::span<const std::uint8_t> bytes,
+                                          std::span<const std::int32_t> order) {
+  std::vector<std::int32_t> values(static_cast<std::size_t>(components) * nodes *
+                                   static_cast<std::size_t>(frames));
+  code::Decoder coder(bytes);
+  code_nodes(coder, nodes, frames, values.data(), order);
+  coder.finish();
+  return values;
+}
+
+}  // namespace cleft

@@ -1,0 +1,77 @@
+#include "encoder/field/unknowns.h"
+
+#include <algorithm>
+
+#include "encoder/field/parametrization/tip.h"
+
+namespace cleft {
+
+ControlTies ties_of(const std::string& parametrization, const std::array<BSplineBasis, 4>& bases) {
+  const std::array<BSplineBasis, 3> space{bases[0], bases[1], bases[2]};
+  return parametrization == TipParametrization::id ? ControlTies::following_tip(space)
+                                                   : ControlTies::none(space);
+}
+
+CoefficientGrid places_of(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases) {
+  CoefficientGrid places{bases[0].size(), bases[1].size(), bases[2].size(), {}, ties.size()};
+  std::vector<bool> placed(static_cast<std::size_t>(ties.size()), false);
+  for (int i = 0; i < places.along; ++i)
+    for (const ControlTies::Control& control : ties.row(i)) {
+      const int unknown = ties.first(i) + control.term[0].unknown;
+      const bool own = control.terms == 1 && !placed[unknown];
+      places.unknown.push_back(own ? unknown : -1);
+      if (own) placed[unknown] = true;
+    }
+  return places;
+}
+
+std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
+                                 std::span<const std::int64_t> values, double quantum) {
+  const std::size_t n = static_cast<std::size_t>(ties.size()), T = bases[3].size();
+  const std::size_t slices = n == 0 ? T : values.size() / (3 * n), skipped = T - slices;
+  std::vector<Vec3> points;
+  points.reserve(static_cast<std::size_t>(bases[1].size()) * bases[2].size() * bases[0].size() * T);
+  for (int i = 0; i < ties.rows(); ++i)
+    for (const ControlTies::Control& control : ties.row(i))
+      for (std::size_t l = 0; l < T; ++l) {
+        Vec3 point;
+        for (int c = 0; c < 3 && l >= skipped; ++c)
+          for (int term = 0; term < control.terms; ++term) {
+            const std::size_t unknown = static_cast<std::size_t>(ties.first(i) + control.term[term].unknown);
+            point[c] += control.term[term].weight *
+                        (static_cast<double>(values[(c * slices + l - skipped) * n + unknown]) * quantum);
+          }
+        points.push_back(point);
+      }
+  return points;
+}
+
+Unknowns unknowns_of(const Field& field, const CoefficientGrid& places, double unit) {
+  const std::size_t T = field.basis(3).size(), n = static_cast<std::size_t>(places.unknowns);
+  const auto& points = field.coefficients();
+  bool zero = T > 1;
+  for (std::size_t at = 0; at < points.size() && zero; at += T) zero = points[at] == Vec3{};
+  const std::size_t skipped = zero ? 1 : 0, slices = T - skipped;
+  Unknowns result{static_cast<int>(slices), std::vector<double>(3 * slices * n)};
+  for (std::size_t place = 0; place < places.unknown.size(); ++place)
+    if (const int unknown = places.unknown[place]; unknown >= 0)
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t l = 0; l < slices; ++l)
+          result.values[(c * slices + l) * n + static_cast<std::size_t>(unknown)] =
+              points[place * T + l + skipped][c] / unit;
+  return result;
+}
+
+Field quantised(const Field& field, double quantum, double farthest) {
+  const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+  const ControlTies ties = ties_of(field.parametrization().name(), bases);
+  const CoefficientGrid places = places_of(ties, bases);
+  const Unknowns unknowns = unknowns_of(field, places, quantum);
+  const auto values = round_coefficients(places, unknowns.slices, unknowns.values, farthest);
+  Field result(field.shared_parametrization(), bases, control_points(ties, bases, values, quantum));
+  result.parameters = field.parameters, result.case_hash = field.case_hash, result.report = field.report;
+  result.quantum = quantum;
+  return result;
+}
+
+}  // namespace cleft

@@ -1,0 +1,38 @@
+// The unknowns among a field's control points: what its file stores, as integers, and what the others follow
+// from.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "encoder/field/coefficient_code.h"
+#include "encoder/field/control_ties.h"
+#include "encoder/field/field.h"
+
+namespace cleft {
+
+/// The ties of a field's control points: those of its parametrisation.
+ControlTies ties_of(const std::string& parametrization, const std::array<BSplineBasis, 4>& bases);
+
+/// Where the unknowns stand on the grid along, across and in height.
+CoefficientGrid places_of(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases);
+
+/// All control points, mm, in the order of Field: integers in the order of encode_coefficients() times the
+/// quantum. Where there is one slice less than control points in t, the first are 0.
+std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
+                                 std::span<const std::int64_t> values, double quantum);
+
+/// The unknowns' values of a field over `unit`, in the order of encode_coefficients(), and their slices in t:
+/// without the first where that is 0 everywhere.
+struct Unknowns {
+  int slices = 0;
+  std::vector<double> values;
+};
+Unknowns unknowns_of(const Field& field, const CoefficientGrid& places, double unit);
+
+/// The field with unknowns that are multiples of `quantum`, none moved by more than `farthest` quanta (0.5 to
+/// 1: the further, the fewer bytes).
+Field quantised(const Field& field, double quantum, double farthest);
+
+}  // namespace cleft
