@@ -148,6 +148,11 @@ Shape File::shape(const std::string& name) const {
   return shape;
 }
 
+std::size_t File::element_size(const std::string& name) const {
+  const Handle dataset = open_dataset(name), type(H5Dget_type(dataset), H5Tclose);
+  return H5Tget_size(type);
+}
+
 std::vector<std::string> File::members(const std::string& group) const {
   std::vector<std::string> names;
   if (!has(group)) return names;
@@ -234,16 +239,22 @@ void File::read_rows(const std::string& name, hsize_t first, hsize_t count, std:
 }
 
 double File::read_number(const std::string& object, const std::string& attribute) const {
+  return read_numbers(object, attribute, 1).front();
+}
+
+std::vector<double> File::read_numbers(const std::string& object, const std::string& attribute,
+                                       std::size_t count) const {
   const Handle id(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                   H5Aclose);
-  double value = 0;
+  std::vector<double> values(count);
   if (id < 0) throw FileError(path_, "attribute " + attribute + " of " + object + " is missing");
   const Handle space(H5Aget_space(id), H5Sclose), type(H5Aget_type(id), H5Tclose);
   const auto kind = H5Tget_class(type);
-  if (H5Sget_simple_extent_npoints(space) != 1 || (kind != H5T_FLOAT && kind != H5T_INTEGER) ||
-      H5Aread(id, H5T_NATIVE_DOUBLE, &value) < 0)
-    throw FileError(path_, "attribute " + attribute + " of " + object + " is not a number");
-  return value;
+  if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(count) ||
+      (kind != H5T_FLOAT && kind != H5T_INTEGER) || H5Aread(id, H5T_NATIVE_DOUBLE, values.data()) < 0)
+    throw FileError(path_, "attribute " + attribute + " of " + object + " is not " +
+                               (count == 1 ? "a number" : std::to_string(count) + " numbers"));
+  return values;
 }
 
 std::string File::read_text(const std::string& object, const std::string& attribute) const {
@@ -376,6 +387,13 @@ void File::write_attribute(const std::string& object, const std::string& name, h
 void File::write_number(const std::string& object, const std::string& attribute, double value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   write_attribute(object, attribute, H5T_NATIVE_DOUBLE, space, &value);
+}
+
+void File::write_numbers(const std::string& object, const std::string& attribute,
+                         std::span<const double> values) {
+  const hsize_t count = values.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  write_attribute(object, attribute, H5T_NATIVE_DOUBLE, space, values.data());
 }
 
 void File::write_integers(const std::string& object, const std::string& attribute,

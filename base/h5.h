@@ -54,6 +54,8 @@ class File {
   bool is_open() const { return file_ >= 0; }
   bool has(const std::string& name) const;
   Shape shape(const std::string& name) const;
+  /// Bytes of an element as stored.
+  std::size_t element_size(const std::string& name) const;
   std::vector<std::string> attribute_names(const std::string& object) const;
   std::vector<std::string> members(const std::string& group) const;
 
@@ -65,6 +67,9 @@ class File {
   template <class T>
   void read_rows(const std::string& name, hsize_t first, hsize_t count, std::span<T> out) const;
   double read_number(const std::string& object, const std::string& attribute) const;
+  /// A list of numbers, which must have `count` of them.
+  std::vector<double> read_numbers(const std::string& object, const std::string& attribute,
+                                   std::size_t count) const;
   std::string read_text(const std::string& object, const std::string& attribute) const;
   bool has_attribute(const std::string& object, const std::string& attribute) const;
 
@@ -82,6 +87,7 @@ class File {
   template <class T>
   void write_rows(const std::string& name, hsize_t first, hsize_t count, std::span<const T> data);
   void write_number(const std::string& object, const std::string& attribute, double value);
+  void write_numbers(const std::string& object, const std::string& attribute, std::span<const double> values);
   void write_integers(const std::string& object, const std::string& attribute,
                       std::span<const std::int64_t> values);
   void write_text(const std::string& object, const std::string& attribute, const std::string& text);

@@ -14,11 +14,12 @@ struct Command {
   std::string name, help;
 };
 const std::vector<Command> commands = {
-    {"run", "run a study of many cases"},       {"status", "what of a study is done"},
-    {"solve", "simulate a growing cut"},        {"encode", "fit a field to a snapshot"},
-    {"eval", "displacements of a field"},       {"cut", "cut a surface mesh along a path"},
-    {"explore", "look at a study, or draw it"}, {"info", "what a file holds"},
-    {"check", "verify files and studies"},      {"export", "write files for ParaView"},
+    {"run", "run a study of many cases"},        {"status", "what of a study is done"},
+    {"solve", "simulate a growing cut"},         {"encode", "fit a field to a snapshot"},
+    {"eval", "displacements of a field"},        {"cut", "cut a surface mesh along a path"},
+    {"explore", "look at a study, or draw it"},  {"info", "what a file holds"},
+    {"check", "verify files and studies"},       {"export", "write files for ParaView"},
+    {"import", "take another program's series"},
 };
 
 std::string usage() {

@@ -17,20 +17,34 @@ Json parameters_of(const std::map<std::string, std::variant<double, std::string>
   return list;
 }
 
+Json list_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json info_of_source(const SnapshotSource& source) {
+  return {{"source", source.file},        {"origin", list_of(source.origin)},
+          {"u", list_of(source.axes[0])}, {"v", list_of(source.axes[1])},
+          {"w", list_of(source.axes[2])}, {"time_start", source.time_start},
+          {"break", source.break_plane}};
+}
+
 Json info_of_snapshot(const std::string& file) {
   const SnapshotReader reader(file);
   const Snapshot& s = reader.snapshot();
-  return {{"format", "cleft-snapshot"},
-          {"case", s.case_hash},
-          {"nodes", s.points.size()},
-          {"cells", s.cell_types.size()},
-          {"skin_triangles", s.skin().size()},
-          {"pairs", s.pairs.size()},
-          {"frames", s.frames()},
-          {"duration_mm", s.times.back()},
-          {"cut", {{"start", s.cut_start}, {"length", s.cut_length}, {"depth", s.cut_depth}}},
-          {"bytes", std::filesystem::file_size(file)},
-          {"parameters", parameters_of(s.parameters)}};
+  Json arrays = Json::array();
+  for (const SnapshotArray& array : reader.point_arrays()) arrays.push_back(array.name);
+  Json info = {{"format", "cleft-snapshot"},
+               {"case", s.case_hash},
+               {"nodes", s.points.size()},
+               {"cells", s.cell_types.size()},
+               {"skin_triangles", s.skin().size()},
+               {"pairs", s.pairs.size()},
+               {"frames", s.frames()},
+               {s.source ? "duration" : "duration_mm", s.times.back()},
+               {"cut", {{"start", s.cut_start}, {"length", s.cut_length}, {"depth", s.cut_depth}}},
+               {"arrays", arrays},
+               {"bytes", std::filesystem::file_size(file)},
+               {"parameters", parameters_of(s.parameters)}};
+  if (s.source) info["import"] = info_of_source(*s.source);
+  return info;
 }
 
 Json info_of_field(const std::string& file) {

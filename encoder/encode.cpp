@@ -1,152 +1,145 @@
 #include "encoder/encode.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
-#include "encoder/samples.h"
-#include "encoder/spatial_fit.h"
+#include "base/text.h"
+#include "encoder/parallel.h"
+#include "encoder/series_fit.h"
 
 namespace cleft {
 
 namespace {
 
-constexpr int degree = 3;
+// What of the tolerance fits of single frames and of all frames may use up, and what steps of the coefficients
+// would in the worst case.
+constexpr double share_of_space = 0.9, share_of_fit = 0.95, share_of_steps = 0.15;
+constexpr int probes = 6;  // frames that stand for all while knots are sought
 
-struct Extent {
-  double front, back;
+class Encoder {
+ public:
+  Encoder(const Series& series, const EncodeOptions& options,
+          const std::function<void(const std::string&)>& progress)
+      : series_(series), options_(options), progress_(progress) {
+    const bool cut = series.geometry.cut.length > 0;
+    parametrization_ = make_parametrization(cut ? options.parametrization : "fixed", series.geometry);
+    scale_ = series.largest_displacement > 0 ? series.largest_displacement : 1;
+    limit_ = options.tolerance * scale_;
+  }
+
+  Field run() {
+    if (options_.rung) return with_steps(fit_of(*options_.rung), true);
+    const std::vector<Rung> rungs = ladder_of(*parametrization_);
+    for (std::size_t i = first_within(rungs);; ++i) {
+      progress_("fitting all frames");
+      const SeriesFit fit = fit_of(rungs[i]);
+      const bool last = i + 1 == rungs.size();
+      if (last || fit.error(fit.control_points()) <= share_of_fit * limit_) return with_steps(fit, last);
+    }
+  }
+
+ private:
+  SeriesFit fit_of(const Rung& rung) const {
+    return {series_, parametrization_, bases_of(rung, *parametrization_, static_cast<int>(series_.times.size()))};
+  }
+
+  /// Index of the first rung whose fits in space of a few frames keep their share of the tolerance.
+  std::size_t first_within(const std::vector<Rung>& rungs) const {
+    const int frames = static_cast<int>(series_.times.size());
+    std::vector<int> some;
+    for (int i = 0; i < probes; ++i) some.push_back(1 + (frames - 2) * i / (probes - 1));
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+    std::size_t low = 0, high = rungs.size() - 1;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      progress_("trying knots");
+      const auto bases = bases_of(rungs[middle], *parametrization_, frames);
+      if (space_error(series_, parametrization_, {bases[0], bases[1], bases[2]}, some) <= share_of_space * limit_)
+        high = middle;
+      else
+        low = middle + 1;
+    }
+    return low;
+  }
+
+  /// The field with steps of its coefficients that cost a share of the tolerance, or of the error where knots or
+  /// wishes leave it larger.
+  Field with_steps(const SeriesFit& fit, bool whatever_the_error) const {
+    progress_("choosing the coefficients' steps");
+    const Eigen::MatrixXd& exact = fit.control_points();
+    const double error = fit.error(exact);
+    const double bound = whatever_the_error && (options_.rung || error > limit_) ? 1.02 * error : limit_;
+    const auto rounded = [&](double step) { return Eigen::MatrixXd((exact / step).array().round() * step); };
+    // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2 steps.
+    double step = share_of_steps * 2 / std::sqrt(3.) * std::max(bound, 1e-9 * scale_);
+    while (fit.error(rounded(step)) > bound && step > bound / 1000) step /= 1.5;
+    Field field = fit.field(rounded(step));
+    field.quantum = step;
+    field.report.condition = fit.condition();
+    return field;
+  }
+
+  const Series& series_;
+  const EncodeOptions& options_;
+  const std::function<void(const std::string&)>& progress_;
+  std::shared_ptr<const Parametrization> parametrization_;
+  double scale_ = 1, limit_ = 0;
 };
-
-Extent extent_of(const std::vector<Vec3>& points, int axis) {
-  const auto [least, greatest] = std::minmax_element(
-      points.begin(), points.end(), [=](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
-  return {(*least)[axis], (*greatest)[axis]};
-}
-
-std::array<BSplineBasis, 3> space_bases(const Snapshot& s, const EncodeOptions& options) {
-  const Extent u = extent_of(s.points, 0), v = extent_of(s.points, 1), w = extent_of(s.points, 2);
-  if (u.front == u.back || w.front == w.back)
-    throw InputError("the snapshot's nodes lie in a plane; a field needs a body of tissue");
-  const auto& n = options.control_points;
-  return {BSplineBasis::uniform(degree, n[0], u.front, u.back),
-          BSplineBasis::broken(degree, n[1], v.front, 0, v.back),
-          BSplineBasis::uniform(degree, n[2], w.front, w.back)};
-}
-
-/// Knots at averages of the frames' times, so that every control point sees data (Piegl and Tiller,
-/// eq. 9.68, 9.69).
-BSplineBasis time_basis(const std::vector<double>& times, int control_points) {
-  const int frames = static_cast<int>(times.size());
-  if (frames < 2)
-    throw InputError("the snapshot holds " + std::to_string(frames) +
-                     " frame; a time series needs at least 2");
-  const int p = std::min(degree, frames - 1), n = std::clamp(control_points, p + 1, frames);
-  std::vector<double> knots(p + 1, times.front());
-  const double stride = static_cast<double>(frames) / (n - p);
-  for (int j = 1; j < n - p; ++j) {
-    const double at = j * stride;
-    const int i = static_cast<int>(at);
-    knots.push_back(times[i - 1] + (at - i) * (times[std::min(i, frames - 1)] - times[i - 1]));
-  }
-  knots.insert(knots.end(), p + 1, times.back());
-  return {p, std::move(knots)};
-}
-
-/// T x F: least-squares control points in t from values at the frames.
-Eigen::MatrixXd time_fit(const BSplineBasis& basis, const std::vector<double>& times) {
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(times.size()), basis.size());
-  for (std::size_t j = 0; j < times.size(); ++j) {
-    const auto b = basis.evaluate(times[j]);
-    for (int l = 0; l <= basis.degree(); ++l) values(static_cast<Eigen::Index>(j), b.first + l) = b.value[l];
-  }
-  return values.completeOrthogonalDecomposition().pseudoInverse();
-}
-
-std::vector<Vec3> from_frame_0(const SnapshotReader& reader, std::size_t frame,
-                               const std::vector<Vec3>& closed) {
-  std::vector<Vec3> d = reader.displacement(frame);
-  for (std::size_t n = 0; n < d.size(); ++n) d[n] -= closed[n];
-  return d;
-}
-
-/// Control points as the field file keeps them.
-Vec3 as_stored(const Eigen::MatrixXd& solution, int row, int column) {
-  return {static_cast<float>(solution(row, column)), static_cast<float>(solution(row, column + 1)),
-          static_cast<float>(solution(row, column + 2))};
-}
 
 }  // namespace
 
-Field encode(const SnapshotReader& reader, const EncodeOptions& options,
+Field encode(const Series& series, const EncodeOptions& options,
              const std::function<void(const std::string&)>& progress) {
-  const Snapshot& s = reader.snapshot();
-  const std::array<BSplineBasis, 3> space = space_bases(s, options);
-  const BSplineBasis time = time_basis(s.times, options.control_points[3]);
-  progress("factorising");
-  const SpatialFit fit(space, samples_of(s));
-
-  // B^T d of a frame, weighted into every control point of t: frames are read once and never all held.
-  const Eigen::MatrixXd in_time = time_fit(time, s.times);
-  Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(fit.size(), 3 * time.size());
-  const std::vector<Vec3> closed = reader.displacement(0);
-  for (std::size_t j = 1; j < s.frames(); ++j) {
-    progress("frame " + std::to_string(j) + " of " + std::to_string(s.frames() - 1));
-    const Eigen::MatrixX3d frame = fit.project(from_frame_0(reader, j, closed));
-    for (int l = 0; l < time.size(); ++l)
-      projected.middleCols(3 * l, 3) += in_time(l, static_cast<Eigen::Index>(j)) * frame;
-  }
-  const Eigen::MatrixXd solution = fit.solve(projected);
-  std::vector<Vec3> coefficients;
-  coefficients.reserve(static_cast<std::size_t>(fit.size() * time.size()));
-  for (int i = 0; i < fit.size(); ++i)
-    for (int l = 0; l < time.size(); ++l) coefficients.push_back(as_stored(solution, i, 3 * l));
-
-  Field field(space[0], space[1], space[2], time, std::move(coefficients),
-              {s.cut_start, s.cut_length, s.cut_depth});
-  for (const auto& [name, value] : s.parameters)
-    if (const double* number = std::get_if<double>(&value)) field.parameters[name] = *number;
-  field.case_hash = s.case_hash;
-  progress("measuring");
-  field.report = measure(field, reader);
-  return field;
+  return Encoder(series, options, progress).run();
 }
 
-FitReport measure(const Field& field, const SnapshotReader& reader) {
-  const Snapshot& s = reader.snapshot();
-  const std::vector<Sample> samples = samples_of(s);
-
-  double squared_error = 0, squared_data = 0, largest = 0, worst = 0, worst_gape = 0, worst_false_gap = 0;
-  const std::vector<Vec3> closed = reader.displacement(0);
-  std::vector<Vec3> fitted(samples.size());
-  for (std::size_t j = 0; j < s.frames(); ++j) {
-    const std::vector<Vec3> d = from_frame_0(reader, j, closed);
-    for (std::size_t n = 0; n < d.size(); ++n) {
-      fitted[n] = field.displacement(samples[n].uvw, samples[n].side, s.times[j]);
-      const double error = squared_norm(fitted[n] - d[n]), size = squared_norm(d[n]);
-      squared_error += error, squared_data += size;
-      worst = std::max(worst, error), largest = std::max(largest, size);
+FitReport measure(const Field& field, const Series& series, const Snapshot& s) {
+  struct Frame {
+    double squared_error = 0, squared_data = 0, worst = 0, gape = 0, false_gap = 0;
+    int worst_node = 0;
+  };
+  const auto& samples = series.samples;
+  std::vector<Frame> frames(series.times.size());
+  parallel_for(static_cast<int>(frames.size()), [&](int j) {
+    Frame& f = frames[j];
+    const double t = series.times[j];
+    std::vector<Vec3> off(samples.size());
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+      const auto row = series.frames[j].row(static_cast<Eigen::Index>(n));
+      const Vec3 d{row(0), row(1), row(2)};
+      off[n] = field.displacement(samples[n].uvw, samples[n].side, t) - d;
+      const double error = squared_norm(off[n]);
+      f.squared_error += error, f.squared_data += squared_norm(d);
+      if (error > f.worst) f.worst = error, f.worst_node = static_cast<int>(n);
+      if (samples[n].uvw.y == 0 && samples[n].side == Side::both)
+        f.false_gap = std::max(f.false_gap, norm(field.displacement(samples[n].uvw, Side::right, t) -
+                                                 field.displacement(samples[n].uvw, Side::left, t)));
     }
     for (std::size_t p = 0; p < s.pairs.size(); ++p) {
-      const auto left = static_cast<std::size_t>(s.pairs[p][0]),
-                 right = static_cast<std::size_t>(s.pairs[p][1]);
-      const double error = norm((fitted[right] - fitted[left]) - (d[right] - d[left]));
-      double& kind = static_cast<std::int32_t>(p) < s.released[j] ? worst_gape : worst_false_gap;
+      const double error =
+          norm(off[static_cast<std::size_t>(s.pairs[p][1])] - off[static_cast<std::size_t>(s.pairs[p][0])]);
+      double& kind =
+          static_cast<std::int32_t>(p) < s.released[static_cast<std::size_t>(j)] ? f.gape : f.false_gap;
       kind = std::max(kind, error);
     }
-    for (const Sample& sample : samples)
-      if (sample.uvw.y == 0 && sample.side == Side::both)
-        worst_false_gap =
-            std::max(worst_false_gap, norm(field.displacement(sample.uvw, Side::right, s.times[j]) -
-                                           field.displacement(sample.uvw, Side::left, s.times[j])));
+  });
+  FitReport report = field.report;
+  report.largest_displacement = series.largest_displacement;
+  if (series.largest_displacement == 0) return report;  // nothing moves: every figure is 0
+  double squared_error = 0, squared_data = 0, worst = 0;
+  for (std::size_t j = 0; j < frames.size(); ++j) {
+    const Frame& f = frames[j];
+    squared_error += f.squared_error, squared_data += f.squared_data;
+    if (f.worst > worst)
+      worst = f.worst, report.worst_node = f.worst_node, report.worst_time = series.times[j];
+    report.gape_error = std::max(report.gape_error, f.gape / report.largest_displacement);
+    report.false_gap = std::max(report.false_gap, f.false_gap / report.largest_displacement);
+    if (series.largest[j] > 0)
+      report.frame_error = std::max(report.frame_error, std::sqrt(f.worst) / series.largest[j]);
   }
-  FitReport report;
-  report.largest_displacement = std::sqrt(largest);
-  if (largest == 0) return report;  // nothing moves: every figure is 0
   report.relative_l2 = std::sqrt(squared_error / squared_data);
-  report.node_error = report.spline_error = std::sqrt(worst / largest);
-  report.gape_error = worst_gape / report.largest_displacement;
-  report.false_gap = worst_false_gap / report.largest_displacement;
+  report.node_error = report.spline_error = std::sqrt(worst) / report.largest_displacement;
   return report;
 }
 

@@ -3,27 +3,32 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "encoder/field/field.h"
-#include "solver/snapshot/snapshot.h"
+#include "encoder/ladder.h"
+#include "encoder/series.h"
 
 namespace cleft {
 
 struct EncodeOptions {
-  /// Along u, v (both sides together), w and t. A series of fewer frames gets as many control points in t as
-  /// frames.
-  std::array<int, 4> control_points = {26, 16, 9, 16};
+  std::string parametrization = "tip";
+  /// Bound of node_error: the largest error at any node and frame over the largest displacement. The encoder
+  /// takes the smallest knots and the coarsest steps that keep it.
+  double tolerance = 0.01;
+  /// Instead of a tolerance: spans of the bases; the steps then cost a hundredth of the error.
+  std::optional<Rung> rung;
 };
 
-/// Fits cubic B-splines in (u, v, w, t) with a break across v = 0 to the displacements from frame 0, by
-/// regularised least squares. The system is a Kronecker product of one problem in t and one in space, solved
-/// one after the other. The field's report holds the errors of the field as it will be stored. Throws
-/// InputError where the snapshot holds fewer than two frames or a mesh that v = 0 does not divide.
-Field encode(const SnapshotReader& reader, const EncodeOptions& options,
+/// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the
+/// displacements from frame 0, by regularised least squares: every frame in space, then every coefficient in
+/// time. Coefficients are multiples of field.quantum. Without a cut there is no break, and the
+/// parametrisation is "fixed".
+Field encode(const Series& series, const EncodeOptions& options,
              const std::function<void(const std::string&)>& progress);
 
-/// Errors of a field against the snapshot it stands for, at every node and frame.
-FitReport measure(const Field& field, const SnapshotReader& reader);
+/// Errors of a field against the series it stands for, at every node and frame.
+FitReport measure(const Field& field, const Series& series, const Snapshot& snapshot);
 
 }  // namespace cleft

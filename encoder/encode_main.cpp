@@ -23,54 +23,85 @@ Json figures_of(const Field& field, const Snapshot& snapshot, const std::string&
           {"relative_l2", r.relative_l2},
           {"node_error", r.node_error},
           {"spline_error", r.spline_error},
+          {"frame_error", r.frame_error},
           {"gape_error", r.gape_error},
           {"false_gap", r.false_gap},
           {"largest_displacement_mm", r.largest_displacement},
+          {"condition", r.condition},
+          {"quantum_mm", field.quantum},
+          {"parametrization", field.parametrization().name()},
           {"bytes", bytes},
           {"ratio_to_32_bit", raw / bytes}};
 }
 
-std::array<int, 4> four_counts(const std::vector<int>& counts) {
+/// Spans of bases with about so many control points: as many as asked for where nothing is tied.
+Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   if (counts.size() != 4) throw InputError("--control-points: expected four whole numbers U,V,W,T");
+  const int least[] = {follows_tip ? 10 : 4, 8, follows_tip ? 7 : 4, 4};
   double product = 1;
   for (int axis = 0; axis < 4; ++axis) {
-    const int least = axis == 1 ? 8 : 4;
-    if (counts[axis] < least)
+    if (counts[axis] < least[axis])
       throw InputError(std::string("--control-points: ") + std::to_string(counts[axis]) +
-                       " control points along " + "uvwt"[axis] + ": at least " + std::to_string(least));
+                       " control points along " + "uvwt"[axis] + ": at least " + std::to_string(least[axis]));
     product *= counts[axis];
   }
   if (product > most_control_points)
     throw InputError("--control-points: " + shortest(product) + " in all; at most " +
                      shortest(most_control_points));
-  return {counts[0], counts[1], counts[2], counts[3]};
+  Rung rung;
+  rung.across = counts[1] / 2 - 3, rung.time = counts[3] - 3;
+  if (follows_tip) {
+    const int u = counts[0] - 7, w = counts[2] - 5;
+    rung.before = std::max(1, u / 4), rung.after = std::max(1, u / 4),
+    rung.along = u - rung.before - rung.after;
+    rung.below = std::max(1, w / 3), rung.above = w - rung.below;
+  } else {
+    rung.along = counts[0] - 3, rung.above = counts[2] - 3;
+  }
+  return rung;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Fits a discontinuous free-form deformation to a snapshot.", "cleft encode");
-  std::string snapshot, out, parametrization = "fixed";
+  std::string snapshot, out;
   std::vector<int> counts;
   bool json = false;
   EncodeOptions options;
   app.add_option("CASE.h5", snapshot, "snapshot")->required();
   app.add_option("--out", out, "field to write, case.dffd")->required();
+  auto* tolerance =
+      app.add_option("--tolerance", options.tolerance,
+                     "largest error at any node and frame over the largest displacement, at most")
+          ->capture_default_str();
   app.add_option("--control-points", counts,
-                 "U,V,W,T: control points along each axis, V for both sides together (default 26,16,9,16)")
-      ->delimiter(',');
-  app.add_option("--parametrization", parametrization, "how the cut is followed")
-      ->check(CLI::IsMember({"fixed"}))
+                 "U,V,W,T: control points along each axis instead of a tolerance, V for both sides together")
+      ->delimiter(',')
+      ->excludes(tolerance);
+  app.add_option("--parametrization", options.parametrization,
+                 "tip: knots follow the tip of the cut; fixed: they stay (the paper's)")
+      ->check(CLI::IsMember(parametrization_names()))
       ->capture_default_str();
   app.add_flag("--json", json, "print the figures as JSON");
 
   return run_command(app, argc, argv, [&] {
-    if (!counts.empty()) options.control_points = four_counts(counts);
+    if (!(options.tolerance >= 1e-9 && options.tolerance < 1))
+      throw InputError("--tolerance: " + shortest(options.tolerance) +
+                       ": must be at least 1e-9 and less than 1");
+    if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
     refuse_to_overwrite(out, {snapshot});
     const OutputFile probe(out);  // a bad name is told before the work
     Progress progress("encoding");
     const SnapshotReader reader(snapshot);
-    const Field field = encode(reader, options, [&](const std::string& state) { progress(state); });
+    progress("reading");
+    const Series series(reader);
+    Field field = encode(series, options, [&](const std::string& state) { progress(state); });
+    for (const auto& [name, value] : reader.snapshot().parameters)
+      if (const double* number = std::get_if<double>(&value)) field.parameters[name] = *number;
+    field.case_hash = reader.snapshot().case_hash;
+    progress("measuring");
+    field.report = measure(field, series, reader.snapshot());
     write_field(out, field);
     print_figures(figures_of(field, reader.snapshot(), out), json);
   });

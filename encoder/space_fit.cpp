@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -11,9 +12,9 @@ namespace cleft {
 
 namespace {
 
-constexpr double roughness_strength = 1e-7;  // relative to the mean diagonal of B^T B
-constexpr double diagonal_strength = 1e-10;  // holds what neither data nor roughness reach
-constexpr int order = 4;                     // cubics: four functions an axis
+constexpr double diagonal_strength =
+    1e-10;  // relative to the mean diagonal of B^T B; holds what neither data nor roughness reach
+constexpr int order = 4;  // cubics: four functions an axis
 constexpr int cell_size = order * order;
 constexpr int reach = 2 * order - 1;  // control points meet only where indices differ by at most 3: a stencil
 
@@ -29,8 +30,12 @@ struct Plane {
 };
 struct Weighted {
   int sample;
+  double importance;                     // in the sum of squares
+  double share;                          // of the sample's value: 1/2 where both sides of v = 0 see it
   std::array<double, cell_size> weight;  // N_j(across) N_k(height)
 };
+
+using Grid = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // a row a control point
 
 std::vector<double> greville(const BSplineBasis& basis) {
   std::vector<double> places(basis.size(), 0.0);
@@ -64,24 +69,26 @@ struct SpaceFit::Parts {
   ControlTies ties;
   std::vector<Plane> planes;
   std::vector<Weighted> weights;
+  Eigen::Index sample_count;
   int V, W;
   double scale = 0;  // mean diagonal of B^T B
-  std::vector<Difference> across_roughness, height_roughness;
+  std::vector<Difference> across_roughness = {}, height_roughness = {};
 
   /// A block of the normal matrix between control points of rows i and i + d: by row j W + k, then by the
   /// differences across and in height, reach each.
   using Stencil = std::vector<double>;
+  std::size_t at(int j, int k) const { return (static_cast<std::size_t>(j) * W + k) * reach * reach; }
   std::size_t stencil_size() const { return static_cast<std::size_t>(V) * W * reach * reach; }
   static std::size_t offset(int dj, int dk) { return (dj + order - 1) * reach + dk + order - 1; }
 
   Eigen::MatrixXd tie(const Stencil& stencil, int row, int column) const;
   void add_roughness_in_row(Stencil& stencil, double strength) const;
+  std::vector<Grid> controls(const Eigen::Ref<const Eigen::MatrixXd>& x) const;  // ties x, row after row along
+  Eigen::MatrixXd sum(const std::vector<Grid>& grids) const;                     // ties^T of such
 };
 
 struct SpaceFit::Factor::Parts {
-  const SpaceFit::Parts* fit;
-  double t;
-  std::vector<BSplineBasis::Values> along;            // of every plane
+  const ControlTies* ties;
   std::vector<Eigen::MatrixXd> diagonal;              // L of the diagonal blocks
   std::vector<std::array<Eigen::MatrixXd, 3>> lower;  // L of rows i + 1 .. i + 3 in column i
 };
@@ -100,6 +107,7 @@ SpaceFit::SpaceFit(const Parametrization& parametrization, const std::array<BSpl
             parametrization.moves() ? ControlTies::following_tip(bases) : ControlTies::none(bases),
             {},
             {},
+            static_cast<Eigen::Index>(samples.size()),
             bases[1].size(),
             bases[2].size()});
   for (const BSplineBasis& basis : bases) CLEFT_CHECK(basis.degree() + 1, ==, int(order));
@@ -107,7 +115,8 @@ SpaceFit::SpaceFit(const Parametrization& parametrization, const std::array<BSpl
   std::map<double, std::map<std::array<int, 2>, Cell>> planes;
   const bool ahead_is_tied = p.ties.size() < bases[0].size() * p.V * p.W;
   for (std::size_t s = 0; s < samples.size(); ++s) {
-    const auto& [uvw, side] = samples[s];
+    const Vec3& uvw = samples[s].uvw;
+    const Side side = samples[s].side;
     for (const Limit limit : {Limit::from_left, Limit::from_right}) {
       const bool left = limit == Limit::from_left, uncut_plane = uvw.y == 0 && side == Side::both;
       // Uncut tissue on the plane is both sides' business where nothing ties them.
@@ -115,16 +124,17 @@ SpaceFit::SpaceFit(const Parametrization& parametrization, const std::array<BSpl
         continue;
       const auto v = bases[1].evaluate(parametrization.across(uvw.y).value, limit),
                  w = bases[2].evaluate(parametrization.height(uvw.z).value);
+      const double importance = samples[s].importance;
       Cell& cell =
           planes[uvw.x].try_emplace({v.first, w.first}, Cell{v.first, w.first, {}, {}}).first->second;
-      Weighted weighted{static_cast<int>(s), {}};
+      Weighted weighted{static_cast<int>(s), importance, uncut_plane && !ahead_is_tied ? 0.5 : 1, {}};
       for (int j = 0; j < order; ++j)
         for (int k = 0; k < order; ++k) weighted.weight[j * order + k] = v.value[j] * w.value[k];
       cell.samples.push_back(static_cast<int>(p.weights.size()));
       p.weights.push_back(weighted);
       for (int a = 0; a < cell_size; ++a)
         for (int b = 0; b < cell_size; ++b)
-          cell.normal[a * cell_size + b] += weighted.weight[a] * weighted.weight[b];
+          cell.normal[a * cell_size + b] += importance * weighted.weight[a] * weighted.weight[b];
     }
   }
   for (auto& [u, cells] : planes) {
@@ -143,7 +153,6 @@ SpaceFit::SpaceFit(const Parametrization& parametrization, const std::array<BSpl
 }
 
 void SpaceFit::Parts::add_roughness_in_row(Stencil& stencil, double strength) const {
-  const auto at = [&](int j, int k) { return (static_cast<std::size_t>(j) * W + k) * reach * reach; };
   for (const auto& [first, weight] : across_roughness)
     for (int k = 0; k < W; ++k)
       for (int a = 0; a < 3; ++a)
@@ -177,17 +186,16 @@ Eigen::MatrixXd SpaceFit::Parts::tie(const Stencil& stencil, int row, int column
   return block;
 }
 
-SpaceFit::Factor SpaceFit::factorize(double t) const {
+SpaceFit::Normal SpaceFit::normal(double t, double strength) const {
   const Parts& p = *parts_;
   const int rows = p.bases[0].size();
-  auto factor = std::make_unique<Factor::Parts>(Factor::Parts{parts_.get(), t, {}, {}, {}});
-  // B^T B: four block diagonals, i with i, i + 1, i + 2 and i + 3.
-  std::vector<std::array<Parts::Stencil, order>> stencils(rows);
+  Normal result;
+  auto& stencils = result.stencils_;
+  stencils.resize(rows);
   for (auto& of_row : stencils)
     for (auto& stencil : of_row) stencil.assign(p.stencil_size(), 0.0);
   for (const Plane& plane : p.planes) {
-    factor->along.push_back(p.bases[0].evaluate(p.parametrization.along(plane.u, t).value));
-    const auto& [first, value] = factor->along.back();
+    const auto [first, value] = p.bases[0].evaluate(p.parametrization.along(plane.u, t).value);
     for (int i = 0; i < order; ++i)
       for (int d = 0; i + d < order; ++d) {
         const double weight = value[i] * value[i + d];
@@ -196,9 +204,7 @@ SpaceFit::Factor SpaceFit::factorize(double t) const {
         for (const Cell& cell : plane.cells)
           for (int a = 0; a < cell_size; ++a) {
             const int aj = a / order, ak = a % order;
-            double* line =
-                &stencil[(static_cast<std::size_t>(cell.first_across + aj) * p.W + cell.first_height + ak) *
-                         reach * reach];
+            double* line = &stencil[p.at(cell.first_across + aj, cell.first_height + ak)];
             const double* normal = &cell.normal[a * cell_size];
             for (int bj = 0; bj < order; ++bj) {
               double* to = line + Parts::offset(bj - aj, -ak);
@@ -208,7 +214,7 @@ SpaceFit::Factor SpaceFit::factorize(double t) const {
       }
   }
   // Roughness, and a little of the identity.
-  const double strength = roughness_strength * p.scale;
+  strength *= p.scale;
   for (int i = 0; i < rows; ++i) p.add_roughness_in_row(stencils[i][0], strength);
   std::vector<double> places = greville(p.bases[0]);
   for (double& place : places) place = p.parametrization.u_at(place, t);
@@ -219,15 +225,34 @@ SpaceFit::Factor SpaceFit::factorize(double t) const {
     for (int a = 0; a < 3; ++a)
       for (int b = a; b < 3; ++b) add_diagonal(stencils[first + a][b - a], strength * weight[a] * weight[b]);
   for (int i = 0; i < rows; ++i) add_diagonal(stencils[i][0], diagonal_strength * p.scale);
+  return result;
+}
 
-  // Block Cholesky, column after column.
+void SpaceFit::Normal::add(double factor, const Normal& other) {
+  if (stencils_.empty()) {
+    stencils_ = other.stencils_;
+    for (auto& of_row : stencils_)
+      for (auto& stencil : of_row)
+        for (double& value : stencil) value *= factor;
+    return;
+  }
+  for (std::size_t i = 0; i < stencils_.size(); ++i)
+    for (std::size_t d = 0; d < stencils_[i].size(); ++d)
+      for (std::size_t k = 0; k < stencils_[i][d].size(); ++k)
+        stencils_[i][d][k] += factor * other.stencils_[i][d][k];
+}
+
+SpaceFit::Factor SpaceFit::factorize(const Normal& normal) const {
+  const Parts& p = *parts_;
+  const int rows = p.bases[0].size();
+  auto factor = std::make_unique<Factor::Parts>(Factor::Parts{&p.ties, {}, {}});
   std::vector<std::array<Eigen::MatrixXd, order>> blocks(rows);
   for (int i = 0; i < rows; ++i)
     for (int d = 0; d < order && i + d < rows; ++d)
-      blocks[i][d] =
-          d == 0 ? p.tie(stencils[i][0], i, i) : Eigen::MatrixXd(p.tie(stencils[i][d], i, i + d).transpose());
+      blocks[i][d] = d == 0 ? p.tie(normal.stencils_[i][0], i, i)
+                            : Eigen::MatrixXd(p.tie(normal.stencils_[i][d], i, i + d).transpose());
   factor->diagonal.resize(rows), factor->lower.resize(rows);
-  for (int i = 0; i < rows; ++i) {
+  for (int i = 0; i < rows; ++i) {  // block Cholesky, column after column
     const Eigen::LLT<Eigen::MatrixXd> cholesky(blocks[i][0]);
     if (cholesky.info() != Eigen::Success)
       throw std::runtime_error("the fit's normal matrix is not positive definite");
@@ -242,40 +267,13 @@ SpaceFit::Factor SpaceFit::factorize(double t) const {
   return Factor(std::move(factor));
 }
 
-Eigen::MatrixXd SpaceFit::Factor::solve(const Eigen::Ref<const Eigen::MatrixXd>& values) const {
-  const SpaceFit::Parts& p = *parts_->fit;
-  const int rows = p.bases[0].size();
-  const auto columns = values.cols();
-  // ties^T B^T values, plane after plane.
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(p.ties.size(), columns);
-  using Grid = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  std::vector<Grid> sums(rows, Grid::Zero(p.V * p.W, columns));
-  Grid of_plane(p.V * p.W, columns);
-  for (std::size_t n = 0; n < p.planes.size(); ++n) {
-    of_plane.setZero();
-    for (const Cell& cell : p.planes[n].cells)
-      for (const int s : cell.samples) {
-        const Weighted& weighted = p.weights[s];
-        for (int j = 0; j < order; ++j)
-          for (int k = 0; k < order; ++k)
-            of_plane.row((cell.first_across + j) * p.W + cell.first_height + k) +=
-                weighted.weight[j * order + k] * values.row(weighted.sample);
-      }
-    const auto& [first, value] = parts_->along[n];
-    for (int i = 0; i < order; ++i) sums[first + i] += value[i] * of_plane;
-  }
-  for (int i = 0; i < rows; ++i) {
-    const auto& controls = p.ties.row(i);
-    for (std::size_t c = 0; c < controls.size(); ++c)
-      for (int k = 0; k < controls[c].terms; ++k)
-        x.row(p.ties.first(i) + controls[c].term[k].unknown) +=
-            controls[c].term[k].weight * sums[i].row(static_cast<Eigen::Index>(c));
-  }
-  const auto part = [&](int i) { return x.middleRows(p.ties.first(i), p.ties.row_size(i)); };
+Eigen::MatrixXd SpaceFit::Factor::solve(Eigen::MatrixXd x) const {
+  const ControlTies& ties = *parts_->ties;
+  const int rows = ties.rows();
+  const auto part = [&](int i) { return x.middleRows(ties.first(i), ties.row_size(i)); };
   for (int i = 0; i < rows; ++i) {
     parts_->diagonal[i].triangularView<Eigen::Lower>().solveInPlace(part(i));
-    for (int d = 1; d < order && i + d < rows; ++d)
-      part(i + d).noalias() -= parts_->lower[i][d - 1] * part(i);
+    for (int d = 1; d < order && i + d < rows; ++d) part(i + d).noalias() -= parts_->lower[i][d - 1] * part(i);
   }
   for (int i = rows - 1; i >= 0; --i) {
     for (int d = 1; d < order && i + d < rows; ++d)
@@ -283,6 +281,109 @@ Eigen::MatrixXd SpaceFit::Factor::solve(const Eigen::Ref<const Eigen::MatrixXd>&
     parts_->diagonal[i].transpose().triangularView<Eigen::Upper>().solveInPlace(part(i));
   }
   return x;
+}
+
+std::vector<Grid> SpaceFit::Parts::controls(const Eigen::Ref<const Eigen::MatrixXd>& x) const {
+  std::vector<Grid> grids(ties.rows(), Grid(V * W, x.cols()));
+  for (int i = 0; i < ties.rows(); ++i) {
+    const auto& row = ties.row(i);
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      auto control = grids[i].row(static_cast<Eigen::Index>(c));
+      control = row[c].term[0].weight * x.row(ties.first(i) + row[c].term[0].unknown);
+      if (row[c].terms == 2) control += row[c].term[1].weight * x.row(ties.first(i) + row[c].term[1].unknown);
+    }
+  }
+  return grids;
+}
+
+Eigen::MatrixXd SpaceFit::Parts::sum(const std::vector<Grid>& grids) const {
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(ties.size(), grids[0].cols());
+  for (int i = 0; i < ties.rows(); ++i) {
+    const auto& row = ties.row(i);
+    for (std::size_t c = 0; c < row.size(); ++c)
+      for (int k = 0; k < row[c].terms; ++k)
+        x.row(ties.first(i) + row[c].term[k].unknown) +=
+            row[c].term[k].weight * grids[i].row(static_cast<Eigen::Index>(c));
+  }
+  return x;
+}
+
+Eigen::MatrixXd SpaceFit::multiply(const Normal& normal, const Eigen::MatrixXd& x) const {
+  const Parts& p = *parts_;
+  const int rows = p.bases[0].size();
+  const auto columns = x.cols();
+  const std::vector<Grid> from = p.controls(x);
+  std::vector<Grid> to(rows, Grid::Zero(p.V * p.W, columns));
+  for (int i = 0; i < rows; ++i)
+    for (int d = 0; d < order && i + d < rows; ++d) {
+      const Parts::Stencil& stencil = normal.stencils_[i][d];
+      const double *right = from[i + d].data(), *left = from[i].data();
+      double *of_i = to[i].data(), *of_right = to[i + d].data();
+      for (int j = 0; j < p.V; ++j)
+        for (int k = 0; k < p.W; ++k) {
+          const int c = j * p.W + k, k_from = std::max(0, k - order + 1), k_to = std::min(p.W - 1, k + order - 1);
+          for (int jj = std::max(0, j - order + 1); jj <= std::min(p.V - 1, j + order - 1); ++jj) {
+            const double* value = &stencil[p.at(j, k) + Parts::offset(jj - j, k_from - k)];
+            for (int kk = k_from; kk <= k_to; ++kk, ++value)
+              for (Eigen::Index a = 0; a < columns; ++a) {
+                of_i[c * columns + a] += *value * right[(jj * p.W + kk) * columns + a];
+                if (d > 0) of_right[(jj * p.W + kk) * columns + a] += *value * left[c * columns + a];
+              }
+          }
+        }
+    }
+  return p.sum(to);
+}
+
+Eigen::MatrixXd SpaceFit::project(const Eigen::Ref<const Eigen::MatrixXd>& values, double t) const {
+  const Parts& p = *parts_;
+  const auto columns = values.cols();
+  std::vector<Grid> sums(p.bases[0].size(), Grid::Zero(p.V * p.W, columns));
+  Grid of_plane(p.V * p.W, columns);
+  for (const Plane& plane : p.planes) {
+    of_plane.setZero();
+    for (const Cell& cell : plane.cells)
+      for (const int s : cell.samples) {
+        const Weighted& weighted = p.weights[s];
+        for (int j = 0; j < order; ++j)
+          for (int k = 0; k < order; ++k)
+            of_plane.row((cell.first_across + j) * p.W + cell.first_height + k) +=
+                weighted.importance * weighted.weight[j * order + k] * values.row(weighted.sample);
+      }
+    const auto [first, value] = p.bases[0].evaluate(p.parametrization.along(plane.u, t).value);
+    for (int i = 0; i < order; ++i) sums[first + i] += value[i] * of_plane;
+  }
+  return p.sum(sums);
+}
+
+double SpaceFit::Factor::condition() const {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const Eigen::MatrixXd& block : parts_->diagonal) {
+    least = std::min(least, block.diagonal().minCoeff());
+    greatest = std::max(greatest, block.diagonal().maxCoeff());
+  }
+  return (greatest / least) * (greatest / least);
+}
+
+Eigen::MatrixXd SpaceFit::values(const Eigen::Ref<const Eigen::MatrixXd>& x, double t) const {
+  const Parts& p = *parts_;
+  const std::vector<Grid> controls = p.controls(x);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(p.sample_count, x.cols());
+  Grid of_plane(p.V * p.W, x.cols());
+  for (const Plane& plane : p.planes) {
+    const auto [first, value] = p.bases[0].evaluate(p.parametrization.along(plane.u, t).value);
+    of_plane.setZero();
+    for (int i = 0; i < order; ++i) of_plane += value[i] * controls[first + i];
+    for (const Cell& cell : plane.cells)
+      for (const int s : cell.samples) {
+        const Weighted& weighted = p.weights[s];
+        for (int j = 0; j < order; ++j)
+          for (int k = 0; k < order; ++k)
+            result.row(weighted.sample) += weighted.share * weighted.weight[j * order + k] *
+                                           of_plane.row((cell.first_across + j) * p.W + cell.first_height + k);
+      }
+  }
+  return result;
 }
 
 }  // namespace cleft

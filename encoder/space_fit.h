@@ -12,10 +12,11 @@
 
 namespace cleft {
 
-/// Fits values at scattered samples by the tensor-product spline over (along, across, height) of a
-/// parametrisation, with the control points tied where the tissue is uncut. The samples' places across and in
-/// height never move, and samples of equal u move together along the cut: what they add to the normal matrix
-/// is summed once, and a frame only weighs it along u.
+/// The spline over (along, across, height) of a parametrisation, at scattered samples, with the control points tied
+/// where the tissue is uncut. The samples' places across and in height never move, and samples of equal u move
+/// together along the cut: what they add to the normal matrix is summed once, and a time only weighs it along u.
+/// Blocks of numbers have a row a sample or a row an unknown (ties().size()), and any number of columns. All is safe
+/// to call from several threads at once.
 class SpaceFit {
  public:
   SpaceFit(const Parametrization& parametrization, const std::array<BSplineBasis, 3>& bases,
@@ -24,14 +25,29 @@ class SpaceFit {
 
   const ControlTies& ties() const;
 
-  /// The factor of the normal matrix B^T B + lambda R at time t. R penalises second divided differences of
-  /// the control points over their places, straight lines cost nothing; never across v = 0.
+  /// B^T B + strength R over all control points. R, relative to the mean diagonal of B^T B, penalises second divided
+  /// differences of the control points over their places at the time; straight lines cost nothing, and it never
+  /// acts across v = 0. Two control points meet only where their indices differ by at most 3.
+  class Normal {
+   public:
+    /// Adds a multiple of another one.
+    void add(double factor, const Normal& other);
+
+   private:
+    friend class SpaceFit;
+    std::vector<std::array<std::vector<double>, 4>> stencils_;  // of rows i and i + d: by control, by difference
+  };
+  Normal normal(double t, double strength) const;
+  /// ties^T normal ties x.
+  Eigen::MatrixXd multiply(const Normal& normal, const Eigen::MatrixXd& x) const;
+
+  /// Cholesky factor of ties^T normal ties.
   class Factor {
    public:
     ~Factor();
     Factor(Factor&&) noexcept;
-    /// Unknowns (ties().size() rows) for samples' values, columns alike, one row a sample.
-    Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& values) const;
+    Eigen::MatrixXd solve(Eigen::MatrixXd x) const;
+    double condition() const;  ///< of the matrix, estimated from below by its factor's diagonal
 
    private:
     friend class SpaceFit;
@@ -39,8 +55,12 @@ class SpaceFit {
     explicit Factor(std::unique_ptr<Parts> parts);
     std::unique_ptr<Parts> parts_;
   };
-  /// Safe to call from several threads at once.
-  Factor factorize(double t) const;
+  Factor factorize(const Normal& normal) const;
+
+  /// ties^T B^T values: the right-hand side for values at the samples at time t.
+  Eigen::MatrixXd project(const Eigen::Ref<const Eigen::MatrixXd>& values, double t) const;
+  /// B ties x: the spline's values at the samples.
+  Eigen::MatrixXd values(const Eigen::Ref<const Eigen::MatrixXd>& x, double t) const;
 
  private:
   struct Parts;

@@ -1,6 +1,7 @@
 #include "encoder/field/field.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/error.h"
 
@@ -17,109 +18,109 @@ std::shared_ptr<const Parametrization> fixed_over(const std::array<BSplineBasis,
   return make_parametrization("fixed", std::move(geometry));
 }
 
+std::shared_ptr<const Axes> axes_of(const Parametrization& parametrization,
+                                    const std::array<BSplineBasis, 4>& bases) {
+  std::array<SpanTable, 4> tables{SpanTable(bases[0]), SpanTable(bases[1]), SpanTable(bases[2]),
+                                  SpanTable(bases[3])};
+  tables[1].break_at(parametrization.across(0).value, bases[1]);
+  return std::make_shared<const Axes>(std::move(tables));
+}
+
+void check_count(const std::array<BSplineBasis, 4>& bases, std::size_t coefficients) {
+  std::size_t count = 1;
+  for (const BSplineBasis& b : bases) count *= static_cast<std::size_t>(b.size());
+  CLEFT_CHECK(coefficients, ==, count);
+}
+
+Vec3 three(const double (&d)[4]) { return {d[0], d[1], d[2]}; }
+
 }  // namespace
 
 Field::Field(std::shared_ptr<const Parametrization> parametrization, std::array<BSplineBasis, 4> bases,
              std::vector<Vec3> coefficients)
     : parametrization_(std::move(parametrization)),
       bases_(std::move(bases)),
-      coefficients_(std::move(coefficients)) {
-  std::size_t count = 1;
-  for (const BSplineBasis& b : bases_) count *= b.size();
-  CLEFT_CHECK(coefficients_.size(), ==, count);
+      coefficients_((check_count(bases_, coefficients.size()), std::move(coefficients))),
+      axes_(axes_of(*parametrization_, bases_)),
+      grid_(bases_, *axes_, coefficients_),
+      kernels_(&kernel_table(available_kernels().back())) {
+  for (const Vec3& c : coefficients_) largest_coefficient_ = std::max(largest_coefficient_, norm(c));
 }
 
 Field::Field(BSplineBasis u, BSplineBasis v, BSplineBasis w, BSplineBasis t, std::vector<Vec3> coefficients,
              CanonicalCut cut)
-    : bases_{std::move(u), std::move(v), std::move(w), std::move(t)}, coefficients_(std::move(coefficients)) {
-  parametrization_ = fixed_over(bases_, cut);
-  std::size_t count = 1;
-  for (const BSplineBasis& b : bases_) count *= b.size();
-  CLEFT_CHECK(coefficients_.size(), ==, count);
+    : Field(fixed_over({u, v, w, t}, cut), {u, v, w, t}, std::move(coefficients)) {}
+
+BasisPlace Field::mapped(const Vec3& uvw, Side side, double t) const {
+  const Place place{uvw, side, t};
+  BasisPlace result;
+  parametrization_->map({&place, 1}, &result);
+  return result;
 }
 
 Vec3 Field::displacement(const Vec3& uvw, Side side, double t) const {
-  if (uvw.y == 0 && side == Side::both)
-    return lerp(displacement(uvw, Side::left, t), displacement(uvw, Side::right, t), 0.5);
-  const auto inside = [this](double x, int axis) {
-    return std::clamp(x, domain(axis).front, domain(axis).back);
-  };
-  const double time = inside(t, 3), v = inside(uvw.y, 1);
-  const Parametrization& p = *parametrization_;
-  const auto bu = bases_[0].evaluate(p.along(inside(uvw.x, 0), time).value);
-  const auto bv = bases_[1].evaluate(
-      p.across(v).value, v < 0 || (v == 0 && side == Side::left) ? Limit::from_left : Limit::from_right);
-  const auto bw = bases_[2].evaluate(p.height(inside(uvw.z, 2)).value),
-             bt = bases_[3].evaluate(p.time(time).value);
-  const std::size_t V = bases_[1].size(), W = bases_[2].size(), T = bases_[3].size();
-  Vec3 sum;
-  for (int i = 0; i <= bases_[0].degree(); ++i)
-    for (int j = 0; j <= bases_[1].degree(); ++j) {
-      const double row_weight = bu.value[i] * bv.value[j];
-      Vec3 row_sum;
-      for (int k = 0; k <= bases_[2].degree(); ++k) {
-        const Vec3* c =
-            &coefficients_[(((bu.first + i) * V + (bv.first + j)) * W + (bw.first + k)) * T + bt.first];
-        Vec3 along_t;
-        for (int l = 0; l <= bases_[3].degree(); ++l) along_t += bt.value[l] * c[l];
-        row_sum += bw.value[k] * along_t;
-      }
-      sum += row_weight * row_sum;
-    }
-  return sum;
+  const BasisPlace place = mapped(uvw, side, t);
+  Vec3 d;
+  kernels_->values(*axes_, grid_, &place, 1, &d);
+  return d;
 }
 
-void Field::contract(const Vec3& uvw, Side side, double tolerance, History& out) const {
-  out.breaks.clear(), out.controls.clear(), out.error = 0;
-  const double front = domain(3).front, back = domain(3).back;
-  const auto at = [&](double t) { return displacement(uvw, side, t); };
-  // Between two breaks: the cubic through four points of the field, checked at two more.
-  const auto add = [&](auto&& self, double from, double to, int halvings) -> void {
-    const double h = to - from;
-    // Just inside where the tip may pass the point at an end.
-    const double tiny = parametrization_->moves() ? 1e-12 * h : 0;
-    const Vec3 a = at(from + tiny), b = at(from + h / 3), c = at(from + 2 * h / 3), d = at(to - tiny);
-    const std::array<Vec3, 4> piece{a, (1. / 6) * (-5. * a + 18. * b + -9. * c + 2. * d),
-                                    (1. / 6) * (2. * a + -9. * b + 18. * c + -5. * d), d};
-    const auto value = [&](double s) {
-      const double r = 1 - s;
-      return r * r * r * piece[0] + 3 * r * r * s * piece[1] + 3 * r * s * s * piece[2] +
-             s * s * s * piece[3];
-    };
-    double error = 0;
-    if (parametrization_->moves())
-      for (const double s : {1. / 6, 0.5, 5. / 6}) error = std::max(error, norm(value(s) - at(from + s * h)));
-    if (error > tolerance && halvings < 12) {
-      self(self, from, from + h / 2, halvings + 1);
-      self(self, from + h / 2, to, halvings + 1);
-      return;
-    }
-    out.error = std::max(out.error, error);
-    out.breaks.push_back(from);
-    out.controls.push_back(piece);
-  };
-  const double passes = parametrization_->moves() ? parametrization_->geometry().tip.passes(uvw.x) : back;
-  double from = front;
-  const auto& knots = bases_[3].knots();
-  for (std::size_t i = 0; i < knots.size(); ++i) {
-    const double to = std::min(parametrization_->time_at(knots[i]), back);
-    if (from < passes && passes < to) add(add, from, passes, 0), from = passes;
-    if (to > from) add(add, from, to, 0), from = to;
+void Field::displacements(std::span<const Place> places, std::span<Vec3> out) const {
+  CLEFT_CHECK(places.size(), ==, out.size());
+  constexpr std::size_t at_once = 64;
+  BasisPlace mapped_places[at_once];
+  for (std::size_t begin = 0; begin < places.size(); begin += at_once) {
+    const std::size_t count = std::min(at_once, places.size() - begin);
+    parametrization_->map(places.subspan(begin, count), mapped_places);
+    kernels_->values(*axes_, grid_, mapped_places, count, &out[begin]);
   }
-  out.breaks.push_back(back);
+}
+
+Derivatives Field::derivatives(const Vec3& uvw, Side side, double t) const {
+  const BasisPlace place = mapped(uvw, side, t);
+  const Parametrization& p = *parametrization_;
+  const double time = p.inside(t, 3);
+  double v = p.inside(uvw.y, 1);
+  if (v == 0 && side == Side::both) {
+    const Derivatives l = derivatives(uvw, Side::left, t), r = derivatives(uvw, Side::right, t);
+    return {lerp(l.value, r.value, 0.5), lerp(l.by_u, r.by_u, 0.5), lerp(l.by_v, r.by_v, 0.5),
+            lerp(l.by_w, r.by_w, 0.5), lerp(l.by_t, r.by_t, 0.5)};
+  }
+  if (v == 0 && side == Side::left) v = -std::numeric_limits<double>::min();  // for the slope from the left
+  Gradient g;
+  kernels_->gradient(*axes_, grid_, place, g);
+  const auto along = p.along(p.inside(uvw.x, 0), time);
+  return {three(g.value), along.by_u * three(g.by[0]), p.across(v).slope * three(g.by[1]),
+          p.height(p.inside(uvw.z, 2)).slope * three(g.by[2]),
+          along.by_t * three(g.by[0]) + p.time(time).slope * three(g.by[3])};
 }
 
 double Field::contraction_tolerance() const {
   return std::max(0.1 * report.spline_error, 1e-6) * report.largest_displacement;
 }
 
-Vec3 evaluate(const History& history, double t) {
-  const auto& breaks = history.breaks;
-  const auto next = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, t);
-  const auto i = next - breaks.begin() - 1;
-  const double s = std::clamp((t - breaks[i]) / (breaks[i + 1] - breaks[i]), 0., 1.), r = 1 - s;
-  const auto& c = history.controls[i];
-  return r * r * r * c[0] + 3 * r * r * s * c[1] + 3 * r * s * s * c[2] + s * s * s * c[3];
+void Field::quantity(std::size_t index, const Vec3& uvw, Side side, double t, std::span<double> out) const {
+  const Quantity& q = quantities.at(index);
+  const auto components = static_cast<std::size_t>(q.components);
+  CLEFT_CHECK(out.size(), ==, components);
+  CLEFT_CHECK(q.coefficients.size(), ==, coefficients_.size() * components);
+  Stencil s;
+  kernels_->locate(*axes_, mapped(uvw, side, t), s);
+  std::size_t size[4], last[4];  // functions beyond a basis of lower degree have no coefficients
+  for (int axis = 0; axis < 4; ++axis) {
+    size[axis] = static_cast<std::size_t>(bases_[axis].size());
+    last[axis] = std::min<std::size_t>(4, size[axis] - s.first[axis]);
+  }
+  std::fill(out.begin(), out.end(), 0);
+  for (std::size_t i = 0; i < last[0]; ++i)
+    for (std::size_t j = 0; j < last[1]; ++j)
+      for (std::size_t k = 0; k < last[2]; ++k) {
+        const double weight = s.weight[0][i] * s.weight[1][j] * s.weight[2][k];
+        const std::size_t row = ((s.first[0] + i) * size[1] + s.first[1] + j) * size[2] + s.first[2] + k;
+        const double* c = &q.coefficients[(row * size[3] + s.first[3]) * components];
+        for (std::size_t l = 0; l < last[3]; ++l)
+          for (std::size_t d = 0; d < components; ++d) out[d] += weight * s.weight[3][l] * *c++;
+      }
 }
 
 }  // namespace cleft

@@ -13,17 +13,14 @@
 
 #include "base/vec3.h"
 #include "encoder/field/bspline.h"
+#include "encoder/field/collapsed_field.h"
+#include "encoder/field/control_grid.h"
 #include "encoder/field/history.h"
+#include "encoder/field/kernels.h"
 #include "encoder/field/parametrization.h"
+#include "encoder/field/place.h"
 
 namespace cleft {
-
-/// On which side of the cut plane v = 0 a point lies. Only points on the plane itself need it told.
-/// `both` is uncut tissue on the plane: the mean of the two sides.
-enum class Side : int { left = -1, both = 0, right = 1 };
-
-/// The side that the sign of v tells; `both` on the plane itself.
-inline Side side_of(double v) { return v < 0 ? Side::left : v > 0 ? Side::right : Side::both; }
 
 /// The report of the fit that goes with a field; errors are over the largest displacement from frame 0 unless
 /// said.
@@ -34,29 +31,65 @@ struct FitReport {
   double gape_error = 0;            ///< largest error of the opening of a pair of nodes on the cut
   double false_gap = 0;             ///< largest opening across v = 0 at uncut nodes, where the truth is 0
   double largest_displacement = 0;  ///< mm, from frame 0
+  double frame_error = 0;           ///< largest error in any frame over that frame's own largest displacement
+  double worst_node = 0;            ///< node of spline_error, and its time
+  double worst_time = 0;            ///<
+  double condition = 0;             ///< of the fit's normal matrices, estimated
+};
+
+/// The displacement and its first derivatives, mm per mm.
+struct Derivatives {
+  Vec3 value, by_u, by_v, by_w, by_t;
+};
+
+/// A further quantity over the field's bases: the value itself, not from frame 0.
+struct Quantity {
+  std::string name;
+  int components = 1;
+  std::vector<double> coefficients;  ///< [(((i * V + j) * W + k) * T + l) * components + c]
 };
 
 class Field {
  public:
   /// A 4D grid of control points: coefficients[((i * V + j) * W + k) * T + l], mm, over the parameters along,
-  /// across, height and time of the parametrisation.
+  /// across, height and time of the parametrisation. Throws InputError where a degree is above 3.
   Field(std::shared_ptr<const Parametrization> parametrization, std::array<BSplineBasis, 4> bases,
         std::vector<Vec3> coefficients);
   /// The same over (u, v, w, t) themselves; the bases' ends are the domain.
   Field(BSplineBasis u, BSplineBasis v, BSplineBasis w, BSplineBasis t, std::vector<Vec3> coefficients,
         CanonicalCut cut);
 
+  // Nothing below allocates memory, but for a History or CollapsedField that is still to grow.
+
   /// Displacement from the closed frame, mm. (u, v, w) is the stress-free position and t the length cut; all
   /// four are clamped to the domain. On v = 0 `side` chooses the lip; elsewhere it must not contradict v and
   /// is ignored.
   Vec3 displacement(const Vec3& uvw, Side side, double t) const;
+  /// The same at many places, the quickest way; as many are written to `out`.
+  void displacements(std::span<const Place> places, std::span<Vec3> out) const;
+
+  /// Displacement and derivatives inside the domain; those of the edge outside it. Where a derivative jumps
+  /// (at the tip, at some knots) it is that behind, in t that of the uncut side; of Side::both on v = 0 the
+  /// mean of both sides.
+  Derivatives derivatives(const Vec3& uvw, Side side, double t) const;
 
   /// The displacement's history at one point. Exact to rounding where the parametrisation does not move with
-  /// t; else pieces break where the tip passes, and are halved until values between agree within `tolerance`
-  /// mm.
+  /// t. Else pieces break where the tip passes, and are as long as `tolerance` mm allows (or 1e-12 of the
+  /// largest control point, if that is more); pieces meet at their ends.
   void contract(const Vec3& uvw, Side side, double tolerance, History& out) const;
+  /// The same with further breaks at all `stops`, which are sorted.
+  void contract(const Vec3& uvw, Side side, double tolerance, std::span<const double> stops,
+                History& out) const;
   /// A tolerance for contract(), mm, that adds a tenth to the error of the fit.
   double contraction_tolerance() const;
+  /// The times at which the basis of time has knots, the first and last t included.
+  std::vector<double> knot_times() const;
+
+  /// The field at a fixed t, in 64 terms a point. `out` reads this field: it must not outlive it.
+  void collapse(double t, CollapsedField& out) const;
+
+  /// Value of quantities[index], one number for each component.
+  void quantity(std::size_t index, const Vec3& uvw, Side side, double t, std::span<double> out) const;
 
   const Parametrization& parametrization() const { return *parametrization_; }
   std::shared_ptr<const Parametrization> shared_parametrization() const { return parametrization_; }
@@ -70,15 +103,31 @@ class Field {
   }                                                   ///< u, v, w, t = 0 .. 3
   double duration() const { return domain(3).back; }  ///< t of the last frame
 
+  double quantum =
+      0;  ///< unknowns are multiples of it, mm, and stored as such; 0: any numbers, as 32-bit floats
+  /// Evaluates with the given kernel from now on; the widest of the machine's is the default.
+  void use(Kernel kernel) { kernels_ = &kernel_table(kernel); }
+
+  std::vector<Quantity> quantities;
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;
   FitReport report;
-  double quantum = 0;  ///< mm: unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
 
  private:
+  friend class CollapsedField;
+
+  BasisPlace mapped(const Vec3& uvw, Side side, double t) const;
+  void contract_fixed(const BasisPlace& place, std::span<const double> stops, History& out) const;
+  void contract_moving(const Vec3& uvw, const BasisPlace& place, double tolerance,
+                       std::span<const double> stops, History& out) const;
+
   std::shared_ptr<const Parametrization> parametrization_;
   std::array<BSplineBasis, 4> bases_;
   std::vector<Vec3> coefficients_;
+  std::shared_ptr<const Axes> axes_;  // one for all copies of the field: it is never changed
+  ControlGrid grid_;
+  const KernelTable* kernels_;
+  double largest_coefficient_ = 0;
 };
 
 }  // namespace cleft

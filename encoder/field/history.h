@@ -13,7 +13,9 @@ namespace cleft {
 struct History {
   std::vector<double> breaks;  ///< n + 1, increasing: the first and last t of the field included
   std::vector<std::array<Vec3, 4>> controls;  ///< n: of the piece between two breaks
-  double error = 0;                           ///< largest distance from the field found at points between, mm
+  double error = 0;  ///< largest distance from the field found at points between, mm; 0 where it is exact
+
+  std::vector<double> scratch;  ///< of the contraction
 };
 
 /// Value at t, clamped to the breaks. Pieces need not meet: at a break the later piece counts.

@@ -2,10 +2,14 @@
 // new file in parametrization/ and a line in parametrization.cpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "encoder/field/place.h"
 
 namespace cleft {
 
@@ -61,9 +65,31 @@ class Parametrization {
   virtual double time_at(double parameter) const = 0;
   /// Does along() depend on t? If not, contraction of a point to a history is exact.
   virtual bool moves() const = 0;
+  /// The same at one u; true wherever in doubt.
+  virtual bool moves_at(double) const { return moves(); }
+  /// All four parameters of as many places as `out` has room for, clamped to the domain first. Overridden
+  /// only to be quick: map_each(*this, ...) in a final class calls nothing virtual.
+  virtual void map(std::span<const Place> places, BasisPlace* out) const { map_each(*this, places, out); }
 
   const FieldGeometry& geometry() const { return geometry_; }
   const std::array<Interval, 4>& domain() const { return geometry_.domain; }
+
+  /// x clamped to an axis of the domain; NaN stays NaN.
+  double inside(double x, int axis) const {
+    const auto [front, back] = domain()[axis];
+    return x < front ? front : back < x ? back : x;
+  }
+
+ protected:
+  template <class P>
+  static void map_each(const P& p, std::span<const Place> places, BasisPlace* out) {
+    for (const Place& place : places) {
+      const double t = p.inside(place.t, 3), v = p.inside(place.uvw.y, 1);
+      *out++ = {{p.along(p.inside(place.uvw.x, 0), t).value, p.across(v).value,
+                 p.height(p.inside(place.uvw.z, 2)).value, p.time(t).value},
+                v == 0 ? place.side : side_of(v)};
+    }
+  }
 
  private:
   FieldGeometry geometry_;

@@ -27,7 +27,7 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
-#include "explorer/io/vtk_listener.h"
+#include "base/vtk_listener.h"
 
 namespace cleft {
 

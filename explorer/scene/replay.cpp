@@ -7,40 +7,73 @@
 
 namespace cleft {
 
-Replay::Replay(const Field& field, const Incision& incision, double scale)
-    : cut_length_(field.cut().length),
-      path_length_(incision.path().length() * scale),
-      active_(active_vertices(incision, field, scale)) {
-  rest_.reserve(incision.mesh().vertices().size());
-  for (const CutMesh::Vertex& v : incision.mesh().vertices()) rest_.push_back(v.position);
-  // In order of time offset (few different ones, outside the steady state) and of memory.
-  std::sort(active_.begin(), active_.end(), [](const ActiveVertex& a, const ActiveVertex& b) {
-    return std::tie(a.time_offset, a.vertex) < std::tie(b.time_offset, b.vertex);
-  });
-  first_.reserve(active_.size());
-  for (const ActiveVertex& a : active_) {
-    first_.push_back(histories_.size());
-    append_history(field, a, a.side, scale);
-    if (a.on_cut && a.side != Side::both) append_history(field, a, Side::both, scale);
+namespace {
+
+/// Contracts active vertices into histories in the mesh's space and units, weighted, with breaks at `times`.
+struct Contractor {
+  const Field& field;
+  double scale;
+  std::span<const double> times;
+
+  void operator()(const ActiveVertex& a, Side side, History& out) const {
+    field.contract(a.uvw, side, field.contraction_tolerance(), times, out);
+    for (auto& piece : out.controls)
+      for (Vec3& d : piece) d = a.weight / scale * (d.x * a.along + d.y * a.across + d.z * a.outward);
   }
+};
+
+std::vector<double> offsets_of(const std::vector<ActiveVertex>& active) {
+  std::vector<double> offsets;
+  for (const ActiveVertex& a : active) offsets.push_back(a.time_offset);
+  return offsets;
 }
 
-void Replay::append_history(const Field& field, const ActiveVertex& a, Side side, double scale) {
-  History& history = histories_.emplace_back();
-  field.contract(a.uvw, side, field.contraction_tolerance(), history);
-  for (auto& piece : history.controls)
-    for (Vec3& d : piece) d = a.weight / scale * (d.x * a.along + d.y * a.across + d.z * a.outward);
+std::vector<int> vertices_of(const std::vector<ActiveVertex>& active) {
+  std::vector<int> vertices;
+  for (const ActiveVertex& a : active) vertices.push_back(a.vertex);
+  return vertices;
+}
+
+std::vector<Place> places_of(const std::vector<ActiveVertex>& active) {
+  std::vector<Place> places;
+  for (const ActiveVertex& a : active) places.push_back({a.uvw, a.side, 0});
+  return places;
+}
+
+/// In order of time offset (few different ones, outside the steady state) and of memory.
+std::vector<ActiveVertex> sorted(std::vector<ActiveVertex> active) {
+  std::sort(active.begin(), active.end(), [](const ActiveVertex& a, const ActiveVertex& b) {
+    return std::tie(a.time_offset, a.vertex) < std::tie(b.time_offset, b.vertex);
+  });
+  return active;
+}
+
+}  // namespace
+
+Replay::Replay(const Field& field, const Incision& incision, double scale)
+    : path_length_(incision.path().length() * scale),
+      active_(sorted(active_vertices(incision, field, scale))),
+      times_(replay_times(field, field.contraction_tolerance(), places_of(active_))),
+      pieces_(times_, offsets_of(active_), vertices_of(active_)) {
+  rest_.reserve(incision.mesh().vertices().size());
+  for (const CutMesh::Vertex& v : incision.mesh().vertices()) rest_.push_back(v.position);
+  const Contractor contract{field, scale, times_};
+  History open, closed;
+  for (const ActiveVertex& a : active_) {
+    contract(a, a.side, open);
+    if (a.on_cut && a.side != Side::both) {
+      contract(a, Side::both, closed);
+      pieces_.append(closed, open, a.s);
+    } else {
+      pieces_.append(open);
+    }
+  }
 }
 
 void Replay::positions(double s, std::span<Vec3> out) const {
   CLEFT_CHECK(out.size(), ==, rest_.size());
   std::copy(rest_.begin(), rest_.end(), out.begin());
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    const ActiveVertex& a = active_[i];
-    const double time = std::clamp(s + a.time_offset, 0.0, cut_length_);
-    const bool closed = a.on_cut && a.side != Side::both && a.s >= s;
-    out[a.vertex] += evaluate(histories_[first_[i] + (closed ? 1 : 0)], time);
-  }
+  pieces_.positions(s, rest_.data(), out.data());
 }
 
 }  // namespace cleft

@@ -8,12 +8,14 @@
 #include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
 #include "explorer/incision/ipv.h"
+#include "explorer/scene/replay_pieces.h"
 
 namespace cleft {
 
 class Replay {
  public:
-  /// Contracts the field once for each active vertex. `scale` is mm per mesh unit.
+  /// Contracts the field once for each active vertex, to within its contraction_tolerance(). `scale` is mm
+  /// per mesh unit.
   Replay(const Field& field, const Incision& incision, double scale);
 
   /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
@@ -26,15 +28,13 @@ class Replay {
   const std::vector<Vec3>& rest() const { return rest_; }
 
  private:
-  void append_history(const Field& field, const ActiveVertex& vertex, Side side, double scale);
-
-  double cut_length_, path_length_;
+  double path_length_;
   std::vector<Vec3> rest_;
-  std::vector<ActiveVertex> active_;
-  // Histories over the field's t, already turned into the mesh's space, weighted and in its units: one after
-  // the other, a vertex of the cut has a second one for the time before the blade has passed it.
-  std::vector<History> histories_;
-  std::vector<std::size_t> first_;  // of each active vertex, in histories_
+  std::vector<ActiveVertex> active_;  // in the order of their time offsets
+  std::vector<double> times_;
+  // Turned into the mesh's space, weighted and in its units; a vertex of the cut has a second history for the
+  // time before the blade has passed it.
+  ReplayPieces pieces_;
 };
 
 }  // namespace cleft

@@ -42,6 +42,7 @@ class SnapshotCheck {
     check_table("/foundation/quads", s_.foundation_quads);
     check_table("/cut/pairs", s_.pairs);
     check_cut();
+    if (s_.source) check_source(*s_.source);
   }
 
  private:
@@ -88,13 +89,26 @@ class SnapshotCheck {
             "/cut/released and position must have a value a frame");
     require(std::all_of(s_.position.begin(), s_.position.end(), [](double u) { return std::isfinite(u); }),
             "/cut/position is not finite");
-    require(std::isfinite(s_.cut_start) && s_.cut_length > 0 && std::isfinite(s_.cut_length) &&
-                s_.cut_depth > 0 && std::isfinite(s_.cut_depth),
-            "/cut: length and depth must be positive");
+    const auto extends = [this](double extent) {  // imported data may have no cut, or one along a line
+      return std::isfinite(extent) && (s_.source ? extent >= 0 : extent > 0);
+    };
+    require(std::isfinite(s_.cut_start) && extends(s_.cut_length) && extends(s_.cut_depth),
+            s_.source ? "/cut: length and depth must not be negative"
+                      : "/cut: length and depth must be positive");
     require(s_.released.front() == 0, "/cut/released: frame 0 must be closed");
     require(std::is_sorted(s_.released.begin(), s_.released.end()) &&
                 s_.released.back() <= static_cast<std::int64_t>(s_.pairs.size()),
             "/cut/released must not decrease, nor exceed the number of pairs");
+  }
+
+  void check_source(const SnapshotSource& source) const {
+    const auto& [u, v, w] = source.axes;
+    double error = norm(cross(u, v) - w);  // 0 for unit vectors that are right-handed, with the next three
+    for (const double product : {dot(u, v), squared_norm(u) - 1, squared_norm(v) - 1})
+      error = std::max(error, std::abs(product));
+    require(error < 1e-9, "/import: axes are not a right-handed frame of unit vectors");
+    require(std::isfinite(squared_norm(source.origin)) && std::isfinite(source.time_start),
+            "/import: origin or time_start is not finite");
   }
 
   const std::string& path_;
@@ -110,6 +124,16 @@ void check_format(const h5::File& file) {
     throw FileError(file.path(), "snapshot format version " + std::to_string(static_cast<int>(found)) +
                                      "; this program reads version " +
                                      std::to_string(snapshot_format_version));
+}
+
+std::optional<SnapshotSource> read_source(const h5::File& file) {
+  if (!file.has("/import")) return {};
+  const std::vector<Vec3> axes = as_vectors(file.read_numbers("/import", "axes", 9));
+  return SnapshotSource{file.read_text("/import", "source"),
+                        as_vectors(file.read_numbers("/import", "origin", 3)).front(),
+                        {axes[0], axes[1], axes[2]},
+                        file.read_number("/import", "time_start"),
+                        file.read_text("/import", "break")};
 }
 
 Snapshot read_all_but_displacements(const h5::File& file) {
@@ -129,8 +153,11 @@ Snapshot read_all_but_displacements(const h5::File& file) {
   s.cut_length = file.read_number("/cut", "length");
   s.cut_depth = file.read_number("/cut", "depth");
   s.smallest_gap = file.read<double>("/frames/smallest_gap", {s.frames()});
-  s.residual_equilibrium = file.read<double>("/frames/residual_equilibrium", {s.frames()});
-  s.residual_closure = file.read<double>("/frames/residual_closure", {s.frames()});
+  s.source = read_source(file);
+  if (!s.source) {
+    s.residual_equilibrium = file.read<double>("/frames/residual_equilibrium", {s.frames()});
+    s.residual_closure = file.read<double>("/frames/residual_closure", {s.frames()});
+  }
   s.case_hash = file.read_text("/", "case");
   for (const std::string& name : file.attribute_names("/parameters")) {
     try {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -18,6 +19,15 @@
 namespace cleft {
 
 inline constexpr int snapshot_format_version = 1;
+
+/// Where the data of another program stood: x in (u, v, w) is axes (x - origin) there.
+struct SnapshotSource {
+  std::string file;          ///< the series' name, without folders
+  Vec3 origin;               ///< of (u, v, w), in the source's space
+  std::array<Vec3, 3> axes;  ///< unit vectors of u, v, w there, right-handed
+  double time_start = 0;     ///< the first frame's time there
+  std::string break_plane;   ///< nx,ny,nz,offset there: points x with n . x = offset; or "none"
+};
 
 /// Everything but the displacements. N points, C cells, P pairs, F frames. Lengths in mm.
 struct Snapshot {
@@ -37,11 +47,13 @@ struct Snapshot {
   std::vector<double> position;                    ///< F: u of the first node ahead that is still closed
   double cut_start = 0, cut_length = 0, cut_depth = 0;
 
-  std::vector<double> times;                                                 ///< F: t, the length cut, from 0
-  std::vector<double> smallest_gap, residual_equilibrium, residual_closure;  ///< F each
+  std::vector<double> times;                                   ///< F: t, the length cut, from 0
+  std::vector<double> smallest_gap;                            ///< F
+  std::vector<double> residual_equilibrium, residual_closure;  ///< F each; none in imported data
 
   std::map<std::string, std::variant<double, std::string>> parameters;
   std::string case_hash;
+  std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs, and know no residuals
 
   std::size_t frames() const { return times.size(); }
   /// The skin: all triangles, as indices into points.
@@ -59,12 +71,15 @@ struct SnapshotArray {
 /// Writes a snapshot whole or not at all: displacement frame by frame, further arrays, then finish().
 class SnapshotWriter {
  public:
-  /// Takes mesh, cut, times and parameters, and makes room for `arrays`; the figures of the frames are taken by
-  /// finish().
+  /// Takes mesh, cut, times and parameters, and makes room for `arrays`; the figures of the frames are taken
+  /// by finish().
   SnapshotWriter(const std::string& path, const Snapshot& snapshot,
                  const std::vector<SnapshotArray>& arrays = {});
   /// Displacements from `points`, N of them, of frames first, first + 1, ...: one or more whole frames.
   void write_frames(std::size_t first, std::span<const Vec3> displacements);
+  /// N times its components, point by point: the frame's rows of an array made room for. Rows never written
+  /// are 0.
+  void write_array(const SnapshotArray& array, std::size_t frame, std::span<const double> numbers);
   /// The name the file has until finish(): others may add rows to it between close() and finish().
   const std::string& path() const { return out_.path(); }
   void close() { file_.close(); }
@@ -78,8 +93,8 @@ class SnapshotWriter {
 };
 
 #ifdef H5_HAVE_PARALLEL
-/// Rows of point arrays of a snapshot on its way, written by all ranks of a communicator. Calls are collective,
-/// but a communicator of one rank needs no MPI-IO.
+/// Rows of point arrays of a snapshot on its way, written by all ranks of a communicator. Calls are
+/// collective, but a communicator of one rank needs no MPI-IO.
 class SnapshotRows {
  public:
   SnapshotRows(const std::string& path, std::size_t points, MPI_Comm communicator);

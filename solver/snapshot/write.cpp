@@ -91,6 +91,15 @@ void write_parameters(h5::File& file, const Snapshot& s) {
       file.write_text("/parameters", name, std::get<std::string>(value));
 }
 
+void write_source(h5::File& file, const SnapshotSource& source) {
+  file.create_group("/import");
+  file.write_text("/import", "source", source.file);
+  file.write_numbers("/import", "origin", as_numbers({&source.origin, 1}));
+  file.write_numbers("/import", "axes", as_numbers(source.axes));
+  file.write_number("/import", "time_start", source.time_start);
+  file.write_text("/import", "break", source.break_plane);
+}
+
 }  // namespace
 
 SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
@@ -107,6 +116,7 @@ SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
   write_table(file_, "/foundation/quads", s.foundation_quads);
   write_cut(file_, s);
   write_parameters(file_, s);
+  if (s.source) write_source(file_, *s.source);
 }
 
 void SnapshotWriter::write_frames(std::size_t first, std::span<const Vec3> displacements) {
@@ -115,11 +125,20 @@ void SnapshotWriter::write_frames(std::size_t first, std::span<const Vec3> displ
                            as_numbers(displacements));
 }
 
+void SnapshotWriter::write_array(const SnapshotArray& array, std::size_t frame,
+                                 std::span<const double> numbers) {
+  CLEFT_CHECK(numbers.size(), ==, array.components * points_);
+  file_.write_rows<double>("/VTKHDF/PointData/" + array.name, array.varies ? frame * points_ : 0, points_,
+                           numbers);
+}
+
 void SnapshotWriter::finish(const Snapshot& s) {
   if (!file_.is_open()) file_ = h5::File::open_to_write(out_.path());
   write_list(file_, "/frames/smallest_gap", s.smallest_gap);
-  write_list(file_, "/frames/residual_equilibrium", s.residual_equilibrium);
-  write_list(file_, "/frames/residual_closure", s.residual_closure);
+  if (!s.source) {
+    write_list(file_, "/frames/residual_equilibrium", s.residual_equilibrium);
+    write_list(file_, "/frames/residual_closure", s.residual_closure);
+  }
   file_.close();
   out_.commit();
 }

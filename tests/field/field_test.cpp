@@ -2,66 +2,128 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "tests/field/random_field.h"
 
 namespace cleft {
 
 namespace {
 
-/// The four-fold sum of the definition.
-Vec3 by_definition(const Field& f, const Vec3& p, Limit side, double t) {
-  const double at[] = {p.x, p.y, p.z, t};
-  std::array<std::vector<double>, 4> value;
-  for (int axis = 0; axis < 4; ++axis) {
-    const auto b = f.basis(axis).evaluate(at[axis], axis == 1 ? side : Limit::from_right);
-    value[axis].assign(f.basis(axis).size(), 0);
-    for (int i = 0; i <= 3; ++i) value[axis][b.first + i] = b.value[i];
+std::vector<Field> fields() {
+  std::vector<Field> list{random_field(), tip_field()};
+  // Few frames and few control points: lower degrees, which end before a stencil does.
+  for (const int degree : {1, 2}) {
+    const std::array<BSplineBasis, 4> bases{
+        BSplineBasis::uniform(degree, 4, -30, 30), BSplineBasis::broken(degree, 2 * degree + 3, -20, 0, 20),
+        BSplineBasis::uniform(3, 5, -8, 0), BSplineBasis::uniform(degree, degree + 1, 0, 24)};
+    list.emplace_back(bases[0], bases[1], bases[2], bases[3], random_coefficients(bases),
+                      CanonicalCut{-12, 24, 3});
   }
-  Vec3 sum;
-  std::size_t next = 0;
-  for (const double u : value[0])
-    for (const double v : value[1])
-      for (const double w : value[2])
-        for (const double s : value[3]) sum += u * v * w * s * f.coefficients()[next++];
-  return sum;
+  // No cut: nothing breaks at v = 0.
+  const std::array<BSplineBasis, 4> uncut{
+      BSplineBasis::uniform(3, 5, -30, 30), BSplineBasis::uniform(3, 6, -20, 20),
+      BSplineBasis::uniform(3, 5, -8, 0), BSplineBasis::uniform(3, 4, 0, 24)};
+  list.emplace_back(uncut[0], uncut[1], uncut[2], uncut[3], random_coefficients(uncut), CanonicalCut{});
+  return list;
 }
-
-History contracted(const Field& field, const Vec3& p) {
-  History history;
-  field.contract(p, Side::both, 0, history);
-  return history;
-}
-
-constexpr double rounding =
-    1e-13;  // a few hundred operations on numbers of size 1, a cubic through four points
 
 }  // namespace
 
-TEST(Field, EqualsTheSumOfItsDefinitionAndItsContraction) {
-  const Field field = random_field();
-  for (const Vec3& p : {Vec3{-30, -20, -8}, {30, 20, 0}, {3.3, 4.4, -5.5}, {-7, -0.001, -1}, {0, 11, 0}})
-    for (const double t : {0.0, 5.5, 24.0}) {
-      const Vec3 direct = field.displacement(p, Side::both, t);
-      EXPECT_LT(norm(direct - by_definition(field, p, p.y < 0 ? Limit::from_left : Limit::from_right, t)),
-                rounding);
-      EXPECT_LT(norm(direct - evaluate(contracted(field, p), t)), rounding);
+TEST(Field, EveryKernelEqualsTheSumOfItsDefinition) {
+  EXPECT_EQ(available_kernels().front(), Kernel::plain);
+  for (Field field : fields()) {
+    const std::vector<Place> places = all_kinds_of_places(field);
+    std::vector<Vec3> batch(places.size());
+    for (const Kernel kernel : available_kernels()) {
+      field.use(kernel);
+      field.displacements(places, batch);
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto& [uvw, side, t] = places[i];
+        ASSERT_LT(norm(batch[i] - by_definition(field, places[i])), rounding) << name_of(kernel) << ' ' << i;
+        ASSERT_EQ(field.displacement(uvw, side, t), batch[i]);
+      }
+    }
+  }
+}
+
+TEST(Field, CollapsedToATimeItIsTheSame) {
+  CollapsedField collapsed;
+  for (Field field : fields())
+    for (const Kernel kernel : available_kernels()) {
+      field.use(kernel);
+      std::vector<Place> places = all_kinds_of_places(field, 100);
+      std::vector<Vec3> batch(places.size());
+      for (const double t : {-1., 0., 3.7, 10., 24.}) {
+        field.collapse(t, collapsed);
+        collapsed.displacements(places, batch);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+          const Vec3 direct = field.displacement(places[i].uvw, places[i].side, t);
+          ASSERT_LT(norm(batch[i] - direct), rounding) << name_of(kernel);
+          ASSERT_EQ(collapsed.displacement(places[i].uvw, places[i].side), batch[i]);
+        }
+      }
     }
 }
 
+TEST(Field, CopiesStandAlone) {
+  auto original = std::make_unique<Field>(tip_field());
+  Field copy = *original, moved = std::move(*original);
+  original.reset();
+  const Field again = tip_field();
+  for (const Place& p : all_kinds_of_places(again, 30)) {
+    EXPECT_EQ(copy.displacement(p.uvw, p.side, p.t), again.displacement(p.uvw, p.side, p.t));
+    EXPECT_EQ(moved.displacement(p.uvw, p.side, p.t), again.displacement(p.uvw, p.side, p.t));
+  }
+}
+
 TEST(Field, OnThePlaneTheSideChoosesTheLip) {
-  const Field field = random_field();
-  const Vec3 p{4, 0, -2};
-  const Vec3 left = field.displacement(p, Side::left, 9), right = field.displacement(p, Side::right, 9);
-  EXPECT_LT(norm(left - by_definition(field, p, Limit::from_left, 9)), rounding);
-  EXPECT_LT(norm(right - by_definition(field, p, Limit::from_right, 9)), rounding);
-  EXPECT_GT(norm(left - right), 0.1) << "random sides must differ";
-  const Vec3 mean = lerp(left, right, 0.5);
-  EXPECT_LT(norm(field.displacement(p, Side::both, 9) - mean), rounding);
-  EXPECT_LT(norm(evaluate(contracted(field, p), 9) - mean), rounding);
-  // Each lip is the limit of its side: over 1e-9 mm a cubic with coefficients of size 1 on spans of 5 mm
-  // moves by less than 1e-8.
-  EXPECT_LT(norm(left - field.displacement({4, -1e-9, -2}, Side::both, 9)), 1e-8);
-  EXPECT_LT(norm(right - field.displacement({4, 1e-9, -2}, Side::both, 9)), 1e-8);
+  for (const Field& field : {random_field(), tip_field()}) {
+    const Vec3 p{4, 0, -2};
+    const Vec3 left = field.displacement(p, Side::left, 9), right = field.displacement(p, Side::right, 9);
+    EXPECT_GT(norm(left - right), 0.1) << "random sides must differ";
+    EXPECT_LT(norm(field.displacement(p, Side::both, 9) - lerp(left, right, 0.5)), rounding);
+    // Each lip is the limit of its side: over 1e-9 mm a cubic with coefficients of size 1 on spans of 5 mm
+    // moves by less than 1e-8.
+    EXPECT_LT(norm(left - field.displacement({4, -1e-9, -2}, Side::both, 9)), 1e-8);
+    EXPECT_LT(norm(right - field.displacement({4, 1e-9, -2}, Side::both, 9)), 1e-8);
+  }
+}
+
+TEST(Field, QuantitiesStandOnTheSameBases) {
+  for (Field field : fields()) {
+    const std::size_t count = field.coefficients().size();
+    Quantity same{"displacement", 3, {}}, stress{"stress", 6, std::vector<double>(6 * count)},
+        temperature{"temperature", 1, std::vector<double>(count)};
+    for (std::size_t i = 0; i < count; ++i) {
+      for (int d = 0; d < 3; ++d) {
+        const double c = field.coefficients()[i][d];
+        same.coefficients.push_back(c);
+        stress.coefficients[6 * i + static_cast<std::size_t>(d)] = c;
+        stress.coefficients[6 * i + static_cast<std::size_t>(d) + 3] = 10 + c;
+      }
+      temperature.coefficients[i] = 37 - field.coefficients()[i].y;
+    }
+    field.quantities = {same, stress, temperature};
+    for (const Place& p : all_kinds_of_places(field, 100)) {
+      const Vec3 d = field.displacement(p.uvw, p.side, p.t);
+      double three[3], six[6], one[1];
+      field.quantity(0, p.uvw, p.side, p.t, three);
+      field.quantity(1, p.uvw, p.side, p.t, six);
+      field.quantity(2, p.uvw, p.side, p.t, one);
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(three[i], d[i], rounding);
+        EXPECT_NEAR(six[i], d[i], rounding);
+        EXPECT_NEAR(six[3 + i], 10 + d[i], 10 * rounding);
+      }
+      EXPECT_NEAR(one[0], 37 - d.y, 40 * rounding);
+    }
+  }
+}
+
+TEST(Field, DegreesAboveThreeAreRefused) {
+  const BSplineBasis a = BSplineBasis::uniform(4, 5, 0, 1), v = BSplineBasis::broken(3, 8, -1, 0, 1),
+                     b = BSplineBasis::uniform(3, 4, 0, 1);
+  EXPECT_THROW(Field(a, v, b, b, std::vector<Vec3>(5 * 8 * 4 * 4), {0, 1, 1}), InputError);
 }
 
 }  // namespace cleft

@@ -6,6 +6,7 @@
 
 #include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
+#include "tests/support/allocations.h"
 
 namespace cleft {
 namespace {
@@ -56,6 +57,60 @@ TEST(Replay, IsTheFieldItselfOnAFlatPatch) {
         ASSERT_LT(norm(moved[i] - expected), 1e-12) << "vertex " << i << " at t = " << t;
       }
     }
+  }
+}
+
+/// Normalised parameters that follow the tip, any coefficients, and a fit good to 1e-3 of 1 mm.
+Field tip_field() {
+  const std::array<BSplineBasis, 4> bases{
+      BSplineBasis(3, {0, 0, 0, 0, 1, 1, 1, 1.5, 2, 2, 2, 2.5, 3, 3, 3, 3}),
+      BSplineBasis::broken(3, 10, -1, 0, 1), BSplineBasis(3, {-2, -2, -2, -2, -1, -1, -1, 0, 0, 0, 0}),
+      BSplineBasis::uniform(3, 7, 0, 1)};
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> value(-1, 1);
+  std::vector<Vec3> coefficients(12 * 10 * 7 * 7);
+  for (Vec3& c : coefficients) c = {value(random), value(random), value(random)};
+  Field field(
+      make_parametrization("tip", {{{{-10, 10}, {-8, 8}, {-6, 0}, {0, 10}}}, canonical, {{0, 10}, {-5, 5}}}),
+      bases, std::move(coefficients));
+  field.report.largest_displacement = 1, field.report.spline_error = 1e-3;
+  return field;
+}
+
+TEST(Replay, FollowsTheTipWithinTheToleranceOfContraction) {
+  const Straight cut;
+  const CutMesh& mesh = cut.incision.mesh();
+  const Field field = tip_field();
+  EXPECT_EQ(field.contraction_tolerance(), 1e-4);
+  const Replay replay(field, cut.incision, 1);
+  std::vector<Vec3> moved(mesh.vertices().size());
+  std::vector<double> times{0, 10};
+  for (double t = 0; t < 10; t += 0.0371) times.push_back(t);
+  for (const auto& c : cut.incision.chain())  // when the tip passes a vertex, and just before and after
+    for (const double away : {-1e-6, 0., 1e-6}) times.push_back(c.s + away);
+  for (const double t : times) {
+    replay.positions(t, moved);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const CutMesh::Vertex& v = mesh.vertices()[i];
+      const Vec3& p = v.position;
+      // Where rounding decides on which side of the cut's start it lies, the vertex jumps.
+      if ((v.kind != VertexKind::skin && v.depth_fraction != 0) || std::abs(p.x + 5) < 1e-6) continue;
+      Side side = v.kind == VertexKind::skin ? side_of(p.y) : side_of(v.kind);
+      if (v.kind != VertexKind::skin && v.s >= t) side = Side::both;
+      ASSERT_LE(norm(moved[i] - p - field.displacement(p, side, t)), 1.0001e-4)
+          << "vertex " << i << " at t = " << t;
+    }
+  }
+}
+
+TEST(Replay, AllocatesNothing) {
+  const Straight cut;
+  for (const Field& field : {random_field(20, 16), tip_field()}) {
+    const Replay replay(field, cut.incision, 1);
+    std::vector<Vec3> moved(replay.vertex_count());
+    const std::size_t before = allocations();
+    for (double t = -1; t < 11; t += 0.1) replay.positions(t, moved);
+    EXPECT_EQ(allocations(), before);
   }
 }
 

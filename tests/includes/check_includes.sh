@@ -10,8 +10,8 @@ complain() { echo "$1: a file here must not include $2:"; sed 's/^/  /' <<<"$3";
 while IFS=: read -r part allowed; do
   [ -n "$part" ] || continue
   [ -d "$root/$part" ] || { echo "$part: no such folder"; bad=1; continue; }
-  nested=$(case $part in solver) echo "$root/solver/snapshot" ;; encoder) echo "$root/encoder/field" ;; *) echo /nowhere ;; esac)
-  found=$(find "$root/$part" -path "$nested" -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 |
+  nested=$(case $part in solver) echo snapshot ;; encoder) echo field import ;; *) echo nowhere ;; esac)
+  found=$(find "$root/$part" \( -false $(printf -- "-o -path $root/$part/%s " $nested) \) -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 -r grep -HnE '#include "(base|params|solver|encoder|haptic|explorer|cli|examples)/' |
     grep -vE "#include \"($part|$allowed)/")
   [ -z "$found" ] || complain "$part" "anything but $allowed" "$found"
@@ -22,6 +22,7 @@ solver/snapshot:base
 solver:base|params
 encoder/field:base
 encoder:base|solver/snapshot
+encoder/import:base|solver/snapshot
 haptic:base|encoder/field
 explorer/incision:base|encoder/field|haptic
 explorer/io:base|explorer/incision|solver/snapshot
@@ -31,15 +32,18 @@ cli:base|params|solver/snapshot|encoder/field
 examples:base
 PARTS
 
-# forbid NAME PATTERN FOLDER...: no file of the folders may include a header that matches
+# forbid NAME PATTERN FOLDER...: no file of the folders may include a header that matches, but for what $except names
 forbid() {
   local name=$1 pattern=$2 found; shift 2
-  found=$(cd "$root" && grep -rnE --include='*.h' --include='*.cpp' "#include <($pattern)" "$@")
+  found=$(cd "$root" && grep -rnE --include='*.h' --include='*.cpp' "#include <($pattern)" "$@" | grep -vE "^(${except:-$^})")
   [ -z "$found" ] || complain "$*" "$name" "$found"
 }
 forbid "deal.II or Trilinos" 'deal\.II/|Epetra|ml_|Teuchos|dmumps' base params solver/snapshot encoder haptic explorer cli examples
 forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer cli examples
-forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/scene cli
+except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/scene cli
 forbid "Eigen" 'Eigen/' base params encoder/field haptic
 forbid "HDF5" 'hdf5|H5' params solver encoder haptic explorer cli examples
+found=$(cd "$root" && grep -rn --include='*.h' --include='*.cpp' '#include "encoder/import/' base params solver encoder haptic \
+  explorer cli examples | grep -v '^encoder/import/')
+[ -z "$found" ] || complain "other folders" "encoder/import" "$found"
 exit $bad

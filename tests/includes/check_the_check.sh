@@ -25,5 +25,11 @@ explorer/incision|<QWidget>
 explorer/view|<deal.II/grid/tria.h>
 encoder/field|<Eigen/Core>
 explorer/scene|<hdf5.h>
+encoder|<vtkPolyData.h>
+base|<vtkPolyData.h>
+encoder/import|"encoder/encode.h"
+encoder/import|"explorer/io/mesh_file.h"
+encoder/import|<hdf5.h>
+encoder|"encoder/import/series.h"
 CASES
 echo "every forbidden include was found"

@@ -73,6 +73,45 @@ TEST(Snapshot, ReadsBackWhatWasWritten) {
   EXPECT_EQ(folder.entries(), 1);
 }
 
+TEST(Snapshot, ImportedDataNeedNoCutNorResiduals) {
+  const TemporaryFolder folder;
+  Snapshot s = small_snapshot();
+  s.cell_types = {5, 73};  // a type that no other part knows
+  s.foundation_triangles.clear(), s.foundation_quads.clear(), s.pairs.clear(), s.parameters.clear();
+  s.released = {0, 0, 0};
+  s.cut_start = s.cut_length = s.cut_depth = 0;
+  s.residual_equilibrium.clear(), s.residual_closure.clear();
+  s.source = {"wave.pvd", {1, 2, 3}, {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}}, -4.5, "none"};
+  const SnapshotArray pressure = {"pressure", 1, true}, stress = {"stress", 6, true};
+  const auto numbers = [](std::size_t count, std::size_t frame) {
+    std::vector<double> list(count);
+    for (std::size_t i = 0; i < count; ++i) list[i] = 1.0 / (1.0 + static_cast<double>(i + 100 * frame));
+    return list;
+  };
+  SnapshotWriter writer(folder / "case.h5", s, {pressure, stress});
+  for (std::size_t j = 0; j < 3; ++j) {  // no displacement: its rows are 0
+    writer.write_array(pressure, j, numbers(7, j));
+    writer.write_array(stress, j, numbers(42, j));
+  }
+  writer.finish(s);
+  check_snapshot(folder / "case.h5");
+
+  const SnapshotReader reader(folder / "case.h5");
+  const Snapshot& read = reader.snapshot();
+  ASSERT_TRUE(read.source);
+  EXPECT_EQ(read.source->file, "wave.pvd");
+  EXPECT_EQ(read.source->origin, (Vec3{1, 2, 3}));
+  EXPECT_EQ(read.source->axes, s.source->axes);
+  EXPECT_EQ(read.source->time_start, -4.5);
+  EXPECT_EQ(read.source->break_plane, "none");
+  EXPECT_TRUE(read.pairs.empty() && read.residual_closure.empty() && read.parameters.empty());
+  for (std::size_t j = 0; j < 3; ++j) {
+    EXPECT_EQ(reader.displacement(j), std::vector<Vec3>(7));
+    EXPECT_EQ(reader.point_array(pressure, j), numbers(7, j));
+    EXPECT_EQ(reader.point_array(stress, j), numbers(42, j));
+  }
+}
+
 TEST(Snapshot, FurtherArraysOfThePointsAreRead) {
   const TemporaryFolder folder;
   const std::string file = write(folder, small_snapshot());
@@ -192,6 +231,12 @@ TEST(Snapshot, ContradictionsAreNamed) {
   refuse([](Snapshot& s) { s.released = {0, 1, 2}; }, "released");
   refuse([](Snapshot& s) { s.times = {0, 2, 2}; }, "Steps/Values");
   refuse([](Snapshot& s) { s.foundation_quads[0][0] = 99; }, "quads");
+
+  const SnapshotSource source = {"a.pvd", {}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 0, "none"};
+  refuse([&](Snapshot& s) { s.source = source, s.cut_length = -1; }, "must not be negative");
+  refuse([&](Snapshot& s) { s.source = source, s.source->origin.x = std::nan(""); }, "origin");
+  refuse([&](Snapshot& s) { s.source = source, s.source->axes[2] = {0, 0, -1}; }, "right-handed");
+  refuse([&](Snapshot& s) { s.source = source, s.source->axes[0] = {1.01, 0, 0}; }, "right-handed");
 }
 
 }  // namespace cleft

@@ -19,6 +19,7 @@ class FixedParametrization final : public Parametrization {
   double w_at(double height) const override { return height; }
   double time_at(double parameter) const override { return parameter; }
   bool moves() const override { return false; }
+  void map(std::span<const Place> places, BasisPlace* out) const override { map_each(*this, places, out); }
 };
 
 }  // namespace cleft

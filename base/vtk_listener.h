@@ -1,4 +1,4 @@
-// VTK's errors as values. For the sources of this folder only.
+// VTK's errors as values. The one header of base that sees VTK: for the sources that read or write with it.
 #pragma once
 
 #include <vtkCallbackCommand.h>

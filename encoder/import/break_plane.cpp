@@ -1,0 +1,218 @@
+#include "encoder/import/break_plane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double loosely_given = 1e-3;  // of the diagonal: a plane typed with a few digits
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+class Search {
+ public:
+  Search(const Series& series, const std::optional<Vec3>& flat)
+      : series_(series), mesh_(series.mesh()), flat_(flat), tolerance_(in_plane(mesh_)) {
+    groups_ = coincident_groups(mesh_.points, same_place(mesh_));
+  }
+
+  const Groups& groups() const { return groups_; }
+
+  void watch(const std::function<void(std::size_t)>& progress) {
+    if (!groups_.empty()) partings_ = partings(series_, groups_, progress);
+  }
+
+  /// The plane of the nodes that part; none where there are none.
+  std::optional<Plane> found(std::vector<std::string>& notes) const {
+    std::vector<Vec3> parting, all;
+    for (const auto& group : groups_) all.push_back(place_of(group));
+    const auto frames = static_cast<std::int32_t>(series_.frames());
+    for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
+      if (partings_.first_frame[p] < frames) parting.push_back(place_of(partings_.pairs[p]));
+    if (all.empty()) return {};
+    if (parting.empty()) {
+      notes.push_back(counted(nodes_in_groups(), "coincident node") + " never part in '" +
+                      series_.fields()[telling_field(series_)].name +
+                      "': taken for a seam of the mesh, not for a break; --break takes them for one");
+      return {};
+    }
+    if (const auto plane = common_plane(parting, tolerance_, flat_)) return plane;
+    const auto plane = common_plane(all, tolerance_, flat_);
+    if (!plane) refuse_scattered(parting);
+    return plane;
+  }
+
+  /// The plane given, or the one near it in which coincident nodes lie exactly.
+  Plane given(const std::string& text) const {
+    Plane plane = parse_plane(text);
+    if (flat_) plane = upright(plane, text);
+    refuse_one_sided(plane, text);
+    if (groups_.empty()) return plane;
+    const double loose = loosely_given * diagonal(mesh_.points);
+    std::vector<Vec3> near;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& group : groups_) {
+      const double distance = std::abs(plane.distance(place_of(group)));
+      nearest = std::min(nearest, distance);
+      if (distance <= loose) near.push_back(place_of(group));
+    }
+    if (near.empty())
+      throw InputError("--break '" + text + "': none of the " +
+                       counted(nodes_in_groups(), "coincident node") + " lies in this plane, the nearest " +
+                       shortest(nearest) + " away; correct it, or leave it out to have it found");
+    if (auto exact = common_plane(near, tolerance_, flat_); exact && dot(exact->normal, plane.normal) != 0) {
+      if (dot(exact->normal, plane.normal) < 0) exact = Plane{-exact->normal, -exact->offset};
+      if (std::abs(dot(exact->normal, plane.normal)) > 1 - loosely_given) return *exact;
+    }
+    return plane;
+  }
+
+  /// Pairs each left node of a place in the plane with a right one.
+  void pair_nodes(Break& found) const {
+    const Plane& plane = *found.plane;
+    const std::vector<double> side = sides(plane);
+    std::map<NodePair, std::int32_t> first_frame;
+    for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
+      first_frame[partings_.pairs[p]] = partings_.first_frame[p];
+    std::size_t elsewhere = 0, one_sided = 0, crowded = 0;
+    for (const auto& group : groups_) {
+      if (std::abs(plane.distance(place_of(group))) > tolerance_) {
+        elsewhere += group.size();
+        continue;
+      }
+      std::vector<std::int32_t> left, right;
+      for (const std::int32_t node : group) {
+        const double s = side[static_cast<std::size_t>(node)];
+        if (s != 0) (s < 0 ? left : right).push_back(node);
+      }
+      if (left.empty() || right.empty()) {
+        one_sided += group.size();
+        continue;
+      }
+      if (group.size() > 2) ++crowded;
+      for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
+        const std::int32_t l = left[std::min(i, left.size() - 1)], r = right[std::min(i, right.size() - 1)];
+        found.pairs.push_back({l, r});
+        found.first_frame.push_back(first_frame.at({std::min(l, r), std::max(l, r)}));
+      }
+    }
+    if (elsewhere > 0)
+      found.notes.push_back(counted(elsewhere, "coincident node") +
+                            " lie outside the break's plane: left as they are");
+    if (one_sided > 0)
+      found.notes.push_back(counted(one_sided, "coincident node") +
+                            " in the break's plane have cells on one side only: not paired");
+    if (crowded > 0)
+      found.notes.push_back("more than two nodes at " + counted(crowded, "place") +
+                            " of the break: each left one is paired with a right one");
+    if (found.pairs.empty())
+      found.notes.push_back("no nodes are doubled in the break's plane: the snapshot has no pairs");
+  }
+
+ private:
+  template <class Nodes>
+  Vec3 place_of(const Nodes& nodes) const {
+    return mesh_.points[static_cast<std::size_t>(*nodes.begin())];
+  }
+
+  std::size_t nodes_in_groups() const {
+    std::size_t count = 0;
+    for (const auto& group : groups_) count += group.size();
+    return count;
+  }
+
+  [[noreturn]] void refuse_scattered(const std::vector<Vec3>& parting) const {
+    const Spread spread = spread_of(parting);
+    const bool many = spread.deviation[flat_ ? 0 : 1] <= tolerance_;
+    double farthest = 0;
+    for (const Vec3& p : parting)
+      farthest = std::max(farthest, std::abs(dot(spread.axis[flat_ ? 1 : 2], p - spread.centre)));
+    throw InputError(
+        series_.path() + ": " + counted(nodes_in_groups(), "coincident node") + " at " +
+        counted(groups_.size(), "place") +
+        (many ? std::string(flat_ ? " are a point" : " are on a line") + ", through which many planes go"
+              : " lie in no common plane (up to " + shortest(farthest) + " from the best one)") +
+        "; say which plane with --break nx,ny,nz,offset, or --break none");
+  }
+
+  /// The plane through the same line of a flat mesh, upright on it.
+  Plane upright(const Plane& plane, const std::string& text) const {
+    const Vec3 inside = plane.normal - dot(plane.normal, *flat_) * *flat_;
+    if (norm(inside) < 1e-6)
+      throw InputError("--break '" + text + "': is parallel to the plane of the mesh, and cannot divide it");
+    const Vec3 normal = snapped(normalized(inside));
+    const Vec3 on_mesh = mesh_.points.front();
+    const Vec3 on_both = on_mesh - (plane.distance(on_mesh) / norm(inside)) * normal;
+    return {normal, dot(normal, on_both)};
+  }
+
+  void refuse_one_sided(const Plane& plane, const std::string& text) const {
+    double low = 0, high = 0;
+    for (const Vec3& p : mesh_.points)
+      low = std::min(low, plane.distance(p)), high = std::max(high, plane.distance(p));
+    if (low < -tolerance_ && high > tolerance_) return;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : mesh_.points) nearest = std::min(nearest, std::abs(plane.distance(p)));
+    throw InputError("--break '" + text + "': all nodes lie on one side of this plane, the nearest " +
+                     shortest(nearest) + " and the farthest " + shortest(std::max(-low, high)) +
+                     " away; the plane is that of the points x with n . x = offset");
+  }
+
+  /// Of the nodes of groups: the sum of their cells' centroids' distances from the plane.
+  std::vector<double> sides(const Plane& plane) const {
+    std::vector<char> asked(mesh_.points.size());
+    for (const auto& group : groups_)
+      for (const std::int32_t node : group) asked[static_cast<std::size_t>(node)] = 1;
+    std::vector<double> side(mesh_.points.size());
+    for (std::size_t c = 0; c < mesh_.cell_types.size(); ++c) {
+      const auto* first = mesh_.connectivity.data() + mesh_.cell_offsets[c];
+      const auto* last = mesh_.connectivity.data() + mesh_.cell_offsets[c + 1];
+      if (std::none_of(first, last, [&](std::int64_t i) { return asked[static_cast<std::size_t>(i)]; }))
+        continue;
+      double sum = 0;
+      for (const auto* i = first; i != last; ++i)
+        sum += plane.distance(mesh_.points[static_cast<std::size_t>(*i)]);
+      const double centroid = sum / static_cast<double>(last - first);
+      if (std::abs(centroid) <= tolerance_) continue;  // an interface element, between the two sides
+      for (const auto* i = first; i != last; ++i) side[static_cast<std::size_t>(*i)] += centroid;
+    }
+    return side;
+  }
+
+  const Series& series_;
+  const SourceMesh& mesh_;
+  std::optional<Vec3> flat_;
+  double tolerance_;
+  Groups groups_;
+  Partings partings_;
+};
+
+}  // namespace
+
+Break find_break(Series& series, const std::optional<std::string>& given, const std::optional<Vec3>& flat,
+                 const std::function<void(std::size_t)>& progress) {
+  Break result;
+  const Groups groups = coincident_groups(series.mesh().points, same_place(series.mesh()));
+  if (is_unwelded(series.mesh(), groups)) {
+    const std::size_t before = series.mesh().points.size(), gone = weld(series, groups);
+    result.notes.push_back("nearly every cell has nodes of its own: " + std::to_string(gone) + " of " +
+                           counted(before, "node") +
+                           " that agree with another at their place in all fields and frames were welded");
+  }
+  if (given == "none") return result;
+  Search search(series, flat);
+  search.watch(progress);
+  result.plane = given ? search.given(*given) : search.found(result.notes);
+  if (result.plane) search.pair_nodes(result);
+  return result;
+}
+
+}  // namespace cleft

@@ -1,0 +1,124 @@
+#include "encoder/import/coincident.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "encoder/import/jumps.h"
+
+namespace cleft {
+
+namespace {
+
+/// Sets of points, joined one by one.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::int32_t root(std::int32_t i) {
+    while (parent_[static_cast<std::size_t>(i)] != i) {
+      auto& up = parent_[static_cast<std::size_t>(i)];
+      i = up = parent_[static_cast<std::size_t>(up)];
+    }
+    return i;
+  }
+  /// The lowest number is the root.
+  void join(std::int32_t a, std::int32_t b) {
+    a = root(a), b = root(b);
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+std::uint64_t key(const Vec3& place, double size) {
+  std::uint64_t hash = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto cell = static_cast<std::int64_t>(std::floor(place[i] / size));
+    hash = (hash ^ static_cast<std::uint64_t>(cell)) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+}  // namespace
+
+Groups coincident_groups(const std::vector<Vec3>& points, double tolerance) {
+  const double size = 16 * tolerance;  // most points are far from the borders of their cell
+  std::unordered_map<std::uint64_t, std::vector<std::int32_t>> cells;
+  cells.reserve(points.size());
+  Sets sets(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<std::uint64_t> near;
+    for (const double x : {-tolerance, tolerance})
+      for (const double y : {-tolerance, tolerance})
+        for (const double z : {-tolerance, tolerance}) near.push_back(key(points[i] + Vec3{x, y, z}, size));
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::uint64_t cell : near)
+      if (const auto found = cells.find(cell); found != cells.end())
+        for (const std::int32_t other : found->second)
+          if (norm(points[static_cast<std::size_t>(other)] - points[i]) <= tolerance)
+            sets.join(static_cast<std::int32_t>(i), other);
+    cells[key(points[i], size)].push_back(static_cast<std::int32_t>(i));
+  }
+
+  std::vector<std::vector<std::int32_t>> members(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    members[static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(i)))].push_back(
+        static_cast<std::int32_t>(i));
+  Groups groups;
+  for (auto& group : members)
+    if (group.size() > 1) groups.push_back(std::move(group));
+  return groups;
+}
+
+bool is_unwelded(const SourceMesh& mesh, const Groups& groups) {
+  std::size_t in_company = 0;
+  for (const auto& group : groups) in_company += group.size();
+  // A slit through one row of elements on either side doubles half of the nodes.
+  return static_cast<double>(in_company) > 0.6 * static_cast<double>(mesh.points.size());
+}
+
+std::size_t weld(Series& series, const Groups& groups) {
+  const std::vector<double> tolerance = rounding_of(series);
+  const std::size_t points = series.mesh().points.size();
+  std::vector<std::int32_t> stands_for(points);  // the first node that agreed so far
+  std::iota(stands_for.begin(), stands_for.end(), 0);
+  for (const auto& group : groups)
+    for (const std::int32_t node : group) stands_for[static_cast<std::size_t>(node)] = group.front();
+
+  for (std::size_t j = 0; j < series.frames(); ++j) {
+    const FieldValues values = series.frame(j);
+    const auto agree = [&](std::int32_t a, std::int32_t b) {
+      for (std::size_t f = 0; f < values.size(); ++f)
+        if (jump_of(values[f], series.fields()[f].components, a, b) > tolerance[f]) return false;
+      return true;
+    };
+    for (const auto& group : groups) {
+      // Those that stood for one node, and now differ from it, follow the first of them with their values.
+      std::vector<std::pair<std::int32_t, std::int32_t>> classes;  // before, and now
+      for (const std::int32_t node : group) {
+        std::int32_t& mine = stands_for[static_cast<std::size_t>(node)];
+        const auto found = std::find_if(classes.begin(), classes.end(), [&](const auto& c) {
+          return c.first == mine && agree(c.second, node);
+        });
+        const std::int32_t before = mine;
+        mine = found == classes.end() ? node : found->second;
+        if (mine == node) classes.emplace_back(before, node);
+      }
+    }
+  }
+
+  std::vector<std::int32_t> number(points);
+  std::int32_t next = 0;
+  for (std::size_t i = 0; i < points; ++i)
+    number[i] = stands_for[i] == static_cast<std::int32_t>(i)
+                    ? next++
+                    : number[static_cast<std::size_t>(stands_for[i])];
+  series.weld(number);
+  return points - static_cast<std::size_t>(next);
+}
+
+}  // namespace cleft

@@ -1,0 +1,45 @@
+// The files of a series: what every kind of them gives, frame by frame and unchecked.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "encoder/import/source_mesh.h"
+
+namespace cleft {
+
+/// An array of the points, in double precision whatever it was.
+struct SourceArray {
+  int components = 1;
+  bool single = false;  ///< stored in single precision
+  std::vector<double> values;
+};
+
+struct SourceFrame {
+  SourceMesh mesh;
+  std::vector<SourceArray> arrays;  ///< those asked for
+};
+
+class FrameFiles {
+ public:
+  virtual ~FrameFiles() = default;
+  /// All files the series is made of.
+  virtual std::vector<std::string> files() const = 0;
+  virtual const std::vector<double>& times() const = 0;
+  /// The file that holds a frame.
+  virtual const std::string& file(std::size_t frame) const = 0;
+  virtual std::vector<std::string> point_arrays(std::size_t frame) const = 0;
+  virtual std::vector<std::string> cell_arrays(std::size_t frame) const = 0;
+  /// Throws FileError where the file is damaged. `arrays` are names of point_arrays().
+  virtual SourceFrame read(std::size_t frame, const std::vector<std::string>& arrays) const = 0;
+};
+
+/// A .pvd that lists .vtu files, by VTK's readers. Throws FileError where it lists none that can be read, or
+/// no times.
+std::unique_ptr<FrameFiles> open_pvd(const std::string& path);
+
+/// A temporal .vtkhdf of one mesh a step, through base/h5: VTK 9.1 reads no times in them.
+std::unique_ptr<FrameFiles> open_vtkhdf(const std::string& path);
+
+}  // namespace cleft

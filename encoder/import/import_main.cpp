@@ -1,0 +1,75 @@
+// cleft import: another program's time series to a snapshot.
+#include <map>
+
+#include "base/command.h"
+#include "base/error.h"
+#include "encoder/import/import_series.h"
+
+using namespace cleft;
+
+namespace {
+
+const std::map<std::string, Box> boxes = {
+    {"smaller", Box::smaller}, {"aligned", Box::aligned}, {"principal", Box::principal}};
+
+Json list_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json figures_of(const ImportReport& report) {
+  const Snapshot& s = report.snapshot;
+  Json fields = Json::array();
+  if (report.has_displacement) fields.push_back("displacement");
+  for (const SnapshotArray& array : report.arrays) fields.push_back(array.name);
+  Json figures = {{"nodes", s.points.size()},
+                  {"cells", s.cell_types.size()},
+                  {"frames", s.frames()},
+                  {"duration", s.times.back()},
+                  {"fields", fields},
+                  {"pairs", s.pairs.size()},
+                  {"released", s.released.back()},
+                  {"cut", {{"start", s.cut_start}, {"length", s.cut_length}, {"depth", s.cut_depth}}},
+                  {"break", s.source->break_plane},
+                  {"origin", list_of(s.source->origin)}};
+  for (int i = 0; i < 3; ++i)
+    figures[std::string(1, "uvw"[i])] = list_of(s.source->axes[static_cast<std::size_t>(i)]);
+  figures["notes"] = report.notes;
+  return figures;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Takes another program's time series as a snapshot, and finds its discontinuity.",
+               "cleft import");
+  ImportOptions o;
+  std::string plane, box = "smaller";
+  bool json = false;
+  app.add_option("SERIES", o.series, "a .pvd that lists .vtu files with their times, or a temporal .vtkhdf")
+      ->required();
+  app.add_option("--field", o.fields,
+                 "SOURCE[:NAME],...: arrays of the points to take, and their names here; one "
+                 "named displacement is what fields are fitted to")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--break", plane,
+                 "nx,ny,nz,offset: the discontinuity's plane, of the points x with n . x = offset; "
+                 "or none (default: that of the coincident nodes that part)");
+  app.add_option("--box", box,
+                 "without a break: along the axes (aligned), the nodes' principal ones (principal), or "
+                 "those where they save a fifth (smaller)")
+      ->check(CLI::IsMember(boxes))
+      ->capture_default_str();
+  app.add_option("--out", o.out, "snapshot to write, case.h5")->required();
+  app.add_flag("--json", json, "print the figures as JSON");
+
+  return run_command(app, argc, argv, [&] {
+    if (app.count("--break") > 0) o.break_plane = plane;
+    o.box = boxes.at(box);
+    ImportReport report;
+    {
+      Progress progress("importing");
+      report = import_series(o, [&](const std::string& state) { progress(state); });
+    }
+    print_figures(figures_of(report), json);
+  });
+}

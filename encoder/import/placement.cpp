@@ -1,0 +1,193 @@
+#include "encoder/import/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "encoder/import/boundary.h"
+
+namespace cleft {
+
+namespace {
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double extent() const { return high - low; }
+  double middle() const { return (low + high) / 2; }
+};
+
+Range range_along(const std::vector<Vec3>& points, const Vec3& axis) {
+  Range range;
+  for (const Vec3& p : points)
+    range.low = std::min(range.low, dot(axis, p)), range.high = std::max(range.high, dot(axis, p));
+  return range;
+}
+
+struct Point2 {
+  double x, y;
+};
+
+/// Corners of the convex hull, counter-clockwise (Andrew's monotone chain).
+std::vector<Point2> hull_of(std::vector<Point2> points) {
+  std::sort(points.begin(), points.end(),
+            [](const Point2& a, const Point2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<Point2> hull;
+  const auto extend = [&hull](const Point2& p, std::size_t least) {
+    while (hull.size() > least) {
+      const Point2 &a = hull[hull.size() - 2], &b = hull.back();
+      const double turn = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+      // Corners on a line, up to rounding, would give edges of any direction.
+      if (turn > 1e-9 * std::hypot(b.x - a.x, b.y - a.y) * std::hypot(p.x - a.x, p.y - a.y)) break;
+      hull.pop_back();
+    }
+    hull.push_back(p);
+  };
+  for (const Point2& p : points) extend(p, 1);
+  const std::size_t lower = hull.size();
+  for (std::size_t i = points.size() - 1; i-- > 0;) extend(points[i], lower);
+  hull.pop_back();
+  return hull;
+}
+
+/// Along the longer side of the smallest rectangle around the points, seen along `normal`; a side of it lies
+/// on a side of the hull.
+Vec3 longest_direction(const std::vector<Vec3>& points, const Vec3& normal) {
+  const Vec3 aside = std::abs(normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 x = normalized(aside - dot(aside, normal) * normal), y = cross(normal, x);
+  std::vector<Point2> flat;
+  for (const Vec3& p : points) flat.push_back({dot(x, p), dot(y, p)});
+  const std::vector<Point2> hull = hull_of(flat);
+  Vec3 best = x;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0)) continue;
+    const Vec3 along = ((b.x - a.x) / length) * x + ((b.y - a.y) / length) * y, across = cross(normal, along);
+    const double p = range_along(points, along).extent(), q = range_along(points, across).extent();
+    if (p * q < least * (1 - 1e-9)) least = p * q, best = p >= q * (1 - 1e-9) ? along : across;
+  }
+  return snapped(best);
+}
+
+/// Makes `u` exactly orthogonal to the unit vector `v`.
+Vec3 orthogonal(const Vec3& u, const Vec3& v) { return normalized(u - dot(u, v) * v); }
+
+/// Whether the pairs open against u: later ones at smaller u.
+bool opens_backwards(const Break& found, const SourceMesh& mesh, const Vec3& u) {
+  const auto count = static_cast<double>(found.pairs.size());
+  const auto place = [&](std::size_t p) {
+    return dot(u, mesh.points[static_cast<std::size_t>(found.pairs[p][0])]);
+  };
+  double mean_place = 0, mean_frame = 0, covariance = 0, places = 0, frames = 0;
+  for (std::size_t p = 0; p < found.pairs.size(); ++p)
+    mean_place += place(p) / count, mean_frame += found.first_frame[p] / count;
+  for (std::size_t p = 0; p < found.pairs.size(); ++p) {
+    const double x = place(p) - mean_place, f = found.first_frame[p] - mean_frame;
+    covariance += x * f, places += x * x, frames += f * f;
+  }
+  return covariance <
+         -0.1 * std::sqrt(places * frames);  // both ways at once, like a crack's two ends, is neither
+}
+
+double volume(const std::vector<Vec3>& points, const std::array<Vec3, 3>& axes, bool is_flat) {
+  double product = 1;
+  for (int i = 0; i < (is_flat ? 2 : 3); ++i)
+    product *= range_along(points, axes[static_cast<std::size_t>(i)]).extent();
+  return product;
+}
+
+}  // namespace
+
+void Placement::turn(std::vector<double>& values, int components) const {
+  if (components == 3) {
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+      const Vec3 turned_one = turned({values[i], values[i + 1], values[i + 2]});
+      for (int c = 0; c < 3; ++c) values[i + static_cast<std::size_t>(c)] = turned_one[c];
+    }
+  } else if (components == 6) {
+    static constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
+    for (std::size_t i = 0; i < values.size(); i += 6) {
+      const double xx = values[i], yy = values[i + 1], zz = values[i + 2], xy = values[i + 3],
+                   yz = values[i + 4], xz = values[i + 5];
+      const Vec3 tensor[3] = {{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
+      for (int c = 0; c < 6; ++c) {
+        const Vec3 &a = axes[static_cast<std::size_t>(row[c])],
+                   &b = axes[static_cast<std::size_t>(column[c])];
+        values[i + static_cast<std::size_t>(c)] =
+            dot(a, {dot(tensor[0], b), dot(tensor[1], b), dot(tensor[2], b)});
+      }
+    }
+  }
+}
+
+std::optional<Vec3> flatness(const SourceMesh& mesh) {
+  const auto plane = common_plane(mesh.points, in_plane(mesh));
+  if (!plane) return {};
+  return plane->normal;
+}
+
+Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional<Vec3>& flat) {
+  std::vector<std::int32_t> doubled;
+  std::vector<Vec3> places;
+  for (const auto& [left, right] : found.pairs) {
+    doubled.insert(doubled.end(), {left, right});
+    places.push_back(mesh.points[static_cast<std::size_t>(left)]);
+  }
+  if (places.empty()) places = mesh.points;
+
+  Plane& plane = *found.plane;
+  Vec3 w, u;
+  bool open_above = false;
+  if (flat) {
+    w = *flat;
+    u = cross(plane.normal, w);
+  } else {
+    u = orthogonal(longest_direction(places, plane.normal), plane.normal);
+    w = forward(cross(u, plane.normal));
+    int above = 0, below = 0;
+    for (const Vec3& outward : outward_at(mesh, doubled)) {
+      above += dot(outward, w) > 0.7;
+      below += dot(outward, w) < -0.7;
+    }
+    if (below > above) w = -w;
+    open_above = std::max(above, below) > 0;
+    u = cross(plane.normal, w);
+  }
+  if (opens_backwards(found, mesh, u)) {
+    u = -u;
+    plane = {-plane.normal, -plane.offset};
+    for (NodePair& pair : found.pairs) std::swap(pair[0], pair[1]);
+  }
+  for (Vec3* axis : {&u, &plane.normal, &w}) *axis += Vec3{};  // no -0
+  const double middle = range_along(places, u).middle();
+  const double top = flat         ? dot(w, mesh.points.front())
+                     : open_above ? range_along(places, w).high
+                                  : range_along(mesh.points, w).high;
+  return {middle * u + plane.offset * plane.normal + top * w, {u, plane.normal, w}};
+}
+
+Placement placement_in_box(const SourceMesh& mesh, Box box, const std::optional<Vec3>& flat) {
+  std::array<Vec3, 3> aligned = Placement().axes;
+  const auto upright = flat ? std::find(aligned.begin(), aligned.end(), *flat) : aligned.end() - 1;
+  const bool can_be_aligned = upright != aligned.end();
+  if (can_be_aligned)
+    std::rotate(aligned.begin(), upright + 1, aligned.end());  // w is the flat mesh's normal
+  const Spread spread = spread_of(mesh.points);
+  const Vec3 w = flat ? *flat : forward(spread.axis[2]);
+  const Vec3 u = orthogonal(forward(spread.axis[0]), w);
+  const std::array<Vec3, 3> principal = {u, cross(w, u), w};
+
+  const bool is_flat = flat.has_value();
+  const bool turned = !can_be_aligned || box == Box::principal ||
+                      (box == Box::smaller && volume(mesh.points, principal, is_flat) <=
+                                                  0.8 * volume(mesh.points, aligned, is_flat));
+  Placement placement;
+  placement.axes = turned ? principal : aligned;
+  const auto& [a, b, c] = placement.axes;
+  placement.origin = range_along(mesh.points, a).middle() * a + range_along(mesh.points, b).middle() * b +
+                     range_along(mesh.points, c).high * c;
+  return placement;
+}
+
+}  // namespace cleft

@@ -1,0 +1,64 @@
+// A time series of another program: one mesh, and fields of its points frame by frame, checked.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "encoder/import/frame_files.h"
+
+namespace cleft {
+
+/// A field of the points and what it is called here.
+struct SeriesField {
+  std::string source, name;  ///< in the files, in the snapshot
+  int components = 1;        ///< 1, 3 (a vector) or 6 (a symmetric tensor: XX YY ZZ XY YZ XZ)
+  bool single = false;       ///< in single precision there
+};
+
+/// "stress" or "U:displacement": SOURCE[:NAME]. Throws InputError where a name cannot be one, or comes twice.
+std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts);
+
+/// Values of each field in a frame: N times its components, point by point.
+using FieldValues = std::vector<std::vector<double>>;
+
+class Series {
+ public:
+  /// A .pvd or temporal .vtkhdf. Throws InputError where it has fewer than 2 frames, times that do not
+  /// increase, no such fields, or fields of other than 1, 3 or 6 components.
+  Series(const std::string& path, const std::vector<SeriesField>& fields);
+
+  const std::string& path() const { return path_; }
+  std::vector<std::string> files() const { return files_->files(); }
+  const std::vector<double>& times() const { return files_->times(); }
+  std::size_t frames() const { return times().size(); }
+  const std::vector<SeriesField>& fields() const { return fields_; }
+  /// The first frame's.
+  const SourceMesh& mesh() const { return mesh_; }
+
+  /// Throws FileError where the frame has other nodes or cells than the first, lacks a field, or holds a
+  /// value that is not finite: with the file, frame, node and field.
+  FieldValues frame(std::size_t frame) const;
+  /// The farthest any node has stood from its place in the first frame, of the frames read so far.
+  double farthest_moved() const { return farthest_moved_; }
+
+  /// Nodes of the same number in `number` become one, with the values of the first of them; numbers count
+  /// from 0 without gaps.
+  void weld(const std::vector<std::int32_t>& number);
+
+ private:
+  std::string where(std::size_t frame) const;
+  std::vector<std::string> sources_there(std::size_t frame) const;
+  void describe_fields(const SourceFrame& first);
+  void check_mesh(std::size_t frame, const SourceMesh& mesh) const;
+  void check_values(std::size_t frame, const SourceFrame& values) const;
+
+  std::string path_;
+  std::unique_ptr<FrameFiles> files_;
+  std::vector<SeriesField> fields_;
+  SourceMesh mesh_as_read_, mesh_;
+  std::vector<std::int32_t> kept_;  ///< nodes as read, one for each node; empty: all
+  mutable double farthest_moved_ = 0;
+};
+
+}  // namespace cleft

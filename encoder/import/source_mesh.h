@@ -1,0 +1,33 @@
+// A mesh as another program wrote it, in its own space.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace cleft {
+
+/// N points, C cells of any of VTK's types.
+struct SourceMesh {
+  std::vector<Vec3> points;                ///< N
+  std::vector<std::uint8_t> cell_types;    ///< C
+  std::vector<std::int64_t> cell_offsets;  ///< C + 1
+  std::vector<std::int64_t> connectivity;
+};
+
+inline bool same_cells(const SourceMesh& a, const SourceMesh& b) {
+  return a.cell_types == b.cell_types && a.cell_offsets == b.cell_offsets && a.connectivity == b.connectivity;
+}
+
+/// Length of the diagonal of the box around the points.
+double diagonal(const std::vector<Vec3>& points);
+
+/// What is closer than this counts as the same place: much less than any element, more than rounding to
+/// single precision.
+inline double same_place(const SourceMesh& mesh) { return 1e-7 * diagonal(mesh.points); }
+
+/// What is closer than this to a plane counts as in it: more than rounding to the six digits of a text file.
+inline double in_plane(const SourceMesh& mesh) { return 2e-5 * diagonal(mesh.points); }
+
+}  // namespace cleft

@@ -1,0 +1,27 @@
+// A snapshot's time series in memory, as the fit wants it.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "encoder/field/parametrization.h"
+#include "encoder/samples.h"
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+struct Series {
+  std::vector<double> times;             ///< F, mm
+  std::vector<Sample> samples;           ///< N
+  std::vector<Eigen::MatrixX3d> frames;  ///< F: N x 3, displacement from frame 0, mm; frame 0 is zero
+  std::vector<double> largest;           ///< F: largest displacement of the frame, mm
+  double largest_displacement = 0;       ///< mm, of all
+  FieldGeometry geometry;
+
+  /// Reads all frames: 24 N F bytes. Throws InputError where there are fewer than two frames, a displacement
+  /// is not finite (frame and node are named), or the cut is not in the plane v = 0.
+  explicit Series(const SnapshotReader& reader);
+};
+
+}  // namespace cleft

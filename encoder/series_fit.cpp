@@ -1,0 +1,243 @@
+#include "encoder/series_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "encoder/parallel.h"
+
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // absent in other BLAS libraries
+
+namespace cleft {
+
+namespace {
+
+constexpr double strongest = 1e-5, weakest = 1e-9;  // regularisation
+constexpr double regularisation_cost = 1.05;        // of the data's error, at most
+constexpr double time_roughness = 1e-9;             // holds what few frames leave open
+constexpr double residual_bound = 1e-4;             // of the right-hand side, where iterations stop
+constexpr int most_iterations = 60;
+
+std::array<BSplineBasis, 3> in_space(const std::array<BSplineBasis, 4>& bases) {
+  return {bases[0], bases[1], bases[2]};
+}
+
+/// Frames run in parallel: the BLAS library need not.
+void one_thread_a_product() {
+  if (openblas_set_num_threads) openblas_set_num_threads(1);
+}
+
+}  // namespace
+
+double space_error(const Series& series, const std::shared_ptr<const Parametrization>& parametrization,
+                   const std::array<BSplineBasis, 3>& bases, const std::vector<int>& frames) {
+  one_thread_a_product();
+  const SpaceFit fit(*parametrization, bases, series.samples);
+  std::vector<double> errors(frames.size());
+  parallel_for(static_cast<int>(frames.size()), [&](int i) {
+    const double t = series.times[frames[i]];
+    const Eigen::MatrixX3d& d = series.frames[frames[i]];
+    const Eigen::MatrixXd x = fit.factorize(fit.normal(t, 1e-7)).solve(fit.project(d, t));
+    errors[i] = (fit.values(x, t) - d).rowwise().norm().maxCoeff();
+  });
+  return *std::max_element(errors.begin(), errors.end());
+}
+
+SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
+                     const std::array<BSplineBasis, 4>& bases)
+    : series_(series),
+      parametrization_(std::move(parametrization)),
+      bases_(bases),
+      fit_(*parametrization_, in_space(bases), series.samples) {
+  one_thread_a_product();
+  const auto frames = static_cast<Eigen::Index>(series.times.size());
+  const BSplineBasis& time = bases_[3];
+  in_time_ = Eigen::MatrixXd::Zero(frames - 1, time.size() - 1);
+  for (Eigen::Index j = 1; j < frames; ++j) {
+    const auto b = time.evaluate(parametrization_->time(series.times[j]).value);
+    for (int l = 0; l <= time.degree(); ++l)
+      if (b.first + l > 0) in_time_(j - 1, b.first + l - 1) = b.value[l];
+  }
+  choose_strength();
+  solve();
+}
+
+/// The strongest regularisation that costs an early and a late frame next to nothing.
+void SeriesFit::choose_strength() {
+  strength_ = strongest;
+  const std::size_t frames = series_.times.size();
+  for (const std::size_t j : {1 + frames / 8, frames - 1}) {
+    const double t = series_.times[j];
+    const Eigen::MatrixXd right = fit_.project(series_.frames[j], t);
+    const auto cost = [&](double strength) {
+      const Eigen::MatrixXd x = fit_.factorize(fit_.normal(t, strength)).solve(right);
+      const Eigen::MatrixXd off = fit_.values(x, t) - series_.frames[j];
+      return std::pair{off.norm(), off.rowwise().norm().maxCoeff()};
+    };
+    const auto [least_norm, least_largest] = cost(weakest);
+    const double rounding = 1e-9 * series_.largest[j];
+    for (; strength_ > weakest; strength_ /= 10) {
+      const auto [norm, largest] = cost(strength_);
+      if (norm <= regularisation_cost * least_norm + rounding &&
+          largest <= regularisation_cost * least_largest + rounding)
+        break;
+    }
+  }
+}
+
+void SeriesFit::solve() {
+  const int frames = static_cast<int>(in_time_.rows()), T = static_cast<int>(in_time_.cols()), n = ties().size();
+  const TipPath& tip = parametrization_->geometry().tip;
+  const bool same = !parametrization_->moves() || tip.positions.front() == tip.positions.back();
+
+  // In t: values^T values, with what holds control points that few frames see; its Cholesky factor.
+  Eigen::MatrixXd in_t = in_time_.transpose() * in_time_;
+  const double hold = time_roughness * in_t.diagonal().mean();
+  Eigen::MatrixXd roughness = Eigen::MatrixXd::Zero(T, T);
+  for (int i = 0; i + 1 < T; ++i) {  // second differences; the first control point, 0, is one of them
+    Eigen::VectorXd d = Eigen::VectorXd::Zero(T);
+    if (i > 0) d(i - 1) = 1;
+    d(i) = -2, d(i + 1) = 1;
+    roughness += d * d.transpose();
+  }
+  in_t += hold * (roughness + Eigen::MatrixXd::Identity(T, T));
+  const Eigen::LLT<Eigen::MatrixXd> time_factor(in_t);
+
+  // Right-hand side, T blocks of n x 3, and the frames' normal matrices.
+  using Blocks = std::vector<Eigen::MatrixXd>;
+  Blocks projected(frames);
+  std::vector<SpaceFit::Normal> normals(same ? 1 : frames);
+  parallel_for(frames, [&](int j) {
+    const double t = series_.times[j + 1];
+    projected[j] = fit_.project(series_.frames[j + 1], t);
+    if (!same || j == 0) normals[j] = fit_.normal(t, strength_);
+  });
+  const auto over_frames = [&](const Blocks& of_frames) {
+    Blocks sums(T);
+    parallel_for(T, [&](int l) {
+      sums[l] = Eigen::MatrixXd::Zero(n, 3);
+      for (int j = 0; j < frames; ++j)
+        if (in_time_(j, l) != 0) sums[l] += in_time_(j, l) * of_frames[j];
+    });
+    return sums;
+  };
+  const auto mixed = [&](const Eigen::MatrixXd& factors, const Blocks& x) {
+    Blocks y(T);
+    parallel_for(T, [&](int l) {
+      y[l] = Eigen::MatrixXd::Zero(n, 3);
+      for (int k = 0; k < T; ++k)
+        if (factors(l, k) != 0) y[l] += factors(l, k) * x[k];
+    });
+    return y;
+  };
+  const Blocks right = over_frames(projected);
+
+  // The preconditioner: L^-T blockdiag(N_l)^-1 L^-1 with N_l the mean of the normal matrices that l sees.
+  std::vector<std::optional<SpaceFit::Factor>> factors(same ? 1 : T);
+  parallel_for(static_cast<int>(factors.size()), [&](int l) {
+    SpaceFit::Normal sum;
+    if (same) {
+      sum = normals[0];
+    } else {
+      double all = 0;
+      for (int j = 0; j < frames; ++j) all += in_time_(j, l) * in_time_(j, l);
+      for (int j = 0; j < frames; ++j)
+        if (const double part = in_time_(j, l) * in_time_(j, l); part > 0)
+          sum.add(part / all, normals[j]);
+        else if (all == 0 && j == std::min(l, frames - 1))
+          sum.add(1, normals[j]);
+    }
+    factors[l].emplace(fit_.factorize(sum));
+  });
+  for (const auto& factor : factors) condition_ = std::max(condition_, factor->condition());
+  const Eigen::MatrixXd inverse =
+      time_factor.matrixL().solve(Eigen::MatrixXd::Identity(T, T));  // L^-1
+  const auto precondition = [&](const Blocks& x) {
+    Blocks y = mixed(inverse, x);
+    parallel_for(T, [&](int l) { y[l] = factors[same ? 0 : l]->solve(std::move(y[l])); });
+    return mixed(inverse.transpose(), y);
+  };
+  const auto multiply = [&](const Blocks& x) {
+    Blocks of_frames(frames);
+    parallel_for(frames, [&](int j) {
+      Eigen::MatrixXd at = Eigen::MatrixXd::Zero(n, 3);
+      for (int l = 0; l < T; ++l)
+        if (in_time_(j, l) != 0) at += in_time_(j, l) * x[l];
+      of_frames[j] = fit_.multiply(normals[j], at);
+    });
+    return over_frames(of_frames);
+  };
+  const auto products = [&](const Blocks& a, const Blocks& b) {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (int l = 0; l < T; ++l) sum += a[l].cwiseProduct(b[l]).colwise().sum();
+    return sum;
+  };
+
+  // Conjugate gradients, three right-hand sides side by side; exact at once where the matrix is the product.
+  Blocks x = precondition(right);
+  if (!same) {
+    Blocks residual = right;
+    {
+      const Blocks applied = multiply(x);
+      for (int l = 0; l < T; ++l) residual[l] -= applied[l];
+    }
+    const Eigen::RowVector3d all = products(right, right).cwiseMax(1e-300);
+    Blocks z = precondition(residual), direction = z;
+    Eigen::RowVector3d rz = products(residual, z);
+    while (iterations_ < most_iterations &&
+           (products(residual, residual).array() / all.array()).maxCoeff() > residual_bound * residual_bound) {
+      const Blocks applied = multiply(direction);
+      const Eigen::RowVector3d curvature = products(direction, applied);
+      Eigen::RowVector3d step = Eigen::RowVector3d::Zero();
+      for (int a = 0; a < 3; ++a) step(a) = curvature(a) > 0 ? rz(a) / curvature(a) : 0;
+      for (int l = 0; l < T; ++l) {
+        x[l] += direction[l] * step.asDiagonal();
+        residual[l] -= applied[l] * step.asDiagonal();
+      }
+      z = precondition(residual);
+      const Eigen::RowVector3d next = products(residual, z);
+      for (int l = 0; l < T; ++l) {
+        Eigen::RowVector3d keep = Eigen::RowVector3d::Zero();
+        for (int a = 0; a < 3; ++a) keep(a) = rz(a) > 0 ? next(a) / rz(a) : 0;
+        direction[l] = z[l] + direction[l] * keep.asDiagonal();
+      }
+      rz = next;
+      ++iterations_;
+    }
+  }
+  control_points_.resize(T, 3 * n);
+  for (int l = 0; l < T; ++l) control_points_.row(l) = x[l].reshaped().transpose();
+}
+
+Eigen::MatrixXd SeriesFit::at_frame(int row, const Eigen::MatrixXd& control_points) const {
+  return Eigen::RowVectorXd(in_time_.row(row) * control_points).reshaped(ties().size(), 3);
+}
+
+double SeriesFit::error(const Eigen::MatrixXd& control_points) const {
+  std::vector<double> errors(in_time_.rows());
+  parallel_for(static_cast<int>(errors.size()), [&](int j) {
+    const Eigen::MatrixXd values = fit_.values(at_frame(j, control_points), series_.times[j + 1]);
+    errors[j] = (values - series_.frames[j + 1]).rowwise().norm().maxCoeff();
+  });
+  return *std::max_element(errors.begin(), errors.end());
+}
+
+Field SeriesFit::field(const Eigen::MatrixXd& control_points) const {
+  const int n = ties().size();
+  std::vector<Vec3> coefficients;
+  for (int i = 0; i < ties().rows(); ++i)
+    for (const ControlTies::Control& control : ties().row(i)) {
+      coefficients.emplace_back();  // at t = 0
+      for (Eigen::Index l = 0; l < control_points.rows(); ++l) {
+        Vec3& c = coefficients.emplace_back();
+        for (int axis = 0; axis < 3; ++axis)
+          for (int k = 0; k < control.terms; ++k)
+            c[axis] += control.term[k].weight *
+                       control_points(l, axis * n + ties().first(i) + control.term[k].unknown);
+      }
+    }
+  return {parametrization_, bases_, std::move(coefficients)};
+}
+
+}  // namespace cleft

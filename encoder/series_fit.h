@@ -1,0 +1,57 @@
+// The least-squares fit of a whole series on given knots: all frames at once.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "encoder/field/field.h"
+#include "encoder/series.h"
+#include "encoder/space_fit.h"
+
+namespace cleft {
+
+/// Largest distance from the data, mm, of fits of single frames in space: what the knots in space can reach, were
+/// every frame on its own.
+double space_error(const Series& series, const std::shared_ptr<const Parametrization>& parametrization,
+                   const std::array<BSplineBasis, 3>& bases, const std::vector<int>& frames);
+
+/// The least-squares spline in all four variables. Where the parametrisation does not move, the normal matrix is a
+/// Kronecker product of one in t and one in space, and so solved. Where it moves, that is only a preconditioner
+/// (with a matrix in space for every control point in t, made of the frames it sees) for conjugate gradients on
+/// the sum of the frames' products.
+class SeriesFit {
+ public:
+  /// Keeps references to `series`. `bases` over along, across, height and time.
+  SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
+            const std::array<BSplineBasis, 4>& bases);
+
+  /// Control points in t of every unknown; those of the first are 0 and left out: (T - 1) x 3 n, column
+  /// axis n + unknown.
+  const Eigen::MatrixXd& control_points() const { return control_points_; }
+  /// Largest distance from the data, mm, of any such control points.
+  double error(const Eigen::MatrixXd& control_points) const;
+
+  Field field(const Eigen::MatrixXd& control_points) const;
+  const ControlTies& ties() const { return fit_.ties(); }
+  double condition() const { return condition_; }  ///< of the preconditioner's matrices, the largest estimate
+  int iterations() const { return iterations_; }
+  double strength() const { return strength_; }  ///< of the regularisation, relative to the mean of B^T B's diagonal
+
+ private:
+  Eigen::MatrixXd at_frame(int row, const Eigen::MatrixXd& control_points) const;
+  void choose_strength();
+  void solve();
+
+  const Series& series_;
+  std::shared_ptr<const Parametrization> parametrization_;
+  std::array<BSplineBasis, 4> bases_;
+  SpaceFit fit_;
+  Eigen::MatrixXd in_time_;  // frames 1 .. F - 1 by control points in t but the first
+  Eigen::MatrixXd control_points_;
+  double strength_ = 0, condition_ = 1;
+  int iterations_ = 0;
+};
+
+}  // namespace cleft

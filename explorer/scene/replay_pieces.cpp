@@ -1,0 +1,146 @@
+#include "explorer/scene/replay_pieces.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+
+namespace cleft {
+
+namespace {
+
+std::vector<double> subdivided(const std::vector<double>& times, int parts) {
+  std::vector<double> result{times.front()};
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    for (int k = 1; k < parts; ++k) result.push_back(times[i - 1] + (times[i] - times[i - 1]) * k / parts);
+    result.push_back(times[i]);
+  }
+  return result;
+}
+
+/// The field's knots in time, as far as the blade goes.
+std::vector<double> knot_times(const Field& field) {
+  std::vector<double> times = field.knot_times();
+  const double last = std::min(times.back(), field.cut().length);
+  while (times.size() > 1 && times.back() >= last) times.pop_back();
+  times.push_back(last);
+  return times;
+}
+
+}  // namespace
+
+std::vector<double> replay_times(const Field& field, double tolerance, std::span<const Place> places) {
+  const std::vector<double> knots = knot_times(field);
+  if (!field.parametrization().moves()) return knots;
+  History history;
+  const std::size_t step = std::max<std::size_t>(1, places.size() / 100);
+  for (int parts = 1;; parts *= 2) {
+    std::vector<double> times = subdivided(knots, parts);
+    std::size_t spans = 0, divided = 0;
+    for (std::size_t i = 0; i < places.size(); i += step) {
+      field.contract(places[i].uvw, places[i].side, tolerance, times, history);
+      spans += times.size() - 1;
+      auto next = history.breaks.begin();
+      for (std::size_t span = 0; span + 1 < times.size(); ++span) {
+        next = std::upper_bound(next, history.breaks.end(), times[span]);
+        divided += next != history.breaks.end() && *next < times[span + 1];
+      }
+    }
+    if (divided <= spans / 10 || parts == 8) return times;
+  }
+}
+
+ReplayPieces::ReplayPieces(std::vector<double> times, std::vector<double> offsets, std::vector<int> vertices)
+    : times_(std::move(times)),
+      offsets_(std::move(offsets)),
+      vertices_(std::move(vertices)),
+      blocks_a_span_((vertices_.size() + 3) / 4),
+      blocks_(spans() * blocks_a_span_),
+      of_span_(spans()) {
+  CLEFT_CHECK(offsets_.size(), ==, vertices_.size());
+  offsets_.resize(4 * blocks_a_span_, offsets_.empty() ? 0 : offsets_.back());  // blocks are read whole
+}
+
+void ReplayPieces::append(const History& history) {
+  append(history, history, -std::numeric_limits<double>::infinity());
+}
+
+void ReplayPieces::append(const History& closed, const History& open, double s) {
+  CLEFT_CHECK(next_, <, vertices_.size());
+  // Own time of the passage; what the clamping leaves at an end happens in the span there. The rounding of
+  // s + offset must not decide: near the passage both histories are kept.
+  const double passage = std::clamp(s + offsets_[next_], times_.front(), times_.back()),
+               close = 1e-9 * (times_.back() - times_.front());
+  const bool passes = &closed != &open;
+  for (std::size_t span = 0; span < spans(); ++span) {
+    const bool before = passes && passage > times_[span] - close,
+               after = !passes || passage < times_[span + 1] + close;
+    Exception exception{next_, s, pieces_.size(), 0, 0};
+    if (before) collect(closed, span);
+    exception.open = pieces_.size();
+    if (after) collect(open, span);
+    exception.last = pieces_.size();
+    if (exception.last == exception.first + 1) {
+      set(span, pieces_.back().control);
+      pieces_.pop_back();
+    } else {
+      of_span_[span].push_back(exception);
+      ++exceptions_;
+    }
+  }
+  ++next_;
+}
+
+/// Appends the history's pieces within a span to pieces_.
+void ReplayPieces::collect(const History& history, std::size_t span) {
+  const auto& breaks = history.breaks;
+  const auto first = std::lower_bound(breaks.begin(), breaks.end(), times_[span]) - breaks.begin();
+  CLEFT_CHECK(breaks[static_cast<std::size_t>(first)], ==, times_[span]);
+  for (auto i = static_cast<std::size_t>(first); breaks[i] < times_[span + 1]; ++i) {
+    CLEFT_CHECK(breaks[i + 1], <=, times_[span + 1]);
+    pieces_.push_back({breaks[i], breaks[i + 1], history.controls[i]});
+  }
+}
+
+void ReplayPieces::set(std::size_t span, const std::array<Vec3, 4>& control) {
+  PieceBlock& block = blocks_[span * blocks_a_span_ + next_ / 4];
+  for (int m = 0; m < 4; ++m)
+    for (int d = 0; d < 3; ++d) block.control[m][d][next_ % 4] = control[m][d];
+}
+
+Vec3 ReplayPieces::displacement(const Exception& e, double s) const {
+  const double time = std::clamp(s + offsets_[e.vertex], times_.front(), times_.back());
+  const bool closed = s <= e.closed_until;
+  const auto at = [this](std::size_t i) { return pieces_.begin() + static_cast<std::ptrdiff_t>(i); };
+  const auto first = at(closed ? e.first : e.open), last = at(closed ? e.open : e.last);
+  const auto piece =
+      std::upper_bound(first + 1, last, time, [](double t, const Piece& p) { return t < p.begin; }) - 1;
+  const double x = std::clamp((time - piece->begin) / (piece->end - piece->begin), 0., 1.), r = 1 - x;
+  const auto& c = piece->control;
+  return r * r * r * c[0] + 3 * r * r * x * c[1] + 3 * r * x * x * c[2] + x * x * x * c[3];
+}
+
+void ReplayPieces::positions(double s, const Vec3* rest, Vec3* out) const {
+  CLEFT_CHECK(next_, ==, vertices_.size());
+  // In the order of offsets, and so of their own times: those of one span are neighbours.
+  const auto begin = offsets_.begin(), end = begin + static_cast<std::ptrdiff_t>(vertices_.size());
+  std::size_t front = 0;
+  for (std::size_t span = 0; span < spans() && front < vertices_.size(); ++span) {
+    std::size_t back = vertices_.size();
+    if (span + 1 < spans())
+      back = static_cast<std::size_t>(
+          std::partition_point(begin, end, [&](double offset) { return s + offset < times_[span + 1]; }) -
+          begin);
+    if (back <= front) continue;
+    kernels_.replay(&blocks_[span * blocks_a_span_], offsets_.data(), vertices_.data(), front, back, s,
+                    times_[span], times_[span + 1] - times_[span], rest, out);
+    const auto& exceptions = of_span_[span];
+    auto e = std::partition_point(exceptions.begin(), exceptions.end(),
+                                  [&](const Exception& x) { return x.vertex < front; });
+    for (; e != exceptions.end() && e->vertex < back; ++e)
+      out[vertices_[e->vertex]] = rest[vertices_[e->vertex]] + displacement(*e, s);
+    front = back;
+  }
+}
+
+}  // namespace cleft

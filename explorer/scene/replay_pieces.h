@@ -1,0 +1,62 @@
+// The histories of many vertices over one grid of times, in the order of memory in which a frame reads them:
+// all vertices' pieces of one span of time stand together, so a frame streams through those of its own span.
+// Where one cubic is not enough (the tip passes), a short list of exceptions holds several.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "encoder/field/field.h"
+
+namespace cleft {
+
+/// A grid of times for the histories of the given places: the coarsest that divides the field's knots evenly,
+/// up to eight parts each, on which one cubic a span keeps nearly all of a sample of them to `tolerance` mm.
+std::vector<double> replay_times(const Field& field, double tolerance, std::span<const Place> places);
+
+class ReplayPieces {
+ public:
+  /// Room for the histories over `times` (the first and last of the field included) of vertices whose own
+  /// time is the blade's plus their offset, clamped. `offsets` never decrease.
+  ReplayPieces(std::vector<double> times, std::vector<double> offsets, std::vector<int> vertices);
+
+  /// The history of vertices[i], with breaks at all times of the grid. In the order of i.
+  void append(const History& history);
+  /// Two of them: `closed` as long as the blade is not beyond s, `open` from there on.
+  void append(const History& closed, const History& open, double s);
+
+  /// out[vertices[i]] = rest[vertices[i]] + displacement, with the blade at s. Allocates nothing.
+  void positions(double s, const Vec3* rest, Vec3* out) const;
+
+  std::size_t exceptions() const { return exceptions_; }  ///< pairs of a vertex and a span of time
+  const std::vector<PieceBlock>& blocks() const { return blocks_; }
+
+ private:
+  struct Piece {
+    double begin, end;
+    std::array<Vec3, 4> control;
+  };
+  /// Several pieces of one vertex in one span: those before the blade has passed `closed_until`, and others.
+  struct Exception {
+    std::size_t vertex;
+    double closed_until;
+    std::size_t first, open, last;  // in pieces_
+  };
+
+  std::size_t spans() const { return times_.size() - 1; }
+  void set(std::size_t span, const std::array<Vec3, 4>& control);
+  void collect(const History& history, std::size_t span);
+  Vec3 displacement(const Exception& exception, double s) const;
+
+  std::vector<double> times_, offsets_;
+  std::vector<int> vertices_;
+  std::size_t blocks_a_span_, next_ = 0, exceptions_ = 0;
+  std::vector<PieceBlock> blocks_;               // [span][vertex / 4]
+  std::vector<std::vector<Exception>> of_span_;  // in the order of vertices
+  std::vector<Piece> pieces_;
+  const KernelTable& kernels_ = kernel_table(available_kernels().back());
+};
+
+}  // namespace cleft
