@@ -171,6 +171,25 @@ TEST(CoefficientCode, GivesTheSameBytesOnEveryMachine) {
   EXPECT_EQ(hash, 13855951805055881598u);
 }
 
+TEST(CoefficientCode, LargerNumbersThanTheFormatHasAreRefused) {
+  const CoefficientGrid grid = grid_of(2, 2, 2);
+  Values values(static_cast<std::size_t>(3) * grid.unknowns, 0);
+  for (const std::int64_t sign : {-1, 1}) {
+    values[5] = sign * (1LL << 40);
+    coded(grid, 1, values);
+    values[5] += sign;
+    EXPECT_THROW(encode_coefficients(grid, 1, values), InputError);
+  }
+}
+
+TEST(RangeCoder, ANumberWithoutEndIsRefused) {
+  code::Encoder encoder;
+  for (int n = 0; n < 200; ++n) encoder.bit(32768, n < 100);
+  const auto bytes = encoder.finish();
+  code::Decoder decoder(bytes);
+  EXPECT_THROW(code::code_plain(decoder, 0), InputError);
+}
+
 TEST(RangeCoder, TablesDoNotHangOnTheLastDigitsOfALibrary) {
   const auto clear = [](double x) { return std::abs(x - std::floor(x) - 0.5) > 1e-6; };
   for (int p = 0; p < 4096; ++p) EXPECT_TRUE(clear(256 * std::log((p + 0.5) / (4095.5 - p)))) << p;
