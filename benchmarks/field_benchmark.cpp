@@ -77,40 +77,47 @@ std::vector<Place> random_places() {
   return places;
 }
 
+/// Median nanoseconds a place, over slices so short that hardly any is interrupted.
+template <class Function>
+double a_place(const std::vector<Place>& places, const Function& evaluate) {
+  constexpr std::size_t slice = 500;
+  std::vector<Vec3> out(slice);
+  std::vector<double> times;
+  for (int round = 0; round < 20; ++round)
+    for (std::size_t begin = 0; begin + slice <= places.size(); begin += slice) {
+      times.push_back(
+          nanoseconds(1, slice, [&] { evaluate(std::span(places).subspan(begin, slice), std::span(out)); }));
+      kept += out[slice / 2].x;
+    }
+  return median(times);
+}
+
 void evaluation(Field& field) {
   const std::vector<Place> coherent = coherent_places(), random = random_places();
-  std::vector<Vec3> out(coherent.size());
-  const auto sum = [&] { kept += out[out.size() / 2].x; };
   std::printf("%-8s ns a point:        coherent   random\n", field.parametrization().name().c_str());
+  const auto print = [&](const char* kernel, const char* what, const auto& evaluate) {
+    std::printf("  %-7s %-14s %8.1f %8.1f\n", kernel, what, a_place(coherent, evaluate),
+                a_place(random, evaluate));
+  };
   for (const Kernel kernel : available_kernels()) {
     field.use(kernel);
-    double batch[2], single[2], derivatives[2];
-    for (int r = 0; r < 2; ++r) {
-      const auto& places = r == 0 ? coherent : random;
-      batch[r] = nanoseconds(41, places.size(), [&] { field.displacements(places, out), sum(); });
-      single[r] = nanoseconds(21, places.size(), [&] {
-        for (std::size_t i = 0; i < places.size(); ++i)
-          out[i] = field.displacement(places[i].uvw, places[i].side, places[i].t);
-        sum();
-      });
-      derivatives[r] = nanoseconds(21, places.size(), [&] {
-        for (std::size_t i = 0; i < places.size(); ++i)
-          out[i] = field.derivatives(places[i].uvw, places[i].side, places[i].t).by_t;
-        sum();
-      });
-    }
-    std::printf("  %-7s batch          %8.1f %8.1f\n", name_of(kernel), batch[0], batch[1]);
-    std::printf("  %-7s one at a time  %8.1f %8.1f\n", name_of(kernel), single[0], single[1]);
-    std::printf("  %-7s derivatives    %8.1f %8.1f\n", name_of(kernel), derivatives[0], derivatives[1]);
+    print(name_of(kernel), "batch",
+          [&](std::span<const Place> places, std::span<Vec3> out) { field.displacements(places, out); });
+    print(name_of(kernel), "one at a time", [&](std::span<const Place> places, std::span<Vec3> out) {
+      for (std::size_t i = 0; i < places.size(); ++i)
+        out[i] = field.displacement(places[i].uvw, places[i].side, places[i].t);
+    });
+    print(name_of(kernel), "derivatives", [&](std::span<const Place> places, std::span<Vec3> out) {
+      for (std::size_t i = 0; i < places.size(); ++i)
+        out[i] = field.derivatives(places[i].uvw, places[i].side, places[i].t).by_t;
+    });
   }
   CollapsedField collapsed;
   field.collapse(3, collapsed);
-  const double once = nanoseconds(21, 1, [&] { field.collapse(13.7, collapsed); });
-  std::printf("  collapsed to one t: %.1f us, then ", 1e-3 * once);
-  for (const auto& places : {coherent, random})
-    std::printf("%8.1f ",
-                nanoseconds(41, places.size(), [&] { collapsed.displacements(places, out), sum(); }));
-  std::printf("\n");
+  const double once = nanoseconds(41, 1, [&] { field.collapse(13.7, collapsed); });
+  print("", "collapsed",
+        [&](std::span<const Place> places, std::span<Vec3> out) { collapsed.displacements(places, out); });
+  std::printf("  collapsing to one t: %.1f us\n", 1e-3 * once);
 }
 
 void contraction(const Field& field) {
@@ -118,15 +125,14 @@ void contraction(const Field& field) {
   History history;
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6}) {
     double pieces = 0;
-    const double time = nanoseconds(3, 2000, [&] {
-      pieces = 0;
-      for (std::size_t i = 0; i < 2000; ++i) {
-        field.contract(places[i].uvw, places[i].side, tolerance, history);
-        pieces += static_cast<double>(history.controls.size());
-      }
-    });
-    std::printf("  contraction to %.0e: %8.2f us a point, %6.1f pieces a history\n", tolerance, 1e-3 * time,
-                pieces / 2000);
+    std::vector<double> times;
+    for (std::size_t i = 0; i < 1000; ++i) {
+      times.push_back(
+          nanoseconds(1, 1, [&] { field.contract(places[i].uvw, places[i].side, tolerance, history); }));
+      pieces += static_cast<double>(history.controls.size());
+    }
+    std::printf("  contraction to %.0e: %8.2f us a point, %6.1f pieces a history\n", tolerance,
+                1e-3 * median(times), pieces / 1000);
     if (!field.parametrization().moves()) break;
   }
 }

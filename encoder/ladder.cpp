@@ -12,11 +12,11 @@ constexpr int degree = 3;
 // Knots in the order in which they pay, found by trying all sixteenths after one another on cuts that are
 // deep, soft, stiff, and under other tension: halves, then what halves the error most for the coefficients it
 // costs.
-const std::vector<double> before_order = {0.5, 0.375};
-const std::vector<double> along_order = {0.5, 0.1875, 0.75, 0.375, 0.875, 0.3125, 0.625, 0.125};
-const std::vector<double> after_order = {0.5, 0.3125};
-const std::vector<double> across_order = {0.5, 0.4375, 0.875, 0.3125, 0.75, 0.125};
-const std::vector<double> above_order = {0.5, 0.875};
+const std::vector<double> before_order = {0.5, 0.75, 0.25};
+const std::vector<double> along_order = {0.5, 0.75, 0.25, 0.875, 0.125, 0.625, 0.375, 0.9375, 0.0625};
+const std::vector<double> after_order = {0.5, 0.25, 0.75};
+const std::vector<double> across_order = {0.5, 0.25, 0.875, 0.625, 0.96875, 0.375, 0.125, 0.75};
+const std::vector<double> above_order = {0.5, 0.25, 0.75};
 const std::vector<double> below_order = {};
 
 /// The first `count` of an order, which goes on with all halves, quarters, eighths, ... it does not have;
@@ -36,7 +36,6 @@ std::vector<double> first_of(std::vector<double> order, int count) {
 std::vector<double> halved(int spans) { return first_of({}, spans - 1); }
 
 double crowded(double s) { return s * s; }  // toward 0
-double crowded_at_both(double s) { return s < 0.5 ? 2 * s * s : 1 - 2 * (1 - s) * (1 - s); }
 
 struct Knots {
   std::vector<double> list;
@@ -60,15 +59,15 @@ std::array<BSplineBasis, 4> following_tip(const Rung& rung, const FieldGeometry&
   if (geometry.cut.start > front) {
     along.repeat(0, degree + 1);
     const std::vector<double> s = first_of(before_order, rung.before - 1);
-    for (auto i = s.rbegin(); i != s.rend(); ++i) along.list.push_back(1 - crowded(*i));
+    for (auto i = s.rbegin(); i != s.rend(); ++i) along.list.push_back(1 - *i);
     along.repeat(1, degree);
   } else {
     along.repeat(1, degree + 1);
   }
-  for (const double s : first_of(along_order, rung.along - 1)) along.list.push_back(1 + crowded_at_both(s));
+  for (const double s : first_of(along_order, rung.along - 1)) along.list.push_back(1 + s);
   if (geometry.tip.positions.front() < back) {
     along.repeat(2, degree);
-    for (const double s : first_of(after_order, rung.after - 1)) along.list.push_back(2 + crowded(s));
+    for (const double s : first_of(after_order, rung.after - 1)) along.list.push_back(2 + s);
     along.repeat(3, degree + 1);
   } else {
     along.repeat(2, degree + 1);
@@ -125,17 +124,22 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
 std::vector<Rung> ladder_of(const Parametrization& parametrization) {
   std::vector<Rung> rungs;
   if (parametrization.moves()) {
-    Rung r{2, 2, 2, 2, 2, 1, 1};
+    Rung r{1, 3, 2, 3, 2, 1, 8};
     rungs.push_back(r);
-    int Rung::*const steps[] = {&Rung::across, &Rung::across, &Rung::across, &Rung::along,  &Rung::along,
-                                &Rung::along,  &Rung::along,  &Rung::after,  &Rung::along,  &Rung::across,
-                                &Rung::above,  &Rung::before, &Rung::along,  &Rung::across, &Rung::along,
-                                &Rung::after,  &Rung::above,  &Rung::across, &Rung::below,  &Rung::along};
-    for (int Rung::*const step : steps) ++(r.*step), rungs.push_back(r);
+    int Rung::*const steps[] = {&Rung::across, &Rung::across, &Rung::along,  &Rung::before, &Rung::across,
+                                &Rung::along,  &Rung::above,  &Rung::after,  &Rung::along,  &Rung::across,
+                                &Rung::below,  &Rung::along,  &Rung::above,  &Rung::across, &Rung::before,
+                                &Rung::after,  &Rung::along,  &Rung::across, &Rung::along,  &Rung::across};
+    for (int Rung::*const step : steps) {
+      ++(r.*step);
+      r.time = 8 + static_cast<int>(rungs.size()) / 2;
+      rungs.push_back(r);
+    }
     return rungs;
   }
   // The axis with the longest spans next.
   Rung r;
+  r.time = 8;
   const auto& domain = parametrization.domain();
   while (r.along * r.across * r.above < 4000) {
     rungs.push_back(r);
@@ -145,6 +149,7 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization) {
     const double longest = std::max({u, v, w});
     // A third more at a time: a search should not take a fit a span.
     const auto grow = [](int& spans) { spans += std::max(1, spans / 3); };
+    r.time = std::min(r.time + 1, most_time_spans);
     grow(longest == u ? r.along : longest == v ? r.across : r.above);
   }
   return rungs;

@@ -1,5 +1,6 @@
 #include "solver/memory.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -41,6 +42,11 @@ double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024. * static_cast<double>(usage.ru_maxrss);
+}
+
+void return_large_blocks() {
+  mallopt(M_MMAP_MAX, 1 << 16);
+  mallopt(M_MMAP_THRESHOLD, 16 << 20);  // vectors of a million unknowns still come from the heap, for speed
 }
 
 }  // namespace cleft

@@ -9,4 +9,9 @@ double available_memory();
 /// Most bytes this process has held at a time.
 double peak_memory();
 
+/// From here on blocks of many MB go back to the system as soon as they are freed. SuperLU_DIST, which
+/// Trilinos brings along, switches that off when it is loaded, and what is freed then stays between what is
+/// in use.
+void return_large_blocks();
+
 }  // namespace cleft

@@ -10,11 +10,13 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "solver/memory.h"
+
 namespace cleft {
 
 class MpiSession {
  public:
-  MpiSession(int& argc, char**& argv) : session_(prepared(argc), argv, 1) {}
+  MpiSession(int& argc, char**& argv) : session_(prepared(argc), argv, 1) { return_large_blocks(); }
 
   int rank() const { return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)); }
   int ranks() const { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }

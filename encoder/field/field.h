@@ -103,8 +103,6 @@ class Field {
   }                                                   ///< u, v, w, t = 0 .. 3
   double duration() const { return domain(3).back; }  ///< t of the last frame
 
-  double quantum =
-      0;  ///< unknowns are multiples of it, mm, and stored as such; 0: any numbers, as 32-bit floats
   /// Evaluates with the given kernel from now on; the widest of the machine's is the default.
   void use(Kernel kernel) { kernels_ = &kernel_table(kernel); }
 
@@ -112,6 +110,7 @@ class Field {
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;
   FitReport report;
+  double quantum = 0;  ///< mm: unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
 
  private:
   friend class CollapsedField;

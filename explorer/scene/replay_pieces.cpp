@@ -46,7 +46,7 @@ std::vector<double> replay_times(const Field& field, double tolerance, std::span
         divided += next != history.breaks.end() && *next < times[span + 1];
       }
     }
-    if (divided <= spans / 10 || parts == 8) return times;
+    if (divided <= spans / 20 || parts == 8) return times;
   }
 }
 
@@ -56,7 +56,7 @@ ReplayPieces::ReplayPieces(std::vector<double> times, std::vector<double> offset
       vertices_(std::move(vertices)),
       blocks_a_span_((vertices_.size() + 3) / 4),
       blocks_(spans() * blocks_a_span_),
-      of_span_(spans()) {
+      divided_(spans()) {
   CLEFT_CHECK(offsets_.size(), ==, vertices_.size());
   offsets_.resize(4 * blocks_a_span_, offsets_.empty() ? 0 : offsets_.back());  // blocks are read whole
 }
@@ -75,30 +75,31 @@ void ReplayPieces::append(const History& closed, const History& open, double s) 
   for (std::size_t span = 0; span < spans(); ++span) {
     const bool before = passes && passage > times_[span] - close,
                after = !passes || passage < times_[span + 1] + close;
-    Exception exception{next_, s, pieces_.size(), 0, 0};
+    auto& [exceptions, pieces] = divided_[span];
+    Exception exception{next_, s, pieces.size(), 0, 0};
     if (before) collect(closed, span);
-    exception.open = pieces_.size();
+    exception.open = pieces.size();
     if (after) collect(open, span);
-    exception.last = pieces_.size();
+    exception.last = pieces.size();
     if (exception.last == exception.first + 1) {
-      set(span, pieces_.back().control);
-      pieces_.pop_back();
+      set(span, pieces.back().control);
+      pieces.pop_back();
     } else {
-      of_span_[span].push_back(exception);
-      ++exceptions_;
+      exceptions.push_back(exception);
+      ++exception_count_;
     }
   }
   ++next_;
 }
 
-/// Appends the history's pieces within a span to pieces_.
+/// Appends the history's pieces within a span to that span's.
 void ReplayPieces::collect(const History& history, std::size_t span) {
   const auto& breaks = history.breaks;
   const auto first = std::lower_bound(breaks.begin(), breaks.end(), times_[span]) - breaks.begin();
   CLEFT_CHECK(breaks[static_cast<std::size_t>(first)], ==, times_[span]);
   for (auto i = static_cast<std::size_t>(first); breaks[i] < times_[span + 1]; ++i) {
     CLEFT_CHECK(breaks[i + 1], <=, times_[span + 1]);
-    pieces_.push_back({breaks[i], breaks[i + 1], history.controls[i]});
+    divided_[span].pieces.push_back({breaks[i], breaks[i + 1], history.controls[i]});
   }
 }
 
@@ -108,10 +109,10 @@ void ReplayPieces::set(std::size_t span, const std::array<Vec3, 4>& control) {
     for (int d = 0; d < 3; ++d) block.control[m][d][next_ % 4] = control[m][d];
 }
 
-Vec3 ReplayPieces::displacement(const Exception& e, double s) const {
+Vec3 ReplayPieces::displacement(const Exception& e, const std::vector<Piece>& pieces, double s) const {
   const double time = std::clamp(s + offsets_[e.vertex], times_.front(), times_.back());
   const bool closed = s <= e.closed_until;
-  const auto at = [this](std::size_t i) { return pieces_.begin() + static_cast<std::ptrdiff_t>(i); };
+  const auto at = [&](std::size_t i) { return pieces.begin() + static_cast<std::ptrdiff_t>(i); };
   const auto first = at(closed ? e.first : e.open), last = at(closed ? e.open : e.last);
   const auto piece =
       std::upper_bound(first + 1, last, time, [](double t, const Piece& p) { return t < p.begin; }) - 1;
@@ -134,11 +135,11 @@ void ReplayPieces::positions(double s, const Vec3* rest, Vec3* out) const {
     if (back <= front) continue;
     kernels_.replay(&blocks_[span * blocks_a_span_], offsets_.data(), vertices_.data(), front, back, s,
                     times_[span], times_[span + 1] - times_[span], rest, out);
-    const auto& exceptions = of_span_[span];
+    const auto& [exceptions, pieces] = divided_[span];
     auto e = std::partition_point(exceptions.begin(), exceptions.end(),
                                   [&](const Exception& x) { return x.vertex < front; });
     for (; e != exceptions.end() && e->vertex < back; ++e)
-      out[vertices_[e->vertex]] = rest[vertices_[e->vertex]] + displacement(*e, s);
+      out[vertices_[e->vertex]] = rest[vertices_[e->vertex]] + displacement(*e, pieces, s);
     front = back;
   }
 }

@@ -30,7 +30,7 @@ class ReplayPieces {
   /// out[vertices[i]] = rest[vertices[i]] + displacement, with the blade at s. Allocates nothing.
   void positions(double s, const Vec3* rest, Vec3* out) const;
 
-  std::size_t exceptions() const { return exceptions_; }  ///< pairs of a vertex and a span of time
+  std::size_t exceptions() const { return exception_count_; }  ///< pairs of a vertex and a span of time
   const std::vector<PieceBlock>& blocks() const { return blocks_; }
 
  private:
@@ -42,20 +42,24 @@ class ReplayPieces {
   struct Exception {
     std::size_t vertex;
     double closed_until;
-    std::size_t first, open, last;  // in pieces_
+    std::size_t first, open, last;  // in its span's pieces
   };
 
   std::size_t spans() const { return times_.size() - 1; }
   void set(std::size_t span, const std::array<Vec3, 4>& control);
   void collect(const History& history, std::size_t span);
-  Vec3 displacement(const Exception& exception, double s) const;
+  Vec3 displacement(const Exception& exception, const std::vector<Piece>& pieces, double s) const;
 
   std::vector<double> times_, offsets_;
   std::vector<int> vertices_;
-  std::size_t blocks_a_span_, next_ = 0, exceptions_ = 0;
-  std::vector<PieceBlock> blocks_;               // [span][vertex / 4]
-  std::vector<std::vector<Exception>> of_span_;  // in the order of vertices
-  std::vector<Piece> pieces_;
+  std::size_t blocks_a_span_, next_ = 0, exception_count_ = 0;
+  std::vector<PieceBlock> blocks_;  // [span][vertex / 4]
+  /// Of one span of time, both in the order of vertices.
+  struct Divided {
+    std::vector<Exception> exceptions;
+    std::vector<Piece> pieces;
+  };
+  std::vector<Divided> divided_;
   const KernelTable& kernels_ = kernel_table(available_kernels().back());
 };
 

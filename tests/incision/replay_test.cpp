@@ -209,6 +209,30 @@ TEST(Replay, LongPathsKeepBothEndsAndAreSteadyBetween) {
   EXPECT_DOUBLE_EQ(canonical_place(6, 8, canonical).time_offset, 0);
 }
 
+TEST(Replay, OnLongPathsEveryVertexHasATimeOfItsOwn) {
+  Incision incision(grid(50, 16, -25, -8, 1), path_through({{-15, 0, 0}, {15, 0, 0}}, up, canonical.depth),
+                    unrefined());
+  incision.advance_to(30);
+  for (const Field& field : {random_field(20, 16), tip_field()}) {
+    const double tolerance = field.parametrization().moves() ? 1.0001e-4 : 1e-12;
+    const Replay replay(field, incision, 1);
+    std::vector<Vec3> moved(replay.vertex_count());
+    for (double s = 0; s < 30; s += 0.617) {
+      replay.positions(s, moved);
+      for (const ActiveVertex& a : replay.active()) {
+        const bool closed = a.on_cut && a.side != Side::both && a.s >= s;
+        const Vec3 d =
+            field.displacement(a.uvw, closed ? Side::both : a.side, std::clamp(s + a.time_offset, 0., 10.));
+        const Vec3 expected = replay.rest()[static_cast<std::size_t>(a.vertex)] +
+                              a.weight * (d.x * a.along + d.y * a.across + d.z * a.outward);
+        if (std::abs(a.uvw.x + 5) < 1e-6 && field.parametrization().moves()) continue;  // see above
+        ASSERT_LE(norm(moved[static_cast<std::size_t>(a.vertex)] - expected), tolerance)
+            << a.vertex << ' ' << s;
+      }
+    }
+  }
+}
+
 TEST(Replay, ALongCutIsEquallyWideInItsMiddle) {
   const ScalpelPath path = path_through({{-15, 0, 0}, {15, 0, 0}}, up, canonical.depth);
   Incision incision(grid(50, 16, -25, -8, 1), path, unrefined());

@@ -1,8 +1,7 @@
 // The kernels' bodies, compiled once for each width. The including file defines
 //   CLEFT_TARGET          the attribute of the machine the functions are for
 //   CLEFT_WIDE            whether it has registers of four doubles
-// and gets KERNELS, the table's initialiser. Wide types are handed on by reference: machines of different
-// widths pass them differently.
+// and gets KERNELS, the table's initialiser.
 #include <algorithm>
 #include <limits>
 
