@@ -55,7 +55,8 @@ std::vector<Difference> differences(const std::vector<double>& places) {
   std::vector<Difference> rows;
   for (int i = 1; i + 1 < n; ++i) {
     const double before = places[i] - places[i - 1], after = places[i + 1] - places[i];
-    if (before <= 0 || after <= 0) continue;  // two control points in one place: the break at v = 0
+    // Two control points in one place, or as good as: the break at v = 0, or knots that coincide.
+    if (std::min(before, after) <= 1e-4 * spacing) continue;
     rows.push_back({i - 1, {spacing / before, -spacing / before - spacing / after, spacing / after}});
   }
   return rows;

@@ -199,10 +199,10 @@ std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t fi
   std::vector<double> numbers(3 * count);
   file_.read_rows<double>(displacements, frame * snapshot_.points.size() + first, count, numbers);
   std::vector<Vec3> vectors = as_vectors(numbers);
-  for (const Vec3& d : vectors)
-    if (!std::isfinite(squared_norm(d)))
-      throw FileError(file_.path(),
-                      "frame " + std::to_string(frame) + " holds a displacement that is not finite");
+  for (std::size_t n = 0; n < count; ++n)
+    if (!std::isfinite(squared_norm(vectors[n])))
+      throw FileError(file_.path(), "frame " + std::to_string(frame) + ", node " + std::to_string(first + n) +
+                                        " holds a displacement that is not finite");
   return vectors;
 }
 
