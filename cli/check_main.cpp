@@ -4,7 +4,9 @@
 
 #include "base/command.h"
 #include "base/error.h"
+#include "base/h5.h"
 #include "encoder/field/field_file.h"
+#include "encoder/field/study_file.h"
 #include "params/study_folder.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -12,14 +14,22 @@ using namespace cleft;
 
 namespace {
 
+void check_study_file(const std::string& file) {
+  const StudyFile study(file);
+  for (int i = 0; i < study.size(); ++i) study.field(i);
+  h5::File::open(file).read_everything();
+}
+
 void check_file(const std::string& file) {
   const std::string format = format_of(file);
   if (format == "cleft-snapshot")
     check_snapshot(file);
   else if (format == "cleft-field")
-    read_field(file), h5::File::open(file).read_everything();
+    read_field(file), read_residual(file), h5::File::open(file).read_everything();
+  else if (format == "cleft-study")
+    check_study_file(file);
   else
-    throw FileError(file, "is neither a snapshot nor a field");
+    throw FileError(file, "is neither a snapshot nor a field nor a study");
 }
 
 void check_study(const std::string& path) {
@@ -30,6 +40,8 @@ void check_study(const std::string& path) {
       folder.verify(hash);
       for (const char* name : {"/case.h5", "/case.dffd"}) check_file(folder.published(hash) + name);
     });
+  if (const std::string packed = path + "/study.dffd"; std::filesystem::exists(packed))
+    mistakes.collect([&] { check_file(packed); });
   mistakes.throw_if_any();
 }
 

@@ -19,7 +19,7 @@ const std::vector<Command> commands = {
     {"eval", "displacements of a field"},        {"cut", "cut a surface mesh along a path"},
     {"explore", "look at a study, or draw it"},  {"info", "what a file holds"},
     {"check", "verify files and studies"},       {"export", "write files for ParaView"},
-    {"import", "take another program's series"},
+    {"import", "take another program's series"}, {"pack", "a study's fields in one file"},
 };
 
 std::string usage() {

@@ -1,9 +1,10 @@
-// cleft info: what a snapshot or a field holds.
+// cleft info: what a snapshot, a field or a study file holds.
 #include <filesystem>
 
 #include "base/command.h"
 #include "base/error.h"
 #include "encoder/field/field_file.h"
+#include "encoder/field/study_file.h"
 #include "solver/snapshot/snapshot.h"
 
 using namespace cleft;
@@ -47,6 +48,16 @@ Json info_of_snapshot(const std::string& file) {
   return info;
 }
 
+Json list_of(const FitReport& r) {
+  return {{"relative_l2", r.relative_l2},
+          {"node_error", r.node_error},
+          {"spline_error", r.spline_error},
+          {"gape_error", r.gape_error},
+          {"false_gap", r.false_gap},
+          {"frame_error", r.frame_error},
+          {"largest_displacement_mm", r.largest_displacement}};
+}
+
 Json info_of_field(const std::string& file) {
   const Field field = read_field(file);
   Json counts = Json::array(), domain = Json::object();
@@ -54,39 +65,49 @@ Json info_of_field(const std::string& file) {
     counts.push_back(field.basis(axis).size());
     domain[std::string(1, "uvwt"[axis])] = {field.domain(axis).front, field.domain(axis).back};
   }
-  const FitReport& r = field.report;
   return {
       {"format", "cleft-field"},
       {"case", field.case_hash},
       {"control_points", counts},
       {"parametrization", field.parametrization().name()},
+      {"quantum_mm", field.quantum},
       {"domain_mm", domain},
       {"cut", {{"start", field.cut().start}, {"length", field.cut().length}, {"depth", field.cut().depth}}},
-      {"report",
-       {{"relative_l2", r.relative_l2},
-        {"node_error", r.node_error},
-        {"spline_error", r.spline_error},
-        {"gape_error", r.gape_error},
-        {"false_gap", r.false_gap},
-        {"largest_displacement_mm", r.largest_displacement}}},
+      {"report", list_of(field.report)},
       {"bytes", std::filesystem::file_size(file)},
       {"parameters", field.parameters}};
+}
+
+Json info_of_study(const std::string& file) {
+  const StudyFile study(file);
+  Json cases = Json::array();
+  for (int i = 0; i < study.size(); ++i)
+    cases.push_back({{"name", study.name(i)},
+                     {"case", study.case_hash(i)},
+                     {"bytes", study.coefficient_bytes(i)},
+                     {"report", list_of(study.report(i))},
+                     {"parameters", study.parameters(i)}});
+  return {{"format", "cleft-study"},
+          {"cases", study.size()},
+          {"bytes", std::filesystem::file_size(file)},
+          {"list", cases}};
 }
 
 Json info_of(const std::string& file) {
   const std::string format = format_of(file);
   if (format == "cleft-snapshot") return info_of_snapshot(file);
   if (format == "cleft-field") return info_of_field(file);
-  throw FileError(file, "is neither a snapshot nor a field");
+  if (format == "cleft-study") return info_of_study(file);
+  throw FileError(file, "is neither a snapshot nor a field nor a study");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Shows what a snapshot or a field holds.", "cleft info");
+  CLI::App app("Shows what a snapshot, a field or a study file holds.", "cleft info");
   std::string file;
   bool json = false;
-  app.add_option("FILE", file, "case.h5 or case.dffd")->required();
+  app.add_option("FILE", file, "case.h5, case.dffd or study.dffd")->required();
   app.add_flag("--json", json, "print as JSON");
   return run_command(app, argc, argv, [&] { print_figures(info_of(file), json); });
 }

@@ -5,6 +5,7 @@
 
 #include "base/command.h"
 #include "base/error.h"
+#include "base/process.h"
 #include "params/case_list.h"
 #include "params/launcher/local.h"
 #include "params/study.h"
@@ -27,6 +28,15 @@ Json figures_of(const RunReport& r) {
   return {{"cases", r.cases},         {"already_published", r.already_published},
           {"published", r.published}, {"superseded", r.superseded},
           {"failed", r.failed},       {"interrupted", r.interrupted}};
+}
+
+/// Its published fields in one file, out/study.dffd.
+void pack(const std::string& out) {
+  const std::string log = out + "/pack.log";
+  if (!run_process({executable_folder() + "/cleft-pack", out}, log, {}).success())
+    throw std::runtime_error("the study's fields could not be packed into " + out + "/study.dffd; " + log +
+                             " says why");
+  std::filesystem::remove(log);
 }
 
 }  // namespace
@@ -58,6 +68,8 @@ int main(int argc, char** argv) {
     if (options.jobs == 0)
       options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / options.ranks);
     const RunReport report = run_local(StudyFolder::create(out, study), cases, options);
+    if (report.interrupted == 0 && report.already_published + report.published + report.superseded > 0)
+      pack(out);
     print_figures(figures_of(report), json);
     if (report.failed > 0)
       throw std::runtime_error(std::to_string(report.failed) + " of " + std::to_string(report.cases) +

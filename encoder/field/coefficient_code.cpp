@@ -123,10 +123,13 @@ struct LinearPredictor {
   /// rate / 256: the part of the error that is mended at once.
   void learn(const Inputs& in, std::int64_t error, int rate) {
     const std::int64_t gain = ((error >> in.shift) * rate * in.inverse) >> 22;
-    const auto step = static_cast<std::int32_t>(std::clamp<std::int64_t>(gain, -32767, 32767));
-    for (int n = 0; n < inputs; ++n)
-      weight[n] =
-          static_cast<std::int16_t>(std::clamp(weight[n] + ((step * in.x[n] + 128) >> 8), -24576, 24576));
+    const auto factor = static_cast<std::int16_t>(std::clamp<std::int64_t>(gain, -511, 511) * 64);
+    for (int n = 0; n < inputs; ++n) {
+      const auto input = static_cast<std::int16_t>(in.x[n] * 4);
+      const auto step = static_cast<std::int16_t>((factor * input) >> 16);
+      const auto next = static_cast<std::int16_t>(weight[n] + step);
+      weight[n] = std::clamp<std::int16_t>(next, -24576, 24576);
+    }
   }
 };
 
@@ -307,8 +310,8 @@ class Model {
               c, step.slice, unknown);
 
           const std::int64_t target = 256 * found;
-          overall.learn(in, limited(target - base - one), 128);
-          local.learn(in, limited(target - base - two), 51);
+          overall.learn(in, limited(target - base - one), 160);
+          local.learn(in, limited(target - base - two), 70);
           own.innovation[at] = limited(target - base);
           const std::int32_t size = std::abs(limited(target - prediction));
           own.error[at] = size;

@@ -59,13 +59,17 @@ void write_field(const std::string& path, const Field& field, const NodeResidual
   out.commit();
 }
 
-Field read_field(const std::string& path) {
+FieldRecord read_field_record(const std::string& path) {
   return reading(path, [&] {
     const h5::File file = h5::File::open(path);
     check_format(file);
-    return field_of({header_from(file.read<std::uint8_t>("/header", {0})),
-                     file.read<std::uint8_t>("/coefficients", {0})});
+    return FieldRecord{header_from(file.read<std::uint8_t>("/header", {0})),
+                       file.read<std::uint8_t>("/coefficients", {0})};
   });
+}
+
+Field read_field(const std::string& path) {
+  return reading(path, [&] { return field_of(read_field_record(path)); });
 }
 
 std::map<std::string, double> read_field_parameters(const std::string& path) {

@@ -26,7 +26,10 @@ constexpr Figure figures[] = {
     {"spline_error", &FitReport::spline_error}, {"gape_error", &FitReport::gape_error},
     {"false_gap", &FitReport::false_gap},       {"largest_displacement", &FitReport::largest_displacement},
     {"frame_error", &FitReport::frame_error},   {"worst_node", &FitReport::worst_node},
-    {"worst_time", &FitReport::worst_time},     {"condition", &FitReport::condition}};
+    {"worst_time", &FitReport::worst_time},     {"condition", &FitReport::condition},
+    {"crease", &FitReport::crease},             {"overlap", &FitReport::overlap},
+    {"least_volume", &FitReport::least_volume}, {"fit_seconds", &FitReport::fit_seconds},
+    {"measure_seconds", &FitReport::measure_seconds}};
 
 /// What nlohmann-json says of a header that lacks something, or has it of another type, as an InputError.
 template <class Function>
@@ -114,31 +117,39 @@ void check_break(const BSplineBasis& across, const CanonicalCut& cut) {
 }
 
 /// 32-bit floats as four planes of bytes, the least significant first: they pack better.
-std::vector<std::uint8_t> float_planes(const std::vector<Vec3>& points) {
-  const std::size_t count = 3 * points.size();
-  std::vector<std::uint8_t> bytes(4 * count);
-  for (std::size_t n = 0; n < count; ++n) {
-    const auto bits =
-        std::bit_cast<std::uint32_t>(static_cast<float>(points[n / 3][static_cast<int>(n % 3)]));
-    for (int plane = 0; plane < 4; ++plane)
-      bytes[plane * count + n] = static_cast<std::uint8_t>(bits >> 8 * plane);
-  }
-  return bytes;
+void append_planes(std::vector<std::uint8_t>& bytes, std::span<const float> numbers) {
+  for (int plane = 0; plane < 4; ++plane)
+    for (const float number : numbers)
+      bytes.push_back(static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(number) >> 8 * plane));
 }
 
-std::vector<Vec3> from_float_planes(const std::vector<std::uint8_t>& bytes, std::size_t size) {
-  const std::size_t count = 3 * size;
-  if (bytes.size() != 4 * count)
-    throw InputError("there are " + std::to_string(bytes.size()) + " bytes of coefficients, expected " +
-                     std::to_string(4 * count));
-  std::vector<Vec3> points(size);
+/// The floats of the last bytes, which are then taken off.
+std::vector<float> take_planes(std::span<const std::uint8_t>& bytes, std::size_t count) {
+  if (bytes.size() / 4 < count)
+    throw InputError("there are " + std::to_string(bytes.size()) +
+                     " bytes of coefficients, expected at least " + std::to_string(4 * count));
+  const auto planes = bytes.last(4 * count);
+  bytes = bytes.first(bytes.size() - 4 * count);
+  std::vector<float> numbers(count);
   for (std::size_t n = 0; n < count; ++n) {
     std::uint32_t bits = 0;
-    for (int plane = 3; plane >= 0; --plane) bits = bits << 8 | bytes[plane * count + n];
-    const auto value = std::bit_cast<float>(bits);
-    if (!std::isfinite(value)) throw InputError("a control point is not a finite number");
-    points[n / 3][static_cast<int>(n % 3)] = value;
+    for (std::size_t plane = 4; plane-- > 0;) bits = bits << 8 | planes[plane * count + n];
+    numbers[n] = std::bit_cast<float>(bits);
+    if (!std::isfinite(numbers[n])) throw InputError("a control point is not a finite number");
   }
+  return numbers;
+}
+
+std::vector<float> as_floats(const std::vector<Vec3>& points) {
+  std::vector<float> numbers;
+  for (const Vec3& point : points)
+    for (int c = 0; c < 3; ++c) numbers.push_back(static_cast<float>(point[c]));
+  return numbers;
+}
+
+std::vector<Vec3> as_points(const std::vector<float>& numbers) {
+  std::vector<Vec3> points(numbers.size() / 3);
+  for (std::size_t n = 0; n < numbers.size(); ++n) points[n / 3][static_cast<int>(n % 3)] = numbers[n];
   return points;
 }
 
@@ -156,44 +167,71 @@ std::vector<std::int64_t> integers_of(const Unknowns& unknowns) {
 }  // namespace
 
 FieldRecord record_of(const Field& field) {
-  if (field.quantum == 0)
-    return {header_of(field, field.basis(3).size()), float_planes(field.coefficients())};
   const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
-  const ControlTies ties = ties_of(field.parametrization().name(), bases);
-  const CoefficientGrid places = places_of(ties, bases);
-  const Unknowns unknowns = unknowns_of(field, places, field.quantum);
-  const auto values = integers_of(unknowns);
-  const auto again = control_points(ties, bases, values, field.quantum);
-  for (std::size_t n = 0; n < again.size(); ++n)
-    CLEFT_CHECK(norm(again[n] - field.coefficients()[n]), <=, 0.01 * field.quantum);
-  return {header_of(field, unknowns.slices), encode_coefficients(places, unknowns.slices, values)};
+  FieldRecord record;
+  int slices = bases[3].size();
+  if (field.quantum == 0) {
+    append_planes(record.coefficients, as_floats(field.coefficients()));
+  } else {
+    const ControlTies ties = ties_of(field.parametrization().name(), bases);
+    const CoefficientGrid places = places_of(ties, bases);
+    const Unknowns unknowns = unknowns_of(field, places, field.quantum);
+    const auto values = integers_of(unknowns);
+    const auto again = control_points(ties, bases, values, field.quantum);
+    for (std::size_t n = 0; n < again.size(); ++n)
+      CLEFT_CHECK(norm(again[n] - field.coefficients()[n]), <=, 0.01 * field.quantum);
+    slices = unknowns.slices;
+    record.coefficients = encode_coefficients(places, slices, values);
+  }
+  record.header = header_of(field, slices);
+  for (const Quantity& quantity : field.quantities) {
+    record.header["quantities"].push_back({{"name", quantity.name}, {"components", quantity.components}});
+    append_planes(record.coefficients,
+                  std::vector<float>(quantity.coefficients.begin(), quantity.coefficients.end()));
+  }
+  return record;
 }
 
 Field field_of(const FieldRecord& record) {
   return reading([&] {
     const Json& header = record.header;
     const std::array<BSplineBasis, 4> bases = bases_of(header);
+    std::size_t size = 1;
+    for (const BSplineBasis& b : bases) size *= static_cast<std::size_t>(b.size());
     FieldGeometry geometry = geometry_of(header);
     check_break(bases[1], geometry.cut);
     const std::string name = header.at("parametrization").get<std::string>();
     const auto parametrization = make_parametrization(name, std::move(geometry));
     const double quantum = finite(header, "quantum");
     if (quantum < 0) throw InputError("quantum is negative");
+
+    std::span<const std::uint8_t> bytes = record.coefficients;
+    std::vector<Quantity> quantities;
+    if (header.contains("quantities"))
+      for (const Json& entry : header.at("quantities")) {
+        quantities.push_back({entry.at("name").get<std::string>(), entry.at("components").get<int>(), {}});
+        if (quantities.back().components < 1 || quantities.back().components > 100)
+          throw InputError("a quantity has no number of components");
+      }
+    for (std::size_t q = quantities.size(); q-- > 0;) {
+      const auto numbers = take_planes(bytes, size * static_cast<std::size_t>(quantities[q].components));
+      quantities[q].coefficients.assign(numbers.begin(), numbers.end());
+    }
     std::vector<Vec3> points;
     if (quantum == 0) {
-      std::size_t size = 1;
-      for (const BSplineBasis& b : bases) size *= static_cast<std::size_t>(b.size());
-      points = from_float_planes(record.coefficients, size);
+      points = as_points(take_planes(bytes, 3 * size));
+      if (!bytes.empty()) throw InputError("there are more bytes of coefficients than control points");
     } else {
       const int slices = header.at("slices").get<int>(), T = bases[3].size();
       if (slices != T && slices != T - 1)
         throw InputError("slices is neither that of the basis nor one less");
       const ControlTies ties = ties_of(name, bases);
-      const auto values = decode_coefficients(places_of(ties, bases), slices, record.coefficients);
-      points = control_points(ties, bases, values, quantum);
+      points =
+          control_points(ties, bases, decode_coefficients(places_of(ties, bases), slices, bytes), quantum);
     }
     Field field(parametrization, bases, std::move(points));
     field.quantum = quantum;
+    field.quantities = std::move(quantities);
     field.case_hash = header.at("case").get<std::string>();
     field.parameters = parameters_of(header);
     field.report = report_of(header);

@@ -19,6 +19,9 @@ struct FieldRecord {
 
 FieldRecord record_of(const Field& field);
 
+/// That of a field file, as it stands there; throws FileError.
+FieldRecord read_field_record(const std::string& path);
+
 /// Each throws InputError that says what of the record is missing, damaged or out of range.
 Field field_of(const FieldRecord& record);
 std::map<std::string, double> parameters_of(const Json& header);

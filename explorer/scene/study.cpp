@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/h5.h"
 #include "base/text.h"
 #include "encoder/field/field_file.h"
 
@@ -26,7 +27,15 @@ std::vector<std::string> published_fields(const fs::path& study) {
 
 PublishedStudy::PublishedStudy(const std::string& path) {
   if (!fs::exists(path))
-    throw InputError(path + ": no such file or folder (give a study folder or a case.dffd)");
+    throw InputError(path + ": no such file or folder (give a study folder, a study.dffd or a case.dffd)");
+  if (fs::is_regular_file(path) && format_of(path) == "cleft-study") {
+    packed_.emplace(path);
+    for (int i = 0; i < packed_->size(); ++i)
+      cases_.push_back({packed_->name(i), "", packed_->parameters(i), std::nullopt, i});
+    if (cases_.empty()) throw InputError(path + ": holds no case; run `cleft pack` again");
+    name_and_sort();
+    return;
+  }
   std::vector<std::string> files{path};
   if (fs::is_directory(path)) files = published_fields(path);
   if (files.empty())
@@ -35,7 +44,7 @@ PublishedStudy::PublishedStudy(const std::string& path) {
                      "STUDY.toml --out " +
                      path + "` first");
   for (const std::string& file : files)
-    cases_.push_back({file, "", read_field_parameters(file), std::nullopt});
+    cases_.push_back({file, "", read_field_parameters(file), std::nullopt, -1});
   name_and_sort();
 }
 
@@ -63,13 +72,14 @@ void PublishedStudy::name_and_sort() {
       if (const auto found = c.parameters.find(name); found != c.parameters.end())
         c.name += (c.name.empty() ? "" : " ") + name + "=" + shortest(found->second);
     const fs::path file(c.file);
-    if (c.name.empty()) c.name = (cases_.size() > 1 ? file.parent_path() : file).filename().string();
+    if (c.name.empty())
+      c.name = (cases_.size() > 1 && !packed_ ? file.parent_path() : file).filename().string();
   }
 }
 
 const Field& PublishedStudy::field(int i) {
   Case& wanted = cases_.at(i);
-  if (!wanted.field) wanted.field = read_field(wanted.file);
+  if (!wanted.field) wanted.field = packed_ ? packed_->field(wanted.packed) : read_field(wanted.file);
   return *wanted.field;
 }
 

@@ -7,14 +7,15 @@
 #include <vector>
 
 #include "encoder/field/field.h"
+#include "encoder/field/study_file.h"
 
 namespace cleft {
 
 class PublishedStudy {
  public:
-  /// `path` is a study folder (every published case: cases/<case>/manifest.json beside case.dffd) or a single
-  /// field file. Reads the parameters of all cases, and no coefficients. Throws InputError where there is no
-  /// published case, FileError where a field file is damaged.
+  /// `path` is a study folder (every published case: cases/<case>/manifest.json beside case.dffd), a study
+  /// file or a single field file. Reads the parameters of all cases, and no coefficients. Throws InputError
+  /// where there is no published case, FileError where a field file is damaged.
   explicit PublishedStudy(const std::string& path);
 
   int size() const { return static_cast<int>(cases_.size()); }
@@ -33,10 +34,12 @@ class PublishedStudy {
     std::string file, name;
     std::map<std::string, double> parameters;
     std::optional<Field> field;
+    int packed = -1;  // its number in the study file
   };
   void name_and_sort();
 
   std::vector<Case> cases_;
+  std::optional<StudyFile> packed_;
 };
 
 }  // namespace cleft

@@ -171,6 +171,26 @@ TEST(FieldFile, AFieldThatIsNotWhatItsUnknownsGiveIsABug) {
   EXPECT_EQ(folder.entries(), 0);
 }
 
+TEST(FieldFile, FurtherQuantitiesComeBack) {
+  for (Field field : {random_field(), following_field()}) {
+    for (const int components : {1, 6}) {
+      Quantity quantity{"stress " + std::to_string(components), components, {}};
+      for (std::size_t n = 0; n < components * field.coefficients().size(); ++n)
+        quantity.coefficients.push_back(static_cast<float>(n) / 7.f);
+      field.quantities.push_back(quantity);
+    }
+    const TemporaryFolder folder;
+    write_field(folder / "a.dffd", field);
+    const Field found = read_field(folder / "a.dffd");
+    EXPECT_TRUE(same(found, field));
+    ASSERT_EQ(found.quantities.size(), 2u);
+    for (std::size_t q = 0; q < 2; ++q) {
+      EXPECT_EQ(found.quantities[q].name, field.quantities[q].name);
+      EXPECT_EQ(found.quantities[q].coefficients, field.quantities[q].coefficients);
+    }
+  }
+}
+
 TEST(FieldFile, TheResidualComesBack) {
   const TemporaryFolder folder;
   const NodeResidual residual = random_residual();

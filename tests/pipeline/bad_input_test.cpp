@@ -222,7 +222,7 @@ TEST_F(BadInput, Usage) {
 
 TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
   for (const char* command :
-       {"run", "status", "solve", "encode", "eval", "cut", "explore", "export", "info", "check"}) {
+       {"run", "status", "solve", "encode", "eval", "cut", "explore", "export", "info", "check", "pack"}) {
     EXPECT_NE(
         expect_success(run_cleft(command, {"--help"})).output.find("Usage: cleft " + std::string(command)),
         std::string::npos)

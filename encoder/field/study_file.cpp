@@ -1,0 +1,140 @@
+#include "encoder/field/study_file.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/h5.h"
+#include "base/output_file.h"
+#include "encoder/field/columns.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr int study_format_version = 1;
+constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
+
+template <class Function>
+auto reading(const std::string& path, Function&& function) {
+  try {
+    return function();
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& e) {
+    throw FileError(path, e.what());
+  }
+}
+
+Json header_of_study(const h5::File& file) {
+  if (!file.has_attribute("/", "format") || file.read_text("/", "format") != "cleft-study")
+    throw FileError(file.path(),
+                    "is not a study file (no attribute format = \"cleft-study\"); cleft pack writes one");
+  const double found = file.read_number("/", "version");
+  if (found != study_format_version)
+    throw FileError(file.path(), "study format version " + std::to_string(static_cast<int>(found)) +
+                                     "; this program reads version " + std::to_string(study_format_version) +
+                                     ": run cleft pack again");
+  return header_from(file.read<std::uint8_t>("/header", {0}));
+}
+
+}  // namespace
+
+struct StudyFile::Parts {
+  explicit Parts(const std::string& path) : file(h5::File::open(path)), columns(Json::object(), 0) {
+    Json header = header_of_study(file);
+    for (const char* name : {"names", "bytes", "columns"})
+      if (!header.contains(name)) throw InputError(std::string("the header has no ") + name);
+    begins.push_back(0);
+    for (const Json& name : header["names"]) {
+      if (!name.is_string()) throw InputError("a case's name is no text");
+      names.push_back(name.get<std::string>());
+    }
+    for (const Json& bytes : header["bytes"]) {
+      if (!bytes.is_number_unsigned()) throw InputError("a case's number of bytes is no count");
+      begins.push_back(begins.back() + bytes.get<std::uint32_t>());
+    }
+    if (begins.size() != names.size() + 1 || begins.back() != file.shape("/coefficients").at(0))
+      throw InputError("the cases' bytes are not those of /coefficients");
+    columns = Columns(std::move(header["columns"]), names.size());
+  }
+
+  h5::File file;
+  Columns columns;
+  std::vector<std::string> names;
+  std::vector<std::uint64_t> begins;  // of each case in /coefficients, and their end
+};
+
+StudyFile::StudyFile(const std::string& path)
+    : parts_(reading(path, [&] { return std::make_unique<const Parts>(path); })) {}
+StudyFile::~StudyFile() = default;
+StudyFile::StudyFile(StudyFile&&) noexcept = default;
+
+int StudyFile::size() const { return static_cast<int>(parts_->names.size()); }
+
+const std::string& StudyFile::name(int i) const { return parts_->names.at(static_cast<std::size_t>(i)); }
+
+std::string StudyFile::case_hash(int i) const {
+  return reading(parts_->file.path(), [&] {
+    const Json hash = parts_->columns.entry("case", static_cast<std::size_t>(i));
+    if (!hash.is_string()) throw InputError("a case's hash is no text");
+    return hash.get<std::string>();
+  });
+}
+
+std::map<std::string, double> StudyFile::parameters(int i) const {
+  return reading(parts_->file.path(), [&] {
+    return parameters_of(parts_->columns.group("parameters", static_cast<std::size_t>(i)));
+  });
+}
+
+FitReport StudyFile::report(int i) const {
+  return reading(parts_->file.path(),
+                 [&] { return report_of(parts_->columns.group("report", static_cast<std::size_t>(i))); });
+}
+
+std::size_t StudyFile::coefficient_bytes(int i) const {
+  const auto n = static_cast<std::size_t>(i);
+  return parts_->begins.at(n + 1) - parts_->begins.at(n);
+}
+
+Field StudyFile::field(int i) const {
+  const auto n = static_cast<std::size_t>(i);
+  FieldRecord record{{}, std::vector<std::uint8_t>(coefficient_bytes(i))};
+  if (!record.coefficients.empty())
+    parts_->file.read_rows<std::uint8_t>("/coefficients", parts_->begins[n], record.coefficients.size(),
+                                         record.coefficients);
+  return reading(parts_->file.path() + ", case " + name(i), [&] {
+    record.header = parts_->columns.header(n);
+    return field_of(record);
+  });
+}
+
+void write_study(const std::string& path, const std::vector<StudyCase>& cases) {
+  std::vector<Json> headers;
+  std::vector<std::uint8_t> coefficients;
+  Json names = Json::array(), bytes = Json::array();
+  for (const StudyCase& one : cases) {
+    FieldRecord record = read_field_record(one.field_file);
+    names.push_back(one.name);
+    bytes.push_back(record.coefficients.size());
+    coefficients.insert(coefficients.end(), record.coefficients.begin(), record.coefficients.end());
+    headers.push_back(std::move(record.header));
+  }
+  const Json header{{"names", names}, {"bytes", bytes}, {"columns", columns_of(headers)}};
+
+  OutputFile out(path);
+  h5::File file = h5::File::create(out.path(), h5::Growth::none);
+  file.write_text("/", "format", "cleft-study");
+  file.write_number("/", "version", study_format_version);
+  file.write_text("/", "units", "mm N MPa");
+  const auto text = header_bytes(header);
+  file.write<std::uint8_t>("/header", text, {text.size()}, h5::Packing::deflate);
+  file.create_dataset<std::uint8_t>("/coefficients", {coefficients.size()}, chunk_bytes,
+                                    h5::Packing::deflate);
+  file.write_rows<std::uint8_t>("/coefficients", 0, coefficients.size(), coefficients);
+  file.close();
+  out.commit();
+}
+
+}  // namespace cleft
