@@ -85,7 +85,7 @@ double unseen_error(const Series& series, const EncodeOptions& options) {
     seen.times.push_back(series.times[j]), seen.frames.push_back(series.frames[j]),
         seen.largest.push_back(series.largest[j]);
   }
-  const Field field = encode(seen, options, [](const std::string&) {});
+  const Field field = encode(seen, options, [](const std::string&) {}).field;
   const double worst = largest_of(left_out.size(), [&](std::size_t i) {
     const std::size_t j = left_out[i];
     double error = 0;
@@ -112,16 +112,17 @@ OurRun run_ours(const Series& series, const Snapshot& snapshot, const NodeData& 
   options.tolerance = tolerance;
   OurRun run;
   Stopwatch watch;
-  const Field field = encode(series, options, [](const std::string&) {});
+  const auto [field, residual] = encode(series, options, [](const std::string&) {});
   run.fit = watch.lap();
   const std::string file =
       (fs::temp_directory_path() / ("cleft-benchmark-encoder-" + std::to_string(getpid()))).string();
-  write_field(file, field);
+  write_field(file, field, residual ? &*residual : nullptr);
   run.write = watch.lap();
   run.errors = errors_of(data, decoded(file, series, data));
   run.verify = watch.lap();
   run.peak_bytes = peak_memory();
   run.coefficient_bytes = static_cast<double>(record_of(field).coefficients.size());
+  if (residual) run.residual_bytes = static_cast<double>(encode_residual(*residual).size());
   run.file_bytes = static_cast<double>(fs::file_size(file));
   fs::remove(file);
   run.centroid_error = centroid_error(field, series, snapshot);

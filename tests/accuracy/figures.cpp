@@ -56,7 +56,7 @@ std::string accuracy_text(const std::vector<AccuracyRow>& rows) {
   for (const AccuracyRow& row : rows) {
     text += row.case_name + "," + shortest(row.tolerance);
     for (std::size_t i = 0; i < row.figures.size(); ++i)
-      text += "," + formatted(i == 0 ? "%.0f" : "%.6g", row.figures[i]);
+      text += "," + formatted(i == bytes ? "%.0f" : "%.6g", row.figures[i]);
     text += "\n";
   }
   return text;
@@ -65,7 +65,7 @@ std::string accuracy_text(const std::vector<AccuracyRow>& rows) {
 Differences compare(const AccuracyRow& before, const AccuracyRow& now) {
   Differences differences;
   for (std::size_t i = 0; i < figure_names.size(); ++i) {
-    const double was = before.figures[i], is = now.figures[i], floor = i == 0 ? 16 : 1e-9;
+    const double was = before.figures[i], is = now.figures[i], floor = i == bytes ? 16 : 1e-9;
     const std::string what = now.case_name + " at tolerance " + shortest(now.tolerance) + ": " +
                              figure_names[i] + " " + formatted("%.6g", was) + " -> " + formatted("%.6g", is) +
                              (was > 0 ? " (" + formatted("%+.1f", 100 * (is / was - 1)) + " %)" : "");

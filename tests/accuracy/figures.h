@@ -11,6 +11,7 @@ namespace cleft {
 /// `cleft encode --json`.
 inline constexpr std::array figure_names = {"bytes",        "relative_l2", "node_error",
                                             "spline_error", "gape_error",  "false_gap"};
+inline constexpr std::size_t bytes = 0, node_error = 2;  ///< their places
 
 struct AccuracyRow {
   std::string case_name;

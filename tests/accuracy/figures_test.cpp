@@ -33,7 +33,8 @@ TEST(AccuracyFigures, WhatIsWorseByMoreThanOnePercentIsToldByName) {
 
 TEST(AccuracyFigures, EveryFigureIsWatched) {
   for (std::size_t i = 0; i < figure_names.size(); ++i) {
-    const Differences worse = compare(before, with(i, 1.1 * before.figures[i] + 1e-6 + (i == 0 ? 17 : 0)));
+    const Differences worse =
+        compare(before, with(i, 1.1 * before.figures[i] + 1e-6 + (i == bytes ? 17 : 0)));
     ASSERT_EQ(worse.worse.size(), 1) << figure_names[i];
     EXPECT_NE(worse.worse[0].find(figure_names[i]), std::string::npos);
     EXPECT_EQ(compare(before, with(i, NAN)).worse.size(), 1) << figure_names[i];
@@ -45,15 +46,15 @@ TEST(AccuracyFigures, EveryFigureIsWatched) {
 }
 
 TEST(AccuracyFigures, SmallestDifferencesDoNotCount) {
-  EXPECT_TRUE(compare(before, with(0, 10115)).worse.empty());
-  EXPECT_FALSE(compare(before, with(0, 10117)).worse.empty());
+  EXPECT_TRUE(compare(before, with(bytes, 10115)).worse.empty());
+  EXPECT_FALSE(compare(before, with(bytes, 10117)).worse.empty());
   EXPECT_TRUE(compare(before, with(5, 0.9e-9)).worse.empty());
   EXPECT_FALSE(compare(before, with(5, 1.1e-9)).worse.empty());
 }
 
 TEST(AccuracyFigures, ATableReadsBackAndDamageIsTold) {
   const TemporaryFolder folder;
-  const std::string text = accuracy_text({before, with(0, 12)});
+  const std::string text = accuracy_text({before, with(bytes, 12)});
   const std::vector<AccuracyRow> rows = read_accuracy(folder.write("a.csv", text));
   ASSERT_EQ(rows.size(), 2);
   EXPECT_EQ(rows[0].figures, before.figures);

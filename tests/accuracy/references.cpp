@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 namespace cleft {
 
@@ -29,13 +28,5 @@ std::vector<std::string> references() {
 }
 
 std::string accuracy_file() { return folder + "/accuracy.csv"; }
-
-bool is_expected_miss(const std::string& name, double tolerance) {
-  std::ifstream file(folder + "/expected_misses.txt");
-  std::string missed;
-  for (double at = 0; file >> missed >> at;)
-    if (missed == name && at == tolerance) return true;
-  return false;
-}
 
 }  // namespace cleft

@@ -19,7 +19,4 @@ std::vector<std::string> references();
 /// The table in the repository.
 std::string accuracy_file();
 
-/// Rows of expected_misses.txt: there the encoder does not yet keep its tolerance.
-bool is_expected_miss(const std::string& name, double tolerance);
-
 }  // namespace cleft
