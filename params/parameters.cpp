@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int hash_version =
-    2;  // raise when the same parameters no longer give the same snapshot, or its format changes
+    3;  // raise when the same parameters no longer give the same snapshot, or its format changes
 
 #define CLEFT_NUMBER(path) +[](Parameters& p) -> double& { return p.path; }
 #define CLEFT_TEXT(path) +[](Parameters& p) -> std::string& { return p.path; }

@@ -142,9 +142,10 @@ class Curve {
   std::optional<boost::math::interpolators::pchip<std::vector<double>>> smooth_;
 };
 
-/// Nodes to press on a quarter of the skin, and what is read off there. Where diagonals alternate, a node
-/// gives way more or less than its neighbours by O(h^2), 1 % where h = 1 mm; the samples are freed of that: a
-/// neighbour along the middle of the patch is pressed too for every line.
+/// Nodes to press on a quarter of the skin, and what is read off there. Where diagonals make a chess board, a
+/// node gives way more or less than its neighbours by O(h^2), 1 % where h = 1 mm; the samples are freed of
+/// that: a neighbour along the middle of the patch is pressed too for every line. (Stripes give next to
+/// none.)
 class Quarter {
  public:
   explicit Quarter(const PatchMesh& mesh) : mesh_(mesh) {

@@ -114,11 +114,10 @@ class PatchMesher {
           }
   }
 
-  /// Diagonals alternate like the colours of a chess board; one leaves the first cut's start. Halved all
-  /// alike, the squares would be too stiff where the tissue hardly changes its volume.
   std::array<std::array<Place, 3>, 2> triangles_of_square(int i, int j) const {
     const Place a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
-    if ((i - grid_.cut_from + j - grid_.planes[0]) % 2 == 0) return {{{a, b, c}, {a, c, d}}};
+    if (diagonal_rises(p_.tissue.formulation, i - grid_.cut_from, j - grid_.planes[0]))
+      return {{{a, b, c}, {a, c, d}}};
     return {{{a, b, d}, {b, c, d}}};
   }
 
@@ -219,6 +218,10 @@ class Releaser {
 };
 
 }  // namespace
+
+bool diagonal_rises(const std::string& formulation, int i, int j) {
+  return (formulation == "mean-dilatation" ? i + j : j) % 2 == 0;
+}
 
 PatchMesh make_patch_mesh(const Parameters& parameters) { return PatchMesher(parameters).mesh(); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "base/vec3.h"
@@ -44,11 +45,19 @@ struct PatchMesh {
 /// them they grow by mesh.grading. The cut the mesh is made for is mesh.cut_length by mesh.cut_depth where
 /// given; a branch has its own length always, and leaves toward +v where u = 0: its nodes on the first cut
 /// have three copies, in the pairs (left, right with u < 0) and then (right with u < 0, right with u > 0).
-/// Nodes move in v only onto a curved or tilted cut, and the patch stays a box. The diagonals that make
-/// triangles of squares alternate along u and v: an upright straight cut's triangles are mirrored in v = 0,
-/// and in u = 0 too where the squares along u are even in number (several cuts: the squares between them for
-/// v = 0). Throws InputError where moving the nodes would flatten an element.
+/// Nodes move in v only onto a curved or tilted cut, and the patch stays a box. An upright straight cut's
+/// triangles are mirrored in v = 0 (several cuts: where the squares between them are even in number); those
+/// of a chess board (diagonal_rises) in u = 0 too where the squares along u are even in number. Throws
+/// InputError where moving the nodes would flatten an element.
 PatchMesh make_patch_mesh(const Parameters& parameters);
+
+/// Whether square (i, j), counted along u and v from the first cut's start, is halved by the diagonal that
+/// rises from (i, j). With "displacement", rows of squares alternate: all columns of nodes give way alike,
+/// and what moves with the tip moves smoothly. With "mean-dilatation", squares alternate like the colours of
+/// a chess board: where the tissue hardly changes its volume, flat motions lock but for the nodes that meet
+/// four triangles between two straight lines, whose volumes are not independent. Nodes of four triangles
+/// stand beside nodes of eight, which give way differently, and every other frame differs a little by that.
+bool diagonal_rises(const std::string& formulation, int i, int j);
 
 /// How the cut of a case opens in its mesh.
 struct Release {

@@ -18,7 +18,7 @@ using code::Mixer;
 // Predictions and scales are in units of 1/256 of a quantum.
 constexpr std::int64_t largest_value = std::int64_t{1} << 40;
 constexpr std::int64_t largest_input = std::int64_t{1} << 28;
-constexpr int components = 3, inputs = 24;
+constexpr int components = 3, inputs = 16;
 constexpr std::array<int, components> component_order = {1, 2, 0};  // across the cut first: it moves most
 constexpr std::int32_t unknown_error = 77;                          // 0.3, where nothing is known
 
@@ -271,20 +271,19 @@ class Model {
           const std::int32_t* d = own.innovation.at(at);
           x[0] = d[-A], x[1] = d[-B], x[2] = d[-1];
           x[3] = d[-A - B], x[4] = d[-A - 1], x[5] = d[-B - 1], x[6] = d[-A - B - 1];
-          x[7] = d[-2 * A], x[8] = d[-2 * B], x[9] = d[-2];
-          x[10] = d[-A + B], x[11] = d[-A + 1], x[12] = d[-B + 1];
-          x[13] = before[0] ? *before[0]->innovation.at(at) : 0;
-          x[14] = before[1] ? *before[1]->innovation.at(at) : 0;
+          x[7] = d[-2 * A], x[8] = d[-2], x[9] = d[-B + 1];
+          x[10] = before[0] ? *before[0]->innovation.at(at) : 0;
+          x[11] = before[1] ? *before[1]->innovation.at(at) : 0;
           // Differences of the slices' slopes in t
           if (between) {
             const std::int64_t slope = (to - from) * per_step;
-            x[15] = limited((to - from) * 64);
+            x[12] = limited((to - from) * 64);
             if (step.before_that != -2)
-              x[16] = limited(((from - of(step.before_that)) * per_step_before - slope) >> 8);
+              x[13] = limited(((from - of(step.before_that)) * per_step_before - slope) >> 8);
             if (step.after_that != -2)
-              x[17] = limited(((of(step.after_that) - to) * per_step_after - slope) >> 8);
+              x[14] = limited(((of(step.after_that) - to) * per_step_after - slope) >> 8);
           }
-          x[18] = half == 1 && j < other_width
+          x[15] = half == 1 && j < other_width
                       ? (c == 1 ? -1 : 1) *
                             *channels_[0][c].innovation.at(channels_[0][c].innovation.index(i, j, k))
                       : 0;

@@ -17,8 +17,8 @@ struct CoefficientGrid {
 
 /// Values are numbered (component * slices + slice) * unknowns + unknown: three components, and slices of
 /// control points in t.
-/// The values may be anything from -2^40 to 2^40; smooth ones, and ones that mirror each other across the
-/// middle (even or odd, each component by itself), cost few bytes.
+/// The values may be anything from -2^40 to 2^40 (InputError beyond); smooth ones, and ones that mirror each
+/// other across the middle (even or odd, each component by itself), cost few bytes.
 std::vector<std::uint8_t> encode_coefficients(const CoefficientGrid& grid, int slices,
                                               std::span<const std::int64_t> values);
 

@@ -16,7 +16,8 @@ struct NodeResidual {
   std::vector<std::int32_t> values;  ///< (node * 3 + component) * frames + frame
 };
 
-/// `order` names every node once, neighbours near each other: it only saves bytes. Empty: 0, 1, 2, ...
+/// `order` names every node once, neighbours near each other: it only saves bytes. Empty: 0, 1, 2, ... Throws
+/// InputError where a value is beyond +-(2^31 - 1).
 std::vector<std::uint8_t> encode_residual(const NodeResidual& residual,
                                           std::span<const std::int32_t> order = {});
 

@@ -182,8 +182,7 @@ void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vec
   const std::string ending = ending_of(path);
   if (ending == ".vtp") {
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
+    writer->SetDataModeToBinary();  // raw appended data are no XML: ParaView with a strict parser cannot read them
     write_with(writer, to_vtk(mesh, arrays), path);
   } else if (ending == ".obj") {
     write_with(vtkNew<vtkOBJWriter>(), to_vtk(mesh, {}), path);

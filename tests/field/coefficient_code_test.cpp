@@ -168,7 +168,26 @@ TEST(CoefficientCode, GivesTheSameBytesOnEveryMachine) {
   }
   std::uint64_t hash = 14695981039346656037u;
   for (const std::uint8_t byte : coded(grid, 6, values)) hash = (hash ^ byte) * 1099511628211u;
-  EXPECT_EQ(hash, 5829709461321685636u);
+  EXPECT_EQ(hash, 13855951805055881598u);
+}
+
+TEST(CoefficientCode, LargerNumbersThanTheFormatHasAreRefused) {
+  const CoefficientGrid grid = grid_of(2, 2, 2);
+  Values values(static_cast<std::size_t>(3) * grid.unknowns, 0);
+  for (const std::int64_t sign : {-1, 1}) {
+    values[5] = sign * (1LL << 40);
+    coded(grid, 1, values);
+    values[5] += sign;
+    EXPECT_THROW(encode_coefficients(grid, 1, values), InputError);
+  }
+}
+
+TEST(RangeCoder, ANumberWithoutEndIsRefused) {
+  code::Encoder encoder;
+  for (int n = 0; n < 200; ++n) encoder.bit(32768, n < 100);
+  const auto bytes = encoder.finish();
+  code::Decoder decoder(bytes);
+  EXPECT_THROW(code::code_plain(decoder, 0), InputError);
 }
 
 TEST(RangeCoder, TablesDoNotHangOnTheLastDigitsOfALibrary) {

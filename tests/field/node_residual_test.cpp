@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -48,6 +49,18 @@ TEST(NodeResidual, NothingCostsNothing) {
   EXPECT_LE(coded({1, 10000, 40, std::vector<std::int32_t>(3 * 10000 * 40, 0)}).size(), 30u);
 }
 
+TEST(NodeResidual, GivesTheSameBytesOnEveryMachine) {
+  NodeResidual residual{1, 90, 12, {}};
+  std::uint64_t state = 3;
+  for (int n = 0; n < 3 * 90 * 12; ++n) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    residual.values.push_back(static_cast<std::int32_t>(state >> 62) * (n / 40 % 3 - 1));
+  }
+  std::uint64_t hash = 14695981039346656037u;
+  for (const std::uint8_t byte : coded(residual)) hash = (hash ^ byte) * 1099511628211u;
+  EXPECT_EQ(hash, 18310167330991416910u);
+}
+
 TEST(NodeResidual, NeighboursSaveBytes) {
   const NodeResidual residual = smooth(2000, 20);
   std::vector<std::int32_t> shuffled(2000);
@@ -77,6 +90,15 @@ TEST(NodeResidual, DamagedBytesNeverDoMoreThanThrowOrGiveOtherValues) {
   EXPECT_GT(thrown, 100);
   for (std::size_t size = 0; size + 8 < bytes.size(); size += 11)
     EXPECT_THROW(decode_residual(300, 10, {bytes.data(), size}), InputError) << size;
+  auto longer = bytes;
+  longer.insert(longer.end(), 9, 1);
+  EXPECT_THROW(decode_residual(300, 10, longer), InputError);
+}
+
+TEST(NodeResidual, TheOneNumberThatHasNoNegativeIsRefused) {
+  NodeResidual residual{1, 2, 2, std::vector<std::int32_t>(12, 0)};
+  residual.values[7] = std::numeric_limits<std::int32_t>::min();
+  EXPECT_THROW(encode_residual(residual), InputError);
 }
 
 }  // namespace cleft

@@ -54,6 +54,17 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   EXPECT_EQ(status(folder)["published"], 4);
   expect_success(run_cleft("check", {folder}));
   EXPECT_TRUE(fs::is_empty(folder + "/attempts"));
+  EXPECT_FALSE(fs::exists(folder + "/pack.log"));
+
+  // All fields in one file, which says the same of each as its own file.
+  const auto packed =
+      nlohmann::json::parse(expect_success(run_cleft("info", {folder + "/study.dffd", "--json"})).output);
+  ASSERT_EQ(packed["list"].size(), 4u);
+  for (const auto& one : packed["list"]) {
+    const std::string own = folder + "/cases/" + std::string(one["name"]) + "/case.dffd";
+    const auto info = nlohmann::json::parse(expect_success(run_cleft("info", {own, "--json"})).output);
+    for (const char* name : {"case", "report", "parameters"}) EXPECT_EQ(one[name], info[name]);
+  }
 
   const auto before = fs::last_write_time(folder + "/cases");
   EXPECT_NE(expect_success(run_cleft("run", {file, "--out", folder, "--json"}))
@@ -65,6 +76,9 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   const std::string lost = status(folder)["cases"][2]["case"];
   fs::remove_all(folder + "/cases/" + lost);
   EXPECT_EQ(status(folder)["missing"], 1);
+  expect_success(run_cleft("pack", {folder}));
+  EXPECT_NE(expect_success(run_cleft("info", {folder + "/study.dffd"})).output.find("cases: 3"),
+            std::string::npos);
   EXPECT_NE(expect_success(run_cleft("run", {file, "--out", folder, "--json", "--ranks", "2"}))
                 .output.find("\"published\": 1"),
             std::string::npos);

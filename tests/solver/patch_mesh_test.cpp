@@ -422,50 +422,75 @@ TEST(PatchMesh, TheSkinOfAStraightCutIsItsOwnMirrorImage) {
   graded.mesh.grading = 1.3;
   two.cut.count = 2, two.cut.spacing = 2;
   odd.cut.length = 4.7;
-  int even = 0;
-  for (const Parameters& p : {small_patch(), graded, two, odd}) {
-    const PatchMesh mesh = make_patch_mesh(p);
-    using Corners = std::set<std::pair<long, long>>;
-    const auto triangles = [&](double sign_u, double sign_v) {
-      std::set<Corners> all;
-      for (const auto& t : mesh.skin) {
-        Corners corners;
-        for (const int n : t)
-          corners.insert(
-              {std::lround(sign_u * mesh.points[n].x * 1e9), std::lround(sign_v * mesh.points[n].y * 1e9)});
-        all.insert(corners);
-      }
-      return all;
-    };
-    EXPECT_EQ(triangles(1, 1), triangles(1, -1));
-    if (mesh.grid[0] % 2 == 0) continue;  // lines, one more than squares
-    ++even;
-    EXPECT_EQ(triangles(1, 1), triangles(-1, 1));
+  for (const char* formulation : {"displacement", "mean-dilatation"}) {
+    const bool stripes = std::string(formulation) == "displacement";
+    int even = 0;
+    for (Parameters p : {small_patch(), graded, two, odd}) {
+      p.tissue.formulation = formulation;
+      const PatchMesh mesh = make_patch_mesh(p);
+      using Corners = std::set<std::pair<long, long>>;
+      const auto triangles = [&](double sign_u, double sign_v) {
+        std::set<Corners> all;
+        for (const auto& t : mesh.skin) {
+          Corners corners;
+          for (const int n : t)
+            corners.insert(
+                {std::lround(sign_u * mesh.points[n].x * 1e9), std::lround(sign_v * mesh.points[n].y * 1e9)});
+          all.insert(corners);
+        }
+        return all;
+      };
+      EXPECT_EQ(triangles(1, 1), triangles(1, -1));
+      if (mesh.grid[0] % 2 == 0) continue;  // lines, one more than squares
+      ++even;
+      EXPECT_EQ(triangles(1, 1) == triangles(-1, 1), !stripes);
+    }
+    EXPECT_GE(even, 2);
+    EXPECT_LT(even, 4);
   }
-  EXPECT_GE(even, 2);
-  EXPECT_LT(even, 4);
 }
 
-TEST(PatchMesh, DiagonalsAlternate) {
-  // Inside the patch a node meets eight triangles or four; halved alike, it would meet six.
+TEST(PatchMesh, DiagonalsMakeStripesOrAChessBoard) {
   Parameters p = awkward_patch();
   p.mesh.grading = 1.3;
-  for (const double tilt : {0., 20.}) {
-    p.cut.tilt = tilt;
-    const PatchMesh mesh = make_patch_mesh(p);
-    const std::vector<int> first = glued(mesh);
-    std::map<int, int> met;
-    for (const auto& t : mesh.skin)
-      for (const int n : t) ++met[first[n]];
-    for (const auto& [n, count] : met) {
-      const Vec3& at = mesh.points[n];
-      if (std::abs(at.x) == p.patch.length / 2 || std::abs(at.y) == p.patch.width / 2) continue;
-      EXPECT_TRUE(count == 8 || count == 4) << count;
-      if (at == mesh.start) {
-        EXPECT_EQ(count, 8);
+  for (const char* formulation : {"displacement", "mean-dilatation"})
+    for (const double tilt : {0., 20.}) {
+      p.tissue.formulation = formulation, p.cut.tilt = tilt;
+      const bool stripes = p.tissue.formulation == "displacement";
+      const PatchMesh mesh = make_patch_mesh(p);
+      const std::vector<int> first = glued(mesh);
+      std::map<int, int> met;
+      std::map<std::pair<int, int>, std::set<bool>> rises;  // by square
+      int start = -1;
+      for (const auto& t : mesh.skin) {
+        std::array<std::array<int, 2>, 3> lines;
+        for (int c = 0; c < 3; ++c) {
+          const int n = first[t[c]];
+          ++met[n];
+          lines[c] = {n % mesh.grid[0], n / mesh.grid[0]};
+          if (mesh.points[n] == mesh.start) start = n;
+        }
+        const int i = std::min({lines[0][0], lines[1][0], lines[2][0]});
+        const int j = std::min({lines[0][1], lines[1][1], lines[2][1]});
+        for (int c = 0; c < 3; ++c) {
+          const auto &a = lines[c], &b = lines[(c + 1) % 3];
+          if (a[0] != b[0] && a[1] != b[1]) rises[{i, j}].insert((a[0] < b[0]) == (a[1] < b[1]));
+        }
+      }
+      ASSERT_GE(start, 0);
+      ASSERT_EQ(rises.size(), static_cast<std::size_t>((mesh.grid[0] - 1) * (mesh.grid[1] - 1)));
+      const int i0 = start % mesh.grid[0], j0 = start / mesh.grid[0];
+      for (const auto& [square, directions] : rises) {
+        const auto [i, j] = square;
+        const bool expected = ((stripes ? 0 : i - i0) + j - j0) % 2 == 0;
+        EXPECT_EQ(directions, std::set<bool>{expected}) << formulation << ", square " << i << ", " << j;
+      }
+      for (const auto& [n, count] : met) {
+        const Vec3& at = mesh.points[n];
+        if (std::abs(at.x) == p.patch.length / 2 || std::abs(at.y) == p.patch.width / 2) continue;
+        EXPECT_TRUE(stripes ? count == 6 : count == 8 || count == 4) << count;
       }
     }
-  }
 }
 
 TEST(PatchMesh, ABranchLeavesTheMiddleByNodesWithThreeCopies) {

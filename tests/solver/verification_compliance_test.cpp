@@ -40,7 +40,7 @@ Dent dent(double h, double reach) {
   lines.back() = reach;
   std::vector<double> depths;
   for (auto d = lines.rbegin(); d != lines.rend(); ++d) depths.push_back(-*d);
-  const PatchMesh mesh = box_mesh(lines, lines, depths);
+  const PatchMesh mesh = box_mesh(p.tissue.formulation, lines, lines, depths);
   const PatchSystem system(mesh, p, MPI_COMM_WORLD);
   Conditions conditions(system);
   const double e = p.tissue.young_modulus, nu = p.tissue.poisson_ratio;

@@ -94,7 +94,7 @@ Errors solve_cube(int n, double nu, const char* formulation, const Waves& waves)
   p.tissue.young_modulus = 1, p.tissue.poisson_ratio = nu, p.tissue.formulation = formulation;
   const double lambda = nu / ((1 + nu) * (1 - 2 * nu)), mu = 1 / (2 * (1 + nu));
   const std::vector<double> lines = even_lines(0, 1, n);
-  const PatchMesh mesh = box_mesh(lines, lines, lines);
+  const PatchMesh mesh = box_mesh(formulation, lines, lines, lines);
   const PatchSystem system(mesh, p, MPI_COMM_WORLD);  // the skin lies on the surface, which is prescribed
   const auto place = [&](int node) {
     return Eigen::Vector3d(mesh.points[node].x, mesh.points[node].y, mesh.points[node].z);
@@ -136,12 +136,13 @@ TEST(Manufactured, ErrorsFallWithTheSquareOfTheElementSize) {
     const Errors fine = solve_cube(8, 0.3, formulation, swelling);
     EXPECT_GT(std::log2(coarse.l2 / fine.l2), 1.95) << formulation;
     EXPECT_GT(std::log2(coarse.h1 / fine.h1), 0.98) << formulation;
-    // A program of its own (dense sums over 28 points a wedge, conjugate gradients) found these for plain
-    // displacements; the quadrature here errs by 1e-4. Mean dilatation is another element: near by, not
+    // A program of its own (sums over 28 points a wedge) found these for plain displacements, on stripes and
+    // on the chess board; the quadrature here errs by 1e-4. Mean dilatation is another element: near by, not
     // equal.
     const bool plain = std::string(formulation) == "displacement";
-    EXPECT_NEAR(fine.l2, 0.021071, (plain ? 1e-3 : 0.05) * 0.021071) << formulation;
-    EXPECT_NEAR(fine.h1, 0.573417, (plain ? 1e-3 : 0.01) * 0.573417) << formulation;
+    const double l2 = plain ? 0.021627 : 0.021071, h1 = plain ? 0.579199 : 0.573417;
+    EXPECT_NEAR(fine.l2, l2, (plain ? 1e-3 : 0.05) * l2) << formulation;
+    EXPECT_NEAR(fine.h1, h1, (plain ? 1e-3 : 0.01) * h1) << formulation;
   }
 }
 
@@ -157,7 +158,8 @@ TEST(Manufactured, MeanDilatationDoesNotLock) {
     return solve_cube(n, nu, formulation, isochoric).l2;
   };
   const double coarse = errors(4, 0.499, "mean-dilatation"), fine = errors(8, 0.499, "mean-dilatation");
-  // On meshes as coarse as these, the rate at nu = 0.3 is 1.91: no less here.
+  // On meshes as coarse as these, the rate at nu = 0.3 is 1.91: no less here. (On stripes it is 1.62, and the
+  // errors are half as large again at 0.4999.)
   EXPECT_GT(std::log2(coarse / fine), 1.9);
   // The answer does not depend on nu, and so the errors do not either.
   EXPECT_NEAR(errors(8, 0.4999, "mean-dilatation") / fine, 1, 0.01);

@@ -16,7 +16,8 @@ std::vector<double> even_lines(double from, double to, int count) {
   return lines;
 }
 
-PatchMesh box_mesh(const std::vector<double>& u, const std::vector<double>& v, const std::vector<double>& w) {
+PatchMesh box_mesh(const std::string& formulation, const std::vector<double>& u, const std::vector<double>& v,
+                   const std::vector<double>& w) {
   const int nu = static_cast<int>(u.size()), nv = static_cast<int>(v.size()), nw = static_cast<int>(w.size());
   PatchMesh mesh;
   for (int k = 0; k < nw; ++k)
@@ -41,7 +42,7 @@ PatchMesh box_mesh(const std::vector<double>& u, const std::vector<double>& v, c
   for (int j = 0; j + 1 < nv; ++j)
     for (int i = 0; i + 1 < nu; ++i) {
       const int a = j * nu + i, b = a + 1, c = b + nu, d = a + nu;
-      if ((i + j) % 2 == 0)
+      if (diagonal_rises(formulation, i, j))
         add_column({a, b, c}), add_column({a, c, d});
       else
         add_column({a, b, d}), add_column({b, c, d});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <string>
 #include <vector>
 
 #include "solver/patch_mesh.h"
@@ -14,9 +15,10 @@ inline constexpr double none = 1e-14;  ///< moduli must be positive: this one va
 /// `count` equal elements between two places.
 std::vector<double> even_lines(double from, double to, int count);
 
-/// A box of wedges without a cut, the diagonals of its squares alternating. Lines increase; w ends at the
-/// skin.
-PatchMesh box_mesh(const std::vector<double>& u, const std::vector<double>& v, const std::vector<double>& w);
+/// A box of wedges without a cut, its squares halved as the solver halves them for a formulation. Lines
+/// increase; w ends at the skin.
+PatchMesh box_mesh(const std::string& formulation, const std::vector<double>& u, const std::vector<double>& v,
+                   const std::vector<double>& w);
 
 /// One layer of wedges under the skin of a mesh, its open cut going through; the skin's nodes keep their
 /// order, and those below are `count` further, where `count` is half of them.

@@ -53,7 +53,7 @@ TEST_P(Tissue, SlabOnSpringsGivesWayByItsHeightAndTheSprings) {
   Parameters p = with(GetParam());
   p.patch.length = 4, p.patch.width = 4, p.patch.height = 3;
   p.foundation.stiffness = 0.005, p.foundation.side_stiffness = 0;
-  PatchMesh mesh = box_mesh(even_lines(-2, 2, 4), even_lines(-2, 2, 4), even_lines(-3, 0, 4));
+  PatchMesh mesh = box_mesh(GetParam(), even_lines(-2, 2, 4), even_lines(-2, 2, 4), even_lines(-3, 0, 4));
   jitter(mesh, 0.25, 0.75);
   const PatchSystem system(mesh, p, MPI_COMM_WORLD);
   const Eigen::VectorXd areas = areas_of_nodes(mesh, mesh.skin);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "encoder/field/field_file.h"
+#include "encoder/field/study_file.h"
 #include "tests/view/synthetic_field.h"
 
 namespace cleft {
@@ -86,6 +87,20 @@ TEST_F(StudyTest, ASingleFileIsAStudyOfOneCase) {
   PublishedStudy study(file);
   ASSERT_EQ(study.size(), 1);
   EXPECT_EQ(study.name(0), "case.dffd");
+}
+
+TEST_F(StudyTest, APackedStudyIsTheSameAsItsFolder) {
+  const std::string first = add_case("a", {{"cut.depth", 7}}), second = add_case("b", {{"cut.depth", 6}});
+  const std::string file = (folder_ / "study.dffd").string();
+  write_study(file, {{"a", first}, {"b", second}});
+  PublishedStudy folder(folder_.string()), packed(file);
+  ASSERT_EQ(packed.size(), 2);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(packed.name(i), folder.name(i));
+    EXPECT_EQ(packed.parameters(i), folder.parameters(i));
+    EXPECT_EQ(packed.field(i).case_hash, folder.field(i).case_hash);
+    EXPECT_EQ(packed.field(i).coefficients(), folder.field(i).coefficients());
+  }
 }
 
 TEST_F(StudyTest, NothingToShowNamesTheRemedy) {
