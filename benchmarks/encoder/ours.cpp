@@ -37,13 +37,19 @@ std::vector<float> decoded(const std::string& file, const Series& series, const 
   return values;
 }
 
+struct Largest {
+  double value = 0;
+  std::size_t at = 0;
+};
+
 /// Largest of what `error(i)` gives, in parallel.
 template <class Function>
-double largest_of(std::size_t count, const Function& error) {
+Largest largest_of(std::size_t count, const Function& error) {
   std::vector<double> errors(count);
   parallel_for(static_cast<int>(count),
                [&](int i) { errors[static_cast<std::size_t>(i)] = error(static_cast<std::size_t>(i)); });
-  return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
+  const auto most = std::max_element(errors.begin(), errors.end());
+  return most == errors.end() ? Largest{} : Largest{*most, static_cast<std::size_t>(most - errors.begin())};
 }
 
 Vec3 displacement_of(const Series& series, std::size_t frame, std::int64_t node) {
@@ -52,7 +58,7 @@ Vec3 displacement_of(const Series& series, std::size_t frame, std::int64_t node)
 }
 
 double centroid_error(const Field& field, const Series& series, const Snapshot& s) {
-  const double worst = largest_of(s.cell_types.size(), [&](std::size_t c) {
+  const Largest worst = largest_of(s.cell_types.size(), [&](std::size_t c) {
     const auto corners = std::span(s.connectivity)
                              .subspan(static_cast<std::size_t>(s.cell_offsets[c]),
                                       static_cast<std::size_t>(s.cell_offsets[c + 1] - s.cell_offsets[c]));
@@ -69,11 +75,11 @@ double centroid_error(const Field& field, const Series& series, const Snapshot& 
     }
     return error;
   });
-  return worst / series.largest_displacement;
+  return worst.value / series.largest_displacement;
 }
 
 /// Encodes every other frame, and the last, and measures the spline in those left out.
-double unseen_error(const Series& series, const EncodeOptions& options) {
+Largest unseen_error(const Series& series, const EncodeOptions& options) {
   Series seen = series;
   seen.times.clear(), seen.frames.clear(), seen.largest.clear();
   std::vector<std::size_t> left_out;
@@ -86,7 +92,7 @@ double unseen_error(const Series& series, const EncodeOptions& options) {
         seen.largest.push_back(series.largest[j]);
   }
   const Field field = encode(seen, options, [](const std::string&) {}).field;
-  const double worst = largest_of(left_out.size(), [&](std::size_t i) {
+  const Largest worst = largest_of(left_out.size(), [&](std::size_t i) {
     const std::size_t j = left_out[i];
     double error = 0;
     for (std::size_t n = 0; n < series.samples.size(); ++n)
@@ -95,7 +101,7 @@ double unseen_error(const Series& series, const EncodeOptions& options) {
                       displacement_of(series, j, static_cast<std::int64_t>(n))));
     return error;
   });
-  return worst / series.largest_displacement;
+  return {worst.value / series.largest_displacement, left_out.empty() ? 0 : left_out[worst.at]};
 }
 
 double peak_memory() {
@@ -126,7 +132,8 @@ OurRun run_ours(const Series& series, const Snapshot& snapshot, const NodeData& 
   run.file_bytes = static_cast<double>(fs::file_size(file));
   fs::remove(file);
   run.centroid_error = centroid_error(field, series, snapshot);
-  run.unseen_error = unseen_error(series, options);
+  const Largest unseen = unseen_error(series, options);
+  run.unseen_error = unseen.value, run.unseen_frame = unseen.at;
   return run;
 }
 
