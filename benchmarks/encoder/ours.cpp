@@ -3,9 +3,9 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "benchmarks/encoder/stopwatch.h"
 #include "encoder/encode.h"
@@ -37,19 +37,13 @@ std::vector<float> decoded(const std::string& file, const Series& series, const 
   return values;
 }
 
-struct Largest {
-  double value = 0;
-  std::size_t at = 0;
-};
-
 /// Largest of what `error(i)` gives, in parallel.
 template <class Function>
-Largest largest_of(std::size_t count, const Function& error) {
+double largest_of(std::size_t count, const Function& error) {
   std::vector<double> errors(count);
   parallel_for(static_cast<int>(count),
                [&](int i) { errors[static_cast<std::size_t>(i)] = error(static_cast<std::size_t>(i)); });
-  const auto most = std::max_element(errors.begin(), errors.end());
-  return most == errors.end() ? Largest{} : Largest{*most, static_cast<std::size_t>(most - errors.begin())};
+  return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
 }
 
 Vec3 displacement_of(const Series& series, std::size_t frame, std::int64_t node) {
@@ -58,7 +52,7 @@ Vec3 displacement_of(const Series& series, std::size_t frame, std::int64_t node)
 }
 
 double centroid_error(const Field& field, const Series& series, const Snapshot& s) {
-  const Largest worst = largest_of(s.cell_types.size(), [&](std::size_t c) {
+  const double worst = largest_of(s.cell_types.size(), [&](std::size_t c) {
     const auto corners = std::span(s.connectivity)
                              .subspan(static_cast<std::size_t>(s.cell_offsets[c]),
                                       static_cast<std::size_t>(s.cell_offsets[c + 1] - s.cell_offsets[c]));
@@ -75,11 +69,11 @@ double centroid_error(const Field& field, const Series& series, const Snapshot& 
     }
     return error;
   });
-  return worst.value / series.largest_displacement;
+  return worst / series.largest_displacement;
 }
 
-/// Encodes every other frame, and the last, and measures the spline in those left out.
-Largest unseen_error(const Series& series, const EncodeOptions& options) {
+/// Encodes every other frame, and the last; the largest errors of the spline in those left out, by frame.
+std::map<std::size_t, double> unseen_errors(const Series& series, const EncodeOptions& options) {
   Series seen = series;
   seen.times.clear(), seen.frames.clear(), seen.largest.clear();
   std::vector<std::size_t> left_out;
@@ -88,20 +82,20 @@ Largest unseen_error(const Series& series, const EncodeOptions& options) {
       left_out.push_back(j);
       continue;
     }
-    seen.times.push_back(series.times[j]), seen.frames.push_back(series.frames[j]),
-        seen.largest.push_back(series.largest[j]);
+    seen.times.push_back(series.times[j]), seen.frames.push_back(series.frames[j]);
+    seen.largest.push_back(series.largest[j]);
   }
   const Field field = encode(seen, options, [](const std::string&) {}).field;
-  const Largest worst = largest_of(left_out.size(), [&](std::size_t i) {
-    const std::size_t j = left_out[i];
-    double error = 0;
-    for (std::size_t n = 0; n < series.samples.size(); ++n)
-      error = std::max(
-          error, norm(field.displacement(series.samples[n].uvw, series.samples[n].side, series.times[j]) -
-                      displacement_of(series, j, static_cast<std::int64_t>(n))));
-    return error;
-  });
-  return {worst.value / series.largest_displacement, left_out.empty() ? 0 : left_out[worst.at]};
+  std::map<std::size_t, double> errors;
+  for (const std::size_t j : left_out)
+    errors[j] = largest_of(series.samples.size(),
+                           [&](std::size_t n) {
+                             const Sample& sample = series.samples[n];
+                             return norm(field.displacement(sample.uvw, sample.side, series.times[j]) -
+                                         displacement_of(series, j, static_cast<std::int64_t>(n)));
+                           }) /
+                series.largest_displacement;
+  return errors;
 }
 
 double peak_memory() {
@@ -132,8 +126,10 @@ OurRun run_ours(const Series& series, const Snapshot& snapshot, const NodeData& 
   run.file_bytes = static_cast<double>(fs::file_size(file));
   fs::remove(file);
   run.centroid_error = centroid_error(field, series, snapshot);
-  const Largest unseen = unseen_error(series, options);
-  run.unseen_error = unseen.value, run.unseen_frame = unseen.at;
+  for (const auto& [frame, error] : unseen_errors(series, options)) {
+    if (error > run.unseen_error) run.unseen_error = error, run.unseen_frame = frame;
+    if (frame > 1) run.later_error = std::max(run.later_error, error);
+  }
   return run;
 }
 
