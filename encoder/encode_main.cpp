@@ -1,4 +1,5 @@
 // cleft encode: a snapshot to its field.
+#include <array>
 #include <filesystem>
 
 #include "base/command.h"
@@ -12,7 +13,12 @@ using namespace cleft;
 
 namespace {
 
+// What can be asked for. The same numbers stand in params/study.cpp, which refuses a study before it is
+// solved and may not see the encoder.
+constexpr std::array<int, 4> least_following_tip = {10, 8, 7, 4}, least_fixed = {4, 8, 4, 4};
+constexpr int most_along_axis = 1000;
 constexpr double most_control_points = 2e7;  // a file of 240 MB: no summary any more
+constexpr double least_tolerance = 1e-9;
 
 Json figures_of(const Field& field, const Snapshot& snapshot, const std::string& out) {
   const FitReport& r = field.report;
@@ -42,12 +48,16 @@ Json figures_of(const Field& field, const Snapshot& snapshot, const std::string&
 /// Spans of bases with about so many control points: as many as asked for where nothing is tied.
 Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   if (counts.size() != 4) throw InputError("--control-points: expected four whole numbers U,V,W,T");
-  const int least[] = {follows_tip ? 10 : 4, 8, follows_tip ? 7 : 4, 4};
+  const auto& least = follows_tip ? least_following_tip : least_fixed;
   double product = 1;
   for (int axis = 0; axis < 4; ++axis) {
     if (counts[axis] < least[axis])
       throw InputError(std::string("--control-points: ") + std::to_string(counts[axis]) +
                        " control points along " + "uvwt"[axis] + ": at least " + std::to_string(least[axis]));
+    if (counts[axis] > most_along_axis)
+      throw InputError(std::string("--control-points: ") + std::to_string(counts[axis]) +
+                       " control points along " + "uvwt"[axis] + ": at most " +
+                       std::to_string(most_along_axis));
     product *= counts[axis];
   }
   if (product > most_control_points)
@@ -91,7 +101,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", json, "print the figures as JSON");
 
   return run_command(app, argc, argv, [&] {
-    if (!(options.tolerance >= 1e-9 && options.tolerance < 1))
+    if (!(options.tolerance >= least_tolerance && options.tolerance < 1))
       throw InputError("--tolerance: " + shortest(options.tolerance) +
                        ": must be at least 1e-9 and less than 1");
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");

@@ -18,6 +18,37 @@ namespace {
 constexpr std::int64_t most_values = 100'000;  // of one parameter
 constexpr const char* axis_names[] = {"u", "v", "w", "t"};
 
+// What cleft encode takes, told before anything is solved. The same numbers stand in encoder/encode_main.cpp,
+// which is not part of this.
+constexpr std::array<int, 4> least_following_tip = {10, 8, 7, 4}, least_fixed = {4, 8, 4, 4};
+constexpr int most_along_axis = 1000;
+constexpr double most_control_points = 2e7, least_tolerance = 1e-9;
+
+/// "26,16,9,16", as --control-points takes it.
+std::string control_points_text(const std::array<int, 4>& counts) {
+  std::string text;
+  for (const int count : counts) text += (text.empty() ? "" : ",") + std::to_string(count);
+  return text;
+}
+
+/// Throws InputError "<where>: ..." where the encoder would refuse them.
+void check_control_points(const std::array<int, 4>& counts, const std::string& parametrization,
+                          const std::string& where) {
+  const auto& least = parametrization == "fixed" ? least_fixed : least_following_tip;
+  double product = 1;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (counts[i] < least[i] || counts[i] > most_along_axis)
+      throw InputError(where + ": " + std::to_string(counts[i]) + " control points along " + axis_names[i] +
+                       ": must be a whole number between " + std::to_string(least[i]) + " and " +
+                       std::to_string(most_along_axis) + (i == 1 ? " (both sides of the cut together)" : "") +
+                       " where the parametrization is " + parametrization);
+    product *= counts[i];
+  }
+  if (product > most_control_points)
+    throw InputError(where + ": " + shortest(product) + " control points in all; at most " +
+                     shortest(most_control_points));
+}
+
 /// Reads one parsed file into a Study.
 class StudyReader {
  public:
@@ -131,17 +162,44 @@ class StudyReader {
   }
 
   void read_encode(const toml::table& table) {
+    static const std::vector<std::string> known = {"control_points", "parametrization", "tolerance"};
+    EncodeSettings& encode = study_.base.encode;
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
-      if (name == "control_points")
-        mistakes_.collect([&, &entry = node] { study_.base.encode.control_points = control_points(entry); });
-      else
-        mistakes_.add(where(node) + ": unknown key 'encode." + name + "'" +
-                      did_you_mean(name, {"control_points"}));
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        mistakes_.add(where(node) + ": unknown key 'encode." + name + "'" + did_you_mean(name, known));
+    }
+    if (const toml::node* node = table.get("parametrization"))
+      mistakes_.collect([&] { encode.parametrization = parametrization(*node); });
+    if (const toml::node* node = table.get("tolerance"))
+      mistakes_.collect([&] { encode.tolerance = tolerance(*node); });
+    if (const toml::node* node = table.get("control_points")) {
+      mistakes_.collect([&] { encode.control_points = control_points(*node, encode.parametrization); });
+      if (table.contains("tolerance"))
+        mistakes_.add(where(*node) +
+                      ": encode.control_points and encode.tolerance: give one of them, as the tolerance "
+                      "chooses the control points");
     }
   }
 
-  std::array<int, 4> control_points(const toml::node& node) const {
+  std::string parametrization(const toml::node& node) const {
+    const std::string name = node.value_or(std::string());
+    if (name != "tip" && name != "fixed")
+      throw InputError(where(node) + ": encode.parametrization" + (name.empty() ? "" : " = " + name) +
+                       ": must be \"tip\" or \"fixed\"");
+    return name;
+  }
+
+  double tolerance(const toml::node& node) const {
+    const auto value = node.value<double>();
+    if (!value) throw InputError(where(node) + ": encode.tolerance: must be a number");
+    if (!(*value >= least_tolerance && *value < 1))
+      throw InputError(where(node) + ": encode.tolerance = " + shortest(*value) + ": must be at least " +
+                       shortest(least_tolerance) + " and less than 1");
+    return *value;
+  }
+
+  std::array<int, 4> control_points(const toml::node& node, const std::string& parametrization) const {
     std::array<int, 4> counts;
     const toml::array* list = node.as_array();
     if (!list || list->size() != 4)
@@ -149,7 +207,7 @@ class StudyReader {
     for (std::size_t i = 0; i < 4; ++i)
       counts[i] = static_cast<int>(
           std::clamp<std::int64_t>((*list)[i].value<std::int64_t>().value_or(0), 0, 1 << 20));
-    check_control_points(counts, where(node));
+    check_control_points(counts, parametrization, where(node));
     return counts;
   }
 
@@ -161,16 +219,16 @@ class StudyReader {
 
 }  // namespace
 
-std::string Case::hash() const {
-  std::string text = solve_hash(parameters) + " fixed";
-  if (encode.control_points) text += " " + control_points_text(*encode.control_points);
-  return sha256(text).substr(0, 16);
+std::vector<std::string> EncodeSettings::arguments() const {
+  if (control_points)
+    return {"--parametrization", parametrization, "--control-points", control_points_text(*control_points)};
+  return {"--parametrization", parametrization, "--tolerance", shortest(tolerance)};
 }
 
-std::string control_points_text(const std::array<int, 4>& counts) {
-  std::string text;
-  for (const int count : counts) text += (text.empty() ? "" : ",") + std::to_string(count);
-  return text;
+std::string Case::hash() const {
+  std::string text = solve_hash(parameters) + " field 2";  // the version of the file that is made
+  for (const std::string& argument : encode.arguments()) text += " " + argument;
+  return sha256(text).substr(0, 16);
 }
 
 Study read_study(const std::string& path) {
@@ -219,19 +277,13 @@ std::string case_file_text(const Case& a_case) {
     text += row.name + " = " + quote + to_text(get_parameter(a_case.parameters, row)) + quote +
             (row.unit.empty() ? "" : "  # " + row.unit) + "\n";
   }
-  if (a_case.encode.control_points)
-    text += "\n[encode]\ncontrol_points = [" + control_points_text(*a_case.encode.control_points) + "]\n";
+  const EncodeSettings& encode = a_case.encode;
+  text += "\n[encode]\nparametrization = \"" + encode.parametrization + "\"\n";
+  if (encode.control_points)
+    text += "control_points = [" + control_points_text(*encode.control_points) + "]\n";
+  else
+    text += "tolerance = " + shortest(encode.tolerance) + "\n";
   return text;
-}
-
-void check_control_points(const std::array<int, 4>& counts, const std::string& where) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    const int least = i == 1 ? 8 : 4;
-    if (counts[i] < least || counts[i] > 1000)
-      throw InputError(where + ": " + std::to_string(counts[i]) + " control points along " + axis_names[i] +
-                       ": must be a whole number between " + std::to_string(least) + " and 1000" +
-                       (i == 1 ? " (both sides of the cut together)" : ""));
-  }
 }
 
 }  // namespace cleft

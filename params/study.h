@@ -12,8 +12,13 @@ namespace cleft {
 
 /// [encode]: how a case is fitted.
 struct EncodeSettings {
+  std::string parametrization = "tip";  ///< or "fixed"
+  double tolerance = 0.01;              ///< largest error at any node and frame over the largest displacement
   std::optional<std::array<int, 4>>
-      control_points;  ///< along u, v (both sides together), w, t; unset: the encoder's own
+      control_points;  ///< along u, v (both sides together), w, t, instead of the tolerance
+
+  /// As cleft encode takes them: --parametrization, and --tolerance or --control-points.
+  std::vector<std::string> arguments() const;
 };
 
 /// One case, resolved.
@@ -53,11 +58,5 @@ std::vector<Case> cases_of(const Study& study);
 
 /// Text of a case file that read_case resolves to the same case: every parameter, with its unit.
 std::string case_file_text(const Case& a_case);
-
-/// "26,16,9,16", as --control-points takes it.
-std::string control_points_text(const std::array<int, 4>& counts);
-
-/// Throws InputError "<where>: ..." where a count is too small for cubic splines.
-void check_control_points(const std::array<int, 4>& counts, const std::string& where);
 
 }  // namespace cleft

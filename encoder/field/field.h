@@ -110,7 +110,6 @@ class Field {
   /// Evaluates with the given kernel from now on; the widest of the machine's is the default.
   void use(Kernel kernel) { kernels_ = &kernel_table(kernel); }
 
-  double quantum = 0;  ///< unknowns are multiples of it, mm, and stored as such; 0: any numbers, as floats
   std::vector<Quantity> quantities;
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;

@@ -105,8 +105,7 @@ class LocalRun {
     if (!reuse(solve_identity, attempt.folder))
       child("solve", {file, "--out", snapshot, "--json"}, attempt.folder + "/solve.log");
     std::vector<std::string> encode = {snapshot, "--out", field, "--json"};
-    if (one.encode.control_points)
-      encode.insert(encode.end(), {"--control-points", control_points_text(*one.encode.control_points)});
+    for (const std::string& argument : one.encode.arguments()) encode.push_back(argument);
     child("encode", encode, attempt.folder + "/encode.log");
     child("check", {snapshot, field}, attempt.folder + "/check.log");
     fs::remove(attempt.folder + "/check.log");

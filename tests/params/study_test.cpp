@@ -78,7 +78,52 @@ TEST(Study, BadFilesAreRefused) {
   EXPECT_NE(message_of("[vary]\n'skin.thickness' = [1, 2]\n'cut.depth' = [3]\n[sampling]\nmethod = 'list'\n"),
             "");
   EXPECT_NE(message_of("[sampling]\nmethod = 'grit'\n").find("did you mean 'grid'"), std::string::npos);
-  EXPECT_NE(message_of("[encode]\ntolerence = 0.1\n"), "");
+  EXPECT_NE(message_of("[encode]\ntolerence = 0.1\n").find("did you mean 'tolerance'"), std::string::npos);
+}
+
+TEST(Study, EncodeTakesAToleranceBetweenItsBounds) {
+  const TemporaryFolder folder;
+  const auto tolerance_of = [&](const std::string& value) {
+    return read_study(folder.write("s.toml", "[encode]\ntolerance = " + value + "\n")).base.encode.tolerance;
+  };
+  EXPECT_EQ(EncodeSettings().tolerance, 0.01);
+  EXPECT_EQ(tolerance_of("0.003"), 0.003);
+  EXPECT_EQ(tolerance_of("1e-9"), 1e-9);
+  for (const char* value : {"0", "-0.1", "9e-10", "1", "1.5", "nan", "inf"})
+    EXPECT_NE(message_of(std::string("\n[encode]\ntolerance = ") + value + "\n")
+                  .find("line 3: encode.tolerance = "),
+              std::string::npos)
+        << value;
+  EXPECT_NE(message_of("[encode]\ntolerance = 'fine'\n").find("must be a number"), std::string::npos);
+}
+
+TEST(Study, EncodeTakesEitherAToleranceOrControlPoints) {
+  const std::string text = message_of("[encode]\ntolerance = 0.01\ncontrol_points = [20, 12, 8, 10]\n");
+  EXPECT_NE(text.find("line 3: encode.control_points and encode.tolerance: give one of them"),
+            std::string::npos)
+      << text;
+}
+
+TEST(Study, TheLeastControlPointsDependOnTheParametrization) {
+  const std::string tip = "[encode]\nparametrization = 'tip'\n",
+                    fixed = "[encode]\nparametrization = 'fixed'\n";
+  EXPECT_EQ(message_of(tip + "control_points = [10, 8, 7, 4]\n"), "");
+  EXPECT_EQ(message_of(fixed + "control_points = [4, 8, 4, 4]\n"), "");
+  for (const char* few : {"[9, 8, 7, 4]", "[10, 7, 7, 4]", "[10, 8, 6, 4]", "[10, 8, 7, 3]"}) {
+    const std::string points = std::string("control_points = ") + few + "\n";
+    EXPECT_NE(message_of(tip + points).find("line 3: "), std::string::npos) << few;
+    EXPECT_NE(message_of("[encode]\n" + points).find("line 2: "), std::string::npos) << "tip is the default";
+  }
+  for (const char* few : {"[3, 8, 4, 4]", "[4, 7, 4, 4]", "[4, 8, 3, 4]", "[4, 8, 4, 3]"})
+    EXPECT_NE(message_of(fixed + "control_points = " + few + "\n").find("line 3: "), std::string::npos)
+        << few;
+  EXPECT_NE(message_of("[encode]\ncontrol_points = [1000, 1000, 10, 10]\n").find("in all"),
+            std::string::npos);
+  for (const char* other : {"'tips'", "3", "''"})
+    EXPECT_NE(message_of(std::string("[encode]\nparametrization = ") + other + "\n")
+                  .find("must be \"tip\" or \"fixed\""),
+              std::string::npos)
+        << other;
 }
 
 TEST(Study, ACaseThatDoesNotFitIsNamed) {
@@ -94,13 +139,34 @@ TEST(Case, ItsFileResolvesToTheSameCase) {
   const Case again = read_case(folder.write("case.toml", case_file_text(one)), {});
   EXPECT_EQ(again.hash(), one.hash());
   EXPECT_NE(again.hash(), Case().hash());
+
+  one.encode = {"fixed", 1.0 / 300, {}};
+  const Case fixed = read_case(folder.write("case.toml", case_file_text(one)), {});
+  EXPECT_EQ(fixed.hash(), one.hash());
+  EXPECT_EQ(fixed.encode.tolerance, 1.0 / 300);
+  EXPECT_EQ(fixed.encode.parametrization, "fixed");
 }
 
 TEST(Case, EncodingAgainIsNotSolvingAgain) {
-  Case one, other;
-  other.encode.control_points = {20, 12, 8, 10};
-  EXPECT_NE(one.hash(), other.hash());
-  EXPECT_EQ(solve_hash(one.parameters), solve_hash(other.parameters));
+  Case points, tolerance, fixed;
+  points.encode.control_points = {20, 12, 8, 10};
+  tolerance.encode.tolerance = 0.02;
+  fixed.encode.parametrization = "fixed";
+  std::set<std::string> hashes;
+  for (const Case& one : {Case(), points, tolerance, fixed}) {
+    hashes.insert(one.hash());
+    EXPECT_EQ(solve_hash(one.parameters), solve_hash(Case().parameters));
+  }
+  EXPECT_EQ(hashes.size(), 4u);
+}
+
+TEST(Case, ItsSettingsAreArgumentsOfTheEncoder) {
+  EncodeSettings settings;
+  EXPECT_EQ(settings.arguments(),
+            (std::vector<std::string>{"--parametrization", "tip", "--tolerance", "0.01"}));
+  settings = {"fixed", 0.01, std::array{20, 12, 8, 10}};
+  EXPECT_EQ(settings.arguments(),
+            (std::vector<std::string>{"--parametrization", "fixed", "--control-points", "20,12,8,10"}));
 }
 
 TEST(Case, SetOverridesTheFile) {

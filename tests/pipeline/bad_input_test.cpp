@@ -216,13 +216,41 @@ TEST_F(BadInput, Usage) {
   expect_refused("eval", {field(), "--points", in.write("p.csv", "u,v,w,side,t\n0,1,0,0,99\n")},
                  {"row 1", "t = 99"});
   expect_refused("eval", {field(), "--points", in.write("p.csv", "u,v,w,t\n0,1,0,9\n")}, {"'side'"});
-  expect_refused("encode", {solved(), "--out", out / "x.dffd", "--control-points", "3,8,4,4"},
-                 {"3 control points"});
+  const std::vector<std::string> encode = {solved(), "--out", out / "x.dffd"};
+  const auto expect_encode_refused = [&](const std::vector<std::string>& options, const std::string& part) {
+    std::vector<std::string> arguments = encode;
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    expect_refused("encode", arguments, {part});
+  };
+  expect_encode_refused({"--control-points", "9,8,7,4"}, "9 control points");
+  expect_encode_refused({"--control-points", "3,8,4,4", "--parametrization", "fixed"}, "3 control points");
+  expect_encode_refused({"--control-points", "1000,1000,100,4"}, "at most");
+  expect_encode_refused({"--control-points", "10,8,7,4", "--tolerance", "0.01"}, "--tolerance");
+  for (const char* tolerance : {"0", "1", "nan", "-1"})
+    expect_encode_refused({"--tolerance", tolerance}, "--tolerance");
+  expect_encode_refused({"--parametrization", "tips"}, "--parametrization");
+}
+
+TEST_F(BadInput, NodesAndFramesThatAreNotTheFields) {
+  const std::string snapshot = solved(), encoded = in / "encoded.dffd";
+  expect_success(run_cleft("encode", {snapshot, "--out", encoded, "--tolerance", "1e-4"}));
+  const auto refused = [&](const std::string& nodes, const char* frame,
+                           const std::vector<std::string>& parts) {
+    expect_refused("eval", {encoded, "--nodes", nodes, "--frame", frame, "--out", out / "x.csv"}, parts);
+  };
+  refused(snapshot, "99", {"--frame", "99", "frames 0 to"});
+  refused(snapshot, "-1", {"--frame"});
+  refused(encoded, "1", {"is not a snapshot"});
+  expect_refused("eval", {encoded, "--nodes", snapshot, "--out", out / "x.csv"}, {"--frame"});
+  expect_refused("eval", {encoded, "--frame", "1", "--out", out / "x.csv"}, {"--nodes"});
+  expect_success(
+      run_cleft("solve", {in / "good.toml", "--out", in / "other.h5", "--set", "mesh.element_size=1"}));
+  refused(in / "other.h5", "1", {"other.h5", "case"});
 }
 
 TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
-  for (const char* command :
-       {"run", "status", "solve", "encode", "eval", "cut", "explore", "export", "info", "check", "pack"}) {
+  for (const char* command : {"run", "status", "solve", "encode", "eval", "cut", "explore", "export", "info",
+                              "check", "pack", "import"}) {
     EXPECT_NE(
         expect_success(run_cleft(command, {"--help"})).output.find("Usage: cleft " + std::string(command)),
         std::string::npos)

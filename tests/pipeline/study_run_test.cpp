@@ -30,7 +30,7 @@ mesh.element_size = 1.5
 "tissue.young_modulus" = [0.01, 0.03]
 "skin.prestress_v" = [0.02, 0.04]
 [encode]
-control_points = [12, 10, 6, 6]
+tolerance = 0.05
 )";
 
 nlohmann::json status(const std::string& folder) {
@@ -85,11 +85,24 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   expect_success(run_cleft("check", {folder}));
 
   // A new [encode] encodes again and does not solve again.
-  std::string finer = study;
-  finer.replace(finer.find("[12, 10, 6, 6]"), 14, "[14, 10, 6, 6]");
-  expect_success(run_cleft("run", {place.write("study.toml", finer), "--out", folder}));
+  const auto encoded_as = [&](const std::string& settings) {
+    std::string other = study;
+    other.replace(other.find("tolerance = 0.05"), 16, settings);
+    expect_success(run_cleft("run", {place.write("study.toml", other), "--out", folder}));
+    const std::string one = folder + "/cases/" + std::string(status(folder)["cases"][0]["case"]);
+    return std::pair(
+        nlohmann::json::parse(expect_success(run_cleft("info", {one + "/case.dffd", "--json"})).output),
+        fs::hard_link_count(one + "/case.h5"));
+  };
+  const auto [finer, finer_links] = encoded_as("tolerance = 0.02");
+  EXPECT_EQ(finer_links, 2u);
+  EXPECT_EQ(finer["parametrization"], "tip");
+  EXPECT_LE(finer["report"]["node_error"], 0.02);
+  const auto [fixed, fixed_links] = encoded_as("parametrization = 'fixed'\ncontrol_points = [12, 10, 6, 6]");
+  EXPECT_EQ(fixed_links, 3u);
+  EXPECT_EQ(fixed["parametrization"], "fixed");
+  EXPECT_EQ(fixed["control_points"], nlohmann::json({12, 10, 6, 6}));
   const std::string encoded = status(folder)["cases"][0]["case"];
-  EXPECT_EQ(fs::hard_link_count(folder + "/cases/" + encoded + "/case.h5"), 2u);
   expect_success(run_cleft("check", {folder}));
 
   // A damaged byte is found.

@@ -1,0 +1,140 @@
+// cleft eval: displacements of a field at points given as CSV, or at the nodes of its snapshot.
+#include <iostream>
+
+#include "base/command.h"
+#include "base/error.h"
+#include "base/output_file.h"
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+#include "encoder/samples.h"
+#include "solver/snapshot/snapshot.h"
+
+using namespace cleft;
+
+namespace {
+
+constexpr const char* columns[] = {"u", "v", "w", "side", "t"};
+
+/// A number of a row inside the field's domain; the field itself would clamp without a word.
+double inside(const Field& field, int axis, double value, const std::string& where) {
+  const auto [front, back] = field.domain(axis);
+  const double slack = 1e-9 * (back - front);
+  if (value >= front - slack && value <= back + slack) return value;
+  throw InputError(where + ": " + columns[axis == 3 ? 4 : axis] + " = " + shortest(value) +
+                   ": the field reaches from " + shortest(front) + " to " + shortest(back) + " mm");
+}
+
+std::string row_of(const Vec3& d) { return shortest(d.x) + "," + shortest(d.y) + "," + shortest(d.z) + "\n"; }
+
+std::string evaluate_rows(const Field& field, const NumberTable& table, const std::string& file) {
+  int at[5];
+  for (int c = 0; c < 5; ++c) {
+    at[c] = table.column(columns[c]);
+    if (at[c] < 0)
+      throw FileError(file,
+                      std::string("column '") + columns[c] + "' is missing; the columns are u,v,w,side,t");
+  }
+  std::string text = "du,dv,dw\n";
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const auto& row = table.rows[r];
+    const std::string where = file + ", row " + std::to_string(r + 1);
+    const double side = row[at[3]];
+    if (side != -1 && side != 0 && side != 1)
+      throw InputError(where + ": side = " + shortest(side) +
+                       ": must be -1 (left), 1 (right) or 0 (by the sign of v)");
+    const Vec3 uvw{inside(field, 0, row[at[0]], where), inside(field, 1, row[at[1]], where),
+                   inside(field, 2, row[at[2]], where)};
+    if (uvw.y * side < 0)
+      throw InputError(where + ": side = " + shortest(side) + " contradicts v = " + shortest(uvw.y));
+    const Vec3 d = field.displacement(uvw, static_cast<Side>(static_cast<int>(side)),
+                                      inside(field, 3, row[at[4]], where));
+    text += row_of(d);
+  }
+  return text;
+}
+
+/// Throws InputError where the field is not made from this snapshot, as far as it can be told.
+void check_fit(const Field& field, const std::optional<NodeResidual>& residual, const Snapshot& s,
+               const std::string& file, const std::string& nodes) {
+  const auto need = [&](bool good, const std::string& what) {
+    if (!good)
+      throw InputError(nodes + ": " + what + "; is it the snapshot that " + file + " was made from?");
+  };
+  need(s.case_hash == field.case_hash,
+       "is of case '" + s.case_hash + "', and the field of case '" + field.case_hash + "'");
+  if (residual) {
+    need(s.points.size() == static_cast<std::size_t>(residual->nodes),
+         "holds " + std::to_string(s.points.size()) + " nodes, and the field has a residual at " +
+             std::to_string(residual->nodes));
+    need(s.frames() == static_cast<std::size_t>(residual->frames) + 1,
+         "holds " + std::to_string(s.frames()) + " frames, and the field has a residual in " +
+             std::to_string(residual->frames + 1));
+  }
+  need(s.times.back() == field.duration(),
+       "ends at t = " + shortest(s.times.back()) + ", and the field at t = " + shortest(field.duration()));
+}
+
+/// The displacements as the file holds them: the spline's, and what it leaves where that is kept.
+std::string evaluate_nodes(const Field& field, const std::string& file, const std::string& nodes, int frame) {
+  const SnapshotReader reader(nodes);
+  const Snapshot& s = reader.snapshot();
+  const std::optional<NodeResidual> residual = read_residual(file);
+  check_fit(field, residual, s, file, nodes);
+  const auto j = static_cast<std::size_t>(frame);
+  if (j >= s.frames())
+    throw InputError("--frame: " + std::to_string(frame) + ": " + nodes + " holds frames 0 to " +
+                     std::to_string(s.frames() - 1));
+
+  std::vector<Place> places;
+  for (const Sample& sample : samples_of(s)) {
+    const std::string where = nodes + ", node " + std::to_string(places.size());
+    for (int axis = 0; axis < 3; ++axis) inside(field, axis, sample.uvw[axis], where);
+    places.push_back({sample.uvw, sample.side, s.times[j]});
+  }
+  std::vector<Vec3> values(places.size());
+  field.displacements(places, values);
+  std::string text = "du,dv,dw\n";
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    for (int axis = 0; residual && j > 0 && axis < 3; ++axis)
+      values[n][axis] +=
+          residual->quantum *
+          residual->values[(n * 3 + static_cast<std::size_t>(axis)) * (s.frames() - 1) + j - 1];
+    text += row_of(values[n]);
+  }
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Displacements (mm, from the closed frame) of a field at points, or at its snapshot's nodes.",
+               "cleft eval");
+  std::string file, points = "/dev/stdin", nodes, out;
+  int frame = 0;
+  app.add_option("CASE.dffd", file, "field")->required();
+  auto* points_option =
+      app.add_option("--points", points,
+                     "CSV with columns u,v,w,side,t in mm; side -1 left, 1 right, 0 by the sign of v")
+          ->capture_default_str();
+  auto* nodes_option =
+      app.add_option(
+             "--nodes", nodes,
+             "instead of points: the snapshot the field was made from; its nodes in their order, with "
+             "what the file keeps of them beside the spline")
+          ->excludes(points_option);
+  auto* frame_option = app.add_option("--frame", frame, "with --nodes: the frame, 0 is closed")
+                           ->needs(nodes_option)
+                           ->check(CLI::NonNegativeNumber);
+  nodes_option->needs(frame_option);
+  app.add_option("--out", out, "CSV to write, columns du,dv,dw (default: standard output)");
+  return run_command(app, argc, argv, [&] {
+    refuse_to_overwrite(out, nodes.empty() ? std::vector{file, points} : std::vector{file, nodes});
+    const Field field = read_field(file);
+    const std::string text = nodes.empty() ? evaluate_rows(field, read_csv(points), points)
+                                           : evaluate_nodes(field, file, nodes, frame);
+    if (out.empty())
+      std::cout << text;
+    else
+      write_text_file(out, text);
+  });
+}
