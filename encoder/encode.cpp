@@ -1,21 +1,24 @@
 #include "encoder/encode.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/text.h"
-#include "encoder/parallel.h"
+#include "encoder/field/unknowns.h"
+#include "encoder/measure.h"
 #include "encoder/series_fit.h"
 
 namespace cleft {
 
 namespace {
 
-// What of the tolerance fits of single frames and of all frames may use up, and what steps of the coefficients
-// would in the worst case.
-constexpr double share_of_space = 0.9, share_of_fit = 0.95, share_of_steps = 0.15;
-constexpr int probes = 6;  // frames that stand for all while knots are sought
+// What of the tolerance fits of single frames and of all frames may use up, and what steps of the
+// coefficients would in the worst case.
+constexpr double share_of_space = 0.9, share_of_fit = 0.95, share_of_steps = 0.12;
+constexpr int probes = 6;           // frames that stand for all while knots are sought
+constexpr std::size_t tries = 3;    // rungs beyond what the probes say
+constexpr double farthest = 0.625;  // steps a coefficient may be moved to be cheaper
 
 class Encoder {
  public:
@@ -28,34 +31,74 @@ class Encoder {
     limit_ = options.tolerance * scale_;
   }
 
-  Field run() {
-    if (options_.rung) return with_steps(fit_of(*options_.rung), true);
-    const std::vector<Rung> rungs = ladder_of(*parametrization_);
-    for (std::size_t i = first_within(rungs);; ++i) {
+  Encoded run() {
+    if (options_.rung) return {with_steps(fit_of(*options_.rung), 0), {}};
+    const std::vector<Rung> rungs = supported(ladder_of(*parametrization_));
+    std::size_t i = first_within(rungs);
+    // The spline of some rung keeps the tolerance, or a residual makes up for what a good one leaves.
+    const std::size_t last = i < rungs.size() ? std::min(i + tries, rungs.size() - 1) : rungs.size() / 2;
+    for (i = std::min(i, last);; ++i) {
       progress_("fitting all frames");
       const SeriesFit fit = fit_of(rungs[i]);
-      const bool last = i + 1 == rungs.size();
-      if (last || fit.error(fit.control_points()) <= share_of_fit * limit_) return with_steps(fit, last);
+      const bool within = fit.error(fit.control_points()) <= share_of_fit * limit_;
+      if (!within && i < last) continue;
+      Encoded encoded{with_steps(fit, within ? limit_ : 0), {}};
+      FitReport& report = encoded.field.report;
+      if (report.spline_error * scale_ > limit_) {
+        progress_("coding what the spline leaves");
+        encoded.residual = residual_of(encoded.field, series_, limit_);
+        report = measure(encoded.field, series_, &*encoded.residual);
+      }
+      return encoded;
     }
   }
 
  private:
   SeriesFit fit_of(const Rung& rung) const {
-    return {series_, parametrization_, bases_of(rung, *parametrization_, static_cast<int>(series_.times.size()))};
+    return {series_, parametrization_,
+            bases_of(rung, *parametrization_, static_cast<int>(series_.times.size()))};
   }
 
-  /// Index of the first rung whose fits in space of a few frames keep their share of the tolerance.
+  /// The rungs up to the first with a span across or in height that has no node inside.
+  std::vector<Rung> supported(std::vector<Rung> rungs) const {
+    std::vector<double> across, height;
+    for (const Sample& sample : series_.samples) {
+      across.push_back(parametrization_->across(sample.uvw.y).value);
+      height.push_back(parametrization_->height(sample.uvw.z).value);
+    }
+    for (std::vector<double>* places : {&across, &height}) {
+      std::sort(places->begin(), places->end());
+      places->erase(std::unique(places->begin(), places->end()), places->end());
+    }
+    const auto seen = [](const BSplineBasis& basis, const std::vector<double>& places) {
+      const auto& knots = basis.knots();
+      for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+        const auto inside = std::upper_bound(places.begin(), places.end(), knots[i]);
+        if (knots[i] < knots[i + 1] && (inside == places.end() || *inside >= knots[i + 1])) return false;
+      }
+      return true;
+    };
+    for (std::size_t i = 1; i < rungs.size(); ++i) {
+      const auto bases = bases_of(rungs[i], *parametrization_, static_cast<int>(series_.times.size()));
+      if (!seen(bases[1], across) || !seen(bases[2], height)) rungs.resize(i);
+    }
+    return rungs;
+  }
+
+  /// Index of the first rung whose fits in space of a few frames keep their share of the tolerance; their
+  /// number where none does.
   std::size_t first_within(const std::vector<Rung>& rungs) const {
     const int frames = static_cast<int>(series_.times.size());
     std::vector<int> some;
     for (int i = 0; i < probes; ++i) some.push_back(1 + (frames - 2) * i / (probes - 1));
     some.erase(std::unique(some.begin(), some.end()), some.end());
-    std::size_t low = 0, high = rungs.size() - 1;
+    std::size_t low = 0, high = rungs.size();
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
       progress_("trying knots");
       const auto bases = bases_of(rungs[middle], *parametrization_, frames);
-      if (space_error(series_, parametrization_, {bases[0], bases[1], bases[2]}, some) <= share_of_space * limit_)
+      if (space_error(series_, parametrization_, {bases[0], bases[1], bases[2]}, some) <=
+          share_of_space * limit_)
         high = middle;
       else
         low = middle + 1;
@@ -63,21 +106,23 @@ class Encoder {
     return low;
   }
 
-  /// The field with steps of its coefficients that cost a share of the tolerance, or of the error where knots or
-  /// wishes leave it larger.
-  Field with_steps(const SeriesFit& fit, bool whatever_the_error) const {
+  /// The field and its report, with steps of its coefficients that keep `bound`, mm; 0: that cost little
+  /// beside the error there is.
+  Field with_steps(const SeriesFit& fit, double bound) const {
     progress_("choosing the coefficients' steps");
-    const Eigen::MatrixXd& exact = fit.control_points();
-    const double error = fit.error(exact);
-    const double bound = whatever_the_error && (options_.rung || error > limit_) ? 1.02 * error : limit_;
-    const auto rounded = [&](double step) { return Eigen::MatrixXd((exact / step).array().round() * step); };
-    // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2 steps.
+    const Field exact = fit.field(fit.control_points());
+    const double error = fit.error(fit.control_points());
+    if (bound == 0) bound = 1.02 * error;
+    // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
+    // steps.
     double step = share_of_steps * 2 / std::sqrt(3.) * std::max(bound, 1e-9 * scale_);
-    while (fit.error(rounded(step)) > bound && step > bound / 1000) step /= 1.5;
-    Field field = fit.field(rounded(step));
-    field.quantum = step;
-    field.report.condition = fit.condition();
-    return field;
+    for (int halvings = 0;; ++halvings, step /= 1.5) {
+      Field field = quantised(exact, step, farthest);
+      field.report.condition = fit.condition();
+      progress_("measuring");
+      field.report = measure(field, series_);
+      if (field.report.spline_error * scale_ <= bound || halvings == 12) return field;
+    }
   }
 
   const Series& series_;
@@ -89,58 +134,13 @@ class Encoder {
 
 }  // namespace
 
-Field encode(const Series& series, const EncodeOptions& options,
-             const std::function<void(const std::string&)>& progress) {
-  return Encoder(series, options, progress).run();
-}
-
-FitReport measure(const Field& field, const Series& series, const Snapshot& s) {
-  struct Frame {
-    double squared_error = 0, squared_data = 0, worst = 0, gape = 0, false_gap = 0;
-    int worst_node = 0;
-  };
-  const auto& samples = series.samples;
-  std::vector<Frame> frames(series.times.size());
-  parallel_for(static_cast<int>(frames.size()), [&](int j) {
-    Frame& f = frames[j];
-    const double t = series.times[j];
-    std::vector<Vec3> off(samples.size());
-    for (std::size_t n = 0; n < samples.size(); ++n) {
-      const auto row = series.frames[j].row(static_cast<Eigen::Index>(n));
-      const Vec3 d{row(0), row(1), row(2)};
-      off[n] = field.displacement(samples[n].uvw, samples[n].side, t) - d;
-      const double error = squared_norm(off[n]);
-      f.squared_error += error, f.squared_data += squared_norm(d);
-      if (error > f.worst) f.worst = error, f.worst_node = static_cast<int>(n);
-      if (samples[n].uvw.y == 0 && samples[n].side == Side::both)
-        f.false_gap = std::max(f.false_gap, norm(field.displacement(samples[n].uvw, Side::right, t) -
-                                                 field.displacement(samples[n].uvw, Side::left, t)));
-    }
-    for (std::size_t p = 0; p < s.pairs.size(); ++p) {
-      const double error =
-          norm(off[static_cast<std::size_t>(s.pairs[p][1])] - off[static_cast<std::size_t>(s.pairs[p][0])]);
-      double& kind =
-          static_cast<std::int32_t>(p) < s.released[static_cast<std::size_t>(j)] ? f.gape : f.false_gap;
-      kind = std::max(kind, error);
-    }
-  });
-  FitReport report = field.report;
-  report.largest_displacement = series.largest_displacement;
-  if (series.largest_displacement == 0) return report;  // nothing moves: every figure is 0
-  double squared_error = 0, squared_data = 0, worst = 0;
-  for (std::size_t j = 0; j < frames.size(); ++j) {
-    const Frame& f = frames[j];
-    squared_error += f.squared_error, squared_data += f.squared_data;
-    if (f.worst > worst)
-      worst = f.worst, report.worst_node = f.worst_node, report.worst_time = series.times[j];
-    report.gape_error = std::max(report.gape_error, f.gape / report.largest_displacement);
-    report.false_gap = std::max(report.false_gap, f.false_gap / report.largest_displacement);
-    if (series.largest[j] > 0)
-      report.frame_error = std::max(report.frame_error, std::sqrt(f.worst) / series.largest[j]);
-  }
-  report.relative_l2 = std::sqrt(squared_error / squared_data);
-  report.node_error = report.spline_error = std::sqrt(worst) / report.largest_displacement;
-  return report;
+Encoded encode(const Series& series, const EncodeOptions& options,
+               const std::function<void(const std::string&)>& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  Encoded encoded = Encoder(series, options, progress).run();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  encoded.field.report.fit_seconds = seconds.count();
+  return encoded;
 }
 
 }  // namespace cleft

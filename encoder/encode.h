@@ -7,6 +7,7 @@
 #include <string>
 
 #include "encoder/field/field.h"
+#include "encoder/field/node_residual.h"
 #include "encoder/ladder.h"
 #include "encoder/series.h"
 
@@ -17,18 +18,20 @@ struct EncodeOptions {
   /// Bound of node_error: the largest error at any node and frame over the largest displacement. The encoder
   /// takes the smallest knots and the coarsest steps that keep it.
   double tolerance = 0.01;
-  /// Instead of a tolerance: spans of the bases; the steps then cost a hundredth of the error.
+  /// Instead of a tolerance: spans of the bases. The coefficients' steps then cost a hundredth of the error,
+  /// or so.
   std::optional<Rung> rung;
 };
 
-/// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the
-/// displacements from frame 0, by regularised least squares: every frame in space, then every coefficient in
-/// time. Coefficients are multiples of field.quantum. Without a cut there is no break, and the
-/// parametrisation is "fixed".
-Field encode(const Series& series, const EncodeOptions& options,
-             const std::function<void(const std::string&)>& progress);
+struct Encoded {
+  Field field;                           ///< with its report
+  std::optional<NodeResidual> residual;  ///< where the spline alone does not keep the tolerance
+};
 
-/// Errors of a field against the series it stands for, at every node and frame.
-FitReport measure(const Field& field, const Series& series, const Snapshot& snapshot);
+/// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the
+/// displacements from frame 0, by regularised least squares over all frames. Coefficients are multiples of
+/// field.quantum. Without a cut there is no break, and the parametrisation is "fixed".
+Encoded encode(const Series& series, const EncodeOptions& options,
+               const std::function<void(const std::string&)>& progress);
 
 }  // namespace cleft

@@ -25,6 +25,11 @@ Json figures_of(const Field& field, const Snapshot& snapshot, const std::string&
           {"spline_error", r.spline_error},
           {"frame_error", r.frame_error},
           {"gape_error", r.gape_error},
+          {"crease_degrees", r.crease},
+          {"overlap_mm", r.overlap},
+          {"least_volume", r.least_volume},
+          {"fit_seconds", r.fit_seconds},
+          {"measure_seconds", r.measure_seconds},
           {"false_gap", r.false_gap},
           {"largest_displacement_mm", r.largest_displacement},
           {"condition", r.condition},
@@ -96,13 +101,12 @@ int main(int argc, char** argv) {
     const SnapshotReader reader(snapshot);
     progress("reading");
     const Series series(reader);
-    Field field = encode(series, options, [&](const std::string& state) { progress(state); });
+    auto [field, residual] = encode(series, options, [&](const std::string& state) { progress(state); });
     for (const auto& [name, value] : reader.snapshot().parameters)
       if (const double* number = std::get_if<double>(&value)) field.parameters[name] = *number;
     field.case_hash = reader.snapshot().case_hash;
-    progress("measuring");
-    field.report = measure(field, series, reader.snapshot());
-    write_field(out, field);
+    progress("writing");
+    write_field(out, field, residual ? &*residual : nullptr);
     print_figures(figures_of(field, reader.snapshot(), out), json);
   });
 }

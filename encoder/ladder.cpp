@@ -83,12 +83,12 @@ std::array<BSplineBasis, 4> following_tip(const Rung& rung, const FieldGeometry&
   if (geometry.cut.depth < -geometry.domain[2].front) {
     height.repeat(-2, degree + 1);
     const std::vector<double> s = first_of(below_order, rung.below - 1);
-    for (auto i = s.rbegin(); i != s.rend(); ++i) height.list.push_back(-1 - crowded(*i));
+    for (auto i = s.rbegin(); i != s.rend(); ++i) height.list.push_back(-1 - *i);
     height.repeat(-1, degree);
   } else {
     height.repeat(-1, degree + 1);
   }
-  for (const double s : first_of(above_order, rung.above - 1)) height.list.push_back(-1 + crowded(s));
+  for (const double s : first_of(above_order, rung.above - 1)) height.list.push_back(-1 + s);
   height.repeat(0, degree + 1);
   return {along.basis(), across.basis(), height.basis(), time_basis(rung.time, 0, 1, frames)};
 }

@@ -63,7 +63,7 @@ Series::Series(const SnapshotReader& reader) {
     throw InputError("the snapshot holds " + std::to_string(s.frames()) +
                      " frame; a time series needs at least 2");
   check_cut(s);
-  times = s.times, samples = samples_of(s), geometry = geometry_of(s);
+  times = s.times, samples = samples_of(s), geometry = geometry_of(s), pairs = s.pairs, released = s.released;
   const std::vector<Vec3> closed = reader.displacement(0);
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);

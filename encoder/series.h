@@ -18,6 +18,8 @@ struct Series {
   std::vector<double> largest;           ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;       ///< mm, of all
   FieldGeometry geometry;
+  std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
+  std::vector<std::int32_t> released;              ///< F: how many of them are open
 
   /// Reads all frames: 24 N F bytes. Throws InputError where there are fewer than two frames, a displacement
   /// is not finite (frame and node are named), or the cut is not in the plane v = 0.

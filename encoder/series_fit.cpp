@@ -13,7 +13,7 @@ namespace cleft {
 
 namespace {
 
-constexpr double strongest = 1e-5, weakest = 1e-9;  // regularisation
+constexpr double strongest = 1e-5, weakest = 1e-6;  // regularisation
 constexpr double regularisation_cost = 1.05;        // of the data's error, at most
 constexpr double time_roughness = 1e-9;             // holds what few frames leave open
 constexpr double residual_bound = 1e-4;             // of the right-hand side, where iterations stop
@@ -72,22 +72,16 @@ void SeriesFit::choose_strength() {
     const Eigen::MatrixXd right = fit_.project(series_.frames[j], t);
     const auto cost = [&](double strength) {
       const Eigen::MatrixXd x = fit_.factorize(fit_.normal(t, strength)).solve(right);
-      const Eigen::MatrixXd off = fit_.values(x, t) - series_.frames[j];
-      return std::pair{off.norm(), off.rowwise().norm().maxCoeff()};
+      return (fit_.values(x, t) - series_.frames[j]).norm();
     };
-    const auto [least_norm, least_largest] = cost(weakest);
-    const double rounding = 1e-9 * series_.largest[j];
-    for (; strength_ > weakest; strength_ /= 10) {
-      const auto [norm, largest] = cost(strength_);
-      if (norm <= regularisation_cost * least_norm + rounding &&
-          largest <= regularisation_cost * least_largest + rounding)
-        break;
-    }
+    const double most = regularisation_cost * cost(weakest / 1000) + 1e-9 * series_.largest[j];
+    while (strength_ > weakest && cost(strength_) > most) strength_ /= 10;
   }
 }
 
 void SeriesFit::solve() {
-  const int frames = static_cast<int>(in_time_.rows()), T = static_cast<int>(in_time_.cols()), n = ties().size();
+  const int frames = static_cast<int>(in_time_.rows()), T = static_cast<int>(in_time_.cols()),
+            n = ties().size();
   const TipPath& tip = parametrization_->geometry().tip;
   const bool same = !parametrization_->moves() || tip.positions.front() == tip.positions.back();
 
@@ -151,8 +145,7 @@ void SeriesFit::solve() {
     factors[l].emplace(fit_.factorize(sum));
   });
   for (const auto& factor : factors) condition_ = std::max(condition_, factor->condition());
-  const Eigen::MatrixXd inverse =
-      time_factor.matrixL().solve(Eigen::MatrixXd::Identity(T, T));  // L^-1
+  const Eigen::MatrixXd inverse = time_factor.matrixL().solve(Eigen::MatrixXd::Identity(T, T));  // L^-1
   const auto precondition = [&](const Blocks& x) {
     Blocks y = mixed(inverse, x);
     parallel_for(T, [&](int l) { y[l] = factors[same ? 0 : l]->solve(std::move(y[l])); });
@@ -185,8 +178,8 @@ void SeriesFit::solve() {
     const Eigen::RowVector3d all = products(right, right).cwiseMax(1e-300);
     Blocks z = precondition(residual), direction = z;
     Eigen::RowVector3d rz = products(residual, z);
-    while (iterations_ < most_iterations &&
-           (products(residual, residual).array() / all.array()).maxCoeff() > residual_bound * residual_bound) {
+    while (iterations_ < most_iterations && (products(residual, residual).array() / all.array()).maxCoeff() >
+                                                residual_bound * residual_bound) {
       const Blocks applied = multiply(direction);
       const Eigen::RowVector3d curvature = products(direction, applied);
       Eigen::RowVector3d step = Eigen::RowVector3d::Zero();

@@ -12,15 +12,15 @@
 
 namespace cleft {
 
-/// Largest distance from the data, mm, of fits of single frames in space: what the knots in space can reach, were
-/// every frame on its own.
+/// Largest distance from the data, mm, of fits of single frames in space: what the knots in space can reach,
+/// were every frame on its own.
 double space_error(const Series& series, const std::shared_ptr<const Parametrization>& parametrization,
                    const std::array<BSplineBasis, 3>& bases, const std::vector<int>& frames);
 
-/// The least-squares spline in all four variables. Where the parametrisation does not move, the normal matrix is a
-/// Kronecker product of one in t and one in space, and so solved. Where it moves, that is only a preconditioner
-/// (with a matrix in space for every control point in t, made of the frames it sees) for conjugate gradients on
-/// the sum of the frames' products.
+/// The least-squares spline in all four variables. Where the parametrisation does not move, the normal matrix
+/// is a Kronecker product of one in t and one in space, and so solved. Where it moves, that is only a
+/// preconditioner (with a matrix in space for every control point in t, made of the frames it sees) for
+/// conjugate gradients on the sum of the frames' products.
 class SeriesFit {
  public:
   /// Keeps references to `series`. `bases` over along, across, height and time.
@@ -37,7 +37,9 @@ class SeriesFit {
   const ControlTies& ties() const { return fit_.ties(); }
   double condition() const { return condition_; }  ///< of the preconditioner's matrices, the largest estimate
   int iterations() const { return iterations_; }
-  double strength() const { return strength_; }  ///< of the regularisation, relative to the mean of B^T B's diagonal
+  double strength() const {
+    return strength_;
+  }  ///< of the regularisation, relative to the mean of B^T B's diagonal
 
  private:
   Eigen::MatrixXd at_frame(int row, const Eigen::MatrixXd& control_points) const;

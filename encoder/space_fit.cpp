@@ -83,8 +83,9 @@ struct SpaceFit::Parts {
 
   Eigen::MatrixXd tie(const Stencil& stencil, int row, int column) const;
   void add_roughness_in_row(Stencil& stencil, double strength) const;
-  std::vector<Grid> controls(const Eigen::Ref<const Eigen::MatrixXd>& x) const;  // ties x, row after row along
-  Eigen::MatrixXd sum(const std::vector<Grid>& grids) const;                     // ties^T of such
+  std::vector<Grid> controls(
+      const Eigen::Ref<const Eigen::MatrixXd>& x) const;      // ties x, row after row along
+  Eigen::MatrixXd sum(const std::vector<Grid>& grids) const;  // ties^T of such
 };
 
 struct SpaceFit::Factor::Parts {
@@ -216,12 +217,10 @@ SpaceFit::Normal SpaceFit::normal(double t, double strength) const {
   // Roughness, and a little of the identity.
   strength *= p.scale;
   for (int i = 0; i < rows; ++i) p.add_roughness_in_row(stencils[i][0], strength);
-  std::vector<double> places = greville(p.bases[0]);
-  for (double& place : places) place = p.parametrization.u_at(place, t);
   const auto add_diagonal = [&](Parts::Stencil& stencil, double value) {
     for (std::size_t at = Parts::offset(0, 0); at < stencil.size(); at += reach * reach) stencil[at] += value;
   };
-  for (const auto& [first, weight] : differences(places))
+  for (const auto& [first, weight] : differences(greville(p.bases[0])))
     for (int a = 0; a < 3; ++a)
       for (int b = a; b < 3; ++b) add_diagonal(stencils[first + a][b - a], strength * weight[a] * weight[b]);
   for (int i = 0; i < rows; ++i) add_diagonal(stencils[i][0], diagonal_strength * p.scale);
@@ -273,7 +272,8 @@ Eigen::MatrixXd SpaceFit::Factor::solve(Eigen::MatrixXd x) const {
   const auto part = [&](int i) { return x.middleRows(ties.first(i), ties.row_size(i)); };
   for (int i = 0; i < rows; ++i) {
     parts_->diagonal[i].triangularView<Eigen::Lower>().solveInPlace(part(i));
-    for (int d = 1; d < order && i + d < rows; ++d) part(i + d).noalias() -= parts_->lower[i][d - 1] * part(i);
+    for (int d = 1; d < order && i + d < rows; ++d)
+      part(i + d).noalias() -= parts_->lower[i][d - 1] * part(i);
   }
   for (int i = rows - 1; i >= 0; --i) {
     for (int d = 1; d < order && i + d < rows; ++d)
@@ -321,7 +321,8 @@ Eigen::MatrixXd SpaceFit::multiply(const Normal& normal, const Eigen::MatrixXd& 
       double *of_i = to[i].data(), *of_right = to[i + d].data();
       for (int j = 0; j < p.V; ++j)
         for (int k = 0; k < p.W; ++k) {
-          const int c = j * p.W + k, k_from = std::max(0, k - order + 1), k_to = std::min(p.W - 1, k + order - 1);
+          const int c = j * p.W + k, k_from = std::max(0, k - order + 1),
+                    k_to = std::min(p.W - 1, k + order - 1);
           for (int jj = std::max(0, j - order + 1); jj <= std::min(p.V - 1, j + order - 1); ++jj) {
             const double* value = &stencil[p.at(j, k) + Parts::offset(jj - j, k_from - k)];
             for (int kk = k_from; kk <= k_to; ++kk, ++value)
@@ -379,8 +380,9 @@ Eigen::MatrixXd SpaceFit::values(const Eigen::Ref<const Eigen::MatrixXd>& x, dou
         const Weighted& weighted = p.weights[s];
         for (int j = 0; j < order; ++j)
           for (int k = 0; k < order; ++k)
-            result.row(weighted.sample) += weighted.share * weighted.weight[j * order + k] *
-                                           of_plane.row((cell.first_across + j) * p.W + cell.first_height + k);
+            result.row(weighted.sample) +=
+                weighted.share * weighted.weight[j * order + k] *
+                of_plane.row((cell.first_across + j) * p.W + cell.first_height + k);
       }
   }
   return result;

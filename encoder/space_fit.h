@@ -12,11 +12,11 @@
 
 namespace cleft {
 
-/// The spline over (along, across, height) of a parametrisation, at scattered samples, with the control points tied
-/// where the tissue is uncut. The samples' places across and in height never move, and samples of equal u move
-/// together along the cut: what they add to the normal matrix is summed once, and a time only weighs it along u.
-/// Blocks of numbers have a row a sample or a row an unknown (ties().size()), and any number of columns. All is safe
-/// to call from several threads at once.
+/// The spline over (along, across, height) of a parametrisation, at scattered samples, with the control
+/// points tied where the tissue is uncut. The samples' places across and in height never move, and samples of
+/// equal u move together along the cut: what they add to the normal matrix is summed once, and a time only
+/// weighs it along u. Blocks of numbers have a row a sample or a row an unknown (ties().size()), and any
+/// number of columns. All is safe to call from several threads at once.
 class SpaceFit {
  public:
   SpaceFit(const Parametrization& parametrization, const std::array<BSplineBasis, 3>& bases,
@@ -25,9 +25,9 @@ class SpaceFit {
 
   const ControlTies& ties() const;
 
-  /// B^T B + strength R over all control points. R, relative to the mean diagonal of B^T B, penalises second divided
-  /// differences of the control points over their places at the time; straight lines cost nothing, and it never
-  /// acts across v = 0. Two control points meet only where their indices differ by at most 3.
+  /// B^T B + strength R over all control points. R, relative to the mean diagonal of B^T B, penalises second
+  /// divided differences of the control points over their places at the time; straight lines cost nothing,
+  /// and it never acts across v = 0. Two control points meet only where their indices differ by at most 3.
   class Normal {
    public:
     /// Adds a multiple of another one.
@@ -35,7 +35,8 @@ class SpaceFit {
 
    private:
     friend class SpaceFit;
-    std::vector<std::array<std::vector<double>, 4>> stencils_;  // of rows i and i + d: by control, by difference
+    std::vector<std::array<std::vector<double>, 4>>
+        stencils_;  // of rows i and i + d: by control, by difference
   };
   Normal normal(double t, double strength) const;
   /// ties^T normal ties x.

@@ -35,6 +35,10 @@ struct FitReport {
   double worst_node = 0;            ///< node of spline_error, and its time
   double worst_time = 0;            ///<
   double condition = 0;             ///< of the fit's normal matrices, estimated
+  double crease = 0;                ///< degrees: largest kink of uncut skin across v = 0
+  double overlap = 0;               ///< mm: how far lips pass through each other where the data's do not
+  double least_volume = 1;          ///< least det(I + grad d) at the nodes: of a small volume, over its rest
+  double fit_seconds = 0, measure_seconds = 0;  ///< what the fit and the evaluation for this report took
 };
 
 /// The displacement and its first derivatives, mm per mm.
@@ -106,6 +110,7 @@ class Field {
   /// Evaluates with the given kernel from now on; the widest of the machine's is the default.
   void use(Kernel kernel) { kernels_ = &kernel_table(kernel); }
 
+  double quantum = 0;  ///< unknowns are multiples of it, mm, and stored as such; 0: any numbers, as floats
   std::vector<Quantity> quantities;
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;

@@ -26,7 +26,10 @@ constexpr Figure figures[] = {
     {"spline_error", &FitReport::spline_error}, {"gape_error", &FitReport::gape_error},
     {"false_gap", &FitReport::false_gap},       {"largest_displacement", &FitReport::largest_displacement},
     {"frame_error", &FitReport::frame_error},   {"worst_node", &FitReport::worst_node},
-    {"worst_time", &FitReport::worst_time},     {"condition", &FitReport::condition}};
+    {"worst_time", &FitReport::worst_time},     {"condition", &FitReport::condition},
+    {"crease", &FitReport::crease},             {"overlap", &FitReport::overlap},
+    {"least_volume", &FitReport::least_volume}, {"fit_seconds", &FitReport::fit_seconds},
+    {"measure_seconds", &FitReport::measure_seconds}};
 
 /// What nlohmann-json says of a header that lacks something, or has it of another type, as an InputError.
 template <class Function>

@@ -30,7 +30,7 @@ mesh.element_size = 1.5
 "tissue.young_modulus" = [0.01, 0.03]
 "skin.prestress_v" = [0.02, 0.04]
 [encode]
-control_points = [12, 10, 6, 6]
+control_points = [12, 10, 7, 6]
 )";
 
 nlohmann::json status(const std::string& folder) {
@@ -86,7 +86,7 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
 
   // A new [encode] encodes again and does not solve again.
   std::string finer = study;
-  finer.replace(finer.find("[12, 10, 6, 6]"), 14, "[14, 10, 6, 6]");
+  finer.replace(finer.find("[12, 10, 7, 6]"), 14, "[14, 10, 7, 6]");
   expect_success(run_cleft("run", {place.write("study.toml", finer), "--out", folder}));
   const std::string encoded = status(folder)["cases"][0]["case"];
   EXPECT_EQ(fs::hard_link_count(folder + "/cases/" + encoded + "/case.h5"), 2u);

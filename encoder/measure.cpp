@@ -1,0 +1,149 @@
+#include "encoder/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "encoder/parallel.h"
+
+namespace cleft {
+
+namespace {
+
+/// Figures of one frame; errors squared.
+struct Frame {
+  double squared_error = 0, squared_data = 0, spline = 0, node = 0, gape = 0, false_gap = 0;
+  double crease = 0, overlap = 0, least_volume = 1;
+  int worst_node = 0;
+};
+
+std::vector<Vec3> spline_at(const Field& field, const Series& series, double t) {
+  std::vector<Place> places;
+  places.reserve(series.samples.size());
+  for (const Sample& sample : series.samples) places.push_back({sample.uvw, sample.side, t});
+  std::vector<Vec3> values(places.size());
+  field.displacements(places, values);
+  return values;
+}
+
+Vec3 data_at(const Series& series, std::size_t frame, std::size_t node) {
+  const auto row = series.frames[frame].row(static_cast<Eigen::Index>(node));
+  return {row(0), row(1), row(2)};
+}
+
+double volume(const Derivatives& d) {
+  return dot(cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v), Vec3{0, 0, 1} + d.by_w);
+}
+
+/// Between the skin's directions across v = 0, left and right.
+double kink(const Derivatives& left, const Derivatives& right) {
+  const Vec3 a = Vec3{0, 1, 0} + left.by_v, b = Vec3{0, 1, 0} + right.by_v;
+  return std::atan2(norm(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
+}
+
+/// The tip and the start themselves are left out: there the lips part, and the kink is the opening's.
+void add_shape(Frame& f, const Field& field, const Series& series, std::size_t frame) {
+  const double t = series.times[frame], top = series.geometry.domain[2].back;
+  const double start = series.geometry.cut.start, tip = series.geometry.tip.at(t);
+  const double tiny = 1e-9 * (series.geometry.domain[0].back - series.geometry.domain[0].front);
+  for (const Sample& sample : series.samples) {
+    const bool uncut_plane = sample.uvw.y == 0 && sample.side == Side::both && series.geometry.cut.length > 0;
+    const bool end = std::abs(sample.uvw.x - start) <= tiny || std::abs(sample.uvw.x - tip) <= tiny;
+    if (uncut_plane && !end && sample.uvw.z == top)
+      f.crease = std::max(f.crease, kink(field.derivatives(sample.uvw, Side::left, t),
+                                         field.derivatives(sample.uvw, Side::right, t)));
+    f.least_volume = std::min(f.least_volume, volume(field.derivatives(sample.uvw, sample.side, t)));
+  }
+}
+
+Frame measure_frame(const Field& field, const Series& series, std::size_t j, const NodeResidual* residual) {
+  Frame f;
+  const double t = series.times[j];
+  const std::vector<Vec3> spline = spline_at(field, series, t);
+  const auto off = [&](std::size_t n) { return spline[n] - data_at(series, j, n); };
+  for (std::size_t n = 0; n < spline.size(); ++n) {
+    Vec3 error = off(n);
+    const double squared = squared_norm(error);
+    f.squared_error += squared, f.squared_data += squared_norm(data_at(series, j, n));
+    if (squared > f.spline) f.spline = squared, f.worst_node = static_cast<int>(n);
+    if (residual && j > 0)
+      for (int axis = 0; axis < 3; ++axis)
+        error[axis] += residual->quantum * residual->values[(n * 3 + static_cast<std::size_t>(axis)) *
+                                                                static_cast<std::size_t>(residual->frames) +
+                                                            j - 1];
+    f.node = std::max(f.node, squared_norm(error));
+    const Sample& sample = series.samples[n];
+    if (sample.uvw.y == 0 && sample.side == Side::both)
+      f.false_gap = std::max(f.false_gap, norm(field.displacement(sample.uvw, Side::right, t) -
+                                               field.displacement(sample.uvw, Side::left, t)));
+  }
+  for (std::size_t p = 0; p < series.pairs.size(); ++p) {
+    const auto left = static_cast<std::size_t>(series.pairs[p][0]),
+               right = static_cast<std::size_t>(series.pairs[p][1]);
+    const bool open = static_cast<std::int32_t>(p) < series.released[j];
+    double& kind = open ? f.gape : f.false_gap;
+    kind = std::max(kind, norm(off(right) - off(left)));
+    const double gap = spline[right].y - spline[left].y,
+                 of_data = data_at(series, j, right).y - data_at(series, j, left).y;
+    if (open) f.overlap = std::max(f.overlap, std::max(0., -gap) - std::max(0., -of_data));
+  }
+  if (j % 4 == 0 || j + 1 == series.times.size()) add_shape(f, field, series, j);
+  return f;
+}
+
+}  // namespace
+
+FitReport measure(const Field& field, const Series& series, const NodeResidual* residual) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Frame> frames(series.times.size());
+  parallel_for(static_cast<int>(frames.size()), [&](int j) {
+    frames[j] = measure_frame(field, series, static_cast<std::size_t>(j), residual);
+  });
+  FitReport report;
+  report.condition = field.report.condition, report.fit_seconds = field.report.fit_seconds;
+  const double scale = report.largest_displacement = series.largest_displacement;
+  if (scale == 0) return report;  // nothing moves: every figure is 0
+  double squared_error = 0, squared_data = 0, spline = 0;
+  for (std::size_t j = 0; j < frames.size(); ++j) {
+    const Frame& f = frames[j];
+    squared_error += f.squared_error, squared_data += f.squared_data;
+    if (f.spline > spline)
+      spline = f.spline, report.worst_node = f.worst_node, report.worst_time = series.times[j];
+    report.node_error = std::max(report.node_error, std::sqrt(f.node) / scale);
+    report.gape_error = std::max(report.gape_error, f.gape / scale);
+    report.false_gap = std::max(report.false_gap, f.false_gap / scale);
+    report.crease = std::max(report.crease, f.crease);
+    report.overlap = std::max(report.overlap, f.overlap);
+    report.least_volume = std::min(report.least_volume, f.least_volume);
+    if (series.largest[j] > 0)
+      report.frame_error = std::max(report.frame_error, std::sqrt(f.spline) / series.largest[j]);
+  }
+  report.relative_l2 = std::sqrt(squared_error / squared_data);
+  report.spline_error = std::sqrt(spline) / scale;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  report.measure_seconds = seconds.count();
+  return report;
+}
+
+NodeResidual residual_of(const Field& field, const Series& series, double bound) {
+  NodeResidual residual;
+  // Half a step each way is sqrt(3) / 2 steps together; a little less for rounding.
+  residual.quantum = (1 - 1e-9) * 2 / std::sqrt(3.) * bound;
+  residual.nodes = static_cast<int>(series.samples.size());
+  residual.frames = static_cast<int>(series.times.size()) - 1;
+  residual.values.resize(series.samples.size() * 3 * static_cast<std::size_t>(residual.frames));
+  parallel_for(residual.frames, [&](int f) {
+    const auto j = static_cast<std::size_t>(f) + 1;
+    const std::vector<Vec3> spline = spline_at(field, series, series.times[j]);
+    for (std::size_t n = 0; n < spline.size(); ++n) {
+      const Vec3 left = data_at(series, j, n) - spline[n];
+      for (int axis = 0; axis < 3; ++axis)
+        residual.values[(n * 3 + static_cast<std::size_t>(axis)) * static_cast<std::size_t>(residual.frames) +
+                        j - 1] = static_cast<std::int32_t>(std::lround(left[axis] / residual.quantum));
+    }
+  });
+  return residual;
+}
+
+}  // namespace cleft
