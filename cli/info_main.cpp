@@ -55,6 +55,9 @@ Json list_of(const FitReport& r) {
           {"gape_error", r.gape_error},
           {"false_gap", r.false_gap},
           {"frame_error", r.frame_error},
+          {"crease_degrees", r.crease},
+          {"overlap_mm", r.overlap},
+          {"least_volume", r.least_volume},
           {"largest_displacement_mm", r.largest_displacement}};
 }
 
