@@ -188,7 +188,7 @@ TEST_F(BadInput, AFullDiskIsTold) {
   const std::string snapshot = solved();
   for (const std::string& command : {"solve " + (in / "good.toml") + " --out " + (out / "x.h5"),
                                      "encode " + snapshot + " --out " + (out / "x.dffd")}) {
-    const Outcome outcome = on_a_full_disk(8, std::string(CLEFT_BIN) + "/cleft " + command);
+    const Outcome outcome = on_a_full_disk(2, std::string(CLEFT_BIN) + "/cleft " + command);
     EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
     EXPECT_NE(outcome.output.find("disk full"), std::string::npos) << outcome.output;
     EXPECT_EQ(out.entries(), 0);
