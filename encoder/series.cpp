@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -10,7 +11,36 @@ namespace cleft {
 
 namespace {
 
-FieldGeometry geometry_of(const Snapshot& s) {
+/// The cut between nodes that stay whole. Where a snapshot only knows the pairs that part, it begins and has
+/// its bottom at the nodes of v = 0 next to them; where there are none it reaches the body's edge.
+CanonicalCut cut_of(const Snapshot& s, const Eigen::MatrixX3d& last, double largest) {
+  const auto open = static_cast<std::size_t>(s.released.back());
+  if (open == 0) return {};
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const double tiny = 1e-9 * s.cut_length;
+  std::vector<bool> divided(s.points.size(), false);
+  double first = far, lowest = far, highest = -far;
+  for (std::size_t p = 0; p < open; ++p) {
+    if ((last.row(s.pairs[p][1]) - last.row(s.pairs[p][0])).norm() <= 1e-6 * largest)
+      continue;  // it never parts
+    for (const std::int32_t node : s.pairs[p]) divided[static_cast<std::size_t>(node)] = true;
+    const Vec3& at = s.points[static_cast<std::size_t>(s.pairs[p][0])];
+    first = std::min(first, at.x), lowest = std::min(lowest, at.z), highest = std::max(highest, at.z);
+  }
+  double before = -far, below = -far;
+  for (std::size_t n = 0; n < s.points.size(); ++n) {
+    const Vec3& at = s.points[n];
+    if (divided[n] || std::abs(at.y) > tiny) continue;
+    if (at.x < first && at.z >= lowest && at.z <= highest) before = std::max(before, at.x);
+    if (at.z < lowest) below = std::max(below, at.z);
+  }
+  CanonicalCut cut{s.cut_start, s.cut_length, s.cut_depth};
+  if (std::abs(cut.start - first) <= tiny && before > -far) cut.length += first - before, cut.start = before;
+  if (std::abs(cut.depth + lowest) <= tiny && below > -far) cut.depth = -below;
+  return cut;
+}
+
+FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
   FieldGeometry g;
   for (int axis = 0; axis < 3; ++axis) {
     const auto [least, greatest] = std::minmax_element(
@@ -20,13 +50,14 @@ FieldGeometry geometry_of(const Snapshot& s) {
     if (g.domain[axis].front == g.domain[axis].back) g.domain[axis].front -= 1, g.domain[axis].back += 1;
   }
   g.domain[3] = {s.times.front(), s.times.back()};
-  g.cut = {s.cut_start, s.pairs.empty() ? 0 : s.cut_length, s.cut_depth};
+  g.cut = cut;
   if (g.cut.length > 0 && !(g.domain[1].front < 0 && g.domain[1].back > 0))
     throw InputError("the nodes reach from v = " + shortest(g.domain[1].front) + " to " +
                      shortest(g.domain[1].back) + " mm: the cut plane v = 0 does not divide them");
   // The tip stands at `position`; frame 0 is closed, and then it grows with the blade.
   for (std::size_t j = 0; j < s.times.size(); ++j) {
-    const double at = std::clamp(s.position[j], g.domain[0].front, g.domain[0].back);
+    const bool closed = j == 0 && g.cut.start != s.cut_start && s.position.front() != s.position.back();
+    const double at = closed ? g.cut.start : std::clamp(s.position[j], g.domain[0].front, g.domain[0].back);
     g.tip.times.push_back(s.times[j]), g.tip.positions.push_back(at);
   }
   // What lies on a straight line needs no place of its own.
@@ -63,7 +94,7 @@ Series::Series(const SnapshotReader& reader) {
     throw InputError("the snapshot holds " + std::to_string(s.frames()) +
                      " frame; a time series needs at least 2");
   check_cut(s);
-  times = s.times, samples = samples_of(s), geometry = geometry_of(s), pairs = s.pairs, released = s.released;
+  times = s.times, samples = samples_of(s), pairs = s.pairs, released = s.released;
   const std::vector<Vec3> closed = reader.displacement(0);
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);
@@ -80,6 +111,7 @@ Series::Series(const SnapshotReader& reader) {
     largest.push_back(frame.rowwise().norm().maxCoeff());
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
+  geometry = geometry_of(s, cut_of(s, frames.back(), largest_displacement));
 }
 
 }  // namespace cleft

@@ -16,7 +16,7 @@ namespace {
 constexpr double strongest = 1e-5, weakest = 1e-6;  // regularisation
 constexpr double regularisation_cost = 1.05;        // of the data's error, at most
 constexpr double time_roughness = 1e-9;             // holds what few frames leave open
-constexpr double residual_bound = 1e-6;             // of the right-hand side, where iterations stop
+constexpr double residual_bound = 1e-4;             // of the right-hand side, where iterations stop
 constexpr int most_iterations = 60;
 
 std::array<BSplineBasis, 3> in_space(const std::array<BSplineBasis, 4>& bases) {

@@ -110,6 +110,7 @@ class Field {
   /// Evaluates with the given kernel from now on; the widest of the machine's is the default.
   void use(Kernel kernel) { kernels_ = &kernel_table(kernel); }
 
+  double quantum = 0;  ///< mm: unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
   std::vector<Quantity> quantities;
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;
