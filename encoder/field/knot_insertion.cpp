@@ -43,7 +43,7 @@ void insert(std::vector<double>& knots, Rows& points, int degree, double x) {
   knots.insert(knots.begin() + k + 1, x);
 }
 
-KnotInsertion::Row without_zeros(const std::vector<double>& weights) {
+BandRow without_zeros(const std::vector<double>& weights) {
   const auto some = [](double w) { return w != 0; };
   const auto first = std::find_if(weights.begin(), weights.end(), some);
   const auto last = std::find_if(weights.rbegin(), weights.rend(), some).base();
@@ -51,15 +51,14 @@ KnotInsertion::Row without_zeros(const std::vector<double>& weights) {
 }
 
 /// One axis of a tensor seen as [before][axis][after].
-std::vector<Vec3> along_axis(const std::vector<Vec3>& points, const KnotInsertion& insertion,
+std::vector<Vec3> along_axis(const std::vector<Vec3>& tensor, const std::vector<BandRow>& rows,
                              std::size_t before, std::size_t size, std::size_t after) {
-  const auto& rows = insertion.rows();
   std::vector<Vec3> result(before * rows.size() * after);
   for (std::size_t b = 0; b < before; ++b)
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::size_t n = 0; n < rows[r].weight.size(); ++n) {
         const double weight = rows[r].weight[n];
-        const Vec3* from = &points[(b * size + static_cast<std::size_t>(rows[r].first) + n) * after];
+        const Vec3* from = &tensor[(b * size + static_cast<std::size_t>(rows[r].first) + n) * after];
         Vec3* to = &result[(b * rows.size() + r) * after];
         for (std::size_t a = 0; a < after; ++a) to[a] += weight * from[a];
       }
@@ -82,7 +81,7 @@ BSplineBasis common_basis(const BSplineBasis& a, const BSplineBasis& b) {
   return {a.degree(), std::move(knots)};
 }
 
-KnotInsertion::KnotInsertion(const BSplineBasis& from, const BSplineBasis& to) {
+std::vector<BandRow> knot_insertion(const BSplineBasis& from, const BSplineBasis& to) {
   if (common_basis(from, to).knots() != to.knots())
     throw InputError("a basis cannot be raised to one that lacks some of its knots");
   std::vector<double> knots = from.knots(), missing;
@@ -92,25 +91,35 @@ KnotInsertion::KnotInsertion(const BSplineBasis& from, const BSplineBasis& to) {
               std::vector<double>(static_cast<std::size_t>(from.size())));
   for (std::size_t i = 0; i < points.size(); ++i) points[i][i] = 1;
   for (const double knot : missing) insert(knots, points, from.degree(), knot);
-  for (const auto& point : points) rows_.push_back(without_zeros(point));
+  std::vector<BandRow> rows;
+  for (const auto& point : points) rows.push_back(without_zeros(point));
+  return rows;
+}
+
+std::vector<Vec3> along_axes(const std::vector<Vec3>& tensor, std::array<std::size_t, 4> size,
+                             const std::array<std::vector<BandRow>, 4>& rows) {
+  CLEFT_CHECK(tensor.size(), ==, size[0] * size[1] * size[2] * size[3]);
+  std::vector<Vec3> result = tensor;
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    if (rows[axis].empty()) continue;
+    std::size_t before = 1, after = 1;
+    for (std::size_t other = 0; other < 4; ++other)
+      if (other != axis) (other < axis ? before : after) *= size[other];
+    result = along_axis(result, rows[axis], before, size[axis], after);
+    size[axis] = rows[axis].size();
+  }
+  return result;
 }
 
 std::vector<Vec3> insert_knots(const std::vector<Vec3>& coefficients, const std::array<BSplineBasis, 4>& from,
                                const std::array<BSplineBasis, 4>& to) {
-  std::vector<Vec3> points = coefficients;
   std::array<std::size_t, 4> size;
-  for (int axis = 0; axis < 4; ++axis) size[axis] = static_cast<std::size_t>(from[axis].size());
-  CLEFT_CHECK(points.size(), ==, size[0] * size[1] * size[2] * size[3]);
-  for (int axis = 0; axis < 4; ++axis) {
-    if (from[axis].knots() == to[axis].knots()) continue;
-    std::size_t before = 1, after = 1;
-    for (int other = 0; other < 4; ++other)
-      if (other != axis) (other < axis ? before : after) *= size[other];
-    const KnotInsertion insertion(from[axis], to[axis]);
-    points = along_axis(points, insertion, before, size[axis], after);
-    size[axis] = insertion.rows().size();
+  std::array<std::vector<BandRow>, 4> rows;
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    size[axis] = static_cast<std::size_t>(from[axis].size());
+    if (from[axis].knots() != to[axis].knots()) rows[axis] = knot_insertion(from[axis], to[axis]);
   }
-  return points;
+  return along_axes(coefficients, size, rows);
 }
 
 }  // namespace cleft
