@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/text.h"
 
 namespace cleft {
 
@@ -164,9 +163,8 @@ void Sewing::add(const Column& p, const Column& q) {
   const int skin = mesh_.triangle_with(p.vertex[0], q.vertex[0]),
             other = mesh_.triangle_with(q.vertex[0], p.vertex[0]);
   if (skin < 0 || other < 0) {
-    const Vec3& x = mesh_.position(q.vertex[0]);
-    throw InputError("the path runs along the edge of the surface near (" + shortest(x.x) + ", " +
-                     shortest(x.y) + ", " + shortest(x.z) + "); move it off that edge");
+    throw InputError("the path runs along the edge of the surface near " +
+                     place_of(mesh_.position(q.vertex[0])) + "; move it off that edge");
   }
   sew(p.vertex[0], q.vertex[0], first_);
   sew_column(p.vertex, along_p_);

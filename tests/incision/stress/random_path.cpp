@@ -42,8 +42,10 @@ double curvature(PathKind kind, double part, double amount) {
       return amount * 6 * std::cos(4 * pi * part);
     case PathKind::spiral:
       return 2 * pi / (0.12 + 0.5 * part);
-    case PathKind::eight:
-      return part < 0.52 ? 4.1 * pi : -4.1 * pi;
+    case PathKind::eight: {  // two loops of three quarters each, crossing at a right angle
+      const double at = std::abs(part - 0.5);
+      return at > 0.1 && at < 0.4 ? std::copysign(1.5 * pi / 0.3, part - 0.5) : 0;
+    }
     case PathKind::tiny:
       return amount * 4;
     default:
