@@ -91,7 +91,9 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
       break;
     }
   }
-  CLEFT_CHECK(column.size(), >, 1u);
+  if (column.size() == 1)  // so close to a column that it has the same parameter
+    throw InputError("the path meets a wound too close to a corner of its wall near " + place_of(mesh.position(top)) +
+                     "; move it a little");
   column.first_new = column.size();
   for (std::size_t i = 1; i < column.size(); ++i)
     column.depth_fraction.push_back(
