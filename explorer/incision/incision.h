@@ -94,6 +94,7 @@ class Incision {
     int edge = -1;      ///< -1: it has reached the s asked for
     double s = 0;
   };
+  Track entered(const std::vector<int>& fan, double size, double limit) const;
   Track follow(int vertex, double s) const;
   Step crossing(const Track& track) const;
   std::optional<Step> snapped(const Step& crossing) const;

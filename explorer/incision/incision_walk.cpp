@@ -142,17 +142,25 @@ std::optional<Incision::Step> Incision::start_on_boundary(double reach) const {
   return best;
 }
 
+Incision::Track Incision::entered(const std::vector<int>& fan, double size, double limit) const {
+  // A little ahead of the tip the line is in the triangle that the path enters; how little, depends on how far
+  // the path was drawn aside to a vertex.
+  const double tip = chain_.back().s;
+  double ahead = 0.1 * size;
+  for (int k = 0; k < 44; ++k, ahead = k == 40 ? 0.15 * size : k > 40 ? 1.5 * ahead : ahead / 2) {
+    const double s = std::min(tip + ahead, limit);
+    const int triangle = pierced(mesh_, fan, path_.at(s));
+    if (triangle >= 0) return {triangle, -1, s};
+  }
+  return {};
+}
+
 Incision::Track Incision::follow(int vertex, double limit) const {
   const std::vector<int> fan = mesh_.skin_fan(vertex);
-  const double size = mean_spoke(mesh_, fan, vertex), tip = chain_.back().s;
-  // A little ahead the line is in the triangle that the path enters.
-  double at = tip, step = std::min(0.1 * size, limit - tip);
-  Track track;
-  for (int k = 0; k < 40 && track.triangle < 0; ++k, step /= 2)
-    track.triangle = pierced(mesh_, fan, path_.at(at = tip + step));
+  const double size = mean_spoke(mesh_, fan, vertex);
+  Track track = entered(fan, size, limit);
   if (track.triangle < 0) return track;
-  track.s = at;
-  step = std::min(0.25 * size, path_.length() / 64);
+  const double step = std::min(0.25 * size, path_.length() / 64);
   const int rounds = 4 * static_cast<int>(fan.size());
   for (int round = 0; track.s < limit;) {
     const double to = std::min(track.s + step, limit);
@@ -212,7 +220,7 @@ const Incision::Step& Incision::next_step() {
       break;
     const double before = step.s;
     step = shorter(step, s + within);
-    if (step.s < before) within = step.s - s;
+    within = step.s < before ? step.s - s : within / 2;
   }
   next_ = step;
   return *next_;
@@ -241,17 +249,16 @@ bool Incision::too_soon_at_wound(const Step& step) const {
 }
 
 void Incision::go_on_from_wound() {
-  const double s = chain_.back().s;
-  for (const int v : on_the_same_place(mesh_, chain_.back().left)) {
-    if (mesh_.triangle(mesh_.vertex(v).triangle).region != Region::skin) continue;
-    const std::vector<int> fan = mesh_.skin_fan(v);
-    const double size = mean_spoke(mesh_, fan, v);
-    for (const double step : {0.1, 0.03, 0.01, 0.003, 0.3})
-      if (s + step * size < path_.length() && pierced(mesh_, fan, path_.at(s + step * size)) >= 0) {
-        state_.from = v;
-        return;
-      }
-  }
+  const std::vector<int> places = on_the_same_place(mesh_, chain_.back().left);
+  for (const double part : {0.1, 0.03, 0.3, 0.01, 0.003, 0.001})
+    for (const int v : places) {
+      if (mesh_.triangle(mesh_.vertex(v).triangle).region != Region::skin) continue;
+      const std::vector<int> fan = mesh_.skin_fan(v);
+      const double s = chain_.back().s + part * mean_spoke(mesh_, fan, v);
+      if (s > path_.length() || pierced(mesh_, fan, path_.at(s)) < 0) continue;
+      state_.from = v;
+      return;
+    }
   report_end();
 }
 
