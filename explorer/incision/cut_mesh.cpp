@@ -250,6 +250,26 @@ std::vector<int> CutMesh::changed_since(const Checkpoint& checkpoint) const {
   return changed;
 }
 
+int CutMesh::euler_change_since(const Checkpoint& checkpoint) const {
+  // Two triangles to each edge but those of the boundary: E = (3 F + B) / 2.
+  const auto free_edges = [](const Triangle& t) {
+    return static_cast<int>(std::count(t.neighbor.begin(), t.neighbor.end(), boundary));
+  };
+  int free = 0;
+  std::vector<int> seen;  // only a triangle's oldest value counts
+  for (std::size_t i = checkpoint.triangle_log; i < triangle_log_.size(); ++i) {
+    const auto& [t, old] = triangle_log_[i];
+    if (t >= static_cast<int>(checkpoint.triangles)) continue;
+    if (std::find(seen.begin(), seen.end(), t) != seen.end()) continue;
+    seen.push_back(t);
+    free += free_edges(triangles_[t]) - free_edges(old);
+  }
+  for (std::size_t t = checkpoint.triangles; t < triangles_.size(); ++t) free += free_edges(triangles_[t]);
+  const int faces = static_cast<int>(triangles_.size() - checkpoint.triangles);
+  const int vertices = static_cast<int>(vertices_.size() - checkpoint.vertices);
+  return vertices - (3 * faces + free) / 2 + faces;
+}
+
 template <class T>
 void CutMesh::undo(std::vector<T>& items, std::vector<std::pair<int, T>>& log, std::size_t count,
                    std::size_t entries, std::vector<T>* taken, std::vector<std::pair<int, T>>* taken_log) {

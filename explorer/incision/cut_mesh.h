@@ -129,6 +129,8 @@ class CutMesh {
   Checkpoint checkpoint() const;
   /// The triangles changed or added since a checkpoint.
   std::vector<int> changed_since(const Checkpoint& checkpoint) const;
+  /// By how much the Euler characteristic has changed since a checkpoint, from the changes alone.
+  int euler_change_since(const Checkpoint& checkpoint) const;
   void roll_back(const Checkpoint& to);
 
   /// What undo took back, to be made again.
