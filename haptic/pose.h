@@ -16,4 +16,10 @@ struct ScalpelPose {
   friend bool operator==(const ScalpelPose&, const ScalpelPose&) = default;
 };
 
+/// The pose while there is no device.
+inline ScalpelPose absent(ScalpelPose pose = {}) {
+  pose.present = pose.cutting = false;
+  return pose;
+}
+
 }  // namespace cleft

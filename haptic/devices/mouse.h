@@ -8,7 +8,7 @@ namespace cleft {
 
 class Mouse : public Device {
  public:
-  Mouse() : pose_(nowhere()) {}
+  Mouse() : pose_(absent()) {}
 
   /// From one thread, at any time.
   void set(const ScalpelPose& pose) { pose_.write(pose); }
@@ -20,11 +20,6 @@ class Mouse : public Device {
   DeviceLimits limits() const override { return {}; }
 
  private:
-  static ScalpelPose nowhere() {
-    ScalpelPose pose;
-    pose.present = false;
-    return pose;
-  }
   TripleBuffer<ScalpelPose> pose_;
   TripleBuffer<Vec3> force_;
 };
