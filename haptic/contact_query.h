@@ -51,14 +51,14 @@ class ContactReader {
 
   SurfaceHit first_contact(const Vec3& from, const Vec3& to, Facing facing) const;
   NearestPoint nearest(const Vec3& x, double radius) const;
-  /// Of x, beginning from the proxy of a moment ago, and never far from it.
+  /// Of x, beginning from the proxy of a moment ago, and never far from it; from skin it stays on skin.
   SurfaceProxy proxy(const Vec3& x, const SurfaceProxy& before) const;
 
  private:
   bool corners_of(int triangle, Corners& corners, ContactTriangle& t) const;
   void meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
   void walk(const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
-  bool project(int triangle, const Vec3& x, const Vec3& facing, SurfaceProxy& out) const;
+  bool project(int triangle, const Vec3& x, const SurfaceProxy& before, SurfaceProxy& out) const;
   template <class Visit>
   void visit_voxels(const Vec3& x, double radius, const Visit& visit) const;
 

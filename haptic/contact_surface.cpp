@@ -174,11 +174,16 @@ void ContactSurface::renew_normals(std::uint64_t version) {
   renewed_.clear();
 }
 
+/// A lip's normal is that of its skin: walls meet it at an edge that is meant to be sharp.
 void ContactSurface::renew_normal(int vertex, std::uint64_t version) {
   const auto v = static_cast<std::size_t>(vertex);
-  Vec3 sum;
-  for (int corner = first_corner_[v]; corner != none; corner = next_corner_[static_cast<std::size_t>(corner)])
-    sum += scaled_normal(corners_at(triangles_[static_cast<std::size_t>(corner / 3)].last(), version));
+  Vec3 skin, wall;
+  for (int corner = first_corner_[v]; corner != none;
+       corner = next_corner_[static_cast<std::size_t>(corner)]) {
+    const ContactTriangle& t = triangles_[static_cast<std::size_t>(corner / 3)].last();
+    (t.wall ? wall : skin) += scaled_normal(corners_at(t, version));
+  }
+  const Vec3& sum = skin == Vec3{} ? wall : skin;
   const double length = norm(sum);
   vertices_[v].set({vertices_[v].last().position, length > 0 ? 1 / length * sum : Vec3{}}, version);
 }

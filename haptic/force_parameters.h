@@ -22,8 +22,8 @@ struct ForceParameters {
   double floor = 0.02;   ///< N a tick that may always change
   double velocity_time = 0.005;    ///< s, of the filter that makes velocities from positions
   double energy_allowance = 0.05;  ///< N mm (mJ) a contact may begin with; see passivity.h
-  double hand_acceleration = 1e4;    ///< mm/s^2 a hand may reach of its own in a tick
-  double moving_mass = 0.045;        ///< kg, least that a force accelerates: the Touch's own at its tip
+  double hand_acceleration = 1e4;  ///< mm/s^2 a hand may reach of its own in a tick
+  double moving_mass = 0.045;      ///< kg, least that a force accelerates: the Touch's own at its tip
 };
 
 /// What a device can render stably; N, N/mm, N s/mm, s.

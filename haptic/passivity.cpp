@@ -73,7 +73,8 @@ double PassivityControl::taking_back(double force) const {
   return period_ * (force / c - f / (c * c) * std::log1p(c * force / f) + force);
 }
 
-/// As much of `wanted` as the tank pays for at this speed, which the force itself raises while it is taken back.
+/// As much of `wanted` as the tank pays for at this speed, which the force itself raises while it is taken
+/// back.
 double PassivityControl::affordable(double wanted, double speed) const {
   double under_way = 0;
   for (int k = 1; k <= late_; ++k) under_way += period_ * norm(under_way_[static_cast<std::size_t>(k)]);

@@ -19,13 +19,14 @@ bool solve(const Vec3& a0, const Vec3& a1, const Vec3& a2, const Vec3& b, Vec3& 
 
 }  // namespace
 
-bool ContactReader::project(int triangle, const Vec3& x, const Vec3& facing, SurfaceProxy& out) const {
+bool ContactReader::project(int triangle, const Vec3& x, const SurfaceProxy& before,
+                            SurfaceProxy& out) const {
   Corners c;
   ContactTriangle t;
-  if (!corners_of(triangle, c, t)) return false;
+  if (!corners_of(triangle, c, t) || t.wall != before.wall) return false;
   const Vec3 area = scaled_normal(c);
   const double size = norm(area);
-  if (!(size > 0) || dot(area, facing) <= 0.2 * size) return false;
+  if (!(size > 0) || dot(area, before.normal) <= 0.2 * size) return false;
   const Vec3 face = 1 / size * area;
   Vec3 n[3];
   for (int i = 0; i < 3; ++i) {
@@ -53,7 +54,7 @@ bool ContactReader::project(int triangle, const Vec3& x, const Vec3& facing, Sur
 
 SurfaceProxy ContactReader::proxy(const Vec3& x, const SurfaceProxy& before) const {
   SurfaceProxy found;
-  if (before && project(before.triangle, x, before.normal, found)) return found;
+  if (before && project(before.triangle, x, before, found)) return found;
   const Vec3 moved = x - (before.position - before.depth * before.normal);
   const Vec3 guess = before.position + moved - dot(moved, before.normal) * before.normal;
   const double radius = 2 * norm(moved) + cells_.cell() / 2;
@@ -65,7 +66,7 @@ SurfaceProxy ContactReader::proxy(const Vec3& x, const SurfaceProxy& before) con
       const int id = list.ids[k].load(std::memory_order_acquire);
       Corners c;
       ContactTriangle t;
-      if (id < 0 || !corners_of(id, c, t)) continue;
+      if (id < 0 || !corners_of(id, c, t) || t.wall != before.wall) continue;
       const Vec3 nearest = closest_point(guess, c).position;
       const double away = norm(nearest - guess);
       if (away >= least && found) continue;
@@ -77,7 +78,7 @@ SurfaceProxy ContactReader::proxy(const Vec3& x, const SurfaceProxy& before) con
         }
       }
       SurfaceProxy candidate;
-      if (!project(id, x, before.normal, candidate)) continue;
+      if (!project(id, x, before, candidate)) continue;
       const double distance = norm(candidate.position - guess);
       if (distance < least) least = distance, found = candidate;
     }
