@@ -12,29 +12,11 @@ namespace cleft {
 
 namespace {
 
-constexpr int study_format_version = 1;
+const FileFormat format{"cleft-study", 1, "study file", "cleft pack"};
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
 
-template <class Function>
-auto reading(const std::string& path, Function&& function) {
-  try {
-    return function();
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& e) {
-    throw FileError(path, e.what());
-  }
-}
-
 Json header_of_study(const h5::File& file) {
-  if (!file.has_attribute("/", "format") || file.read_text("/", "format") != "cleft-study")
-    throw FileError(file.path(),
-                    "is not a study file (no attribute format = \"cleft-study\"); cleft pack writes one");
-  const double found = file.read_number("/", "version");
-  if (found != study_format_version)
-    throw FileError(file.path(), "study format version " + std::to_string(static_cast<int>(found)) +
-                                     "; this program reads version " + std::to_string(study_format_version) +
-                                     ": run cleft pack again");
+  require_format(file, format);
   return header_from(file.read<std::uint8_t>("/header", {0}));
 }
 
@@ -66,7 +48,7 @@ struct StudyFile::Parts {
 };
 
 StudyFile::StudyFile(const std::string& path)
-    : parts_(reading(path, [&] { return std::make_unique<const Parts>(path); })) {}
+    : parts_(told_of_file(path, [&] { return std::make_unique<const Parts>(path); })) {}
 StudyFile::~StudyFile() = default;
 StudyFile::StudyFile(StudyFile&&) noexcept = default;
 
@@ -75,7 +57,7 @@ int StudyFile::size() const { return static_cast<int>(parts_->names.size()); }
 const std::string& StudyFile::name(int i) const { return parts_->names.at(static_cast<std::size_t>(i)); }
 
 std::string StudyFile::case_hash(int i) const {
-  return reading(parts_->file.path(), [&] {
+  return told_of_file(parts_->file.path(), [&] {
     const Json hash = parts_->columns.entry("case", static_cast<std::size_t>(i));
     if (!hash.is_string()) throw InputError("a case's hash is no text");
     return hash.get<std::string>();
@@ -83,14 +65,15 @@ std::string StudyFile::case_hash(int i) const {
 }
 
 std::map<std::string, double> StudyFile::parameters(int i) const {
-  return reading(parts_->file.path(), [&] {
+  return told_of_file(parts_->file.path(), [&] {
     return parameters_of(parts_->columns.group("parameters", static_cast<std::size_t>(i)));
   });
 }
 
 FitReport StudyFile::report(int i) const {
-  return reading(parts_->file.path(),
-                 [&] { return report_of(parts_->columns.group("report", static_cast<std::size_t>(i))); });
+  return told_of_file(parts_->file.path(), [&] {
+    return report_of(parts_->columns.group("report", static_cast<std::size_t>(i)));
+  });
 }
 
 std::size_t StudyFile::coefficient_bytes(int i) const {
@@ -104,7 +87,7 @@ Field StudyFile::field(int i) const {
   if (!record.coefficients.empty())
     parts_->file.read_rows<std::uint8_t>("/coefficients", parts_->begins[n], record.coefficients.size(),
                                          record.coefficients);
-  return reading(parts_->file.path() + ", case " + name(i), [&] {
+  return told_of_file(parts_->file.path() + ", case " + name(i), [&] {
     record.header = parts_->columns.header(n);
     return field_of(record);
   });
@@ -125,8 +108,7 @@ void write_study(const std::string& path, const std::vector<StudyCase>& cases) {
 
   OutputFile out(path);
   h5::File file = h5::File::create(out.path(), h5::Growth::none);
-  file.write_text("/", "format", "cleft-study");
-  file.write_number("/", "version", study_format_version);
+  write_format(file, format);
   file.write_text("/", "units", "mm N MPa");
   const auto text = header_bytes(header);
   file.write<std::uint8_t>("/header", text, {text.size()}, h5::Packing::deflate);

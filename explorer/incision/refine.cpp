@@ -60,7 +60,7 @@ void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double 
 
   std::vector<int> work;
   for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t)
-    if (too_long(t)) work.push_back(t);
+    if (mesh.triangle(t).region == Region::skin && too_long(t)) work.push_back(t);
   while (!work.empty()) {
     const int t = work.back();
     if (!too_long(t)) {
@@ -69,7 +69,8 @@ void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double 
     }
     // Along ever longer edges to one that is the longest of both its triangles.
     int current = t, edge = longest_edge(mesh, t), neighbor = mesh.triangle(t).neighbor[edge];
-    while (neighbor >= 0 && mesh.triangle(neighbor).neighbor[longest_edge(mesh, neighbor)] != current) {
+    const auto skin = [&](int other) { return other >= 0 && mesh.triangle(other).region == Region::skin; };
+    while (skin(neighbor) && mesh.triangle(neighbor).neighbor[longest_edge(mesh, neighbor)] != current) {
       current = neighbor;
       edge = longest_edge(mesh, current);
       neighbor = mesh.triangle(current).neighbor[edge];
@@ -82,8 +83,9 @@ void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double 
     const int first_new = static_cast<int>(mesh.triangles().size());
     mesh.split_edge(current, edge, 0.5 * (mesh.position(std::min(a, b)) + mesh.position(std::max(a, b))));
     if (current != t) work.push_back(current);
-    if (neighbor >= 0) work.push_back(neighbor);
-    for (int n = first_new; n < static_cast<int>(mesh.triangles().size()); ++n) work.push_back(n);
+    if (skin(neighbor)) work.push_back(neighbor);
+    for (int n = first_new; n < static_cast<int>(mesh.triangles().size()); ++n)
+      if (skin(n)) work.push_back(n);
   }
 }
 
