@@ -108,7 +108,7 @@ void ContactReader::walk(const Vec3& from, const Vec3& to, Facing facing, Surfac
 NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
   NearestPoint best;
   double least = radius * radius;
-  Vec3 normal;  // summed over the triangles that share the nearest point
+  Vec3 normal, into;  // summed over the triangles that share the nearest point; of one that x is behind
   int sharing[24], shared = 0;
   const double tie = 1e-9 * cells_.cell();
   visit_voxels(x, radius, [&](const CellList& list) {
@@ -122,7 +122,7 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       const double square = squared_norm(x - p.position);
       if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) continue;
       if (square > radius * radius) continue;
-      if (!best || squared_norm(p.position - best.position) > tie * tie) shared = 0, normal = {};
+      if (!best || squared_norm(p.position - best.position) > tie * tie) shared = 0, normal = into = {};
       if (square <= least || !best) {
         least = std::min(least, square);
         best.triangle = id, best.position = p.position, best.wall = t.wall;
@@ -136,11 +136,15 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
         const Vec3 a = c[(p.corner + 1) % 3] - c[p.corner], b = c[(p.corner + 2) % 3] - c[p.corner];
         weight = std::atan2(norm(cross(a, b)), dot(a, b));
       }
-      normal += weight * normalized(scaled_normal(c));
+      const Vec3 own = normalized(scaled_normal(c));
+      normal += weight * own;
+      if (dot(own, x - p.position) < 0) into = own;
     }
     return std::sqrt(least);
   });
   if (!best) return best;
+  // The walls of a closed cut lie on each other, and their normals cancel: beside them there is tissue.
+  if (norm(normal) < 1e-6) normal = into;
   const double length = norm(normal);
   best.normal = length > 0 ? 1 / length * normal : normal;
   best.distance = dot(x - best.position, normal) < 0 ? -std::sqrt(least) : std::sqrt(least);

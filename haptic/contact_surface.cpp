@@ -77,34 +77,32 @@ void ContactSurface::update(std::span<const Moved> moved, std::span<const Change
   for (const Moved& m : moved) set_vertex(m.vertex, m.position, next);
   for (const Changed& c : changed) set_triangle(c.triangle, c.now, next);
   renew_normals(next);
-  for (const int t : touched_) {
-    const TwoStates<ContactTriangle>& triangle = triangles_[static_cast<std::size_t>(t)];
-    old_voxels_.clear(), new_voxels_.clear();
-    if (const ContactTriangle& old = triangle.at(next - 1); old.vertex[0] != none)
-      cells_.voxels_of(corners_at(old, next - 1), old_voxels_);
-    if (triangle.last().vertex[0] != none) cells_.voxels_of(corners_at(triangle.last(), next), new_voxels_);
-    for (const std::uint64_t voxel : new_voxels_)
-      if (std::find(old_voxels_.begin(), old_voxels_.end(), voxel) == old_voxels_.end()) cells_.add(voxel, t);
-  }
+  for (const int t : touched_) rebin(t, next);
+  touched_.clear();
   version_.store(next, std::memory_order_seq_cst);
+}
+
+/// Into the voxels it has come to, at once; out of those it has left in the next step.
+void ContactSurface::rebin(int id, std::uint64_t next) {
+  const TwoStates<ContactTriangle>& triangle = triangles_[static_cast<std::size_t>(id)];
+  old_voxels_.clear(), new_voxels_.clear();
+  if (const ContactTriangle& old = triangle.at(next - 1); old.vertex[0] != none)
+    cells_.voxels_of(corners_at(old, next - 1), old_voxels_);
+  if (triangle.last().vertex[0] != none) cells_.voxels_of(corners_at(triangle.last(), next), new_voxels_);
+  const auto among = [](const std::vector<std::uint64_t>& voxels, std::uint64_t voxel) {
+    return std::find(voxels.begin(), voxels.end(), voxel) != voxels.end();
+  };
+  for (const std::uint64_t voxel : new_voxels_)
+    if (!among(old_voxels_, voxel)) cells_.add(voxel, id);
+  for (const std::uint64_t voxel : old_voxels_)
+    if (!among(new_voxels_, voxel)) left_.push_back({voxel, id});
 }
 
 /// Readers of the step before found triangles in the voxels they have left: only now may these forget them.
 void ContactSurface::leave_old_voxels() {
   cells_.recycle();
-  const std::uint64_t now = version_.load(std::memory_order_relaxed);
-  for (const int t : touched_) {
-    const TwoStates<ContactTriangle>& triangle = triangles_[static_cast<std::size_t>(t)];
-    old_voxels_.clear(), new_voxels_.clear();
-    const ContactTriangle& old = triangle.at(now - 1);
-    if (old.vertex[0] == none) continue;
-    cells_.voxels_of(corners_at(old, now - 1), old_voxels_);
-    if (triangle.last().vertex[0] != none) cells_.voxels_of(corners_at(triangle.last(), now), new_voxels_);
-    for (const std::uint64_t voxel : old_voxels_)
-      if (std::find(new_voxels_.begin(), new_voxels_.end(), voxel) == new_voxels_.end())
-        cells_.remove(voxel, t);
-  }
-  touched_.clear();
+  for (const auto& [voxel, triangle] : left_) cells_.remove(voxel, triangle);
+  left_.clear();
 }
 
 void ContactSurface::touch(int triangle) {
@@ -122,6 +120,7 @@ void ContactSurface::set_vertex(int id, const Vec3& position, std::uint64_t vers
     first_corner_.resize(v + 1, none);
     vertex_touched_.resize(v + 1);
   }
+  if (position == vertices_[v].last().position) return;
   vertices_[v].set({position, vertices_[v].last().normal}, version);
   for (int corner = first_corner_[v]; corner != none; corner = next_corner_[static_cast<std::size_t>(corner)])
     touch(corner / 3);

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/vec3.h"
@@ -94,6 +95,7 @@ class ContactSurface {
 
   Corners corners_at(const ContactTriangle& t, std::uint64_t version) const;
   void wait_for_readers() const;
+  void rebin(int id, std::uint64_t next);
   void leave_old_voxels();
   void set_triangle(int id, const ContactTriangle& now, std::uint64_t version);
   void set_vertex(int id, const Vec3& position, std::uint64_t version);
@@ -113,6 +115,7 @@ class ContactSurface {
   std::vector<std::uint64_t> triangle_touched_, vertex_touched_;  // the step of the last touch
   std::vector<int> touched_, renewed_;
   std::vector<std::uint64_t> old_voxels_, new_voxels_;
+  std::vector<std::pair<std::uint64_t, int>> left_;  // voxels and triangles that have left them
 };
 
 }  // namespace cleft

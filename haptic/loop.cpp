@@ -1,34 +1,14 @@
 #include "haptic/loop.h"
 
-#include <sched.h>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <time.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "haptic/real_time.h"
 
 namespace cleft {
 
 namespace {
-
-constexpr std::int64_t second = 1000000000;
-
-std::int64_t now(clockid_t clock) {
-  timespec t;
-  clock_gettime(clock, &t);
-  return t.tv_sec * second + t.tv_nsec;
-}
-
-void sleep_until(std::int64_t time) {
-  const timespec t{time / second, time % second};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
-  }
-}
 
 double checked_period(const LoopOptions& options) {
   if (!(options.rate >= 100 && options.rate <= 10000))
@@ -90,32 +70,22 @@ void HapticLoop::count(const Vec3& force) {
   s.excess_change = std::max(s.excess_change, change - permitted * (1 + 1e-12));
 }
 
-void HapticLoop::ask_for_real_time() {
-  refused_.clear();
-  const sched_param priority{sched_get_priority_max(SCHED_FIFO) / 2};
-  if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
-    refused_ = std::string("SCHED_FIFO: ") + std::strerror(errno);
-  if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0)
-    refused_ += (refused_.empty() ? "" : "; ") + std::string("locked memory: ") + std::strerror(errno);
-}
-
 void HapticLoop::run(const std::atomic<bool>& stop, double seconds) {
-  if (options_.real_time) ask_for_real_time();
-  prctl(PR_SET_TIMERSLACK, 1UL);  // else a sleep may end 50 us late by design
-  const auto period = static_cast<std::int64_t>(static_cast<double>(second) / options_.rate);
-  std::int64_t due = now(CLOCK_MONOTONIC);
-  const std::int64_t end = due + static_cast<std::int64_t>(seconds * static_cast<double>(second));
+  refused_ = prepare_thread(options_.real_time);
+  const auto period = static_cast<std::int64_t>(static_cast<double>(clock_second) / options_.rate);
+  std::int64_t due = clock_time(CLOCK_MONOTONIC);
+  const std::int64_t end = due + static_cast<std::int64_t>(seconds * static_cast<double>(clock_second));
   std::int64_t missed = 0;
   while (due < end && !stop.load(std::memory_order_relaxed)) {
     due += period * (1 + missed);
     sleep_until(due);
-    const std::int64_t woken = now(CLOCK_MONOTONIC);
+    const std::int64_t woken = clock_time(CLOCK_MONOTONIC);
     statistics_.lateness.add(1e-9 * static_cast<double>(std::max<std::int64_t>(woken - due, 0)));
-    const std::int64_t before = options_.measure ? now(CLOCK_THREAD_CPUTIME_ID) : 0;
+    const std::int64_t before = options_.measure ? clock_time(CLOCK_THREAD_CPUTIME_ID) : 0;
     update(static_cast<double>(1 + missed) / options_.rate);
     if (options_.measure)
-      statistics_.compute.add(1e-9 * static_cast<double>(now(CLOCK_THREAD_CPUTIME_ID) - before));
-    missed = std::max<std::int64_t>(0, (now(CLOCK_MONOTONIC) - due) / period);
+      statistics_.compute.add(1e-9 * static_cast<double>(clock_time(CLOCK_THREAD_CPUTIME_ID) - before));
+    missed = std::max<std::int64_t>(0, (clock_time(CLOCK_MONOTONIC) - due) / period);
     if (missed == 0) continue;
     if (statistics_.overruns < statistics_.overrun_ticks.size())
       statistics_.overrun_ticks[statistics_.overruns] = state_.tick;

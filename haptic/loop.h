@@ -76,7 +76,6 @@ class HapticLoop {
 
  private:
   void count(const Vec3& force);
-  void ask_for_real_time();
 
   Device& device_;
   LoopOptions options_;

@@ -92,6 +92,21 @@ TEST(Wound, OpenItMeetsNoSkinThatWasThere) {
   EXPECT_GT(dot(force, normal), 0.99 * norm(force));
 }
 
+TEST(Wound, BesideAClosedCutThereIsTissue) {
+  const Wound wound(20);
+  ContactSurface surface(wound.points, wound.triangles);
+  surface.update({}, wound.walls);
+  ContactReader reader(surface);
+  const ContactLook look(reader);
+  for (const double y : {-1.5, -0.3, -1e-3, 1e-3, 0.3, 1.5})
+    for (const double z : {-5.9, -3., -2., -7.}) {
+      const NearestPoint p = reader.nearest({0.3, y, z}, 8);
+      ASSERT_TRUE(p);
+      EXPECT_LT(p.distance, 0) << y << ' ' << z;
+      EXPECT_NEAR(norm(p.normal), 1, 1e-9);
+    }
+}
+
 TEST(Wound, OpensAroundABladeThatCuts) {
   const Wound wound(20);
   ContactSurface surface(wound.points, wound.triangles);
