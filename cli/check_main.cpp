@@ -1,6 +1,7 @@
 // cleft check: verifies snapshots, fields and whole studies.
 #include <filesystem>
 #include <iostream>
+#include <map>
 
 #include "base/command.h"
 #include "base/error.h"
@@ -32,6 +33,25 @@ void check_file(const std::string& file) {
     throw FileError(file, "is neither a snapshot nor a field nor a study");
 }
 
+/// A study's file holds the fields of its published cases, and no others.
+void check_packed(const std::string& packed, const std::string& folder) {
+  check_study_file(packed);
+  const StudyFile study(packed);
+  std::map<std::string, int> number;
+  for (int i = 0; i < study.size(); ++i) number[study.name(i)] = i;
+  const auto stale = [&](const std::string& what) {
+    throw FileError(packed, what + "; run cleft pack " + folder + " again");
+  };
+  for (const StudyCase& published : published_fields(folder)) {
+    const auto found = number.find(published.name);
+    if (found == number.end()) stale("lacks the published case " + published.name);
+    if (study.field(found->second).coefficients() != read_field(published.field_file).coefficients())
+      stale("holds another field than the published case " + published.name);
+    number.erase(found);
+  }
+  if (!number.empty()) stale("holds case " + number.begin()->first + ", which is not published");
+}
+
 void check_study(const std::string& path) {
   const StudyFolder folder(path);
   Mistakes mistakes;
@@ -41,7 +61,7 @@ void check_study(const std::string& path) {
       for (const char* name : {"/case.h5", "/case.dffd"}) check_file(folder.published(hash) + name);
     });
   if (const std::string packed = path + "/study.dffd"; std::filesystem::exists(packed))
-    mistakes.collect([&] { check_file(packed); });
+    mistakes.collect([&] { check_packed(packed, path); });
   mistakes.throw_if_any();
 }
 

@@ -9,21 +9,8 @@
 #include "encoder/field/field_file.h"
 
 namespace cleft {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> published_fields(const fs::path& study) {
-  std::vector<std::string> files;
-  std::error_code absent;
-  for (const fs::directory_entry& entry : fs::directory_iterator(study / "cases", absent))
-    if (fs::exists(entry.path() / "manifest.json") && fs::exists(entry.path() / "case.dffd"))
-      files.push_back((entry.path() / "case.dffd").string());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-}  // namespace
 
 PublishedStudy::PublishedStudy(const std::string& path) {
   if (!fs::exists(path))
@@ -36,15 +23,9 @@ PublishedStudy::PublishedStudy(const std::string& path) {
     name_and_sort();
     return;
   }
-  std::vector<std::string> files{path};
-  if (fs::is_directory(path)) files = published_fields(path);
-  if (files.empty())
-    throw InputError(path +
-                     ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
-                     "STUDY.toml --out " +
-                     path + "` first");
-  for (const std::string& file : files)
-    cases_.push_back({file, "", read_field_parameters(file), std::nullopt, -1});
+  const bool folder = fs::is_directory(path);
+  for (const StudyCase& one : folder ? published_fields(path) : std::vector<StudyCase>{{"", path}})
+    cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), std::nullopt, -1});
   name_and_sort();
 }
 

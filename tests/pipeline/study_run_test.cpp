@@ -76,13 +76,22 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   const std::string lost = status(folder)["cases"][2]["case"];
   fs::remove_all(folder + "/cases/" + lost);
   EXPECT_EQ(status(folder)["missing"], 1);
+  const auto expect_stale = [&](const std::string& what) {
+    const Outcome found = run_cleft("check", {folder});
+    EXPECT_EQ(found.exit_code, 2);
+    EXPECT_NE(found.output.find(what), std::string::npos) << found.output;
+  };
+  expect_stale("study.dffd: holds case " + lost + ", which is not published");
   expect_success(run_cleft("pack", {folder}));
+  const std::string without = read_text_file(folder + "/study.dffd");
   EXPECT_NE(expect_success(run_cleft("info", {folder + "/study.dffd"})).output.find("cases: 3"),
             std::string::npos);
   EXPECT_NE(expect_success(run_cleft("run", {file, "--out", folder, "--json", "--ranks", "2"}))
                 .output.find("\"published\": 1"),
             std::string::npos);
   expect_success(run_cleft("check", {folder}));
+  place.write("out/study.dffd", without);
+  expect_stale("study.dffd: lacks the published case " + lost);
 
   // A new [encode] encodes again and does not solve again.
   const auto encoded_as = [&](const std::string& settings) {
