@@ -51,16 +51,16 @@ std::vector<double> heights_of(const FieldGeometry& g, double spacing) {
 
 std::vector<Place> sample_places(const FieldGeometry& g, double spacing) {
   const auto [begin, end] = g.domain[3];
-  const double grown = g.tip.positions.back() - g.tip.positions.front();
-  const int frames = std::clamp(static_cast<int>(grown / spacing), 1, times);
+  const double first = g.tip.positions.front(), last = g.tip.positions.back();
+  const Columns columns{g.cut.start, spacing, g.domain[0]};
   std::vector<Place> places;
-  for (int j = 1; j <= frames; ++j) {
-    // The tip at a column of nodes: no simulation has one nearer behind it.
-    const Columns columns{g.cut.start, spacing, g.domain[0]};
-    const double t = grown > 0
-                         ? g.tip.passes(std::min(columns.near(g.tip.positions.front() + grown * j / frames),
-                                                 g.tip.positions.back()))
-                         : begin + (end - begin) * j / frames;
+  for (int j = 1; j <= times; ++j) {
+    double t = begin + (end - begin) * j / times;
+    // The tip at a column of nodes. The first that opens has one behind it and one ahead.
+    if (last > first)
+      t = g.tip.passes(
+          std::min(columns.near(std::max(first + 2 * spacing, first + (last - first) * j / times)), last));
+    if (!places.empty() && t <= places.back().t) continue;
     for (const double u : along_at(columns, g.tip.at(t)))
       for (const double w : heights_of(g, spacing))
         for (const Side side : {Side::left, Side::right})

@@ -96,6 +96,26 @@ TEST(StudyInterpolator, SaysHowFarOutsideItIsAsked) {
   EXPECT_EQ(study.at(values_at(0.5, 0.5, 3)).interpolation->outside, 0);
 }
 
+TEST(StudyInterpolator, TwoValuesDoNotPassForACurve) {
+  // Cases left out tell nothing of what lies between two values; the estimate must not believe them.
+  std::vector<CaseParameters> two, four;
+  for (const double E : {0.01, 0.03}) {
+    two.push_back({{"tissue.young_modulus", E}});
+    for (const double depth : {2., 5.}) four.push_back({{"tissue.young_modulus", E}, {"cut.depth", depth}});
+  }
+  for (const auto& list : {two, four}) {
+    const StudyInterpolator study(CommonCases(made_study(list)));
+    for (const double E : {0.013, 0.017, 0.025}) {
+      CaseParameters values = {{"tissue.young_modulus", E}};
+      if (list.size() == 4) values["cut.depth"] = 3.5;
+      const Field field = study.at(values);
+      const double error = distance_of(field, made_field(values), nodes_of_millimetres());
+      EXPECT_LE(error, 2 * field.interpolation->estimated_error);
+      EXPECT_LE(field.interpolation->estimated_error, 0.1);
+    }
+  }
+}
+
 TEST(StudyInterpolator, UncutTissueStaysClosedToTheLastBit) {
   // All cases are closed where nothing is cut; so is what lies between, also as it is written.
   auto members = made_study(three_varied(8));
