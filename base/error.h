@@ -17,6 +17,18 @@ struct FileError : InputError {
   FileError(const std::string& file, const std::string& what) : InputError(file + ": " + what) {}
 };
 
+/// Runs a function; the InputErrors it throws about a file's content get the file's name.
+template <class Function>
+auto told_of_file(const std::string& file, Function&& function) {
+  try {
+    return function();
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& e) {
+    throw FileError(file, e.what());
+  }
+}
+
 /// Collects users' mistakes, so that they are told all at once.
 class Mistakes {
  public:

@@ -112,6 +112,16 @@ class File {
 
 namespace cleft {
 
+/// What a file of ours says of itself in its root attributes "format" and "version".
+struct FileFormat {
+  const char* name;
+  int version;
+  const char *noun, *writer;  ///< what users call it, and the command that writes it
+};
+void write_format(h5::File& file, const FileFormat& format);
+/// Throws FileError where the file is another kind, or of another version.
+void require_format(const h5::File& file, const FileFormat& format);
+
 /// The root attribute "format" of a file of ours; empty where it has none. Throws FileError where it is no
 /// HDF5 file.
 std::string format_of(const std::string& path);

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <random>
 
+#include "base/stopwatch.h"
 #include "benchmarks/encoder/node_data.h"
 #include "benchmarks/encoder/ours.h"
 #include "benchmarks/encoder/pod_rival.h"
-#include "benchmarks/encoder/stopwatch.h"
 #include "benchmarks/encoder/zfp_rival.h"
 
 using namespace cleft;

@@ -2,12 +2,12 @@
 // cleft-benchmark-solver [ELEMENT_SIZE]: default 0.87 mm, about 110,000 unknowns and 120 frames.
 // `--iterations` counts iterations instead, at 100,000 and 500,000 unknowns.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <random>
 
+#include "base/stopwatch.h"
 #include "solver/direct_solver.h"
 #include "solver/iterative_solver.h"
 #include "solver/memory.h"
@@ -17,19 +17,6 @@
 using namespace cleft;
 
 namespace {
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());

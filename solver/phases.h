@@ -3,10 +3,10 @@
 
 #include <mpi.h>
 
-#include <chrono>
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "solver/memory.h"
 
 namespace cleft {
@@ -24,9 +24,7 @@ class Phases {
 
   /// What was done since the last call. Collective.
   void end(const std::string& name) {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
+    const double seconds = watch_.lap();
     double peak = peak_memory();
     MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_SUM, communicator_);
     for (Phase& phase : list)
@@ -41,7 +39,7 @@ class Phases {
 
  private:
   MPI_Comm communicator_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
 };
 
 }  // namespace cleft

@@ -1,7 +1,6 @@
 #include "solver/solve.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "solver/compliance.h"
 #include "solver/frame_figures.h"
@@ -127,10 +127,10 @@ class SharedStiffness::Batch {
     const int at_once = std::clamp(static_cast<int>(block_bytes / column_bytes), 1,
                                    std::max(1, most_columns / std::max(1, loads)));
     shared_.chosen_.solver->set_loads(loads_);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     for (int first = 0; first < frames; first += at_once) {
       const int count = std::min(at_once, frames - first);
-      const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double spent = watch.seconds();
       shared_.progress_(
           "frame " + std::to_string(first) + " of " + std::to_string(frames) +
           (first > 0 ? ", " + std::to_string(std::lround(spent / first * (frames - first))) + " s left"

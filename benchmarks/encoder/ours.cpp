@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <map>
 
-#include "benchmarks/encoder/stopwatch.h"
+#include "base/stopwatch.h"
 #include "encoder/encode.h"
 #include "encoder/field/field_file.h"
 #include "encoder/field/field_record.h"

@@ -11,28 +11,7 @@ namespace cleft {
 
 namespace {
 
-void check_format(const h5::File& file) {
-  if (!file.has_attribute("/", "format") || file.read_text("/", "format") != "cleft-field")
-    throw FileError(file.path(),
-                    "is not a field file (no attribute format = \"cleft-field\"); cleft encode writes one");
-  const double found = file.read_number("/", "version");
-  if (found != field_format_version)
-    throw FileError(file.path(), "field format version " + std::to_string(static_cast<int>(found)) +
-                                     "; this program reads version " + std::to_string(field_format_version) +
-                                     ": run cleft encode again");
-}
-
-/// Runs a function; what it says of the file's content is told with the file's name.
-template <class Function>
-auto reading(const std::string& path, Function&& function) {
-  try {
-    return function();
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& e) {
-    throw FileError(path, e.what());
-  }
-}
+const FileFormat format{"cleft-field", 2, "field file", "cleft encode"};
 
 }  // namespace
 
@@ -41,8 +20,7 @@ void write_field(const std::string& path, const Field& field, const NodeResidual
   const FieldRecord record = record_of(field);
   OutputFile out(path);
   h5::File file = h5::File::create(out.path(), h5::Growth::none);
-  file.write_text("/", "format", "cleft-field");
-  file.write_number("/", "version", field_format_version);
+  write_format(file, format);
   file.write_text("/", "units", "mm N MPa");
   const auto write = [&](const char* name, const std::vector<std::uint8_t>& bytes) {
     file.write<std::uint8_t>(name, bytes, {bytes.size()}, h5::Packing::deflate);
@@ -60,31 +38,31 @@ void write_field(const std::string& path, const Field& field, const NodeResidual
 }
 
 FieldRecord read_field_record(const std::string& path) {
-  return reading(path, [&] {
+  return told_of_file(path, [&] {
     const h5::File file = h5::File::open(path);
-    check_format(file);
+    require_format(file, format);
     return FieldRecord{header_from(file.read<std::uint8_t>("/header", {0})),
                        file.read<std::uint8_t>("/coefficients", {0})};
   });
 }
 
 Field read_field(const std::string& path) {
-  return reading(path, [&] { return field_of(read_field_record(path)); });
+  return told_of_file(path, [&] { return field_of(read_field_record(path)); });
 }
 
 std::map<std::string, double> read_field_parameters(const std::string& path) {
-  return reading(path, [&] {
+  return told_of_file(path, [&] {
     const h5::File file = h5::File::open(path);
-    check_format(file);
+    require_format(file, format);
     return parameters_of(header_from(file.read<std::uint8_t>("/header", {0})));
   });
 }
 
 std::optional<NodeResidual> read_residual(const std::string& path,
                                           std::span<const std::int32_t> residual_order) {
-  return reading(path, [&]() -> std::optional<NodeResidual> {
+  return told_of_file(path, [&]() -> std::optional<NodeResidual> {
     const h5::File file = h5::File::open(path);
-    check_format(file);
+    require_format(file, format);
     if (!file.has("/residual")) return std::nullopt;
     const auto count = [&](const char* name) {
       const double value = file.read_number("/residual", name);

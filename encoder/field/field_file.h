@@ -11,8 +11,6 @@
 
 namespace cleft {
 
-inline constexpr int field_format_version = 2;
-
 /// Writes the field whole or not at all: coefficients as multiples of its quantum, or as 32-bit floats where
 /// it has none; and the residual where there is one.
 void write_field(const std::string& path, const Field& field, const NodeResidual* residual = nullptr,

@@ -16,19 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int study_format_version = 1;
+const FileFormat format{"cleft-study", 1, "study file", "cleft pack"};
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
-
-template <class Function>
-auto reading(const std::string& path, Function&& function) {
-  try {
-    return function();
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& e) {
-    throw FileError(path, e.what());
-  }
-}
 
 /// The members of an object that are text.
 std::map<std::string, std::string> texts_of(const Json& object) {
@@ -49,14 +38,7 @@ std::map<std::string, std::string> choices_of_manifest(const std::string& file) 
 }
 
 Json header_of_study(const h5::File& file) {
-  if (!file.has_attribute("/", "format") || file.read_text("/", "format") != "cleft-study")
-    throw FileError(file.path(),
-                    "is not a study file (no attribute format = \"cleft-study\"); cleft pack writes one");
-  const double found = file.read_number("/", "version");
-  if (found != study_format_version)
-    throw FileError(file.path(), "study format version " + std::to_string(static_cast<int>(found)) +
-                                     "; this program reads version " + std::to_string(study_format_version) +
-                                     ": run cleft pack again");
+  require_format(file, format);
   return header_from(file.read<std::uint8_t>("/header", {0}));
 }
 
@@ -88,7 +70,7 @@ struct StudyFile::Parts {
 };
 
 StudyFile::StudyFile(const std::string& path)
-    : parts_(reading(path, [&] { return std::make_unique<const Parts>(path); })) {}
+    : parts_(told_of_file(path, [&] { return std::make_unique<const Parts>(path); })) {}
 StudyFile::~StudyFile() = default;
 StudyFile::StudyFile(StudyFile&&) noexcept = default;
 
@@ -97,7 +79,7 @@ int StudyFile::size() const { return static_cast<int>(parts_->names.size()); }
 const std::string& StudyFile::name(int i) const { return parts_->names.at(static_cast<std::size_t>(i)); }
 
 std::string StudyFile::case_hash(int i) const {
-  return reading(parts_->file.path(), [&] {
+  return told_of_file(parts_->file.path(), [&] {
     const Json hash = parts_->columns.entry("case", static_cast<std::size_t>(i));
     if (!hash.is_string()) throw InputError("a case's hash is no text");
     return hash.get<std::string>();
@@ -105,21 +87,22 @@ std::string StudyFile::case_hash(int i) const {
 }
 
 std::map<std::string, double> StudyFile::parameters(int i) const {
-  return reading(parts_->file.path(), [&] {
+  return told_of_file(parts_->file.path(), [&] {
     return parameters_of(parts_->columns.group("parameters", static_cast<std::size_t>(i)));
   });
 }
 
 std::map<std::string, std::string> StudyFile::choices(int i) const {
-  return reading(parts_->file.path(), [&] {
+  return told_of_file(parts_->file.path(), [&] {
     const Json header = parts_->columns.group("choices", static_cast<std::size_t>(i));
     return header.contains("choices") ? texts_of(header["choices"]) : std::map<std::string, std::string>();
   });
 }
 
 FitReport StudyFile::report(int i) const {
-  return reading(parts_->file.path(),
-                 [&] { return report_of(parts_->columns.group("report", static_cast<std::size_t>(i))); });
+  return told_of_file(parts_->file.path(), [&] {
+    return report_of(parts_->columns.group("report", static_cast<std::size_t>(i)));
+  });
 }
 
 std::size_t StudyFile::coefficient_bytes(int i) const {
@@ -133,13 +116,13 @@ Field StudyFile::field(int i) const {
   if (!record.coefficients.empty())
     parts_->file.read_rows<std::uint8_t>("/coefficients", parts_->begins[n], record.coefficients.size(),
                                          record.coefficients);
-  return reading(parts_->file.path() + ", case " + name(i), [&] {
+  return told_of_file(parts_->file.path() + ", case " + name(i), [&] {
     record.header = parts_->columns.header(n);
     return field_of(record);
   });
 }
 
-std::vector<StudyCase> published_fields(const std::string& study) {
+std::vector<StudyCase> published_study_cases(const std::string& study) {
   if (!fs::is_directory(study)) throw InputError(study + ": no such folder (give a study folder)");
   std::vector<StudyCase> cases;
   std::error_code absent;
@@ -173,8 +156,7 @@ void write_study(const std::string& path, const std::vector<StudyCase>& cases) {
 
   OutputFile out(path);
   h5::File file = h5::File::create(out.path(), h5::Growth::none);
-  file.write_text("/", "format", "cleft-study");
-  file.write_number("/", "version", study_format_version);
+  write_format(file, format);
   file.write_text("/", "units", "mm N MPa");
   const auto text = header_bytes(header);
   file.write<std::uint8_t>("/header", text, {text.size()}, h5::Packing::deflate);

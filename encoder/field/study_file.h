@@ -42,7 +42,7 @@ struct StudyCase {
 
 /// The published cases of a study folder, by name. Throws InputError where it has none, FileError where a
 /// manifest is damaged.
-std::vector<StudyCase> published_fields(const std::string& study);
+std::vector<StudyCase> published_study_cases(const std::string& study);
 
 /// Writes the study file whole or not at all, coefficients as they stand in the field files (residuals are
 /// left there). Throws FileError where one of them is damaged.

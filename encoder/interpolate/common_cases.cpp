@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 std::vector<StudyMember> members_of_folder(const std::string& path) {
   std::vector<StudyMember> members;
-  for (const StudyCase& one : published_fields(path))
+  for (const StudyCase& one : published_study_cases(path))
     members.push_back({one.name, read_field(one.field_file), one.choices});
   return members;
 }

@@ -58,6 +58,7 @@ CutMesh::CutMesh(const SurfaceMesh& surface) {
             regular ? edges[i + i + 1 - k].triangle : non_manifold;
     i = end;
   }
+  noted_.resize(triangles_.size());
   bow_tie_.assign(surface.points.size(), false);
   for (int v = 0; v < count; ++v) {
     if (degree[v] == 0) continue;
@@ -68,6 +69,10 @@ CutMesh::CutMesh(const SurfaceMesh& surface) {
   }
 }
 
+std::string place_of(const Vec3& p) {
+  return "(" + shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z) + ")";
+}
+
 SurfaceMesh CutMesh::surface() const {
   SurfaceMesh result;
   for (const Vertex& v : vertices_) result.points.push_back(v.position);
@@ -76,9 +81,8 @@ SurfaceMesh CutMesh::surface() const {
 }
 
 void CutMesh::report_non_manifold(int v) const {
-  const Vec3& p = position(v);
-  throw InputError("the mesh is not a manifold near (" + shortest(p.x) + ", " + shortest(p.y) + ", " +
-                   shortest(p.z) + "), where the path meets it; repair the mesh there, or move the path");
+  throw InputError("the mesh is not a manifold near " + place_of(position(v)) +
+                   ", where the path meets it; repair the mesh there, or move the path");
 }
 
 std::vector<int> CutMesh::skin_fan(int v) const {
@@ -107,9 +111,29 @@ std::vector<int> CutMesh::skin_fan(int v) const {
   return fan;
 }
 
+std::vector<int> CutMesh::fan(int v, int first) const {
+  std::vector<int> fan;
+  for (int t = first; t >= 0;) {  // counter-clockwise
+    fan.push_back(t);
+    t = triangles_[t].neighbor[(triangles_[t].corner(v) + 2) % 3];
+    if (t == first) return fan;
+  }
+  if (first < 0) return fan;
+  for (int t = first; (t = triangles_[t].neighbor[triangles_[t].corner(v)]) >= 0;) fan.push_back(t);
+  return fan;
+}
+
 bool CutMesh::on_boundary(int v) const {
-  const Triangle& t = triangles_[skin_fan(v).front()];
-  return t.neighbor[t.corner(v)] == boundary;
+  const auto skin = skin_fan(v);
+  const Triangle &first = triangles_[skin.front()], &last = triangles_[skin.back()];
+  return first.neighbor[first.corner(v)] == boundary || last.neighbor[(last.corner(v) + 2) % 3] == boundary;
+}
+
+bool CutMesh::on_wound(int v) const {
+  const auto skin = skin_fan(v);
+  const Triangle &first = triangles_[skin.front()], &last = triangles_[skin.back()];
+  const auto wall = [this](int t) { return t >= 0 && triangles_[t].region != Region::skin; };
+  return wall(first.neighbor[first.corner(v)]) || wall(last.neighbor[(last.corner(v) + 2) % 3]);
 }
 
 double CutMesh::room(int v) const {
@@ -122,61 +146,32 @@ double CutMesh::room(int v) const {
   return least;
 }
 
+int CutMesh::any_triangle_with(int v, int w) const {
+  for (const int t : fan(v))
+    if (triangles_[t].vertex[(triangles_[t].corner(v) + 1) % 3] == w) return t;
+  return -1;
+}
+
 int CutMesh::triangle_with(int v, int w) const {
   for (const int t : skin_fan(v))
     if (triangles_[t].vertex[(triangles_[t].corner(v) + 1) % 3] == w) return t;
   return -1;
 }
 
-int CutMesh::split_edge(int t, int i, const Vec3& place) {
-  // (a, b, c) and (b, a, d) around the edge a b become (a, m, c), (m, b, c), (b, m, d), (m, a, d).
-  const int other = triangles_[t].neighbor[i];
-  CLEFT_CHECK(other, !=, non_manifold);
-  const Triangle old = triangles_[t];
-  const int a = old.vertex[i], b = old.vertex[(i + 1) % 3], c = old.vertex[(i + 2) % 3];
-  const int across_bc = old.neighbor[(i + 1) % 3], across_ca = old.neighbor[(i + 2) % 3];
-  const int m = add_vertex({place, place, t});
-  const int t2 = add_triangle({m, b, c}, old.region);
-  edit(t) = {{a, m, c}, {boundary, t2, across_ca}, old.region};
-  edit(t2).neighbor = {boundary, across_bc, t};
-  if (across_bc >= 0) set_neighbor(across_bc, c, b, t2);
-  edit_vertex(b).triangle = t2;
-  edit_vertex(a).triangle = edit_vertex(c).triangle = t;
-  if (other == boundary) return m;
-
-  const Triangle old2 = triangles_[other];
-  const int j = old2.corner(b), d = old2.vertex[(j + 2) % 3];
-  const int across_ad = old2.neighbor[(j + 1) % 3], across_db = old2.neighbor[(j + 2) % 3];
-  const int t4 = add_triangle({m, a, d}, old2.region);
-  edit(other) = {{b, m, d}, {t2, t4, across_db}, old2.region};
-  edit(t4).neighbor = {t, across_ad, other};
-  if (across_ad >= 0) set_neighbor(across_ad, d, a, t4);
-  edit(t).neighbor[0] = t4;
-  edit(t2).neighbor[0] = other;
-  edit_vertex(d).triangle = other;
-  return m;
+int CutMesh::twin(int t) const {
+  if (triangles_[t].sheet < 0) return -1;
+  const Sheet& sheet = sheets_[triangles_[t].sheet];
+  return sheet.left == t ? sheet.right : sheet.left;
 }
 
-int CutMesh::split_face(int t, const Vec3& place) {
-  const Triangle old = triangles_[t];
-  const auto [a, b, c] = old.vertex;
-  const int m = add_vertex({place, place, t});
-  const int t2 = add_triangle({b, c, m}, old.region), t3 = add_triangle({c, a, m}, old.region);
-  edit(t) = {{a, b, m}, {old.neighbor[0], t2, t3}, old.region};
-  edit(t2).neighbor = {old.neighbor[1], t3, t};
-  edit(t3).neighbor = {old.neighbor[2], t, t2};
-  if (old.neighbor[1] >= 0) set_neighbor(old.neighbor[1], c, b, t2);
-  if (old.neighbor[2] >= 0) set_neighbor(old.neighbor[2], a, c, t3);
-  edit_vertex(a).triangle = edit_vertex(b).triangle = t;
-  edit_vertex(c).triangle = t2;
-  return m;
+double CutMesh::wall_s(int t, int i) const {
+  const Sheet& sheet = sheets_[triangles_[t].sheet];
+  return sheet.s[sheet.left == t ? i : twin_corner(i)];
 }
 
-void CutMesh::set_neighbor(int t, int from, int to, int neighbor) {
-  const int i = triangles_[t].corner(from);
-  CLEFT_CHECK(i, >=, 0);
-  CLEFT_CHECK(triangles_[t].vertex[(i + 1) % 3], ==, to);
-  edit(t).neighbor[i] = neighbor;
+double CutMesh::wall_depth_fraction(int t, int i) const {
+  const Sheet& sheet = sheets_[triangles_[t].sheet];
+  return sheet.depth_fraction[sheet.left == t ? i : twin_corner(i)];
 }
 
 int CutMesh::add_vertex(const Vertex& vertex) {
@@ -186,17 +181,49 @@ int CutMesh::add_vertex(const Vertex& vertex) {
 
 int CutMesh::add_triangle(const std::array<int, 3>& vertex, Region region) {
   triangles_.push_back({vertex, {boundary, boundary, boundary}, region});
-  return static_cast<int>(triangles_.size()) - 1;
+  const int t = static_cast<int>(triangles_.size()) - 1;
+  if (noted_.size() < triangles_.size()) noted_.push_back(0);
+  note(t);
+  return t;
+}
+
+int CutMesh::add_sheet(const Sheet& sheet) {
+  sheets_.push_back(sheet);
+  return static_cast<int>(sheets_.size()) - 1;
 }
 
 CutMesh::Vertex& CutMesh::edit_vertex(int v) {
-  if (recording_ && v < static_cast<int>(marked_vertices_)) old_vertices_.push_back({v, vertices_[v]});
+  vertex_log_.push_back({v, vertices_[v]});
   return vertices_[v];
 }
 
 CutMesh::Triangle& CutMesh::edit(int t) {
-  if (recording_ && t < static_cast<int>(marked_triangles_)) old_triangles_.push_back({t, triangles_[t]});
+  triangle_log_.push_back({t, triangles_[t]});
+  note(t);
   return triangles_[t];
+}
+
+CutMesh::Sheet& CutMesh::edit_sheet(int i) {
+  sheet_log_.push_back({i, sheets_[i]});
+  return sheets_[i];
+}
+
+void CutMesh::note(int t) {
+  if (noted_[t] == epoch_) return;
+  noted_[t] = epoch_;
+  changed_.push_back(t);
+}
+
+void CutMesh::forget_changes() {
+  changed_.clear();
+  ++epoch_;
+}
+
+void CutMesh::set_neighbor(int t, int from, int to, int neighbor) {
+  const int i = triangles_[t].corner(from);
+  CLEFT_CHECK(i, >=, 0);
+  CLEFT_CHECK(triangles_[t].vertex[(i + 1) % 3], ==, to);
+  edit(t).neighbor[i] = neighbor;
 }
 
 void CutMesh::link(int a, int b, int from, int to) {
@@ -206,21 +233,87 @@ void CutMesh::link(int a, int b, int from, int to) {
 
 void CutMesh::unlink(int t, int from, int to) { set_neighbor(t, from, to, boundary); }
 
-void CutMesh::mark() {
-  recording_ = true;
-  marked_triangles_ = triangles_.size();
-  marked_vertices_ = vertices_.size();
-  old_triangles_.clear();
-  old_vertices_.clear();
+CutMesh::Checkpoint CutMesh::checkpoint() const {
+  return {triangles_.size(),    vertices_.size(),   sheets_.size(),
+          triangle_log_.size(), vertex_log_.size(), sheet_log_.size()};
 }
 
-void CutMesh::roll_back() {
-  for (; !old_triangles_.empty(); old_triangles_.pop_back())
-    triangles_[old_triangles_.back().first] = old_triangles_.back().second;
-  for (; !old_vertices_.empty(); old_vertices_.pop_back())
-    vertices_[old_vertices_.back().first] = old_vertices_.back().second;
-  triangles_.resize(marked_triangles_);
-  vertices_.resize(marked_vertices_);
+std::vector<int> CutMesh::changed_since(const Checkpoint& checkpoint) const {
+  std::vector<int> changed;
+  for (std::size_t i = checkpoint.triangle_log; i < triangle_log_.size(); ++i)
+    if (triangle_log_[i].first < static_cast<int>(checkpoint.triangles))
+      changed.push_back(triangle_log_[i].first);
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  for (std::size_t t = checkpoint.triangles; t < triangles_.size(); ++t)
+    changed.push_back(static_cast<int>(t));
+  return changed;
+}
+
+int CutMesh::euler_change_since(const Checkpoint& checkpoint) const {
+  // Two triangles to each edge but those of the boundary: E = (3 F + B) / 2.
+  const auto free_edges = [](const Triangle& t) {
+    return static_cast<int>(std::count(t.neighbor.begin(), t.neighbor.end(), boundary));
+  };
+  int free = 0;
+  std::vector<int> seen;  // only a triangle's oldest value counts
+  for (std::size_t i = checkpoint.triangle_log; i < triangle_log_.size(); ++i) {
+    const auto& [t, old] = triangle_log_[i];
+    if (t >= static_cast<int>(checkpoint.triangles)) continue;
+    if (std::find(seen.begin(), seen.end(), t) != seen.end()) continue;
+    seen.push_back(t);
+    free += free_edges(triangles_[t]) - free_edges(old);
+  }
+  for (std::size_t t = checkpoint.triangles; t < triangles_.size(); ++t) free += free_edges(triangles_[t]);
+  const int faces = static_cast<int>(triangles_.size() - checkpoint.triangles);
+  const int vertices = static_cast<int>(vertices_.size() - checkpoint.vertices);
+  return vertices - (3 * faces + free) / 2 + faces;
+}
+
+template <class T>
+void CutMesh::undo(std::vector<T>& items, std::vector<std::pair<int, T>>& log, std::size_t count,
+                   std::size_t entries, std::vector<T>* taken, std::vector<std::pair<int, T>>* taken_log) {
+  for (; log.size() > entries; log.pop_back()) {
+    auto& [i, old] = log.back();
+    std::swap(items[i], old);
+    if constexpr (std::is_same_v<T, Triangle>) note(i);
+    if (taken_log) taken_log->push_back(log.back());
+  }
+  if constexpr (std::is_same_v<T, Triangle>)
+    for (std::size_t i = count; i < items.size(); ++i) note(static_cast<int>(i));
+  if (taken) taken->assign(items.begin() + static_cast<std::ptrdiff_t>(count), items.end());
+  items.resize(count);
+}
+
+void CutMesh::roll_back(const Checkpoint& to) {
+  undo<Triangle>(triangles_, triangle_log_, to.triangles, to.triangle_log, nullptr, nullptr);
+  undo<Vertex>(vertices_, vertex_log_, to.vertices, to.vertex_log, nullptr, nullptr);
+  undo<Sheet>(sheets_, sheet_log_, to.sheets, to.sheet_log, nullptr, nullptr);
+}
+
+CutMesh::Undone CutMesh::undo(const Checkpoint& to) {
+  Undone undone;
+  undo<Triangle>(triangles_, triangle_log_, to.triangles, to.triangle_log, &undone.triangles,
+                 &undone.triangle_log);
+  undo<Vertex>(vertices_, vertex_log_, to.vertices, to.vertex_log, &undone.vertices, &undone.vertex_log);
+  undo<Sheet>(sheets_, sheet_log_, to.sheets, to.sheet_log, &undone.sheets, &undone.sheet_log);
+  return undone;
+}
+
+void CutMesh::redo(const Undone& undone) {
+  const auto again = [this](auto& items, auto& log, const auto& taken, const auto& taken_log) {
+    items.insert(items.end(), taken.begin(), taken.end());
+    for (auto entry = taken_log.rbegin(); entry != taken_log.rend(); ++entry) {
+      log.push_back({entry->first, items[entry->first]});
+      items[entry->first] = entry->second;
+    }
+  };
+  const auto first = static_cast<int>(triangles_.size());
+  again(triangles_, triangle_log_, undone.triangles, undone.triangle_log);
+  again(vertices_, vertex_log_, undone.vertices, undone.vertex_log);
+  again(sheets_, sheet_log_, undone.sheets, undone.sheet_log);
+  for (int t = first; t < static_cast<int>(triangles_.size()); ++t) note(t);
+  for (const auto& [t, value] : undone.triangle_log) note(t);
 }
 
 }  // namespace cleft

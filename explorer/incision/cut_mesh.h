@@ -1,9 +1,15 @@
-// A triangle mesh that is cut and refined in place: every change updates its neighbourhood only, and can be
-// taken back.
+// A triangle mesh that is cut and refined in place: every change updates its neighbourhood only, is
+// remembered, and can be taken back and made again bit for bit.
+//
+// The walls of a cut are sheets of two layers: every triangle of the left wall has a twin of the right wall
+// on the same three places. An edge of a wall or of a lip is split on both sides at once, so that the lips
+// stay paired vertex by vertex.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,8 +20,8 @@ namespace cleft {
 
 enum class Region : std::uint8_t { skin, left_wall, right_wall };
 
-/// What a vertex is. `shared` vertices belong to both sides: the start and the tip with the columns of wall
-/// below them, and the bottom of the walls.
+/// What a vertex is for the first cut that reached it. `shared` vertices belong to both sides: the start and
+/// the tip with the columns of wall below them, and the bottom of the walls.
 enum class VertexKind : std::uint8_t { skin, left_lip, right_lip, left_wall, right_wall, shared };
 
 inline Side side_of(VertexKind kind) {
@@ -34,6 +40,7 @@ class CutMesh {
     std::array<int, 3> vertex;
     std::array<int, 3> neighbor;  ///< [i] lies across the edge vertex[i], vertex[i + 1]
     Region region = Region::skin;
+    int sheet = -1;  ///< of a wall
 
     int corner(int v) const { return vertex[0] == v ? 0 : vertex[1] == v ? 1 : vertex[2] == v ? 2 : -1; }
   };
@@ -41,11 +48,19 @@ class CutMesh {
   struct Vertex {
     Vec3 position;
     Vec3 original;  ///< where it stood before it was moved onto the path
-    int triangle;   ///< one of those around it
+    int triangle;   ///< one of those around it, of the skin where there is one
     VertexKind kind = VertexKind::skin;
-    double s =
-        std::numeric_limits<double>::quiet_NaN();  ///< along the path; only lips, walls and ends have one
-    double depth_fraction = 0;                     ///< 0 at the skin, 1 at the bottom of the wall
+    /// Along the path; only lips, walls and ends have one.
+    double s = std::numeric_limits<double>::quiet_NaN();
+    double depth_fraction = 0;  ///< 0 at the skin, 1 at the bottom of the wall
+    int cut = -1;               ///< the cut that kind, s and depth_fraction speak of
+  };
+
+  /// A triangle of the left wall with its twin of the right one; its corners 0, 1, 2 are the twin's 0, 2, 1.
+  struct Sheet {
+    int left, right;
+    int cut;
+    std::array<double, 3> s, depth_fraction;  ///< of the left triangle's corners, for its own cut
   };
 
   /// Throws InputError for an index out of range.
@@ -53,6 +68,7 @@ class CutMesh {
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<Vertex>& vertices() const { return vertices_; }
+  const std::vector<Sheet>& sheets() const { return sheets_; }
   const Triangle& triangle(int t) const { return triangles_[t]; }
   const Vertex& vertex(int v) const { return vertices_[v]; }
   const Vec3& position(int v) const { return vertices_[v].position; }
@@ -61,43 +77,110 @@ class CutMesh {
   /// The skin triangles around v, counter-clockwise; where the fan is open it begins at its clockwise end.
   /// Throws InputError where the mesh is not a manifold there.
   std::vector<int> skin_fan(int v) const;
-  bool on_boundary(int v) const;
+  /// All triangles around v, walls too.
+  std::vector<int> fan(int v) const { return fan(v, vertices_[v].triangle); }
+  std::vector<int> fan(int v, int first) const;  ///< the fan that triangle `first` belongs to
+  bool on_boundary(int v) const;                 ///< whether v's skin ends at a free edge
+  bool on_wound(int v) const;  ///< whether v's skin ends at a wall: v is on a lip or ends a cut
 
   /// The least height of v over an edge opposite to it in its fan: how far it may move.
   double room(int v) const;
 
   /// The triangle of v's skin fan that contains the directed edge v -> w, or -1.
   int triangle_with(int v, int w) const;
+  /// The same among all triangles around v.
+  int any_triangle_with(int v, int w) const;
 
-  /// A new vertex at `place` on edge i of t: two triangles become four.
-  int split_edge(int t, int i, const Vec3& place);
-  /// A new vertex inside t: one triangle becomes three.
+  /// The wall triangle of the other side on the same place; -1 for skin.
+  int twin(int t) const;
+  /// The twin's corner that lies on corner i, and the twin's edge on edge i.
+  static int twin_corner(int i) { return (3 - i) % 3; }
+  static int twin_edge(int i) { return 2 - i; }
+  /// s and depth of corner i of a wall's triangle, in the parameters of the cut it belongs to.
+  double wall_s(int t, int i) const;
+  double wall_depth_fraction(int t, int i) const;
+
+  /// A new vertex at `place` on edge i of t: two triangles become four. On a lip or a wall the same happens
+  /// on the other side. `part` of the way along the edge the walls' s and depth are taken; s may be given.
+  int split_edge(int t, int i, const Vec3& place, std::optional<double> s = std::nullopt);
+  /// A new vertex inside t, of the skin: one triangle becomes three.
   int split_face(int t, const Vec3& place);
+  /// Edge i of t, of the skin on both sides, becomes the other diagonal of its two triangles.
+  void flip_edge(int t, int i);
 
   int add_vertex(const Vertex& vertex);
   int add_triangle(const std::array<int, 3>& vertex, Region region);
+  int add_sheet(const Sheet& sheet);
   Vertex& edit_vertex(int v);
   Triangle& edit(int t);
+  /// Moves a vertex: the triangles around it count as changed.
+  void move_vertex(int v, const Vec3& place);
   /// Makes a and b neighbours across the edge from -> to of a, which is to -> from in b.
   void link(int a, int b, int from, int to);
   void unlink(int t, int from, int to);
+  void set_neighbor(int t, int from, int to, int neighbor);
 
-  /// From here on changes are remembered until the next mark.
-  void mark();
-  void roll_back();
+  /// A new cut's number, counted from 0.
+  int begin_cut() { return cuts_++; }
+
+  struct Checkpoint {
+    std::size_t triangles, vertices, sheets, triangle_log, vertex_log, sheet_log;
+  };
+  Checkpoint checkpoint() const;
+  /// The triangles changed or added since a checkpoint.
+  std::vector<int> changed_since(const Checkpoint& checkpoint) const;
+  /// By how much the Euler characteristic has changed since a checkpoint, from the changes alone.
+  int euler_change_since(const Checkpoint& checkpoint) const;
+  void roll_back(const Checkpoint& to);
+
+  /// What undo took back, to be made again.
+  struct Undone {
+    std::vector<Triangle> triangles;
+    std::vector<Vertex> vertices;
+    std::vector<Sheet> sheets;
+    std::vector<std::pair<int, Triangle>> triangle_log;
+    std::vector<std::pair<int, Vertex>> vertex_log;
+    std::vector<std::pair<int, Sheet>> sheet_log;
+  };
+  Undone undo(const Checkpoint& to);
+  /// To be called on the mesh exactly as undo left it.
+  void redo(const Undone& undone);
+
+  /// The numbers of the triangles that were changed, added, or taken away again (those are no longer in
+  /// range) since the last forget_changes(): each once, in no order. A triangle counts as changed when one of
+  /// its corners moved too.
+  const std::vector<int>& changed() const { return changed_; }
+  void forget_changes();
 
  private:
-  void set_neighbor(int t, int from, int to, int neighbor);
+  int split_pair(int t, int i, const Vec3& place, std::vector<std::array<int, 3>>& parted);
+  void split_sheets(const std::vector<std::array<int, 3>>& parted, double part, std::optional<double> s);
+  Vertex new_on_edge(int t, int i, const Vec3& place, double part, std::optional<double> s) const;
+  void rotate(int t);
+  Sheet& edit_sheet(int i);
+  void note(int t);
+  template <class T>
+  void undo(std::vector<T>& items, std::vector<std::pair<int, T>>& log, std::size_t count,
+            std::size_t entries, std::vector<T>* taken, std::vector<std::pair<int, T>>* taken_log);
   [[noreturn]] void report_non_manifold(int v) const;
 
   std::vector<Triangle> triangles_;
   std::vector<Vertex> vertices_;
+  std::vector<Sheet> sheets_;
   std::vector<bool> bow_tie_;  // input vertices whose triangles form more than one fan
+  int cuts_ = 0;
 
-  bool recording_ = false;
-  std::size_t marked_triangles_ = 0, marked_vertices_ = 0;
-  std::vector<std::pair<int, Triangle>> old_triangles_;
-  std::vector<std::pair<int, Vertex>> old_vertices_;
+  // Former values, oldest first.
+  std::vector<std::pair<int, Triangle>> triangle_log_;
+  std::vector<std::pair<int, Vertex>> vertex_log_;
+  std::vector<std::pair<int, Sheet>> sheet_log_;
+
+  std::vector<int> changed_;
+  std::vector<std::uint32_t> noted_;  // the epoch in which a triangle was last put there
+  std::uint32_t epoch_ = 1;
 };
+
+/// "(x, y, z)", for messages.
+std::string place_of(const Vec3& p);
 
 }  // namespace cleft

@@ -7,29 +7,59 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "explorer/incision/refine.h"
+#include "explorer/incision/triangle_quality.h"
 
 namespace cleft {
 
+namespace {
+
+constexpr double room_for_piece =
+    6;  ///< the longest edge of a triangle that a straight piece ends in, in pieces
+
+}  // namespace
+
 Incision::Incision(const SurfaceMesh& surface, ScalpelPath path, const IncisionOptions& options)
-    : mesh_(surface),
+    : Incision(std::make_unique<CutMesh>(surface), nullptr, std::move(path), options) {}
+
+Incision::Incision(CutMesh& mesh, ScalpelPath path, const IncisionOptions& options)
+    : Incision(nullptr, &mesh, std::move(path), options) {}
+
+Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path,
+                   const IncisionOptions& options)
+    : own_(std::move(own)),
+      mesh_(own_ ? *own_ : *mesh),
       path_(std::move(path)),
       options_(options),
+      before_cut_(mesh_.checkpoint()),
+      cut_(mesh_.begin_cut()),
       chord_tolerance_(options.chord_tolerance.value_or(path_.length() / 1000)),
       longest_step_(path_.length() / 4),  // even a cut inside one triangle has vertices that can open
-      original_triangles_(static_cast<int>(surface.triangles.size())) {
+      original_triangles_(static_cast<int>(mesh_.triangles().size())),
+      worst_before_(smallest_radius_ratio(mesh_)) {
   if (!(path_.smallest_depth() > 0))
     throw InputError("the cut has no depth: give the path a column 'depth', or a depth for all of it");
   const double max_edge = options_.max_edge.value_or(path_.length() / 30);
-  Step start = find_start();
-  if (max_edge > 0) {
-    const double height = dot(start.place - path_.at(start.s).position, path_.at(start.s).outward);
-    refine_along(mesh_, path_, height, max_edge, path_.length() / 8);
-    start = find_start();
+  mesh_.forget_changes();
+  try {
+    Step start = find_start();
+    if (max_edge > 0) {
+      const double height = dot(start.place - path_.at(start.s).position, path_.at(start.s).outward);
+      refine_along(mesh_, path_, height, max_edge, path_.length() / 8);
+      start = find_start();
+    }
+    for (int k = 0; k < 60 && start.inside &&
+                    longest_edge_length(mesh_, start.triangle) > room_for_piece * longest_step_ &&
+                    bisect(mesh_, start.triangle);
+         ++k)
+      start = find_start();
+    const int first = realise(start);
+    grow(first, start.s);
+    mend(before_cut_);
+    rows_ = static_cast<int>(std::clamp(path_.largest_depth() / wall_spacing(first, max_edge), 3.0, 32.0));
+  } catch (...) {
+    mesh_.roll_back(before_cut_);
+    throw;
   }
-  const int first = realise(start);
-  grow(first, start.s);
-  walls_ =
-      Walls(static_cast<int>(std::clamp(path_.largest_depth() / wall_spacing(first, max_edge), 3.0, 32.0)));
 }
 
 Incision::Step Incision::find_start() const {
@@ -39,8 +69,7 @@ Incision::Step Incision::find_start() const {
   const Vec3 c = path_.at(0).position;
   double least = std::numeric_limits<double>::infinity();
   for (const CutMesh::Vertex& v : mesh_.vertices()) least = std::min(least, norm(v.position - c));
-  throw InputError("the path never touches the mesh: it begins at (" + shortest(c.x) + ", " + shortest(c.y) +
-                   ", " + shortest(c.z) + "), " + shortest(least) +
+  throw InputError("the path never touches the mesh: it begins at " + place_of(c) + ", " + shortest(least) +
                    " from the nearest vertex. It must lie within " + shortest(reach) +
                    " of a surface that faces along its directions (nx, ny, nz), in the mesh's own " +
                    "units: divide a path in mm by the mm per unit given as --scale");
@@ -57,38 +86,53 @@ double Incision::wall_spacing(int start, double max_edge) const {
 }
 
 void Incision::advance_to(double s) {
+  CLEFT_CHECK(undone_.has_value(), ==, false);
+  mesh_.forget_changes();
   s = std::min(s, path_.length());
-  if (s <= tip() || (left_mesh_ && !provisional_)) return;
+  if (s < tip() || (!provisional_ && (s == tip() || state_.left_mesh))) return;
   if (provisional_) roll_back(*provisional_);
   provisional_.reset();
   const double same = 1e-12 * path_.length();
-  while (!left_mesh_ && next_step().s <= s + same) {
-    const Step step = next_step();
-    take(step);
+  while (!state_.left_mesh && s - tip() > same && next_step().s <= s + same) {
+    const Step step = *next_;
     next_.reset();
+    const Before state = before();
+    try {
+      if (!made_room(step)) take(step);
+    } catch (...) {
+      roll_back(state);
+      throw;
+    }
+    check_progress();
   }
-  if (left_mesh_ || s - tip() <= same) return;
+  if (state_.left_mesh || s - tip() <= same) return;
 
   // The blade stands between two vertices of the path: at one of them if it is close, else at one of its own.
   const Step& next = next_step();
   const double close = options_.snap / 2 * std::min(next.s - tip(), longest_step_);
   if (s - tip() <= close) return;
-  std::optional<Step> step;
-  if (next.s - s <= close)
-    step = next;
-  else if (const auto inside = inside_fan(tip_vertex(), s))
-    step = placed(inside->triangle, inside->place, s);
-  else if (next.s < std::numeric_limits<double>::infinity())  // just outside: on the chord, then
-    step = on_chord(next, s);
-  if (!step) {
-    const Vec3& p = mesh_.position(tip_vertex());
-    throw InputError("the path leaves the surface near (" + shortest(p.x) + ", " + shortest(p.y) + ", " +
-                     shortest(p.z) + "), at arc length " + shortest(tip()) +
-                     ": its directions (nx, ny, nz) must point out of the surface there");
-  }
+  const Step step = next.s - s <= close ? next : shorter(next, s);
   const Before state = before();
-  take(*step);
+  try {
+    take(step);
+  } catch (...) {
+    roll_back(state);
+    throw;
+  }
   provisional_ = state;
+}
+
+void Incision::undo() {
+  CLEFT_CHECK(undone_.has_value(), ==, false);
+  mesh_.forget_changes();
+  undone_ = mesh_.undo(before_cut_);
+}
+
+void Incision::redo() {
+  CLEFT_CHECK(undone_.has_value(), ==, true);
+  mesh_.forget_changes();
+  mesh_.redo(*undone_);
+  undone_.reset();
 }
 
 int Incision::moved_vertices() const {
@@ -98,97 +142,154 @@ int Incision::moved_vertices() const {
 }
 
 void Incision::take(const Step& step) {
-  const Before state = before();
-  mesh_.mark();
-  try {
-    grow(realise(step), step.s);
-  } catch (...) {
-    roll_back(state);
-    throw;
-  }
+  const CutMesh::Checkpoint since = mesh_.checkpoint();
+  grow(realise(step), step.s);
+  mend(since);
+  // A slit with its walls leaves the surface what it is; where wounds are tangled within a triangle's breadth,
+  // sewing may not.
+  if (mesh_.euler_change_since(since) != 0)
+    throw InputError("the path meets too many wounds at once near " + place_of(step.place) + ", at arc length " +
+                     shortest(step.s) + "; lead it around them");
+}
+
+bool Incision::made_room(const Step& step) {
+  // A piece much shorter than the triangle it is in would leave slivers: smaller triangles first.
+  if (!step.inside) return false;
+  const double most = room_for_piece * norm(step.place - mesh_.position(tip_vertex()));
+  const CutMesh::Checkpoint since = mesh_.checkpoint();
+  const int across = step.kind == Step::edge ? mesh_.triangle(step.triangle).neighbor[step.index] : -1;
+  bool made = longest_edge_length(mesh_, step.triangle) > most && bisect(mesh_, step.triangle);
+  if (!made && across >= 0 && mesh_.triangle(across).region == Region::skin)
+    made = longest_edge_length(mesh_, across) > most && bisect(mesh_, across);
+  if (made) mend(since);
+  return made;
+}
+
+void Incision::check_progress() const {
+  constexpr std::size_t steps = 12;
+  if (chain_.size() < steps || tip() - chain_[chain_.size() - steps].s > 1e-6 * path_.length()) return;
+  throw InputError("the path runs along a wound near " + place_of(mesh_.position(tip_vertex())) +
+                   ", at arc length " + shortest(tip()) + "; lead it across, or away from it");
+}
+
+void Incision::mend(const CutMesh::Checkpoint& since) {
+  mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, worst_before_ / 4));
+  const double least = 1e-4 * std::min(0.1, worst_before_);
+  for (const int t : mesh_.changed_since(since))
+    if (mesh_.triangle(t).region == Region::skin && radius_ratio(mesh_, t) < least)
+      throw InputError("the path comes too close to a wound or an edge of the surface near " +
+                       place_of(mesh_.position(mesh_.triangle(t).vertex[0])) + ", at arc length " +
+                       shortest(tip()) +
+                       ", and would leave triangles without area; lead it across, or farther away");
 }
 
 int Incision::realise(const Step& step) {
-  if (step.kind == Step::edge) return mesh_.split_edge(step.triangle, step.index, step.place);
+  if (step.kind == Step::edge) {
+    const CutMesh::Triangle& t = mesh_.triangle(step.triangle);
+    const Vec3 a = mesh_.position(t.vertex[step.index]),
+               ab = mesh_.position(t.vertex[(step.index + 1) % 3]) - a;
+    const Vec3 foot = a + (dot(step.place - a, ab) / squared_norm(ab)) * ab;
+    const int m = mesh_.split_edge(step.triangle, step.index, step.place);
+    if (norm(step.place - foot) > 1e-12 * norm(ab)) mesh_.edit_vertex(m).original = foot;  // a bent edge
+    return m;
+  }
   if (step.kind == Step::face) return mesh_.split_face(step.triangle, step.place);
-  mesh_.edit_vertex(step.index).position = step.place;
+  if (!(mesh_.position(step.index) == step.place)) mesh_.move_vertex(step.index, step.place);
   return step.index;
 }
 
 void Incision::grow(int next, double s) {
-  CutMesh::Vertex& vertex = mesh_.edit_vertex(next);
-  vertex.kind = VertexKind::shared;
-  vertex.s = s;
-  const bool at_boundary = mesh_.on_boundary(next);
+  const bool wound = mesh_.on_wound(next), boundary = !wound && mesh_.on_boundary(next);
+  if (!wound) {
+    CutMesh::Vertex& vertex = mesh_.edit_vertex(next);
+    vertex.kind = VertexKind::shared;
+    vertex.s = s;
+    vertex.cut = cut_;
+  }
   if (chain_.empty()) {
-    open_start_ = at_boundary;
+    state_.start = wound ? End::wound : boundary ? End::boundary : End::closed;
     chain_.push_back({next, next, s});
     return;
   }
-
-  const int tip = tip_vertex();
-  const int right = mesh_.triangle_with(tip, next), left = mesh_.triangle_with(next, tip);
-  if (right < 0 || left < 0)
-    throw InputError("the path runs along the mesh's boundary at arc length " + shortest(s) +
-                     "; move it inwards");
-  const auto add_column = [this](const ChainVertex& c) { walls_.add_column(mesh_, c.left, down(c.s), c.s); };
-
-  const bool opens = chain_.size() > 1 || open_start_;
-  if (opens) {  // the tip's vertex becomes two lips
-    ChainVertex& last = chain_.back();
-    const bool first_to_open = walls_.columns() == 0 && !open_start_;
-    const int start = chain_.front().left;
-    const int start_left = first_to_open ? mesh_.triangle_with(tip, start) : -1;
-    const int start_right = first_to_open ? mesh_.triangle_with(start, tip) : -1;
-    last.right = part(tip, right, first_to_open ? start_right : mesh_.skin_fan(tip).back(), left);
-    if (first_to_open) add_column(chain_.front());
-    if (walls_.columns() < static_cast<int>(chain_.size())) add_column(last);
-    walls_.open_last_column(mesh_, last.right);
-    if (first_to_open) walls_.add_segment(mesh_, start_left, start_right);
+  if (state_.from >= 0) {  // on from a wound
+    chain_.push_back({state_.from, state_.from, chain_.back().s});
+    state_.start = End::wound;
+    state_.piece = chain_.size() - 1;
+    state_.column.reset();
+    state_.arrived = false;
+    state_.from = -1;
   }
-  chain_.push_back({next, next, s});
-  if (!opens && !at_boundary) return;
-  if (walls_.columns() == 0) add_column(chain_[chain_.size() - 2]);
-  add_column(chain_.back());
-  if (at_boundary) {
-    chain_.back().right = part(next, mesh_.skin_fan(next).front(), right, left);
-    walls_.open_last_column(mesh_, chain_.back().right);
-    left_mesh_ = true;
+  const bool first = chain_.size() == state_.piece + 1;
+  if (first) {
+    const CutMesh::Checkpoint without = mesh_.checkpoint();
+    state_.column = start_column();
+    if (!state_.column->opens &&
+        !boundary) {  // both ends are closed: the next segment will open this one too
+      CLEFT_CHECK(wound, ==, false);
+      mesh_.roll_back(without);
+      chain_.push_back({next, next, s});
+      state_.pending = true;
+      return;
+    }
   }
-  walls_.add_segment(mesh_, left, right);
+
+  Sewing sewing(mesh_, cut_);
+  int first_sheet = -1;
+  const std::size_t tip = chain_.size() - 1;
+  if (state_.pending) {
+    const Column start = start_column();
+    state_.column = hang_column(mesh_, chain_[tip].left, down(chain_[tip].s), chain_[tip].s, cut_, rows_);
+    state_.column->opens = true;
+    sewing.add(start, *state_.column);
+    first_sheet = sewing.last_sheet();
+  }
+  Column column = wound ? wound_column(mesh_, next, down(s), s, cut_, rows_, {})
+                        : hang_column(mesh_, next, down(s), s, cut_, rows_);
+  if (boundary) column.opens = true;
+  sewing.add(*state_.column, column);
+  if (first && state_.start == End::boundary) sewing.open_at_boundary(true);
+  if (boundary) sewing.open_at_boundary(false);
+  if (wound) sewing.join_end();
+  sewing.part_vertices();
+
+  const auto set = [this](std::size_t i, const Sewing::Lips& lips) {
+    chain_[i].left = lips.left, chain_[i].right = lips.right;
+  };
+  if (first_sheet >= 0) set(state_.piece, sewing.lips_at_start(first_sheet));
+  set(tip, sewing.lips_at_start(sewing.last_sheet()));
+  const Sewing::Lips end = sewing.lips_at_end(sewing.last_sheet());
+  chain_.push_back({end.left, end.right, s});
+  state_.pending = false;
+  state_.arrived = wound;
+  state_.left_mesh = boundary;
+  state_.below.assign(column.vertex.begin() + static_cast<std::ptrdiff_t>(column.first_new),
+                      column.vertex.end());
+  column.opens = true;  // the next segment will part it
+  state_.column = std::move(column);
 }
 
-int Incision::part(int v, int first_right, int last_right, int left) {
-  // The triangles from first_right counter-clockwise to last_right get a copy of v.
-  const std::vector<int> fan = mesh_.skin_fan(v);
-  CutMesh::Vertex copy = mesh_.vertex(v);
-  copy.kind = VertexKind::right_lip;
-  copy.triangle = first_right;
-  const int right = mesh_.add_vertex(copy);
-  CutMesh::Vertex& kept = mesh_.edit_vertex(v);
-  kept.kind = VertexKind::left_lip;
-  kept.triangle = left;
-  std::size_t i = static_cast<std::size_t>(std::find(fan.begin(), fan.end(), first_right) - fan.begin());
-  for (std::size_t count = 0;; ++i, ++count) {
-    CLEFT_CHECK(count, <, fan.size());
-    const int t = fan[i % fan.size()];
-    CLEFT_CHECK(t, !=, left);
-    CutMesh::Triangle& triangle = mesh_.edit(t);
-    triangle.vertex[triangle.corner(v)] = right;
-    if (t == last_right) return right;
-  }
+Column Incision::start_column() {
+  const ChainVertex& start = chain_[state_.piece];
+  if (state_.start == End::wound)
+    return wound_column(mesh_, start.left, down(start.s), start.s, cut_, rows_, state_.below);
+  Column column = hang_column(mesh_, start.left, down(start.s), start.s, cut_, rows_);
+  column.opens = state_.start == End::boundary;
+  return column;
 }
 
 Incision::Before Incision::before() const {
-  return {chain_.size(), chain_.back(), walls_.mark(), left_mesh_};
+  const std::size_t tail = std::min<std::size_t>(chain_.size(), 3);
+  return {mesh_.checkpoint(),
+          chain_.size(),
+          {chain_.end() - static_cast<std::ptrdiff_t>(tail), chain_.end()},
+          state_};
 }
 
-void Incision::roll_back(const Before& state) {
-  mesh_.roll_back();
-  chain_.resize(state.chain);
-  chain_.back() = state.last;
-  walls_.roll_back(state.walls);
-  left_mesh_ = state.left_mesh;
+void Incision::roll_back(const Before& to) {
+  mesh_.roll_back(to.mesh);
+  chain_.resize(to.chain - to.last.size());
+  chain_.insert(chain_.end(), to.last.begin(), to.last.end());
+  state_ = to.state;
 }
 
 }  // namespace cleft

@@ -5,9 +5,11 @@
 //
 // The blade's path splits one triangle after another; behind the tip every vertex of the path is doubled into
 // two lips, from which walls reach down along -N(s). Start and tip stay closed, so that the mesh stays
-// watertight where it was. Where the path crosses the mesh's boundary the cut is open.
+// watertight where it was. Where the path crosses the mesh's boundary the cut is open. Where it meets a wound
+// (of an earlier cut in the same mesh, or its own) it ends in its wall, and goes on from the opposite lip.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -28,31 +30,48 @@ struct IncisionOptions {
 class Incision {
  public:
   /// Finds the start, and refines the mesh near the path where asked. Throws InputError where the path has no
-  /// depth or does not meet the mesh.
+  /// depth or does not meet the mesh. The first form cuts a mesh of its own, the second one that may have
+  /// been cut before; it must outlive the incision, and only the last of several may advance, or be undone.
   Incision(const SurfaceMesh& surface, ScalpelPath path, const IncisionOptions& options = {});
+  Incision(CutMesh& mesh, ScalpelPath path, const IncisionOptions& options = {});
 
   /// Cuts on to arc length s, clamped to the path; backwards is no step at all. Cutting to s in one step or
   /// in many gives the same mesh. Throws InputError where the path cannot go on (a place that is not a
-  /// manifold, a surface that turns away from N, its own cut) and leaves the mesh as cut until there.
+  /// manifold, a surface that turns away from N) and leaves the mesh as cut until there.
   void advance_to(double s);
+
+  /// Takes the whole cut back, refinement included, and makes it again: both bit for bit.
+  void undo();
+  void redo();
 
   const CutMesh& mesh() const { return mesh_; }
   const ScalpelPath& path() const { return path_; }
+  int cut() const { return cut_; }                ///< the number of this cut in its mesh
   double tip() const { return chain_.back().s; }  ///< arc length of the tip's vertex
   double start() const { return chain_.front().s; }
   /// Whether the path has left the mesh over its boundary.
-  bool left_mesh() const { return left_mesh_; }
+  bool left_mesh() const { return state_.left_mesh; }
   int original_triangles() const { return original_triangles_; }
   int moved_vertices() const;
 
-  /// The path's vertices from start to tip: left and right are the same where the cut is closed.
+  /// The triangles that the last advance_to, undo or redo has changed, added or taken away (the latter are
+  /// out of range), in no order: what a structure over the mesh's triangles has to take in again.
+  const std::vector<int>& changed_triangles() const { return mesh_.changed(); }
+
+  /// The path's vertices from start to tip: left and right are the same where the cut is closed. Where the
+  /// path crosses a wound there are two of the same s, one on either lip.
   struct ChainVertex {
     int left, right;
     double s;
   };
   const std::vector<ChainVertex>& chain() const { return chain_; }
 
+  /// How far the straight pieces between the chain's vertices stray from the blade, at most.
+  double chord_error() const;
+
  private:
+  Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path, const IncisionOptions& options);
+
   /// How the path goes on from the last vertex of the chain.
   struct Step {
     enum Kind { vertex, edge, face } kind;
@@ -60,6 +79,7 @@ class Incision {
     int index;     ///< the vertex, or the number of the edge
     Vec3 place;
     double s;
+    bool inside = false;  ///< not where the path crosses an edge, but between two such places
   };
 
   Step find_start() const;
@@ -68,45 +88,76 @@ class Incision {
 
   // Where the path goes on: incision_walk.cpp.
   const Step& next_step();
-  std::optional<Step> exit_of_fan(int pieces, bool snap) const;
+  /// Where the blade's line is after a while: in a triangle of the tip's fan, or crossing its edge.
+  struct Track {
+    int triangle = -1;  ///< -1: the line does not go on over the surface
+    int edge = -1;      ///< -1: it has reached the s asked for
+    double s = 0;
+  };
+  Track entered(const std::vector<int>& fan, double size, double limit) const;
+  Track follow(int vertex, double s) const;
+  Step crossing(const Track& track) const;
   std::optional<Step> snapped(const Step& crossing) const;
-  std::optional<Step> inside_fan(int v, double s) const;
-  Step on_chord(const Step& next, double s) const;
+  Step shorter(const Step& step, double to) const;
+  Step step_at(const Track& track) const;
   Step placed(int triangle, const Vec3& place, double s) const;
   bool may_move(int v, const Vec3& place) const;
-  double chord_error(const Vec3& to) const;
-  PathCoordinates beside(const Vec3& x) const;
+  bool may_reach(int v) const;
+  bool too_soon_at_wound(const Step& step) const;
+  double chord_error(const Vec3& from, const Vec3& to, double s_from, double s_to) const;
+  void go_on_from_wound();
+  [[noreturn]] void report_end() const;
   double wall_spacing(int start, double max_edge) const;
-  int tip_vertex() const { return chain_.back().left; }
+  int tip_vertex() const { return state_.from >= 0 ? state_.from : chain_.back().left; }
 
   // Changing the mesh: incision.cpp.
   void take(const Step& step);
   int realise(const Step& step);
+  bool made_room(const Step& step);
+  void check_progress() const;
   void grow(int next, double s);
-  int part(int v, int first_right, int last_right, int left);
+  void mend(const CutMesh::Checkpoint& since);
+  Column start_column();
   Vec3 down(double s) const { return -path_.depth(s) * path_.at(s).outward; }
 
-  CutMesh mesh_;
+  std::unique_ptr<CutMesh> own_;
+  CutMesh& mesh_;
   ScalpelPath path_;
   IncisionOptions options_;
+  CutMesh::Checkpoint before_cut_;
+  int cut_;
   double chord_tolerance_, longest_step_;
   int original_triangles_;
+  double worst_before_;  // radius ratio
+  int rows_ = 3;
   std::vector<ChainVertex> chain_;
-  Walls walls_{3};
-  bool open_start_ = false, left_mesh_ = false;
+
+  enum class End { closed, boundary, wound };
+  struct State {
+    End start = End::closed;       // of the piece between two wounds that the tip is in
+    std::size_t piece = 0;         // its first vertex in the chain
+    bool pending = false;          // its first segment is not sewn in yet: both ends are closed
+    bool arrived = false;          // the tip's vertex is on a wound
+    int from = -1;                 // where the path goes on from that wound
+    std::optional<Column> column;  // below the tip
+    std::vector<int> below;        // below the wound where the path came to it
+    bool left_mesh = false;
+  };
+  State state_;
 
   // The vertex at the tip is provisional: it is taken back before the blade goes on, so that where the blade
   // stopped on its way leaves no trace.
   struct Before {
+    CutMesh::Checkpoint mesh;
     std::size_t chain;
-    ChainVertex last;
-    Walls::Mark walls;
-    bool left_mesh;
+    std::vector<ChainVertex> last;
+    State state;
   };
   Before before() const;
   void roll_back(const Before& before);
   std::optional<Before> provisional_;
   std::optional<Step> next_;
+  std::optional<CutMesh::Undone> undone_;
 };
 
 }  // namespace cleft

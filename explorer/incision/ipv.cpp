@@ -47,7 +47,7 @@ class Volume {
   void add_cut() {
     for (std::size_t i = 0; i < mesh_.vertices().size(); ++i) {
       const CutMesh::Vertex& vertex = mesh_.vertices()[i];
-      if (vertex.kind == VertexKind::skin) continue;
+      if (vertex.cut != incision_.cut()) continue;
       const double w = -vertex.depth_fraction * field_.cut().depth;
       add(static_cast<int>(i), vertex.s, 0, w, side_of(vertex.kind), true);
     }

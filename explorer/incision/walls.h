@@ -1,5 +1,11 @@
-// The walls of the wound: two sheets of triangles that reach down from the lips, joined at the bottom and at
-// the closed ends. Paper, section 3.4. Columns are appended as the blade advances.
+// The walls of the wound: sheets of two layers between columns of vertices that hang from the path. Paper,
+// section 3.4.
+//
+// A segment of the cut is a sheet between two columns, first closed in itself: its left and right layer meet
+// along all of its edges. Sewing it into the surface along an edge re-pairs the four triangles there: where
+// (a, b) and (left, right) were neighbours, then (a, left) and (b, right) are. So a cut opens along the skin,
+// along the column where its last segment ended, along the wall of another cut that it runs into; and nothing
+// but the two pairs changes. Afterwards every vertex is parted into as many as there are fans around it.
 #pragma once
 
 #include <vector>
@@ -8,46 +14,70 @@
 
 namespace cleft {
 
-class Walls {
+/// Vertices from the skin down to the bottom, as long as they are closed, or those of one side of a wound
+/// that is there already.
+struct Column {
+  std::vector<int> vertex;
+  std::vector<double> depth_fraction;  ///< 0 at the skin, 1 at the bottom
+  double s = 0;                        ///< along the path
+  /// Its part above the bottom will be parted when the segment is sewn in: at the mesh's boundary, at a wound
+  /// as deep as the cut, and where a segment ends there already.
+  bool opens = false;
+  std::size_t first_new = 1;  ///< from here on vertices hang on their own, above they belong to a wound
+  std::size_t size() const { return vertex.size(); }
+};
+
+/// A new column below `top` with `rows` edges along `down`, whose length is the depth.
+Column hang_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut, int rows);
+
+/// The column below a vertex of a wound, down to the wound's bottom but not below `depth` (a vertex is made
+/// there). Where the wound's wall has no vertices below `top`, they are made. Longer than the wound is deep,
+/// it goes on straight along `down`, whose length is `depth`, through `below` where given (the continuation
+/// that the other side of the wound has already), else through new vertices.
+Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut, int rows,
+                    const std::vector<int>& below);
+
+/// Whether a sheet can stand between two columns: one of them must open all the way down, so that no edge
+/// joins two closed vertices and belongs to both layers.
+inline bool can_stand(const Column& p, const Column& q) { return p.opens || q.opens; }
+
+/// The sheets of one cut, sewn in segment by segment.
+class Sewing {
  public:
-  explicit Walls(int rows) : rows_(rows) {}
+  Sewing(CutMesh& mesh, int cut) : mesh_(mesh), cut_(cut) {}
 
-  int columns() const { return static_cast<int>(columns_.size()); }
-  int rows() const { return rows_; }
+  /// A sheet from column p to column q, sewn to the skin along the edge between their tops, and to whatever
+  /// wound there is along p. Throws InputError where there is no skin on both sides of the edge.
+  void add(const Column& p, const Column& q);
+  /// Sews the last sheet to the wound along its column q.
+  void join_end();
+  /// Leaves the sheet open where column q (or with `at_start`, p) stands on the mesh's boundary.
+  void open_at_boundary(bool at_start);
 
-  /// Vertices below `lip` along `down` (whose length is the depth), rows + 1 with the lip's own.
-  void add_column(CutMesh& mesh, int lip, const Vec3& down, double s);
+  /// Parts the vertices of the columns touched since the last call into one for each fan.
+  void part_vertices();
 
-  /// Parts the last column into a left and a right one; `right_lip` is the lip's right copy.
-  void open_last_column(CutMesh& mesh, int right_lip);
-
-  /// The two sheets between the last two columns, joined to the skin triangles beside the lips and to the
-  /// sheets before them. Of the two columns at least one must be open.
-  void add_segment(CutMesh& mesh, int left_skin, int right_skin);
-
-  /// Takes back what was added since `columns` columns and `segments` segments stood; the last column is
-  /// closed again where it was.
-  struct Mark {
-    std::size_t columns, segments;
-    bool last_was_open;
+  /// The lips' vertices at either end of a sheet, told by its first triangle.
+  struct Lips {
+    int left, right;
   };
-  Mark mark() const;
-  void roll_back(const Mark& mark);
+  Lips lips_at_start(int sheet) const;
+  Lips lips_at_end(int sheet) const;
+  int last_sheet() const { return first_; }
 
  private:
-  struct Column {
-    std::vector<int> left, right;  // row 0 is the lip; the bottom row is shared
-    bool open = false;
-  };
-  struct Segment {
-    int first_triangle, first_column;
-    bool falling;  // the diagonal goes from the earlier column down to the later one
-  };
-  int triangle(const Segment& segment, int row, Region side, int which) const;
+  void sew(int v, int w, int sheet_triangle);
+  void sew_column(const std::vector<int>& column, const std::vector<int>& left_edges);
+  void part(int v);
+  void describe(int v, const std::vector<int>& fan);
 
-  int rows_;
-  std::vector<Column> columns_;
-  std::vector<Segment> segments_;
+  CutMesh& mesh_;
+  int cut_;
+  Column p_, q_;
+  std::vector<int> along_p_, along_q_;  // left triangles on the edges of either column
+  int first_ = -1;                      // the last sheet's first triangle, left below the skin
+  std::vector<int> touched_vertices_;
+  std::vector<int> seeds_;  // triangles on edges that were sewn, left ones first
 };
 
 }  // namespace cleft

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -13,6 +12,7 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/process.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 
 namespace cleft {
@@ -78,9 +78,9 @@ class LocalRun {
       return count(&RunReport::superseded, hash, "is being run by another process");
     const Attempt attempt = folder_.begin(hash);
     try {
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch watch;
       Json manifest = attempt_case(one, attempt);
-      manifest["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      manifest["seconds"] = watch.seconds();
       const bool won = folder_.publish(attempt, hash, std::move(manifest),
                                        {"case.toml", "case.h5", "case.dffd", "solve.log", "encode.log"});
       if (won) {

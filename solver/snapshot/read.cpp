@@ -115,17 +115,6 @@ class SnapshotCheck {
   const Snapshot& s_;
 };
 
-void check_format(const h5::File& file) {
-  if (!file.has_attribute("/", "format") || file.read_text("/", "format") != "cleft-snapshot")
-    throw FileError(file.path(),
-                    "is not a snapshot (no attribute format = \"cleft-snapshot\"); cleft solve writes one");
-  const double found = file.read_number("/", "version");
-  if (found != snapshot_format_version)
-    throw FileError(file.path(), "snapshot format version " + std::to_string(static_cast<int>(found)) +
-                                     "; this program reads version " +
-                                     std::to_string(snapshot_format_version));
-}
-
 std::optional<SnapshotSource> read_source(const h5::File& file) {
   if (!file.has("/import")) return {};
   const std::vector<Vec3> axes = as_vectors(file.read_numbers("/import", "axes", 9));
@@ -137,7 +126,7 @@ std::optional<SnapshotSource> read_source(const h5::File& file) {
 }
 
 Snapshot read_all_but_displacements(const h5::File& file) {
-  check_format(file);
+  require_format(file, snapshot_format);
   Snapshot s;
   s.points = as_vectors(file.read<double>("/VTKHDF/Points", {0, 3}));
   s.cell_types = file.read<std::uint8_t>("/VTKHDF/Types", {0});

@@ -18,7 +18,7 @@
 
 namespace cleft {
 
-inline constexpr int snapshot_format_version = 1;
+inline constexpr FileFormat snapshot_format{"cleft-snapshot", 1, "snapshot", "cleft solve"};
 
 /// Where the data of another program stood: x in (u, v, w) is axes (x - origin) there.
 struct SnapshotSource {

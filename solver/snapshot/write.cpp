@@ -105,8 +105,7 @@ void write_source(h5::File& file, const SnapshotSource& source) {
 SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
                                const std::vector<SnapshotArray>& arrays)
     : out_(path), file_(h5::File::create(out_.path())), points_(s.points.size()) {
-  file_.write_text("/", "format", "cleft-snapshot");
-  file_.write_number("/", "version", snapshot_format_version);
+  write_format(file_, snapshot_format);
   file_.write_text("/", "units", "mm N MPa");
   file_.write_text("/", "case", s.case_hash);
   file_.write_text("/", "producer", producer());

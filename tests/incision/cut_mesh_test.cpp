@@ -31,11 +31,11 @@ TEST(CutMesh, SplitsKeepAdjacency) {
 TEST(CutMesh, RollsBackToTheMark) {
   CutMesh mesh(sphere(2, 5));
   const CutMesh untouched = mesh;
-  mesh.mark();
+  const CutMesh::Checkpoint mark = mesh.checkpoint();
   mesh.split_edge(3, 1, {1, 2, 3});
   mesh.split_face(5, {3, 2, 1});
   mesh.edit_vertex(2).position = {9, 9, 9};
-  mesh.roll_back();
+  mesh.roll_back(mark);
   ASSERT_EQ(mesh.triangles().size(), untouched.triangles().size());
   ASSERT_EQ(mesh.vertices().size(), untouched.vertices().size());
   EXPECT_EQ(mesh.position(2), untouched.position(2));

@@ -1,0 +1,225 @@
+// cleft haptic: the scalpel of 1 kHz on a mesh, cutting it on another thread, without a window.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include "base/command.h"
+#include "base/error.h"
+#include "base/output_file.h"
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+#include "explorer/io/mesh_file.h"
+#include "explorer/scene/scalpel_cutting.h"
+#include "haptic/bare_timer.h"
+#include "haptic/devices/list.h"
+#include "haptic/devices/recorded.h"
+#include "haptic/real_time.h"
+#include "haptic/surface_stiffness.h"
+
+namespace {
+
+using namespace cleft;
+
+struct Options {
+  std::string mesh, path, field, device = "hand", trajectory, record;
+  double scale = 1, rate = 1000, speed = 30;
+  double depth = 0, seconds = 0, stiffness = 0;  // 0: not given
+  double delay = 0;                              // ms
+  bool real_time = false, json = false;
+};
+
+std::optional<ScalpelPath> read_path(const Options& o, const std::optional<Field>& field) {
+  if (o.path.empty()) return std::nullopt;
+  const NumberTable table = read_csv(o.path);
+  ScalpelPath path = ScalpelPath::from_table(table, o.path);
+  if (o.depth > 0)
+    path.set_depth(o.depth / o.scale);
+  else if (table.column("depth") < 0 && field)
+    path.set_depth(field->cut().depth / o.scale);
+  else if (table.column("depth") < 0)
+    throw FileError(o.path,
+                    "has no column 'depth', and there is no field that knows one: give --depth in mm");
+  return path;
+}
+
+/// mm; `height` above the path's place s.
+ScalpelPose over(const ScalpelPath& path, double scale, double s, double height) {
+  const PathFrame frame = path.at(s);
+  ScalpelPose pose;
+  pose.tip = scale * frame.position + height * frame.outward;
+  pose.axis = frame.outward;
+  pose.edge = frame.along;
+  return pose;
+}
+
+ScalpelPose above_middle(const SurfaceMesh& mesh, double scale) {
+  Vec3 low = mesh.points.front(), high = low;
+  for (const Vec3& p : mesh.points)
+    for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+  ScalpelPose pose;
+  pose.tip = scale * Vec3{(low.x + high.x) / 2, (low.y + high.y) / 2, high.z} + Vec3{0, 0, 10};
+  return pose;
+}
+
+/// Down onto the path's start, through the skin, along the path at its depth, and up again.
+std::vector<HandTarget> hand_along(const ScalpelPath& path, const Options& o, const HandParameters& hand,
+                                   const ForceParameters& force) {
+  std::vector<HandTarget> script;
+  double time = 0;
+  const auto go = [&](double seconds, double s, double height) {
+    time += seconds;
+    script.push_back({time, over(path, o.scale, s, height)});
+  };
+  // The grip and the skin give way until the skin holds no longer.
+  const double through = 1.2 * force.puncture_force * (1 / hand.stiffness + 1 / force.stiffness) + 1;
+  go(0, 0, 10);
+  go(10 / 40., 0, 1);
+  go(through / 40, 0, -through);
+  go(0.2, 0, -through);
+  go(0.2, 0, -o.scale * path.depth(0));
+  const int pieces = std::max(1, static_cast<int>(std::ceil(path.length() * o.scale)));
+  for (int k = 1; k <= pieces; ++k) {
+    const double s = path.length() * k / pieces;
+    go(path.length() * o.scale / pieces / o.speed, s, -o.scale * path.depth(s));
+  }
+  go(0.3, path.length(), 15);
+  go(0.2, path.length(), 15);
+  return script;
+}
+
+Json quantiles_us(const TimeHistogram& h) {
+  return {{"p50", 1e6 * h.quantile(0.5)},
+          {"p99", 1e6 * h.quantile(0.99)},
+          {"p99.9", 1e6 * h.quantile(0.999)},
+          {"max", 1e6 * h.largest()}};
+}
+
+Json figures_of(const HapticLoop& loop, const TimeHistogram& bare, const ScalpelCutting& cutting) {
+  const LoopStatistics& s = loop.statistics();
+  const CuttingFigures& c = cutting.figures();
+  const auto named = std::min<std::uint64_t>(s.overruns, s.overrun_ticks.size());
+  return {
+      {"seconds", loop.state().time},
+      {"ticks", s.ticks},
+      {"compute_us", quantiles_us(s.compute)},
+      {"lateness_us", quantiles_us(s.lateness)},
+      {"bare_timer_lateness_us", quantiles_us(bare)},
+      {"overruns", s.overruns},
+      {"overrun_ticks", std::vector<std::uint64_t>(s.overrun_ticks.begin(), s.overrun_ticks.begin() + named)},
+      {"real_time_refused", loop.refused()},
+      {"stiffness_N_per_mm", loop.model().stiffness()},
+      {"largest_force_N", s.largest_force},
+      {"largest_change_N", s.largest_change},
+      {"change_beyond_permitted_N", s.excess_change},
+      {"energy_put_in_Nmm", -loop.passivity().delivered()},
+      {"energy_created_Nmm", loop.passivity().created()},
+      {"punctures", loop.state().punctures},
+      {"last_puncture_N", loop.model().last_puncture_force()},
+      {"cut_mm", cutting.cut_length()},
+      {"triangles_cut", c.triangles_cut},
+      {"cut_steps", c.cuts},
+      {"cut_step_us", quantiles_us(c.cut)},
+      {"grid_update_us", quantiles_us(c.update)},
+      {"wound_us", quantiles_us(c.open)},
+      {"stopped", c.stopped}};
+}
+
+/// A thread that is told to stop and waited for, whatever happens beside it.
+struct Beside {
+  std::atomic<bool>& stop;
+  std::thread thread;
+  ~Beside() {
+    stop = true;
+    if (thread.joinable()) thread.join();
+  }
+};
+
+void haptic(const Options& o) {
+  refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.trajectory});
+  std::optional<OutputFile> probe;
+  if (!o.record.empty()) probe.emplace(o.record);  // a bad name is told before the work
+  std::optional<Field> field;
+  if (!o.field.empty()) field = read_field(o.field);
+  const SurfaceMesh mesh = read_mesh(o.mesh);
+  const std::optional<ScalpelPath> path = read_path(o, field);
+
+  ForceParameters force;
+  if (o.stiffness > 0)
+    force.stiffness = o.stiffness;
+  else if (field)
+    force.stiffness = surface_stiffness(*field);
+  DeviceRequest request;
+  request.trajectory = o.trajectory;
+  request.hand.delay = 1e-3 * o.delay;
+  request.hand.period = 1 / o.rate;
+  request.start = path ? over(*path, o.scale, 0, 10) : above_middle(mesh, o.scale);
+  if (path) request.script = hand_along(*path, o, request.hand, force);
+  const std::unique_ptr<Device> device = make_device(o.device, request);
+  double seconds = o.seconds > 0 ? o.seconds : 10;
+  if (o.seconds <= 0 && o.device == "hand") seconds = request.script.back().time;
+  if (o.seconds <= 0 && o.device == "recorded") seconds = static_cast<Recorded&>(*device).duration();
+
+  ScalpelCutting cutting(mesh, path, std::move(field), o.scale);
+  LoopOptions options;
+  options.rate = o.rate;
+  options.measure = true;
+  options.real_time = o.real_time;
+  if (!o.record.empty()) options.record = static_cast<std::size_t>(seconds * o.rate) + 1;
+  HapticLoop loop(*device, cutting.surface(), force, options);
+  TimeHistogram bare;
+  std::atomic<bool> stop{false}, over{false};
+  {
+    Progress progress("haptic");
+    Beside timer{stop, std::thread([&] { bare = bare_timer(o.rate, o.real_time, stop); })};
+    Beside ticks{stop, std::thread([&] {
+                   loop.run(stop, seconds);
+                   over = true;
+                 })};
+    constexpr std::int64_t frame = clock_second / 60;
+    for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !over;
+         due = std::max(due, clock_time(CLOCK_MONOTONIC) - frame)) {
+      const HapticState& state = loop.for_cutting().read();
+      cutting.step(state);
+      progress(shortest(std::round(10 * state.time) / 10) + " s");
+      sleep_until(due += frame);
+    }
+  }
+  if (!o.record.empty()) {
+    probe.reset();
+    write_recording(o.record, loop.recorded());
+  }
+  print_figures(figures_of(loop, bare, cutting), o.json);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Feels and cuts a mesh with a haptic device, and reports what the loop did.", "cleft haptic");
+  Options o;
+  app.add_option("--mesh", o.mesh, "surface mesh: .stl .obj .ply .vtp")->required();
+  app.add_option("--device", o.device, "hand (simulated), recorded, spacemouse, gamepad or phantom")
+      ->capture_default_str();
+  app.add_option("--path", o.path,
+                 "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where cuts go");
+  app.add_option("--field", o.field, "field file case.dffd that opens the cut and tells the stiffness");
+  app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
+      ->check(above(0));
+  app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
+  app.add_option("--seconds", o.seconds, "how long, s [the hand's or the recording's time, else 10]")
+      ->check(above(0));
+  app.add_option("--stiffness", o.stiffness, "of the skin, N/mm [the field's, else 0.3]")->check(above(0));
+  app.add_option("--trajectory", o.trajectory, "recording that the recorded device plays");
+  app.add_option("--record", o.record, "write the poses as a recording");
+  app.add_option("--rate", o.rate, "ticks a second, 100 to 10000")->check(above(0))->capture_default_str();
+  app.add_option("--speed", o.speed, "of the hand along the path, mm/s")
+      ->check(above(0))
+      ->capture_default_str();
+  app.add_option("--delay", o.delay, "of the hand, from pose to force, ms")
+      ->check(at_least(0))
+      ->capture_default_str();
+  app.add_flag("--real-time", o.real_time, "ask for SCHED_FIFO and locked memory");
+  app.add_flag("--json", o.json, "figures as JSON");
+  return run_command(app, argc, argv, [&] { haptic(o); });
+}

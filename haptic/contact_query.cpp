@@ -1,0 +1,154 @@
+#include "haptic/contact_query.h"
+
+#include <limits>
+
+#include "haptic/voxel_visit.h"
+
+namespace cleft {
+
+ContactReader::ContactReader(const ContactSurface& surface) : surface_(surface), cells_(surface.cells()) {
+  for (auto& says : surface.readers_) {
+    std::uint64_t expected = ContactSurface::unused;
+    if (!says.compare_exchange_strong(expected, ContactSurface::idle)) continue;
+    says_ = &says;
+    return;
+  }
+  throw InputError("the surface has " + std::to_string(ContactSurface::most_readers) + " readers already");
+}
+
+ContactReader::~ContactReader() { says_->store(ContactSurface::unused, std::memory_order_release); }
+
+void ContactReader::begin() {
+  // A writer that sees `entering` waits the few nanoseconds until the version is told; one that has not seen
+  // it has published its step before, and it is that step that is read.
+  says_->store(ContactSurface::entering, std::memory_order_seq_cst);
+  version_ = surface_.version_.load(std::memory_order_seq_cst);
+  says_->store(ContactSurface::reading + version_, std::memory_order_release);
+}
+
+bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& t) const {
+  t = surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
+  if (t.vertex[0] < 0) return false;
+  for (int i = 0; i < 3; ++i)
+    corners[i] = surface_.vertices_[static_cast<std::size_t>(t.vertex[i])].at(version_).position;
+  return true;
+}
+
+void ContactReader::meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing,
+                         SurfaceHit& best) const {
+  const int count = list.count.load(std::memory_order_acquire);
+  for (int n = 0; n < count; ++n) {
+    const int id = list.ids[n].load(std::memory_order_acquire);
+    Corners corners;
+    ContactTriangle t;
+    if (id < 0 || !corners_of(id, corners, t)) continue;
+    const Passage passage = pass_through(from, to, corners);
+    if (!passage.passes || (best && passage.fraction >= best.fraction)) continue;
+    if (facing != Facing::any && passage.inward != (facing == Facing::front)) continue;
+    best = {id, passage.fraction, {}, passage.normal, t.wall};
+  }
+}
+
+SurfaceHit ContactReader::first_contact(const Vec3& from, const Vec3& to, Facing facing) const {
+  SurfaceHit best;
+  int i[3];
+  bool within = true;  // one voxel, as a tick's way mostly is
+  for (int k = 0; k < 3; ++k) {
+    i[k] = cells_.index(from[k], k);
+    within = within && i[k] == cells_.index(to[k], k);
+  }
+  if (!within)
+    walk(from, to, facing, best);
+  else if (const CellList* list = cells_.at(i[0], i[1], i[2]))
+    meet(*list, from, to, facing, best);
+  if (best) {
+    best.position = lerp(from, to, best.fraction);
+    best.normal = normalized(best.normal);
+  }
+  return best;
+}
+
+/// Voxel after voxel along the segment (Amanatides and Woo 1987).
+void ContactReader::walk(const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const {
+  const Vec3 along = to - from;
+  const double cell = cells_.cell();
+  double begin = 0, end = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double low = cells_.low()[k] - from[k], high = low + cell * cells_.size(k);
+    if (along[k] == 0) {
+      if (low > 0 || high < 0) return;
+      continue;
+    }
+    const double a = low / along[k], b = high / along[k];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  if (begin > end) return;
+  int at[3], step[3], last[3];
+  double next[3], stride[3];
+  for (int k = 0; k < 3; ++k) {
+    at[k] = cells_.index(from[k] + begin * along[k], k);
+    last[k] = cells_.index(from[k] + end * along[k], k);
+    step[k] = along[k] > 0 ? 1 : -1;
+    const double wall = cells_.low()[k] + cell * (at[k] + (along[k] > 0 ? 1 : 0)) - from[k];
+    next[k] = along[k] == 0 ? std::numeric_limits<double>::infinity() : wall / along[k];
+    stride[k] = along[k] == 0 ? 0 : cell / std::abs(along[k]);
+  }
+  for (;;) {
+    const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : next[1] < next[2] ? 1 : 2;
+    if (const CellList* list = cells_.at(at[0], at[1], at[2])) meet(*list, from, to, facing, best);
+    if ((best && best.fraction <= next[axis]) || next[axis] > end) break;
+    if (at[0] == last[0] && at[1] == last[1] && at[2] == last[2]) break;
+    at[axis] += step[axis];
+    if (at[axis] < 0 || at[axis] >= cells_.size(axis)) break;
+    next[axis] += stride[axis];
+  }
+}
+
+NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
+  NearestPoint best;
+  double least = radius * radius;
+  Vec3 normal, into;  // summed over the triangles that share the nearest point; of one that x is behind
+  int sharing[24], shared = 0;
+  const double tie = 1e-9 * cells_.cell();
+  visit_voxels(x, radius, [&](const CellList& list) {
+    const int count = list.count.load(std::memory_order_acquire);
+    for (int n = 0; n < count; ++n) {
+      const int id = list.ids[n].load(std::memory_order_acquire);
+      Corners c;
+      ContactTriangle t;
+      if (id < 0 || !corners_of(id, c, t)) continue;
+      const ClosestPoint p = closest_point(x, c);
+      const double square = squared_norm(x - p.position);
+      if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) continue;
+      if (square > radius * radius) continue;
+      if (!best || squared_norm(p.position - best.position) > tie * tie) shared = 0, normal = into = {};
+      if (square <= least || !best) {
+        least = std::min(least, square);
+        best.triangle = id, best.position = p.position, best.wall = t.wall;
+      }
+      bool known = false;
+      for (int k = 0; k < shared; ++k) known = known || sharing[k] == id;
+      if (known) continue;
+      if (shared < 24) sharing[shared++] = id;
+      double weight = 1;
+      if (p.feature == ClosestPoint::vertex) {
+        const Vec3 a = c[(p.corner + 1) % 3] - c[p.corner], b = c[(p.corner + 2) % 3] - c[p.corner];
+        weight = std::atan2(norm(cross(a, b)), dot(a, b));
+      }
+      const Vec3 own = normalized(scaled_normal(c));
+      normal += weight * own;
+      if (dot(own, x - p.position) < 0) into = own;
+    }
+    return std::sqrt(least);
+  });
+  if (!best) return best;
+  // The walls of a closed cut lie on each other, and their normals cancel: beside them there is tissue.
+  if (norm(normal) < 1e-6) normal = into;
+  const double length = norm(normal);
+  best.normal = length > 0 ? 1 / length * normal : normal;
+  best.distance = dot(x - best.position, normal) < 0 ? -std::sqrt(least) : std::sqrt(least);
+  return best;
+}
+
+}  // namespace cleft

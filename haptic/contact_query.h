@@ -1,0 +1,83 @@
+// What the haptic thread asks the surface, a tick at a time: first contact of a segment, nearest point, and
+// the proxy of a tip that has sunk in. Nothing here waits, allocates or calls the system.
+#pragma once
+
+#include "haptic/contact_surface.h"
+
+namespace cleft {
+
+struct SurfaceHit {
+  int triangle = -1;    ///< -1: nothing was met
+  double fraction = 0;  ///< of the segment, at the contact
+  Vec3 position;
+  Vec3 normal;  ///< of the triangle, outward, unit
+  bool wall = false;
+  explicit operator bool() const { return triangle >= 0; }
+};
+
+struct NearestPoint {
+  int triangle = -1;    ///< -1: nothing within the radius
+  double distance = 0;  ///< mm, from the surface: negative inside
+  Vec3 position;
+  Vec3 normal;  ///< outward, unit; over edges and vertices the angle-weighted one
+  bool wall = false;
+  explicit operator bool() const { return triangle >= 0; }
+};
+
+/// The point p of the surface with x = p - depth * n(p), where n is interpolated from the vertices' normals
+/// (Kobbelt et al. 1999): p, n and depth change continuously as x moves over the triangles' seams.
+struct SurfaceProxy {
+  int triangle = -1;  ///< -1: there is none near
+  double depth = 0;   ///< mm, along the normal; positive inside
+  Vec3 position, normal;
+  bool wall = false;
+  explicit operator bool() const { return triangle >= 0; }
+};
+
+enum class Facing { front, back, any };  ///< into the surface, out of it
+
+class ContactReader {
+ public:
+  /// Throws InputError where all readers of the surface are taken.
+  explicit ContactReader(const ContactSurface& surface);
+  ~ContactReader();
+  ContactReader(const ContactReader&) = delete;
+  ContactReader& operator=(const ContactReader&) = delete;
+
+  /// Between begin() and end() all answers are about one step of the surface. Wait-free.
+  void begin();
+  void end() { says_->store(ContactSurface::idle, std::memory_order_release); }
+  std::uint64_t version() const { return version_; }
+
+  SurfaceHit first_contact(const Vec3& from, const Vec3& to, Facing facing) const;
+  NearestPoint nearest(const Vec3& x, double radius) const;
+  /// Of x, beginning from the proxy of a moment ago, and never far from it; from skin it stays on skin.
+  SurfaceProxy proxy(const Vec3& x, const SurfaceProxy& before) const;
+
+ private:
+  bool corners_of(int triangle, Corners& corners, ContactTriangle& t) const;
+  void meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
+  void walk(const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
+  bool project(int triangle, const Vec3& x, const SurfaceProxy& before, SurfaceProxy& out) const;
+  template <class Visit>
+  void visit_voxels(const Vec3& x, double radius, const Visit& visit) const;
+
+  const ContactSurface& surface_;
+  const ContactCells& cells_;
+  std::atomic<std::uint64_t>* says_ = nullptr;
+  std::uint64_t version_ = 0;
+};
+
+/// One tick's look at the surface.
+class ContactLook {
+ public:
+  explicit ContactLook(ContactReader& reader) : reader_(reader) { reader_.begin(); }
+  ~ContactLook() { reader_.end(); }
+  ContactLook(const ContactLook&) = delete;
+  ContactLook& operator=(const ContactLook&) = delete;
+
+ private:
+  ContactReader& reader_;
+};
+
+}  // namespace cleft

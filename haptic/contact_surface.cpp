@@ -1,0 +1,190 @@
+#include "haptic/contact_surface.h"
+
+#include <limits>
+#include <thread>
+
+namespace cleft {
+
+namespace {
+
+struct Box {
+  Vec3 low, high;
+};
+
+Box box_of(std::span<const Vec3> points, double margin) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Box box{{far, far, far}, {-far, -far, -far}};
+  for (const Vec3& p : points)
+    for (int k = 0; k < 3; ++k)
+      box.low[k] = std::min(box.low[k], p[k]), box.high[k] = std::max(box.high[k], p[k]);
+  if (margin < 0) margin = norm(box.high - box.low) / 4;
+  const Vec3 around{margin, margin, margin};
+  return {box.low - around, box.high + around};
+}
+
+double mean_edge(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles) {
+  double sum = 0;
+  for (const auto& t : triangles)
+    for (int i = 0; i < 3; ++i)
+      sum += norm(points[static_cast<std::size_t>(t[(i + 1) % 3])] - points[static_cast<std::size_t>(t[i])]);
+  return sum / static_cast<double>(3 * triangles.size());
+}
+
+ContactCells make_cells(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles,
+                        const ContactSurfaceOptions& options) {
+  if (triangles.empty()) throw InputError("a mesh without triangles cannot be felt");
+  const Box box = box_of(points, options.margin);
+  return {box.low, box.high, options.cell > 0 ? options.cell : mean_edge(points, triangles) / 2};
+}
+
+}  // namespace
+
+ContactSurface::ContactSurface(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles,
+                               const ContactSurfaceOptions& options)
+    : cells_(make_cells(points, triangles, options)),
+      vertices_(points.size() + options.spare),
+      triangles_(triangles.size() + options.spare) {
+  std::vector<Moved> moved;
+  moved.reserve(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) moved.push_back({static_cast<int>(v), points[v]});
+  std::vector<Changed> changed;
+  changed.reserve(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) changed.push_back({static_cast<int>(t), {triangles[t]}});
+  update(moved, changed);
+}
+
+Corners ContactSurface::corners_at(const ContactTriangle& t, std::uint64_t version) const {
+  Corners corners;
+  for (int i = 0; i < 3; ++i)
+    corners[i] = vertices_[static_cast<std::size_t>(t.vertex[i])].at(version).position;
+  return corners;
+}
+
+void ContactSurface::wait_for_readers() const {
+  const std::uint64_t last = version_.load(std::memory_order_relaxed);
+  for (const auto& reader : readers_)
+    for (;;) {
+      const std::uint64_t says = reader.load(std::memory_order_seq_cst);
+      if (says == unused || says == idle || (says >= reading && says - reading >= last)) break;
+      if (says != entering) std::this_thread::yield();
+    }
+}
+
+void ContactSurface::update(std::span<const Moved> moved, std::span<const Changed> changed) {
+  wait_for_readers();
+  leave_old_voxels();
+  const std::uint64_t next = version_.load(std::memory_order_relaxed) + 1;
+  for (const Moved& m : moved) set_vertex(m.vertex, m.position, next);
+  for (const Changed& c : changed) set_triangle(c.triangle, c.now, next);
+  renew_normals(next);
+  for (const int t : touched_) rebin(t, next);
+  touched_.clear();
+  version_.store(next, std::memory_order_seq_cst);
+}
+
+/// Into the voxels it has come to, at once; out of those it has left in the next step.
+void ContactSurface::rebin(int id, std::uint64_t next) {
+  const TwoStates<ContactTriangle>& triangle = triangles_[static_cast<std::size_t>(id)];
+  old_voxels_.clear(), new_voxels_.clear();
+  if (const ContactTriangle& old = triangle.at(next - 1); old.vertex[0] != none)
+    cells_.voxels_of(corners_at(old, next - 1), old_voxels_);
+  if (triangle.last().vertex[0] != none) cells_.voxels_of(corners_at(triangle.last(), next), new_voxels_);
+  const auto among = [](const std::vector<std::uint64_t>& voxels, std::uint64_t voxel) {
+    return std::find(voxels.begin(), voxels.end(), voxel) != voxels.end();
+  };
+  for (const std::uint64_t voxel : new_voxels_)
+    if (!among(old_voxels_, voxel)) cells_.add(voxel, id);
+  for (const std::uint64_t voxel : old_voxels_)
+    if (!among(new_voxels_, voxel)) left_.push_back({voxel, id});
+}
+
+/// Readers of the step before found triangles in the voxels they have left: only now may these forget them.
+void ContactSurface::leave_old_voxels() {
+  cells_.recycle();
+  for (const auto& [voxel, triangle] : left_) cells_.remove(voxel, triangle);
+  left_.clear();
+}
+
+void ContactSurface::touch(int triangle) {
+  std::uint64_t& last = triangle_touched_[static_cast<std::size_t>(triangle)];
+  const std::uint64_t next = version_.load(std::memory_order_relaxed) + 1;
+  if (last == next) return;
+  last = next;
+  touched_.push_back(triangle);
+}
+
+void ContactSurface::set_vertex(int id, const Vec3& position, std::uint64_t version) {
+  const auto v = static_cast<std::size_t>(id);
+  if (v >= vertices_.size()) {
+    vertices_.grow_to(v + 1);
+    first_corner_.resize(v + 1, none);
+    vertex_touched_.resize(v + 1);
+  }
+  if (position == vertices_[v].last().position) return;
+  vertices_[v].set({position, vertices_[v].last().normal}, version);
+  for (int corner = first_corner_[v]; corner != none; corner = next_corner_[static_cast<std::size_t>(corner)])
+    touch(corner / 3);
+}
+
+void ContactSurface::set_triangle(int id, const ContactTriangle& now, std::uint64_t version) {
+  const auto t = static_cast<std::size_t>(id);
+  if (t >= triangles_.size()) {
+    triangles_.grow_to(t + 1);
+    next_corner_.resize(3 * (t + 1), none);
+    triangle_touched_.resize(t + 1);
+  }
+  touch(id);
+  const ContactTriangle old = triangles_[t].last();
+  for (int i = 0; i < 3; ++i) {
+    if (old.vertex[i] == now.vertex[i]) continue;
+    if (old.vertex[0] != none) {
+      unlink(id, i, old.vertex[i]);
+      renewed_.push_back(old.vertex[i]);
+    }
+    if (now.vertex[0] == none) continue;
+    CLEFT_CHECK(static_cast<std::size_t>(now.vertex[i]), <, vertices_.size());
+    int& first = first_corner_[static_cast<std::size_t>(now.vertex[i])];
+    next_corner_[3 * t + static_cast<std::size_t>(i)] = first;
+    first = 3 * id + i;
+  }
+  triangles_[t].set(now, version);
+}
+
+void ContactSurface::unlink(int triangle, int corner, int vertex) {
+  int* link = &first_corner_[static_cast<std::size_t>(vertex)];
+  while (*link != 3 * triangle + corner) {
+    CLEFT_CHECK(*link, !=, none);
+    link = &next_corner_[static_cast<std::size_t>(*link)];
+  }
+  *link = next_corner_[static_cast<std::size_t>(*link)];
+}
+
+void ContactSurface::renew_normals(std::uint64_t version) {
+  for (const int t : touched_) {
+    const ContactTriangle& now = triangles_[static_cast<std::size_t>(t)].last();
+    if (now.vertex[0] == none) continue;
+    for (const int v : now.vertex) renewed_.push_back(v);
+  }
+  for (const int v : renewed_)
+    if (vertex_touched_[static_cast<std::size_t>(v)] != version) {
+      vertex_touched_[static_cast<std::size_t>(v)] = version;
+      renew_normal(v, version);
+    }
+  renewed_.clear();
+}
+
+/// A lip's normal is that of its skin: walls meet it at an edge that is meant to be sharp.
+void ContactSurface::renew_normal(int vertex, std::uint64_t version) {
+  const auto v = static_cast<std::size_t>(vertex);
+  Vec3 skin, wall;
+  for (int corner = first_corner_[v]; corner != none;
+       corner = next_corner_[static_cast<std::size_t>(corner)]) {
+    const ContactTriangle& t = triangles_[static_cast<std::size_t>(corner / 3)].last();
+    (t.wall ? wall : skin) += scaled_normal(corners_at(t, version));
+  }
+  const Vec3& sum = skin == Vec3{} ? wall : skin;
+  const double length = norm(sum);
+  vertices_[v].set({vertices_[v].last().position, length > 0 ? 1 / length * sum : Vec3{}}, version);
+}
+
+}  // namespace cleft

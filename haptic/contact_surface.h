@@ -1,0 +1,121 @@
+// The surface the scalpel feels: triangles in a voxel grid, changed step by step by the thread that cuts or
+// moves them, and read by the haptic thread, which always sees one whole step: never half of it, and without
+// waiting.
+//
+//   ContactSurface surface(points, triangles, {});
+//   surface.update(moved, changed);               one thread: a step, as long as what changed
+//   ContactReader reader(surface);                another: contact_query.h
+//
+// Vertices and triangles have two states, the one of the last step and the one before; a reader notes the
+// step it reads, and the writer waits for readers of the step before last before it writes over their state.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/vec3.h"
+#include "haptic/contact_cells.h"
+#include "haptic/slot_array.h"
+
+namespace cleft {
+
+/// Something that has a value now and had one a step before.
+template <class T>
+class TwoStates {
+ public:
+  /// The value at step `version`, of the last two steps.
+  const T& at(std::uint64_t version) const {
+    const std::uint64_t state = state_.load(std::memory_order_acquire);
+    return value_[(state & 1) ^ static_cast<std::uint64_t>((state >> 1) > version)];
+  }
+  const T& last() const { return value_[state_.load(std::memory_order_relaxed) & 1]; }
+  /// The value from step `version` on.
+  void set(const T& value, std::uint64_t version) {
+    const std::uint64_t state = state_.load(std::memory_order_relaxed);
+    const std::uint64_t index = (state >> 1) == version ? state & 1 : (state & 1) ^ 1;
+    value_[index] = value;
+    state_.store(version << 1 | index, std::memory_order_release);
+  }
+
+ private:
+  std::atomic<std::uint64_t> state_{0};
+  T value_[2]{};
+};
+
+struct ContactVertex {
+  Vec3 position;
+  Vec3 normal;  ///< of the triangles around it, weighted by area; unit, or 0 without triangles
+};
+
+struct ContactTriangle {
+  std::array<int, 3> vertex{-1, -1, -1};  ///< counter-clockwise from outside; -1: there is none
+  bool wall = false;                      ///< of a wound, not skin
+};
+
+/// Lengths are mm.
+struct ContactSurfaceOptions {
+  double cell = 0;     ///< voxel's edge; 0: half the mean edge of the triangles
+  double margin = -1;  ///< how far the surface may move or grow beyond its box; -1: a quarter of its diagonal
+  std::size_t spare = 1 << 20;  ///< vertices and triangles that may be added
+};
+
+class ContactSurface {
+ public:
+  struct Moved {
+    int vertex;
+    Vec3 position;
+  };
+  struct Changed {
+    int triangle;
+    ContactTriangle now;  ///< vertex[0] = -1: it is gone
+  };
+
+  ContactSurface(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles,
+                 const ContactSurfaceOptions& options = {});
+
+  /// One step: vertices (also new ones) and triangles that are different from now on. Work and memory are
+  /// those of what changed and its neighbours. Throws InputError where it outgrows `spare`.
+  void update(std::span<const Moved> moved, std::span<const Changed> changed);
+
+  std::uint64_t version() const { return version_.load(std::memory_order_relaxed); }
+  std::size_t vertex_count() const { return vertices_.size(); }
+  std::size_t triangle_count() const { return triangles_.size(); }  ///< also those that are gone
+  const Vec3& position(int v) const { return vertices_[static_cast<std::size_t>(v)].last().position; }
+  const ContactCells& cells() const { return cells_; }
+
+ private:
+  friend class ContactReader;
+  static constexpr int most_readers = 4, none = -1;
+  // What a reader says: free, idle, about to look at the version, or the version it reads plus `reading`.
+  static constexpr std::uint64_t unused = 0, idle = 1, entering = 2, reading = 3;
+
+  Corners corners_at(const ContactTriangle& t, std::uint64_t version) const;
+  void wait_for_readers() const;
+  void rebin(int id, std::uint64_t next);
+  void leave_old_voxels();
+  void set_triangle(int id, const ContactTriangle& now, std::uint64_t version);
+  void set_vertex(int id, const Vec3& position, std::uint64_t version);
+  void touch(int triangle);
+  void unlink(int triangle, int corner, int vertex);
+  void renew_normal(int vertex, std::uint64_t version);
+  void renew_normals(std::uint64_t version);
+
+  ContactCells cells_;
+  SlotArray<TwoStates<ContactVertex>> vertices_;
+  SlotArray<TwoStates<ContactTriangle>> triangles_;
+  std::atomic<std::uint64_t> version_{1};
+  mutable std::array<std::atomic<std::uint64_t>, most_readers> readers_{};
+
+  // The writer's own: corners around a vertex as lists through corner numbers 3 * triangle + i.
+  std::vector<int> first_corner_, next_corner_;
+  std::vector<std::uint64_t> triangle_touched_, vertex_touched_;  // the step of the last touch
+  std::vector<int> touched_, renewed_;
+  std::vector<std::uint64_t> old_voxels_, new_voxels_;
+  std::vector<std::pair<std::uint64_t, int>> left_;  // voxels and triangles that have left them
+};
+
+}  // namespace cleft

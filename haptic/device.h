@@ -1,0 +1,21 @@
+// What every device is to the loop. A device that blocks reads on a thread of its own and hands poses over in
+// a TripleBuffer: read() and command() are called from the haptic thread, and neither wait nor allocate.
+#pragma once
+
+#include "haptic/force_parameters.h"
+#include "haptic/pose.h"
+
+namespace cleft {
+
+class Device {
+ public:
+  virtual ~Device() = default;
+
+  /// The pose at `time`, s since the loop began; `present` is false while the device is unplugged.
+  virtual ScalpelPose read(double time) = 0;
+  /// The force from now on, N, never above limits().max_force.
+  virtual void command(const Vec3& force) = 0;
+  virtual DeviceLimits limits() const = 0;
+};
+
+}  // namespace cleft

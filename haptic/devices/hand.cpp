@@ -1,0 +1,66 @@
+#include "haptic/devices/hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace cleft {
+
+Hand::Hand(const HandParameters& parameters, std::vector<HandTarget> script)
+    : p_(parameters), script_(std::move(script)), late_(static_cast<int>(std::lround(p_.delay / p_.period))) {
+  if (!(p_.mass > 0) || !(p_.stiffness >= 0) || !(p_.damping >= 0) || !(p_.period > 0))
+    throw InputError("a hand needs a mass and a period above 0, and stiffness and damping of at least 0");
+  if (!(p_.delay >= 0) || late_ >= most_late)
+    throw InputError("a delay of " + shortest(1e3 * p_.delay) + " ms: from 0 to " +
+                     shortest(1e3 * p_.period * (most_late - 1)) + " ms are simulated");
+  if (script_.empty()) throw InputError("a hand needs a target");
+  for (std::size_t i = 1; i < script_.size(); ++i)
+    if (!(script_[i].time > script_[i - 1].time))
+      throw InputError("target " + std::to_string(i + 1) + " of the hand, at " + shortest(script_[i].time) +
+                       " s, must come after the one before it");
+  position_ = script_.front().pose.tip;
+}
+
+DeviceLimits Hand::limits() const {
+  DeviceLimits limits = p_.limits;
+  limits.latency = late_ * p_.period;
+  return limits;
+}
+
+ScalpelPose Hand::target(double time) {
+  while (at_ + 2 < script_.size() && script_[at_ + 1].time <= time) ++at_;
+  const HandTarget &a = script_[at_], &b = script_[std::min(at_ + 1, script_.size() - 1)];
+  const double part = b.time > a.time ? std::clamp((time - a.time) / (b.time - a.time), 0., 1.) : 0;
+  ScalpelPose pose = part < 1 ? a.pose : b.pose;
+  pose.tip = lerp(a.pose.tip, b.pose.tip, part);
+  pose.axis = normalized(lerp(a.pose.axis, b.pose.axis, part));
+  pose.edge = normalized(lerp(a.pose.edge, b.pose.edge, part));
+  return pose;
+}
+
+ScalpelPose Hand::read(double time) {
+  // One tick with the force that acts now; a loop that missed ticks leaves it acting on.
+  constexpr double newton_per_kg = 1e3;  // mm/s^2
+  const int ticks = std::max(0, static_cast<int>(std::lround((time - time_) / p_.period)));
+  for (int tick = 0; tick < ticks; ++tick) {
+    const Vec3 force = under_way_[0], before = position_;
+    const double dt = p_.period / substeps;
+    for (int k = 1; k <= substeps; ++k) {
+      const Vec3 to = target(time_ + k * dt).tip - position_;
+      velocity_ += newton_per_kg * dt / p_.mass * (p_.stiffness * to - p_.damping * velocity_ + force);
+      position_ += dt * velocity_;
+    }
+    work_ += dot(force, position_ - before);
+    time_ += p_.period;
+    std::copy(under_way_.begin() + 1, under_way_.begin() + late_ + 1, under_way_.begin());
+  }
+  ScalpelPose pose = target(time_);
+  pose.tip = position_;
+  return pose;
+}
+
+void Hand::command(const Vec3& force) { under_way_[static_cast<std::size_t>(late_)] = force; }
+
+}  // namespace cleft

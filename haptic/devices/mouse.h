@@ -1,0 +1,27 @@
+// A device without a device: whoever has a pointer, a window or a script, sets the pose. It feels nothing.
+#pragma once
+
+#include "haptic/device.h"
+#include "haptic/triple_buffer.h"
+
+namespace cleft {
+
+class Mouse : public Device {
+ public:
+  Mouse() : pose_(absent()) {}
+
+  /// From one thread, at any time.
+  void set(const ScalpelPose& pose) { pose_.write(pose); }
+  /// The force as it was told last; the same thread.
+  const Vec3& force() { return force_.read(); }
+
+  ScalpelPose read(double) override { return pose_.read(); }
+  void command(const Vec3& force) override { force_.write(force); }
+  DeviceLimits limits() const override { return {}; }
+
+ private:
+  TripleBuffer<ScalpelPose> pose_;
+  TripleBuffer<Vec3> force_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,160 @@
+#include "haptic/force_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cleft {
+
+namespace {
+constexpr double most_side_depth = 1;  // mm: how deep a blade's side is looked for
+constexpr double touching = 1e-6;      // mm: nearer than that a tip is neither in nor out, to rounding
+double smooth_step(double x) {
+  x = std::clamp(x, 0., 1.);
+  return x * x * (3 - 2 * x);
+}
+}  // namespace
+
+ForceModel::ForceModel(const ContactSurface& surface, const ForceParameters& parameters,
+                       const DeviceLimits& limits, double period)
+    : p_(parameters),
+      stiffness_(std::min(parameters.stiffness, limits.max_stiffness)),
+      // A force held for a tick, late by the latency, is a spring with negative damping of this size.
+      damping_(std::min(stiffness_ * (period / 2 + limits.latency), limits.max_damping)),
+      drag_(std::min(parameters.drag, limits.max_damping)),
+      reader_(surface) {}
+
+Vec3 ForceModel::update(const ScalpelPose& pose, double dt) {
+  if (!pose.present || !started_) begin(pose);
+  if (!pose.present) return {};
+  const double share = dt / (p_.velocity_time + dt);
+  velocity_ += share * (1 / dt * (pose.tip - last_tip_) - velocity_);
+  stored_ = 0;
+  const ContactLook look(reader_);
+  Vec3 force;
+  switch (phase_) {
+    case Phase::free:
+      force = in_the_air(pose);
+      break;
+    case Phase::contact:
+      force = in_contact(pose);
+      break;
+    case Phase::cutting:
+      force = in_tissue(pose, dt);
+      break;
+  }
+  version_ = reader_.version();
+  last_tip_ = pose.tip;
+  return force;
+}
+
+void ForceModel::begin(const ScalpelPose& pose) {
+  started_ = pose.present;
+  phase_ = Phase::free;
+  last_tip_ = pose.tip;
+  velocity_ = {};
+  depth_ = stored_ = 0;
+}
+
+Vec3 ForceModel::elastic(double depth, const Vec3& normal) {
+  // The damping never pulls the hand into the surface.
+  const double size = std::max(0., stiffness_ * depth - damping_ * dot(velocity_, normal));
+  stored_ += stiffness_ * depth * depth / 2;
+  return size * normal;
+}
+
+/// Whether the tip has come through a surface, or a surface over the tip.
+bool ForceModel::find_contact(const Vec3& tip) {
+  if (const SurfaceHit hit = reader_.first_contact(last_tip_, tip, Facing::front)) {
+    proxy_ = {hit.triangle, dot(hit.position - last_tip_, hit.normal), hit.position, hit.normal, hit.wall};
+    if (const SurfaceProxy better = reader_.proxy(tip, proxy_)) proxy_ = better;
+    return true;
+  }
+  if (reader_.version() == version_) return false;
+  const NearestPoint p = reader_.nearest(tip, most_side_depth);
+  if (!p || p.distance >= 0) return false;
+  proxy_ = {p.triangle, -p.distance, p.position, p.normal, p.wall};
+  return true;
+}
+
+Vec3 ForceModel::in_the_air(const ScalpelPose& pose) {
+  depth_ = 0;
+  if (!find_contact(pose.tip)) return side_contact(pose);
+  phase_ = Phase::contact;
+  return in_contact(pose);
+}
+
+/// The blade lies across an edge of the surface: its deepest place is taken for the middle of what is inside.
+Vec3 ForceModel::side_contact(const ScalpelPose& pose) {
+  const Vec3 end = pose.tip + p_.blade_length * pose.axis;
+  const SurfaceHit in = reader_.first_contact(pose.tip, end, Facing::front);
+  if (!in) return {};
+  const SurfaceHit out = reader_.first_contact(in.position, end, Facing::back);
+  const Vec3 middle = lerp(in.position, out ? out.position : end, 0.5);
+  const NearestPoint p = reader_.nearest(middle, most_side_depth);
+  if (p && p.distance >= 0) return {};
+  proxy_ = {-1, p ? -p.distance : most_side_depth, p ? p.position : middle, p ? p.normal : in.normal,
+            in.wall};
+  return elastic(proxy_.depth, proxy_.normal);
+}
+
+Vec3 ForceModel::in_contact(const ScalpelPose& pose) {
+  SurfaceProxy proxy = reader_.proxy(pose.tip, proxy_);
+  if (!proxy) {
+    const NearestPoint p = reader_.nearest(pose.tip, proxy_.depth + most_side_depth);
+    if (p) proxy = {p.triangle, -p.distance, p.position, p.normal, p.wall};
+  }
+  if (!proxy || proxy.depth < -touching) {
+    phase_ = Phase::free;
+    depth_ = 0;
+    return {};
+  }
+  proxy_ = proxy;
+  depth_ = std::max(0., proxy.depth);
+  const Vec3 force = elastic(depth_, proxy.normal);
+  if (!pose.cutting || stiffness_ * depth_ < p_.puncture_force) return force;
+  phase_ = Phase::cutting;
+  ++punctures_;
+  since_puncture_ = 0;
+  engaged_ = 1;
+  puncture_force_ = stiffness_ * depth_;
+  at_puncture_ = force;
+  return force;
+}
+
+/// The skin above a tip that has gone through it; over an open wound, where it was.
+void ForceModel::follow_skin(const Vec3& tip) {
+  const Vec3 moved = tip - last_tip_;
+  const Vec3 beside = proxy_.position + moved - dot(moved, proxy_.normal) * proxy_.normal;
+  const SurfaceHit hit = reader_.first_contact(beside + proxy_.normal, beside - proxy_.normal, Facing::front);
+  proxy_.position = hit && !hit.wall ? hit.position : beside;
+  if (hit && !hit.wall) proxy_.normal = normalized(lerp(proxy_.normal, hit.normal, 0.1));
+  depth_ = std::max(0., dot(proxy_.position - tip, proxy_.normal));
+}
+
+/// 1 in tissue and between walls that touch the blade, 0 in the air and in a wound wide open.
+double ForceModel::engagement(const Vec3& tip) {
+  const double thickness = p_.blade_half_thickness;
+  const NearestPoint p = reader_.nearest(tip, 4 * thickness);
+  if (!p) return engaged_;  // far from all surface: as before, in or out
+  if (p.distance <= thickness) return 1;
+  return std::max(0., 2 - p.distance / thickness);
+}
+
+Vec3 ForceModel::in_tissue(const ScalpelPose& pose, double dt) {
+  since_puncture_ += dt;
+  follow_skin(pose.tip);
+  engaged_ = engagement(pose.tip);
+  const double given = smooth_step(since_puncture_ / p_.puncture_time);
+  stored_ = (1 - given) * (1 - given) * squared_norm(at_puncture_) / (2 * stiffness_);
+  if (engaged_ == 0 && given == 1) {
+    phase_ = Phase::free;
+    depth_ = 0;
+    return {};
+  }
+  const double along = dot(velocity_, pose.edge);
+  const double resistance = p_.cutting_resistance * std::min(depth_, p_.blade_length);
+  const Vec3 post = -drag_ * velocity_ - resistance * std::tanh(along / p_.resistance_speed) * pose.edge;
+  return (1 - given) * at_puncture_ + given * engaged_ * post;
+}
+
+}  // namespace cleft

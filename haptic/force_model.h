@@ -1,0 +1,62 @@
+// The force the tissue answers with, tick by tick. Paper, section 3.6: elastic along the normal before
+// puncture, viscous drag after it.
+//
+//   free      the tip is in the air or in an open wound; the blade's side may touch
+//   contact   the tip has sunk into a surface that holds: F = K depth n, on the proxy's way over the surface
+//   cutting   through the surface: F = -b v - R depth e tanh(v.e / v0), until the blade is free of tissue
+//   again
+#pragma once
+
+#include "haptic/contact_query.h"
+#include "haptic/force_parameters.h"
+#include "haptic/pose.h"
+
+namespace cleft {
+
+enum class Phase { free, contact, cutting };
+
+class ForceModel {
+ public:
+  /// Stiffness and drag are held to what the device renders. `period`: s between ticks.
+  ForceModel(const ContactSurface& surface, const ForceParameters& parameters, const DeviceLimits& limits,
+             double period);
+
+  /// N, on the hand, dt s after the last pose. Neither allocates nor waits.
+  Vec3 update(const ScalpelPose& pose, double dt);
+
+  Phase phase() const { return phase_; }
+  double depth() const { return depth_; }  ///< mm, of the tip under the surface; 0 in free
+  const Vec3& normal() const { return proxy_.normal; }
+  const Vec3& proxy() const { return proxy_.position; }
+  const Vec3& velocity() const { return velocity_; }  ///< mm/s, filtered
+  double stored() const { return stored_; }           ///< N mm the elastic forces can give back
+  int punctures() const { return punctures_; }
+  double last_puncture_force() const { return puncture_force_; }  ///< N, elastic, when the surface gave way
+  double stiffness() const { return stiffness_; }
+
+ private:
+  void begin(const ScalpelPose& pose);
+  Vec3 in_the_air(const ScalpelPose& pose);
+  Vec3 side_contact(const ScalpelPose& pose);
+  Vec3 in_contact(const ScalpelPose& pose);
+  Vec3 in_tissue(const ScalpelPose& pose, double dt);
+  Vec3 elastic(double depth, const Vec3& normal);
+  bool find_contact(const Vec3& tip);
+  void follow_skin(const Vec3& tip);
+  double engagement(const Vec3& tip);
+
+  ForceParameters p_;
+  double stiffness_, damping_, drag_;
+  ContactReader reader_;
+  Phase phase_ = Phase::free;
+  bool started_ = false;
+  std::uint64_t version_ = 0;
+  Vec3 last_tip_, velocity_;
+  SurfaceProxy proxy_;
+  double depth_ = 0, stored_ = 0;
+  double since_puncture_ = 0, puncture_force_ = 0, engaged_ = 1;
+  Vec3 at_puncture_;
+  int punctures_ = 0;
+};
+
+}  // namespace cleft

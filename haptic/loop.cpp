@@ -1,0 +1,98 @@
+#include "haptic/loop.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "haptic/real_time.h"
+
+namespace cleft {
+
+namespace {
+
+double checked_period(const LoopOptions& options) {
+  if (!(options.rate >= 100 && options.rate <= 10000))
+    throw InputError("a haptic loop of " + shortest(options.rate) + " Hz: from 100 to 10000 Hz");
+  return 1 / options.rate;
+}
+
+/// For the plain model: a spring as it is.
+DeviceLimits undamped(DeviceLimits limits) {
+  limits.max_damping = 0;
+  return limits;
+}
+
+}  // namespace
+
+HapticLoop::HapticLoop(Device& device, const ContactSurface& surface, const ForceParameters& parameters,
+                       const LoopOptions& options)
+    : device_(device),
+      options_(options),
+      parameters_(parameters),
+      limits_(device.limits()),
+      model_(surface, parameters, options.passive ? limits_ : undamped(limits_), checked_period(options)),
+      passivity_(parameters, limits_, 1 / options.rate) {
+  recorded_.reserve(options.record);
+}
+
+void HapticLoop::update(double dt) {
+  state_.time += dt;
+  const bool was_present = state_.pose.present;
+  state_.pose = device_.read(state_.time);
+  if (recorded_.size() < recorded_.capacity()) recorded_.push_back({state_.time, state_.pose});
+  if (state_.pose.present && !was_present) passivity_.restart();
+  const Vec3 wanted = model_.update(state_.pose, dt);
+  Vec3 force;
+  if (state_.pose.present)
+    force = options_.passive
+                ? passivity_.update(state_.pose.tip, model_.velocity(), wanted, model_.stored(), dt)
+                : wanted;
+  device_.command(force);
+  if (state_.pose.present && was_present) count(force);
+  ++state_.tick;
+  ++statistics_.ticks;
+  state_.force = force;
+  state_.phase = model_.phase();
+  state_.depth = model_.depth();
+  state_.proxy = model_.proxy();
+  state_.normal = model_.normal();
+  state_.punctures = model_.punctures();
+  for_cutting_.write(state_);
+  for_view_.write(state_);
+}
+
+void HapticLoop::count(const Vec3& force) {
+  const double change = norm(force - state_.force);
+  const double permitted = parameters_.change * norm(state_.force) + parameters_.floor;
+  LoopStatistics& s = statistics_;
+  s.largest_force = std::max(s.largest_force, norm(force));
+  s.largest_change = std::max(s.largest_change, change);
+  s.excess_change = std::max(s.excess_change, change - permitted * (1 + 1e-12));
+}
+
+void HapticLoop::run(const std::atomic<bool>& stop, double seconds) {
+  refused_ = prepare_thread(options_.real_time);
+  const auto period = static_cast<std::int64_t>(static_cast<double>(clock_second) / options_.rate);
+  std::int64_t due = clock_time(CLOCK_MONOTONIC);
+  const std::int64_t end = due + static_cast<std::int64_t>(seconds * static_cast<double>(clock_second));
+  std::int64_t missed = 0;
+  while (due < end && !stop.load(std::memory_order_relaxed)) {
+    due += period * (1 + missed);
+    sleep_until(due);
+    const std::int64_t woken = clock_time(CLOCK_MONOTONIC);
+    statistics_.lateness.add(1e-9 * static_cast<double>(std::max<std::int64_t>(woken - due, 0)));
+    const std::int64_t before = options_.measure ? clock_time(CLOCK_THREAD_CPUTIME_ID) : 0;
+    update(static_cast<double>(1 + missed) / options_.rate);
+    if (options_.measure)
+      statistics_.compute.add(1e-9 * static_cast<double>(clock_time(CLOCK_THREAD_CPUTIME_ID) - before));
+    missed = std::max<std::int64_t>(0, (clock_time(CLOCK_MONOTONIC) - due) / period);
+    if (missed == 0) continue;
+    if (statistics_.overruns < statistics_.overrun_ticks.size())
+      statistics_.overrun_ticks[statistics_.overruns] = state_.tick;
+    ++statistics_.overruns;
+  }
+  state_.force = {};
+  device_.command({});
+}
+
+}  // namespace cleft

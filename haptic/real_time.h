@@ -1,0 +1,23 @@
+// Clocks, absolute sleeps, and what a thread asks of the system before it keeps time.
+#pragma once
+
+#include <time.h>
+
+#include <cstdint>
+#include <string>
+
+namespace cleft {
+
+inline constexpr std::int64_t clock_second = 1000000000;
+
+/// ns; of CLOCK_MONOTONIC without a system call.
+std::int64_t clock_time(clockid_t clock);
+
+/// Until CLOCK_MONOTONIC's `time`, ns.
+void sleep_until(std::int64_t time);
+
+/// Sleeps of this thread end as exactly as the system can; with `real_time` it asks for SCHED_FIFO and locks
+/// the program's memory. Returns what was refused, "" where nothing was.
+std::string prepare_thread(bool real_time);
+
+}  // namespace cleft

@@ -1,0 +1,215 @@
+// The forces are those of the model: closed forms of stiffness, drag and puncture, and what must be
+// continuous.
+#include <gtest/gtest.h>
+
+#include "haptic/devices/mouse.h"
+#include "haptic/loop.h"
+#include "tests/haptic/surfaces.h"
+
+namespace cleft {
+namespace {
+
+constexpr double dt = 1e-3;
+
+DeviceLimits strong() { return {10, 10, 1, 0}; }
+
+/// A loop whose tip is led from outside.
+struct Led {
+  explicit Led(const ContactSurface& surface, const ForceParameters& p = {}) : loop(mouse, surface, p) {}
+  const HapticState& to(const Vec3& tip) {
+    pose.tip = tip;
+    mouse.set(pose);
+    loop.update(dt);
+    return loop.state();
+  }
+  /// Straight there at `speed` mm/s.
+  const HapticState& go(const Vec3& tip, double speed) {
+    const Vec3 from = pose.tip;
+    const int ticks = std::max(1, static_cast<int>(norm(tip - from) / (speed * dt)));
+    for (int k = 1; k <= ticks; ++k) to(lerp(from, tip, static_cast<double>(k) / ticks));
+    return loop.state();
+  }
+  const HapticState& rest(int ticks) {
+    for (int k = 0; k < ticks; ++k) to(pose.tip);
+    return loop.state();
+  }
+  Mouse mouse;
+  HapticLoop loop;
+  ScalpelPose pose;
+};
+
+TEST(Force, NoneInTheAir) {
+  const auto s = testing::ball(12, 10, 0.1);
+  const ContactSurface surface(s.points, s.triangles);
+  Led led(surface);
+  std::mt19937 random(1);
+  std::normal_distribution<double> step(0, 0.3);
+  Vec3 x{0, 0, 14};
+  for (int n = 0; n < 5000; ++n) {
+    Vec3 next = x + Vec3{step(random), step(random), step(random)};
+    if (norm(next) < 12 || next.z < 8) continue;
+    x = next;
+    led.pose.axis = normalized(x);
+    ASSERT_EQ(norm(led.to(x).force), 0);
+  }
+}
+
+TEST(Force, StaticStiffnessIsTheModels) {
+  const auto s = testing::flat(20, 1);
+  const ContactSurface surface(s.points, s.triangles);
+  for (const double stiffness : {0.05, 0.2, 0.4}) {
+    ForceParameters p;
+    p.stiffness = stiffness;
+    Led led(surface, p);
+    led.to({0.3, 0.2, 1});
+    for (const double depth : {0.2, 0.5, 1., 1.5}) {
+      led.go({0.3, 0.2, -depth}, 10);
+      const Vec3 force = led.rest(300).force;
+      EXPECT_NEAR(force.z, stiffness * depth, 0.05 * stiffness * depth) << stiffness << ' ' << depth;
+      EXPECT_NEAR(force.x, 0, 1e-9);
+      EXPECT_NEAR(force.y, 0, 1e-9);
+    }
+    // And back: the same forces, none outside.
+    led.go({0.3, 0.2, -0.5}, 10);
+    EXPECT_NEAR(led.rest(300).force.z, stiffness * 0.5, 0.05 * stiffness * 0.5);
+    led.go({0.3, 0.2, 0.1}, 10);
+    EXPECT_EQ(norm(led.rest(50).force), 0);
+  }
+}
+
+TEST(Force, DragIsTheModels) {
+  const auto s = testing::flat(60, 1);
+  const ContactSurface surface(s.points, s.triangles);
+  ForceParameters p;
+  p.cutting_resistance = 0;
+  for (const double speed : {20., 50., 100.}) {
+    Led led(surface, p);
+    led.to({-25, 0.2, 1});
+    led.go({-25, 0.2, -5}, 20);
+    ASSERT_EQ(led.loop.state().phase, Phase::cutting);
+    led.rest(200);
+    EXPECT_NEAR(norm(led.loop.state().force), 0, p.floor);
+    led.go({-25 + 0.4 * speed, 0.2, -5}, speed);
+    const Vec3 force = led.loop.state().force;
+    EXPECT_NEAR(force.x, -p.drag * speed, 0.05 * p.drag * speed);
+    EXPECT_LT(std::hypot(force.y, force.z), 1e-6);
+  }
+}
+
+TEST(Force, CuttingResistanceIsTheModels) {
+  const auto s = testing::flat(60, 1);
+  const ContactSurface surface(s.points, s.triangles);
+  ForceParameters p;
+  p.drag = 0;
+  Led led(surface, p);
+  led.to({-25, 0.2, 1});
+  led.go({-25, 0.2, -6}, 20);
+  led.rest(200);
+  led.go({0, 0.2, -6}, 50);
+  EXPECT_NEAR(led.loop.state().force.x, -p.cutting_resistance * 6, 0.05 * p.cutting_resistance * 6);
+}
+
+TEST(Force, PunctureThresholdRampAndExit) {
+  const auto s = testing::flat(40, 1);
+  const ContactSurface surface(s.points, s.triangles);
+  const ForceParameters p;
+  Led led(surface, p);
+  led.to({0.3, 0.2, 0.5});
+  double highest = 0;
+  int ticks = 0;
+  while (led.loop.state().punctures == 0 && ++ticks < 5000)
+    highest = std::max(highest, norm(led.to(led.pose.tip - Vec3{0, 0, 0.01}).force));
+  ASSERT_EQ(led.loop.state().punctures, 1);
+  EXPECT_GE(highest, 0.5);
+  EXPECT_LE(highest, 1.2);
+  EXPECT_NEAR(led.loop.model().last_puncture_force(), p.puncture_force, 0.01);
+  // After the stated time, and the ticks the permitted change still needs, there is drag alone.
+  double before = norm(led.loop.state().force);
+  for (int k = 0; k < static_cast<int>(p.puncture_time / dt) + 20; ++k) {
+    const double force = norm(led.rest(1).force);
+    EXPECT_LE(before - force, 0.07 * before + p.floor + 1e-12);
+    before = force;
+  }
+  EXPECT_LE(before, p.floor);
+  // Out again: free in the air, and a second contact has to be punctured again.
+  led.go({0.3, 0.2, 2}, 20);
+  EXPECT_EQ(led.rest(50).phase, Phase::free);
+  led.go({0.3, 0.2, -1}, 20);
+  EXPECT_EQ(led.loop.state().phase, Phase::contact);
+}
+
+TEST(Force, WithoutTheButtonNothingIsPunctured) {
+  const auto s = testing::flat(20, 1);
+  const ContactSurface surface(s.points, s.triangles);
+  Led led(surface);
+  led.pose.cutting = false;
+  led.to({0.3, 0.2, 0.5});
+  led.go({0.3, 0.2, -8}, 20);
+  EXPECT_EQ(led.loop.state().punctures, 0);
+  EXPECT_EQ(led.loop.state().phase, Phase::contact);
+}
+
+TEST(Force, ContinuousOverSeamsOfACurvedSurface) {
+  // Slowly under the surface at constant radius: a step of the tip changes direction and size of the force by
+  // no more than the step over the radius of curvature does, times what interpolated normals bend faster than
+  // the ball.
+  const double radius = 20, stiffness = 0.3;
+  const auto s = testing::ball(10, radius);
+  const ContactSurface surface(s.points, s.triangles);
+  ForceParameters p;
+  p.puncture_force = 100;
+  ForceModel model(surface, p, strong(), 0);  // no damping: the static force
+  ScalpelPose pose;
+  const double step = 0.002;  // rad: 0.04 mm, over 600 seams in all
+  Vec3 last;
+  double largest = 0;
+  for (int n = 0; n < 6000; ++n) {
+    const double a = 0.9 + 0.5 * std::sin(0.37 * step * n), b = step * n;
+    const double r = n < 100 ? radius + 1 - 0.025 * n : radius - 1.5;
+    pose.tip = r * Vec3{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
+    const Vec3 force = model.update(pose, dt);
+    if (n > 100) largest = std::max(largest, norm(force - last));
+    ASSERT_TRUE(n <= 100 || norm(force) > 0.2 * stiffness) << n;
+    last = force;
+  }
+  // Faces of 6 mm turn by 18 degrees from seam to seam. Without interpolation a seam would change a force of
+  // 0.4 N by 0.4 sin(18 deg) = 0.12 N at once; spread evenly over the faces, 0.04 mm of way turn it by 0.4 *
+  // 0.04 / 20 = 0.001 N and the chord's slope, 9 degrees, changes the depth by 0.006 mm.
+  EXPECT_LT(largest, 2 * (0.0008 + stiffness * 0.0064));
+}
+
+TEST(Force, ThinPartsHold) {
+  // Two sheets half a millimetre apart, both facing out: the proxy stays on the side it came from.
+  auto s = testing::flat(20, 1);
+  const int count = static_cast<int>(s.points.size());
+  for (int v = 0; v < count; ++v) s.points.push_back(s.points[static_cast<std::size_t>(v)] - Vec3{0, 0, 0.5});
+  const auto triangles = s.triangles;
+  for (const auto& [a, b, c] : triangles) s.triangles.push_back({a + count, c + count, b + count});
+  const ContactSurface surface(s.points, s.triangles);
+  ForceParameters p;
+  p.puncture_force = 100;
+  Led led(surface, p);
+  led.to({0.3, 0.2, 1});
+  led.go({0.3, 0.2, -3}, 20);
+  led.go({4.3, -2.2, -3}, 20);
+  EXPECT_NEAR(led.rest(300).force.z, 0.3 * 3, 0.05 * 0.3 * 3);
+}
+
+TEST(Force, BladesSideFindsTheEdge) {
+  // The tip hangs in the air beside a cube-like sheet's end while the blade lies across it.
+  const auto s = testing::ball(16, 10);
+  const ContactSurface surface(s.points, s.triangles);
+  Led led(surface);
+  led.pose.axis = {1, 0, 0};
+  led.to({-5, 0, 10.6});
+  EXPECT_EQ(norm(led.loop.state().force), 0);
+  const HapticState& state = led.go({-5, 0, 9.7}, 5);
+  EXPECT_EQ(state.phase, Phase::free);
+  EXPECT_NEAR(led.rest(100).force.z, 0.3 * 0.3, 0.02);  // the ball's top stands 0.3 mm above the blade
+  // The nearest face leans by up to the angle from ring to ring.
+  const Vec3 force = led.loop.state().force;
+  EXPECT_LT(std::abs(force.y), force.z * std::sin(std::numbers::pi / 16));
+}
+
+}  // namespace
+}  // namespace cleft

@@ -1,0 +1,113 @@
+// cleft-stress-incision: random cuts through many meshes; prints what came of them.
+#include <cstdio>
+#include <filesystem>
+
+#include "base/command.h"
+#include "base/error.h"
+#include "explorer/io/mesh_file.h"
+#include "tests/incision/meshes.h"
+#include "tests/incision/stress/stress.h"
+
+namespace {
+
+using namespace cleft;
+namespace fs = std::filesystem;
+
+struct Options {
+  stress::Plan plan;
+  std::string meshes, only;
+  bool large = false, json = false;
+};
+
+struct Subject {
+  std::string name;
+  SurfaceMesh mesh;
+};
+
+double hills(double x, double y) { return 0.8 * std::sin(0.9 * x) * std::cos(0.7 * y); }
+
+std::vector<Subject> generated(bool large) {
+  using namespace testing;
+  SurfaceMesh stretched = grid(40, 40, -10, -10, 0.5);
+  for (Vec3& p : stretched.points) p.y *= 0.1;
+  std::vector<Subject> subjects{
+      {"plane", grid(30, 30, -15, -15, 1)},    {"hills", grid(50, 50, -10, -10, 0.4, hills)},
+      {"stretched plane", stretched},          {"sphere", sphere(4, 10)},
+      {"octahedron", sphere(1, 10)},           {"torus", ring(60, 24, 10, 4, true)},
+      {"cylinder", ring(40, 20, 10, 3, false)}};
+  if (large) subjects.push_back({"plane of a million", grid(708, 708, -10, -10, 20. / 708, hills)});
+  return subjects;
+}
+
+void report(const std::string& name, const stress::Tally& t, bool json) {
+  if (json) {
+    print_figures(Json{{"mesh", name},
+                       {"paths", t.paths},
+                       {"steps", t.steps},
+                       {"crossings", t.crossings},
+                       {"refused", t.refused},
+                       {"violations", t.violations},
+                       {"poor_triangles", t.poor},
+                       {"worst_quality_over_asked", t.worst_quality},
+                       {"lips_off_by_1_percent", t.long_lips},
+                       {"worst_lip_length_error", t.worst_lip_length},
+                       {"worst_area_change", t.worst_area}},
+                  true);
+  } else {
+    std::printf(
+        "%-34s %7ld paths %8ld steps %6ld crossings %5ld refused %4ld violations  quality %.2g (%ld poor)  "
+        "lip %.2g "
+        "(%ld)  area %.1g\n",
+        name.c_str(), t.paths, t.steps, t.crossings, t.refused, t.violations, t.worst_quality, t.poor,
+        t.worst_lip_length, t.long_lips, t.worst_area);
+  }
+  std::fflush(stdout);
+}
+
+void run(const Options& o) {
+  std::vector<Subject> subjects = generated(o.large);
+  if (!o.meshes.empty()) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(o.meshes))
+      if (entry.path().extension() == ".obj" || entry.path().extension() == ".stl")
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) subjects.push_back({file.stem().string(), read_mesh(file.string())});
+  }
+  if (!o.only.empty())
+    std::erase_if(subjects, [&](const Subject& s) { return s.name.find(o.only) == s.name.npos; });
+  if (subjects.empty()) throw InputError("no mesh to cut: --only " + o.only + " names none");
+  stress::Tally all;
+  stress::Plan plan = o.plan;
+  plan.paths = std::max(1L, plan.paths / static_cast<long>(subjects.size()));
+  for (const Subject& subject : subjects) {
+    const stress::Tally tally = stress::stress(subject.name, subject.mesh, plan);
+    report(subject.name, tally, o.json);
+    all.add(tally);
+  }
+  report("all", all, o.json);
+  for (int i = 0; i < stress::path_kinds; ++i)
+    std::printf("  %-12s %7ld paths %5ld refused %5ld poor\n",
+                stress::name_of(static_cast<stress::PathKind>(i)).c_str(),
+                all.paths_of[static_cast<std::size_t>(i)], all.refused_of[static_cast<std::size_t>(i)],
+                all.poor_of[static_cast<std::size_t>(i)]);
+  for (const auto& [reason, count] : all.reasons) std::printf("  %5ld refused: %s\n", count, reason.c_str());
+  for (const std::string& violation : all.first_violations)
+    std::printf("  violation: %s\n", violation.c_str());
+  if (all.violations > 0) throw std::runtime_error(std::to_string(all.violations) + " violations");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Cuts meshes along random paths and checks after every step what must hold.",
+               "cleft-stress-incision");
+  Options o;
+  app.add_option("--seed", o.plan.seed, "seed of the paths")->capture_default_str();
+  app.add_option("--paths", o.plan.paths, "paths in all")->capture_default_str();
+  app.add_option("--meshes", o.meshes, "folder of .obj and .stl files, besides the generated ones");
+  app.add_option("--only", o.only, "meshes whose name contains this");
+  app.add_flag("--large", o.large, "a mesh of a million triangles too");
+  app.add_flag("--json", o.json, "figures as JSON");
+  return run_command(app, argc, argv, [&] { run(o); });
+}

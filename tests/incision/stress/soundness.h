@@ -1,0 +1,48 @@
+// What must hold of a mesh whatever was cut into it: locally after every step, from the triangles that were
+// changed, and over the whole mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "explorer/incision/cut_mesh.h"
+
+namespace cleft::stress {
+
+double radius_ratio(const Vec3& a, const Vec3& b, const Vec3& c);  ///< 2 r / R: 1 equilateral, 0 degenerate
+
+class Soundness {
+ public:
+  explicit Soundness(const CutMesh& mesh);
+
+  /// Takes the mesh's changed triangles in. Returns what is wrong, or nothing.
+  std::string step();
+  /// Everything again, from the mesh alone.
+  std::string whole() const;
+
+  double skin_area() const { return area_; }
+  int euler() const;
+  long boundary_edges() const { return boundary_; }
+  double worst_new_quality() const {
+    return worst_;
+  }  ///< radius ratio of skin triangles changed since forget()
+  void forget_quality() { worst_ = 1; }
+
+ private:
+  struct Known {
+    double area = 0;
+    int boundary = 0;
+    bool there = false;
+  };
+  std::vector<int> corner_counts() const;
+  Known look(int t) const;
+  std::string local(int t) const;
+
+  const CutMesh& mesh_;
+  std::vector<Known> known_;
+  double area_ = 0, worst_ = 1;
+  long boundary_ = 0, triangles_ = 0;
+  std::vector<bool> torn_;  // vertices of the input with more than one fan
+};
+
+}  // namespace cleft::stress

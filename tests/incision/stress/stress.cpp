@@ -1,0 +1,204 @@
+#include "tests/incision/stress/stress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <sstream>
+
+#include "base/error.h"
+#include "explorer/incision/incision.h"
+#include "tests/incision/stress/soundness.h"
+
+namespace cleft::stress {
+
+namespace {
+
+/// A message without its numbers, to count messages of one kind.
+std::string kind_of(const std::string& message) {
+  std::string kind;
+  for (const char c : message.substr(0, message.find(';')))
+    if (!std::isdigit(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '+') kind += c;
+  return kind.substr(0, 60);
+}
+
+bool same(const CutMesh& a, const CutMesh& b) {
+  const auto equal = [](const CutMesh::Triangle& x, const CutMesh::Triangle& y) {
+    return x.vertex == y.vertex && x.neighbor == y.neighbor && x.region == y.region && x.sheet == y.sheet;
+  };
+  const auto alike = [](const CutMesh::Vertex& x, const CutMesh::Vertex& y) {
+    return x.position == y.position && x.triangle == y.triangle && x.kind == y.kind;
+  };
+  return std::equal(a.triangles().begin(), a.triangles().end(), b.triangles().begin(), b.triangles().end(),
+                    equal) &&
+         std::equal(a.vertices().begin(), a.vertices().end(), b.vertices().begin(), b.vertices().end(),
+                    alike);
+}
+
+class Stress {
+ public:
+  Stress(const std::string& name, const SurfaceMesh& surface, const Plan& plan)
+      : name_(name), plan_(plan), ground_(surface), mesh_(surface), soundness_(mesh_), random_(plan.seed) {
+    for (const CutMesh::Triangle& t : mesh_.triangles())
+      worst_before_ =
+          std::min(worst_before_, radius_ratio(mesh_.position(t.vertex[0]), mesh_.position(t.vertex[1]),
+                                               mesh_.position(t.vertex[2])));
+    large_ = surface.triangles.size() > 100000;
+  }
+
+  Tally run() {
+    while (tally_.paths < plan_.paths) group();
+    return tally_;
+  }
+
+ private:
+  /// Some cuts in one mesh, then all undone.
+  void group() {
+    std::vector<std::unique_ptr<Incision>> cuts;
+    std::optional<ScalpelPath> earlier;
+    const int count = 1 + static_cast<int>(random_() % static_cast<unsigned>(plan_.cuts_at_once));
+    for (int i = 0; i < count; ++i) {
+      const std::uint64_t seed = random_();
+      std::mt19937_64 own(seed);
+      PathKind kind = static_cast<PathKind>(own() % path_kinds);
+      if (earlier && own() % 2 == 0) kind = PathKind::across;
+      std::optional<ScalpelPath> path = random_path(ground_, kind, earlier, own);
+      if (!path) continue;
+      std::ostringstream label;
+      label << name_ << ", seed " << plan_.seed << ", path " << tally_.paths << " (" << name_of(kind)
+            << ", cut " << i << ")";
+      label_ = label.str();
+      ++tally_.paths;
+      ++tally_.paths_of[static_cast<std::size_t>(kind)];
+      auto cut = one(*path, kind, own);
+      if (!cut) continue;
+      cuts.push_back(std::move(cut));
+      earlier = path;
+    }
+    for (; !cuts.empty(); cuts.pop_back()) take_back(*cuts.back());
+    if (!large_ && !same(mesh_, ground_.mesh)) violation("undo has left something behind");
+  }
+
+  std::unique_ptr<Incision> one(const ScalpelPath& path, PathKind kind, std::mt19937_64& random) {
+    const int euler = soundness_.euler();
+    const long boundary = soundness_.boundary_edges();
+    const double area = soundness_.skin_area();
+    soundness_.forget_quality();
+    IncisionOptions options;
+    if (random() % 4 != 0) options.max_edge = 0;
+    std::unique_ptr<Incision> cut;
+    const auto check = [&] {
+      ++tally_.steps;
+      if (const std::string wrong = soundness_.step(); !wrong.empty()) violation(wrong);
+      if (soundness_.euler() != euler)
+        violation("Euler characteristic " + std::to_string(soundness_.euler() - euler));
+    };
+    try {
+      cut = std::make_unique<Incision>(mesh_, path, options);
+      check();
+      const int stops = 3 + static_cast<int>(random() % 40);
+      for (int k = 1; k <= stops; ++k) {
+        cut->advance_to(path.length() * k / stops);
+        check();
+      }
+    } catch (const InputError& error) {
+      ++tally_.refused;
+      ++tally_.refused_of[static_cast<std::size_t>(kind)];
+      ++tally_.reasons[kind_of(error.what())];
+      check();
+    } catch (const std::exception& error) {
+      violation(error.what());
+      check();
+      // A broken invariant may leave anything: start afresh.
+      return nullptr;
+    }
+    if (!cut) return nullptr;
+    after(*cut, kind, area, boundary);
+    return cut;
+  }
+
+  void after(const Incision& cut, PathKind kind, double area, long boundary) {
+    if (!large_ || tally_.paths % 100 == 0)
+      if (const std::string wrong = soundness_.whole(); !wrong.empty()) violation(wrong);
+    if (boundary == 0 && soundness_.boundary_edges() != 0) violation("the closed mesh has a boundary");
+    double lip = 0;
+    bool closed_again = false;
+    const auto& chain = cut.chain();
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      lip += norm(mesh_.position(chain[i].left) - mesh_.position(chain[i - 1].left));
+      if (i + 1 < chain.size() && chain[i].left == chain[i].right && !closed_again)
+        closed_again = chain.size() > 2;
+      if (chain[i].s == chain[i - 1].s) ++tally_.crossings;
+      if (!(mesh_.position(chain[i].left) == mesh_.position(chain[i].right))) violation("lips apart at rest");
+    }
+    if (closed_again) violation("a vertex of the lips without a pair");
+    const double length = cut.tip() - cut.start();
+    if (chain.size() > 2) {
+      const double error = std::abs(lip / length - 1);
+      tally_.worst_lip_length = std::max(tally_.worst_lip_length, error);
+      tally_.long_lips += error > 0.01;
+    }
+    const double asked = 0.05 * std::min(worst_before_, 0.1);
+    tally_.worst_quality = std::min(tally_.worst_quality, soundness_.worst_new_quality() / asked);
+    const bool poor = soundness_.worst_new_quality() < asked;
+    tally_.poor += poor;
+    tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
+    bool moved = false;
+    for (const auto& c : chain) moved |= !(mesh_.vertex(c.left).original == mesh_.position(c.left));
+    if (!moved) {
+      const double change = std::abs(soundness_.skin_area() / area - 1);
+      tally_.worst_area = std::max(tally_.worst_area, change);
+      if (change > 1e-10) violation("the skin's area has changed by " + std::to_string(change));
+    }
+  }
+
+  void take_back(Incision& cut) {
+    if (random_() % 4 == 0) {  // there and back again
+      const CutMesh before = large_ ? CutMesh(SurfaceMesh{}) : mesh_;
+      cut.undo();
+      soundness_.step();
+      cut.redo();
+      if (const std::string wrong = soundness_.step(); !wrong.empty()) violation("redo: " + wrong);
+      if (!large_ && !same(before, mesh_)) violation("redo makes another mesh");
+      ++tally_.undone;
+    }
+    cut.undo();
+    if (const std::string wrong = soundness_.step(); !wrong.empty()) violation("undo: " + wrong);
+  }
+
+  void violation(const std::string& what) {
+    ++tally_.violations;
+    if (tally_.first_violations.size() < 3) tally_.first_violations.push_back(label_ + ": " + what);
+  }
+
+  std::string name_, label_;
+  Plan plan_;
+  Ground ground_;
+  CutMesh mesh_;
+  Soundness soundness_;
+  std::mt19937_64 random_;
+  double worst_before_ = 1;
+  bool large_ = false;
+  Tally tally_;
+};
+
+}  // namespace
+
+void Tally::add(const Tally& o) {
+  paths += o.paths, refused += o.refused, violations += o.violations, steps += o.steps,
+      crossings += o.crossings;
+  undone += o.undone, poor += o.poor, long_lips += o.long_lips;
+  worst_quality = std::min(worst_quality, o.worst_quality);
+  worst_lip_length = std::max(worst_lip_length, o.worst_lip_length);
+  worst_area = std::max(worst_area, o.worst_area);
+  for (const auto& [reason, count] : o.reasons) reasons[reason] += count;
+  first_violations.insert(first_violations.end(), o.first_violations.begin(), o.first_violations.end());
+  for (std::size_t i = 0; i < paths_of.size(); ++i)
+    paths_of[i] += o.paths_of[i], refused_of[i] += o.refused_of[i], poor_of[i] += o.poor_of[i];
+}
+
+Tally stress(const std::string& name, const SurfaceMesh& surface, const Plan& plan) {
+  return Stress(name, surface, plan).run();
+}
+
+}  // namespace cleft::stress

@@ -1,0 +1,36 @@
+// Random cuts through a mesh, with every invariant looked at after every step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "explorer/incision/surface_mesh.h"
+#include "tests/incision/stress/random_path.h"
+
+namespace cleft::stress {
+
+struct Tally {
+  long paths = 0, refused = 0, violations = 0, steps = 0, crossings = 0, undone = 0;
+  double worst_quality = 1;      ///< of new triangles over what the issue asks for: at least 1 is asked
+  double worst_lip_length = 0;   ///< relative error of the lip's length
+  double worst_area = 0;         ///< relative change of the skin where nothing was moved
+  long poor = 0, long_lips = 0;  ///< paths beyond what the issue asks for
+  std::map<std::string, long> reasons;        ///< of refusals, without their numbers
+  std::vector<std::string> first_violations;  ///< with what makes them again
+  std::array<long, path_kinds> paths_of{}, refused_of{}, poor_of{};
+  void add(const Tally& other);
+};
+
+struct Plan {
+  std::uint64_t seed = 1;
+  long paths = 100;
+  int cuts_at_once = 3;  ///< up to so many cuts lie in the mesh before all are undone
+};
+
+/// `sound`: whether the mesh came as an oriented manifold.
+Tally stress(const std::string& name, const SurfaceMesh& surface, const Plan& plan);
+
+}  // namespace cleft::stress

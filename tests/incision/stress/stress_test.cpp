@@ -1,0 +1,43 @@
+// A small seeded part of cleft-stress-incision.
+#include "tests/incision/stress/stress.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "explorer/io/mesh_file.h"
+#include "tests/incision/meshes.h"
+
+namespace cleft::stress {
+namespace {
+
+void expect_sound(const std::string& name, const SurfaceMesh& mesh, long paths, double refused) {
+  Plan plan;
+  plan.paths = paths;
+  const Tally tally = stress(name, mesh, plan);
+  std::string told;
+  for (const std::string& violation : tally.first_violations) told += "\n  " + violation;
+  for (const auto& [reason, count] : tally.reasons)
+    told += "\n  refused " + std::to_string(count) + ": " + reason;
+  EXPECT_EQ(tally.violations, 0) << told;
+  EXPECT_LE(static_cast<double>(tally.refused), refused * static_cast<double>(paths)) << told;
+}
+
+TEST(Stress, GeneratedMeshes) {
+  using namespace testing;
+  expect_sound("plane", grid(30, 30, -15, -15, 1), 300, 0.01);
+  expect_sound("sphere", sphere(4, 10), 300, 0.01);
+  expect_sound("torus", ring(60, 24, 10, 4, true), 200, 0.01);
+  expect_sound("cylinder", ring(40, 20, 10, 3, false), 200, 0.01);
+}
+
+TEST(Stress, FacesOrgansAndDefectiveMeshes) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(CLEFT_SHARED_MESHES)) GTEST_SKIP() << CLEFT_SHARED_MESHES << " is absent";
+  expect_sound("head", read_mesh(CLEFT_SHARED_MESHES "/faces/lee-perry-smith-12108.obj"), 60, 0.1);
+  expect_sound("liver", read_mesh(CLEFT_SHARED_MESHES "/organs/liver-4384.obj"), 100, 0.1);
+  expect_sound("cracked", read_mesh(CLEFT_SHARED_MESHES "/defective/liver-479-flipped.stl"), 100, 1);
+}
+
+}  // namespace
+}  // namespace cleft::stress
