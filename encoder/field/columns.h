@@ -17,7 +17,7 @@ class Columns {
  public:
   Columns(Json columns, std::size_t cases);
   Json header(std::size_t i) const;
-  /// Only the entries of one group: "parameters", "report".
+  /// Only the entries of one group: "parameters", "choices", "report".
   Json group(const std::string& name, std::size_t i) const;
   Json entry(const std::string& name, std::size_t i) const;
 

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   app.add_option("DIR", folder, "study folder")->required();
   app.add_flag("--json", json, "print the figures as JSON");
   return run_command(app, argc, argv, [&] {
-    const std::vector<StudyCase> cases = published_fields(folder);
+    const std::vector<StudyCase> cases = published_study_cases(folder);
     const std::string out = (fs::path(folder) / "study.dffd").string();
     write_study(out, cases);
     const StudyFile file(out);

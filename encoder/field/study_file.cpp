@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/h5.h"
 #include "base/output_file.h"
+#include "base/text.h"
 #include "encoder/field/columns.h"
 
 namespace cleft {
@@ -17,6 +18,24 @@ namespace fs = std::filesystem;
 
 const FileFormat format{"cleft-study", 1, "study file", "cleft pack"};
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
+
+/// The members of an object that are text.
+std::map<std::string, std::string> texts_of(const Json& object) {
+  std::map<std::string, std::string> texts;
+  for (const auto& [name, value] : object.items())
+    if (value.is_string()) texts[name] = value.get<std::string>();
+  return texts;
+}
+
+std::map<std::string, std::string> choices_of_manifest(const std::string& file) {
+  try {
+    const Json manifest = Json::parse(read_text_file(file));
+    return manifest.contains("parameters") ? texts_of(manifest["parameters"])
+                                           : std::map<std::string, std::string>();
+  } catch (const Json::exception& e) {
+    throw FileError(file, std::string("is damaged: ") + e.what());
+  }
+}
 
 Json header_of_study(const h5::File& file) {
   require_format(file, format);
@@ -73,6 +92,13 @@ std::map<std::string, double> StudyFile::parameters(int i) const {
   });
 }
 
+std::map<std::string, std::string> StudyFile::choices(int i) const {
+  return told_of_file(parts_->file.path(), [&] {
+    const Json header = parts_->columns.group("choices", static_cast<std::size_t>(i));
+    return header.contains("choices") ? texts_of(header["choices"]) : std::map<std::string, std::string>();
+  });
+}
+
 FitReport StudyFile::report(int i) const {
   return told_of_file(parts_->file.path(), [&] {
     return report_of(parts_->columns.group("report", static_cast<std::size_t>(i)));
@@ -96,13 +122,14 @@ Field StudyFile::field(int i) const {
   });
 }
 
-std::vector<StudyCase> published_fields(const std::string& study) {
+std::vector<StudyCase> published_study_cases(const std::string& study) {
   if (!fs::is_directory(study)) throw InputError(study + ": no such folder (give a study folder)");
   std::vector<StudyCase> cases;
   std::error_code absent;
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(study) / "cases", absent))
     if (fs::exists(entry.path() / "manifest.json") && fs::exists(entry.path() / "case.dffd"))
-      cases.push_back({entry.path().filename().string(), (entry.path() / "case.dffd").string()});
+      cases.push_back({entry.path().filename().string(), (entry.path() / "case.dffd").string(),
+                       choices_of_manifest((entry.path() / "manifest.json").string())});
   if (cases.empty())
     throw InputError(study +
                      ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
@@ -122,6 +149,7 @@ void write_study(const std::string& path, const std::vector<StudyCase>& cases) {
     names.push_back(one.name);
     bytes.push_back(record.coefficients.size());
     coefficients.insert(coefficients.end(), record.coefficients.begin(), record.coefficients.end());
+    for (const auto& [name, value] : one.choices) record.header["choices"][name] = value;
     headers.push_back(std::move(record.header));
   }
   const Json header{{"names", names}, {"bytes", bytes}, {"columns", columns_of(headers)}};

@@ -18,12 +18,13 @@ class StudyFile {
   ~StudyFile();
   StudyFile(StudyFile&&) noexcept;
 
-  int size() const;                                       ///< cases
-  const std::string& name(int i) const;                   ///< of the case's folder
-  std::string case_hash(int i) const;                     ///< the snapshot's
-  std::map<std::string, double> parameters(int i) const;  ///< numeric ones, by dotted name
-  FitReport report(int i) const;                          ///<
-  std::size_t coefficient_bytes(int i) const;             ///< as coded
+  int size() const;                                         ///< cases
+  const std::string& name(int i) const;                     ///< of the case's folder
+  std::string case_hash(int i) const;                       ///< the snapshot's
+  std::map<std::string, double> parameters(int i) const;    ///< numeric ones, by dotted name
+  std::map<std::string, std::string> choices(int i) const;  ///< those that are text; none in older files
+  FitReport report(int i) const;                            ///<
+  std::size_t coefficient_bytes(int i) const;               ///< as coded
   /// Reads and decodes this case alone; throws FileError where it is damaged.
   Field field(int i) const;
 
@@ -32,13 +33,16 @@ class StudyFile {
   std::unique_ptr<const Parts> parts_;
 };
 
-/// A case that goes into a study file: its field file, and the name of its folder.
+/// A case that goes into a study file: the name of its folder, its field file, and its parameters that are
+/// text.
 struct StudyCase {
   std::string name, field_file;
+  std::map<std::string, std::string> choices = {};
 };
 
-/// The published cases of a study folder, by name. Throws InputError where it has none.
-std::vector<StudyCase> published_fields(const std::string& study);
+/// The published cases of a study folder, by name. Throws InputError where it has none, FileError where a
+/// manifest is damaged.
+std::vector<StudyCase> published_study_cases(const std::string& study);
 
 /// Writes the study file whole or not at all, coefficients as they stand in the field files (residuals are
 /// left there). Throws FileError where one of them is damaged.

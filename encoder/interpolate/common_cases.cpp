@@ -9,7 +9,6 @@
 #include "encoder/field/field_file.h"
 #include "encoder/field/knot_insertion.h"
 #include "encoder/field/study_file.h"
-#include "params/study_folder.h"
 
 namespace cleft {
 
@@ -18,22 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<StudyMember> members_of_folder(const std::string& path) {
-  const StudyFolder folder(path);
   std::vector<StudyMember> members;
-  for (const StudyCase& one : published_fields(path)) {
-    StudyMember& member = members.emplace_back(StudyMember{one.name, read_field(one.field_file), {}});
-    const auto manifest = folder.manifest(one.name);
-    if (manifest.contains("parameters"))
-      for (const auto& [name, value] : manifest["parameters"].items())
-        if (value.is_string()) member.choices[name] = value.get<std::string>();
-  }
+  for (const StudyCase& one : published_study_cases(path))
+    members.push_back({one.name, read_field(one.field_file), one.choices});
   return members;
 }
 
 std::vector<StudyMember> members_of_file(const std::string& path) {
   const StudyFile file(path);
   std::vector<StudyMember> members;
-  for (int i = 0; i < file.size(); ++i) members.push_back({file.name(i), file.field(i), {}});
+  for (int i = 0; i < file.size(); ++i) members.push_back({file.name(i), file.field(i), file.choices(i)});
   return members;
 }
 

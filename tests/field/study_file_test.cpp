@@ -31,7 +31,7 @@ struct Packed {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const std::string name = "case" + std::to_string(i);
       write_field(folder / (name + ".dffd"), fields[i]);
-      cases.push_back({name, folder / (name + ".dffd")});
+      cases.push_back({name, folder / (name + ".dffd"), {}});
     }
     write_study(file(), cases);
   }
@@ -67,6 +67,19 @@ TEST(StudyFile, HoldsEveryFieldAsItsOwnFileDoes) {
   }
   EXPECT_TRUE(std::isnan(study.report(3).condition));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(packed.folder.path()), {}), 5);
+}
+
+TEST(StudyFile, KeepsParametersThatAreText) {
+  Packed packed(different_fields());
+  packed.cases[0].choices = {{"cut.contact", "true"}, {"tissue.formulation", "displacement"}};
+  packed.cases[3].choices = {{"cut.contact", "false"}};
+  write_study(packed.file(), packed.cases);
+  const StudyFile study(packed.file());
+  EXPECT_EQ(study.choices(0), packed.cases[0].choices);
+  EXPECT_TRUE(study.choices(1).empty());
+  EXPECT_EQ(study.choices(3), packed.cases[3].choices);
+  EXPECT_TRUE(same(study.field(0), packed.fields[0]));
+  EXPECT_EQ(study.parameters(3), packed.fields[3].parameters);
 }
 
 TEST(StudyFile, IsLittleMoreThanItsCoefficients) {

@@ -61,7 +61,7 @@ Distances distances_of(const std::vector<const Field*>& fields, const Series& se
 std::vector<HeldOut> compare_held_out(const StudyInterpolator& study, const std::vector<StudyMember>& members,
                                       const std::string& held) {
   std::vector<HeldOut> list;
-  for (const StudyCase& one : published_fields(held)) {
+  for (const StudyCase& one : published_study_cases(held)) {
     const Field own = read_field(one.field_file);
     const Series series{SnapshotReader(one.field_file.substr(0, one.field_file.size() - 4) + "h5")};
     CaseParameters values;

@@ -86,6 +86,22 @@ TEST(StudyInterpolator, PrestressesSuperposeExactly) {
   }
 }
 
+TEST(StudyInterpolator, LipsThatTouchDoNotSuperpose) {
+  // What is told of the cases decides, and then prestress is a feature like others.
+  for (const char* name : {"cut.contact", "skin.initial_stress_stiffness"}) {
+    auto members = made_study(three_varied(24));
+    for (StudyMember& member : members) member.choices[name] = "true";
+    const StudyInterpolator study{CommonCases(members)};
+    EXPECT_EQ(study.features().loading(), Loading::general);
+    EXPECT_EQ(study.features().size(), 3);
+    const Field field = study.at(values_at(0.4, 0.6, 0.5));
+    const double error = distance_of(field, made_field(values_at(0.4, 0.6, 0.5)), nodes_of_millimetres());
+    EXPECT_LT(error, 0.02);
+    EXPECT_LE(error, 2 * field.interpolation->estimated_error);
+    EXPECT_GT(study.at(values_at(0.5, 0.5, 2)).interpolation->outside, 0.1);
+  }
+}
+
 TEST(StudyInterpolator, SaysHowFarOutsideItIsAsked) {
   const StudyInterpolator study(CommonCases(made_study(three_varied(12))));
   const double inside = study.at(values_at(0.5, 0.5, 0.5)).interpolation->estimated_error;
