@@ -42,7 +42,7 @@ void check_packed(const std::string& packed, const std::string& folder) {
   const auto stale = [&](const std::string& what) {
     throw FileError(packed, what + "; run cleft pack " + folder + " again");
   };
-  for (const StudyCase& published : published_fields(folder)) {
+  for (const StudyCase& published : published_study_cases(folder)) {
     const auto found = number.find(published.name);
     if (found == number.end()) stale("lacks the published case " + published.name);
     if (study.field(found->second).coefficients() != read_field(published.field_file).coefficients())

@@ -24,7 +24,7 @@ PublishedStudy::PublishedStudy(const std::string& path) {
     return;
   }
   const bool folder = fs::is_directory(path);
-  for (const StudyCase& one : folder ? published_fields(path) : std::vector<StudyCase>{{"", path}})
+  for (const StudyCase& one : folder ? published_study_cases(path) : std::vector<StudyCase>{{"", path}})
     cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), std::nullopt, -1});
   name_and_sort();
 }
