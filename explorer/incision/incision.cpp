@@ -145,11 +145,11 @@ void Incision::take(const Step& step) {
   const CutMesh::Checkpoint since = mesh_.checkpoint();
   grow(realise(step), step.s);
   mend(since);
-  // A slit with its walls leaves the surface what it is; where wounds are tangled within a triangle's breadth,
-  // sewing may not.
+  // A slit with its walls leaves the surface what it is; where wounds are tangled within a triangle's
+  // breadth, sewing may not.
   if (mesh_.euler_change_since(since) != 0)
-    throw InputError("the path meets too many wounds at once near " + place_of(step.place) + ", at arc length " +
-                     shortest(step.s) + "; lead it around them");
+    throw InputError("the path meets too many wounds at once near " + place_of(step.place) +
+                     ", at arc length " + shortest(step.s) + "; lead it around them");
 }
 
 bool Incision::made_room(const Step& step) {

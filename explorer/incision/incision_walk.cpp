@@ -143,8 +143,8 @@ std::optional<Incision::Step> Incision::start_on_boundary(double reach) const {
 }
 
 Incision::Track Incision::entered(const std::vector<int>& fan, double size, double limit) const {
-  // A little ahead of the tip the line is in the triangle that the path enters; how little, depends on how far
-  // the path was drawn aside to a vertex.
+  // A little ahead of the tip the line is in the triangle that the path enters; how little, depends on how
+  // far the path was drawn aside to a vertex.
   const double tip = chain_.back().s;
   double ahead = 0.1 * size;
   for (int k = 0; k < 44; ++k, ahead = k == 40 ? 0.15 * size : k > 40 ? 1.5 * ahead : ahead / 2) {

@@ -41,7 +41,7 @@ std::string ending_of(const std::string& path) {
 }
 
 template <class Reader>
-vtkSmartPointer<vtkPolyData> read_with(const std::string& path) {
+vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
@@ -56,6 +56,8 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path) {
   clean->SetAbsoluteTolerance(0);
   clean->Update();
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
+  merged =
+      static_cast<int>(triangles->GetOutput()->GetNumberOfPoints() - clean->GetOutput()->GetNumberOfPoints());
   return clean->GetOutput();
 }
 
@@ -94,16 +96,16 @@ void check_stl(const std::string& path) {
                               " bytes, where its header promises " + std::to_string(promised));
 }
 
-vtkSmartPointer<vtkPolyData> read_any(const std::string& path) {
+vtkSmartPointer<vtkPolyData> read_any(const std::string& path, int& merged) {
   const std::string ending = ending_of(path);
   const bool known = ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".vtp";
   if (known && !std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
   if (ending == ".ply") check_ply(path);
   if (ending == ".stl") check_stl(path);
-  if (ending == ".stl") return read_with<vtkSTLReader>(path);
-  if (ending == ".obj") return read_with<vtkOBJReader>(path);
-  if (ending == ".ply") return read_with<vtkPLYReader>(path);
-  if (ending == ".vtp") return read_with<vtkXMLPolyDataReader>(path);
+  if (ending == ".stl") return read_with<vtkSTLReader>(path, merged);
+  if (ending == ".obj") return read_with<vtkOBJReader>(path, merged);
+  if (ending == ".ply") return read_with<vtkPLYReader>(path, merged);
+  if (ending == ".vtp") return read_with<vtkXMLPolyDataReader>(path, merged);
   throw InputError(path + ": unknown ending '" + ending + "' of a mesh; known are .stl .obj .ply .vtp");
 }
 
@@ -144,8 +146,9 @@ void write_with(const vtkNew<Writer>& writer, vtkPolyData* data, const std::stri
 
 }  // namespace
 
-SurfaceMesh read_mesh(const std::string& path) {
-  const auto data = read_any(path);
+SurfaceMesh read_mesh(const std::string& path, MeshReport* told) {
+  MeshReport report;
+  const auto data = read_any(path, report.merged_points);
   SurfaceMesh mesh;
   std::vector<int> number(data->GetNumberOfPoints(), -1);
   vtkCellArray* cells = data->GetPolys();
@@ -159,7 +162,10 @@ SurfaceMesh read_mesh(const std::string& path) {
       if (!std::isfinite(p[i].x + p[i].y + p[i].z))
         throw FileError(path, "point " + std::to_string(corners[i]) + " is not a number");
     }
-    if (norm(cross(p[1] - p[0], p[2] - p[0])) == 0) continue;
+    if (norm(cross(p[1] - p[0], p[2] - p[0])) == 0) {
+      ++report.degenerate_triangles;
+      continue;
+    }
     auto& triangle = mesh.triangles.emplace_back();
     for (int i = 0; i < 3; ++i) {
       int& n = number[corners[i]];
@@ -168,6 +174,8 @@ SurfaceMesh read_mesh(const std::string& path) {
     }
   }
   if (mesh.triangles.empty()) throw FileError(path, "has no triangles");
+  mesh = repaired(mesh, report);
+  if (told) *told = report;
   return mesh;
 }
 
@@ -182,7 +190,8 @@ void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vec
   const std::string ending = ending_of(path);
   if (ending == ".vtp") {
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetDataModeToBinary();  // raw appended data are no XML: ParaView with a strict parser cannot read them
+    writer->SetDataModeToBinary();  // raw appended data are no XML: ParaView with a strict parser cannot read
+                                    // them
     write_with(writer, to_vtk(mesh, arrays), path);
   } else if (ending == ".obj") {
     write_with(vtkNew<vtkOBJWriter>(), to_vtk(mesh, {}), path);
