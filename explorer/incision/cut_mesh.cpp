@@ -58,6 +58,7 @@ CutMesh::CutMesh(const SurfaceMesh& surface) {
             regular ? edges[i + i + 1 - k].triangle : non_manifold;
     i = end;
   }
+  noted_.reserve(triangles_.capacity());
   noted_.resize(triangles_.size());
   bow_tie_.assign(surface.points.size(), false);
   for (int v = 0; v < count; ++v) {
