@@ -134,6 +134,22 @@ int vertices_of_many_fans(const SurfaceMesh& mesh) {
   return many;
 }
 
+/// Parts that share no point.
+int components_of(const SurfaceMesh& mesh) {
+  std::vector<int> root(mesh.points.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&root](int v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  std::vector<bool> used(mesh.points.size());
+  for (const auto& t : mesh.triangles)
+    for (const int v : t) used[v] = true, root[find(v)] = find(t[0]);
+  int count = 0;
+  for (std::size_t v = 0; v < root.size(); ++v) count += used[v] && root[v] == static_cast<int>(v);
+  return count;
+}
+
 }  // namespace
 
 SurfaceMesh repaired(const SurfaceMesh& mesh, MeshReport& report) {
@@ -161,7 +177,7 @@ SurfaceMesh repaired(const SurfaceMesh& mesh, MeshReport& report) {
   }
   report.inside_out_components = 0;
   for (int k = 0; k < orientation.components; ++k) report.inside_out_components += closed[k] && volume[k] < 0;
-  report.components = orientation.components;
+  report.components = components_of(result);
   report.non_manifold_vertices = vertices_of_many_fans(result);
   report.points = static_cast<int>(result.points.size());
   report.triangles = static_cast<int>(result.triangles.size());

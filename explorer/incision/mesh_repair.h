@@ -11,7 +11,7 @@ struct MeshReport {
   int degenerate_triangles = 0;   ///< without area, left out
   int duplicate_triangles = 0;    ///< with the corners of another, left out
   int turned_triangles = 0;       ///< turned over, to agree with most of their component
-  int components = 0;             ///< connected over edges
+  int components = 0;             ///< that share no point
   int boundary_edges = 0;         ///< with one triangle
   int non_manifold_edges = 0;     ///< with more than two, or with two that cannot be made to agree
   int non_manifold_vertices = 0;  ///< whose triangles form more than one fan
