@@ -61,7 +61,32 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   return clean->GetOutput();
 }
 
-/// VTK's reader of .ply crashes where the header has no end or the body ends early: look first.
+bool is_ply_type(const std::string& word) {
+  static const char* known[] = {"char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
+                                "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
+  return std::find(std::begin(known), std::end(known), word) != std::end(known);
+}
+
+/// Whether a line of a .ply's header is one that VTK's reader survives; counts the elements it announces.
+bool is_ply_line(const std::string& line, std::size_t& elements) {
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  if (words.empty()) return false;
+  if (words[0] == "comment" || words[0] == "obj_info") return true;
+  if (words[0] == "format") return elements == 0 && words.size() == 3;
+  if (words[0] == "element" && words.size() == 3) {
+    std::size_t count = 0;
+    const bool number = static_cast<bool>(std::istringstream(words[2]) >> count);
+    elements += count;
+    return number && count < std::size_t{1} << 31;
+  }
+  if (words[0] != "property" || elements == 0) return false;
+  if (words.size() == 3) return is_ply_type(words[1]);
+  return words.size() == 5 && words[1] == "list" && is_ply_type(words[2]) && is_ply_type(words[3]);
+}
+
+/// VTK's reader of .ply crashes on headers that are not one, or where the body ends early: look first.
 void check_ply(const std::string& path) {
   const std::string text = read_text_file(path);
   const auto end = text.find("end_header");
@@ -69,12 +94,12 @@ void check_ply(const std::string& path) {
     throw FileError(path, "has no header of a .ply file");
   std::istringstream header(text.substr(0, end));
   std::size_t elements = 0;
-  for (std::string word; header >> word;)
-    if (word == "element") {
-      std::size_t count = 0;
-      header >> word >> count;
-      elements += count;
-    }
+  std::string line;
+  std::getline(header, line);
+  for (int number = 2; std::getline(header, line); ++number)
+    if (!is_ply_line(line, elements))
+      throw FileError(path, "line " + std::to_string(number) + " is none of a .ply file's header: '" +
+                                line.substr(0, 60) + "'");
   // Every element takes a line of text, or a byte at least and usually many more.
   const bool ascii = text.find("format ascii") < end;
   const std::size_t there = ascii ? static_cast<std::size_t>(std::count(
