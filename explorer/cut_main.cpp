@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "encoder/field/field_file.h"
 #include "explorer/incision/incision.h"
+#include "explorer/incision/triangle_quality.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/scene/replay.h"
 
@@ -56,13 +57,64 @@ std::vector<PointArray> point_arrays(const Incision& incision, const std::vector
   return {displacement, depth, region, s};
 }
 
+Json figures_of(const MeshReport& m) {
+  return {{"points", m.points},
+          {"triangles", m.triangles},
+          {"components", m.components},
+          {"boundary_edges", m.boundary_edges},
+          {"non_manifold_edges", m.non_manifold_edges},
+          {"non_manifold_vertices", m.non_manifold_vertices},
+          {"inside_out_components", m.inside_out_components},
+          {"merged_points", m.merged_points},
+          {"degenerate_triangles_left_out", m.degenerate_triangles},
+          {"duplicate_triangles_left_out", m.duplicate_triangles},
+          {"triangles_turned", m.turned_triangles}};
+}
+
+struct Size {
+  double skin_area = 0, volume = 0;
+};
+
+Size size_of(const CutMesh& mesh) {
+  Size size;
+  for (const CutMesh::Triangle& t : mesh.triangles()) {
+    const Vec3 &a = mesh.position(t.vertex[0]), &b = mesh.position(t.vertex[1]),
+               &c = mesh.position(t.vertex[2]);
+    size.volume += dot(a, cross(b, c)) / 6;
+    if (t.region == Region::skin) size.skin_area += norm(cross(b - a, c - a)) / 2;
+  }
+  return size;
+}
+
+/// At rest, before the field opens the cut.
+Json figures_of(const Incision& incision, const SurfaceMesh& surface, const SurfaceMesh& result,
+                double scale) {
+  const CutMesh uncut(surface);
+  const Size before = size_of(uncut), after = size_of(incision.mesh());
+  const auto& triangles = incision.mesh().triangles();
+  const auto walls = std::count_if(triangles.begin(), triangles.end(),
+                                   [](const CutMesh::Triangle& t) { return t.region != Region::skin; });
+  return {{"triangles_before", surface.triangles.size()},
+          {"triangles_after", result.triangles.size()},
+          {"triangles_added", result.triangles.size() - surface.triangles.size()},
+          {"wall_triangles", walls},
+          {"steps", incision.chain().size()},
+          {"cut_length_mm", (incision.tip() - incision.start()) * scale},
+          {"chord_error_mm", incision.chord_error() * scale},
+          {"worst_quality_before", smallest_radius_ratio(uncut)},
+          {"worst_quality_after", smallest_radius_ratio(incision.mesh())},
+          {"skin_area_change_mm2", (after.skin_area - before.skin_area) * scale * scale},
+          {"volume_change_mm3", (after.volume - before.volume) * scale * scale * scale}};
+}
+
 void cut(const Options& options) {
   check_mesh_ending(options.out);  // a bad name is told before the work
   refuse_to_overwrite(options.out, {options.mesh, options.path, options.field});
   const OutputFile probe(options.out);
   std::optional<Field> field;
   if (!options.field.empty()) field = read_field(options.field);
-  const SurfaceMesh surface = read_mesh(options.mesh);
+  MeshReport mesh_report;
+  const SurfaceMesh surface = read_mesh(options.mesh, &mesh_report);
   const ScalpelPath path = read_path(options, field);
 
   const auto start = std::chrono::steady_clock::now();
@@ -75,15 +127,15 @@ void cut(const Options& options) {
   Incision incision(surface, path, incision_options);
   const double length = path.length() * options.scale;
   const double progress = options.progress < 0 ? length : std::min(options.progress, length);
+  const auto first_step = std::chrono::steady_clock::now();
   incision.advance_to(progress / options.scale);
-  const double cutting = milliseconds_since(start);
+  const double cutting = milliseconds_since(start), stepping = milliseconds_since(first_step);
 
   SurfaceMesh result = incision.mesh().surface();
-  Json figures{{"triangles_before", surface.triangles.size()},
-               {"triangles_after", result.triangles.size()},
-               {"triangles_added", result.triangles.size() - surface.triangles.size()},
-               {"cut_length_mm", (incision.tip() - incision.start()) * options.scale},
-               {"cut_ms", cutting}};
+  Json figures = figures_of(incision, surface, result, options.scale);
+  figures["mesh"] = figures_of(mesh_report);
+  figures["cut_ms"] = cutting;
+  figures["us_per_step"] = 1000 * stepping / static_cast<double>(incision.chain().size());
   if (field) {
     const Replay replay(*field, incision, options.scale);
     replay.positions(progress, result.points);  // the second frame is timed: memory is warm then

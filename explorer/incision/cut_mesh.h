@@ -69,6 +69,8 @@ class CutMesh {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<Vertex>& vertices() const { return vertices_; }
   const std::vector<Sheet>& sheets() const { return sheets_; }
+  bool is_wall(int t) const { return t >= 0 && triangles_[t].region != Region::skin; }
+  bool is_skin(int t) const { return t >= 0 && triangles_[t].region == Region::skin; }
   const Triangle& triangle(int t) const { return triangles_[t]; }
   const Vertex& vertex(int v) const { return vertices_[v]; }
   const Vec3& position(int v) const { return vertices_[v].position; }

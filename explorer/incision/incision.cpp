@@ -62,19 +62,6 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
   }
 }
 
-Incision::Step Incision::find_start() const {
-  const double reach = path_.length() / 2;
-  if (const auto start = start_on_face(reach)) return *start;
-  if (const auto start = start_on_boundary(reach)) return *start;
-  const Vec3 c = path_.at(0).position;
-  double least = std::numeric_limits<double>::infinity();
-  for (const CutMesh::Vertex& v : mesh_.vertices()) least = std::min(least, norm(v.position - c));
-  throw InputError("the path never touches the mesh: it begins at " + place_of(c) + ", " + shortest(least) +
-                   " from the nearest vertex. It must lie within " + shortest(reach) +
-                   " of a surface that faces along its directions (nx, ny, nz), in the mesh's own " +
-                   "units: divide a path in mm by the mm per unit given as --scale");
-}
-
 double Incision::wall_spacing(int start, double max_edge) const {
   if (max_edge > 0) return max_edge;
   double sum = 0;
@@ -145,11 +132,11 @@ void Incision::take(const Step& step) {
   const CutMesh::Checkpoint since = mesh_.checkpoint();
   grow(realise(step), step.s);
   mend(since);
-  // A slit with its walls leaves the surface what it is; where wounds are tangled within a triangle's breadth,
-  // sewing may not.
+  // A slit with its walls leaves the surface what it is; where wounds are tangled within a triangle's
+  // breadth, sewing may not.
   if (mesh_.euler_change_since(since) != 0)
-    throw InputError("the path meets too many wounds at once near " + place_of(step.place) + ", at arc length " +
-                     shortest(step.s) + "; lead it around them");
+    throw InputError("the path meets too many wounds at once near " + place_of(step.place) +
+                     ", at arc length " + shortest(step.s) + "; lead it around them");
 }
 
 bool Incision::made_room(const Step& step) {

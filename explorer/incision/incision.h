@@ -82,9 +82,14 @@ class Incision {
     bool inside = false;  ///< not where the path crosses an edge, but between two such places
   };
 
+  // Where its vertices come to stand: incision_places.cpp.
   Step find_start() const;
   std::optional<Step> start_on_face(double reach) const;
   std::optional<Step> start_on_boundary(double reach) const;
+  std::optional<Step> snapped(const Step& crossing) const;
+  Step placed(int triangle, const Vec3& place, double s) const;
+  bool may_move(int v, const Vec3& place) const;
+  bool may_reach(int v) const;
 
   // Where the path goes on: incision_walk.cpp.
   const Step& next_step();
@@ -97,12 +102,8 @@ class Incision {
   Track entered(const std::vector<int>& fan, double size, double limit) const;
   Track follow(int vertex, double s) const;
   Step crossing(const Track& track) const;
-  std::optional<Step> snapped(const Step& crossing) const;
   Step shorter(const Step& step, double to) const;
   Step step_at(const Track& track) const;
-  Step placed(int triangle, const Vec3& place, double s) const;
-  bool may_move(int v, const Vec3& place) const;
-  bool may_reach(int v) const;
   bool too_soon_at_wound(const Step& step) const;
   double chord_error(const Vec3& from, const Vec3& to, double s_from, double s_to) const;
   void go_on_from_wound();

@@ -28,13 +28,11 @@ double edge_length(const CutMesh& mesh, int t, int i) {
               mesh.position(mesh.triangle(t).vertex[i]));
 }
 
-bool is_skin(const CutMesh& mesh, int t) { return t >= 0 && mesh.triangle(t).region == Region::skin; }
-
 /// Splits the first edge on the way from t along ever longer edges that is the longest of both its triangles
 /// (of walls, lips and the boundary, of the one). False where that edge is not manifold.
 bool split_on_the_way(CutMesh& mesh, int t, int parted[2]) {
   int edge = longest_edge(mesh, t), neighbor = mesh.triangle(t).neighbor[edge];
-  while (is_skin(mesh, neighbor) && mesh.triangle(neighbor).neighbor[longest_edge(mesh, neighbor)] != t) {
+  while (mesh.is_skin(neighbor) && mesh.triangle(neighbor).neighbor[longest_edge(mesh, neighbor)] != t) {
     t = neighbor;
     edge = longest_edge(mesh, t);
     neighbor = mesh.triangle(t).neighbor[edge];
@@ -78,7 +76,7 @@ void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double 
 
   std::vector<int> work;
   for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t)
-    if (is_skin(mesh, t) && too_long(t)) work.push_back(t);
+    if (mesh.is_skin(t) && too_long(t)) work.push_back(t);
   while (!work.empty()) {
     const int t = work.back();
     if (!too_long(t)) {
@@ -92,9 +90,9 @@ void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double 
       continue;
     }
     for (const int other : parted)
-      if (other != t && is_skin(mesh, other)) work.push_back(other);
+      if (other != t && mesh.is_skin(other)) work.push_back(other);
     for (int n = first_new; n < static_cast<int>(mesh.triangles().size()); ++n)
-      if (is_skin(mesh, n)) work.push_back(n);
+      if (mesh.is_skin(n)) work.push_back(n);
   }
 }
 

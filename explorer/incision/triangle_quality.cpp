@@ -9,8 +9,6 @@ namespace {
 
 constexpr double flat = 1e-9;  ///< height over edge length: the same plane, but for rounding
 
-bool is_skin(const CutMesh& mesh, int t) { return t >= 0 && mesh.triangle(t).region == Region::skin; }
-
 struct Quad {
   int a, b, c, d;  // triangles (a, b, c) and (b, a, d)
 };
@@ -24,7 +22,7 @@ Quad quad_at(const CutMesh& mesh, int t, int i) {
 /// The smaller radius ratio of the two triangles after flipping edge i of t; 0 where it must not be flipped.
 double ratio_after_flip(const CutMesh& mesh, int t, int i) {
   const int other = mesh.triangle(t).neighbor[i];
-  if (!is_skin(mesh, other)) return 0;
+  if (!mesh.is_skin(other)) return 0;
   const Quad q = quad_at(mesh, t, i);
   const Vec3 &a = mesh.position(q.a), &b = mesh.position(q.b), &c = mesh.position(q.c),
              &d = mesh.position(q.d);
@@ -67,7 +65,7 @@ bool split_longest(CutMesh& mesh, int t) {
   const Vec3 place = lerp(a, b, part);
   double before = radius_ratio(a, b, c),
          after = std::min(radius_ratio(a, place, c), radius_ratio(place, b, c));
-  if (across >= 0 && is_skin(mesh, across)) {
+  if (across >= 0 && mesh.is_skin(across)) {
     const Vec3& d = mesh.position(quad_at(mesh, t, longest).d);
     before = std::min(before, radius_ratio(b, a, d));
     after = std::min({after, radius_ratio(b, place, d), radius_ratio(place, a, d)});
@@ -103,7 +101,7 @@ void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double targe
   for (std::size_t changes = 0, most = 3 * triangles.size() + 12; !work.empty() && changes < most;) {
     const int t = work.back();
     work.pop_back();
-    if (!is_skin(mesh, t) || radius_ratio(mesh, t) >= target) continue;
+    if (!mesh.is_skin(t) || radius_ratio(mesh, t) >= target) continue;
     const std::size_t first_new = mesh.triangles().size();
     const auto neighbors = mesh.triangle(t).neighbor;
     if (!flip_best(mesh, t) && !split_longest(mesh, t)) continue;

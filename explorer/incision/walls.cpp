@@ -92,8 +92,8 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
     }
   }
   if (column.size() == 1)  // so close to a column that it has the same parameter
-    throw InputError("the path meets a wound too close to a corner of its wall near " + place_of(mesh.position(top)) +
-                     "; move it a little");
+    throw InputError("the path meets a wound too close to a corner of its wall near " +
+                     place_of(mesh.position(top)) + "; move it a little");
   column.first_new = column.size();
   for (std::size_t i = 1; i < column.size(); ++i)
     column.depth_fraction.push_back(
@@ -120,9 +120,10 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
 
 void Sewing::add(const Column& p, const Column& q) {
   CLEFT_CHECK(can_stand(p, q), ==, true);
-  if (std::find_first_of(p.vertex.begin() + 1, p.vertex.end(), q.vertex.begin() + 1, q.vertex.end()) != p.vertex.end())
-    throw InputError("the path comes back to the same place of a wound near " + place_of(mesh_.position(q.vertex[0])) +
-                     "; lead it across, or away from it");
+  if (std::find_first_of(p.vertex.begin() + 1, p.vertex.end(), q.vertex.begin() + 1, q.vertex.end()) !=
+      p.vertex.end())
+    throw InputError("the path comes back to the same place of a wound near " +
+                     place_of(mesh_.position(q.vertex[0])) + "; lead it across, or away from it");
   p_ = p, q_ = q;
   along_p_.clear(), along_q_.clear();
   const std::size_t n = p.size() - 1, m = q.size() - 1;

@@ -41,7 +41,7 @@ std::string ending_of(const std::string& path) {
 }
 
 template <class Reader>
-vtkSmartPointer<vtkPolyData> read_with(const std::string& path) {
+vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
@@ -56,10 +56,37 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path) {
   clean->SetAbsoluteTolerance(0);
   clean->Update();
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
+  merged =
+      static_cast<int>(triangles->GetOutput()->GetNumberOfPoints() - clean->GetOutput()->GetNumberOfPoints());
   return clean->GetOutput();
 }
 
-/// VTK's reader of .ply crashes where the header has no end or the body ends early: look first.
+bool is_ply_type(const std::string& word) {
+  static const char* known[] = {"char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
+                                "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
+  return std::find(std::begin(known), std::end(known), word) != std::end(known);
+}
+
+/// Whether a line of a .ply's header is one that VTK's reader survives; counts the elements it announces.
+bool is_ply_line(const std::string& line, std::size_t& elements) {
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  if (words.empty()) return false;
+  if (words[0] == "comment" || words[0] == "obj_info") return true;
+  if (words[0] == "format") return elements == 0 && words.size() == 3;
+  if (words[0] == "element" && words.size() == 3) {
+    std::size_t count = 0;
+    const bool number = static_cast<bool>(std::istringstream(words[2]) >> count);
+    elements += count;
+    return number && count < std::size_t{1} << 31;
+  }
+  if (words[0] != "property" || elements == 0) return false;
+  if (words.size() == 3) return is_ply_type(words[1]);
+  return words.size() == 5 && words[1] == "list" && is_ply_type(words[2]) && is_ply_type(words[3]);
+}
+
+/// VTK's reader of .ply crashes on headers that are not one, or where the body ends early: look first.
 void check_ply(const std::string& path) {
   const std::string text = read_text_file(path);
   const auto end = text.find("end_header");
@@ -67,12 +94,12 @@ void check_ply(const std::string& path) {
     throw FileError(path, "has no header of a .ply file");
   std::istringstream header(text.substr(0, end));
   std::size_t elements = 0;
-  for (std::string word; header >> word;)
-    if (word == "element") {
-      std::size_t count = 0;
-      header >> word >> count;
-      elements += count;
-    }
+  std::string line;
+  std::getline(header, line);
+  for (int number = 2; std::getline(header, line); ++number)
+    if (!is_ply_line(line, elements))
+      throw FileError(path, "line " + std::to_string(number) + " is none of a .ply file's header: '" +
+                                line.substr(0, 60) + "'");
   // Every element takes a line of text, or a byte at least and usually many more.
   const bool ascii = text.find("format ascii") < end;
   const std::size_t there = ascii ? static_cast<std::size_t>(std::count(
@@ -85,7 +112,11 @@ void check_ply(const std::string& path) {
 /// A binary .stl says how many triangles it holds; VTK's reader takes fewer without a word.
 void check_stl(const std::string& path) {
   const std::string bytes = read_text_file(path);
-  if (bytes.starts_with("solid") && bytes.find("facet") != std::string::npos) return;
+  // VTK takes it for text where it begins like one and no other bytes follow soon.
+  const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 1024));
+  const bool text =
+      std::none_of(bytes.begin(), end, [](char c) { return static_cast<unsigned char>(c) > 127; });
+  if (text && bytes.starts_with("solid") && bytes.find("facet") != std::string::npos) return;
   std::uint32_t count = 0;
   if (bytes.size() >= 84) std::memcpy(&count, bytes.data() + 80, 4);
   const std::size_t promised = 84 + 50 * static_cast<std::size_t>(count);
@@ -94,16 +125,16 @@ void check_stl(const std::string& path) {
                               " bytes, where its header promises " + std::to_string(promised));
 }
 
-vtkSmartPointer<vtkPolyData> read_any(const std::string& path) {
+vtkSmartPointer<vtkPolyData> read_any(const std::string& path, int& merged) {
   const std::string ending = ending_of(path);
   const bool known = ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".vtp";
   if (known && !std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
   if (ending == ".ply") check_ply(path);
   if (ending == ".stl") check_stl(path);
-  if (ending == ".stl") return read_with<vtkSTLReader>(path);
-  if (ending == ".obj") return read_with<vtkOBJReader>(path);
-  if (ending == ".ply") return read_with<vtkPLYReader>(path);
-  if (ending == ".vtp") return read_with<vtkXMLPolyDataReader>(path);
+  if (ending == ".stl") return read_with<vtkSTLReader>(path, merged);
+  if (ending == ".obj") return read_with<vtkOBJReader>(path, merged);
+  if (ending == ".ply") return read_with<vtkPLYReader>(path, merged);
+  if (ending == ".vtp") return read_with<vtkXMLPolyDataReader>(path, merged);
   throw InputError(path + ": unknown ending '" + ending + "' of a mesh; known are .stl .obj .ply .vtp");
 }
 
@@ -144,8 +175,9 @@ void write_with(const vtkNew<Writer>& writer, vtkPolyData* data, const std::stri
 
 }  // namespace
 
-SurfaceMesh read_mesh(const std::string& path) {
-  const auto data = read_any(path);
+SurfaceMesh read_mesh(const std::string& path, MeshReport* told) {
+  MeshReport report;
+  const auto data = read_any(path, report.merged_points);
   SurfaceMesh mesh;
   std::vector<int> number(data->GetNumberOfPoints(), -1);
   vtkCellArray* cells = data->GetPolys();
@@ -159,7 +191,10 @@ SurfaceMesh read_mesh(const std::string& path) {
       if (!std::isfinite(p[i].x + p[i].y + p[i].z))
         throw FileError(path, "point " + std::to_string(corners[i]) + " is not a number");
     }
-    if (norm(cross(p[1] - p[0], p[2] - p[0])) == 0) continue;
+    if (norm(cross(p[1] - p[0], p[2] - p[0])) == 0) {
+      ++report.degenerate_triangles;
+      continue;
+    }
     auto& triangle = mesh.triangles.emplace_back();
     for (int i = 0; i < 3; ++i) {
       int& n = number[corners[i]];
@@ -168,6 +203,8 @@ SurfaceMesh read_mesh(const std::string& path) {
     }
   }
   if (mesh.triangles.empty()) throw FileError(path, "has no triangles");
+  mesh = repaired(mesh, report);
+  if (told) *told = report;
   return mesh;
 }
 
@@ -182,7 +219,8 @@ void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vec
   const std::string ending = ending_of(path);
   if (ending == ".vtp") {
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetDataModeToBinary();  // raw appended data are no XML: ParaView with a strict parser cannot read them
+    writer->SetDataModeToBinary();  // raw appended data are no XML: ParaView with a strict parser cannot read
+                                    // them
     write_with(writer, to_vtk(mesh, arrays), path);
   } else if (ending == ".obj") {
     write_with(vtkNew<vtkOBJWriter>(), to_vtk(mesh, {}), path);

@@ -4,14 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "explorer/incision/surface_mesh.h"
+#include "explorer/incision/mesh_repair.h"
 
 namespace cleft {
 
 /// Reads .stl, .obj, .ply or .vtp: polygons become triangles, points at the same place one point, and
-/// triangles without area or points without triangles are dropped. Throws InputError for another ending and
-/// FileError for a file that is missing, damaged or has no triangles.
-SurfaceMesh read_mesh(const std::string& path);
+/// triangles without area, duplicate triangles or points without triangles are dropped, and triangles that
+/// disagree with most of their component are turned over; `report` tells, where given. Throws InputError for
+/// another ending and FileError for a file that is missing, damaged or has no triangles.
+SurfaceMesh read_mesh(const std::string& path, MeshReport* report = nullptr);
 
 /// Numbers that belong to the points of a mesh.
 struct PointArray {

@@ -72,7 +72,8 @@ Points walk(const Ground& ground, const Start& start, PathKind kind, double leng
     points.push_back({walker.place(), walker.normal(), depth});
     if (on) continue;
     points.pop_back();
-    if (walker.at_boundary()) points.push_back({walker.place() + 0.5 * edge * walker.heading(), walker.normal(), depth});
+    if (walker.at_boundary())
+      points.push_back({walker.place() + 0.5 * edge * walker.heading(), walker.normal(), depth});
     break;
   }
   if (kind == PathKind::off_surface) {  // beside the surface, tilted, and of varying depth

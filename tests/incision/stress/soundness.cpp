@@ -4,12 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-namespace cleft::stress {
+#include "explorer/incision/triangle_quality.h"
 
-double radius_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double x = norm(b - a), y = norm(c - b), z = norm(a - c), area = norm(cross(b - a, c - a)) / 2;
-  return 16 * area * area / ((x + y + z) * x * y * z);
-}
+namespace cleft::stress {
 
 Soundness::Soundness(const CutMesh& mesh) : mesh_(mesh), known_(mesh.triangles().size()) {
   for (std::size_t t = 0; t < known_.size(); ++t) {
@@ -89,13 +86,18 @@ std::string Soundness::step() {
   }
   for (const int t : mesh_.changed()) {
     if (t >= static_cast<int>(mesh_.triangles().size())) continue;
-    const CutMesh::Triangle& x = mesh_.triangle(t);
-    if (x.region == Region::skin)
-      worst_ = std::min(worst_, radius_ratio(mesh_.position(x.vertex[0]), mesh_.position(x.vertex[1]),
-                                             mesh_.position(x.vertex[2])));
+    touched_.push_back(t);
     if (const std::string wrong = local(t); !wrong.empty()) return wrong;
   }
   return "";
+}
+
+double Soundness::worst_new_quality() const {
+  double worst = 1;
+  for (const int t : touched_)
+    if (t < static_cast<int>(mesh_.triangles().size()) && mesh_.triangle(t).region == Region::skin)
+      worst = std::min(worst, radius_ratio(mesh_, t));
+  return worst;
 }
 
 int Soundness::euler() const {

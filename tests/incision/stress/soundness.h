@@ -9,8 +9,6 @@
 
 namespace cleft::stress {
 
-double radius_ratio(const Vec3& a, const Vec3& b, const Vec3& c);  ///< 2 r / R: 1 equilateral, 0 degenerate
-
 class Soundness {
  public:
   explicit Soundness(const CutMesh& mesh);
@@ -23,10 +21,9 @@ class Soundness {
   double skin_area() const { return area_; }
   int euler() const;
   long boundary_edges() const { return boundary_; }
-  double worst_new_quality() const {
-    return worst_;
-  }  ///< radius ratio of skin triangles changed since forget()
-  void forget_quality() { worst_ = 1; }
+  /// The smallest radius ratio, as they are now, of skin triangles that were changed since forget_quality().
+  double worst_new_quality() const;
+  void forget_quality() { touched_.clear(); }
 
  private:
   struct Known {
@@ -40,7 +37,8 @@ class Soundness {
 
   const CutMesh& mesh_;
   std::vector<Known> known_;
-  double area_ = 0, worst_ = 1;
+  double area_ = 0;
+  std::vector<int> touched_;
   long boundary_ = 0, triangles_ = 0;
   std::vector<bool> torn_;  // vertices of the input with more than one fan
 };

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "explorer/incision/incision.h"
+#include "explorer/incision/triangle_quality.h"
 #include "tests/incision/stress/soundness.h"
 
 namespace cleft::stress {
@@ -39,10 +40,7 @@ class Stress {
  public:
   Stress(const std::string& name, const SurfaceMesh& surface, const Plan& plan)
       : name_(name), plan_(plan), ground_(surface), mesh_(surface), soundness_(mesh_), random_(plan.seed) {
-    for (const CutMesh::Triangle& t : mesh_.triangles())
-      worst_before_ =
-          std::min(worst_before_, radius_ratio(mesh_.position(t.vertex[0]), mesh_.position(t.vertex[1]),
-                                               mesh_.position(t.vertex[2])));
+    worst_before_ = smallest_radius_ratio(mesh_);
     large_ = surface.triangles.size() > 100000;
   }
 
@@ -138,9 +136,9 @@ class Stress {
       tally_.worst_lip_length = std::max(tally_.worst_lip_length, error);
       tally_.long_lips += error > 0.01;
     }
-    const double asked = 0.05 * std::min(worst_before_, 0.1);
-    tally_.worst_quality = std::min(tally_.worst_quality, soundness_.worst_new_quality() / asked);
-    const bool poor = soundness_.worst_new_quality() < asked;
+    const double worst = soundness_.worst_new_quality(), asked = 0.05 * std::min(worst_before_, 0.1);
+    tally_.worst_quality = std::min(tally_.worst_quality, worst / asked);
+    const bool poor = worst < asked;
     tally_.poor += poor;
     tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
     bool moved = false;

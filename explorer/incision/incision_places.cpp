@@ -1,0 +1,185 @@
+// Where the path's vertices come to stand: its start, and which vertex, edge or face takes a place of the
+// path so that the triangles around it keep their shape. Nothing is changed here.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "explorer/incision/blade.h"
+#include "explorer/incision/incision.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double near_lip = 0.05;  ///< relative to an edge: an end of the path so near to a lip is on it
+
+/// Height over longest edge, seen along `normal`: 0 for a degenerate triangle, negative for one turned over.
+double quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+  const double longest = std::max({squared_norm(b - a), squared_norm(c - b), squared_norm(a - c)});
+  return dot(cross(b - a, c - a), normal) / longest;
+}
+
+}  // namespace
+
+Incision::Step Incision::find_start() const {
+  const double reach = path_.length() / 2;
+  if (const auto start = start_on_face(reach)) return *start;
+  if (const auto start = start_on_boundary(reach)) return *start;
+  const Vec3 c = path_.at(0).position;
+  double least = std::numeric_limits<double>::infinity();
+  for (const CutMesh::Vertex& v : mesh_.vertices()) least = std::min(least, norm(v.position - c));
+  throw InputError("the path never touches the mesh: it begins at " + place_of(c) + ", " + shortest(least) +
+                   " from the nearest vertex. It must lie within " + shortest(reach) +
+                   " of a surface that faces along its directions (nx, ny, nz), in the mesh's own " +
+                   "units: divide a path in mm by the mm per unit given as --scale");
+}
+
+std::optional<Incision::Step> Incision::start_on_face(double reach) const {
+  std::optional<Step> best;
+  const PathFrame frame = path_.at(0);
+  for (int t = 0; t < static_cast<int>(mesh_.triangles().size()); ++t) {
+    if (mesh_.is_wall(t) || !pierces(mesh_, t, frame)) continue;
+    const Vec3 place = piercing_point(mesh_, t, frame);
+    const double height = std::abs(dot(place - frame.position, frame.outward));
+    if (height > reach) continue;
+    reach = height;
+    best = Step{Step::face, t, 0, place, 0};
+  }
+  if (best) best = placed(best->triangle, best->place, 0);
+  return best;
+}
+
+std::optional<Incision::Step> Incision::start_on_boundary(double reach) const {
+  std::optional<Step> best;
+  for (int t = 0; t < static_cast<int>(mesh_.triangles().size()); ++t)
+    for (int i = 0; i < 3; ++i) {
+      if (mesh_.is_wall(t) || mesh_.triangle(t).neighbor[i] != CutMesh::boundary) continue;
+      const Vec3 &a = mesh_.position(mesh_.triangle(t).vertex[i]),
+                 &b = mesh_.position(mesh_.triangle(t).vertex[(i + 1) % 3]);
+      // The path comes in where the boundary, followed with the surface on its left, passes from left to
+      // right.
+      if (path_.coordinates(a).v < 0 || path_.coordinates(b).v > 0) continue;
+      const double part = zero_between(0, 1, [&](double x) { return path_.coordinates(lerp(a, b, x)).v; });
+      const Vec3 place = lerp(a, b, part);
+      const PathCoordinates at = path_.coordinates(place);
+      if (std::abs(at.w) > reach || at.s < 0 || at.s >= path_.length() || (best && best->s <= at.s)) continue;
+      best = Step{Step::edge, t, i, place, at.s};
+    }
+  if (best) best = placed(best->triangle, best->place, best->s);
+  return best;
+}
+
+std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
+  const CutMesh::Triangle& t = mesh_.triangle(crossing.triangle);
+  std::optional<Step> best;
+  double least = options_.snap;
+  for (const int v : {t.vertex[crossing.index], t.vertex[(crossing.index + 1) % 3]}) {
+    const Vec3& position = mesh_.position(v);
+    const double room = mesh_.room(v), to_crossing = norm(crossing.place - position);
+    Step step{Step::vertex, -1, v, position, crossing.s};
+    if (mesh_.vertex(v).kind != VertexKind::skin || (mesh_.on_boundary(v) && !may_move(v, crossing.place))) {
+      // What cannot be moved draws the path to itself.
+      if (to_crossing > least / 2 * room || !may_reach(v)) continue;
+      least = 2 * to_crossing / room;
+      best = step;
+      continue;
+    }
+    if (mesh_.on_boundary(v)) {
+      if (to_crossing > least * room) continue;
+      least = to_crossing / room;
+      step.place = to_crossing <= same_place * room ? position : crossing.place;
+      best = step;
+      continue;
+    }
+    PathFrame frame = path_.at(step.s);
+    for (int k = 0; k < 3; ++k) {
+      step.s += dot(position - frame.position, frame.along);
+      frame = path_.at(step.s);
+    }
+    const double away = std::abs(dot(position - frame.position, frame.across)) / room;
+    if (away > least || step.s - chain_.back().s < 0.1 * room ||
+        step.s - path_.length() > options_.snap * room)
+      continue;
+    if (away > same_place) {
+      const int triangle = pierced(mesh_, mesh_.skin_fan(v), frame);
+      if (triangle < 0) continue;
+      step.place = piercing_point(mesh_, triangle, frame);
+      if (norm(step.place - position) > 1.5 * options_.snap * room) continue;
+    }
+    step.s = std::min(step.s, path_.length());
+    least = away;
+    best = step;
+  }
+  return best;
+}
+
+bool Incision::may_reach(int v) const {
+  if (chain_.empty()) return true;
+  const int tip = tip_vertex();
+  return v != tip && mesh_.triangle_with(tip, v) >= 0 && mesh_.triangle_with(v, tip) >= 0;
+}
+
+bool Incision::may_move(int v, const Vec3& place) const {
+  if (mesh_.vertex(v).kind != VertexKind::skin) return false;
+  if (!mesh_.on_boundary(v)) return true;
+  // On a boundary only along it, where it is straight: the outline stays as it is.
+  const auto fan = mesh_.skin_fan(v);
+  const CutMesh::Triangle &first = mesh_.triangle(fan.front()), &last = mesh_.triangle(fan.back());
+  const Vec3 out = mesh_.position(first.vertex[(first.corner(v) + 1) % 3]) - mesh_.position(v);
+  const Vec3 in = mesh_.position(last.vertex[(last.corner(v) + 2) % 3]) - mesh_.position(v);
+  const Vec3 step = place - mesh_.position(v);
+  const auto parallel = [](const Vec3& a, const Vec3& b) {
+    return norm(cross(a, b)) <= same_place * norm(a) * norm(b);
+  };
+  return norm(step) <= same_place * norm(out) || (parallel(in, out) && parallel(step, out));
+}
+
+Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const {
+  const CutMesh::Triangle& t = mesh_.triangle(triangle);
+  const bool end = chain_.empty() || s == path_.length();
+  for (const int v : t.vertex) {
+    const double room = mesh_.room(v), away = norm(place - mesh_.position(v));
+    if (away <= same_place * room && may_reach(v)) return {Step::vertex, -1, v, mesh_.position(v), s};
+    if (away <= options_.snap * room && may_move(v, place)) return {Step::vertex, -1, v, place, s};
+    if (end && away <= options_.snap / 2 * room && may_reach(v))
+      return {Step::vertex, -1, v, mesh_.position(v), s};
+  }
+  // A new vertex inside the triangle, or where it is close to an edge, one of that edge, bent to go through
+  // it: whichever leaves the better triangles.
+  Step best{Step::face, triangle, 0, place, s, true};
+  Vec3 p[3];
+  for (int i = 0; i < 3; ++i) p[i] = mesh_.position(t.vertex[i]);
+  const Vec3 n = normalized(cross(p[1] - p[0], p[2] - p[0]));
+  double least =
+      std::min({quality(p[0], p[1], place, n), quality(p[1], p[2], place, n), quality(p[2], p[0], place, n)});
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];
+    const double away = norm(cross(place - a, b - a)) / squared_norm(b - a);
+    const int across = t.neighbor[i];
+    const bool may_bend = across >= 0 && !mesh_.is_wall(across);
+    const bool border = across == CutMesh::boundary || mesh_.is_wall(across);
+    const bool touches = border &&
+                         away <= (end                           ? near_lip
+                                  : across == CutMesh::boundary ? same_place
+                                                                : 0) &&
+                         (chain_.empty() || i == (t.corner(tip_vertex()) + 1) % 3);
+    if (!(may_bend && away <= options_.snap / 2) && !touches) continue;
+    Vec3 on_edge = place;
+    if (border) on_edge = lerp(a, b, std::clamp(dot(place - a, b - a) / squared_norm(b - a), 0.0, 1.0));
+    double worst = std::min(quality(a, on_edge, c, n), quality(on_edge, b, c, n));
+    if (may_bend) {
+      const CutMesh::Triangle& other = mesh_.triangle(across);
+      const Vec3& d = mesh_.position(other.vertex[(other.corner(t.vertex[i]) + 1) % 3]);
+      const Vec3 m = normalized(cross(a - b, d - b));
+      worst = std::min({worst, quality(b, place, d, m), quality(place, a, d, m)});
+    }
+    if (worst <= least) continue;
+    least = worst;
+    best = {Step::edge, triangle, i, on_edge, s, true};
+  }
+  return best;
+}
+
+}  // namespace cleft
