@@ -118,6 +118,7 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       Corners c;
       ContactTriangle t;
       if (id < 0 || !corners_of(id, c, t)) continue;
+      if (least_squared_distance(x, c) > least * (1 + 1e-9)) continue;
       const ClosestPoint p = closest_point(x, c);
       const double square = squared_norm(x - p.position);
       if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) continue;
