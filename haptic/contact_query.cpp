@@ -139,16 +139,16 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       }
       const Vec3 own = normalized(scaled_normal(c));
       normal += weight * own;
-      if (dot(own, x - p.position) < 0) into = own;
+      if (into == Vec3{} || dot(own, x - p.position) < 0) into = own;
     }
     return std::sqrt(least);
   });
   if (!best) return best;
-  // The walls of a closed cut lie on each other, and their normals cancel: beside them there is tissue.
-  if (norm(normal) < 1e-6) normal = into;
-  const double length = norm(normal);
-  best.normal = length > 0 ? 1 / length * normal : normal;
-  best.distance = dot(x - best.position, normal) < 0 ? -std::sqrt(least) : std::sqrt(least);
+  // The walls of a closed cut lie on each other, and their normals cancel: beside them and before them is
+  // tissue.
+  const bool closed = norm(normal) < 1e-6;
+  best.normal = normalized(closed ? into : normal);
+  best.distance = closed || dot(x - best.position, normal) < 0 ? -std::sqrt(least) : std::sqrt(least);
   return best;
 }
 
