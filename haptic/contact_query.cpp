@@ -30,7 +30,7 @@ bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& 
   t = surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
   if (t.vertex[0] < 0) return false;
   for (int i = 0; i < 3; ++i)
-    corners[i] = surface_.vertices_[static_cast<std::size_t>(t.vertex[i])].at(version_).position;
+    corners[i] = surface_.positions_[static_cast<std::size_t>(t.vertex[i])].at(version_);
   return true;
 }
 
