@@ -27,12 +27,13 @@ const std::vector<Command> commands = {
     {"export", "write files for ParaView"},
     {"import", "take another program's series"},
     {"pack", "a study's fields in one file"},
+    {"interpolate", "a case never simulated"},
 };
 
 std::string usage() {
   std::string text = "Usage: cleft COMMAND [OPTIONS]\n\nCommands (each has --help):\n";
   for (const auto& [name, help] : commands)
-    text += "  " + name + std::string(10 - name.size(), ' ') + help + "\n";
+    text += "  " + name + std::string(13 - name.size(), ' ') + help + "\n";
   return text + "\nOptions: --help, --version. Exit codes: 0 done, 1 failed, 2 wrong usage or input.\n";
 }
 

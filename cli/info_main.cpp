@@ -49,16 +49,19 @@ Json info_of_snapshot(const std::string& file) {
 }
 
 Json list_of(const FitReport& r) {
-  return {{"relative_l2", r.relative_l2},
-          {"node_error", r.node_error},
-          {"spline_error", r.spline_error},
-          {"gape_error", r.gape_error},
-          {"false_gap", r.false_gap},
-          {"frame_error", r.frame_error},
-          {"crease_degrees", r.crease},
-          {"overlap_mm", r.overlap},
-          {"least_volume", r.least_volume},
-          {"largest_displacement_mm", r.largest_displacement}};
+  return {{"relative_l2", r.relative_l2},   {"node_error", r.node_error},
+          {"spline_error", r.spline_error}, {"gape_error", r.gape_error},
+          {"false_gap", r.false_gap},       {"frame_error", r.frame_error},
+          {"crease_degrees", r.crease},     {"overlap_mm", r.overlap},
+          {"least_volume", r.least_volume}, {"largest_displacement_mm", r.largest_displacement}};
+}
+
+Json list_of(const Interpolation& made) {
+  return {{"method", made.method},
+          {"cases", made.cases},
+          {"estimated_error", made.estimated_error},
+          {"interpolation_error", made.interpolation_error},
+          {"outside", made.outside}};
 }
 
 Json info_of_field(const std::string& file) {
@@ -68,7 +71,7 @@ Json info_of_field(const std::string& file) {
     counts.push_back(field.basis(axis).size());
     domain[std::string(1, "uvwt"[axis])] = {field.domain(axis).front, field.domain(axis).back};
   }
-  return {
+  Json info = {
       {"format", "cleft-field"},
       {"case", field.case_hash},
       {"control_points", counts},
@@ -79,6 +82,8 @@ Json info_of_field(const std::string& file) {
       {"report", list_of(field.report)},
       {"bytes", std::filesystem::file_size(file)},
       {"parameters", field.parameters}};
+  if (field.interpolation) info["interpolation"] = list_of(*field.interpolation);
+  return info;
 }
 
 Json info_of_study(const std::string& file) {

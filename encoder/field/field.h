@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +40,15 @@ struct FitReport {
   double overlap = 0;               ///< mm: how far lips pass through each other where the data's do not
   double least_volume = 1;          ///< least det(I + grad d) at the nodes: of a small volume, over its rest
   double fit_seconds = 0, measure_seconds = 0;  ///< what the fit and the evaluation for this report took
+};
+
+/// Of a field that was not fitted to a simulation but made from the fields of others.
+struct Interpolation {
+  std::string method;              ///< that was found to be best by leaving cases out
+  double cases = 0;                ///< it was made from
+  double estimated_error = 0;      ///< expected of node_error against a simulation of these parameters
+  double interpolation_error = 0;  ///< the same against a field fitted to it: without what a fit itself costs
+  double outside = 0;              ///< distance from the cases' parameters, in their spread; 0: between them
 };
 
 /// The displacement and its first derivatives, mm per mm.
@@ -115,6 +125,7 @@ class Field {
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;
   FitReport report;
+  std::optional<Interpolation> interpolation;
 
  private:
   friend class CollapsedField;

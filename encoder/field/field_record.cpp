@@ -21,15 +21,32 @@ struct Figure {
   const char* name;
   double FitReport::*value;
 };
-constexpr Figure figures[] = {
-    {"relative_l2", &FitReport::relative_l2},   {"node_error", &FitReport::node_error},
-    {"spline_error", &FitReport::spline_error}, {"gape_error", &FitReport::gape_error},
-    {"false_gap", &FitReport::false_gap},       {"largest_displacement", &FitReport::largest_displacement},
-    {"frame_error", &FitReport::frame_error},   {"worst_node", &FitReport::worst_node},
-    {"worst_time", &FitReport::worst_time},     {"condition", &FitReport::condition},
-    {"crease", &FitReport::crease},             {"overlap", &FitReport::overlap},
-    {"least_volume", &FitReport::least_volume}, {"fit_seconds", &FitReport::fit_seconds},
-    {"measure_seconds", &FitReport::measure_seconds}};
+constexpr Figure figures[] = {{"relative_l2", &FitReport::relative_l2},
+                              {"node_error", &FitReport::node_error},
+                              {"spline_error", &FitReport::spline_error},
+                              {"gape_error", &FitReport::gape_error},
+                              {"false_gap", &FitReport::false_gap},
+                              {"largest_displacement", &FitReport::largest_displacement},
+                              {"frame_error", &FitReport::frame_error},
+                              {"worst_node", &FitReport::worst_node},
+                              {"worst_time", &FitReport::worst_time},
+                              {"condition", &FitReport::condition},
+                              {"crease", &FitReport::crease},
+                              {"overlap", &FitReport::overlap},
+                              {"least_volume", &FitReport::least_volume},
+                              {"fit_seconds", &FitReport::fit_seconds},
+                              {"measure_seconds", &FitReport::measure_seconds}};
+
+/// The same of an interpolation.
+struct InterpolationFigure {
+  const char* name;
+  double Interpolation::*value;
+};
+constexpr InterpolationFigure interpolation_figures[] = {
+    {"cases", &Interpolation::cases},
+    {"estimated_error", &Interpolation::estimated_error},
+    {"interpolation_error", &Interpolation::interpolation_error},
+    {"outside", &Interpolation::outside}};
 
 /// What nlohmann-json says of a header that lacks something, or has it of another type, as an InputError.
 template <class Function>
@@ -68,7 +85,22 @@ Json header_of(const Field& field, int slices) {
   header["tip"] = {{"times", geometry.tip.times}, {"positions", geometry.tip.positions}};
   header["parameters"] = field.parameters.empty() ? Json::object() : Json(field.parameters);
   for (const Figure& figure : figures) header["report"][figure.name] = field.report.*figure.value;
+  if (field.interpolation) {
+    header["interpolation"]["method"] = field.interpolation->method;
+    for (const auto& figure : interpolation_figures)
+      header["interpolation"][figure.name] = *field.interpolation.*figure.value;
+  }
   return header;
+}
+
+std::optional<Interpolation> interpolation_of(const Json& header) {
+  if (!header.contains("interpolation")) return {};
+  const Json& entry = header.at("interpolation");
+  Interpolation interpolation;
+  interpolation.method = entry.at("method").get<std::string>();
+  for (const auto& figure : interpolation_figures)
+    interpolation.*figure.value = number(entry.at(figure.name));
+  return interpolation;
 }
 
 std::array<BSplineBasis, 4> bases_of(const Json& header) {
@@ -235,6 +267,7 @@ Field field_of(const FieldRecord& record) {
     field.case_hash = header.at("case").get<std::string>();
     field.parameters = parameters_of(header);
     field.report = report_of(header);
+    field.interpolation = interpolation_of(header);
     return field;
   });
 }

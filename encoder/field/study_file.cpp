@@ -1,6 +1,7 @@
 #include "encoder/field/study_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 
 #include "base/error.h"
@@ -11,6 +12,8 @@
 namespace cleft {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 const FileFormat format{"cleft-study", 1, "study file", "cleft pack"};
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
@@ -91,6 +94,23 @@ Field StudyFile::field(int i) const {
     record.header = parts_->columns.header(n);
     return field_of(record);
   });
+}
+
+std::vector<StudyCase> published_fields(const std::string& study) {
+  if (!fs::is_directory(study)) throw InputError(study + ": no such folder (give a study folder)");
+  std::vector<StudyCase> cases;
+  std::error_code absent;
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(study) / "cases", absent))
+    if (fs::exists(entry.path() / "manifest.json") && fs::exists(entry.path() / "case.dffd"))
+      cases.push_back({entry.path().filename().string(), (entry.path() / "case.dffd").string()});
+  if (cases.empty())
+    throw InputError(study +
+                     ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
+                     "STUDY.toml --out " +
+                     study + "` first");
+  std::sort(cases.begin(), cases.end(),
+            [](const StudyCase& a, const StudyCase& b) { return a.name < b.name; });
+  return cases;
 }
 
 void write_study(const std::string& path, const std::vector<StudyCase>& cases) {

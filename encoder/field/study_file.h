@@ -37,6 +37,9 @@ struct StudyCase {
   std::string name, field_file;
 };
 
+/// The published cases of a study folder, by name. Throws InputError where it has none.
+std::vector<StudyCase> published_fields(const std::string& study);
+
 /// Writes the study file whole or not at all, coefficients as they stand in the field files (residuals are
 /// left there). Throws FileError where one of them is damaged.
 void write_study(const std::string& path, const std::vector<StudyCase>& cases);

@@ -70,7 +70,7 @@ Field quantised(const Field& field, double quantum, double farthest) {
   const auto values = round_coefficients(places, unknowns.slices, unknowns.values, farthest);
   Field result(field.shared_parametrization(), bases, control_points(ties, bases, values, quantum));
   result.parameters = field.parameters, result.case_hash = field.case_hash, result.report = field.report;
-  result.quantities = field.quantities;
+  result.quantities = field.quantities, result.interpolation = field.interpolation;
   result.quantum = quantum;
   return result;
 }

@@ -69,6 +69,10 @@ CutMesh::CutMesh(const SurfaceMesh& surface) {
   }
 }
 
+std::string place_of(const Vec3& p) {
+  return "(" + shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z) + ")";
+}
+
 SurfaceMesh CutMesh::surface() const {
   SurfaceMesh result;
   for (const Vertex& v : vertices_) result.points.push_back(v.position);
@@ -77,9 +81,8 @@ SurfaceMesh CutMesh::surface() const {
 }
 
 void CutMesh::report_non_manifold(int v) const {
-  const Vec3& p = position(v);
-  throw InputError("the mesh is not a manifold near (" + shortest(p.x) + ", " + shortest(p.y) + ", " +
-                   shortest(p.z) + "), where the path meets it; repair the mesh there, or move the path");
+  throw InputError("the mesh is not a manifold near " + place_of(position(v)) +
+                   ", where the path meets it; repair the mesh there, or move the path");
 }
 
 std::vector<int> CutMesh::skin_fan(int v) const {
@@ -233,6 +236,38 @@ void CutMesh::unlink(int t, int from, int to) { set_neighbor(t, from, to, bounda
 CutMesh::Checkpoint CutMesh::checkpoint() const {
   return {triangles_.size(),    vertices_.size(),   sheets_.size(),
           triangle_log_.size(), vertex_log_.size(), sheet_log_.size()};
+}
+
+std::vector<int> CutMesh::changed_since(const Checkpoint& checkpoint) const {
+  std::vector<int> changed;
+  for (std::size_t i = checkpoint.triangle_log; i < triangle_log_.size(); ++i)
+    if (triangle_log_[i].first < static_cast<int>(checkpoint.triangles))
+      changed.push_back(triangle_log_[i].first);
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  for (std::size_t t = checkpoint.triangles; t < triangles_.size(); ++t)
+    changed.push_back(static_cast<int>(t));
+  return changed;
+}
+
+int CutMesh::euler_change_since(const Checkpoint& checkpoint) const {
+  // Two triangles to each edge but those of the boundary: E = (3 F + B) / 2.
+  const auto free_edges = [](const Triangle& t) {
+    return static_cast<int>(std::count(t.neighbor.begin(), t.neighbor.end(), boundary));
+  };
+  int free = 0;
+  std::vector<int> seen;  // only a triangle's oldest value counts
+  for (std::size_t i = checkpoint.triangle_log; i < triangle_log_.size(); ++i) {
+    const auto& [t, old] = triangle_log_[i];
+    if (t >= static_cast<int>(checkpoint.triangles)) continue;
+    if (std::find(seen.begin(), seen.end(), t) != seen.end()) continue;
+    seen.push_back(t);
+    free += free_edges(triangles_[t]) - free_edges(old);
+  }
+  for (std::size_t t = checkpoint.triangles; t < triangles_.size(); ++t) free += free_edges(triangles_[t]);
+  const int faces = static_cast<int>(triangles_.size() - checkpoint.triangles);
+  const int vertices = static_cast<int>(vertices_.size() - checkpoint.vertices);
+  return vertices - (3 * faces + free) / 2 + faces;
 }
 
 template <class T>

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -126,6 +127,10 @@ class CutMesh {
     std::size_t triangles, vertices, sheets, triangle_log, vertex_log, sheet_log;
   };
   Checkpoint checkpoint() const;
+  /// The triangles changed or added since a checkpoint.
+  std::vector<int> changed_since(const Checkpoint& checkpoint) const;
+  /// By how much the Euler characteristic has changed since a checkpoint, from the changes alone.
+  int euler_change_since(const Checkpoint& checkpoint) const;
   void roll_back(const Checkpoint& to);
 
   /// What undo took back, to be made again.
@@ -174,5 +179,8 @@ class CutMesh {
   std::vector<std::uint32_t> noted_;  // the epoch in which a triangle was last put there
   std::uint32_t epoch_ = 1;
 };
+
+/// "(x, y, z)", for messages.
+std::string place_of(const Vec3& p);
 
 }  // namespace cleft

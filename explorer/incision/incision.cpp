@@ -7,8 +7,16 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "explorer/incision/refine.h"
+#include "explorer/incision/triangle_quality.h"
 
 namespace cleft {
+
+namespace {
+
+constexpr double room_for_piece =
+    6;  ///< the longest edge of a triangle that a straight piece ends in, in pieces
+
+}  // namespace
 
 Incision::Incision(const SurfaceMesh& surface, ScalpelPath path, const IncisionOptions& options)
     : Incision(std::make_unique<CutMesh>(surface), nullptr, std::move(path), options) {}
@@ -26,7 +34,8 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
       cut_(mesh_.begin_cut()),
       chord_tolerance_(options.chord_tolerance.value_or(path_.length() / 1000)),
       longest_step_(path_.length() / 4),  // even a cut inside one triangle has vertices that can open
-      original_triangles_(static_cast<int>(mesh_.triangles().size())) {
+      original_triangles_(static_cast<int>(mesh_.triangles().size())),
+      worst_before_(smallest_radius_ratio(mesh_)) {
   if (!(path_.smallest_depth() > 0))
     throw InputError("the cut has no depth: give the path a column 'depth', or a depth for all of it");
   const double max_edge = options_.max_edge.value_or(path_.length() / 30);
@@ -38,8 +47,14 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
       refine_along(mesh_, path_, height, max_edge, path_.length() / 8);
       start = find_start();
     }
+    for (int k = 0; k < 60 && start.inside &&
+                    longest_edge_length(mesh_, start.triangle) > room_for_piece * longest_step_ &&
+                    bisect(mesh_, start.triangle);
+         ++k)
+      start = find_start();
     const int first = realise(start);
     grow(first, start.s);
+    mend(before_cut_);
     rows_ = static_cast<int>(std::clamp(path_.largest_depth() / wall_spacing(first, max_edge), 3.0, 32.0));
   } catch (...) {
     mesh_.roll_back(before_cut_);
@@ -54,8 +69,7 @@ Incision::Step Incision::find_start() const {
   const Vec3 c = path_.at(0).position;
   double least = std::numeric_limits<double>::infinity();
   for (const CutMesh::Vertex& v : mesh_.vertices()) least = std::min(least, norm(v.position - c));
-  throw InputError("the path never touches the mesh: it begins at (" + shortest(c.x) + ", " + shortest(c.y) +
-                   ", " + shortest(c.z) + "), " + shortest(least) +
+  throw InputError("the path never touches the mesh: it begins at " + place_of(c) + ", " + shortest(least) +
                    " from the nearest vertex. It must lie within " + shortest(reach) +
                    " of a surface that faces along its directions (nx, ny, nz), in the mesh's own " +
                    "units: divide a path in mm by the mm per unit given as --scale");
@@ -75,13 +89,21 @@ void Incision::advance_to(double s) {
   CLEFT_CHECK(undone_.has_value(), ==, false);
   mesh_.forget_changes();
   s = std::min(s, path_.length());
-  if (s <= tip() || (state_.left_mesh && !provisional_)) return;
+  if (s < tip() || (!provisional_ && (s == tip() || state_.left_mesh))) return;
   if (provisional_) roll_back(*provisional_);
   provisional_.reset();
   const double same = 1e-12 * path_.length();
   while (!state_.left_mesh && s - tip() > same && next_step().s <= s + same) {
-    take(Step(*next_));
+    const Step step = *next_;
     next_.reset();
+    const Before state = before();
+    try {
+      if (!made_room(step)) take(step);
+    } catch (...) {
+      roll_back(state);
+      throw;
+    }
+    check_progress();
   }
   if (state_.left_mesh || s - tip() <= same) return;
 
@@ -91,7 +113,12 @@ void Incision::advance_to(double s) {
   if (s - tip() <= close) return;
   const Step step = next.s - s <= close ? next : shorter(next, s);
   const Before state = before();
-  take(step);
+  try {
+    take(step);
+  } catch (...) {
+    roll_back(state);
+    throw;
+  }
   provisional_ = state;
 }
 
@@ -115,13 +142,45 @@ int Incision::moved_vertices() const {
 }
 
 void Incision::take(const Step& step) {
-  const Before state = before();
-  try {
-    grow(realise(step), step.s);
-  } catch (...) {
-    roll_back(state);
-    throw;
-  }
+  const CutMesh::Checkpoint since = mesh_.checkpoint();
+  grow(realise(step), step.s);
+  mend(since);
+  // A slit with its walls leaves the surface what it is; where wounds are tangled within a triangle's breadth,
+  // sewing may not.
+  if (mesh_.euler_change_since(since) != 0)
+    throw InputError("the path meets too many wounds at once near " + place_of(step.place) + ", at arc length " +
+                     shortest(step.s) + "; lead it around them");
+}
+
+bool Incision::made_room(const Step& step) {
+  // A piece much shorter than the triangle it is in would leave slivers: smaller triangles first.
+  if (!step.inside) return false;
+  const double most = room_for_piece * norm(step.place - mesh_.position(tip_vertex()));
+  const CutMesh::Checkpoint since = mesh_.checkpoint();
+  const int across = step.kind == Step::edge ? mesh_.triangle(step.triangle).neighbor[step.index] : -1;
+  bool made = longest_edge_length(mesh_, step.triangle) > most && bisect(mesh_, step.triangle);
+  if (!made && across >= 0 && mesh_.triangle(across).region == Region::skin)
+    made = longest_edge_length(mesh_, across) > most && bisect(mesh_, across);
+  if (made) mend(since);
+  return made;
+}
+
+void Incision::check_progress() const {
+  constexpr std::size_t steps = 12;
+  if (chain_.size() < steps || tip() - chain_[chain_.size() - steps].s > 1e-6 * path_.length()) return;
+  throw InputError("the path runs along a wound near " + place_of(mesh_.position(tip_vertex())) +
+                   ", at arc length " + shortest(tip()) + "; lead it across, or away from it");
+}
+
+void Incision::mend(const CutMesh::Checkpoint& since) {
+  mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, worst_before_ / 4));
+  const double least = 1e-4 * std::min(0.1, worst_before_);
+  for (const int t : mesh_.changed_since(since))
+    if (mesh_.triangle(t).region == Region::skin && radius_ratio(mesh_, t) < least)
+      throw InputError("the path comes too close to a wound or an edge of the surface near " +
+                       place_of(mesh_.position(mesh_.triangle(t).vertex[0])) + ", at arc length " +
+                       shortest(tip()) +
+                       ", and would leave triangles without area; lead it across, or farther away");
 }
 
 int Incision::realise(const Step& step) {

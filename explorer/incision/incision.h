@@ -79,6 +79,7 @@ class Incision {
     int index;     ///< the vertex, or the number of the edge
     Vec3 place;
     double s;
+    bool inside = false;  ///< not where the path crosses an edge, but between two such places
   };
 
   Step find_start() const;
@@ -93,11 +94,12 @@ class Incision {
     int edge = -1;      ///< -1: it has reached the s asked for
     double s = 0;
   };
+  Track entered(const std::vector<int>& fan, double size, double limit) const;
   Track follow(int vertex, double s) const;
   Step crossing(const Track& track) const;
   std::optional<Step> snapped(const Step& crossing) const;
   Step shorter(const Step& step, double to) const;
-  Step end_step(const Track& track) const;
+  Step step_at(const Track& track) const;
   Step placed(int triangle, const Vec3& place, double s) const;
   bool may_move(int v, const Vec3& place) const;
   bool may_reach(int v) const;
@@ -111,7 +113,10 @@ class Incision {
   // Changing the mesh: incision.cpp.
   void take(const Step& step);
   int realise(const Step& step);
+  bool made_room(const Step& step);
+  void check_progress() const;
   void grow(int next, double s);
+  void mend(const CutMesh::Checkpoint& since);
   Column start_column();
   Vec3 down(double s) const { return -path_.depth(s) * path_.at(s).outward; }
 
@@ -123,6 +128,7 @@ class Incision {
   int cut_;
   double chord_tolerance_, longest_step_;
   int original_triangles_;
+  double worst_before_;  // radius ratio
   int rows_ = 3;
   std::vector<ChainVertex> chain_;
 

@@ -142,17 +142,25 @@ std::optional<Incision::Step> Incision::start_on_boundary(double reach) const {
   return best;
 }
 
+Incision::Track Incision::entered(const std::vector<int>& fan, double size, double limit) const {
+  // A little ahead of the tip the line is in the triangle that the path enters; how little, depends on how far
+  // the path was drawn aside to a vertex.
+  const double tip = chain_.back().s;
+  double ahead = 0.1 * size;
+  for (int k = 0; k < 44; ++k, ahead = k == 40 ? 0.15 * size : k > 40 ? 1.5 * ahead : ahead / 2) {
+    const double s = std::min(tip + ahead, limit);
+    const int triangle = pierced(mesh_, fan, path_.at(s));
+    if (triangle >= 0) return {triangle, -1, s};
+  }
+  return {};
+}
+
 Incision::Track Incision::follow(int vertex, double limit) const {
   const std::vector<int> fan = mesh_.skin_fan(vertex);
-  const double size = mean_spoke(mesh_, fan, vertex), tip = chain_.back().s;
-  // A little ahead the line is in the triangle that the path enters.
-  double at = tip, step = std::min(0.1 * size, limit - tip);
-  Track track;
-  for (int k = 0; k < 40 && track.triangle < 0; ++k, step /= 2)
-    track.triangle = pierced(mesh_, fan, path_.at(at = tip + step));
+  const double size = mean_spoke(mesh_, fan, vertex);
+  Track track = entered(fan, size, limit);
   if (track.triangle < 0) return track;
-  track.s = at;
-  step = std::min(0.25 * size, path_.length() / 64);
+  const double step = std::min(0.25 * size, path_.length() / 64);
   const int rounds = 4 * static_cast<int>(fan.size());
   for (int round = 0; track.s < limit;) {
     const double to = std::min(track.s + step, limit);
@@ -194,21 +202,25 @@ const Incision::Step& Incision::next_step() {
   const double s = chain_.back().s;
   const Track track = follow(tip, path_.length());
   if (track.triangle < 0) report_end();
-  Step step = track.edge < 0 ? end_step(track) : crossing(track);
-  if (track.edge >= 0)
-    if (const auto vertex = snapped(step)) step = *vertex;
-  for (int k = 0; k < 20; ++k) {
-    double to;
+  Step step = step_at(track);
+  // A rest too short to be worth a vertex.
+  const bool rest = track.edge < 0 && path_.length() - s < 0.003 * path_.length();
+  if (rest) step.s = std::numeric_limits<double>::infinity();
+  double within =
+      step.s - s;  // the piece's length, halved as often as a vertex ahead draws it to itself again
+  for (int k = 0; k < 40 && !rest && within > tiny * path_.length(); ++k) {
     const double error = chord_error(mesh_.position(tip), step.place, s, step.s);
     if (step.s - s > 1.25 * longest_step_)
-      to = s + longest_step_;
+      within = std::min(within, longest_step_);
     else if (too_soon_at_wound(step))
-      to = (s + step.s) / 2;
+      within /= 2;
     else if (error > chord_tolerance_)
-      to = s + (step.s - s) / std::max(2.0, std::ceil(std::sqrt(error / chord_tolerance_)));
+      within /= std::max(2.0, std::ceil(std::sqrt(error / chord_tolerance_)));
     else
       break;
-    step = shorter(step, to);
+    const double before = step.s;
+    step = shorter(step, s + within);
+    within = step.s < before ? step.s - s : within / 2;
   }
   next_ = step;
   return *next_;
@@ -217,11 +229,14 @@ const Incision::Step& Incision::next_step() {
 Incision::Step Incision::shorter(const Step& step, double to) const {
   const Track track = follow(tip_vertex(), to);
   if (track.triangle < 0) return step;
-  return track.edge < 0 ? end_step(track) : crossing(track);
+  return step_at(track);
 }
 
-Incision::Step Incision::end_step(const Track& track) const {
-  return placed(track.triangle, piercing_point(mesh_, track.triangle, path_.at(track.s)), track.s);
+Incision::Step Incision::step_at(const Track& track) const {
+  if (track.edge < 0)
+    return placed(track.triangle, piercing_point(mesh_, track.triangle, path_.at(track.s)), track.s);
+  const Step step = crossing(track);
+  return snapped(step).value_or(step);
 }
 
 bool Incision::too_soon_at_wound(const Step& step) const {
@@ -234,17 +249,16 @@ bool Incision::too_soon_at_wound(const Step& step) const {
 }
 
 void Incision::go_on_from_wound() {
-  const double s = chain_.back().s;
-  for (const int v : on_the_same_place(mesh_, chain_.back().left)) {
-    if (mesh_.triangle(mesh_.vertex(v).triangle).region != Region::skin) continue;
-    const std::vector<int> fan = mesh_.skin_fan(v);
-    const double size = mean_spoke(mesh_, fan, v);
-    for (const double step : {0.1, 0.03, 0.01, 0.003, 0.3})
-      if (s + step * size < path_.length() && pierced(mesh_, fan, path_.at(s + step * size)) >= 0) {
-        state_.from = v;
-        return;
-      }
-  }
+  const std::vector<int> places = on_the_same_place(mesh_, chain_.back().left);
+  for (const double part : {0.1, 0.03, 0.3, 0.01, 0.003, 0.001})
+    for (const int v : places) {
+      if (mesh_.triangle(mesh_.vertex(v).triangle).region != Region::skin) continue;
+      const std::vector<int> fan = mesh_.skin_fan(v);
+      const double s = chain_.back().s + part * mean_spoke(mesh_, fan, v);
+      if (s > path_.length() || pierced(mesh_, fan, path_.at(s)) < 0) continue;
+      state_.from = v;
+      return;
+    }
   report_end();
 }
 
@@ -252,10 +266,9 @@ Incision::Step Incision::crossing(const Track& track) const {
   const CutMesh::Triangle& t = mesh_.triangle(track.triangle);
   const int across = t.neighbor[track.edge];
   if (across == CutMesh::non_manifold) {
-    const Vec3& p = mesh_.position(t.vertex[track.edge]);
     throw InputError("the path meets an edge that more than two triangles share at arc length " +
-                     shortest(track.s) + ", near (" + shortest(p.x) + ", " + shortest(p.y) + ", " +
-                     shortest(p.z) + "); end it before, or repair the mesh there");
+                     shortest(track.s) + ", near " + place_of(mesh_.position(t.vertex[track.edge])) +
+                     "; end it before, or repair the mesh there");
   }
   const Vec3 &a = mesh_.position(t.vertex[track.edge]), &b = mesh_.position(t.vertex[(track.edge + 1) % 3]);
   const PathFrame frame = path_.at(track.s);
@@ -293,13 +306,16 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
       frame = path_.at(step.s);
     }
     const double away = std::abs(dot(position - frame.position, frame.across)) / room;
-    if (away > least || step.s - chain_.back().s < 0.1 * room || step.s > path_.length()) continue;
+    if (away > least || step.s - chain_.back().s < 0.1 * room ||
+        step.s - path_.length() > options_.snap * room)
+      continue;
     if (away > tiny) {
       const int triangle = pierced(mesh_, mesh_.skin_fan(v), frame);
       if (triangle < 0) continue;
       step.place = piercing_point(mesh_, triangle, frame);
       if (norm(step.place - position) > 1.5 * options_.snap * room) continue;
     }
+    step.s = std::min(step.s, path_.length());
     least = away;
     best = step;
   }
@@ -339,7 +355,7 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
   }
   // A new vertex inside the triangle, or where it is close to an edge, one of that edge, bent to go through
   // it: whichever leaves the better triangles.
-  Step best{Step::face, triangle, 0, place, s};
+  Step best{Step::face, triangle, 0, place, s, true};
   Vec3 p[3];
   for (int i = 0; i < 3; ++i) p[i] = mesh_.position(t.vertex[i]);
   const Vec3 n = normalized(cross(p[1] - p[0], p[2] - p[0]));
@@ -368,7 +384,7 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
     }
     if (worst <= least) continue;
     least = worst;
-    best = {Step::edge, triangle, i, on_edge, s};
+    best = {Step::edge, triangle, i, on_edge, s, true};
   }
   return best;
 }
@@ -402,9 +418,8 @@ double Incision::chord_error() const {
 }
 
 void Incision::report_end() const {
-  const Vec3& p = mesh_.position(tip_vertex());
-  throw InputError("the path leaves the surface near (" + shortest(p.x) + ", " + shortest(p.y) + ", " +
-                   shortest(p.z) + "), at arc length " + shortest(chain_.back().s) +
+  throw InputError("the path leaves the surface near " + place_of(mesh_.position(tip_vertex())) +
+                   ", at arc length " + shortest(chain_.back().s) +
                    ": its directions (nx, ny, nz) must point out of the surface there");
 }
 

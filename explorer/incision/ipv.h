@@ -5,9 +5,10 @@
 // between them the steady state of the middle. v is the distance from the path across it: exact on a plane;
 // on a curved surface the straight distance in the plane across the path, or where the way along the surface
 // is far longer, two thirds of that way along the mesh's edges. w is 0 on the skin; the walls reach from
-// there to the canonical depth, whatever their own. On which side a vertex lies is told by the surface, from
-// which lip it is reached first, never by space: a vertex that lies opposite the cut but far along the
-// surface takes no part.
+// there to the canonical depth, whatever their own, along the blade; where that is tilted, displacements are
+// still those of the skin's own frame (T, across, the skin's normal along the cut). On which side a vertex
+// lies is told by the surface, from which lip it is reached first, never by space: a vertex that lies
+// opposite the cut but far along the surface takes no part.
 #pragma once
 
 #include <vector>
@@ -21,7 +22,7 @@ struct ActiveVertex {
   int vertex = 0;
   Vec3 uvw;                     ///< canonical, mm, inside the field's patch
   Side side = Side::both;       ///< never against the sign of v
-  Vec3 along, across, outward;  ///< unit vectors T, B, N of the path in the mesh's space
+  Vec3 along, across, outward;  ///< unit vectors in the mesh's space: T of the path, across it, skin's normal
   double s = 0;                 ///< mm along the path
   double time_offset = 0;  ///< tau: with the blade at p the field's time is clamp(p + tau, 0, cut length)
   double weight = 1;       ///< 1 in the patch, falling to 0 over a quarter of its width beside it

@@ -28,6 +28,24 @@ double edge_length(const CutMesh& mesh, int t, int i) {
               mesh.position(mesh.triangle(t).vertex[i]));
 }
 
+bool is_skin(const CutMesh& mesh, int t) { return t >= 0 && mesh.triangle(t).region == Region::skin; }
+
+/// Splits the first edge on the way from t along ever longer edges that is the longest of both its triangles
+/// (of walls, lips and the boundary, of the one). False where that edge is not manifold.
+bool split_on_the_way(CutMesh& mesh, int t, int parted[2]) {
+  int edge = longest_edge(mesh, t), neighbor = mesh.triangle(t).neighbor[edge];
+  while (is_skin(mesh, neighbor) && mesh.triangle(neighbor).neighbor[longest_edge(mesh, neighbor)] != t) {
+    t = neighbor;
+    edge = longest_edge(mesh, t);
+    neighbor = mesh.triangle(t).neighbor[edge];
+  }
+  if (neighbor == CutMesh::non_manifold) return false;
+  const int a = mesh.triangle(t).vertex[edge], b = mesh.triangle(t).vertex[(edge + 1) % 3];
+  mesh.split_edge(t, edge, 0.5 * (mesh.position(std::min(a, b)) + mesh.position(std::max(a, b))));
+  parted[0] = t, parted[1] = neighbor;
+  return true;
+}
+
 }  // namespace
 
 void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double max_edge, double band) {
@@ -60,33 +78,32 @@ void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double 
 
   std::vector<int> work;
   for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t)
-    if (mesh.triangle(t).region == Region::skin && too_long(t)) work.push_back(t);
+    if (is_skin(mesh, t) && too_long(t)) work.push_back(t);
   while (!work.empty()) {
     const int t = work.back();
     if (!too_long(t)) {
       work.pop_back();
       continue;
     }
-    // Along ever longer edges to one that is the longest of both its triangles.
-    int current = t, edge = longest_edge(mesh, t), neighbor = mesh.triangle(t).neighbor[edge];
-    const auto skin = [&](int other) { return other >= 0 && mesh.triangle(other).region == Region::skin; };
-    while (skin(neighbor) && mesh.triangle(neighbor).neighbor[longest_edge(mesh, neighbor)] != current) {
-      current = neighbor;
-      edge = longest_edge(mesh, current);
-      neighbor = mesh.triangle(current).neighbor[edge];
-    }
-    if (neighbor == CutMesh::non_manifold) {  // leave it as it is
+    const int first_new = static_cast<int>(mesh.triangles().size());
+    int parted[2];
+    if (!split_on_the_way(mesh, t, parted)) {  // leave it as it is
       work.pop_back();
       continue;
     }
-    const int a = mesh.triangle(current).vertex[edge], b = mesh.triangle(current).vertex[(edge + 1) % 3];
-    const int first_new = static_cast<int>(mesh.triangles().size());
-    mesh.split_edge(current, edge, 0.5 * (mesh.position(std::min(a, b)) + mesh.position(std::max(a, b))));
-    if (current != t) work.push_back(current);
-    if (skin(neighbor)) work.push_back(neighbor);
+    for (const int other : parted)
+      if (other != t && is_skin(mesh, other)) work.push_back(other);
     for (int n = first_new; n < static_cast<int>(mesh.triangles().size()); ++n)
-      if (skin(n)) work.push_back(n);
+      if (is_skin(mesh, n)) work.push_back(n);
   }
+}
+
+double longest_edge_length(const CutMesh& mesh, int t) { return edge_length(mesh, t, longest_edge(mesh, t)); }
+
+bool bisect(CutMesh& mesh, int t) {
+  for (int parted[2]; split_on_the_way(mesh, t, parted);)
+    if (parted[0] == t || parted[1] == t) return true;
+  return false;
 }
 
 }  // namespace cleft

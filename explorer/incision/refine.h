@@ -12,4 +12,11 @@ namespace cleft {
 /// The surface itself does not change.
 void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double max_edge, double band);
 
+/// Bisects triangle t, and first those across ever longer edges that stand in the way. False where an edge
+/// that is not manifold does.
+bool bisect(CutMesh& mesh, int t);
+
+/// The length of the longest edge.
+double longest_edge_length(const CutMesh& mesh, int t);
+
 }  // namespace cleft

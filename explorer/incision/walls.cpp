@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/text.h"
 
 namespace cleft {
 
@@ -92,7 +91,9 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
       break;
     }
   }
-  CLEFT_CHECK(column.size(), >, 1u);
+  if (column.size() == 1)  // so close to a column that it has the same parameter
+    throw InputError("the path meets a wound too close to a corner of its wall near " + place_of(mesh.position(top)) +
+                     "; move it a little");
   column.first_new = column.size();
   for (std::size_t i = 1; i < column.size(); ++i)
     column.depth_fraction.push_back(
@@ -119,6 +120,9 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
 
 void Sewing::add(const Column& p, const Column& q) {
   CLEFT_CHECK(can_stand(p, q), ==, true);
+  if (std::find_first_of(p.vertex.begin() + 1, p.vertex.end(), q.vertex.begin() + 1, q.vertex.end()) != p.vertex.end())
+    throw InputError("the path comes back to the same place of a wound near " + place_of(mesh_.position(q.vertex[0])) +
+                     "; lead it across, or away from it");
   p_ = p, q_ = q;
   along_p_.clear(), along_q_.clear();
   const std::size_t n = p.size() - 1, m = q.size() - 1;
@@ -164,9 +168,8 @@ void Sewing::add(const Column& p, const Column& q) {
   const int skin = mesh_.triangle_with(p.vertex[0], q.vertex[0]),
             other = mesh_.triangle_with(q.vertex[0], p.vertex[0]);
   if (skin < 0 || other < 0) {
-    const Vec3& x = mesh_.position(q.vertex[0]);
-    throw InputError("the path runs along the edge of the surface near (" + shortest(x.x) + ", " +
-                     shortest(x.y) + ", " + shortest(x.z) + "); move it off that edge");
+    throw InputError("the path runs along the edge of the surface near " +
+                     place_of(mesh_.position(q.vertex[0])) + "; move it off that edge");
   }
   sew(p.vertex[0], q.vertex[0], first_);
   sew_column(p.vertex, along_p_);

@@ -10,7 +10,7 @@ complain() { echo "$1: a file here must not include $2:"; sed 's/^/  /' <<<"$3";
 while IFS=: read -r part allowed; do
   [ -n "$part" ] || continue
   [ -d "$root/$part" ] || { echo "$part: no such folder"; bad=1; continue; }
-  nested=$(case $part in solver) echo snapshot ;; encoder) echo field import ;; *) echo nowhere ;; esac)
+  nested=$(case $part in solver) echo snapshot ;; encoder) echo field import interpolate ;; *) echo nowhere ;; esac)
   found=$(find "$root/$part" \( -false $(printf -- "-o -path $root/$part/%s " $nested) \) -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 -r grep -HnE '#include "(base|params|solver|encoder|haptic|explorer|cli|examples)/' |
     grep -vE "#include \"($part|$allowed)/")
@@ -23,6 +23,7 @@ solver:base|params
 encoder/field:base
 encoder:base|solver/snapshot
 encoder/import:base|solver/snapshot
+encoder/interpolate:base|encoder/field|params
 haptic:base|encoder/field
 explorer/incision:base|encoder/field|haptic
 explorer/io:base|explorer/incision|solver/snapshot

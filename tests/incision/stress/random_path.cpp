@@ -42,8 +42,10 @@ double curvature(PathKind kind, double part, double amount) {
       return amount * 6 * std::cos(4 * pi * part);
     case PathKind::spiral:
       return 2 * pi / (0.12 + 0.5 * part);
-    case PathKind::eight:
-      return part < 0.52 ? 4.1 * pi : -4.1 * pi;
+    case PathKind::eight: {  // two loops of three quarters each, crossing at a right angle
+      const double at = std::abs(part - 0.5);
+      return at > 0.1 && at < 0.4 ? std::copysign(1.5 * pi / 0.3, part - 0.5) : 0;
+    }
     case PathKind::tiny:
       return amount * 4;
     default:
@@ -56,7 +58,7 @@ using Points = std::vector<ScalpelPath::Point>;
 Points walk(const Ground& ground, const Start& start, PathKind kind, double length, std::mt19937_64& random) {
   SurfaceWalker walker(ground, start.triangle, start.place, start.heading);
   const double edge = ground.edge_length(start.triangle);
-  const double step = std::min(0.25 * edge, length / 48), depth = length * uniform(random, 0.05, 0.3);
+  const double step = std::min(0.15 * edge, length / 48), depth = length * uniform(random, 0.05, 0.3);
   const double amount = uniform(random, -1, 1);
   Points points{{walker.place(), walker.normal(), depth}};
   int turn_in = 6;
@@ -69,8 +71,8 @@ Points walk(const Ground& ground, const Start& start, PathKind kind, double leng
     const bool on = walker.go(step);
     points.push_back({walker.place(), walker.normal(), depth});
     if (on) continue;
-    points.pop_back();  // over the boundary and out
-    points.push_back({walker.place() + 0.5 * edge * walker.heading(), walker.normal(), depth});
+    points.pop_back();
+    if (walker.at_boundary()) points.push_back({walker.place() + 0.5 * edge * walker.heading(), walker.normal(), depth});
     break;
   }
   if (kind == PathKind::off_surface) {  // beside the surface, tilted, and of varying depth
@@ -111,7 +113,7 @@ Points along_edges(const Ground& ground, PathKind kind, std::mt19937_64& random)
       const double forward = dot(normalized(ground.mesh.position(w) - p), heading);
       if (forward > straightest) straightest = forward, best = w;
     }
-    if (straightest < 0.5) break;
+    if (straightest < 0.5 || ground.mesh.on_boundary(v)) break;
     heading = normalized(ground.mesh.position(best) - p);
     v = best;
   }

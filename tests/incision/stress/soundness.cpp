@@ -81,6 +81,7 @@ std::string Soundness::local(int t) const {
 std::string Soundness::step() {
   known_.resize(std::max(known_.size(), mesh_.triangles().size()));
   for (const int t : mesh_.changed()) {
+    if (t >= static_cast<int>(known_.size())) continue;  // added and taken away again
     Known& known = known_[static_cast<std::size_t>(t)];
     area_ -= known.area, boundary_ -= known.boundary, triangles_ -= known.there;
     known = t < static_cast<int>(mesh_.triangles().size()) ? look(t) : Known{};

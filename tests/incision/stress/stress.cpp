@@ -143,8 +143,6 @@ class Stress {
     const bool poor = soundness_.worst_new_quality() < asked;
     tally_.poor += poor;
     tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
-    if (poor && std::getenv("POOR"))
-      fprintf(stderr, "%s q %g\n", label_.c_str(), soundness_.worst_new_quality());
     bool moved = false;
     for (const auto& c : chain) moved |= !(mesh_.vertex(c.left).original == mesh_.position(c.left));
     if (!moved) {

@@ -4,6 +4,10 @@
 
 namespace cleft::stress {
 
+namespace {
+constexpr double sharpest_fold = 0.2;  // cosine: over sharper ones no blade stands upright on both sides
+}
+
 Ground::Ground(const SurfaceMesh& surface) : mesh(surface), vertex_normals(surface.points.size()) {
   for (const auto& t : surface.triangles) {
     const Vec3 n =
@@ -70,7 +74,8 @@ bool SurfaceWalker::go(double length) {
     if (edge < 0) return true;
     length -= least;
     const int next = t.neighbor[edge];
-    if (next < 0) return false;
+    at_boundary_ = next < 0;
+    if (at_boundary_ || dot(n, ground_.face_normal(next)) < sharpest_fold) return false;
     const Vec3 axis =
         normalized(ground_.mesh.position(t.vertex[(edge + 1) % 3]) - ground_.mesh.position(t.vertex[edge]));
     const double along = dot(heading_, axis), out = dot(heading_, cross(axis, n));

@@ -23,19 +23,21 @@ class SurfaceWalker {
  public:
   SurfaceWalker(const Ground& ground, int triangle, const Vec3& place, const Vec3& heading);
 
-  /// False, and no further, where the surface ends.
+  /// False, and no further, where the surface ends or folds by more than 78 degrees.
   bool go(double length);
   void turn(double angle);  ///< counter-clockwise, radians
 
   const Vec3& place() const { return place_; }
   const Vec3& heading() const { return heading_; }
   int triangle() const { return triangle_; }
+  bool at_boundary() const { return at_boundary_; }
   Vec3 normal() const { return ground_.normal(triangle_, place_); }
 
  private:
   const Ground& ground_;
   int triangle_;
   Vec3 place_, heading_;
+  bool at_boundary_ = false;
 };
 
 }  // namespace cleft::stress

@@ -1,0 +1,64 @@
+// The cases of a study on common knots: their control points can be added up.
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "encoder/field/field.h"
+
+namespace cleft {
+
+/// A case as it was read: its field, and the parameters that are no numbers where they are known (a
+/// study.dffd does not hold them).
+struct StudyMember {
+  std::string name;
+  Field field;
+  std::map<std::string, std::string> choices;
+};
+
+/// The published cases of a study folder, or the fields of a study.dffd. Throws InputError where there are
+/// none, FileError where one is damaged.
+std::vector<StudyMember> read_members(const std::string& study);
+
+/// What is kept of a case beside its control points.
+struct CommonCase {
+  std::string name;
+  /// cut.length and cut.depth are those of the cut in the mesh, where the mesh was made for another one.
+  std::map<std::string, double> parameters;
+  FieldGeometry geometry;
+  FitReport report;
+};
+
+class CommonCases {
+ public:
+  /// Raises all cases to the bases that hold the knots of each. Of cases with the same parameters the one
+  /// fitted best is taken. Throws InputError where fewer than two are left, where parametrisations or
+  /// choices differ, or one cut reaches an edge of the patch that another does not.
+  explicit CommonCases(const std::vector<StudyMember>& members);
+
+  const std::vector<CommonCase>& cases() const { return cases_; }
+  int size() const { return static_cast<int>(cases_.size()); }
+  const std::string& parametrization() const { return parametrization_; }
+  const std::map<std::string, std::string>& choices() const { return choices_; }
+
+  /// Bases in parameters that are the same in all cases: "fixed" has them scaled to -1 .. 1 across and 0
+  /// .. 1.
+  const std::array<BSplineBasis, 4>& bases() const { return bases_; }
+  /// Control points of a case on bases(), mm: [point * 3 + component]. Single precision is 1e4 times finer
+  /// than any fit.
+  std::span<const float> control_points(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  /// The field of a sum of control points, in a body of this geometry.
+  Field field_of(const std::vector<Vec3>& points, FieldGeometry geometry) const;
+
+ private:
+  std::vector<CommonCase> cases_;
+  std::string parametrization_;
+  std::map<std::string, std::string> choices_;
+  std::array<BSplineBasis, 4> bases_;
+  std::vector<std::vector<float>> points_;
+};
+
+}  // namespace cleft

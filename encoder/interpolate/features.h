@@ -1,0 +1,70 @@
+// What parameters mean to a displacement, in numbers without dimension.
+//
+// The solver's model is linear, and of the skin it knows thickness t times Young's modulus E_s and t times
+// prestress alone (a membrane: docs/formats.md). With the tissue's modulus E, the cut's length L and the
+// springs' k, dimensional analysis (Buckingham's theorem) leaves
+//
+//     d / L = q / (E L) f(E_s t / (E L), k L / E, lengths / L, Poisson's ratios; direction of q),    q = t
+//     sigma0
+//
+// linear in q where neither contact nor the prestress's own stiffness enters. Stiffness ratios and lengths
+// span decades, and displacements follow powers of them: their logarithms are the features.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cleft {
+
+using CaseParameters = std::map<std::string, double>;
+
+/// How the prestress enters: its components superpose, or they are features like others.
+enum class Loading { superposed, general };
+
+class Features {
+ public:
+  /// Of cases that all have the same parameters. Those that are none of the solver's (imported data) are
+  /// features themselves, or their logarithms where all values are positive.
+  Features(const std::vector<CaseParameters>& cases, Loading loading);
+
+  int size() const { return static_cast<int>(chosen_.size()); }
+  const std::vector<std::string>& names() const { return names_; }
+  Loading loading() const { return loading_; }
+
+  /// Features of a case, from -1 to 1 in the study. Of features that follow linearly from one another in
+  /// all cases only the first are kept.
+  Eigen::VectorXd at(const CaseParameters& parameters) const;
+  /// How far the features left out are from what follows from those kept, in halves of their range.
+  double off(const CaseParameters& parameters) const;
+  /// Components of the prestress over its norm; (1) where it does not superpose.
+  Eigen::VectorXd load(const CaseParameters& parameters) const;
+  /// mm: q / E, or 1 for imported data.
+  double scale(const CaseParameters& parameters) const;
+
+ private:
+  struct Raw {
+    std::string name;
+    double value;
+    bool logarithm;
+  };
+  std::vector<Raw> raw(const CaseParameters& parameters) const;
+  /// All of raw() from -1 to 1.
+  Eigen::VectorXd normalised(const CaseParameters& parameters) const;
+
+  Loading loading_;
+  bool ours_ = false;                    // parameters of the solver
+  std::vector<std::string> varying_;     // parameters
+  std::vector<std::string> components_;  // of the prestress
+  std::vector<bool> positive_;           // of raw(), in all cases: a logarithm exists
+  Eigen::VectorXd middle_, half_;
+  std::vector<int> chosen_, left_out_;
+  Eigen::MatrixXd follows_;  // left out = follows_ * (1, chosen)
+  std::vector<std::string> names_;
+};
+
+/// Names of the parameters in which cases differ, sorted.
+std::vector<std::string> varying_parameters(const std::vector<CaseParameters>& cases);
+
+}  // namespace cleft

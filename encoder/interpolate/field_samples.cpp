@@ -1,0 +1,98 @@
+#include "encoder/interpolate/field_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cleft {
+
+namespace {
+
+constexpr int times = 12, along = 30, most_heights = 4;
+constexpr int around[] = {-3, -2, -1, 0, 1, 2, 3};  // nodes from the tip and the start
+constexpr int across[] = {0, 1, 2, 4, 8, 16};       // from the cut
+
+/// Columns of nodes, from the start of the cut on.
+struct Columns {
+  double start, spacing;
+  Interval ends;
+  double near(double u) const {
+    return std::clamp(start + spacing * std::round((u - start) / spacing), ends.front, ends.back);
+  }
+};
+
+std::vector<double> along_at(const Columns& columns, double tip) {
+  const auto [front, back] = columns.ends;
+  std::vector<double> places;
+  for (int i = 0; i < along; ++i) places.push_back(columns.near(front + (back - front) * i / (along - 1)));
+  for (const int k : around)
+    for (const double end : {columns.start, tip}) places.push_back(columns.near(end + k * columns.spacing));
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+std::vector<double> across_from(double edge, double spacing) {
+  std::vector<double> places = {edge};
+  for (const int k : across)
+    if (k * spacing < std::abs(edge)) places.push_back(std::copysign(k * spacing, edge));
+  return places;
+}
+
+std::vector<double> heights_of(const FieldGeometry& g, double spacing) {
+  const auto [bottom, top] = g.domain[2];
+  const double depth = g.cut.depth > 0 ? std::min(g.cut.depth, top - bottom) : top - bottom;
+  const int layers = std::clamp(static_cast<int>(depth / spacing), 1, most_heights);
+  std::vector<double> places = {bottom};
+  for (int k = 0; k <= layers; ++k) places.push_back(top - depth * k / layers);
+  return places;
+}
+
+}  // namespace
+
+std::vector<Place> sample_places(const FieldGeometry& g, double spacing) {
+  const auto [begin, end] = g.domain[3];
+  const double first = g.tip.positions.front(), last = g.tip.positions.back();
+  const Columns columns{g.cut.start, spacing, g.domain[0]};
+  std::vector<Place> places;
+  for (int j = 1; j <= times; ++j) {
+    double t = begin + (end - begin) * j / times;
+    // The tip at a column of nodes. The first that opens has one behind it and one ahead.
+    if (last > first)
+      t = g.tip.passes(
+          std::min(columns.near(std::max(first + 2 * spacing, first + (last - first) * j / times)), last));
+    if (!places.empty() && t <= places.back().t) continue;
+    for (const double u : along_at(columns, g.tip.at(t)))
+      for (const double w : heights_of(g, spacing))
+        for (const Side side : {Side::left, Side::right})
+          for (const double v :
+               across_from(side == Side::left ? g.domain[1].front : g.domain[1].back, spacing))
+            places.push_back({{u, v, w}, side, t});
+  }
+  return places;
+}
+
+Eigen::MatrixXd sample_cases(const CommonCases& cases, const FieldGeometry& body,
+                             const std::vector<Place>& places) {
+  Eigen::MatrixXd samples(static_cast<Eigen::Index>(3 * places.size()), cases.size());
+  std::vector<Vec3> values(places.size());
+  for (int i = 0; i < cases.size(); ++i) {
+    const std::span<const float> flat = cases.control_points(i);
+    std::vector<Vec3> points(flat.size() / 3);
+    for (std::size_t k = 0; k < flat.size(); ++k)
+      points[k / 3][static_cast<int>(k % 3)] = static_cast<double>(flat[k]);
+    cases.field_of(points, body).displacements(places, values);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      for (int c = 0; c < 3; ++c) samples(static_cast<Eigen::Index>(3 * k) + c, i) = values[k][c];
+  }
+  return samples;
+}
+
+double largest_displacement(const Field& field, const std::vector<Place>& places) {
+  std::vector<Vec3> values(places.size());
+  field.displacements(places, values);
+  double largest = 0;
+  for (const Vec3& d : values) largest = std::max(largest, squared_norm(d));
+  return std::sqrt(largest);
+}
+
+}  // namespace cleft

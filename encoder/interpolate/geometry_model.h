@@ -1,0 +1,33 @@
+// The body and its cut in between: what a field's parametrisation is made from.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "encoder/field/parametrization.h"
+#include "encoder/interpolate/features.h"
+
+namespace cleft {
+
+/// Domain, start, length and depth of the cut, and the path of the tip as parts of duration and length. A
+/// body's measures are linear in its parameters: so they are taken, and what that leaves at the cases (a
+/// mesh's rounding) by inverse distances (Shepard 1968).
+class GeometryModel {
+ public:
+  GeometryModel(const std::vector<CaseParameters>& parameters, const std::vector<FieldGeometry>& geometries);
+  FieldGeometry at(const CaseParameters& parameters) const;
+
+ private:
+  Eigen::VectorXd place_of(const CaseParameters& parameters) const;
+
+  std::vector<std::string> varying_;
+  Eigen::VectorXd middle_, half_;
+  Eigen::MatrixXd places_;     // n x d, from -1 to 1
+  std::vector<double> times_;  // of the tip's path, 0 to 1
+  Eigen::MatrixXd linear_;     // (1 + d) x measures
+  Eigen::MatrixXd left_;       // n x measures
+  Eigen::VectorXd constant_;   // measures that are the same in all cases; else NaN
+};
+
+}  // namespace cleft

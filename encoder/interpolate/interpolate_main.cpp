@@ -1,0 +1,81 @@
+// cleft interpolate: the field of a case that was never simulated.
+#include <filesystem>
+#include <iostream>
+
+#include "base/command.h"
+#include "base/error.h"
+#include "base/output_file.h"
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+#include "encoder/interpolate/compact.h"
+#include "encoder/interpolate/study_interpolator.h"
+
+using namespace cleft;
+
+namespace {
+
+constexpr double share_of_steps = 0.1;  // of the estimated error: what a small file may add
+
+CaseParameters values_of(const std::vector<std::string>& assignments) {
+  CaseParameters values;
+  for (const std::string& assignment : assignments) {
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected NAME=VALUE");
+    const std::string name = assignment.substr(0, equals);
+    if (!values.emplace(name, parse_number(assignment.substr(equals + 1), "--set " + name)).second)
+      throw InputError("--set " + name + ": given twice");
+  }
+  return values;
+}
+
+Json figures_of(const Field& field, const StudyInterpolator& study, const std::string& out) {
+  const Interpolation& made = *field.interpolation;
+  Json features = Json::array();
+  for (const std::string& name : study.features().names()) features.push_back(name);
+  return {{"estimated_error", made.estimated_error},
+          {"interpolation_error", made.interpolation_error},
+          {"outside", made.outside},
+          {"method", made.method},
+          {"features", features},
+          {"prestress_superposed", study.features().loading() == Loading::superposed},
+          {"cases", study.cases().size()},
+          {"largest_displacement_mm", field.report.largest_displacement},
+          {"parametrization", field.parametrization().name()},
+          {"control_points",
+           {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
+          {"quantum_mm", field.quantum},
+          {"bytes", std::filesystem::file_size(out)}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Makes the field of a case that was never simulated from those of a study.",
+               "cleft interpolate");
+  std::string study, out;
+  std::vector<std::string> assignments;
+  bool json = false;
+  app.add_option("DIR", study, "study folder, or its study.dffd")->required();
+  app.add_option("--set", assignments,
+                 "NAME=VALUE[,NAME=VALUE...]: every parameter in which the study's cases differ")
+      ->delimiter(',')
+      ->required();
+  app.add_option("--out", out, "field to write, new.dffd")->required();
+  app.add_flag("--json", json, "print the figures as JSON");
+  return run_command(app, argc, argv, [&] {
+    refuse_to_overwrite(out, {study});
+    const OutputFile probe(out);  // a bad name is told before the work
+    const CaseParameters values = values_of(assignments);
+    Progress progress("interpolating");
+    progress("reading the study");
+    const StudyInterpolator interpolator(study);
+    const Field field = interpolator.at(values);
+    write_field(
+        out, compact(field, share_of_steps * field.report.spline_error * field.report.largest_displacement));
+    if (const double outside = field.interpolation->outside; outside > 0)
+      std::cerr << "cleft interpolate: warning: these parameters lie outside the study, by "
+                << shortest(std::round(1000 * outside) / 1000)
+                << " of its spread; the estimated error is a guess there\n";
+    print_figures(figures_of(read_field(out), interpolator, out), json);
+  });
+}

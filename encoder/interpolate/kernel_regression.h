@@ -1,0 +1,68 @@
+// Regression of many quantities at once on few parameters, by kernels. Every method here is linear in the
+// data: a prediction is a weighted sum of the cases. Leaving a case out then costs nothing (Dubrule 1983;
+// Rasmussen and Williams, Gaussian Processes for Machine Learning, 5.4.2): with K the matrix of the
+// covariance between the cases and Y their data, the data of case i differ from what all others predict by
+//
+//     r_i = (Y K^-1)_i / (K^-1)_ii        with variance 1 / (K^-1)_ii
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace cleft {
+
+/// What is regressed on: n cases.
+struct TrainingCases {
+  Eigen::MatrixXd features;  ///< n x d, from -1 to 1
+  Eigen::MatrixXd loads;     ///< n x k: data are linear in them
+  Eigen::MatrixXd gram;      ///< n x n: inner products of the cases' data
+};
+
+/// k(x, y) = load_x . load_y (trend (1 + x . y)^degree + correlation(|(x - y) / lengths|)), and on
+/// the diagonal `nugget` k(0, 0). Without correlation: least squares by polynomials of a total degree.
+struct Covariance {
+  enum class Correlation { none, gaussian, matern };  ///< Matern's of 5/2
+  std::string name;
+  int degree = 1;
+  Correlation correlation = Correlation::none;
+  double trend = 1, nugget = 1e-9;
+  Eigen::VectorXd lengths;
+
+  double operator()(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const;
+};
+
+class KernelRegression {
+ public:
+  KernelRegression(const TrainingCases& cases, Covariance covariance);
+
+  const Covariance& covariance() const { return covariance_; }
+  /// Column i: weights of all cases whose sum of data is r_i.
+  const Eigen::MatrixXd& left_out() const { return left_out_; }
+  /// sqrt of the variance of r_i.
+  const Eigen::VectorXd& left_out_deviation() const { return left_out_deviation_; }
+  /// sqrt of the mean of |r_i|^2 / |y_i|^2.
+  double left_out_error() const { return left_out_error_; }
+
+  /// Of the cases, for the data at these features under this load.
+  Eigen::VectorXd weights(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
+  /// sqrt of the variance of that prediction, in the same units as left_out_deviation().
+  double deviation(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
+
+ private:
+  Eigen::VectorXd against(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
+
+  Eigen::MatrixXd features_, loads_, matrix_, left_out_;  // matrix_: without the nugget
+  Covariance covariance_;
+  double nugget_;
+  Eigen::LDLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd left_out_deviation_;
+  double left_out_error_ = 0;
+};
+
+/// Every method, with the lengths and nugget of least left_out_error(): polynomials, radial basis functions,
+/// and Gaussian processes with a length for each feature.
+std::vector<KernelRegression> all_methods(const TrainingCases& cases);
+
+}  // namespace cleft

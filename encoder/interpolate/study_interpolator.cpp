@@ -1,0 +1,174 @@
+#include "encoder/interpolate/study_interpolator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "encoder/interpolate/field_samples.h"
+#include "params/parameters.h"
+
+namespace cleft {
+
+namespace {
+
+std::vector<CaseParameters> parameters_of(const CommonCases& cases) {
+  std::vector<CaseParameters> list;
+  for (const CommonCase& one : cases.cases()) list.push_back(one.parameters);
+  return list;
+}
+
+std::vector<FieldGeometry> geometries_of(const CommonCases& cases) {
+  std::vector<FieldGeometry> list;
+  for (const CommonCase& one : cases.cases()) list.push_back(one.geometry);
+  return list;
+}
+
+/// mm: of the solver's meshes; a guess for those of others.
+double node_spacing(const CommonCase& one) {
+  const auto size = one.parameters.find("mesh.element_size");
+  if (size != one.parameters.end()) return size->second;
+  const auto [front, back] = one.geometry.domain[0];
+  return (one.geometry.cut.length > 0 ? one.geometry.cut.length : back - front) / 24;
+}
+
+/// The case with the fewest nodes along its cut: where it has some, all have.
+const CommonCase& coarsest_of(const CommonCases& cases) {
+  const auto nodes = [](const CommonCase& one) { return one.geometry.cut.length / node_spacing(one); };
+  return *std::min_element(cases.cases().begin(), cases.cases().end(),
+                           [&](const CommonCase& a, const CommonCase& b) { return nodes(a) < nodes(b); });
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What is known of the prestress: it superposes, it does not, or the data must say. By default it does: only
+/// a much better prediction of cases left out speaks against it.
+std::vector<Loading> loadings_of(const CommonCases& cases) {
+  const auto& choices = cases.choices();
+  const auto is = [&](const char* name, const char* value) {
+    const auto found = choices.find(name);
+    return found != choices.end() && found->second == value;
+  };
+  if (is("cut.contact", "true") || is("skin.initial_stress_stiffness", "true")) return {Loading::general};
+  if (!choices.empty()) return {Loading::superposed};
+  return {Loading::superposed, Loading::general};
+}
+
+}  // namespace
+
+StudyInterpolator::StudyInterpolator(const std::string& study)
+    : StudyInterpolator(CommonCases(read_members(study))) {}
+
+StudyInterpolator::StudyInterpolator(CommonCases cases)
+    : cases_(std::move(cases)),
+      parameters_(parameters_of(cases_)),
+      geometry_(parameters_, geometries_of(cases_)) {
+  for (const std::string& name : varying_parameters(parameters_)) {
+    Range& range = varying_.emplace_back(Range{name, parameters_[0].at(name), parameters_[0].at(name)});
+    for (const CaseParameters& one : parameters_)
+      range.least = std::min(range.least, one.at(name)),
+      range.greatest = std::max(range.greatest, one.at(name));
+  }
+  const CommonCase& coarsest = coarsest_of(cases_);
+  const Eigen::MatrixXd samples =
+      sample_cases(cases_, coarsest.geometry, sample_places(coarsest.geometry, node_spacing(coarsest)));
+  for (const Loading loading : loadings_of(cases_)) {
+    DisplacementModel model(parameters_, samples, loading);
+    if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));
+  }
+}
+
+/// Neighbours are fitted alike, and so a field between them is as good as they are; where large weights of
+/// either sign make it from differences of cases, their errors grow with them.
+double StudyInterpolator::fit_error(const Eigen::VectorXd& weights, double largest) const {
+  std::vector<double> fits;
+  double squares = 0;
+  for (int i = 0; i < cases_.size(); ++i) {
+    const FitReport& report = cases_.cases()[static_cast<std::size_t>(i)].report;
+    fits.push_back(std::isfinite(report.spline_error) ? report.spline_error : 0);
+    squares += std::pow(weights[i] * fits.back() * report.largest_displacement, 2);
+  }
+  return std::max(median(fits), largest > 0 ? std::sqrt(squares) / largest : 0);
+}
+
+CaseParameters StudyInterpolator::complete(const CaseParameters& values) const {
+  const auto list = [&] {
+    std::string text;
+    for (const Range& range : varying_)
+      text += (text.empty() ? "" : ", ") + range.name + " (" + shortest(range.least) + " to " +
+              shortest(range.greatest) + ")";
+    return text;
+  };
+  CaseParameters parameters = parameters_.front();
+  std::vector<std::string> names;
+  for (const auto& [name, value] : parameters) names.push_back(name);
+  const auto known = parameter_names();
+  Mistakes mistakes;
+  for (const auto& [name, value] : values)
+    mistakes.collect([&, &n = name, v = value] {
+      const auto found = parameters.find(n);
+      if (found == parameters.end())
+        throw InputError("unknown parameter '" + n + "'" + did_you_mean(n, names) + "; in this study vary " +
+                         list());
+      if (std::find(known.begin(), known.end(), n) != known.end())
+        check_value(find_parameter(n, n), v, "no such case");
+      else if (!std::isfinite(v))
+        throw InputError(n + " = " + shortest(v) + ": must be a number");
+      const bool varies =
+          std::any_of(varying_.begin(), varying_.end(), [&](const Range& r) { return r.name == n; });
+      const bool superposes = n.starts_with("skin.prestress_") && found->second != 0 &&
+                              features().loading() == Loading::superposed && !cases_.choices().empty();
+      if (!varies && !superposes && v != found->second)
+        throw InputError(n + " = " + shortest(v) + ": it is " + shortest(found->second) +
+                         " in all cases; in this study vary " + list());
+      found->second = v;
+    });
+  for (const Range& range : varying_)
+    if (!values.contains(range.name))
+      mistakes.add(range.name + " varies in this study, from " + shortest(range.least) + " to " +
+                   shortest(range.greatest) + ": give its value too");
+  mistakes.throw_if_any();
+
+  Parameters whole;
+  for (const auto& [name, value] : parameters)
+    if (std::find(known.begin(), known.end(), name) != known.end())
+      set_parameter(whole, name, value, "no such case");
+  if (parameters.contains("cut.length") && parameters.contains("patch.length"))
+    check_consistency(whole, "no such case");
+  return parameters;
+}
+
+Field StudyInterpolator::at(const CaseParameters& values) const {
+  const CaseParameters parameters = complete(values);
+  const DisplacementModel::Prediction prediction = model_->at(parameters);
+
+  // Sums in the same order for every point: control points that are one in all cases stay one, bit for bit.
+  std::vector<double> sum(cases_.control_points(0).size(), 0);
+  for (int i = 0; i < cases_.size(); ++i) {
+    const double weight = prediction.weights[i];
+    const std::span<const float> points = cases_.control_points(i);
+    for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += weight * static_cast<double>(points[n]);
+  }
+  std::vector<Vec3> points(sum.size() / 3);
+  for (std::size_t n = 0; n < sum.size(); ++n) points[n / 3][static_cast<int>(n % 3)] = sum[n];
+
+  Field field = cases_.field_of(points, geometry_.at(parameters));
+  const double largest = largest_displacement(
+      field, sample_places(field.parametrization().geometry(), node_spacing(cases_.cases().front())));
+  const double error = largest > 0 ? prediction.error / largest : 0;
+  field.parameters = parameters;
+  field.interpolation = {regression().covariance().name, static_cast<double>(cases_.size()),
+                         std::hypot(error, fit_error(prediction.weights, largest)), error,
+                         model_->outside(parameters)};
+  const double none = std::nan("");
+  field.report = {none, none, none, none, none, none, none, none, none, none, none, none, none, none, none};
+  field.report.node_error = field.report.spline_error = field.interpolation->estimated_error;
+  field.report.largest_displacement = largest;
+  return field;
+}
+
+}  // namespace cleft

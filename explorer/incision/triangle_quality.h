@@ -1,0 +1,20 @@
+// The shape of triangles, and mending the skin's where a cut has left slivers.
+#pragma once
+
+#include "explorer/incision/cut_mesh.h"
+
+namespace cleft {
+
+/// Twice the inscribed over the circumscribed radius: 1 equilateral, 0 degenerate.
+double radius_ratio(const Vec3& a, const Vec3& b, const Vec3& c);
+double radius_ratio(const CutMesh& mesh, int triangle);
+
+/// The smallest of all triangles of the skin.
+double smallest_radius_ratio(const CutMesh& mesh);
+
+/// Mends the skin's triangles among `triangles`, and those made on the way, whose radius ratio is below
+/// `target`: by flipping an edge where the surface is flat across it, else by splitting the longest edge. The
+/// surface stays what it is. Stops after a number of changes in proportion to the triangles given.
+void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target);
+
+}  // namespace cleft

@@ -1,0 +1,80 @@
+#include "encoder/interpolate/features.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/interpolate/made_study.h"
+
+namespace cleft {
+
+namespace {
+
+std::vector<CaseParameters> varied() {
+  std::vector<CaseParameters> cases;
+  for (const double E : {0.01, 0.02, 0.04})
+    for (const double depth : {2., 3., 5.})
+      for (const double v : {0.02, 0.05})
+        cases.push_back(
+            parameters_with({{"tissue.young_modulus", E}, {"cut.depth", depth}, {"skin.prestress_v", v}}));
+  return cases;
+}
+
+}  // namespace
+
+TEST(Features, AreWithoutDimension) {
+  // The same body, measured in other units of length and of stress.
+  const Features features(varied(), Loading::superposed);
+  const auto p =
+      parameters_with({{"tissue.young_modulus", 0.013}, {"cut.depth", 4}, {"skin.prestress_v", 0.033}});
+  for (const auto& [length, stress] : {std::pair{2., 1.}, {1., 3.}, {0.25, 7.}}) {
+    auto q = p;
+    for (auto& [name, value] : q) {
+      const bool modulus =
+          name.find("young_modulus") != std::string::npos || name.find("prestress") != std::string::npos;
+      const bool spring = name.find("foundation") != std::string::npos;
+      const bool ratio = name.find("poisson") != std::string::npos || name == "mesh.grading";
+      value *= modulus ? stress : spring ? stress / length : ratio ? 1 : length;
+    }
+    EXPECT_LT((features.at(q) - features.at(p)).norm(), 1e-12);
+    EXPECT_LT((features.load(q) - features.load(p)).norm(), 1e-12);
+    EXPECT_NEAR(features.scale(q), length * features.scale(p), 1e-12);
+    EXPECT_EQ(features.off(q), 0);
+  }
+}
+
+TEST(Features, FollowTheParametersThatVary) {
+  const Features features(varied(), Loading::superposed);
+  // Stiffness moves the skin's ratio and both springs', which follow from one another.
+  ASSERT_EQ(features.size(), 2);
+  EXPECT_NE(features.names()[0].find("skin.young_modulus"), std::string::npos);
+  EXPECT_NE(features.names()[1].find("cut.depth"), std::string::npos);
+  for (const CaseParameters& one : varied()) {
+    EXPECT_LE(features.at(one).cwiseAbs().maxCoeff(), 1 + 1e-12);
+    EXPECT_EQ(features.off(one), 0);
+  }
+  EXPECT_EQ(Features(varied(), Loading::general).size(), 3);
+}
+
+TEST(Features, KnowWhatTheStudyNeverVariedAlone) {
+  // Springs as stiff as the tissue in all cases: their ratio to it is always the same.
+  std::vector<CaseParameters> cases;
+  for (const double E : {0.01, 0.02, 0.04})
+    cases.push_back(parameters_with({{"tissue.young_modulus", E}, {"foundation.stiffness", E / 4}}));
+  const Features features(cases, Loading::superposed);
+  EXPECT_EQ(features.off(parameters_with({{"tissue.young_modulus", 0.03}, {"foundation.stiffness", 0.0075}})),
+            0);
+  EXPECT_GT(features.off(parameters_with({{"tissue.young_modulus", 0.03}, {"foundation.stiffness", 0.005}})),
+            0.1);
+}
+
+TEST(Features, OfImportedDataAreTheirParameters) {
+  std::vector<CaseParameters> cases;
+  for (const double speed : {1., 10., 100.})
+    cases.push_back({{"speed", speed}, {"angle", speed - 10}, {"size", 2}});
+  const Features features(cases, Loading::superposed);
+  EXPECT_EQ(features.loading(), Loading::general);
+  EXPECT_EQ(features.names(), (std::vector<std::string>{"angle", "speed"}));
+  EXPECT_NEAR(features.at({{"speed", 10}, {"angle", 0}, {"size", 2}})[1], 0, 1e-12);  // the middle of decades
+  EXPECT_EQ(features.scale(cases[0]), 1);
+}
+
+}  // namespace cleft

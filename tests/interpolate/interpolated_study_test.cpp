@@ -1,0 +1,159 @@
+// A small study, solved and encoded by the commands, against cases that it does not hold.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+#include "tests/interpolate/held_out.h"
+#include "tests/pipeline/commands.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* body = R"(
+[case]
+patch.length = 16
+patch.width = 10
+patch.height = 4
+cut.length = 8
+cut.depth = 1.5
+mesh.element_size = 1
+[encode]
+tolerance = 0.02
+)";
+
+/// The text of a study of these values, each a list.
+std::string study_of(const std::string& name, const std::string& vary) {
+  return "name = \"" + name + "\"\n" + body + "[sampling]\nmethod = \"list\"\n[vary]\n" + vary;
+}
+
+/// Studies are solved once for all tests.
+class InterpolatedStudy : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    place_ = new TemporaryFolder;
+    solve("train", R"(
+"tissue.young_modulus" = [0.01, 0.01, 0.01, 0.02, 0.02, 0.02, 0.04, 0.04, 0.04]
+"cut.depth" = [1.2, 1.7, 2.4, 1.2, 1.7, 2.4, 1.2, 1.7, 2.4]
+"skin.prestress_v" = [0.02, 0.05, 0.03, 0.04, 0.02, 0.05, 0.03, 0.04, 0.02]
+)");
+    solve("held", R"(
+"tissue.young_modulus" = [0.013, 0.017, 0.03]
+"cut.depth" = [2, 1.4, 2.1]
+"skin.prestress_v" = [0.03, 0.045, 0.025]
+)");
+    solve("tensions", R"(
+"skin.prestress_u" = [0.01, 0.03, 0.02]
+"skin.prestress_v" = [0.03, 0.01, 0.02]
+"skin.prestress_uv" = [0, 0, 0.01]
+)");
+    solve("tension", R"(
+"skin.prestress_u" = [0.04]
+"skin.prestress_v" = [0.05]
+"skin.prestress_uv" = [-0.02]
+)");
+  }
+  static void TearDownTestSuite() { delete place_; }
+
+  static void solve(const std::string& name, const std::string& vary) {
+    const std::string file = place_->write(name + ".toml", study_of(name, vary));
+    expect_success(run_cleft("run", {file, "--out", folder(name)}));
+  }
+  static std::string folder(const std::string& name) { return *place_ / name; }
+
+  static TemporaryFolder* place_;
+};
+TemporaryFolder* InterpolatedStudy::place_ = nullptr;
+
+}  // namespace
+
+TEST_F(InterpolatedStudy, IsAsGoodAsItSays) {
+  const auto members = read_members(folder("train"));
+  const StudyInterpolator study{CommonCases(members)};
+  const auto list = compare_held_out(study, members, folder("held"));
+  ASSERT_EQ(list.size(), 3u);
+  for (const HeldOut& one : list) {
+    EXPECT_LE(one.error, 2 * one.estimate);
+    EXPECT_LT(one.error, one.nearest);
+    EXPECT_EQ(one.outside, 0);
+  }
+  const auto median = [&](auto function) { return median_of(of_each(list, function)); };
+  EXPECT_LE(median([](const HeldOut& one) { return one.estimate / one.error; }), 3);
+}
+
+TEST_F(InterpolatedStudy, PrestressesSuperpose) {
+  const auto members = read_members(folder("tensions"));
+  const StudyInterpolator study{CommonCases(members)};
+  EXPECT_EQ(study.features().loading(), Loading::superposed);
+  EXPECT_EQ(study.features().size(), 0);
+  const auto list = compare_held_out(study, members, folder("tension"));
+  ASSERT_EQ(list.size(), 1u);
+  // All that is off are the fits' own errors, in a sum of (1, 3, -2) of them; the nearest case is off by a
+  // half.
+  EXPECT_LE(list[0].error, list[0].estimate);
+  EXPECT_EQ(list[0].outside, 0);
+  EXPECT_GT(list[0].nearest, 0.4);
+}
+
+TEST_F(InterpolatedStudy, FolderAndStudyFileGiveTheSameField) {
+  const std::string set = "tissue.young_modulus=0.02,cut.depth=2,skin.prestress_v=0.03";
+  expect_success(run_cleft("interpolate", {folder("train"), "--set", set, "--out", *place_ / "a.dffd"}));
+  expect_success(
+      run_cleft("interpolate", {folder("train") + "/study.dffd", "--set", set, "--out", *place_ / "b.dffd"}));
+  const Field a = read_field(*place_ / "a.dffd"), b = read_field(*place_ / "b.dffd");
+  EXPECT_EQ(a.interpolation->method, b.interpolation->method);
+  EXPECT_EQ(a.interpolation->estimated_error, b.interpolation->estimated_error);
+  ASSERT_EQ(a.coefficients().size(), b.coefficients().size());
+  for (std::size_t n = 0; n < a.coefficients().size(); ++n)
+    ASSERT_EQ(a.coefficients()[n], b.coefficients()[n]);
+  EXPECT_NEAR(a.cut().depth, 2, 1e-12);
+  EXPECT_EQ(a.parameters.at("skin.prestress_v"), 0.03);
+  EXPECT_NE(expect_success(run_cleft("info", {*place_ / "a.dffd"})).output.find("estimated_error"),
+            std::string::npos);
+  expect_success(run_cleft("check", {*place_ / "a.dffd"}));
+}
+
+TEST_F(InterpolatedStudy, OutsideIsAWarning) {
+  const Outcome far = expect_success(run_cleft(
+      "interpolate", {folder("train"), "--set", "tissue.young_modulus=0.08,cut.depth=2,skin.prestress_v=0.03",
+                      "--out", *place_ / "far.dffd"}));
+  EXPECT_NE(far.output.find("warning: these parameters lie outside the study, by 0.5 of its spread"),
+            std::string::npos)
+      << far.output;
+  EXPECT_NEAR(read_field(*place_ / "far.dffd").interpolation->outside, 0.5, 1e-3);
+}
+
+TEST_F(InterpolatedStudy, WrongInputIsNamedAndNothingIsWritten) {
+  const std::string train = folder("train"),
+                    good = "tissue.young_modulus=0.02,cut.depth=2,skin.prestress_v=0.03";
+  const std::string out = *place_ / "none.dffd", text = place_->write("text.dffd", "no field");
+  const std::vector<std::tuple<std::string, std::string, std::string>> wrong = {
+      {train, "tissue.young_modulus=0.02,cut.dept=2,skin.prestress_v=0.03", "did you mean 'cut.depth'?"},
+      {train, "tissue.young_modulus=-1,cut.depth=2,skin.prestress_v=0.03", "must be greater than 0 MPa"},
+      {train, "tissue.young_modulus=x,cut.depth=2,skin.prestress_v=0.03", "'x' is not a number"},
+      {train, "tissue.young_modulus=0.02,cut.depth=2", "skin.prestress_v varies in this study"},
+      {train, good + ",patch.length=21", "it is 16 in all cases"},
+      {train, good + ",cut.depth=2.1", "given twice"},
+      {train, "cut.depth", "expected NAME=VALUE"},
+      {train, "tissue.young_modulus=0.02,cut.depth=2,skin.prestress_v=-0.03",
+       "a membrane carries tension only"},
+      {folder("tension"), "skin.prestress_v=0.03", "one case"},
+      {*place_ / "absent", good, "no such study folder or study.dffd"},
+      {text, good, "text.dffd"}};
+  for (const auto& [study, set, part] : wrong) {
+    const Outcome outcome = run_cleft("interpolate", {study, "--set", set, "--out", out});
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_NE(outcome.output.find(part), std::string::npos) << outcome.output;
+    EXPECT_FALSE(fs::exists(out));
+  }
+  const Outcome no_place =
+      run_cleft("interpolate", {train, "--set", good, "--out", *place_ / "absent/new.dffd"});
+  EXPECT_EQ(no_place.exit_code, 2) << no_place.output;
+}
+
+}  // namespace cleft

@@ -1,0 +1,121 @@
+// The closed forms against cases really left out, and regressions whose answer is known.
+#include "encoder/interpolate/kernel_regression.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numeric>
+#include <random>
+
+namespace cleft {
+
+namespace {
+
+using Correlation = Covariance::Correlation;
+
+struct Problem {
+  TrainingCases cases;
+  Eigen::MatrixXd data;  // a column for each case
+};
+
+Problem random_problem(int n, int d, int loads, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto fill = [&](Eigen::Index rows, Eigen::Index columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(random); }));
+  };
+  Problem p{{fill(n, d), fill(n, loads), {}}, fill(7, n)};
+  p.cases.gram = p.data.transpose() * p.data;
+  return p;
+}
+
+std::vector<Covariance> covariances(int d) {
+  Eigen::VectorXd lengths(d);
+  for (int k = 0; k < d; ++k) lengths[k] = 0.7 + 0.4 * k;
+  return {{"linear", 1, Correlation::none, 1, 1e-3, lengths},
+          {"quadratic", 2, Correlation::none, 2, 1e-2, lengths},
+          {"matern", 1, Correlation::matern, 5, 1e-4, lengths},
+          {"gaussian", 2, Correlation::gaussian, 5, 1e-3, lengths}};
+}
+
+TrainingCases without(const TrainingCases& all, Eigen::Index i) {
+  std::vector<Eigen::Index> rest;
+  for (Eigen::Index k = 0; k < all.features.rows(); ++k)
+    if (k != i) rest.push_back(k);
+  return {all.features(rest, Eigen::all), all.loads(rest, Eigen::all), all.gram(rest, rest)};
+}
+
+}  // namespace
+
+TEST(KernelRegression, ClosedFormsAreThoseOfCasesReallyLeftOut) {
+  const int n = 12, d = 2;
+  const Problem p = random_problem(n, d, 2, 1);
+  for (const Covariance& covariance : covariances(d)) {
+    const KernelRegression all(p.cases, covariance);
+    double sum = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const KernelRegression rest(without(p.cases, i), covariance);
+      const Eigen::VectorXd x = p.cases.features.row(i).transpose(), load = p.cases.loads.row(i).transpose();
+      const Eigen::VectorXd weights = rest.weights(x, load);
+      Eigen::VectorXd residual = p.data.col(i);
+      for (Eigen::Index k = 0, column = 0; k < n; ++k)
+        if (k != i) residual -= weights[column++] * p.data.col(k);
+      // Both invert matrices of condition 1e5 or so.
+      EXPECT_LT((p.data * all.left_out().col(i) - residual).norm(), 1e-9 * p.data.norm()) << covariance.name;
+      EXPECT_NEAR(all.left_out_deviation()[i] / rest.deviation(x, load), 1, 1e-9) << covariance.name;
+      sum += residual.squaredNorm() / p.data.col(i).squaredNorm();
+    }
+    EXPECT_NEAR(all.left_out_error(), std::sqrt(sum / n), 1e-9 * std::sqrt(sum / n));
+  }
+}
+
+TEST(KernelRegression, PolynomialsAreReproduced) {
+  // Data that are quadratic in three features and linear in two loads, at more cases than that has numbers.
+  const int n = 40;
+  Problem p = random_problem(n, 3, 2, 2);
+  const auto truth = [](const Eigen::VectorXd& x, const Eigen::VectorXd& q) {
+    return Eigen::Vector2d(q[0] * (1 + x[0] - 2 * x[1] * x[2]) + q[1] * x[2] * x[2],
+                           q[1] * (x[0] * x[1] - 3));
+  };
+  p.data.resize(2, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    p.data.col(i) = truth(p.cases.features.row(i).transpose(), p.cases.loads.row(i).transpose());
+  p.cases.gram = p.data.transpose() * p.data;
+  const KernelRegression quadratic(p.cases, {"", 2, Correlation::none, 1, 1e-9, Eigen::VectorXd::Ones(3)});
+  const Eigen::Vector3d x(0.3, -0.9, 0.8);
+  const Eigen::Vector2d q(0.5, -0.7);
+  // The nugget of 1e-9 over the least eigenvalue of the features' products, above 1e-2 here.
+  EXPECT_LT((p.data * quadratic.weights(x, q) - truth(x, q)).norm(), 1e-6);
+  EXPECT_LT(quadratic.left_out_error(), 1e-6);
+  const KernelRegression linear(p.cases, {"", 1, Correlation::none, 1, 1e-9, Eigen::VectorXd::Ones(3)});
+  EXPECT_GT(linear.left_out_error(), 0.05);
+}
+
+TEST(KernelRegression, RadialFunctionsPassThroughTheCases) {
+  // But for the nugget: (K - nugget) K^-1 Y is Y less nugget K^-1 Y.
+  const Problem p = random_problem(15, 3, 1, 3);
+  const Covariance covariance{"", 1, Correlation::matern, 100, 1e-9, Eigen::VectorXd::Ones(3)};
+  const KernelRegression regression(p.cases, covariance);
+  const double nugget = covariance.nugget * 101;
+  for (Eigen::Index i = 0; i < 15; ++i) {
+    const Eigen::VectorXd x = p.cases.features.row(i).transpose(), load = p.cases.loads.row(i).transpose();
+    const double variance = std::pow(regression.left_out_deviation()[i], 2);
+    const Eigen::VectorXd rest = nugget / variance * (p.data * regression.left_out().col(i));
+    EXPECT_LT((p.data.col(i) - p.data * regression.weights(x, load) - rest).norm(), 1e-9);
+    EXPECT_LT(regression.deviation(x, load), 1e-3);
+  }
+}
+
+TEST(KernelRegression, TuningMakesNoMethodWorse) {
+  const Problem p = random_problem(20, 2, 1, 4);
+  for (const KernelRegression& method : all_methods(p.cases)) {
+    EXPECT_TRUE(std::isfinite(method.left_out_error()));
+    if (method.covariance().correlation == Correlation::matern) {
+      EXPECT_LE(method.left_out_error(), KernelRegression(p.cases, {"", 1, Correlation::matern, 100, 1e-9,
+                                                                    Eigen::VectorXd::Constant(2, 2)})
+                                             .left_out_error());
+    }
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,30 @@
+// How far a replayed cut is from the solver's own simulation of it.
+#pragma once
+
+#include "encoder/field/field.h"
+#include "explorer/incision/incision.h"
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+/// The skin of a snapshot at its stress-free positions, without the cut: left and right nodes are one vertex.
+struct UncutSkin {
+  SurfaceMesh mesh;
+  std::vector<int> node_of;  ///< of each vertex: its node, the left one of pairs
+};
+UncutSkin uncut_skin(const Snapshot& snapshot);
+
+/// The blade's way through the snapshot's first cut: an arc where cut.radius is above 0, tilted by cut.tilt.
+ScalpelPath path_of(const Snapshot& snapshot);
+
+/// Over all frames; lengths in mm.
+struct ReplayError {
+  double gape = 0;        ///< largest distance between the lips, of the truth
+  double gape_error = 0;  ///< of the vector from lip to lip
+  double skin_error = 0;  ///< of the displacement of any vertex of the skin from the closed frame
+};
+
+/// Cuts the truth's own skin along its own cut, moves it by the field, and compares each frame.
+ReplayError replay_error(const SnapshotReader& truth, const Field& field);
+
+}  // namespace cleft
