@@ -17,13 +17,14 @@
 #include "haptic/devices/recorded.h"
 #include "haptic/real_time.h"
 #include "haptic/surface_stiffness.h"
+#include "solver/snapshot/snapshot.h"
 
 namespace {
 
 using namespace cleft;
 
 struct Options {
-  std::string mesh, path, field, device = "hand", trajectory, record;
+  std::string mesh, path, field, snapshot, device = "hand", trajectory, record;
   double scale = 1, rate = 1000, speed = 30;
   double depth = 0, seconds = 0, stiffness = 0;  // 0: not given
   double delay = 0;                              // ms
@@ -42,6 +43,26 @@ std::optional<ScalpelPath> read_path(const Options& o, const std::optional<Field
     throw FileError(o.path,
                     "has no column 'depth', and there is no field that knows one: give --depth in mm");
   return path;
+}
+
+/// N/mm, of the skin over the middle of the cut in a simulation, closed.
+double snapshot_stiffness(const std::string& file) {
+  const SnapshotReader reader(file);
+  const Snapshot& s = reader.snapshot();
+  const Vec3 middle{s.cut_start + s.cut_length / 2, 0, 0};
+  std::size_t nearest = 0;
+  for (std::size_t n = 0; n < s.points.size(); ++n)
+    if (squared_norm(s.points[n] - middle) < squared_norm(s.points[nearest] - middle)) nearest = n;
+  for (const SnapshotArray& array : reader.point_arrays())
+    if (array.name == "compliance" && array.components == 1)
+      return stiffness_from_compliance(reader.point_array(array, 0)[nearest]);
+  throw FileError(file, "has no compliance of the skin (imported data have none): give --stiffness");
+}
+
+double stiffness(const Options& o, const std::optional<Field>& field) {
+  if (o.stiffness > 0) return o.stiffness;
+  if (!o.snapshot.empty()) return snapshot_stiffness(o.snapshot);
+  return field ? surface_stiffness(*field) : ForceParameters{}.stiffness;
 }
 
 /// mm; `height` above the path's place s.
@@ -137,7 +158,7 @@ struct Beside {
 };
 
 void haptic(const Options& o) {
-  refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.trajectory});
+  refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.snapshot, o.trajectory});
   std::optional<OutputFile> probe;
   if (!o.record.empty()) probe.emplace(o.record);  // a bad name is told before the work
   std::optional<Field> field;
@@ -146,10 +167,7 @@ void haptic(const Options& o) {
   const std::optional<ScalpelPath> path = read_path(o, field);
 
   ForceParameters force;
-  if (o.stiffness > 0)
-    force.stiffness = o.stiffness;
-  else if (field)
-    force.stiffness = surface_stiffness(*field);
+  force.stiffness = stiffness(o, field);
   DeviceRequest request;
   request.trajectory = o.trajectory;
   request.hand.delay = 1e-3 * o.delay;
@@ -203,13 +221,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--path", o.path,
                  "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where cuts go");
-  app.add_option("--field", o.field, "field file case.dffd that opens the cut and tells the stiffness");
+  app.add_option("--field", o.field, "field file case.dffd that opens the cut");
   app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
       ->check(above(0));
   app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
   app.add_option("--seconds", o.seconds, "how long, s [the hand's or the recording's time, else 10]")
       ->check(above(0));
-  app.add_option("--stiffness", o.stiffness, "of the skin, N/mm [the field's, else 0.3]")->check(above(0));
+  app.add_option("--snapshot", o.snapshot, "simulation case.h5 whose compliance tells the stiffness");
+  app.add_option("--stiffness", o.stiffness,
+                 "of the skin, N/mm [the snapshot's, else the field's tissue's, else 0.3]")
+      ->check(above(0));
   app.add_option("--trajectory", o.trajectory, "recording that the recorded device plays");
   app.add_option("--record", o.record, "write the poses as a recording");
   app.add_option("--rate", o.rate, "ticks a second, 100 to 10000")->check(above(0))->capture_default_str();

@@ -30,7 +30,7 @@ bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& 
   t = surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
   if (t.vertex[0] < 0) return false;
   for (int i = 0; i < 3; ++i)
-    corners[i] = surface_.vertices_[static_cast<std::size_t>(t.vertex[i])].at(version_).position;
+    corners[i] = surface_.positions_[static_cast<std::size_t>(t.vertex[i])].at(version_);
   return true;
 }
 
@@ -118,6 +118,7 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       Corners c;
       ContactTriangle t;
       if (id < 0 || !corners_of(id, c, t)) continue;
+      if (least_squared_distance(x, c) > least * (1 + 1e-9)) continue;
       const ClosestPoint p = closest_point(x, c);
       const double square = squared_norm(x - p.position);
       if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) continue;
@@ -138,16 +139,16 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       }
       const Vec3 own = normalized(scaled_normal(c));
       normal += weight * own;
-      if (dot(own, x - p.position) < 0) into = own;
+      if (into == Vec3{} || dot(own, x - p.position) < 0) into = own;
     }
     return std::sqrt(least);
   });
   if (!best) return best;
-  // The walls of a closed cut lie on each other, and their normals cancel: beside them there is tissue.
-  if (norm(normal) < 1e-6) normal = into;
-  const double length = norm(normal);
-  best.normal = length > 0 ? 1 / length * normal : normal;
-  best.distance = dot(x - best.position, normal) < 0 ? -std::sqrt(least) : std::sqrt(least);
+  // The walls of a closed cut lie on each other, and their normals cancel: beside them and before them is
+  // tissue.
+  const bool closed = norm(normal) < 1e-6;
+  best.normal = normalized(closed ? into : normal);
+  best.distance = closed || dot(x - best.position, normal) < 0 ? -std::sqrt(least) : std::sqrt(least);
   return best;
 }
 

@@ -42,7 +42,8 @@ ContactCells make_cells(std::span<const Vec3> points, std::span<const std::array
 ContactSurface::ContactSurface(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles,
                                const ContactSurfaceOptions& options)
     : cells_(make_cells(points, triangles, options)),
-      vertices_(points.size() + options.spare),
+      positions_(points.size() + options.spare),
+      normals_(points.size() + options.spare),
       triangles_(triangles.size() + options.spare) {
   std::vector<Moved> moved;
   moved.reserve(points.size());
@@ -55,8 +56,7 @@ ContactSurface::ContactSurface(std::span<const Vec3> points, std::span<const std
 
 Corners ContactSurface::corners_at(const ContactTriangle& t, std::uint64_t version) const {
   Corners corners;
-  for (int i = 0; i < 3; ++i)
-    corners[i] = vertices_[static_cast<std::size_t>(t.vertex[i])].at(version).position;
+  for (int i = 0; i < 3; ++i) corners[i] = positions_[static_cast<std::size_t>(t.vertex[i])].at(version);
   return corners;
 }
 
@@ -115,13 +115,14 @@ void ContactSurface::touch(int triangle) {
 
 void ContactSurface::set_vertex(int id, const Vec3& position, std::uint64_t version) {
   const auto v = static_cast<std::size_t>(id);
-  if (v >= vertices_.size()) {
-    vertices_.grow_to(v + 1);
+  if (v >= positions_.size()) {
+    positions_.grow_to(v + 1);
+    normals_.grow_to(v + 1);
     first_corner_.resize(v + 1, none);
     vertex_touched_.resize(v + 1);
   }
-  if (position == vertices_[v].last().position) return;
-  vertices_[v].set({position, vertices_[v].last().normal}, version);
+  if (position == positions_[v].last()) return;
+  positions_[v].set(position, version);
   for (int corner = first_corner_[v]; corner != none; corner = next_corner_[static_cast<std::size_t>(corner)])
     touch(corner / 3);
 }
@@ -142,7 +143,7 @@ void ContactSurface::set_triangle(int id, const ContactTriangle& now, std::uint6
       renewed_.push_back(old.vertex[i]);
     }
     if (now.vertex[0] == none) continue;
-    CLEFT_CHECK(static_cast<std::size_t>(now.vertex[i]), <, vertices_.size());
+    CLEFT_CHECK(static_cast<std::size_t>(now.vertex[i]), <, positions_.size());
     int& first = first_corner_[static_cast<std::size_t>(now.vertex[i])];
     next_corner_[3 * t + static_cast<std::size_t>(i)] = first;
     first = 3 * id + i;
@@ -184,7 +185,7 @@ void ContactSurface::renew_normal(int vertex, std::uint64_t version) {
   }
   const Vec3& sum = skin == Vec3{} ? wall : skin;
   const double length = norm(sum);
-  vertices_[v].set({vertices_[v].last().position, length > 0 ? 1 / length * sum : Vec3{}}, version);
+  normals_[v].set(length > 0 ? 1 / length * sum : Vec3{}, version);
 }
 
 }  // namespace cleft

@@ -23,9 +23,9 @@
 
 namespace cleft {
 
-/// Something that has a value now and had one a step before.
+/// Something that has a value now and had one a step before, in a cache line of its own.
 template <class T>
-class TwoStates {
+class alignas(64) TwoStates {
  public:
   /// The value at step `version`, of the last two steps.
   const T& at(std::uint64_t version) const {
@@ -44,11 +44,6 @@ class TwoStates {
  private:
   std::atomic<std::uint64_t> state_{0};
   T value_[2]{};
-};
-
-struct ContactVertex {
-  Vec3 position;
-  Vec3 normal;  ///< of the triangles around it, weighted by area; unit, or 0 without triangles
 };
 
 struct ContactTriangle {
@@ -82,9 +77,9 @@ class ContactSurface {
   void update(std::span<const Moved> moved, std::span<const Changed> changed);
 
   std::uint64_t version() const { return version_.load(std::memory_order_relaxed); }
-  std::size_t vertex_count() const { return vertices_.size(); }
+  std::size_t vertex_count() const { return positions_.size(); }
   std::size_t triangle_count() const { return triangles_.size(); }  ///< also those that are gone
-  const Vec3& position(int v) const { return vertices_[static_cast<std::size_t>(v)].last().position; }
+  const Vec3& position(int v) const { return positions_[static_cast<std::size_t>(v)].last(); }
   const ContactCells& cells() const { return cells_; }
 
  private:
@@ -105,7 +100,8 @@ class ContactSurface {
   void renew_normals(std::uint64_t version);
 
   ContactCells cells_;
-  SlotArray<TwoStates<ContactVertex>> vertices_;
+  SlotArray<TwoStates<Vec3>> positions_;
+  SlotArray<TwoStates<Vec3>> normals_;  // of the triangles around a vertex, weighted by area; unit, or 0
   SlotArray<TwoStates<ContactTriangle>> triangles_;
   std::atomic<std::uint64_t> version_{1};
   mutable std::array<std::atomic<std::uint64_t>, most_readers> readers_{};

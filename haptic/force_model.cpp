@@ -7,6 +7,7 @@ namespace cleft {
 
 namespace {
 constexpr double most_side_depth = 1;  // mm: how deep a blade's side is looked for
+constexpr double near = 0.5;           // mm: how far the skin is looked for where it was a moment ago
 constexpr double touching = 1e-6;      // mm: nearer than that a tip is neither in nor out, to rounding
 double smooth_step(double x) {
   x = std::clamp(x, 0., 1.);
@@ -125,7 +126,8 @@ Vec3 ForceModel::in_contact(const ScalpelPose& pose) {
 void ForceModel::follow_skin(const Vec3& tip) {
   const Vec3 moved = tip - last_tip_;
   const Vec3 beside = proxy_.position + moved - dot(moved, proxy_.normal) * proxy_.normal;
-  const SurfaceHit hit = reader_.first_contact(beside + proxy_.normal, beside - proxy_.normal, Facing::front);
+  const SurfaceHit hit =
+      reader_.first_contact(beside + near * proxy_.normal, beside - near * proxy_.normal, Facing::front);
   proxy_.position = hit && !hit.wall ? hit.position : beside;
   if (hit && !hit.wall) proxy_.normal = normalized(lerp(proxy_.normal, hit.normal, 0.1));
   depth_ = std::max(0., dot(proxy_.position - tip, proxy_.normal));

@@ -32,7 +32,8 @@ HapticLoop::HapticLoop(Device& device, const ContactSurface& surface, const Forc
       limits_(device.limits()),
       model_(surface, parameters, options.passive ? limits_ : undamped(limits_), checked_period(options)),
       passivity_(parameters, limits_, 1 / options.rate) {
-  recorded_.reserve(options.record);
+  recorded_.resize(options.record);  // touches the pages before a tick does
+  recorded_.clear();
 }
 
 void HapticLoop::update(double dt) {

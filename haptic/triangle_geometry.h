@@ -40,6 +40,15 @@ struct ClosestPoint {
   int corner = 0;  ///< of a vertex: which
 };
 
+/// No more than the squared distance from p to the triangle: that to its box.
+inline double least_squared_distance(const Vec3& p, const Corners& c) {
+  const auto beside = [](double x, double a, double b, double d) {
+    return std::max({0., std::min({a, b, d}) - x, x - std::max({a, b, d})});
+  };
+  return squared_norm({beside(p.x, c[0].x, c[1].x, c[2].x), beside(p.y, c[0].y, c[1].y, c[2].y),
+                       beside(p.z, c[0].z, c[1].z, c[2].z)});
+}
+
 /// The triangle's point nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
 inline ClosestPoint closest_point(const Vec3& p, const Corners& c) {
   const auto& [A, B, C] = c;

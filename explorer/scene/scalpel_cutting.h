@@ -35,6 +35,7 @@ class ScalpelCutting {
   const ContactSurface& surface() const { return *surface_; }  ///< in mm
   double cut_length() const;                                   ///< mm
   const CuttingFigures& figures() const { return figures_; }
+  const Incision* incision() const { return incision_ ? &*incision_ : nullptr; }
 
   /// Cuts to where the scalpel is, if it cuts, and opens the wound.
   void step(const HapticState& scalpel);

@@ -1,0 +1,133 @@
+// The scalpel cuts a mesh as the loop drives it, in simulated time: every sixteen ticks the mesh follows.
+#include <gtest/gtest.h>
+
+#include "explorer/scene/replay.h"
+#include "explorer/scene/scalpel_cutting.h"
+#include "haptic/devices/hand.h"
+#include "tests/haptic/surfaces.h"
+#include "tests/incision/fields.h"
+
+namespace cleft {
+namespace {
+
+constexpr double radius = 100;
+
+/// Over the top of a ball, bent to one side.
+Vec3 place(double a, double height) {
+  const double b = 0.1 + 0.2 * a * a;
+  return (radius + height) * Vec3{std::sin(a) * std::cos(b), std::sin(b), std::cos(a) * std::cos(b)};
+}
+
+ScalpelPath path_over_the_ball(double depth) {
+  std::vector<ScalpelPath::Point> points;
+  for (int k = -20; k <= 20; ++k)
+    points.push_back({place(0.01 * k, 0), normalized(place(0.01 * k, 0)), depth});
+  return ScalpelPath(points);
+}
+
+/// Through the skin at the start, along the path at `speed` mm/s, out.
+std::vector<HandTarget> script(const ScalpelPath& path, double depth, double speed) {
+  std::vector<HandTarget> targets;
+  const auto at = [&](double time, double s, double height) {
+    const PathFrame frame = path.at(s);
+    ScalpelPose pose;
+    pose.tip = frame.position + height * frame.outward;
+    pose.axis = frame.outward, pose.edge = frame.along;
+    targets.push_back({time, pose});
+  };
+  at(0, 0, 5);
+  at(0.5, 0, -8);
+  at(0.8, 0, -8);
+  at(1, 0, -depth);
+  for (int k = 1; k <= 80; ++k) at(1 + k * path.length() / 80 / speed, path.length() * k / 80, -depth);
+  at(1.4 + path.length() / speed, path.length(), 8);
+  at(1.6 + path.length() / speed, path.length(), 8);
+  return targets;
+}
+
+struct Trial {
+  double cut = 0;
+  int punctures = 0, left_early = 0;  ///< ticks in the middle of the cut in which the blade was not cutting
+  CuttingFigures figures;
+  Phase last = Phase::cutting;
+};
+
+Trial cut(int rings, const std::optional<Field>& field, double depth) {
+  // Poles beside the path.
+  testing::Surface ball = testing::ball(rings, radius);
+  SurfaceMesh mesh{ball.points, ball.triangles};
+  for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
+  const ScalpelPath path = path_over_the_ball(depth);
+  const double speed = 40;
+  ScalpelCutting cutting(mesh, path, field, 1);
+  Hand hand({}, script(path, depth, speed));
+  HapticLoop loop(hand, cutting.surface(), {});
+  Trial trial;
+  const double end = 1 + path.length() / speed;
+  for (int tick = 0; loop.state().time < hand.duration(); ++tick) {
+    loop.update(1e-3);
+    if (tick % 16 == 0) cutting.step(loop.for_cutting().read());
+    const double t = loop.state().time;
+    trial.left_early += t > 1 && t < end && loop.state().phase != Phase::cutting;
+  }
+  trial.cut = cutting.cut_length();
+  trial.punctures = loop.state().punctures;
+  trial.figures = cutting.figures();
+  trial.last = loop.state().phase;
+  EXPECT_EQ(trial.figures.stopped, "");
+  EXPECT_LE(loop.statistics().excess_change, 0);
+  EXPECT_LE(loop.passivity().created(), ForceParameters{}.energy_allowance);
+  return trial;
+}
+
+TEST(Cutting, TheWholePathIsCutOnMeshesOfAllSizes) {
+  for (const int rings : {20, 54, 158}) {
+    const Trial trial = cut(rings, std::nullopt, 5);
+    EXPECT_EQ(trial.punctures, 1) << rings;
+    EXPECT_EQ(trial.left_early, 0) << rings;
+    EXPECT_GT(trial.cut, 0.97 * path_over_the_ball(5).length()) << rings;
+    EXPECT_EQ(trial.last, Phase::free) << rings;
+  }
+}
+
+TEST(Cutting, TheWoundThatIsFeltIsTheOneThatIsSeen) {
+  // What pictures are drawn from, histories over time, against the field evaluated as the scalpel goes.
+  const Field field = testing::opening_field({-20, 40, 5}, 80, 60, 10, 4);
+  testing::Surface ball = testing::ball(30, radius);
+  SurfaceMesh mesh{ball.points, ball.triangles};
+  for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
+  const ScalpelPath path = path_over_the_ball(5);
+  ScalpelCutting cutting(mesh, path, field, 1);
+  HapticState scalpel;
+  scalpel.phase = Phase::cutting;
+  for (double s = 0; s < 25; s += 0.7) {
+    scalpel.pose.tip = path.at(s).position - 4 * path.at(s).outward;
+    cutting.step(scalpel);
+  }
+  while (cutting.figures().waiting > 0) cutting.step(scalpel);
+  const Incision& incision = *cutting.incision();
+  ASSERT_GT(incision.tip(), 20);
+  const Replay replay(field, incision, 1);
+  std::vector<Vec3> seen(replay.vertex_count());
+  replay.positions(incision.tip(), seen);
+  double moved = 0;
+  for (std::size_t v = 0; v < seen.size(); ++v) {
+    moved = std::max(moved, norm(seen[v] - replay.rest()[v]));
+    // Motions of 2 micrometres are not told; histories are as exact as the field says.
+    ASSERT_LT(norm(seen[v] - cutting.surface().position(static_cast<int>(v))),
+              2.1e-3 + field.contraction_tolerance())
+        << v;
+  }
+  EXPECT_GT(moved, 0.5);
+}
+
+TEST(Cutting, TheFieldOpensItBehindTheBlade) {
+  const Trial trial = cut(54, testing::opening_field({-20, 40, 5}, 80, 60, 10, 4), 5);
+  EXPECT_EQ(trial.punctures, 1);
+  EXPECT_GT(trial.cut, 0.97 * path_over_the_ball(5).length());
+  EXPECT_GT(trial.figures.open.count(), 50u);
+  EXPECT_EQ(trial.last, Phase::free);
+}
+
+}  // namespace
+}  // namespace cleft

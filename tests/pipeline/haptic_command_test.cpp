@@ -1,0 +1,99 @@
+// cleft haptic as a user runs it: the simulated hand cuts a sheet in real time, and what it did plays again.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "encoder/field/field_file.h"
+#include "explorer/io/mesh_file.h"
+#include "tests/incision/fields.h"
+#include "tests/incision/meshes.h"
+#include "tests/pipeline/commands.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace {
+
+class HapticCommand : public ::testing::Test {
+ protected:
+  HapticCommand()
+      : mesh(in / "sheet.stl"),
+        path(in.write("path.csv", "x,y,z,nx,ny,nz\n-10,0.3,0,0,0,1\n10,0.1,0,0,0,1\n")) {
+    write_mesh(mesh, testing::grid(30, 20, -30, -20, 2));
+  }
+  nlohmann::json figures(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"--mesh", mesh, "--json"});
+    const Outcome outcome = expect_success(run_cleft("haptic", arguments));
+    return nlohmann::json::parse(outcome.output, nullptr, false);
+  }
+  void expect_refused(std::vector<std::string> arguments, const std::string& part) {
+    arguments.insert(arguments.begin(), {"--mesh", mesh});
+    const Outcome outcome = run_cleft("haptic", arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_NE(outcome.output.find(part), std::string::npos)
+        << "missing '" << part << "' in: " << outcome.output;
+  }
+  TemporaryFolder in, out;
+  std::string mesh, path;
+};
+
+TEST_F(HapticCommand, TheHandCutsAndItsRecordingPlays) {
+  const std::string recording = out / "run.csv";
+  const auto cut = figures({"--path", path, "--depth", "4", "--speed", "40", "--record", recording});
+  ASSERT_TRUE(cut.is_object());
+  EXPECT_EQ(cut["punctures"], 1);
+  EXPECT_GE(cut["largest_force_N"], 0.3);
+  EXPECT_LE(cut["largest_force_N"], 1.2);
+  EXPECT_LE(cut["change_beyond_permitted_N"], 0);
+  EXPECT_GT(cut["energy_put_in_Nmm"], 0);
+  EXPECT_GT(cut["triangles_cut"], 100);
+  EXPECT_GT(cut["cut_mm"], 15);
+  EXPECT_LE(cut["cut_mm"], 20.1);
+  EXPECT_EQ(cut["stopped"], "");
+  for (const char* what : {"compute_us", "lateness_us", "bare_timer_lateness_us"})
+    for (const char* quantile : {"p50", "p99", "p99.9", "max"})
+      EXPECT_GT(cut[what][quantile], 0) << what << quantile;
+  const NumberTable poses = read_csv(recording);
+  EXPECT_EQ(poses.rows.size(), cut["ticks"]);
+  const auto again =
+      figures({"--path", path, "--depth", "4", "--device", "recorded", "--trajectory", recording});
+  EXPECT_EQ(again["punctures"], 1);
+  EXPECT_GT(again["cut_mm"], 15);
+}
+
+TEST_F(HapticCommand, AFieldOpensTheWound) {
+  Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
+  field.parameters = {{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}};
+  write_field(in / "case.dffd", field);
+  const auto cut = figures({"--path", path, "--field", in / "case.dffd", "--speed", "40"});
+  ASSERT_TRUE(cut.is_object());
+  // Uniform pressure p on a disc of radius a sinks a half space by 2 p a (1 - nu^2) / E in its middle: K = pi a^2 p
+  // over that.
+  EXPECT_NEAR(cut["stiffness_N_per_mm"], 3.14159265 * 2 * 0.05 / (2 * 0.75), 1e-6);
+  EXPECT_GT(cut["cut_mm"], 15);
+  EXPECT_GT(cut["wound_us"]["max"], 0);
+}
+
+TEST_F(HapticCommand, RefusesWhatItCannotDo) {
+  setenv("SPNAV_SOCKET", (in / "nobody.sock").c_str(), 1);
+  expect_refused({"--path", path}, "give --depth");
+  expect_refused({}, "give --path");
+  expect_refused({"--path", path, "--depth", "4", "--device", "hamd"}, "did you mean 'hand'");
+  expect_refused({"--device", "recorded"}, "give --trajectory");
+  expect_refused({"--device", "recorded", "--trajectory", in / "absent.csv"}, "absent.csv");
+  expect_refused({"--device", "spacemouse"}, "install the package spacenavd");
+  expect_refused({"--device", "phantom"}, "install OpenHaptics");
+  expect_refused({"--path", path, "--depth", "4", "--rate", "20"}, "100 to 10000 Hz");
+  expect_refused({"--path", path, "--depth", "4", "--delay", "99"}, "a delay of 99 ms");
+  expect_refused({"--path", path, "--depth", "4", "--record", path}, "path.csv");
+  expect_refused(
+      {"--path", in.write("far.csv", "x,y,z,nx,ny,nz\n0,900,0,0,0,1\n9,900,0,0,0,1\n"), "--depth", "4"},
+      "never touches the mesh");
+  EXPECT_EQ(out.entries(), 0);
+}
+
+}  // namespace
+
+}  // namespace cleft
