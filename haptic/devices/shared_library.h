@@ -1,4 +1,5 @@
-// A driver's library, loaded when its device is asked for: nobody needs all of them installed.
+// A driver's library, loaded when its device is asked for: nobody needs all of them installed. It stays
+// loaded: drivers keep memory and threads that do not survive their code.
 #pragma once
 
 #include <dlfcn.h>
@@ -13,7 +14,9 @@ class SharedLibrary {
  public:
   /// Throws InputError: "<device>: <library> cannot be loaded (...): <remedy>".
   SharedLibrary(const std::string& device, const std::string& library, const std::string& remedy)
-      : device_(device), library_(library), handle_(dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+      : device_(device),
+        library_(library),
+        handle_(dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
     if (!handle_) {
       const char* reason = dlerror();
       throw InputError(device + ": " + library + " cannot be loaded (" +
