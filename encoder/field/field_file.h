@@ -11,7 +11,7 @@
 
 namespace cleft {
 
-inline constexpr int field_format_version = 2;
+inline constexpr int field_format_version = 3;
 
 /// Writes the field whole or not at all: coefficients as multiples of its quantum, or as 32-bit floats where
 /// it has none; and the residual where there is one.

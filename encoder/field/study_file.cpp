@@ -12,7 +12,7 @@ namespace cleft {
 
 namespace {
 
-constexpr int study_format_version = 1;
+constexpr int study_format_version = 2;
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
 
 template <class Function>
