@@ -8,6 +8,7 @@
 #include "encoder/field/unknowns.h"
 #include "encoder/measure.h"
 #include "encoder/series_fit.h"
+#include "encoder/supported_rungs.h"
 
 namespace cleft {
 
@@ -15,9 +16,10 @@ namespace {
 
 // What of the tolerance fits of single frames and of all frames may use up, and what steps of the
 // coefficients would in the worst case.
-constexpr double share_of_space = 0.9, share_of_fit = 0.95, share_of_steps = 0.12;
-constexpr int probes = 6;           // frames that stand for all while knots are sought
+constexpr double share_of_space = 0.9, share_of_fit = 0.97, share_of_steps = 0.07;
+constexpr std::size_t probes = 6;   // frames that stand for all while knots are sought
 constexpr std::size_t tries = 3;    // rungs beyond what the probes say
+constexpr double few = 5e-5;        // nodes that a residual mends for less than the next rung costs
 constexpr double farthest = 0.625;  // steps a coefficient may be moved to be cheaper
 
 class Encoder {
@@ -33,15 +35,17 @@ class Encoder {
 
   Encoded run() {
     if (options_.rung) return {with_steps(fit_of(*options_.rung), 0), {}};
-    const std::vector<Rung> rungs = supported(ladder_of(*parametrization_));
+    const std::vector<Rung> rungs = supported(ladder_of(*parametrization_), series_, *parametrization_);
     std::size_t i = first_within(rungs);
     // The spline of some rung keeps the tolerance, or a residual makes up for what a good one leaves.
-    const std::size_t last = i < rungs.size() ? std::min(i + tries, rungs.size() - 1) : rungs.size() / 2;
+    const std::size_t good = parametrization_->moves() ? rungs.size() / 2 : rungs.size() - 1;
+    const std::size_t last = i < rungs.size() ? std::min(i + tries, rungs.size() - 1) : good;
     for (i = std::min(i, last);; ++i) {
       progress_("fitting all frames");
       const SeriesFit fit = fit_of(rungs[i]);
-      const bool within = fit.error(fit.control_points()) <= share_of_fit * limit_;
-      if (!within && i < last) continue;
+      const Misfit misfit = fit.misfit(share_of_fit * limit_);
+      const bool within = misfit.beyond == 0;
+      if (misfit.beyond > few && i < last) continue;
       Encoded encoded{with_steps(fit, within ? limit_ : 0), {}};
       FitReport& report = encoded.field.report;
       if (report.spline_error * scale_ > limit_) {
@@ -59,49 +63,34 @@ class Encoder {
             bases_of(rung, *parametrization_, static_cast<int>(series_.times.size()))};
   }
 
-  /// The rungs up to the first with a span across or in height that has no node inside.
-  std::vector<Rung> supported(std::vector<Rung> rungs) const {
-    std::vector<double> across, height;
-    for (const Sample& sample : series_.samples) {
-      across.push_back(parametrization_->across(sample.uvw.y).value);
-      height.push_back(parametrization_->height(sample.uvw.z).value);
-    }
-    for (std::vector<double>* places : {&across, &height}) {
-      std::sort(places->begin(), places->end());
-      places->erase(std::unique(places->begin(), places->end()), places->end());
-    }
-    const auto seen = [](const BSplineBasis& basis, const std::vector<double>& places) {
-      const auto& knots = basis.knots();
-      for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-        const auto inside = std::upper_bound(places.begin(), places.end(), knots[i]);
-        if (knots[i] < knots[i + 1] && (inside == places.end() || *inside >= knots[i + 1])) return false;
-      }
-      return true;
-    };
-    for (std::size_t i = 1; i < rungs.size(); ++i) {
-      const auto bases = bases_of(rungs[i], *parametrization_, static_cast<int>(series_.times.size()));
-      if (!seen(bases[1], across) || !seen(bases[2], height)) rungs.resize(i);
-    }
-    return rungs;
-  }
-
-  /// Index of the first rung whose fits in space of a few frames keep their share of the tolerance; their
-  /// number where none does.
+  /// Index of the first rung whose fits in space of a few frames keep their share of the tolerance, or, where
+  /// none does, keep it but at a few nodes; the rungs' number where none does that.
   std::size_t first_within(const std::vector<Rung>& rungs) const {
-    const int frames = static_cast<int>(series_.times.size());
-    std::vector<int> some;
-    for (int i = 0; i < probes; ++i) some.push_back(1 + (frames - 2) * i / (probes - 1));
+    const std::size_t frames = series_.times.size();
+    std::vector<std::size_t> some;
+    for (std::size_t i = 0; i < probes; ++i) some.push_back(1 + (frames - 2) * i / (probes - 1));
     some.erase(std::unique(some.begin(), some.end()), some.end());
-    std::size_t low = 0, high = rungs.size();
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      progress_("trying knots");
-      const auto bases = bases_of(rungs[middle], *parametrization_, frames);
-      if (space_error(series_, parametrization_, {bases[0], bases[1], bases[2]}, some) <=
-          share_of_space * limit_)
-        high = middle;
-      else
-        low = middle + 1;
+    std::vector<std::optional<Misfit>> tried(rungs.size());
+    const auto misfit = [&](std::size_t i) {
+      if (!tried[i]) {
+        progress_("trying knots");
+        const auto bases = bases_of(rungs[i], *parametrization_, static_cast<int>(frames));
+        tried[i] = space_misfit(series_, *parametrization_, {bases[0], bases[1], bases[2]}, some,
+                                share_of_space * limit_);
+      }
+      return *tried[i];
+    };
+    std::size_t low = 0;
+    for (const double most : {0., few}) {
+      low = 0;
+      for (std::size_t high = rungs.size(); low < high;) {
+        const std::size_t middle = (low + high) / 2;
+        if (misfit(middle).beyond <= most)
+          high = middle;
+        else
+          low = middle + 1;
+      }
+      if (low < rungs.size()) break;
     }
     return low;
   }
@@ -111,8 +100,7 @@ class Encoder {
   Field with_steps(const SeriesFit& fit, double bound) const {
     progress_("choosing the coefficients' steps");
     const Field exact = fit.field(fit.control_points());
-    const double error = fit.error(fit.control_points());
-    if (bound == 0) bound = 1.02 * error;
+    if (bound == 0) bound = 1.02 * fit.misfit(0).largest;
     // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
     // steps.
     double step = share_of_steps * 2 / std::sqrt(3.) * std::max(bound, 1e-9 * scale_);

@@ -29,7 +29,7 @@ inline constexpr int most_time_spans = 32;
 std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& parametrization, int frames);
 
 /// Rungs of growing size, each within the next, with one span in time: how many a series needs there is seen
-/// from the series. Following the tip, what pays most comes first, over cuts in tissue of many kinds.
+/// from the series. Following the tip, what paid early in trials on a few cuts comes first.
 std::vector<Rung> ladder_of(const Parametrization& parametrization);
 
 }  // namespace cleft

@@ -13,7 +13,6 @@ namespace cleft {
 struct Sample {
   Vec3 uvw;
   Side side;
-  double importance = 1;  ///< factor of its squared error in the fit
 };
 
 /// One sample a node, in node order. On v = 0 a node's side comes from /cut/pairs; single nodes there are

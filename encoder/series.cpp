@@ -111,6 +111,7 @@ Series::Series(const SnapshotReader& reader) {
     largest.push_back(frame.rowwise().norm().maxCoeff());
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
+  centres = cell_centres(s, samples);
   geometry = geometry_of(s, cut_of(s, frames.back(), largest_displacement));
 }
 

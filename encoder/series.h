@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "encoder/cell_centres.h"
 #include "encoder/field/parametrization.h"
-#include "encoder/samples.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft {
@@ -17,6 +17,7 @@ struct Series {
   std::vector<Eigen::MatrixX3d> frames;  ///< F: N x 3, displacement from frame 0, mm; frame 0 is zero
   std::vector<double> largest;           ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;       ///< mm, of all
+  CellCentres centres;
   FieldGeometry geometry;
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: how many of them are open

@@ -13,10 +13,10 @@ namespace cleft {
 
 namespace {
 
-constexpr double strongest = 1e-5, weakest = 1e-6;  // regularisation
+constexpr double strengths[] = {1e-6, 1e-7, 1e-8};  // of the regularisation
 constexpr double regularisation_cost = 1.05;        // of the data's error, at most
 constexpr double time_roughness = 1e-9;             // holds what few frames leave open
-constexpr double residual_bound = 1e-4;             // of the right-hand side, where iterations stop
+constexpr double residual_bound = 1e-5;             // of the right-hand side, where iterations stop
 constexpr int most_iterations = 60;
 
 std::array<BSplineBasis, 3> in_space(const std::array<BSplineBasis, 4>& bases) {
@@ -28,20 +28,34 @@ void one_thread_a_product() {
   if (openblas_set_num_threads) openblas_set_num_threads(1);
 }
 
+/// Of frames' misfits.
+template <class OfFrame>
+Misfit largest_of(std::size_t frames, double limit, const OfFrame& of_frame) {
+  std::vector<Misfit> misfits(frames);
+  parallel_for(static_cast<int>(frames), [&](int j) {
+    const Eigen::VectorXd distances = of_frame(static_cast<std::size_t>(j)).rowwise().norm();
+    misfits[static_cast<std::size_t>(j)] = {distances.maxCoeff(),
+                                            (distances.array() > limit).cast<double>().mean()};
+  });
+  Misfit all;
+  for (const Misfit& one : misfits) {
+    all.largest = std::max(all.largest, one.largest);
+    all.beyond += one.beyond / static_cast<double>(frames);
+  }
+  return all;
+}
+
 }  // namespace
 
-double space_error(const Series& series, const std::shared_ptr<const Parametrization>& parametrization,
-                   const std::array<BSplineBasis, 3>& bases, const std::vector<int>& frames) {
+Misfit space_misfit(const Series& series, const Parametrization& parametrization,
+                    const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
+                    double limit) {
   one_thread_a_product();
-  const SpaceFit fit(*parametrization, bases, series.samples);
-  std::vector<double> errors(frames.size());
-  parallel_for(static_cast<int>(frames.size()), [&](int i) {
-    const double t = series.times[frames[i]];
-    const Eigen::MatrixX3d& d = series.frames[frames[i]];
-    const Eigen::MatrixXd x = fit.factorize(fit.normal(t, 1e-7)).solve(fit.project(d, t));
-    errors[i] = (fit.values(x, t) - d).rowwise().norm().maxCoeff();
+  const FrameFit fit(series, parametrization, bases);
+  return largest_of(frames.size(), limit, [&](std::size_t i) {
+    return fit.misfit(
+        fit.space().factorize(fit.normal(frames[i], strengths[0])).solve(fit.project(frames[i])), frames[i]);
   });
-  return *std::max_element(errors.begin(), errors.end());
 }
 
 SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
@@ -49,7 +63,7 @@ SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization
     : series_(series),
       parametrization_(std::move(parametrization)),
       bases_(bases),
-      fit_(*parametrization_, in_space(bases), series.samples) {
+      fit_(series, *parametrization_, in_space(bases)) {
   one_thread_a_product();
   const auto frames = static_cast<Eigen::Index>(series.times.size());
   const BSplineBasis& time = bases_[3];
@@ -65,18 +79,17 @@ SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization
 
 /// The strongest regularisation that costs an early and a late frame next to nothing.
 void SeriesFit::choose_strength() {
-  strength_ = strongest;
   const std::size_t frames = series_.times.size();
+  auto strength = std::begin(strengths);
   for (const std::size_t j : {1 + frames / 8, frames - 1}) {
-    const double t = series_.times[j];
-    const Eigen::MatrixXd right = fit_.project(series_.frames[j], t);
-    const auto cost = [&](double strength) {
-      const Eigen::MatrixXd x = fit_.factorize(fit_.normal(t, strength)).solve(right);
-      return (fit_.values(x, t) - series_.frames[j]).norm();
+    const Eigen::MatrixX3d right = fit_.project(j);
+    const auto cost = [&](double of) {
+      return fit_.misfit(fit_.space().factorize(fit_.normal(j, of)).solve(right), j).norm();
     };
-    const double most = regularisation_cost * cost(weakest / 1000) + 1e-9 * series_.largest[j];
-    while (strength_ > weakest && cost(strength_) > most) strength_ /= 10;
+    const double most = regularisation_cost * cost(strengths[2] / 100) + 1e-9 * series_.largest[j];
+    while (strength + 1 < std::end(strengths) && cost(*strength) > most) ++strength;
   }
+  strength_ = *strength;
 }
 
 void SeriesFit::solve() {
@@ -103,9 +116,9 @@ void SeriesFit::solve() {
   Blocks projected(frames);
   std::vector<SpaceFit::Normal> normals(same ? 1 : frames);
   parallel_for(frames, [&](int j) {
-    const double t = series_.times[j + 1];
-    projected[j] = fit_.project(series_.frames[j + 1], t);
-    if (!same || j == 0) normals[j] = fit_.normal(t, strength_);
+    const auto frame = static_cast<std::size_t>(j) + 1;
+    projected[j] = fit_.project(frame);
+    if (!same || j == 0) normals[j] = fit_.normal(frame, strength_);
   });
   const auto over_frames = [&](const Blocks& of_frames) {
     Blocks sums(T);
@@ -142,7 +155,7 @@ void SeriesFit::solve() {
         else if (all == 0 && j == std::min(l, frames - 1))
           sum.add(1, normals[j]);
     }
-    factors[l].emplace(fit_.factorize(sum));
+    factors[l].emplace(fit_.space().factorize(sum));
   });
   for (const auto& factor : factors) condition_ = std::max(condition_, factor->condition());
   const Eigen::MatrixXd inverse = time_factor.matrixL().solve(Eigen::MatrixXd::Identity(T, T));  // L^-1
@@ -157,7 +170,7 @@ void SeriesFit::solve() {
       Eigen::MatrixXd at = Eigen::MatrixXd::Zero(n, 3);
       for (int l = 0; l < T; ++l)
         if (in_time_(j, l) != 0) at += in_time_(j, l) * x[l];
-      of_frames[j] = fit_.multiply(normals[j], at);
+      of_frames[j] = fit_.space().multiply(normals[j], at);
     });
     return over_frames(of_frames);
   };
@@ -203,17 +216,11 @@ void SeriesFit::solve() {
   for (int l = 0; l < T; ++l) control_points_.row(l) = x[l].reshaped().transpose();
 }
 
-Eigen::MatrixXd SeriesFit::at_frame(int row, const Eigen::MatrixXd& control_points) const {
-  return Eigen::RowVectorXd(in_time_.row(row) * control_points).reshaped(ties().size(), 3);
-}
-
-double SeriesFit::error(const Eigen::MatrixXd& control_points) const {
-  std::vector<double> errors(in_time_.rows());
-  parallel_for(static_cast<int>(errors.size()), [&](int j) {
-    const Eigen::MatrixXd values = fit_.values(at_frame(j, control_points), series_.times[j + 1]);
-    errors[j] = (values - series_.frames[j + 1]).rowwise().norm().maxCoeff();
+Misfit SeriesFit::misfit(double limit) const {
+  return largest_of(static_cast<std::size_t>(in_time_.rows()), limit, [&](std::size_t j) {
+    const Eigen::RowVectorXd x = in_time_.row(static_cast<Eigen::Index>(j)) * control_points_;
+    return fit_.misfit(x.reshaped(ties().size(), 3), j + 1);
   });
-  return *std::max_element(errors.begin(), errors.end());
 }
 
 Field SeriesFit::field(const Eigen::MatrixXd& control_points) const {

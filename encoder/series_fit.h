@@ -7,15 +7,21 @@
 #include <vector>
 
 #include "encoder/field/field.h"
+#include "encoder/frame_fit.h"
 #include "encoder/series.h"
-#include "encoder/space_fit.h"
 
 namespace cleft {
 
-/// Largest distance from the data, mm, of fits of single frames in space: what the knots in space can reach,
-/// were every frame on its own.
-double space_error(const Series& series, const std::shared_ptr<const Parametrization>& parametrization,
-                   const std::array<BSplineBasis, 3>& bases, const std::vector<int>& frames);
+/// How far a spline is from the data of nodes and frames.
+struct Misfit {
+  double largest = 0;  ///< mm
+  double beyond = 0;   ///< share of the nodes and frames that are off by more than a limit
+};
+
+/// Of fits of single frames in space: what the knots in space can reach, were every frame on its own.
+Misfit space_misfit(const Series& series, const Parametrization& parametrization,
+                    const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
+                    double limit);
 
 /// The least-squares spline in all four variables. Where the parametrisation does not move, the normal matrix
 /// is a Kronecker product of one in t and one in space, and so solved. Where it moves, that is only a
@@ -30,8 +36,7 @@ class SeriesFit {
   /// Control points in t of every unknown; those of the first are 0 and left out: (T - 1) x 3 n, column
   /// axis n + unknown.
   const Eigen::MatrixXd& control_points() const { return control_points_; }
-  /// Largest distance from the data, mm, of any such control points.
-  double error(const Eigen::MatrixXd& control_points) const;
+  Misfit misfit(double limit) const;
 
   Field field(const Eigen::MatrixXd& control_points) const;
   const ControlTies& ties() const { return fit_.ties(); }
@@ -42,14 +47,13 @@ class SeriesFit {
   }  ///< of the regularisation, relative to the mean of B^T B's diagonal
 
  private:
-  Eigen::MatrixXd at_frame(int row, const Eigen::MatrixXd& control_points) const;
   void choose_strength();
   void solve();
 
   const Series& series_;
   std::shared_ptr<const Parametrization> parametrization_;
   std::array<BSplineBasis, 4> bases_;
-  SpaceFit fit_;
+  FrameFit fit_;
   Eigen::MatrixXd in_time_;  // frames 1 .. F - 1 by control points in t but the first
   Eigen::MatrixXd control_points_;
   double strength_ = 0, condition_ = 1;

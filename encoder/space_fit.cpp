@@ -13,7 +13,7 @@ namespace cleft {
 namespace {
 
 constexpr double diagonal_strength =
-    1e-10;  // relative to the mean diagonal of B^T B; holds what neither data nor roughness reach
+    1e-11;  // relative to the mean diagonal of B^T B; holds what neither data nor roughness reach
 constexpr int order = 4;  // cubics: four functions an axis
 constexpr int cell_size = order * order;
 constexpr int reach = 2 * order - 1;  // control points meet only where indices differ by at most 3: a stencil
@@ -30,7 +30,6 @@ struct Plane {
 };
 struct Weighted {
   int sample;
-  double importance;                     // in the sum of squares
   double share;                          // of the sample's value: 1/2 where both sides of v = 0 see it
   std::array<double, cell_size> weight;  // N_j(across) N_k(height)
 };
@@ -96,6 +95,7 @@ struct SpaceFit::Factor::Parts {
 };
 
 SpaceFit::~SpaceFit() = default;
+SpaceFit::SpaceFit(SpaceFit&&) noexcept = default;
 SpaceFit::Factor::~Factor() = default;
 SpaceFit::Factor::Factor(Factor&&) noexcept = default;
 SpaceFit::Factor::Factor(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -126,17 +126,16 @@ SpaceFit::SpaceFit(const Parametrization& parametrization, const std::array<BSpl
         continue;
       const auto v = bases[1].evaluate(parametrization.across(uvw.y).value, limit),
                  w = bases[2].evaluate(parametrization.height(uvw.z).value);
-      const double importance = samples[s].importance;
       Cell& cell =
           planes[uvw.x].try_emplace({v.first, w.first}, Cell{v.first, w.first, {}, {}}).first->second;
-      Weighted weighted{static_cast<int>(s), importance, uncut_plane && !ahead_is_tied ? 0.5 : 1, {}};
+      Weighted weighted{static_cast<int>(s), uncut_plane && !ahead_is_tied ? 0.5 : 1, {}};
       for (int j = 0; j < order; ++j)
         for (int k = 0; k < order; ++k) weighted.weight[j * order + k] = v.value[j] * w.value[k];
       cell.samples.push_back(static_cast<int>(p.weights.size()));
       p.weights.push_back(weighted);
       for (int a = 0; a < cell_size; ++a)
         for (int b = 0; b < cell_size; ++b)
-          cell.normal[a * cell_size + b] += importance * weighted.weight[a] * weighted.weight[b];
+          cell.normal[a * cell_size + b] += weighted.weight[a] * weighted.weight[b];
     }
   }
   for (auto& [u, cells] : planes) {
@@ -337,20 +336,23 @@ Eigen::MatrixXd SpaceFit::multiply(const Normal& normal, const Eigen::MatrixXd& 
   return p.sum(to);
 }
 
-Eigen::MatrixXd SpaceFit::project(const Eigen::Ref<const Eigen::MatrixXd>& values, double t) const {
+Eigen::MatrixX3d SpaceFit::project(const Eigen::MatrixX3d& values, double t) const {
   const Parts& p = *parts_;
-  const auto columns = values.cols();
-  std::vector<Grid> sums(p.bases[0].size(), Grid::Zero(p.V * p.W, columns));
-  Grid of_plane(p.V * p.W, columns);
+  std::vector<Grid> sums(p.bases[0].size(), Grid::Zero(p.V * p.W, 3));
+  Grid of_plane(p.V * p.W, 3);
   for (const Plane& plane : p.planes) {
     of_plane.setZero();
     for (const Cell& cell : plane.cells)
       for (const int s : cell.samples) {
         const Weighted& weighted = p.weights[s];
-        for (int j = 0; j < order; ++j)
-          for (int k = 0; k < order; ++k)
-            of_plane.row((cell.first_across + j) * p.W + cell.first_height + k) +=
-                weighted.importance * weighted.weight[j * order + k] * values.row(weighted.sample);
+        const double x = values(weighted.sample, 0), y = values(weighted.sample, 1),
+                     z = values(weighted.sample, 2);
+        for (int j = 0; j < order; ++j) {
+          double* to = &of_plane((cell.first_across + j) * p.W + cell.first_height, 0);
+          for (const double* w = &weighted.weight[j * order]; w != &weighted.weight[j * order] + order;
+               ++w, to += 3)
+            to[0] += *w * x, to[1] += *w * y, to[2] += *w * z;
+        }
       }
     const auto [first, value] = p.bases[0].evaluate(p.parametrization.along(plane.u, t).value);
     for (int i = 0; i < order; ++i) sums[first + i] += value[i] * of_plane;
@@ -367,11 +369,11 @@ double SpaceFit::Factor::condition() const {
   return (greatest / least) * (greatest / least);
 }
 
-Eigen::MatrixXd SpaceFit::values(const Eigen::Ref<const Eigen::MatrixXd>& x, double t) const {
+Eigen::MatrixX3d SpaceFit::values(const Eigen::MatrixX3d& x, double t) const {
   const Parts& p = *parts_;
   const std::vector<Grid> controls = p.controls(x);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(p.sample_count, x.cols());
-  Grid of_plane(p.V * p.W, x.cols());
+  Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(p.sample_count, 3);
+  Grid of_plane(p.V * p.W, 3);
   for (const Plane& plane : p.planes) {
     const auto [first, value] = p.bases[0].evaluate(p.parametrization.along(plane.u, t).value);
     of_plane.setZero();
@@ -379,11 +381,14 @@ Eigen::MatrixXd SpaceFit::values(const Eigen::Ref<const Eigen::MatrixXd>& x, dou
     for (const Cell& cell : plane.cells)
       for (const int s : cell.samples) {
         const Weighted& weighted = p.weights[s];
-        for (int j = 0; j < order; ++j)
-          for (int k = 0; k < order; ++k)
-            result.row(weighted.sample) +=
-                weighted.share * weighted.weight[j * order + k] *
-                of_plane.row((cell.first_across + j) * p.W + cell.first_height + k);
+        double sum[3] = {};
+        for (int j = 0; j < order; ++j) {
+          const double* from = &of_plane((cell.first_across + j) * p.W + cell.first_height, 0);
+          for (const double* w = &weighted.weight[j * order]; w != &weighted.weight[j * order] + order;
+               ++w, from += 3)
+            for (int a = 0; a < 3; ++a) sum[a] += *w * from[a];
+        }
+        for (int a = 0; a < 3; ++a) result(weighted.sample, a) += weighted.share * sum[a];
       }
   }
   return result;

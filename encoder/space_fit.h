@@ -15,13 +15,14 @@ namespace cleft {
 /// The spline over (along, across, height) of a parametrisation, at scattered samples, with the control
 /// points tied where the tissue is uncut. The samples' places across and in height never move, and samples of
 /// equal u move together along the cut: what they add to the normal matrix is summed once, and a time only
-/// weighs it along u. Blocks of numbers have a row a sample or a row an unknown (ties().size()), and any
-/// number of columns. All is safe to call from several threads at once.
+/// weighs it along u. Blocks of numbers have a row a sample or a row an unknown (ties().size()). All is safe
+/// to call from several threads at once.
 class SpaceFit {
  public:
   SpaceFit(const Parametrization& parametrization, const std::array<BSplineBasis, 3>& bases,
            const std::vector<Sample>& samples);
   ~SpaceFit();
+  SpaceFit(SpaceFit&&) noexcept;
 
   const ControlTies& ties() const;
 
@@ -59,9 +60,9 @@ class SpaceFit {
   Factor factorize(const Normal& normal) const;
 
   /// ties^T B^T values: the right-hand side for values at the samples at time t.
-  Eigen::MatrixXd project(const Eigen::Ref<const Eigen::MatrixXd>& values, double t) const;
+  Eigen::MatrixX3d project(const Eigen::MatrixX3d& values, double t) const;
   /// B ties x: the spline's values at the samples.
-  Eigen::MatrixXd values(const Eigen::Ref<const Eigen::MatrixXd>& x, double t) const;
+  Eigen::MatrixX3d values(const Eigen::MatrixX3d& x, double t) const;
 
  private:
   struct Parts;

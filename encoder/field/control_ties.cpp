@@ -33,20 +33,21 @@ ControlTies::ControlTies(const std::array<BSplineBasis, 3>& bases, int open_firs
     const double after = across.knots()[right + p + 1] - across.knots()[right + p];
     of_left = after / (before + after), of_right = before / (before + after);
   }
-  enum Kind { open, rim, closed };
-  for (const Kind kind : {open, rim, closed}) {
-    // Of the meeting control points at height k: those of the cut are free, next to them one value, else one
+  enum Kind { open, bottom, closed };
+  for (const Kind kind : {open, closed}) {
+    // Of the meeting control points at height k: those of the cut are free, at its bottom one value, else one
     // value and one slope.
     const auto at = [&](int k) {
-      const bool beside = k >= open_from - 1;
-      return right < 0 || (kind == open && k >= open_from) ? open : kind != closed && beside ? rim : closed;
+      if (right < 0) return open;
+      return kind == closed || k < open_from - 1 ? closed : k < open_from ? bottom : open;
     };
-    Pattern& pattern = patterns_[kind];
+    Pattern& pattern = patterns_[kind == open ? 0 : 1];
     std::vector<int> numbers(static_cast<std::size_t>(V) * W, -1);
     for (int j = 0; j < V; ++j)
       for (int k = 0; k < W; ++k) {
         const bool meets = j == right || j == right - 1;
-        if (!meets || at(k) == open || (at(k) == rim && j == right - 1)) numbers[j * W + k] = pattern.size++;
+        if (!meets || at(k) == open || (at(k) == bottom && j == right - 1))
+          numbers[j * W + k] = pattern.size++;
       }
     for (int j = 0; j < V; ++j)
       for (int k = 0; k < W; ++k) {
@@ -61,9 +62,7 @@ ControlTies::ControlTies(const std::array<BSplineBasis, 3>& bases, int open_firs
   }
   first_ = {0};
   for (int i = 0; i < bases[0].size(); ++i) {
-    kinds_.push_back(i >= open_first && i <= open_last           ? open
-                     : i >= open_first - 1 && i <= open_last + 1 ? rim
-                                                                 : closed);
+    kinds_.push_back(i >= open_first && i <= open_last ? 0 : 1);
     first_.push_back(first_.back() + patterns_[kinds_[i]].size);
   }
 }

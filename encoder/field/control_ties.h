@@ -10,10 +10,10 @@ namespace cleft {
 
 /// The control points of one row across and in height, (j, k), as combinations of at most two unknowns each.
 ///
-/// Where tissue is uncut, the two control points that meet in v = 0 are one: the sides agree there, bit for
-/// bit. Away from the rim of the cut it is the mean of its neighbours weighted by the knots, so that their
-/// slopes agree too; on the rim itself the displacement has a cusp across v = 0, and it is an unknown of its
-/// own.
+/// Where tissue is uncut, the two control points that meet in v = 0 are the mean of their neighbours weighted
+/// by the knots: the sides agree there, bit for bit, and so do their slopes, up to the start and the tip.
+/// Along the cut's bottom, which no one sees, the displacement may have a cusp across v = 0: they are one
+/// unknown.
 class ControlTies {
  public:
   struct Term {
@@ -46,8 +46,8 @@ class ControlTies {
   };
   ControlTies(const std::array<BSplineBasis, 3>& bases, int open_first, int open_last, int open_from);
 
-  std::array<Pattern, 3> patterns_;
-  std::vector<int> kinds_;  // of every row: which pattern
+  std::array<Pattern, 2> patterns_;  // along the cut, and beyond its ends
+  std::vector<int> kinds_;           // of every row: which pattern
   std::vector<int> first_;
 };
 

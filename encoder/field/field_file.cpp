@@ -11,7 +11,7 @@ namespace cleft {
 
 namespace {
 
-const FileFormat format{"cleft-field", 2, "field file", "cleft encode"};
+const FileFormat format{"cleft-field", 3, "field file", "cleft encode"};
 
 }  // namespace
 

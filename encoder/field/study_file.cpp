@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const FileFormat format{"cleft-study", 1, "study file", "cleft pack"};
+const FileFormat format{"cleft-study", 2, "study file", "cleft pack"};
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
 
 /// The members of an object that are text.

@@ -57,7 +57,7 @@ void write(const std::string& path, Snapshot& s, const Motion& motion) {
   const std::vector<Sample> samples = samples_of(s);
   for (std::size_t j = 0; j < s.frames(); ++j) {
     std::vector<Vec3> d;
-    for (const auto& [p, side, importance] : samples)
+    for (const auto& [p, side] : samples)
       d.push_back(motion(p, side == Side::left ? -1 : side == Side::right ? 1 : 0, s.times[j]));
     writer.write_frames(j, d);
   }

@@ -1,0 +1,30 @@
+// Centres of cells: what the data say between the nodes.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "encoder/samples.h"
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+/// Centres of a snapshot's cells, where linear elements have the mean of their nodes' displacements. Cells in
+/// or across the plane v = 0 have none: on which side they stand is not said.
+struct CellCentres {
+  std::vector<Sample> samples;      ///< M
+  std::vector<bool> beside_plane;   ///< M: the cell has a node on v = 0
+  std::vector<std::int64_t> nodes;  ///< of one cell after another
+  std::vector<std::size_t> first;   ///< M + 1: where each begins there
+
+  /// M x 3, of a frame's N x 3.
+  Eigen::MatrixX3d mean(const Eigen::MatrixX3d& frame) const;
+  /// Some of them, by number.
+  CellCentres only(const std::vector<std::size_t>& some) const;
+};
+
+/// `samples`: those of the snapshot's nodes.
+CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& samples);
+
+}  // namespace cleft

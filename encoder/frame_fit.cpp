@@ -1,0 +1,99 @@
+#include "encoder/frame_fit.h"
+
+#include <algorithm>
+
+namespace cleft {
+
+namespace {
+
+constexpr int enough = 8;  // nodes a control point, in any piece along the cut
+
+/// Where the basis along interpolates: pieces between such knots share no function but at their ends.
+struct Piece {
+  double front, back;  // along
+  int functions;
+};
+std::vector<Piece> pieces_of(const BSplineBasis& along) {
+  std::vector<Piece> pieces;
+  const auto& knots = along.knots();
+  const std::size_t p = static_cast<std::size_t>(along.degree());
+  double front = along.front();
+  int spans = 0;
+  for (std::size_t i = p + 1; i + p < knots.size(); ++i) {
+    if (knots[i] > knots[i - 1]) ++spans;
+    if (knots[i] > front && knots[i] == knots[i + p - 1]) {
+      pieces.push_back({front, knots[i], spans + along.degree()});
+      front = knots[i], spans = 0;
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
+                   const std::array<BSplineBasis, 3>& bases)
+    : series_(series),
+      parametrization_(parametrization),
+      bases_(bases),
+      nodes_(parametrization, bases, series.samples) {
+  std::vector<double> u;
+  for (const Sample& sample : series.samples) u.push_back(sample.uvw.x);
+  std::sort(u.begin(), u.end());
+  std::vector<double> columns = u;
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  const auto within = [](const std::vector<double>& places, double front, double back) {
+    return std::upper_bound(places.begin(), places.end(), back) -
+           std::lower_bound(places.begin(), places.end(), front);
+  };
+  std::vector<bool> sparse(series.times.size(), false), inside(series.centres.samples.size(), false);
+  const int section = bases[1].size() * bases[2].size();
+  for (std::size_t j = 1; j < series.times.size(); ++j)
+    for (const Piece& piece : pieces_of(bases[0])) {
+      const double front = parametrization.u_at(piece.front, series.times[j]),
+                   back = parametrization.u_at(piece.back, series.times[j]);
+      if (within(u, front, back) >= enough * piece.functions * section &&
+          within(columns, front, back) >= piece.functions)
+        continue;
+      sparse[j] = true;
+      for (std::size_t c = 0; c < inside.size(); ++c)
+        if (const double at = series.centres.samples[c].uvw.x; front < at && at < back) inside[c] = true;
+    }
+  std::vector<std::size_t> beside, others;
+  for (std::size_t c = 0; c < inside.size(); ++c)
+    if (series.centres.beside_plane[c])
+      beside.push_back(c);
+    else if (inside[c])
+      others.push_back(c);
+  if (series.geometry.cut.length > 0) add_group(beside, std::vector<bool>(sparse.size(), true));
+  add_group(others, sparse);
+}
+
+void FrameFit::add_group(const std::vector<std::size_t>& cells, std::vector<bool> of_frame) {
+  if (cells.empty()) return;
+  CellCentres centres = series_.centres.only(cells);
+  SpaceFit fit(parametrization_, bases_, centres.samples);
+  groups_.push_back({std::move(centres), std::move(fit), std::move(of_frame)});
+}
+
+SpaceFit::Normal FrameFit::normal(std::size_t frame, double strength) const {
+  const double t = series_.times[frame];
+  SpaceFit::Normal sum = nodes_.normal(t, strength);
+  for (const Group& group : groups_)
+    if (group.of_frame[frame]) sum.add(1, group.fit.normal(t, 0));
+  return sum;
+}
+
+Eigen::MatrixX3d FrameFit::project(std::size_t frame) const {
+  const double t = series_.times[frame];
+  Eigen::MatrixX3d sum = nodes_.project(series_.frames[frame], t);
+  for (const Group& group : groups_)
+    if (group.of_frame[frame]) sum += group.fit.project(group.centres.mean(series_.frames[frame]), t);
+  return sum;
+}
+
+Eigen::MatrixX3d FrameFit::misfit(const Eigen::MatrixX3d& x, std::size_t frame) const {
+  return nodes_.values(x, series_.times[frame]) - series_.frames[frame];
+}
+
+}  // namespace cleft

@@ -1,0 +1,46 @@
+// What a frame adds to a fit in space: its nodes, and centres of cells where nodes alone say too little.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "encoder/series.h"
+#include "encoder/space_fit.h"
+
+namespace cleft {
+
+/// Nodes leave the spline free between them where knots lie closer than they do: beside the cut, and between
+/// its start and the tip while that is near, for there all knots of the canonical cut are at any time. There
+/// the finite elements' own values at the centres of cells, of the same weight as nodes, join the least
+/// squares.
+class FrameFit {
+ public:
+  /// Keeps references to `series` and `parametrization`.
+  FrameFit(const Series& series, const Parametrization& parametrization,
+           const std::array<BSplineBasis, 3>& bases);
+
+  const ControlTies& ties() const { return nodes_.ties(); }
+  const SpaceFit& space() const { return nodes_; }
+  /// B^T B + strength R, and ties^T B^T d, of a frame.
+  SpaceFit::Normal normal(std::size_t frame, double strength) const;
+  Eigen::MatrixX3d project(std::size_t frame) const;
+  /// B ties x - d at the nodes.
+  Eigen::MatrixX3d misfit(const Eigen::MatrixX3d& x, std::size_t frame) const;
+
+ private:
+  struct Group {
+    CellCentres centres;
+    SpaceFit fit;
+    std::vector<bool> of_frame;
+  };
+  void add_group(const std::vector<std::size_t>& cells, std::vector<bool> of_frame);
+
+  const Series& series_;
+  const Parametrization& parametrization_;
+  std::array<BSplineBasis, 3> bases_;
+  SpaceFit nodes_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace cleft

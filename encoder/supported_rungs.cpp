@@ -1,0 +1,75 @@
+#include "encoder/supported_rungs.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace cleft {
+
+namespace {
+
+/// Do values at these places determine a spline? Schoenberg and Whitney: one place for each function, in
+/// order, where it does not vanish.
+bool determined(const BSplineBasis& basis, const std::vector<double>& places) {
+  const auto& knots = basis.knots();
+  const int p = basis.degree();
+  auto place = places.begin();
+  for (int i = 0; i < basis.size(); ++i) {
+    const double front = knots[i], back = knots[i + p + 1];
+    const bool from_front = front == knots[i + p], to_back = knots[i + 1] == back;
+    if (from_front) place = std::lower_bound(places.begin(), places.end(), front);
+    while (place != places.end() && !from_front && *place <= front) ++place;
+    if (place == places.end() || (to_back ? *place > back : *place >= back)) return false;
+    ++place;
+  }
+  return true;
+}
+
+constexpr std::pair<int Rung::*, std::size_t> spans_of_axes[] = {{&Rung::before, 0}, {&Rung::along, 0},
+                                                                 {&Rung::after, 0},  {&Rung::across, 1},
+                                                                 {&Rung::above, 2},  {&Rung::below, 2}};
+
+}  // namespace
+
+std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& series,
+                            const Parametrization& parametrization) {
+  const double last = series.times.back();
+  std::array<std::vector<double>, 3> places;
+  const auto add = [&](const Vec3& uvw) {
+    places[0].push_back(parametrization.along(uvw.x, last).value);
+    places[1].push_back(parametrization.across(uvw.y).value);
+    places[2].push_back(parametrization.height(uvw.z).value);
+  };
+  for (const Sample& sample : series.samples) add(sample.uvw);
+  for (std::vector<double>& on_axis : places) {
+    std::sort(on_axis.begin(), on_axis.end());
+    on_axis.erase(std::unique(on_axis.begin(), on_axis.end()), on_axis.end());
+  }
+  // The first rung stands whatever the data are, but for knots in height, of which levels of nodes are few.
+  Rung least = ladder.front();
+  while (least.above > 1 && !determined(bases_of(least, parametrization, 2)[2], places[2])) --least.above;
+  const auto bases_of_least = bases_of(least, parametrization, 2);
+  bool thorough = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    thorough = thorough && determined(bases_of_least[axis], places[axis]);
+  const std::size_t nodes_each = parametrization.moves() ? 6 : thorough ? 0 : 2;  // for a control point
+  std::vector<Rung> rungs = {least};
+  for (const Rung& rung : ladder) {
+    Rung next = rungs.back();
+    for (const auto& [spans, axis] : spans_of_axes) {
+      Rung more = next;
+      more.*spans = rung.*spans;
+      const auto bases = bases_of(more, parametrization, static_cast<int>(series.times.size()));
+      const auto control_points =
+          static_cast<std::size_t>(bases[0].size()) * bases[1].size() * bases[2].size();
+      if (determined(bases[axis], places[axis]) && nodes_each * control_points <= series.samples.size())
+        next = more;
+    }
+    if (next == rungs.back()) continue;
+    next.time = rung.time;
+    rungs.push_back(next);
+  }
+  return rungs;
+}
+
+}  // namespace cleft
