@@ -82,6 +82,11 @@ Json info_of_field(const std::string& file) {
       {"report", list_of(field.report)},
       {"bytes", std::filesystem::file_size(file)},
       {"parameters", field.parameters}};
+  for (const Quantity& quantity : field.quantities)
+    info["quantities"].push_back({{"name", quantity.name},
+                                  {"components", quantity.components},
+                                  {"largest", quantity.largest},
+                                  {"error", quantity.error}});
   if (field.interpolation) info["interpolation"] = list_of(*field.interpolation);
   return info;
 }

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "encoder/field/unknowns.h"
 #include "encoder/measure.h"
+#include "encoder/quantities.h"
 #include "encoder/series_fit.h"
 #include "encoder/supported_rungs.h"
 
@@ -25,12 +26,21 @@ constexpr double farthest = 0.625;  // steps a coefficient may be moved to be ch
 class Encoder {
  public:
   Encoder(const Series& series, const EncodeOptions& options,
-          const std::function<void(const std::string&)>& progress)
-      : series_(series), options_(options), progress_(progress) {
+          const std::function<void(const std::string&)>& progress,
+          SeriesFit::Start start = SeriesFit::Start::zero)
+      : series_(series), options_(options), progress_(progress), start_(start) {
     const bool cut = series.geometry.cut.length > 0;
     parametrization_ = make_parametrization(cut ? options.parametrization : "fixed", series.geometry);
     scale_ = series.largest_displacement > 0 ? series.largest_displacement : 1;
     limit_ = options.tolerance * scale_;
+  }
+
+  /// The smallest rung whose spline alone keeps the tolerance; the largest there is where none does.
+  Rung smallest_rung() const {
+    const std::vector<Rung> rungs = supported(ladder_of(*parametrization_), series_, *parametrization_);
+    std::size_t i = first_within(rungs);
+    while (i + 1 < rungs.size() && fit_of(rungs[i]).misfit(limit_).beyond > 0) ++i;
+    return rungs[std::min(i, rungs.size() - 1)];
   }
 
   Encoded run() {
@@ -60,7 +70,7 @@ class Encoder {
  private:
   SeriesFit fit_of(const Rung& rung) const {
     return {series_, parametrization_,
-            bases_of(rung, *parametrization_, static_cast<int>(series_.times.size()))};
+            bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())), start_};
   }
 
   /// Index of the first rung whose fits in space of a few frames keep their share of the tolerance, or, where
@@ -116,16 +126,40 @@ class Encoder {
   const Series& series_;
   const EncodeOptions& options_;
   const std::function<void(const std::string&)>& progress_;
+  SeriesFit::Start start_;
   std::shared_ptr<const Parametrization> parametrization_;
   double scale_ = 1, limit_ = 0;
 };
+
+/// Where nothing moves, knots are those that further quantities need.
+std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions& options,
+                                       const std::function<void(const std::string&)>& progress) {
+  std::optional<Rung> largest;
+  const auto size = [](const Rung& r) {
+    return r.before + r.along + r.after + r.across + r.above + r.below + r.time;
+  };
+  for (const SeriesQuantity& quantity : series.quantities)
+    for (int first = 0; first < quantity.frames.front().cols(); first += 3) {
+      const Series part = series_of(series, quantity, first);
+      const Rung rung = Encoder(part, options, progress, SeriesFit::Start::any).smallest_rung();
+      if (!largest || size(rung) > size(*largest)) largest = rung;
+    }
+  return largest;
+}
 
 }  // namespace
 
 Encoded encode(const Series& series, const EncodeOptions& options,
                const std::function<void(const std::string&)>& progress) {
   const auto start = std::chrono::steady_clock::now();
-  Encoded encoded = Encoder(series, options, progress).run();
+  EncodeOptions chosen = options;
+  if (series.largest_displacement == 0 && !options.rung)
+    chosen.rung = rung_of_quantities(series, options, progress);
+  Encoded encoded = Encoder(series, chosen, progress).run();
+  if (!series.quantities.empty()) {
+    progress("fitting further quantities");
+    encoded.field.quantities = fit_quantities(series, encoded.field, options.tolerance);
+  }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   encoded.field.report.fit_seconds = seconds.count();
   return encoded;

@@ -30,7 +30,9 @@ struct Encoded {
 
 /// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the
 /// displacements from frame 0, by regularised least squares over all frames. Coefficients are multiples of
-/// field.quantum. Without a cut there is no break, and the parametrisation is "fixed".
+/// field.quantum. Further quantities of the series are fitted on the knots that the displacement needs, or
+/// that they need where nothing moves; their errors are told, and bound by nothing. Without a cut there is no
+/// break, and the parametrisation is "fixed".
 Encoded encode(const Series& series, const EncodeOptions& options,
                const std::function<void(const std::string&)>& progress);
 

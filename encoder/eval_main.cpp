@@ -24,7 +24,26 @@ double inside(const Field& field, int axis, double value, const std::string& whe
                    ": the field reaches from " + shortest(front) + " to " + shortest(back) + " mm");
 }
 
-std::string row_of(const Vec3& d) { return shortest(d.x) + "," + shortest(d.y) + "," + shortest(d.z) + "\n"; }
+/// Columns of the field's further quantities: a number each, numbered from 1 where there are several.
+std::string quantity_names(const Field& field) {
+  std::string names;
+  for (const Quantity& quantity : field.quantities)
+    for (int c = 1; c <= quantity.components; ++c)
+      names += "," + quantity.name + (quantity.components > 1 ? "_" + std::to_string(c) : "");
+  return names;
+}
+
+std::string quantity_values(const Field& field, const Vec3& uvw, Side side, double t) {
+  std::string text;
+  for (std::size_t q = 0; q < field.quantities.size(); ++q) {
+    std::vector<double> values(static_cast<std::size_t>(field.quantities[q].components));
+    field.quantity(q, uvw, side, t, values);
+    for (const double value : values) text += "," + shortest(value);
+  }
+  return text;
+}
+
+std::string row_of(const Vec3& d) { return shortest(d.x) + "," + shortest(d.y) + "," + shortest(d.z); }
 
 std::string evaluate_rows(const Field& field, const NumberTable& table, const std::string& file) {
   int at[5];
@@ -34,7 +53,7 @@ std::string evaluate_rows(const Field& field, const NumberTable& table, const st
       throw FileError(file,
                       std::string("column '") + columns[c] + "' is missing; the columns are u,v,w,side,t");
   }
-  std::string text = "du,dv,dw\n";
+  std::string text = "du,dv,dw" + quantity_names(field) + "\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& row = table.rows[r];
     const std::string where = file + ", row " + std::to_string(r + 1);
@@ -46,9 +65,9 @@ std::string evaluate_rows(const Field& field, const NumberTable& table, const st
                    inside(field, 2, row[at[2]], where)};
     if (uvw.y * side < 0)
       throw InputError(where + ": side = " + shortest(side) + " contradicts v = " + shortest(uvw.y));
-    const Vec3 d = field.displacement(uvw, static_cast<Side>(static_cast<int>(side)),
-                                      inside(field, 3, row[at[4]], where));
-    text += row_of(d);
+    const auto lip = static_cast<Side>(static_cast<int>(side));
+    const double t = inside(field, 3, row[at[4]], where);
+    text += row_of(field.displacement(uvw, lip, t)) + quantity_values(field, uvw, lip, t) + "\n";
   }
   return text;
 }
@@ -99,7 +118,7 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
       values[n][axis] +=
           residual->quantum *
           residual->values[(n * 3 + static_cast<std::size_t>(axis)) * (s.frames() - 1) + j - 1];
-    text += row_of(values[n]);
+    text += row_of(values[n]) + "\n";
   }
   return text;
 }
@@ -126,7 +145,9 @@ int main(int argc, char** argv) {
                            ->needs(nodes_option)
                            ->check(CLI::NonNegativeNumber);
   nodes_option->needs(frame_option);
-  app.add_option("--out", out, "CSV to write, columns du,dv,dw (default: standard output)");
+  app.add_option("--out", out,
+                 "CSV to write, columns du,dv,dw, and at points the field's further quantities (default: "
+                 "standard output)");
   return run_command(app, argc, argv, [&] {
     refuse_to_overwrite(out, nodes.empty() ? std::vector{file, points} : std::vector{file, nodes});
     const Field field = read_field(file);

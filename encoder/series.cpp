@@ -86,6 +86,29 @@ void check_cut(const Snapshot& s) {
   }
 }
 
+std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader) {
+  std::vector<SeriesQuantity> quantities;
+  if (!reader.snapshot().source) return quantities;  // a simulation's own arrays are about its solver
+  const auto nodes = static_cast<Eigen::Index>(reader.snapshot().points.size());
+  for (const SnapshotArray& array : reader.point_arrays()) {
+    const auto components = static_cast<Eigen::Index>(array.components);
+    SeriesQuantity quantity{array.name, {}, 0};
+    for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) {
+      const std::vector<double> numbers = reader.point_array(array, j);
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      quantity.frames.emplace_back(Eigen::Map<const RowMajor>(numbers.data(), nodes, components));
+      const Eigen::VectorXd sizes = quantity.frames.back().rowwise().norm();
+      for (Eigen::Index n = 0; n < nodes; ++n)
+        if (!std::isfinite(sizes(n)))
+          throw InputError("frame " + std::to_string(j) + ", node " + std::to_string(n) + ": " + array.name +
+                           " is not finite; a field can only stand for finite numbers");
+      quantity.largest = std::max(quantity.largest, sizes.maxCoeff());
+    }
+    quantities.push_back(std::move(quantity));
+  }
+  return quantities;
+}
+
 }  // namespace
 
 Series::Series(const SnapshotReader& reader) {
@@ -112,6 +135,7 @@ Series::Series(const SnapshotReader& reader) {
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
   centres = cell_centres(s, samples);
+  quantities = quantities_of(reader);
   geometry = geometry_of(s, cut_of(s, frames.back(), largest_displacement));
 }
 

@@ -11,6 +11,13 @@
 
 namespace cleft {
 
+/// A further quantity at the nodes: its own values, not from frame 0.
+struct SeriesQuantity {
+  std::string name;
+  std::vector<Eigen::MatrixXd> frames;  ///< F: N x components
+  double largest = 0;                   ///< Euclidean norm over the components, of all
+};
+
 struct Series {
   std::vector<double> times;             ///< F, mm
   std::vector<Sample> samples;           ///< N
@@ -18,6 +25,7 @@ struct Series {
   std::vector<double> largest;           ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;       ///< mm, of all
   CellCentres centres;
+  std::vector<SeriesQuantity> quantities;  ///< of imported data: what was taken beside the displacement
   FieldGeometry geometry;
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: how many of them are open

@@ -59,19 +59,20 @@ Misfit space_misfit(const Series& series, const Parametrization& parametrization
 }
 
 SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
-                     const std::array<BSplineBasis, 4>& bases)
+                     const std::array<BSplineBasis, 4>& bases, Start start)
     : series_(series),
       parametrization_(std::move(parametrization)),
       bases_(bases),
-      fit_(series, *parametrization_, in_space(bases)) {
+      fit_(series, *parametrization_, in_space(bases)),
+      first_(start == Start::zero ? 1 : 0) {
   one_thread_a_product();
   const auto frames = static_cast<Eigen::Index>(series.times.size());
   const BSplineBasis& time = bases_[3];
-  in_time_ = Eigen::MatrixXd::Zero(frames - 1, time.size() - 1);
-  for (Eigen::Index j = 1; j < frames; ++j) {
+  in_time_ = Eigen::MatrixXd::Zero(frames - first_, time.size() - first_);
+  for (Eigen::Index j = first_; j < frames; ++j) {
     const auto b = time.evaluate(parametrization_->time(series.times[j]).value);
     for (int l = 0; l <= time.degree(); ++l)
-      if (b.first + l > 0) in_time_(j - 1, b.first + l - 1) = b.value[l];
+      if (b.first + l >= first_) in_time_(j - first_, b.first + l - first_) = b.value[l];
   }
   choose_strength();
   solve();
@@ -102,7 +103,7 @@ void SeriesFit::solve() {
   Eigen::MatrixXd in_t = in_time_.transpose() * in_time_;
   const double hold = time_roughness * in_t.diagonal().mean();
   Eigen::MatrixXd roughness = Eigen::MatrixXd::Zero(T, T);
-  for (int i = 0; i + 1 < T; ++i) {  // second differences; the first control point, 0, is one of them
+  for (int i = 1 - first_; i + 1 < T; ++i) {  // second differences; a first control point of 0 is one of them
     Eigen::VectorXd d = Eigen::VectorXd::Zero(T);
     if (i > 0) d(i - 1) = 1;
     d(i) = -2, d(i + 1) = 1;
@@ -116,7 +117,7 @@ void SeriesFit::solve() {
   Blocks projected(frames);
   std::vector<SpaceFit::Normal> normals(same ? 1 : frames);
   parallel_for(frames, [&](int j) {
-    const auto frame = static_cast<std::size_t>(j) + 1;
+    const auto frame = static_cast<std::size_t>(j + first_);
     projected[j] = fit_.project(frame);
     if (!same || j == 0) normals[j] = fit_.normal(frame, strength_);
   });
@@ -219,16 +220,16 @@ void SeriesFit::solve() {
 Misfit SeriesFit::misfit(double limit) const {
   return largest_of(static_cast<std::size_t>(in_time_.rows()), limit, [&](std::size_t j) {
     const Eigen::RowVectorXd x = in_time_.row(static_cast<Eigen::Index>(j)) * control_points_;
-    return fit_.misfit(x.reshaped(ties().size(), 3), j + 1);
+    return fit_.misfit(x.reshaped(ties().size(), 3), j + static_cast<std::size_t>(first_));
   });
 }
 
-Field SeriesFit::field(const Eigen::MatrixXd& control_points) const {
+std::vector<Vec3> SeriesFit::coefficients(const Eigen::MatrixXd& control_points) const {
   const int n = ties().size();
   std::vector<Vec3> coefficients;
   for (int i = 0; i < ties().rows(); ++i)
     for (const ControlTies::Control& control : ties().row(i)) {
-      coefficients.emplace_back();  // at t = 0
+      if (first_ > 0) coefficients.emplace_back();
       for (Eigen::Index l = 0; l < control_points.rows(); ++l) {
         Vec3& c = coefficients.emplace_back();
         for (int axis = 0; axis < 3; ++axis)
@@ -237,7 +238,7 @@ Field SeriesFit::field(const Eigen::MatrixXd& control_points) const {
                        control_points(l, axis * n + ties().first(i) + control.term[k].unknown);
       }
     }
-  return {parametrization_, bases_, std::move(coefficients)};
+  return coefficients;
 }
 
 }  // namespace cleft

@@ -29,16 +29,23 @@ Misfit space_misfit(const Series& series, const Parametrization& parametrization
 /// conjugate gradients on the sum of the frames' products.
 class SeriesFit {
  public:
+  /// What the data are in frame 0: nothing, and then the spline is exactly that at t = 0, or anything.
+  enum class Start { zero, any };
+
   /// Keeps references to `series`. `bases` over along, across, height and time.
   SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
-            const std::array<BSplineBasis, 4>& bases);
+            const std::array<BSplineBasis, 4>& bases, Start start = Start::zero);
 
-  /// Control points in t of every unknown; those of the first are 0 and left out: (T - 1) x 3 n, column
-  /// axis n + unknown.
+  /// Control points in t of every unknown, column axis n + unknown: T x 3 n, or (T - 1) x 3 n where the first
+  /// are 0 and left out.
   const Eigen::MatrixXd& control_points() const { return control_points_; }
   Misfit misfit(double limit) const;
 
-  Field field(const Eigen::MatrixXd& control_points) const;
+  /// All control points, in the order of Field; and the field of them.
+  std::vector<Vec3> coefficients(const Eigen::MatrixXd& control_points) const;
+  Field field(const Eigen::MatrixXd& control_points) const {
+    return {parametrization_, bases_, coefficients(control_points)};
+  }
   const ControlTies& ties() const { return fit_.ties(); }
   double condition() const { return condition_; }  ///< of the preconditioner's matrices, the largest estimate
   int iterations() const { return iterations_; }
@@ -54,7 +61,8 @@ class SeriesFit {
   std::shared_ptr<const Parametrization> parametrization_;
   std::array<BSplineBasis, 4> bases_;
   FrameFit fit_;
-  Eigen::MatrixXd in_time_;  // frames 1 .. F - 1 by control points in t but the first
+  int first_;                // frame and control point in t; before it all is 0
+  Eigen::MatrixXd in_time_;  // frames by control points in t, both from the first on
   Eigen::MatrixXd control_points_;
   double strength_ = 0, condition_ = 1;
   int iterations_ = 0;

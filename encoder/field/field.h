@@ -61,6 +61,8 @@ struct Quantity {
   std::string name;
   int components = 1;
   std::vector<double> coefficients;  ///< [(((i * V + j) * W + k) * T + l) * components + c]
+  double largest = 0;  ///< Euclidean norm over the components, at any node and frame of the data
+  double error = 0;    ///< the same of the difference from them, over `largest`
 };
 
 class Field {

@@ -217,7 +217,10 @@ FieldRecord record_of(const Field& field) {
   }
   record.header = header_of(field, slices);
   for (const Quantity& quantity : field.quantities) {
-    record.header["quantities"].push_back({{"name", quantity.name}, {"components", quantity.components}});
+    record.header["quantities"].push_back({{"name", quantity.name},
+                                           {"components", quantity.components},
+                                           {"largest", quantity.largest},
+                                           {"error", quantity.error}});
     append_planes(record.coefficients,
                   std::vector<float>(quantity.coefficients.begin(), quantity.coefficients.end()));
   }
@@ -241,7 +244,11 @@ Field field_of(const FieldRecord& record) {
     std::vector<Quantity> quantities;
     if (header.contains("quantities"))
       for (const Json& entry : header.at("quantities")) {
-        quantities.push_back({entry.at("name").get<std::string>(), entry.at("components").get<int>(), {}});
+        quantities.push_back({entry.at("name").get<std::string>(),
+                              entry.at("components").get<int>(),
+                              {},
+                              finite(entry, "largest"),
+                              finite(entry, "error")});
         if (quantities.back().components < 1 || quantities.back().components > 100)
           throw InputError("a quantity has no number of components");
       }
