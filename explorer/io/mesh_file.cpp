@@ -86,6 +86,38 @@ bool is_ply_line(const std::string& line, std::size_t& elements) {
   return words.size() == 5 && words[1] == "list" && is_ply_type(words[2]) && is_ply_type(words[3]);
 }
 
+/// The rows of a text .ply's body as its header announces them, each a line of words enough.
+void check_ply_rows(const std::string& path, const std::string& header, const std::string& body) {
+  std::istringstream announced(header), rows(body);
+  struct Element {
+    std::size_t count;
+    std::vector<bool> lists;
+  };
+  std::vector<Element> elements;
+  for (std::string line; std::getline(announced, line);) {
+    std::istringstream in(line);
+    std::string word, second;
+    in >> word >> second;
+    if (word == "element") in >> elements.emplace_back().count;
+    if (word == "property") elements.back().lists.push_back(second == "list");
+  }
+  std::string line;
+  std::getline(rows, line);  // what follows end_header
+  for (const Element& element : elements)
+    for (std::size_t row = 0; row < element.count; ++row) {
+      std::getline(rows, line);
+      std::istringstream in(line);
+      double number = 0;
+      for (const bool list : element.lists) {
+        in >> number;
+        if (list && in && !(number >= 0 && number < 1e6)) in.setstate(std::ios::failbit);
+        for (double left = list ? number : 0, x = 0; in && left > 0; --left) in >> x;
+      }
+      if (!in || !rows)
+        throw FileError(path, "has a row that is none of its elements: '" + line.substr(0, 60) + "'");
+    }
+}
+
 /// VTK's reader of .ply crashes on headers that are not one, or where the body ends early: look first.
 void check_ply(const std::string& path) {
   const std::string text = read_text_file(path);
@@ -100,6 +132,16 @@ void check_ply(const std::string& path) {
     if (!is_ply_line(line, elements))
       throw FileError(path, "line " + std::to_string(number) + " is none of a .ply file's header: '" +
                                 line.substr(0, 60) + "'");
+  // The names that VTK's reader knows, in the elements that it expects them in; it crashes without.
+  const auto face = std::min(text.find("element face "), end);
+  const auto has = [&](const std::string& property, std::size_t from, std::size_t to) {
+    const auto at = text.find(property, from);
+    return at < to && std::isspace(static_cast<unsigned char>(text[at + property.size()]));
+  };
+  const bool points = has(" x", 0, face) && has(" y", 0, face) && has(" z", 0, face);
+  const bool corners = has(" vertex_indices", face, end) || has(" vertex_index", face, end);
+  if (!points || !corners || text.find("element vertex ") > face)
+    throw FileError(path, "needs elements 'vertex' with x, y, z and then 'face' with a list vertex_indices");
   // Every element takes a line of text, or a byte at least and usually many more.
   const bool ascii = text.find("format ascii") < end;
   const std::size_t there = ascii ? static_cast<std::size_t>(std::count(
@@ -107,6 +149,7 @@ void check_ply(const std::string& path) {
                                   : text.size() - end;
   if (elements == 0 || there < elements)
     throw FileError(path, "ends before the elements its header promises");
+  if (ascii) check_ply_rows(path, text.substr(0, end), text.substr(end));
 }
 
 /// A binary .stl says how many triangles it holds; VTK's reader takes fewer without a word.
