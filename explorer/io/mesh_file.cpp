@@ -157,8 +157,8 @@ void check_stl(const std::string& path) {
   const std::string bytes = read_text_file(path);
   // VTK takes it for text where it begins like one and no other bytes follow soon.
   const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 1024));
-  const bool text =
-      std::none_of(bytes.begin(), end, [](char c) { return static_cast<unsigned char>(c) > 127; });
+  const bool text = std::none_of(
+      bytes.begin(), end, [](char c) { return static_cast<unsigned char>(c) > 127 || (c >= 0 && c < 9); });
   if (text && bytes.starts_with("solid") && bytes.find("facet") != std::string::npos) return;
   std::uint32_t count = 0;
   if (bytes.size() >= 84) std::memcpy(&count, bytes.data() + 80, 4);
