@@ -155,10 +155,11 @@ void check_ply(const std::string& path) {
 /// A binary .stl says how many triangles it holds; VTK's reader takes fewer without a word.
 void check_stl(const std::string& path) {
   const std::string bytes = read_text_file(path);
-  // VTK takes it for text where it begins like one and no other bytes follow soon.
-  const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 1024));
-  const bool text = std::none_of(
-      bytes.begin(), end, [](char c) { return static_cast<unsigned char>(c) > 127 || (c >= 0 && c < 9); });
+  // VTK takes it for binary where a twentieth of its first 256 bytes is no text.
+  const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 256));
+  const auto odd = std::count_if(
+      bytes.begin(), end, [](char c) { return (c < 32 || c > 126) && c != '\n' && c != '\r' && c != '\t'; });
+  const bool text = 20 * odd < end - bytes.begin();
   if (text && bytes.starts_with("solid") && bytes.find("facet") != std::string::npos) return;
   std::uint32_t count = 0;
   if (bytes.size() >= 84) std::memcpy(&count, bytes.data() + 80, 4);
