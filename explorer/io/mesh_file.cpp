@@ -40,12 +40,28 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
+/// VTK's filters trust the corners that a file names.
+void check_corners(const std::string& path, vtkPolyData* data) {
+  for (vtkCellArray* cells : {data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips()}) {
+    vtkIdType size;
+    const vtkIdType* corners;
+    for (cells->InitTraversal(); cells->GetNextCell(size, corners);)
+      for (vtkIdType i = 0; i < size; ++i)
+        if (corners[i] < 0 || corners[i] >= data->GetNumberOfPoints())
+          throw FileError(path, "names point " + std::to_string(corners[i]) + "; it has " +
+                                    std::to_string(data->GetNumberOfPoints()) + " points");
+  }
+}
+
 template <class Reader>
 vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   const VtkListener reading(reader.Get());
+  reader->Update();
+  if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
+  check_corners(path, reader->GetOutput());
   vtkNew<vtkTriangleFilter> triangles;
   triangles->SetInputConnection(reader->GetOutputPort());
   triangles->PassLinesOff();
