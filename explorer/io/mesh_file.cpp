@@ -40,12 +40,28 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
+/// VTK's filters trust the corners that a file names.
+void check_corners(const std::string& path, vtkPolyData* data) {
+  for (vtkCellArray* cells : {data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips()}) {
+    vtkIdType size;
+    const vtkIdType* corners;
+    for (cells->InitTraversal(); cells->GetNextCell(size, corners);)
+      for (vtkIdType i = 0; i < size; ++i)
+        if (corners[i] < 0 || corners[i] >= data->GetNumberOfPoints())
+          throw FileError(path, "names point " + std::to_string(corners[i]) + "; it has " +
+                                    std::to_string(data->GetNumberOfPoints()) + " points");
+  }
+}
+
 template <class Reader>
 vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   const VtkListener reading(reader.Get());
+  reader->Update();
+  if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
+  check_corners(path, reader->GetOutput());
   vtkNew<vtkTriangleFilter> triangles;
   triangles->SetInputConnection(reader->GetOutputPort());
   triangles->PassLinesOff();
@@ -86,6 +102,38 @@ bool is_ply_line(const std::string& line, std::size_t& elements) {
   return words.size() == 5 && words[1] == "list" && is_ply_type(words[2]) && is_ply_type(words[3]);
 }
 
+/// The rows of a text .ply's body as its header announces them, each a line of words enough.
+void check_ply_rows(const std::string& path, const std::string& header, const std::string& body) {
+  std::istringstream announced(header), rows(body);
+  struct Element {
+    std::size_t count;
+    std::vector<bool> lists;
+  };
+  std::vector<Element> elements;
+  for (std::string line; std::getline(announced, line);) {
+    std::istringstream in(line);
+    std::string word, second;
+    in >> word >> second;
+    if (word == "element") in >> elements.emplace_back().count;
+    if (word == "property") elements.back().lists.push_back(second == "list");
+  }
+  std::string line;
+  std::getline(rows, line);  // what follows end_header
+  for (const Element& element : elements)
+    for (std::size_t row = 0; row < element.count; ++row) {
+      std::getline(rows, line);
+      std::istringstream in(line);
+      double number = 0;
+      for (const bool list : element.lists) {
+        in >> number;
+        if (list && in && !(number >= 0 && number < 1e6)) in.setstate(std::ios::failbit);
+        for (double left = list ? number : 0, x = 0; in && left > 0; --left) in >> x;
+      }
+      if (!in || !rows)
+        throw FileError(path, "has a row that is none of its elements: '" + line.substr(0, 60) + "'");
+    }
+}
+
 /// VTK's reader of .ply crashes on headers that are not one, or where the body ends early: look first.
 void check_ply(const std::string& path) {
   const std::string text = read_text_file(path);
@@ -100,6 +148,16 @@ void check_ply(const std::string& path) {
     if (!is_ply_line(line, elements))
       throw FileError(path, "line " + std::to_string(number) + " is none of a .ply file's header: '" +
                                 line.substr(0, 60) + "'");
+  // The names that VTK's reader knows, in the elements that it expects them in; it crashes without.
+  const auto face = std::min(text.find("element face "), end);
+  const auto has = [&](const std::string& property, std::size_t from, std::size_t to) {
+    const auto at = text.find(property, from);
+    return at < to && std::isspace(static_cast<unsigned char>(text[at + property.size()]));
+  };
+  const bool points = has(" x", 0, face) && has(" y", 0, face) && has(" z", 0, face);
+  const bool corners = has(" vertex_indices", face, end) || has(" vertex_index", face, end);
+  if (!points || !corners || text.find("element vertex ") > face)
+    throw FileError(path, "needs elements 'vertex' with x, y, z and then 'face' with a list vertex_indices");
   // Every element takes a line of text, or a byte at least and usually many more.
   const bool ascii = text.find("format ascii") < end;
   const std::size_t there = ascii ? static_cast<std::size_t>(std::count(
@@ -107,15 +165,17 @@ void check_ply(const std::string& path) {
                                   : text.size() - end;
   if (elements == 0 || there < elements)
     throw FileError(path, "ends before the elements its header promises");
+  if (ascii) check_ply_rows(path, text.substr(0, end), text.substr(end));
 }
 
 /// A binary .stl says how many triangles it holds; VTK's reader takes fewer without a word.
 void check_stl(const std::string& path) {
   const std::string bytes = read_text_file(path);
-  // VTK takes it for text where it begins like one and no other bytes follow soon.
-  const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 1024));
-  const bool text =
-      std::none_of(bytes.begin(), end, [](char c) { return static_cast<unsigned char>(c) > 127; });
+  // VTK takes it for binary where a twentieth of its first 256 bytes is no text.
+  const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 256));
+  const auto odd = std::count_if(
+      bytes.begin(), end, [](char c) { return (c < 32 || c > 126) && c != '\n' && c != '\r' && c != '\t'; });
+  const bool text = 20 * odd < end - bytes.begin();
   if (text && bytes.starts_with("solid") && bytes.find("facet") != std::string::npos) return;
   std::uint32_t count = 0;
   if (bytes.size() >= 84) std::memcpy(&count, bytes.data() + 80, 4);
