@@ -19,7 +19,7 @@ namespace {
 // coefficients would in the worst case.
 constexpr double share_of_space = 0.9, share_of_fit = 0.97, share_of_steps = 0.07;
 constexpr std::size_t probes = 6;   // frames that stand for all while knots are sought
-constexpr std::size_t tries = 3;    // rungs beyond what the probes say
+constexpr std::size_t tries = 1;    // rungs beyond what the probes say
 constexpr double few = 5e-5;        // nodes that a residual mends for less than the next rung costs
 constexpr double farthest = 0.625;  // steps a coefficient may be moved to be cheaper
 
