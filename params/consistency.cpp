@@ -94,7 +94,6 @@ class ConsistencyCheck {
 
   void check_cuts_beside() {
     const double h = p_.mesh.element_size, count = p_.cut.count, branch = p_.cut.branch;
-    need(count == std::round(count), with_value("cut.count", "", count) + ": must be a whole number");
     need(branch == 0 || count == 1, with_mm("cut.branch", branch) + ": a branch leaves a single cut, not " +
                                         with_value("cut.count", "", count) +
                                         "; set cut.count = 1, or cut.branch = 0");

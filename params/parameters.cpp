@@ -41,6 +41,12 @@ std::vector<Parameter> make_table() {
                           Parameter::Access access) {
     return Parameter{std::move(name), std::move(unit), least, greatest, false, {}, std::move(help), access};
   };
+  const auto whole_between = [&](std::string name, std::string unit, double least, double greatest,
+                                 std::string help, Parameter::Access access) {
+    Parameter row = between(std::move(name), std::move(unit), least, greatest, std::move(help), access);
+    row.whole = true;
+    return row;
+  };
   const std::vector<std::string> no_or_yes = {"false", "true"};
   return {
       positive("patch.length", "mm", "length of the tissue patch along the cut (u)",
@@ -56,8 +62,8 @@ std::vector<Parameter> make_table() {
                    CLEFT_NUMBER(cut.radius)),
       between("cut.tilt", "degrees", -60, 60, "tilt of the blade: the cut's bottom lies toward +v",
               CLEFT_NUMBER(cut.tilt)),
-      between("cut.count", "", 1, 100, "parallel cuts, made one after the other from -v to +v",
-              CLEFT_NUMBER(cut.count)),
+      whole_between("cut.count", "", 1, 100, "parallel cuts, made one after the other from -v to +v",
+                    CLEFT_NUMBER(cut.count)),
       positive("cut.spacing", "mm", "distance between parallel cuts (v)", CLEFT_NUMBER(cut.spacing)),
       not_negative("cut.branch", "mm",
                    "length of a second cut, from the middle of the first toward +v, made after it; 0: none",
@@ -102,7 +108,8 @@ std::string range_text(const Parameter& p) {
   const std::string unit = p.unit.empty() ? "" : " " + p.unit;
   if (p.greatest == infinity)
     return std::string(p.open ? "greater than " : "at least ") + shortest(p.least) + unit;
-  return "between " + shortest(p.least) + " and " + shortest(p.greatest) + unit;
+  return (p.whole ? "a whole number between " : "between ") + shortest(p.least) + " and " +
+         shortest(p.greatest) + unit;
 }
 
 }  // namespace
@@ -141,7 +148,7 @@ void check_value(const Parameter& parameter, const Value& value, const std::stri
   const double* number = std::get_if<double>(&value);
   if (!number || !std::isfinite(*number)) refuse("a number");
   if (*number < parameter.least || *number > parameter.greatest ||
-      (parameter.open && *number == parameter.least))
+      (parameter.open && *number == parameter.least) || (parameter.whole && *number != std::round(*number)))
     refuse(range_text(parameter));
 }
 

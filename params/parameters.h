@@ -46,6 +46,7 @@ struct Parameter {
   std::vector<std::string> choices;
   std::string help;
   Access access;
+  bool whole = false;  ///< takes whole numbers only
 
   bool is_text() const { return access.index() == 1; }
 };

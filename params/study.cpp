@@ -9,13 +9,14 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "params/hash.h"
+#include "params/sampling/read_sampling.h"
 #include "params/sampling/sampling.h"
+#include "params/toml_value.h"
 
 namespace cleft {
 
 namespace {
 
-constexpr std::int64_t most_values = 100'000;  // of one parameter
 constexpr const char* axis_names[] = {"u", "v", "w", "t"};
 
 // What cleft encode takes, told before anything is solved. The same numbers stand in encoder/encode_main.cpp,
@@ -56,14 +57,13 @@ class StudyReader {
 
   Study read() {
     for (const auto& [key, node] : file_) read_section(std::string(key.str()), node);
+    read_sampling(file_, path_, study_, mistakes_);
     mistakes_.throw_if_any();
     return std::move(study_);
   }
 
  private:
-  std::string where(const toml::node& node) const {
-    return path_ + ", line " + std::to_string(node.source().begin.line);
-  }
+  std::string where(const toml::node& node) const { return place_of(path_, node); }
 
   void read_section(const std::string& key, const toml::node& node) {
     static const std::vector<std::string> known = {"name", "case", "vary", "sampling", "encode"};
@@ -76,8 +76,6 @@ class StudyReader {
       mistakes_.add(where(node) + ": unknown section '" + key + "'" + did_you_mean(key, known));
     } else if (const toml::table* table = node.as_table()) {
       if (key == "case") read_case_values(*table, "");
-      if (key == "vary") read_variations(*table, "");
-      if (key == "sampling") read_sampling(*table);
       if (key == "encode") read_encode(*table);
     } else {
       mistakes_.add(where(node) + ": " + key + " must be a section [" + key + "]");
@@ -93,70 +91,7 @@ class StudyReader {
         read_case_values(*group, name + ".");
       else
         mistakes_.collect([&, &entry = node] {
-          set_parameter(study_.base.parameters, name, value_of(entry, name), where(entry));
-        });
-    }
-  }
-
-  Value value_of(const toml::node& node, const std::string& name) const {
-    find_parameter(name, where(node));  // an unknown name is told first
-    if (const toml::value<bool>* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-    if (const auto number = node.value<double>()) return *number;
-    if (const auto text = node.value<std::string>()) return *text;
-    throw InputError(where(node) + ": " + name + ": must be a number or a text");
-  }
-
-  void read_variations(const toml::table& table, const std::string& prefix) {
-    for (const auto& [key, node] : table) {
-      const std::string name = prefix + std::string(key.str());
-      const toml::table* group = node.as_table();
-      if (group && !group->contains("from"))
-        read_variations(*group, name + ".");
-      else
-        mistakes_.collect([&, &entry = node] { study_.vary.push_back(variation(name, entry)); });
-    }
-  }
-
-  Variation variation(const std::string& name, const toml::node& node) const {
-    const Parameter& parameter = find_parameter(name, where(node));
-    Variation result{name, {}};
-    if (const toml::array* list = node.as_array()) {
-      for (const toml::node& entry : *list) result.values.push_back(value_of(entry, name));
-    } else if (const toml::table* range = node.as_table()) {
-      result.values = range_values(name, *range);
-    } else {
-      throw InputError(where(node) + ": " + name +
-                       ": give a list [a, b, ...] or { from = a, to = b, count = n }");
-    }
-    if (result.values.empty()) throw InputError(where(node) + ": " + name + ": the list is empty");
-    for (const Value& value : result.values) check_value(parameter, value, where(node));
-    return result;
-  }
-
-  std::vector<Value> range_values(const std::string& name, const toml::table& range) const {
-    const auto from = range["from"].value<double>(), to = range["to"].value<double>();
-    const auto count = range["count"].value<std::int64_t>();
-    if (!from || !to || !count || *count < 2 || *count > most_values || range.size() != 3)
-      throw InputError(where(range) + ": " + name +
-                       ": a range is { from = a, to = b, count = n } with n from 2 to " +
-                       std::to_string(most_values));
-    std::vector<Value> values;
-    for (std::int64_t i = 0; i < *count; ++i)
-      values.emplace_back(i + 1 == *count ? *to
-                                          : *from + (*to - *from) * static_cast<double>(i) /
-                                                        static_cast<double>(*count - 1));
-    return values;
-  }
-
-  void read_sampling(const toml::table& table) {
-    for (const auto& [key, node] : table) {
-      const std::string name(key.str());
-      if (name != "method")
-        mistakes_.add(where(node) + ": unknown key 'sampling." + name + "'" + did_you_mean(name, {"method"}));
-      else
-        mistakes_.collect([&, &entry = node] {
-          study_.sampling = entry.value_or(std::string("not a text"));
-          find_sampling(study_.sampling, where(entry));
+          set_parameter(study_.base.parameters, name, value_of(entry, name, where(entry)), where(entry));
         });
     }
   }
@@ -255,7 +190,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& assignme
 }
 
 std::vector<Case> cases_of(const Study& study) {
-  std::vector<Case> cases = find_sampling(study.sampling, study.name)(study);
+  std::vector<Case> cases = find_sampling(study.sampling.method, study.name).sample(study);
   Mistakes mistakes;
   std::set<std::string> identities;
   for (const Case& one : cases) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,17 +31,34 @@ struct Case {
   std::string hash() const;
 };
 
-/// Values that one parameter takes, in the order of the file.
+/// A range of one parameter, in its unit.
+struct Range {
+  double from, to;
+  bool logarithmic = false;  ///< scale = "log": equal steps are equal factors
+
+  /// The value `part` of `whole` steps along it; the ends exactly.
+  double at(double part, double whole) const;
+};
+
+/// What one parameter takes: values in the order of the file, or, where the sampling method draws, a range.
 struct Variation {
   std::string name;
   std::vector<Value> values;
+  std::optional<Range> range;
+};
+
+/// [sampling]: how variations become cases. Count and seed are those of methods that draw from ranges.
+struct SamplingSettings {
+  std::string method = "grid";
+  std::size_t count = 0;
+  std::uint64_t seed = 0;
 };
 
 struct Study {
   std::string name = "study";
   Case base;
   std::vector<Variation> vary;
-  std::string sampling = "grid";
+  SamplingSettings sampling;
   std::string text;  ///< the file as read
 };
 

@@ -3,8 +3,6 @@
 
 namespace cleft {
 
-constexpr std::size_t most_cases = 1'000'000;
-
 std::vector<Case> sample_grid(const Study& study) {
   std::vector<Case> cases = {study.base};
   for (const Variation& variation : study.vary) {

@@ -7,18 +7,17 @@ namespace cleft {
 
 namespace {
 
-struct Method {
-  std::string name;
-  Sampling sample;
-};
-const Method methods[] = {{"grid", sample_grid}, {"list", sample_list}};
+const SamplingMethod methods[] = {{"grid", sample_grid, false},
+                                  {"list", sample_list, false},
+                                  {"latin-hypercube", sample_latin_hypercube, true},
+                                  {"sobol", sample_sobol, true}};
 
 }  // namespace
 
-Sampling find_sampling(const std::string& name, const std::string& where) {
+const SamplingMethod& find_sampling(const std::string& name, const std::string& where) {
   std::vector<std::string> names;
-  for (const Method& method : methods) {
-    if (method.name == name) return method.sample;
+  for (const SamplingMethod& method : methods) {
+    if (method.name == name) return method;
     names.push_back(method.name);
   }
   std::string list;

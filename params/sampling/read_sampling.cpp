@@ -1,0 +1,194 @@
+#include "params/sampling/read_sampling.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "params/sampling/sampling.h"
+#include "params/toml_value.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr std::int64_t most_values = 100'000;  // of one parameter
+
+class SamplingReader {
+ public:
+  SamplingReader(const std::string& path, Study& study, Mistakes& mistakes)
+      : path_(path), study_(study), mistakes_(mistakes) {}
+
+  void read(const toml::table& file) {
+    const toml::table *sampling = file["sampling"].as_table(), *vary = file["vary"].as_table();
+    if (sampling)
+      read_settings(*sampling);
+    else
+      method_ = &find_sampling(study_.sampling.method, path_);
+    if (vary) read_variations(*vary, "");
+    if (draws() && (!vary || vary->empty()))
+      mistakes_.add(where(*sampling) + ": sampling method '" + method_->name +
+                    "' draws from ranges; give them under [vary], as NAME = { from = a, to = b }");
+  }
+
+ private:
+  std::string where(const toml::node& node) const { return place_of(path_, node); }
+  bool draws() const { return method_ && method_->draws; }
+  bool takes_values() const { return method_ && !method_->draws; }
+
+  void read_settings(const toml::table& table) {
+    check_keys(table, {"method", "count", "seed"}, "sampling.", "");
+    mistakes_.collect([&] { read_method(table); });
+    mistakes_.collect([&] { read_number(table, "count", 1, most_cases, study_.sampling.count); });
+    mistakes_.collect([&] { read_number(table, "seed", 0, INT64_MAX, study_.sampling.seed); });
+    if (draws() && !table.contains("count"))
+      mistakes_.add(where(table) + ": sampling method '" + method_->name +
+                    "' needs count = n, the number of cases");
+  }
+
+  void check_keys(const toml::table& table, const std::vector<std::string>& known, const std::string& prefix,
+                  const std::string& of) {
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str());
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        mistakes_.add(where(node) + ": unknown key '" + prefix + name + "'" + of + did_you_mean(name, known));
+    }
+  }
+
+  /// Leaves no method where it is unknown; rules that depend on it then wait until it is mended.
+  void read_method(const toml::table& table) {
+    if (const toml::node* node = table.get("method")) {
+      const auto text = node->value<std::string>();
+      if (!text) throw InputError(where(*node) + ": sampling.method must be a text in quotes");
+      study_.sampling.method = *text;
+    }
+    method_ = &find_sampling(study_.sampling.method,
+                             where(table.contains("method") ? *table.get("method") : table));
+  }
+
+  template <class Whole>
+  void read_number(const toml::table& table, const std::string& key, std::int64_t least, std::int64_t most,
+                   Whole& number) const {
+    const toml::node* node = table.get(key);
+    if (!node) return;
+    if (takes_values())
+      throw InputError(where(*node) + ": sampling." + key + ": method '" + method_->name +
+                       "' takes the values under [vary]; remove " + key +
+                       ", or set method = \"latin-hypercube\" or \"sobol\"");
+    const auto given = node->value<std::int64_t>();
+    if (!given || *given < least || *given > most)
+      throw InputError(where(*node) + ": sampling." + key + (given ? " = " + std::to_string(*given) : "") +
+                       ": must be a whole number between " + std::to_string(least) + " and " +
+                       std::to_string(most));
+    number = static_cast<Whole>(*given);
+  }
+
+  /// Dotted keys are nested tables, as in [case]; a range is a table too.
+  void read_variations(const toml::table& table, const std::string& prefix) {
+    const std::vector<std::string> names = parameter_names();
+    for (const auto& [key, node] : table) {
+      const std::string name = prefix + std::string(key.str());
+      const toml::table* group = node.as_table();
+      if (group && !group->contains("from") && std::find(names.begin(), names.end(), name) == names.end())
+        read_variations(*group, name + ".");
+      else
+        mistakes_.collect([&, &entry = node] { study_.vary.push_back(variation(name, entry)); });
+    }
+  }
+
+  Variation variation(const std::string& name, const toml::node& node) {
+    const Parameter& parameter = find_parameter(name, where(node));
+    const std::string here = where(node) + ": " + name;
+    for (const Variation& other : study_.vary)
+      if (other.name == name) throw InputError(here + ": stands twice under [vary]; remove one of them");
+    if (draws()) check_drawable(parameter, here);
+    if (const toml::array* list = node.as_array()) return {name, list_values(parameter, *list), {}};
+    if (const toml::table* table = node.as_table()) return range_variation(parameter, *table);
+    throw InputError(here + ": give " + (draws() ? "" : "a list [a, b, ...] or ") + range_form());
+  }
+
+  void check_drawable(const Parameter& parameter, const std::string& here) const {
+    if (parameter.is_text() || parameter.whole)
+      throw InputError(
+          here + ": takes " + (parameter.whole ? "whole numbers" : "texts") + " only, and sampling method '" +
+          method_->name +
+          "' draws any number of a range; set it under [case], or use method \"grid\" or \"list\"");
+  }
+
+  std::string range_form() const {
+    return method_ && method_->draws
+               ? "{ from = a, to = b }"
+               : "{ from = a, to = b, count = n } with n from 2 to " + std::to_string(most_values);
+  }
+
+  std::vector<Value> list_values(const Parameter& parameter, const toml::array& list) const {
+    const std::string here = where(list) + ": " + parameter.name;
+    if (draws())
+      throw InputError(here + ": sampling method '" + method_->name + "' draws from a range, " +
+                       range_form() + "; lists are for method \"grid\" or \"list\"");
+    if (list.empty()) throw InputError(here + ": the list is empty");
+    std::vector<Value> values;
+    for (const toml::node& entry : list) {
+      values.push_back(value_of(entry, parameter.name, where(entry)));
+      check_value(parameter, values.back(), where(entry));
+    }
+    return values;
+  }
+
+  Variation range_variation(const Parameter& parameter, const toml::table& table) {
+    if (parameter.is_text())
+      throw InputError(where(table) + ": " + parameter.name +
+                       ": takes texts, of which there are no ranges; give a list");
+    const Range range = read_range(parameter, table);
+    Variation result{parameter.name, {}, range};
+    if (takes_values()) {
+      result.range.reset();
+      result.values = range_values(parameter, range, table);
+    } else if (draws() && table.contains("count")) {
+      throw InputError(where(table) + ": " + parameter.name + ": method '" + method_->name +
+                       "' draws as many cases as sampling.count says; remove count from the range");
+    }
+    return result;
+  }
+
+  Range read_range(const Parameter& parameter, const toml::table& table) {
+    const std::string place = where(table), here = place + ": " + parameter.name;
+    check_keys(table, {"from", "to", "count", "scale"}, "", " in the range of " + parameter.name);
+    const auto from = table["from"].value<double>(), to = table["to"].value<double>();
+    if (!from || !to) throw InputError(here + ": a range is " + range_form());
+    const std::string scale = table["scale"].value_or(std::string(table.contains("scale") ? "" : "linear"));
+    if (scale != "linear" && scale != "log")
+      throw InputError(here + ": scale" + (scale.empty() ? "" : " = " + scale) +
+                       ": must be \"linear\" or \"log\"" + did_you_mean(scale, {"linear", "log"}));
+    for (const double end : {*from, *to}) check_value(parameter, end, place);
+    if (*from == *to) throw InputError(here + ": from and to are the same; set it under [case]");
+    if (scale == "log" && (*from <= 0 || *to <= 0))
+      throw InputError(here + ": from = " + shortest(*from) + ", to = " + shortest(*to) +
+                       ": with scale = \"log\" both must be greater than 0");
+    return {*from, *to, scale == "log"};
+  }
+
+  std::vector<Value> range_values(const Parameter& parameter, const Range& range,
+                                  const toml::table& table) const {
+    const auto count = table["count"].value<std::int64_t>();
+    if (!count || *count < 2 || *count > most_values)
+      throw InputError(where(table) + ": " + parameter.name + ": a range is " + range_form());
+    std::vector<Value> values;
+    for (std::int64_t i = 0; i < *count; ++i) {
+      values.emplace_back(range.at(static_cast<double>(i), static_cast<double>(*count - 1)));
+      check_value(parameter, values.back(), where(table));
+    }
+    return values;
+  }
+
+  const std::string& path_;
+  Study& study_;
+  Mistakes& mistakes_;
+  const SamplingMethod* method_ = nullptr;
+};
+
+}  // namespace
+
+void read_sampling(const toml::table& file, const std::string& path, Study& study, Mistakes& mistakes) {
+  SamplingReader(path, study, mistakes).read(file);
+}
+
+}  // namespace cleft

@@ -1,0 +1,34 @@
+#include <boost/random/sobol.hpp>
+#include <random>
+
+#include "params/sampling/sampling.h"
+
+namespace cleft {
+
+namespace {
+
+/// What each coordinate's digits are xored with: any shift keeps how evenly 2^k points lie.
+std::vector<std::uint64_t> digital_shifts(std::size_t dimensions, std::uint64_t seed) {
+  std::vector<std::uint64_t> shifts(dimensions, 0);
+  std::mt19937_64 random(seed);
+  if (seed != 0)
+    for (std::uint64_t& shift : shifts) shift = random();
+  return shifts;
+}
+
+}  // namespace
+
+std::vector<Case> sample_sobol(const Study& study) {
+  const std::vector<Variation> ranges = ranges_by_name(study);
+  const std::vector<std::uint64_t> shifts = digital_shifts(ranges.size(), study.sampling.seed);
+  boost::random::sobol sequence(ranges.size());
+  std::vector<Case> cases(study.sampling.count, study.base);
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::size_t k = 0; k < ranges.size(); ++k) {
+      const std::uint64_t digits = i == 0 ? 0 : sequence();  // Boost leaves the origin out
+      set_drawn(cases[i], ranges[k], unit_fraction(digits ^ shifts[k]), 1);
+    }
+  return cases;
+}
+
+}  // namespace cleft

@@ -1,0 +1,19 @@
+// What the readers of a study file share.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+#include "params/parameters.h"
+
+namespace cleft {
+
+/// "<path>, line <n>"
+std::string place_of(const std::string& path, const toml::node& node);
+
+/// The value that a file gives to the parameter `name`, unchecked; throws InputError where there is no such
+/// parameter, or what stands there is neither number, text nor switch.
+Value value_of(const toml::node& node, const std::string& name, const std::string& where);
+
+}  // namespace cleft

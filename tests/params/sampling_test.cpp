@@ -1,0 +1,267 @@
+// Methods that draw cases from ranges: Latin hypercube and Sobol.
+#include "params/sampling/sampling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace {
+
+// By name; all of them may be anything from 0 to 1.
+const std::vector<std::string> names = {
+    "cut.branch",     "cut.radius",      "foundation.side_stiffness", "foundation.stiffness",
+    "mesh.cut_depth", "mesh.cut_length", "skin.prestress_u",          "skin.prestress_uv"};
+
+/// A study that draws `names` between 0 and 1.
+Study unit_study(const std::string& method, std::size_t count, std::uint64_t seed) {
+  Study study;
+  study.sampling = {method, count, seed};
+  for (const std::string& name : names) study.vary.push_back({name, {}, Range{0, 1}});
+  return study;
+}
+
+/// What was drawn, a row for each case. The cases need not be consistent.
+std::vector<std::vector<double>> points_of(const Study& study) {
+  std::vector<std::vector<double>> points;
+  for (const Case& one : find_sampling(study.sampling.method, "here").sample(study)) {
+    points.emplace_back();
+    for (const Variation& v : study.vary)
+      points.back().push_back(
+          std::get<double>(get_parameter(one.parameters, find_parameter(v.name, "here"))));
+  }
+  return points;
+}
+
+std::vector<std::vector<double>> unit_points(const std::string& method, std::size_t count,
+                                             std::uint64_t seed) {
+  return points_of(unit_study(method, count, seed));
+}
+
+/// In which of `count` equal intervals of [0, 1) the points' coordinates lie.
+std::vector<std::size_t> strata(const std::vector<std::vector<double>>& points, std::size_t coordinate,
+                                std::size_t count) {
+  std::vector<std::size_t> result;
+  for (const auto& point : points)
+    result.push_back(static_cast<std::size_t>(point[coordinate] * static_cast<double>(count)));
+  return result;
+}
+
+std::set<std::size_t> as_set(const std::vector<std::size_t>& list) { return {list.begin(), list.end()}; }
+
+std::vector<Case> cases_of_text(const std::string& text) {
+  const TemporaryFolder folder;
+  return cases_of(read_study(folder.write("study.toml", text)));
+}
+
+std::vector<std::string> hashes_of(const std::string& text) {
+  std::vector<std::string> hashes;
+  for (const Case& one : cases_of_text(text)) hashes.push_back(one.hash());
+  return hashes;
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    cases_of_text(text);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+void expect_message(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string message = message_of(text);
+  for (const std::string& part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << "missing: " << part << "\nin: " << message;
+}
+
+std::string drawn(const std::string& method, int count, int seed) {
+  return "[vary]\n'skin.thickness' = { from = 1, to = 2 }\n"
+         "'tissue.young_modulus' = { from = 0.001, to = 1, scale = 'log' }\n[sampling]\nmethod = '" +
+         method + "'\ncount = " + std::to_string(count) + "\nseed = " + std::to_string(seed) + "\n";
+}
+
+}  // namespace
+
+TEST(LatinHypercube, EveryStratumOfEveryRangeHoldsOneCase) {
+  for (const std::size_t count : {1u, 2u, 37u, 500u}) {
+    const auto points = unit_points("latin-hypercube", count, 3);
+    ASSERT_EQ(points.size(), count);
+    std::set<std::vector<std::size_t>> orders;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const auto order = strata(points, k, count);
+      EXPECT_EQ(as_set(order).size(), count) << names[k];
+      EXPECT_LT(*std::max_element(order.begin(), order.end()), count);
+      orders.insert(order);
+    }
+    EXPECT_TRUE(count < 30 || orders.size() == names.size()) << "the ranges' orders must differ";
+  }
+}
+
+TEST(LatinHypercube, PlacesInTheStrataAreSpread) {
+  // Of 500 uniform numbers each tenth holds 50 in the mean, with a standard deviation of 6.7: 5 of them
+  // are 34.
+  const auto points = unit_points("latin-hypercube", 500, 3);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::vector<int> tenths(10, 0);
+    for (const auto& point : points) ++tenths[static_cast<std::size_t>(std::fmod(point[k] * 500, 1) * 10)];
+    for (const int held : tenths) EXPECT_NEAR(held, 50, 34) << names[k];
+  }
+}
+
+TEST(LatinHypercube, StrataOfALogarithmicRangeAreEqualFactors) {
+  std::set<int> seen;
+  for (const Case& one : cases_of_text(drawn("latin-hypercube", 30, 5)))
+    seen.insert(static_cast<int>(std::log10(one.parameters.tissue.young_modulus / 0.001) * 10));
+  EXPECT_EQ(seen.size(), 30u);
+  EXPECT_EQ(*seen.begin(), 0);
+  EXPECT_EQ(*seen.rbegin(), 29);
+}
+
+TEST(Sobol, SeedZeroIsTheSequenceOfJoeAndKuo) {
+  // scipy.stats.qmc.Sobol(8, scramble=False).random(8)
+  const std::vector<std::vector<double>> known = {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+                                                  {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5},
+                                                  {0.75, 0.25, 0.25, 0.25, 0.75, 0.75, 0.25, 0.75},
+                                                  {0.25, 0.75, 0.75, 0.75, 0.25, 0.25, 0.75, 0.25},
+                                                  {0.375, 0.375, 0.625, 0.875, 0.375, 0.125, 0.375, 0.875},
+                                                  {0.875, 0.875, 0.125, 0.375, 0.875, 0.625, 0.875, 0.375},
+                                                  {0.625, 0.125, 0.875, 0.625, 0.625, 0.875, 0.125, 0.125},
+                                                  {0.125, 0.625, 0.375, 0.125, 0.125, 0.375, 0.625, 0.625}};
+  EXPECT_EQ(unit_points("sobol", 8, 0), known);
+}
+
+TEST(Sobol, PointsAreANetWhateverTheSeed) {
+  // The first 2^k points: each of 2^k equal intervals of any coordinate holds one, and so does each box of
+  // sides 2^-a, 2^-(k - a) of the first two coordinates, a (0, 2)-sequence.
+  for (const std::uint64_t seed : {0u, 1u, 2u, 20261u}) {
+    const auto points = unit_points("sobol", 64, seed);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      EXPECT_EQ(as_set(strata(points, k, 64)).size(), 64u) << names[k];
+    for (std::size_t along_first = 1; along_first <= 64; along_first *= 2) {
+      const auto first = strata(points, 0, along_first), second = strata(points, 1, 64 / along_first);
+      std::set<std::pair<std::size_t, std::size_t>> boxes;
+      for (std::size_t i = 0; i < 64; ++i) boxes.insert({first[i], second[i]});
+      EXPECT_EQ(boxes.size(), 64u) << along_first << " intervals of the first, seed " << seed;
+    }
+  }
+}
+
+TEST(Sobol, MoreCasesKeepTheEarlierOnes) {
+  for (const int seed : {0, 7}) {
+    const auto all = hashes_of(drawn("sobol", 100, seed));
+    ASSERT_EQ(all.size(), 100u);
+    for (const int count : {1, 2, 50, 99})
+      EXPECT_EQ(hashes_of(drawn("sobol", count, seed)),
+                std::vector<std::string>(all.begin(), all.begin() + count));
+  }
+}
+
+TEST(Sampling, TheSeedAloneDecides) {
+  for (const char* method : {"latin-hypercube", "sobol"}) {
+    std::set<std::vector<double>> seen;
+    for (const std::uint64_t seed : {0u, 1u, 2u}) {
+      const auto points = unit_points(method, 20, seed);
+      EXPECT_EQ(points, unit_points(method, 20, seed));
+      seen.insert(points.begin(), points.end());
+    }
+    EXPECT_EQ(seen.size(), 60u) << method;
+  }
+}
+
+TEST(Sampling, ADrawnStudyFindsItsCasesAgain) {
+  // From MT19937-64 written out in Python: studies that were run with an earlier version keep their cases.
+  const std::vector<std::vector<double>> stratified = {{0.472978294178, 0.438936258685},
+                                                       {0.535317890801, 0.899047195195},
+                                                       {0.013773289626, 0.0993613636039},
+                                                       {0.958130745133, 0.577132179157}};
+  const std::vector<std::vector<double>> shifted = {{0.754385304153, 0.949301202893},
+                                                    {0.254385304153, 0.449301202893},
+                                                    {0.00438530415286, 0.699301202893},
+                                                    {0.504385304153, 0.199301202893}};
+  for (const auto& [method, known] :
+       {std::pair("latin-hypercube", stratified), std::pair("sobol", shifted)}) {
+    Study study = unit_study(method, 4, 7);
+    study.vary.resize(2);
+    EXPECT_EQ(points_of(study), known) << method;
+  }
+}
+
+TEST(Sampling, HowNamesAreSpeltChangesNothing) {
+  const std::string end = "[sampling]\nmethod = 'sobol'\ncount = 4\nseed = 3\n";
+  EXPECT_EQ(
+      hashes_of(
+          "[vary]\n'skin.thickness' = { from = 1, to = 2 }\n'skin.prestress_v' = { from = 0, to = 1 }\n" +
+          end),
+      hashes_of("[vary]\nskin.thickness = { from = 1, to = 2 }\n'skin.prestress_v' = { from = 0, to = 1 }\n" +
+                end));
+}
+
+TEST(Sampling, AGridTakesALogarithmicRange) {
+  std::vector<double> values;
+  for (const Case& one :
+       cases_of_text("[vary]\n'tissue.young_modulus' = { from = 0.01, to = 1, count = 5, scale = 'log' }\n"))
+    values.push_back(one.parameters.tissue.young_modulus);
+  EXPECT_EQ(values, (std::vector<double>{0.01, 0.0316227766017, 0.1, 0.316227766017, 1}));
+}
+
+TEST(Sampling, EveryMistakeIsToldAtOnce) {
+  expect_message(
+      "[sampling]\nmethod = 'sobol'\ncount = 0\nseed = -1\nsede = 1\n[vary]\n'skin.thickness' = [1, 2]\n"
+      "'cut.count' = { from = 1, to = 3 }\n'cut.frames' = { from = 1, to = 3 }\n"
+      "'cut.depth' = { from = 1, to = 3, count = 4 }\n'tissue.young_modulus' = { from = 0, to = 1 }\n"
+      "'skin.prestress_u' = { from = 0, to = 1, scale = 'log' }\n'skin.prestress_v' = { from = 0, to = 1, "
+      "scale = "
+      "'lg' }\n'skin.prestress_w' = { from = 0, to = 1 }\n'skin.young_modulus' = { form = 1, to = 2 }\n"
+      "'patch.width' = { from = 40, to = 40 }\n'patch.length' = 3\n",
+      {"line 3: sampling.count = 0: must be a whole number between 1 and 1000000",
+       "line 4: sampling.seed = -1: must be a whole number",
+       "line 5: unknown key 'sampling.sede' (did you mean 'seed'?)",
+       "line 7: skin.thickness: sampling method 'sobol' draws from a range, { from = a, to = b }",
+       "line 8: cut.count: takes whole numbers only", "line 9: cut.frames: takes texts only",
+       "line 10: cut.depth: method 'sobol' draws as many cases as sampling.count says; remove count",
+       "line 11: tissue.young_modulus = 0: must be greater than 0",
+       "line 12: skin.prestress_u: from = 0, to = 1: with scale = \"log\" both must be greater than 0",
+       "line 13: skin.prestress_v: scale = lg: must be \"linear\" or \"log\" (did you mean 'log'?)",
+       "line 14: unknown parameter 'skin.prestress_w' (did you mean 'skin.prestress_",
+       "line 15: unknown key 'form' in the range of skin.young_modulus (did you mean 'from'?)",
+       "line 16: patch.width: from and to are the same", "line 17: patch.length: give { from = a, to = b }"});
+}
+
+TEST(Sampling, WhatIsMissingOrOutOfPlaceIsTold) {
+  const std::string vary = "[vary]\n'skin.thickness' = { from = 1, to = 2 }\n";
+  expect_message(vary + "[sampling]\nmethod = 'latin-hypercube'\n", {"line 3: ", "needs count = n"});
+  expect_message("[sampling]\nmethod = 'sobol'\ncount = 3\n", {"draws from ranges; give them under [vary]"});
+  expect_message(vary + "[sampling]\nmethod = 'latin-hypercub'\ncount = 3\n",
+                 {"line 4: unknown sampling method 'latin-hypercub' (did you mean 'latin-hypercube'?)"});
+  expect_message(vary + "[sampling]\nmethod = 3\n", {"line 4: sampling.method must be a text"});
+  expect_message(vary + "[sampling]\nmethod = 'sobol'\ncount = 'many'\n",
+                 {"line 5: sampling.count: must be"});
+  expect_message(vary, {"line 2: skin.thickness: a range is { from = a, to = b, count = n }"});
+  expect_message("[sampling]\nseed = 3\n[vary]\n'skin.thickness' = [1, 2]\n",
+                 {"line 2: sampling.seed: method 'grid' takes the values under [vary]; remove seed"});
+  expect_message("[vary]\n'skin.thickness' = [1, 2]\nskin.thickness = [1, 2]\n",
+                 {"skin.thickness: stands twice"});
+  expect_message("[vary]\n'cut.count' = { from = 1, to = 2, count = 3 }\n",
+                 {"line 2: cut.count = 1.5: must be a whole number between 1 and 100"});
+  expect_message("[vary]\n'cut.frames' = { from = 1, to = 2, count = 2 }\n", {"cut.frames: takes texts"});
+}
+
+TEST(Sampling, DrawnCasesThatDoNotFitAreNamed) {
+  // Of the plain sequence 0, 1/2, 3/4, 1/4: 10, 40, 55 and 25 mm fit into 60 mm, of twice that two do not.
+  const std::string end = " }\n[sampling]\nmethod = 'sobol'\ncount = 4\n";
+  EXPECT_EQ(message_of("[vary]\n'cut.length' = { from = 10, to = 70" + end), "");
+  const std::string message = message_of("[vary]\n'cut.length' = { from = 20, to = 140" + end);
+  EXPECT_NE(message.find("study, cut.length = 80: cut.length = 80 mm: must be less"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("study, cut.length = 110: "), std::string::npos) << message;
+  EXPECT_EQ(message.find("cut.length = 50"), std::string::npos) << message;
+}
+
+}  // namespace cleft
