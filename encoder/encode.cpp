@@ -19,7 +19,6 @@ namespace {
 // coefficients would in the worst case.
 constexpr double share_of_space = 0.9, share_of_fit = 0.97, share_of_steps = 0.07;
 constexpr std::size_t probes = 6;   // frames that stand for all while knots are sought
-constexpr std::size_t tries = 1;    // rungs beyond what the probes say
 constexpr double few = 5e-5;        // nodes that a residual mends for less than the next rung costs
 constexpr double farthest = 0.625;  // steps a coefficient may be moved to be cheaper
 
@@ -46,25 +45,21 @@ class Encoder {
   Encoded run() {
     if (options_.rung) return {with_steps(fit_of(*options_.rung), 0), {}};
     const std::vector<Rung> rungs = supported(ladder_of(*parametrization_), series_, *parametrization_);
-    std::size_t i = first_within(rungs);
-    // The spline of some rung keeps the tolerance, or a residual makes up for what a good one leaves.
+    // The smallest that single frames say will do; where none does, a residual makes up for what a good one
+    // leaves.
     const std::size_t good = parametrization_->moves() ? rungs.size() / 2 : rungs.size() - 1;
-    const std::size_t last = i < rungs.size() ? std::min(i + tries, rungs.size() - 1) : good;
-    for (i = std::min(i, last);; ++i) {
-      progress_("fitting all frames");
-      const SeriesFit fit = fit_of(rungs[i]);
-      const Misfit misfit = fit.misfit(share_of_fit * limit_);
-      const bool within = misfit.beyond == 0;
-      if (misfit.beyond > few && i < last) continue;
-      Encoded encoded{with_steps(fit, within ? limit_ : 0), {}};
-      FitReport& report = encoded.field.report;
-      if (report.spline_error * scale_ > limit_) {
-        progress_("coding what the spline leaves");
-        encoded.residual = residual_of(encoded.field, series_, limit_);
-        report = measure(encoded.field, series_, &*encoded.residual);
-      }
-      return encoded;
+    const std::size_t within = first_within(rungs);
+    progress_("fitting all frames");
+    const SeriesFit fit = fit_of(rungs[within < rungs.size() ? within : good]);
+    const bool alone = fit.misfit(share_of_fit * limit_).beyond == 0;
+    Encoded encoded{with_steps(fit, alone ? limit_ : 0), {}};
+    FitReport& report = encoded.field.report;
+    if (report.spline_error * scale_ > limit_) {
+      progress_("coding what the spline leaves");
+      encoded.residual = residual_of(encoded.field, series_, limit_);
+      report = measure(encoded.field, series_, &*encoded.residual);
     }
+    return encoded;
   }
 
  private:
