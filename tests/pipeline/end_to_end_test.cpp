@@ -11,6 +11,7 @@
 #include "tests/pipeline/commands.h"
 #include "tests/pipeline/cut_file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/truth/uncut_skin.h"
 
 namespace cleft {
 
@@ -41,28 +42,6 @@ class EndToEnd : public testing::Test {
 };
 TemporaryFolder* EndToEnd::folder = nullptr;
 
-/// The skin at its stress-free positions, as a mesh without the cut: left and right nodes are one vertex
-/// again. node_of[i]: the snapshot's (left) node of vertex i.
-SurfaceMesh uncut_skin(const Snapshot& s, std::vector<int>& node_of) {
-  std::map<int, int> left_of, vertex_of;
-  for (const auto& [left, right] : s.pairs) left_of[right] = left;
-  SurfaceMesh mesh;
-  for (const auto& triangle : s.skin()) {
-    std::array<int, 3> corners;
-    for (int c = 0; c < 3; ++c) {
-      const int node = left_of.contains(triangle[c]) ? left_of[triangle[c]] : triangle[c];
-      if (!vertex_of.contains(node)) {
-        vertex_of[node] = static_cast<int>(mesh.points.size());
-        mesh.points.push_back(s.points[node]);
-        node_of.push_back(node);
-      }
-      corners[c] = vertex_of[node];
-    }
-    mesh.triangles.push_back(corners);
-  }
-  return mesh;
-}
-
 /// A path straight along the canonical cut.
 std::string canonical_path(const Snapshot& s) {
   std::string text = "x,y,z,nx,ny,nz\n";
@@ -77,8 +56,8 @@ TEST_F(EndToEnd, ACutFlatSkinFollowsTheFiniteElementsAtEveryFrame) {
   const Snapshot& s = reader.snapshot();
   const FitReport report = read_field(*folder / "case.dffd").report;
   ASSERT_LT(report.spline_error, 0.05) << "a field this bad proves nothing";
-  std::vector<int> node_of;
-  write_mesh(*folder / "skin.vtp", uncut_skin(s, node_of), {});
+  const auto [skin, node_of] = uncut_skin(s);
+  write_mesh(*folder / "skin.vtp", skin, {});
   folder->write("path.csv", canonical_path(s));
   std::map<int, int> right_of;
   for (const auto& [left, right] : s.pairs) right_of[left] = right;

@@ -7,13 +7,6 @@
 
 namespace cleft {
 
-/// The skin of a snapshot at its stress-free positions, without the cut: left and right nodes are one vertex.
-struct UncutSkin {
-  SurfaceMesh mesh;
-  std::vector<int> node_of;  ///< of each vertex: its node, the left one of pairs
-};
-UncutSkin uncut_skin(const Snapshot& snapshot);
-
 /// The blade's way through the snapshot's first cut: an arc where cut.radius is above 0, tilted by cut.tilt.
 ScalpelPath path_of(const Snapshot& snapshot);
 
