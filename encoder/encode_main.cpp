@@ -24,25 +24,28 @@ Json figures_of(const Field& field, const Snapshot& snapshot, const std::string&
   const FitReport& r = field.report;
   const double raw = 3.0 * sizeof(float) * static_cast<double>(snapshot.points.size() * snapshot.frames());
   const double bytes = static_cast<double>(std::filesystem::file_size(out));
-  return {{"control_points",
-           {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
-          {"relative_l2", r.relative_l2},
-          {"node_error", r.node_error},
-          {"spline_error", r.spline_error},
-          {"frame_error", r.frame_error},
-          {"gape_error", r.gape_error},
-          {"crease_degrees", r.crease},
-          {"overlap_mm", r.overlap},
-          {"least_volume", r.least_volume},
-          {"fit_seconds", r.fit_seconds},
-          {"measure_seconds", r.measure_seconds},
-          {"false_gap", r.false_gap},
-          {"largest_displacement_mm", r.largest_displacement},
-          {"condition", r.condition},
-          {"quantum_mm", field.quantum},
-          {"parametrization", field.parametrization().name()},
-          {"bytes", bytes},
-          {"ratio_to_32_bit", raw / bytes}};
+  Json figures{{"control_points",
+                {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
+               {"relative_l2", r.relative_l2},
+               {"node_error", r.node_error},
+               {"spline_error", r.spline_error},
+               {"frame_error", r.frame_error},
+               {"gape_error", r.gape_error},
+               {"crease_degrees", r.crease},
+               {"overlap_mm", r.overlap},
+               {"least_volume", r.least_volume},
+               {"fit_seconds", r.fit_seconds},
+               {"measure_seconds", r.measure_seconds},
+               {"false_gap", r.false_gap},
+               {"largest_displacement_mm", r.largest_displacement},
+               {"condition", r.condition},
+               {"quantum_mm", field.quantum},
+               {"parametrization", field.parametrization().name()},
+               {"bytes", bytes},
+               {"ratio_to_32_bit", raw / bytes}};
+  for (const Quantity& quantity : field.quantities)
+    figures["quantities"].push_back({{"name", quantity.name}, {"error", quantity.error}});
+  return figures;
 }
 
 /// Spans of bases with about so many control points: as many as asked for where nothing is tied.

@@ -37,6 +37,7 @@ double error_of(const Field& field, std::size_t index, const Series& series) {
 Series series_of(const Series& series, const SeriesQuantity& quantity, int component) {
   Series result = series;
   result.quantities.clear();
+  result.centres = {};  // displacements alone are linear in a cell
   result.largest_displacement = quantity.largest;
   for (std::size_t j = 0; j < series.frames.size(); ++j) {
     const Eigen::MatrixXd& all = quantity.frames[j];

@@ -7,7 +7,7 @@
 namespace cleft {
 
 /// The series of three components of a quantity, the first of them `component`, as data of a fit: columns
-/// beyond its last are 0. largest_displacement is the quantity's largest value.
+/// beyond its last are 0; nodes alone count. largest_displacement is the quantity's largest value.
 Series series_of(const Series& series, const SeriesQuantity& quantity, int component);
 
 /// Fits the series' quantities over the bases of the field, and measures them. Control points are rounded to

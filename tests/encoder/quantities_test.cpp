@@ -19,6 +19,17 @@ Snapshot without_cut(const std::vector<double>& times) {
   s.pairs.clear();
   s.released.assign(times.size(), 0);
   s.position.assign(times.size(), 0);
+  // Cells between the nodes of grid().
+  const auto node = [](int i, int j, int k) { return std::int64_t{(i * 11 + j) * 6 + k}; };
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 10; ++j)
+      for (int k = 0; k < 5; ++k) {
+        for (const int up : {0, 1})
+          for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+            s.connectivity.push_back(node(i + x, j + y, k + up));
+        s.cell_types.push_back(12);  // hexahedra
+        s.cell_offsets.push_back(static_cast<std::int64_t>(s.connectivity.size()));
+      }
   return s;
 }
 
