@@ -1,16 +1,17 @@
 // cleft cut: one cut through one surface mesh, without a window.
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 #include "base/command.h"
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "encoder/field/field_file.h"
 #include "explorer/incision/incision.h"
 #include "explorer/incision/triangle_quality.h"
 #include "explorer/io/mesh_file.h"
+#include "explorer/scene/path_file.h"
 #include "explorer/scene/replay.h"
 
 namespace {
@@ -24,22 +25,6 @@ struct Options {
   double depth = 0, progress = -1;  // mm; 0 and -1: not given
   std::optional<double> max_edge;   // mm
 };
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-ScalpelPath read_path(const Options& options, const std::optional<Field>& field) {
-  const NumberTable table = read_csv(options.path);
-  ScalpelPath path = ScalpelPath::from_table(table, options.path);
-  if (options.depth > 0)
-    path.set_depth(options.depth / options.scale);
-  else if (table.column("depth") < 0 && field)
-    path.set_depth(field->cut().depth / options.scale);
-  else if (table.column("depth") < 0)
-    throw FileError(options.path, "has no column 'depth', and --rest knows none: give --depth in mm");
-  return path;
-}
 
 std::vector<PointArray> point_arrays(const Incision& incision, const std::vector<Vec3>& moved, double scale) {
   PointArray displacement{"displacement", 3, {}}, depth{"depth", 1, {}}, region{"region", 1, {}},
@@ -115,9 +100,9 @@ void cut(const Options& options) {
   if (!options.field.empty()) field = read_field(options.field);
   MeshReport mesh_report;
   const SurfaceMesh surface = read_mesh(options.mesh, &mesh_report);
-  const ScalpelPath path = read_path(options, field);
+  const ScalpelPath path = read_path(options.path, options.depth, options.scale, field);
 
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   IncisionOptions incision_options;
   if (options.max_edge && *options.max_edge > 0 && *options.max_edge < path.length() * options.scale / 1000)
     throw InputError("--max-edge " + shortest(*options.max_edge) +
@@ -127,21 +112,21 @@ void cut(const Options& options) {
   Incision incision(surface, path, incision_options);
   const double length = path.length() * options.scale;
   const double progress = options.progress < 0 ? length : std::min(options.progress, length);
-  const auto first_step = std::chrono::steady_clock::now();
+  watch.lap();
   incision.advance_to(progress / options.scale);
-  const double cutting = milliseconds_since(start), stepping = milliseconds_since(first_step);
+  const double stepping = watch.lap(), cutting = watch.seconds();
 
   SurfaceMesh result = incision.mesh().surface();
   Json figures = figures_of(incision, surface, result, options.scale);
   figures["mesh"] = figures_of(mesh_report);
-  figures["cut_ms"] = cutting;
-  figures["us_per_step"] = 1000 * stepping / static_cast<double>(incision.chain().size());
+  figures["cut_ms"] = 1e3 * cutting;
+  figures["us_per_step"] = 1e6 * stepping / static_cast<double>(incision.chain().size());
   if (field) {
     const Replay replay(*field, incision, options.scale);
     replay.positions(progress, result.points);  // the second frame is timed: memory is warm then
-    const auto frame = std::chrono::steady_clock::now();
+    const Stopwatch frame;
     replay.positions(progress, result.points);
-    figures["frame_ms"] = milliseconds_since(frame);
+    figures["frame_ms"] = 1e3 * frame.seconds();
     double largest = 0;
     for (std::size_t i = 0; i < result.points.size(); ++i)
       largest = std::max(largest, norm(result.points[i] - replay.rest()[i]));

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "encoder/field/field_file.h"
 #include "explorer/io/mesh_file.h"
+#include "explorer/scene/path_file.h"
 #include "explorer/scene/scalpel_cutting.h"
 #include "haptic/bare_timer.h"
 #include "haptic/devices/list.h"
@@ -30,20 +31,6 @@ struct Options {
   double delay = 0;                              // ms
   bool real_time = false, json = false;
 };
-
-std::optional<ScalpelPath> read_path(const Options& o, const std::optional<Field>& field) {
-  if (o.path.empty()) return std::nullopt;
-  const NumberTable table = read_csv(o.path);
-  ScalpelPath path = ScalpelPath::from_table(table, o.path);
-  if (o.depth > 0)
-    path.set_depth(o.depth / o.scale);
-  else if (table.column("depth") < 0 && field)
-    path.set_depth(field->cut().depth / o.scale);
-  else if (table.column("depth") < 0)
-    throw FileError(o.path,
-                    "has no column 'depth', and there is no field that knows one: give --depth in mm");
-  return path;
-}
 
 /// N/mm, of the skin over the middle of the cut in a simulation, closed.
 double snapshot_stiffness(const std::string& file) {
@@ -164,7 +151,8 @@ void haptic(const Options& o) {
   std::optional<Field> field;
   if (!o.field.empty()) field = read_field(o.field);
   const SurfaceMesh mesh = read_mesh(o.mesh);
-  const std::optional<ScalpelPath> path = read_path(o, field);
+  std::optional<ScalpelPath> path;
+  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field);
 
   ForceParameters force;
   force.stiffness = stiffness(o, field);
