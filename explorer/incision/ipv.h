@@ -27,6 +27,9 @@ struct ActiveVertex {
   double time_offset = 0;  ///< tau: with the blade at p the field's time is clamp(p + tau, 0, cut length)
   double weight = 1;       ///< 1 in the patch, falling to 0 over a quarter of its width beside it
   bool on_cut = false;     ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
+
+  /// A canonical displacement here, weighted, in the directions of the mesh's space; in the same unit.
+  Vec3 in_mesh(const Vec3& d) const { return weight * (d.x * along + d.y * across + d.z * outward); }
 };
 
 /// Where the place s of a path of length `length` (all mm) lies on the canonical cut.

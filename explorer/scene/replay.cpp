@@ -18,7 +18,7 @@ struct Contractor {
   void operator()(const ActiveVertex& a, Side side, History& out) const {
     field.contract(a.uvw, side, field.contraction_tolerance(), times, out);
     for (auto& piece : out.controls)
-      for (Vec3& d : piece) d = a.weight / scale * (d.x * a.along + d.y * a.across + d.z * a.outward);
+      for (Vec3& d : piece) d = 1 / scale * a.in_mesh(d);
   }
 };
 

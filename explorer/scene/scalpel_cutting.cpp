@@ -102,8 +102,7 @@ void ScalpelCutting::open() {
   for (std::size_t k = 0; k < active_.size(); ++k) {
     const std::size_t i = (next_active_ + k) % active_.size();
     const ActiveVertex& a = active_[i];
-    const Vec3& d = values_[i];
-    const Vec3 here = a.weight * (d.x * a.along + d.y * a.across + d.z * a.outward);
+    const Vec3 here = a.in_mesh(values_[i]);
     Vec3& before = displacements_[static_cast<std::size_t>(a.vertex)];
     if (squared_norm(here - before) <= told * told) continue;
     if (moved_.size() == most_moved) {
