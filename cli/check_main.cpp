@@ -35,21 +35,22 @@ void check_file(const std::string& file) {
 
 /// A study's file holds the fields of its published cases, and no others.
 void check_packed(const std::string& packed, const std::string& folder) {
-  check_study_file(packed);
   const StudyFile study(packed);
-  std::map<std::string, int> number;
-  for (int i = 0; i < study.size(); ++i) number[study.name(i)] = i;
+  h5::File::open(packed).read_everything();
   const auto stale = [&](const std::string& what) {
     throw FileError(packed, what + "; run cleft pack " + folder + " again");
   };
-  for (const StudyCase& published : published_study_cases(folder)) {
-    const auto found = number.find(published.name);
-    if (found == number.end()) stale("lacks the published case " + published.name);
-    if (study.field(found->second).coefficients() != read_field(published.field_file).coefficients())
-      stale("holds another field than the published case " + published.name);
-    number.erase(found);
+  std::map<std::string, std::string> published;
+  for (const StudyCase& one : published_study_cases(folder)) published[one.name] = one.field_file;
+  for (int i = 0; i < study.size(); ++i) {
+    const Field field = study.field(i);
+    const auto found = published.find(study.name(i));
+    if (found == published.end()) stale("holds case " + study.name(i) + ", which is not published");
+    if (field.coefficients() != read_field(found->second).coefficients())
+      stale("holds another field than the published case " + study.name(i));
+    published.erase(found);
   }
-  if (!number.empty()) stale("holds case " + number.begin()->first + ", which is not published");
+  if (!published.empty()) stale("lacks the published case " + published.begin()->first);
 }
 
 void check_study(const std::string& path) {
