@@ -1,10 +1,10 @@
 #include "encoder/encode.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "encoder/field/unknowns.h"
 #include "encoder/measure.h"
 #include "encoder/quantities.h"
@@ -146,7 +146,7 @@ std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions
 
 Encoded encode(const Series& series, const EncodeOptions& options,
                const std::function<void(const std::string&)>& progress) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   EncodeOptions chosen = options;
   if (series.largest_displacement == 0 && !options.rung)
     chosen.rung = rung_of_quantities(series, options, progress);
@@ -155,8 +155,7 @@ Encoded encode(const Series& series, const EncodeOptions& options,
     progress("fitting further quantities");
     encoded.field.quantities = fit_quantities(series, encoded.field, options.tolerance);
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  encoded.field.report.fit_seconds = seconds.count();
+  encoded.field.report.fit_seconds = watch.seconds();
   return encoded;
 }
 

@@ -1,10 +1,10 @@
 #include "encoder/measure.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "base/stopwatch.h"
 #include "encoder/parallel.h"
 
 namespace cleft {
@@ -95,7 +95,7 @@ Frame measure_frame(const Field& field, const Series& series, std::size_t j, con
 }  // namespace
 
 FitReport measure(const Field& field, const Series& series, const NodeResidual* residual) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   std::vector<Frame> frames(series.times.size());
   parallel_for(static_cast<int>(frames.size()), [&](int j) {
     frames[j] = measure_frame(field, series, static_cast<std::size_t>(j), residual);
@@ -121,8 +121,7 @@ FitReport measure(const Field& field, const Series& series, const NodeResidual* 
   }
   report.relative_l2 = std::sqrt(squared_error / squared_data);
   report.spline_error = std::sqrt(spline) / scale;
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  report.measure_seconds = seconds.count();
+  report.measure_seconds = watch.seconds();
   return report;
 }
 

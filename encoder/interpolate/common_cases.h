@@ -11,8 +11,8 @@
 
 namespace cleft {
 
-/// A case as it was read: its field, and the parameters that are no numbers where they are known (a
-/// study.dffd does not hold them).
+/// A case as it was read: its field, and the parameters that are no numbers where they are known
+/// (those of imported data are not).
 struct StudyMember {
   std::string name;
   Field field;
