@@ -1,6 +1,11 @@
-// cleft explore: looks at a study, case by case, on its patch or as a wound in a surface mesh.
+// cleft explore: looks at a study, case by case, on its patch or as wounds in a surface mesh.
+#include <iostream>
+
 #include "base/command.h"
 #include "base/error.h"
+#include "base/text.h"
+#include "explorer/scene/session/command_table.h"
+#include "explorer/scene/session/session.h"
 #include "explorer/view/explore_window.h"
 #include "explorer/view/explorer.h"
 #include "explorer/view/picture.h"
@@ -11,7 +16,7 @@ namespace {
 
 struct Options {
   ExplorerInput input;
-  std::string screenshot;
+  std::string screenshot, script, state;
   int shown_case = 1;
   double time = -1;  ///< the end, where none is given
   std::vector<double> view{0, 0};
@@ -20,7 +25,7 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& o) {
-  app.add_option("study", o.input.study, "A study folder or a case.dffd")->required();
+  app.add_option("study", o.input.study, "A study folder, a study.dffd or a case.dffd");
   CLI::Option* mesh = app.add_option("--mesh", o.input.mesh, "A surface mesh to cut instead of the patch");
   CLI::Option* path =
       app.add_option("--path", o.input.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
@@ -29,6 +34,8 @@ void add_options(CLI::App& app, Options& o) {
       ->needs(mesh)
       ->check(above(0))
       ->capture_default_str();
+  app.add_option("--script", o.script, "Do the commands of this file, and open no window");
+  app.add_option("--state", o.state, "Begin with a saved session: .json, or a .png written here");
   app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
   app.add_option("--case", o.shown_case, "The case to begin with, from 1")->capture_default_str();
   app.add_option("--time", o.time, "Length cut, mm; default: the end")->check(at_least(0));
@@ -43,21 +50,32 @@ void add_options(CLI::App& app, Options& o) {
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::Range(16, 8192));
+  app.footer("Commands, for --script and in the window:\n\n" + help_sheet());
 }
 
-void explore(const Options& o) {
+/// The options as commands.
+void begin(Session& session, const CLI::App& app, const Options& o) {
+  if (!o.state.empty()) session.say("load " + quoted(o.state));
+  if (!o.input.study.empty()) session.say("open " + quoted(o.input.study));
+  if (app.count("--case")) session.say("case " + std::to_string(o.shown_case));
+  if (!o.input.mesh.empty()) session.say("mesh " + quoted(o.input.mesh) + " " + shortest(o.input.scale));
+  if (!o.input.path.empty()) session.say("cut-file " + quoted(o.input.path));
+  if (o.time >= 0) session.say("time " + shortest(o.time));
+  if (app.count("--view") + app.count("--zoom") > 0)
+    session.say("camera " + shortest(o.view[0]) + " " + shortest(o.view[1]) + " " + shortest(o.zoom));
+}
+
+void explore(const CLI::App& app, const Options& o) {
+  Session session(session_services([](const std::string& text) { std::cout << text << '\n'; }));
+  begin(session, app, o);
+  if (!o.script.empty()) session.run_script(o.script);
+  if (!o.screenshot.empty())
+    session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +
+                std::to_string(o.size[1]));
+  if (!o.script.empty() || !o.screenshot.empty()) return;
+  if (o.input.study.empty()) throw InputError("give a study folder or a case.dffd");
   Explorer explorer(o.input);
-  if (o.shown_case < 1 || o.shown_case > explorer.study().size())
-    throw InputError("--case " + std::to_string(o.shown_case) + ": " + o.input.study +
-                     " has the cases 1 to " + std::to_string(explorer.study().size()));
-  explorer.show_case(o.shown_case - 1);
-  explorer.view().set_time(o.time >= 0 ? o.time : explorer.view().duration());
-  explorer.view().aim({o.view[0], o.view[1], o.zoom});
-  if (!o.screenshot.empty()) {
-    write_picture(explorer.view(), o.size[0], o.size[1], o.screenshot);
-  } else {
-    ExploreWindow(explorer, o.size[0], o.size[1]).run();
-  }
+  ExploreWindow(explorer, o.size[0], o.size[1]).run();
 }
 
 }  // namespace
@@ -66,5 +84,5 @@ int main(int argc, char** argv) {
   CLI::App app("Looks at a study: every case, at every length cut", "cleft explore");
   Options options;
   add_options(app, options);
-  return run_command(app, argc, argv, [&] { explore(options); });
+  return run_command(app, argc, argv, [&] { explore(app, options); });
 }

@@ -4,8 +4,8 @@
 #include "base/text.h"
 #include "explorer/incision/incision.h"
 #include "explorer/io/mesh_file.h"
-#include "explorer/view/mesh_scene.h"
-#include "explorer/view/patch_scene.h"
+#include "explorer/scene/mesh_scene.h"
+#include "explorer/scene/patch_scene.h"
 
 namespace cleft {
 
@@ -14,15 +14,13 @@ struct Explorer::Patient {
   SurfaceMesh mesh;
   ScalpelPath path;
   bool own_depth;  ///< the path's file says how deep; else the case does
-  std::shared_ptr<const Incision> incision;
+  std::shared_ptr<const CutSurface> cut;
 
-  std::shared_ptr<const Incision> cut_for(const Field& field) {
+  std::shared_ptr<const CutSurface> cut_for(const Field& field) {
     const double depth = own_depth ? path.largest_depth() : field.cut().depth;
-    if (incision && incision->path().largest_depth() == depth) return incision;
+    if (cut && path.largest_depth() == depth) return cut;
     if (!own_depth) path.set_depth(depth);
-    const auto fresh = std::make_shared<Incision>(mesh, path);
-    fresh->advance_to(path.length());
-    return incision = fresh;
+    return cut = std::make_shared<CutSurface>(mesh, std::vector{path});
   }
 };
 
@@ -58,11 +56,11 @@ Explorer::~Explorer() = default;
 
 void Explorer::show_case(int i) {
   if (i == shown_) return;
-  const Field& field = study_.field(i);
+  const std::shared_ptr<const Field> field = study_.field(i);
   const double time = view_.time();
+  view_.color_by(patient_ ? Coloring::tissue : Coloring::displacement);
   if (patient_)
-    view_.show(std::make_shared<MeshScene>(patient_->cut_for(field), field,
-                                           static_cast<int>(patient_->mesh.points.size())));
+    view_.show(std::make_shared<MeshScene>(patient_->cut_for(*field), field));
   else
     view_.show(std::make_shared<PatchScene>(field));
   if (shown_ >= 0) view_.set_time(time);

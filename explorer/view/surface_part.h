@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "explorer/view/wound_scene.h"
+#include "explorer/scene/wound_scene.h"
 
 namespace cleft {
 

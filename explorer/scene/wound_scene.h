@@ -6,6 +6,7 @@
 
 #include "base/vec3.h"
 #include "explorer/incision/cut_mesh.h"
+#include "explorer/scene/coloring.h"
 
 namespace cleft {
 
@@ -29,8 +30,9 @@ class WoundScene {
   /// The points when the length t is cut; always from the rest positions, so that nothing accumulates.
   virtual void positions(double t, std::vector<Vec3>& out) const = 0;
 
-  /// Whether the skin is coloured by its displacement rather than as skin.
-  virtual bool shows_displacement() const = 0;
+  /// The value of every point at t by which it is coloured; of `difference`, against `reference`.
+  virtual void values(Coloring coloring, const Field* reference, double t,
+                      std::vector<double>& out) const = 0;
 };
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-#include "explorer/view/patch_scene.h"
+#include "explorer/scene/patch_scene.h"
 
 #include <algorithm>
 
@@ -18,7 +18,8 @@ std::vector<double> graded(double from, double to, double first, double growth) 
 
 }  // namespace
 
-PatchScene::PatchScene(const Field& field) : field_(field) {
+PatchScene::PatchScene(std::shared_ptr<const Field> shared) : shared_(std::move(shared)), field_(*shared_) {
+  const Field& field = field_;
   const CanonicalCut& cut = field.cut();
   const double end = cut.start + cut.length, step = cut.length / 120;
   const Interval u = field.domain(0), v = field.domain(1);
@@ -101,14 +102,23 @@ void PatchScene::add_walls(const std::vector<double>& us) {
   }
 }
 
+/// Uncut tissue is closed, whatever the fit says.
+Place PatchScene::place(std::size_t point, double t) const {
+  const Vec3& x = surface_.points[point];
+  return {x, x.x >= field_.cut().start + t ? side_of(x.y) : sides_[point], t};
+}
+
 void PatchScene::positions(double t, std::vector<Vec3>& out) const {
-  const double tip = field_.cut().start + t;
   out.resize(surface_.points.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const Vec3& x = surface_.points[i];
-    const Side side = x.x >= tip ? side_of(x.y) : sides_[i];  // uncut tissue is closed, whatever the fit says
-    out[i] = x + field_.displacement(x, side, t);
+    const Place at = place(i, t);
+    out[i] = at.uvw + field_.displacement(at.uvw, at.side, t);
   }
+}
+
+void PatchScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
+  out.resize(surface_.points.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = color_value(coloring, field_, reference, place(i, t));
 }
 
 }  // namespace cleft
