@@ -164,7 +164,7 @@ void SeriesFit::solve() {
   const auto multiply = [&](const Blocks& x) {
     Blocks of_frames(frames);
     parallel_for(frames, [&](int j) {
-      Eigen::MatrixXd at = Eigen::MatrixXd::Zero(n, 3);
+      Eigen::MatrixX3d at = Eigen::MatrixX3d::Zero(n, 3);
       for (int l = 0; l < T; ++l)
         if (in_time_(j, l) != 0) at += in_time_(j, l) * x[l];
       of_frames[j] = fit_.space().multiply(normals[j], at);
