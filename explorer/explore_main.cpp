@@ -1,9 +1,12 @@
 // cleft explore: looks at a study, case by case, on its patch or as a wound in a surface mesh.
+#include <iostream>
+
 #include "base/command.h"
 #include "base/error.h"
 #include "explorer/view/explore_window.h"
 #include "explorer/view/explorer.h"
 #include "explorer/view/picture.h"
+#include "params/study_index.h"
 
 using namespace cleft;
 
@@ -45,8 +48,17 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::Range(16, 8192));
 }
 
+/// The fields are there: only comparing them with the simulation is not possible any more.
+void tell_of_dropped_snapshots(const std::string& study) {
+  int dropped = 0;
+  for (const auto& [hash, one] : study_index(study)) dropped += !one.snapshot;
+  if (dropped > 0)
+    std::cerr << study << ": the raw data of " << dropped << " cases are gone (keep_snapshots = \"none\")\n";
+}
+
 void explore(const Options& o) {
   Explorer explorer(o.input);
+  tell_of_dropped_snapshots(o.input.study);
   if (o.shown_case < 1 || o.shown_case > explorer.study().size())
     throw InputError("--case " + std::to_string(o.shown_case) + ": " + o.input.study +
                      " has the cases 1 to " + std::to_string(explorer.study().size()));
