@@ -76,24 +76,39 @@ void check_packed(const std::string& packed, const std::string& folder) {
   if (!published.empty()) stale("lacks the published case " + published.begin()->first);
 }
 
-void check_study(const std::string& path) {
+/// Says what there is to know of a sound one.
+std::string check_study(const std::string& path) {
   const StudyFolder folder(path);
   Mistakes mistakes;
+  std::size_t without = 0;
   for (const std::string& hash : folder.published_cases())
     mistakes.collect([&] {
       folder.verify(hash);
-      for (const char* name : {"/case.h5", "/case.dffd"}) check_file(folder.published(hash) + name);
+      check_file(folder.published(hash) + "/case.dffd");
+      if (folder.manifest(hash).value("snapshot", "kept") == "dropped")
+        ++without;
+      else
+        check_file(folder.published(hash) + "/case.h5");
     });
   if (const std::string packed = path + "/study.dffd"; std::filesystem::exists(packed))
     mistakes.collect([&] { check_packed(packed, path); });
   mistakes.throw_if_any();
+  return without > 0
+             ? "sound; " + std::to_string(without) + " cases without raw data (keep_snapshots = \"none\")"
+             : "sound";
 }
 
 void check_all(const std::vector<std::string>& places) {
   Mistakes mistakes;
   for (const std::string& place : places) {
-    const auto check = std::filesystem::is_directory(place) ? check_study : check_file;
-    if (mistakes.collect([&] { check(place); })) std::cout << place << ": sound\n";
+    std::string verdict = "sound";
+    const bool sound = mistakes.collect([&] {
+      if (std::filesystem::is_directory(place))
+        verdict = check_study(place);
+      else
+        check_file(place);
+    });
+    if (sound) std::cout << place << ": " << verdict << "\n";
   }
   mistakes.throw_if_any();
 }

@@ -9,6 +9,7 @@
 #include "explorer/view/explore_window.h"
 #include "explorer/view/explorer.h"
 #include "explorer/view/picture.h"
+#include "params/study_index.h"
 
 using namespace cleft;
 
@@ -65,9 +66,18 @@ void begin(Session& session, const CLI::App& app, const Options& o) {
     session.say("camera " + shortest(o.view[0]) + " " + shortest(o.view[1]) + " " + shortest(o.zoom));
 }
 
+/// The fields are there: only comparing them with the simulation is not possible any more.
+void tell_of_dropped_snapshots(const std::string& study) {
+  int dropped = 0;
+  for (const auto& [hash, one] : study_index(study)) dropped += !one.snapshot;
+  if (dropped > 0)
+    std::cerr << study << ": the raw data of " << dropped << " cases are gone (keep_snapshots = \"none\")\n";
+}
+
 void explore(const CLI::App& app, const Options& o) {
   Session session(session_services([](const std::string& text) { std::cout << text << '\n'; }));
   begin(session, app, o);
+  if (!o.input.study.empty()) tell_of_dropped_snapshots(o.input.study);
   if (!o.script.empty()) session.run_script(o.script);
   if (!o.screenshot.empty())
     session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +
