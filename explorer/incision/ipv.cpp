@@ -36,6 +36,26 @@ IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, dou
               later.begin() + static_cast<std::ptrdiff_t>(std::min(labels_.size(), later.size())));
   take_in(later);
   find_normals();
+  find_room();
+}
+
+void IncisionVolume::find_room() {
+  constexpr int pieces = 128;
+  for (int i = 0; i <= pieces; ++i)
+    for (const bool right : {false, true})
+      room_[right].push_back(incision_.path().room_beside(incision_.path().length() * i / pieces, right));
+}
+
+/// Falls smoothly from 1 in the path's half of its room to 0 at the end of it.
+double IncisionVolume::inside_bend(double s, double straight) const {
+  const std::vector<double>& room = room_[straight > 0];
+  const double at = std::clamp(s / incision_.path().length(), 0., 1.) * static_cast<double>(room.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), room.size() - 2);
+  const double part = at - static_cast<double>(i);
+  // The inverse of the room, a curvature, is linear between places: there is none beside a straight piece.
+  const double used = std::abs(straight) * ((1 - part) / room[i] + part / room[i + 1]);
+  const double x = std::clamp(2 * used - 1, 0., 1.);
+  return 1 - x * x * (3 - 2 * x);
 }
 
 void IncisionVolume::take_in(const std::vector<int>& vertices) {
@@ -73,7 +93,6 @@ void IncisionVolume::find_normals() {
   }
 }
 
-/// T of the path made perpendicular to the skin's normal, and that.
 PathFrame IncisionVolume::skin_frame(double s) const {
   PathFrame frame = incision_.path().at(s);
   if (!station_.empty()) {
@@ -116,7 +135,7 @@ IncisionVolume::WoundSide IncisionVolume::side_of_wound(int v) const {
 std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const CutMesh::Vertex& vertex = incision_.mesh().vertex(v);
   if (vertex.cut == incision_.cut())  // lips, walls and closed ends know where they are
-    return Place{vertex.s, 0, -vertex.depth_fraction * field_.cut().depth, side_of(vertex.kind), true};
+    return Place{vertex.s, 0, -vertex.depth_fraction * field_.cut().depth, side_of(vertex.kind), true, 0};
   const Surroundings::Label& label = labels_[v];
   if (!label.reached) return std::nullopt;
   const PathCoordinates at = incision_.path().coordinates(vertex.position);
@@ -128,7 +147,7 @@ std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const double across = side == Side::left    ? std::min(straight, 0.0) - label.detour
                         : side == Side::right ? std::max(straight, 0.0) + label.detour
                                               : 0;
-  return Place{at.s, across, -vertex.depth * scale_, side, on_wall};
+  return Place{at.s, across, -vertex.depth * scale_, side, on_wall, straight};
 }
 
 std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
@@ -140,19 +159,14 @@ std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
   const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
   const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
   const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
-  if (outside >= 1) return std::nullopt;
+  const double weight =
+      outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * inside_bend(at->s, at->straight) : 0;
+  if (weight <= 0) return std::nullopt;
   const PathFrame frame = skin_frame(at->s);
   const double lift = lift_of_tilted_blade(path.at(at->s).outward, frame, std::abs(v));
-  return ActiveVertex{vertex,
-                      {u_in, v_in, at->w},
-                      at->side,
-                      frame.along,
-                      frame.across + lift * frame.outward,
-                      frame.outward,
-                      at->s * scale_,
-                      place.time_offset,
-                      1 - outside * outside * (3 - 2 * outside),
-                      at->on_cut};
+  return ActiveVertex{
+      vertex,        {u_in, v_in, at->w}, at->side,          frame.along, frame.across + lift * frame.outward,
+      frame.outward, at->s * scale_,      place.time_offset, weight,      at->on_cut};
 }
 
 /// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two

@@ -8,9 +8,13 @@
 // normal along the cut). On which side a vertex lies is told by the surface, from which lip it is reached
 // first, never by space: a vertex that lies opposite the cut but far along the surface takes no part.
 //
+// Where the path bends tighter than the patch is wide, the nearest place of the path jumps: displacements
+// fall to nothing before.
+//
 // Where a vertex lies does not depend on how far the blade has come, only on which side of the wound it is.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -26,8 +30,9 @@ struct ActiveVertex {
   Vec3 along, across, outward;  ///< unit vectors in the mesh's space: T of the path, across it, skin's normal
   double s = 0;                 ///< mm along the path
   double time_offset = 0;  ///< tau: with the blade at p the field's time is clamp(p + tau, 0, cut length)
-  double weight = 1;       ///< 1 in the patch, falling to 0 over a quarter of its width beside it
-  bool on_cut = false;     ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
+  double weight =
+      1;  ///< 1 in the patch, falling to 0 over a quarter of its width beside it, and inside bends
+  bool on_cut = false;  ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
 
   /// A canonical displacement here, weighted, in the directions of the mesh's space; in the same unit.
   Vec3 in_mesh(const Vec3& d) const { return weight * (d.x * along + d.y * across + d.z * outward); }
@@ -54,11 +59,16 @@ class IncisionVolume {
   /// Where a vertex lies, if the field reaches it.
   std::optional<ActiveVertex> locate(int vertex) const;
 
+  /// At s, mesh units: T of the path made perpendicular to the skin's mean normal there, and that.
+  PathFrame skin_frame(double s) const;
+  double scale() const { return scale_; }
+
  private:
   struct Place {
     double s, across, w;  // s and across in mesh units, w in mm
     Side side;
     bool on_cut;
+    double straight;  // distance from the path, mesh units, on the side of v
   };
   std::optional<Place> place_of(int vertex) const;
   struct WoundSide {
@@ -67,13 +77,15 @@ class IncisionVolume {
   };
   WoundSide side_of_wound(int vertex) const;
   void find_normals();
-  PathFrame skin_frame(double s) const;
+  void find_room();
+  double inside_bend(double s, double straight) const;
   double lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const;
 
   const Incision& incision_;
   const Field& field_;
   double scale_, margin_;
   std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
+  std::array<std::vector<double>, 2> room_;  // beside the path, left and right, at even distances along it
   std::vector<double> station_;              // s of the surroundings' stations
   std::vector<Vec3> normal_;                 // of the skin there, a mean
 };

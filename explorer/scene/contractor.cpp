@@ -5,8 +5,10 @@
 
 namespace cleft {
 
-Contractor::Contractor(const Field& field, double scale)
-    : field_(field), scale_(scale), times_(replay_times(field, field.contraction_tolerance())) {}
+Contractor::Contractor(VaryingField field, double scale)
+    : field_(std::move(field)),
+      scale_(scale),
+      times_(replay_times(field_.fields(), field_.contraction_tolerance())) {}
 
 void Contractor::sort(std::vector<ActiveVertex>& active) {
   std::sort(active.begin(), active.end(), [](const ActiveVertex& a, const ActiveVertex& b) {
@@ -15,7 +17,7 @@ void Contractor::sort(std::vector<ActiveVertex>& active) {
 }
 
 void Contractor::history(const ActiveVertex& a, Side side, History& out) const {
-  field_.contract(a.uvw, side, field_.contraction_tolerance(), times_, out);
+  field_.contract(a.uvw, side, a.s, times_, out);
   for (auto& piece : out.controls)
     for (Vec3& d : piece) d = 1 / scale_ * a.in_mesh(d);
 }

@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "encoder/field/field.h"
 #include "explorer/incision/ipv.h"
 #include "explorer/scene/replay_pieces.h"
+#include "explorer/scene/varying_field.h"
 
 namespace cleft {
 
 class Contractor {
  public:
-  /// The field must outlive it. `scale` is mm per mesh unit.
-  Contractor(const Field& field, double scale);
+  /// The field's own fields must outlive it. `scale` is mm per mesh unit.
+  Contractor(VaryingField field, double scale);
 
   /// In the order that contract() asks for: of time offsets, and of memory.
   static void sort(std::vector<ActiveVertex>& active);
@@ -25,7 +25,7 @@ class Contractor {
  private:
   void history(const ActiveVertex& vertex, Side side, History& out) const;
 
-  const Field& field_;
+  VaryingField field_;
   double scale_;
   std::vector<double> times_;
 };

@@ -5,12 +5,12 @@
 
 namespace cleft {
 
-LiveReplay::LiveReplay(const Field& field, const Incision& incision, double scale)
+LiveReplay::LiveReplay(const VaryingField& field, const Incision& incision, double scale)
     : incision_(incision),
       scale_(scale),
       undone_(true),
       contractor_(field, scale),
-      volume_(incision, field, scale),
+      volume_(incision, field.shape(), scale),
       rest_(1),
       position_(1) {
   follow();

@@ -7,7 +7,6 @@
 #include <queue>
 #include <vector>
 
-#include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
 #include "explorer/incision/ipv.h"
 #include "explorer/scene/contractor.h"
@@ -16,9 +15,9 @@ namespace cleft {
 
 class LiveReplay {
  public:
-  /// The field, whose displacement at t = 0 must be 0, and the incision must outlive it. `scale`: mm per mesh
-  /// unit.
-  LiveReplay(const Field& field, const Incision& incision, double scale);
+  /// The field's own fields, whose displacements at t = 0 must be 0, and the incision must outlive it.
+  /// `scale`: mm per mesh unit.
+  LiveReplay(const VaryingField& field, const Incision& incision, double scale);
 
   /// To be called after every advance_to, undo and redo of the incision.
   void follow();

@@ -16,9 +16,9 @@ std::vector<ActiveVertex> sorted(std::vector<ActiveVertex> active) {
 
 }  // namespace
 
-Replay::Replay(const Field& field, const Incision& incision, double scale)
+Replay::Replay(const VaryingField& field, const Incision& incision, double scale)
     : path_length_(incision.path().length() * scale),
-      active_(sorted(active_vertices(incision, field, scale))),
+      active_(sorted(active_vertices(incision, field.shape(), scale))),
       pieces_(Contractor(field, scale).contract(active_)) {
   rest_.reserve(incision.mesh().vertices().size());
   for (const CutMesh::Vertex& v : incision.mesh().vertices()) rest_.push_back(v.position);

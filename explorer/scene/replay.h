@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
 #include "explorer/incision/ipv.h"
 #include "explorer/scene/replay_pieces.h"
+#include "explorer/scene/varying_field.h"
 
 namespace cleft {
 
@@ -16,7 +16,7 @@ class Replay {
  public:
   /// Contracts the field once for each active vertex, to within its contraction_tolerance(). `scale` is mm
   /// per mesh unit.
-  Replay(const Field& field, const Incision& incision, double scale);
+  Replay(const VaryingField& field, const Incision& incision, double scale);
 
   /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
   /// for each vertex of the incision's mesh. Allocates nothing.

@@ -18,41 +18,51 @@ std::vector<double> subdivided(const std::vector<double>& times, int parts) {
   return result;
 }
 
-/// The field's knots in time, as far as the blade goes.
-std::vector<double> knot_times(const Field& field) {
-  std::vector<double> times = field.knot_times();
-  const double last = std::min(times.back(), field.cut().length);
-  while (times.size() > 1 && times.back() >= last) times.pop_back();
+/// The fields' knots in time, as far as the blade goes.
+std::vector<double> knot_times(std::span<const Field* const> fields) {
+  std::vector<double> times;
+  for (const Field* field : fields)
+    for (const double t : field->knot_times()) times.push_back(t);
+  std::sort(times.begin(), times.end());
+  const double last = std::min(fields[0]->duration(), fields[0]->cut().length);
+  const auto same = [last](double a, double b) { return b - a <= 1e-9 * last; };
+  times.erase(std::unique(times.begin(), times.end(), same), times.end());
+  while (times.size() > 1 && times.back() >= last * (1 - 1e-9)) times.pop_back();
   times.push_back(last);
   return times;
 }
 
-}  // namespace
-
-std::vector<double> replay_times(const Field& field, double tolerance) {
-  const std::vector<double> knots = knot_times(field);
-  if (!field.parametrization().moves()) return knots;
+/// Whether one cubic a span is not enough in more than a twentieth of the spans.
+bool are_divided(const Field& field, double tolerance, const std::vector<double>& times) {
   const Interval u = field.domain(0), v = field.domain(1);
-  std::vector<Vec3> places;
+  History history;
+  std::size_t spans = 0, divided = 0;
   for (const double along : {0.1, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.9})
     for (const double across : {0.05, 0.3, 0.46, 0.49, 0.51, 0.54, 0.7, 0.95})
-      for (const double height : {0., -0.5})
-        places.push_back({u.front + along * (u.back - u.front), v.front + across * (v.back - v.front),
-                          height * field.cut().depth});
-  History history;
-  for (int parts = 1;; parts *= 2) {
-    std::vector<double> times = subdivided(knots, parts);
-    std::size_t spans = 0, divided = 0;
-    for (const Vec3& place : places) {
-      field.contract(place, Side::both, tolerance, times, history);
-      spans += times.size() - 1;
-      auto next = history.breaks.begin();
-      for (std::size_t span = 0; span + 1 < times.size(); ++span) {
-        next = std::upper_bound(next, history.breaks.end(), times[span]);
-        divided += next != history.breaks.end() && *next < times[span + 1];
+      for (const double height : {0., -0.5}) {
+        const Vec3 place{u.front + along * (u.back - u.front), v.front + across * (v.back - v.front),
+                         height * field.cut().depth};
+        field.contract(place, Side::both, tolerance, times, history);
+        spans += times.size() - 1;
+        auto next = history.breaks.begin();
+        for (std::size_t span = 0; span + 1 < times.size(); ++span) {
+          next = std::upper_bound(next, history.breaks.end(), times[span]);
+          divided += next != history.breaks.end() && *next < times[span + 1];
+        }
       }
-    }
-    if (divided <= spans / 20 || parts == 8) return times;
+  return divided > spans / 20;
+}
+
+}  // namespace
+
+std::vector<double> replay_times(std::span<const Field* const> fields, double tolerance) {
+  const std::vector<double> knots = knot_times(fields);
+  for (int parts = 1;; parts *= 2) {
+    const std::vector<double> times = subdivided(knots, parts);
+    const bool enough = std::none_of(fields.begin(), fields.end(), [&](const Field* field) {
+      return field->parametrization().moves() && are_divided(*field, tolerance, times);
+    });
+    if (enough || parts == 8) return times;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,9 +13,10 @@
 
 namespace cleft {
 
-/// A grid of times for histories: the coarsest that divides the field's knots evenly, up to eight parts each,
-/// on which one cubic a span keeps nearly all of those of a sample of places to `tolerance` mm.
-std::vector<double> replay_times(const Field& field, double tolerance);
+/// A grid of times for the histories of sums of fields of the same cut: the coarsest that divides the fields'
+/// knots evenly, up to eight parts each, on which one cubic a span keeps nearly all of those of a sample of
+/// places to `tolerance` mm.
+std::vector<double> replay_times(std::span<const Field* const> fields, double tolerance);
 
 class ReplayPieces {
  public:
