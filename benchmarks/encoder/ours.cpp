@@ -61,8 +61,8 @@ OurRun run_ours(const Series& series, const Snapshot& snapshot, const NodeData& 
   if (residual) run.residual_bytes = static_cast<double>(encode_residual(*residual).size());
   run.file_bytes = static_cast<double>(fs::file_size(file));
   fs::remove(file);
-  run.centroid_error = centroid_error(field, series, snapshot);
-  for (const auto& [frame, error] : unseen_errors(series, options)) {
+  run.centroid_error = error_at_centroids(field, series, snapshot);
+  for (const auto& [frame, error] : errors_unseen(series, options)) {
     if (error > run.unseen_error) run.unseen_error = error, run.unseen_frame = frame;
     if (frame > 1) run.later_error = std::max(run.later_error, error);
   }

@@ -24,7 +24,7 @@ Vec3 displacement_of(const Series& series, std::size_t frame, std::int64_t node)
 
 }  // namespace
 
-double centroid_error(const Field& field, const Series& series, const Snapshot& s) {
+double error_at_centroids(const Field& field, const Series& series, const Snapshot& s) {
   const double worst = largest_of(s.cell_types.size(), [&](std::size_t c) {
     const auto corners = std::span(s.connectivity)
                              .subspan(static_cast<std::size_t>(s.cell_offsets[c]),
@@ -45,7 +45,7 @@ double centroid_error(const Field& field, const Series& series, const Snapshot& 
   return worst / series.largest_displacement;
 }
 
-std::map<std::size_t, double> unseen_errors(const Series& series, const EncodeOptions& options) {
+std::map<std::size_t, double> errors_unseen(const Series& series, const EncodeOptions& options) {
   Series seen = series;
   seen.times.clear(), seen.frames.clear(), seen.largest.clear();
   std::vector<std::size_t> left_out;
