@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "encoder/field/unknowns.h"
 #include "encoder/knot_search.h"
+#include "encoder/lips.h"
 #include "encoder/measure.h"
 #include "encoder/quantities.h"
 #include "encoder/series_fit.h"
@@ -78,10 +79,10 @@ class Encoder {
   /// The field and its report, with steps of its coefficients that keep `bound`, mm.
   Field with_steps(const SeriesFit& fit, double bound) const {
     progress_("choosing the coefficients' steps");
-    const Field exact = fit.field(fit.control_points());
     // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
     // steps.
     double step = share_of_steps * 2 / std::sqrt(3.) * std::max(bound, 1e-9 * scale_);
+    const Field exact = with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest * step);
     for (int halvings = 0;; ++halvings, step /= 1.5) {
       Field field = quantised(exact, step, farthest);
       field.report.condition = fit.condition();

@@ -14,10 +14,15 @@ namespace cleft {
 
 namespace {
 
-constexpr double strengths[] = {1e-6, 1e-7, 1e-8};  // of the regularisation
-constexpr double regularisation_cost = 1.05;        // of the data's error, at most
-constexpr double time_roughness = 1e-9;             // holds what few frames leave open
-constexpr double residual_bound = 1e-5;             // of the right-hand side, where iterations stop
+// Of the regularisation: what is tried, from the strongest to the weakest, beginning with the usual one; what
+// costs the data nothing; and what knots are compared with.
+constexpr double strengths[] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+constexpr int usual = 1;
+constexpr double hardly_any = 1e-10, of_search = 1e-6;
+constexpr double regularisation_cost = 1.05;  // of the data's error, at most
+constexpr double of_first = 0.02;             // and of the first frame, of which one column tells little
+constexpr double time_roughness = 1e-9;       // holds what few frames leave open
+constexpr double residual_bound = 1e-5;       // of the right-hand side, where iterations stop
 constexpr int most_iterations = 60;
 
 std::array<BSplineBasis, 3> in_space(const std::array<BSplineBasis, 4>& bases) {
@@ -45,7 +50,7 @@ double space_misfit(const Series& series, const Parametrization& parametrization
   parallel_for(static_cast<int>(frames.size()), [&](int i) {
     if (sum > most) return;
     const std::size_t frame = frames[static_cast<std::size_t>(i)];
-    const auto factor = fit.space().factorize(fit.normal(frame, strengths[0]));
+    const auto factor = fit.space().factorize(fit.normal(frame, of_search));
     sum += misfit_of(fit.misfit(factor.solve(fit.project(frame)), frame), limit).beyond;
   });
   return sum;
@@ -71,22 +76,27 @@ SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization
   solve();
 }
 
-/// The strongest regularisation that costs an early and a late frame next to nothing.
+/// The strongest regularisation that costs the first, an early and the last frame next to nothing.
 void SeriesFit::choose_strength() {
-  const std::size_t frames = series_.times.size(), some[] = {1 + frames / 8, frames - 1};
-  std::ptrdiff_t weakest[2];
-  parallel_for(2, [&](int i) {
+  const std::size_t frames = series_.times.size(), some[] = {1, 1 + frames / 8, frames - 1};
+  int chosen[3];
+  parallel_for(3, [&](int i) {
     const std::size_t j = some[i];
     const Eigen::MatrixX3d right = fit_.project(j);
     const auto cost = [&](double of) {
       return fit_.misfit(fit_.space().factorize(fit_.normal(j, of)).solve(right), j).norm();
     };
-    const double most = regularisation_cost * cost(strengths[2] / 100) + 1e-9 * series_.largest[j];
-    auto strength = std::begin(strengths);
-    while (strength + 1 < std::end(strengths) && cost(*strength) > most) ++strength;
-    weakest[i] = strength - std::begin(strengths);
+    const double most =
+        regularisation_cost * cost(hardly_any) + (j == 1 ? of_first : 1e-9) * series_.frames[j].norm();
+    int strength = usual;
+    if (cost(strengths[strength]) <= most)
+      while (strength > 0 && cost(strengths[strength - 1]) <= most) --strength;
+    else
+      do ++strength;
+      while (strength + 1 < static_cast<int>(std::size(strengths)) && cost(strengths[strength]) > most);
+    chosen[i] = strength;
   });
-  strength_ = strengths[std::max(weakest[0], weakest[1])];
+  strength_ = strengths[*std::max_element(chosen, chosen + 3)];
 }
 
 void SeriesFit::solve() {
