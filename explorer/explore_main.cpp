@@ -4,10 +4,9 @@
 #include "base/command.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/app/run_window.h"
 #include "explorer/scene/session/command_table.h"
 #include "explorer/scene/session/session.h"
-#include "explorer/view/explore_window.h"
-#include "explorer/view/explorer.h"
 #include "explorer/view/picture.h"
 #include "params/study_index.h"
 
@@ -16,8 +15,8 @@ using namespace cleft;
 namespace {
 
 struct Options {
-  ExplorerInput input;
-  std::string screenshot, script, state;
+  std::string study, mesh, path, screenshot, script, state;
+  double scale = 1;  ///< mm in a unit of the mesh and the path
   int shown_case = 1;
   double time = -1;  ///< the end, where none is given
   std::vector<double> view{0, 0};
@@ -26,16 +25,15 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& o) {
-  app.add_option("study", o.input.study, "A study folder, a study.dffd or a case.dffd");
-  CLI::Option* mesh = app.add_option("--mesh", o.input.mesh, "A surface mesh to cut instead of the patch");
-  CLI::Option* path =
-      app.add_option("--path", o.input.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
+  app.add_option("study", o.study, "A study folder, a study.dffd or a case.dffd");
+  CLI::Option* mesh = app.add_option("--mesh", o.mesh, "A surface mesh to cut instead of the patch");
+  CLI::Option* path = app.add_option("--path", o.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
   mesh->needs(path), path->needs(mesh);
-  app.add_option("--scale", o.input.scale, "mm in a unit of the mesh and the path")
+  app.add_option("--scale", o.scale, "mm in a unit of the mesh and the path")
       ->needs(mesh)
       ->check(above(0))
       ->capture_default_str();
-  app.add_option("--script", o.script, "Do the commands of this file, and open no window");
+  app.add_option("--script", o.script, "Do the commands of this file and open no window");
   app.add_option("--state", o.state, "Begin with a saved session: .json, or a .png written here");
   app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
   app.add_option("--case", o.shown_case, "The case to begin with, from 1")->capture_default_str();
@@ -57,10 +55,10 @@ void add_options(CLI::App& app, Options& o) {
 /// The options as commands.
 void begin(Session& session, const CLI::App& app, const Options& o) {
   if (!o.state.empty()) session.say("load " + quoted(o.state));
-  if (!o.input.study.empty()) session.say("open " + quoted(o.input.study));
+  if (!o.study.empty()) session.say("open " + quoted(o.study));
   if (app.count("--case")) session.say("case " + std::to_string(o.shown_case));
-  if (!o.input.mesh.empty()) session.say("mesh " + quoted(o.input.mesh) + " " + shortest(o.input.scale));
-  if (!o.input.path.empty()) session.say("cut-file " + quoted(o.input.path));
+  if (!o.mesh.empty()) session.say("mesh " + quoted(o.mesh) + " " + shortest(o.scale));
+  if (!o.path.empty()) session.say("cut-file " + quoted(o.path));
   if (o.time >= 0) session.say("time " + shortest(o.time));
   if (app.count("--view") + app.count("--zoom") > 0)
     session.say("camera " + shortest(o.view[0]) + " " + shortest(o.view[1]) + " " + shortest(o.zoom));
@@ -83,9 +81,7 @@ void explore(const CLI::App& app, const Options& o) {
     session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +
                 std::to_string(o.size[1]));
   if (!o.script.empty() || !o.screenshot.empty()) return;
-  if (o.input.study.empty()) throw InputError("give a study folder or a case.dffd");
-  Explorer explorer(o.input);
-  ExploreWindow(explorer, o.size[0], o.size[1]).run();
+  run_window(session, o.size[0], o.size[1]);
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ const std::vector<ColoringText>& colorings() {
   static const std::vector<ColoringText> all{
       {Coloring::tissue, "tissue", "", "skin and the layers of the wound, as they look"},
       {Coloring::displacement, "displacement", "displacement, mm", "from the closed frame"},
-      {Coloring::gape, "gape", "gape, mm", "opening of the lips at the same place along the cut"},
+      {Coloring::gape, "gape", "gape, mm",
+       "opening between a point and its mirror image across the cut; on the lips, the gape"},
       {Coloring::strain, "strain", "strain, mm/mm", "largest principal Green-Lagrange strain of the field"},
       {Coloring::difference, "difference", "difference, mm", "from the displacement of another case"},
   };
@@ -40,6 +41,13 @@ double gape(const Field& field, double u, double t) {
 
 namespace {
 
+double opening_across(const Field& field, const Place& place) {
+  if (place.side == Side::both && place.uvw.y == 0) return 0;
+  const Vec3 right{place.uvw.x, std::abs(place.uvw.y), place.uvw.z}, left{right.x, -right.y, right.z};
+  return norm(field.displacement(right, Side::right, place.t) -
+              field.displacement(left, Side::left, place.t));
+}
+
 double largest_strain(const Field& field, const Place& place) {
   const Derivatives d = field.derivatives(place.uvw, place.side, place.t);
   Eigen::Matrix3d gradient;
@@ -59,7 +67,7 @@ double color_value(Coloring coloring, const Field& field, const Field* reference
     case Coloring::displacement:
       return norm(field.displacement(place.uvw, place.side, place.t));
     case Coloring::gape:
-      return gape(field, place.uvw.x, place.t);
+      return opening_across(field, place);
     case Coloring::strain:
       return largest_strain(field, place);
     case Coloring::difference:

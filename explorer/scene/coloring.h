@@ -24,8 +24,9 @@ Coloring coloring_of(const std::string& name);
 /// Opening of the lips at u when the length t is cut, mm.
 double gape(const Field& field, double u, double t);
 
-/// The value at a point: displacement and difference (from `reference`) in mm, gape of the lips at the same u
-/// in mm, the largest principal Green-Lagrange strain as a number. `tissue` has none: 0.
+/// The value at a point: displacement and difference (from `reference`) in mm, gape in mm, on both sides
+/// of the cut that between a point and its mirror image, the largest principal Green-Lagrange strain as a
+/// number. `tissue` has none: 0.
 double color_value(Coloring coloring, const Field& field, const Field* reference, const Place& place);
 
 }  // namespace cleft

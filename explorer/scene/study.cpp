@@ -57,6 +57,11 @@ void PublishedStudy::name_and_sort() {
   }
 }
 
+Field PublishedStudy::read(int i) const {
+  const Case& wanted = cases_.at(i);
+  return packed_ ? packed_->field(wanted.packed) : read_field(wanted.file);
+}
+
 std::shared_ptr<const Field> PublishedStudy::field(int i) {
   const auto found =
       std::find_if(recent_.begin(), recent_.end(), [i](const auto& r) { return r.first == i; });

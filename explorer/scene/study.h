@@ -34,6 +34,9 @@ class PublishedStudy {
   std::shared_ptr<const Field> field(int i);
   static constexpr std::size_t kept = 16;  ///< cases, some MB each once decoded
 
+  /// The same, and nothing is kept: for going through all cases.
+  Field read(int i) const;
+
   const std::string& path() const { return path_; }  ///< as it was opened
 
  private:

@@ -83,7 +83,9 @@ Furniture::~Furniture() {
   window_->RemoveRenderer(corner_);
 }
 
-void Furniture::set_text(const std::string& title, const std::string& time) {
+void Furniture::set_text(const std::string& title, const std::string& time, bool small) {
+  title_->GetTextProperty()->SetFontSize(small ? 11 : 13);
+  time_->GetTextProperty()->SetFontSize(small ? 11 : 13);
   title_->SetInput(title.c_str());
   time_->SetInput(time.c_str());
 }

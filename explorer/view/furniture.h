@@ -19,7 +19,8 @@ class Furniture {
   Furniture(vtkRenderWindow* window, vtkRenderer* renderer);
   ~Furniture();
 
-  void set_text(const std::string& title, const std::string& time);
+  /// `small`: of a view that shares the window.
+  void set_text(const std::string& title, const std::string& time, bool small);
   void set_axes(const std::array<const char*, 3>& names);
   /// Of texts and lines; the background is the renderer's.
   void set_ink(double red, double green, double blue);

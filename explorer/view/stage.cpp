@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 namespace cleft {
 
@@ -27,7 +28,7 @@ void Stage::make_views(std::size_t count) {
     const int column = static_cast<int>(i) % columns, row = rows - 1 - static_cast<int>(i) / columns;
     renderer->SetViewport(double(column) / columns, double(row) / rows, double(column + 1) / columns,
                           double(row + 1) / rows);
-    views_.back().view->set_legend(i + 1 == static_cast<std::size_t>(columns) || count == 1);
+    views_.back().view->set_legend(i + 1 == count);
     if (i > 0) renderer->SetActiveCamera(view(0).renderer()->GetActiveCamera());
     window_->AddRenderer(renderer);
     views_.back().furniture = std::make_unique<Furniture>(window_, renderer);
@@ -92,17 +93,32 @@ void Stage::aim(const CameraState& camera, bool fresh) {
   for (View& v : views_) v.view->renderer()->ResetCameraClippingRange();
 }
 
+/// "skin.prestress_v=0.05" as "prestress_v=0.05", so that it fits a small view.
+std::string without_groups(const std::string& name) {
+  std::string out;
+  std::istringstream words(name);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('='), dot = word.rfind('.', equals);
+    out += (out.empty() ? "" : " ") +
+           (equals == std::string::npos || dot == std::string::npos ? word : word.substr(dot + 1));
+  }
+  return out;
+}
+
 void Stage::label(Session& session) {
   const bool dark = session.state().dark;
   const std::vector<int> cases = session.views();
   for (std::size_t i = 0; i < views_.size(); ++i) {
     std::string title;
-    if (session.study())
-      title = "case " + std::to_string(cases[i] + 1) + ": " + session.study()->name(cases[i]);
+    if (session.study()) {
+      const std::string name = session.study()->name(cases[i]);
+      title =
+          "case " + std::to_string(cases[i] + 1) + ": " + (views_.size() > 1 ? without_groups(name) : name);
+    }
     char time[80];
     std::snprintf(time, sizeof time, "%.1f of %.1f mm cut", views_[i].view->time(),
                   views_[i].view->duration());
-    views_[i].furniture->set_text(title, time);
+    views_[i].furniture->set_text(title, time, views_.size() > 1);
     if (session.mesh())
       views_[i].furniture->set_axes({"x", "y", "z"});
     else

@@ -2,6 +2,7 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkCellPicker.h>
 #include <vtkLight.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -41,11 +42,11 @@ vtkSmartPointer<vtkScalarBarActor> make_legend(vtkLookupTable* colors, const std
   vtkNew<vtkScalarBarActor> legend;
   legend->SetLookupTable(colors);
   legend->SetTitle(title.c_str());
-  legend->SetNumberOfLabels(3);
+  legend->SetNumberOfLabels(2);  // the ends: the middle is the title's
   legend->SetLabelFormat("%.2g");
   legend->SetOrientationToHorizontal();
-  legend->SetPosition(0.70, 0.87);
-  legend->SetWidth(0.27);
+  legend->SetPosition(0.33, 0.015);
+  legend->SetWidth(0.34);
   legend->SetHeight(0.11);
   legend->SetBarRatio(0.22);
   legend->SetVerticalTitleSeparation(6);
@@ -150,6 +151,7 @@ void WoundView::add_actors() {
     skin_actor->GetProperty()->SetDiffuse(0.62);
   }
   add_prop(skin_actor);
+  skin_actor_ = skin_actor;
   vtkSmartPointer<vtkActor> walls = make_actor(*walls_, tissue_colors());
   walls->GetProperty()->SetSpecular(0.3);  // moist
   walls->GetProperty()->SetSpecularPower(40);
@@ -192,6 +194,21 @@ void WoundView::set_time(double t) {
   if (coloring_ == Coloring::tissue) return;
   scene_->values(coloring_, reference_.get(), time_, values_);
   skin_->color([this](int p) { return values_[static_cast<std::size_t>(p)]; });
+}
+
+std::optional<WoundView::Place> WoundView::skin_at(int x, int y) {
+  vtkNew<vtkCellPicker> picker;
+  picker->SetTolerance(0);
+  if (!picker->Pick(x, y, 0, renderer_) || picker->GetActor() != skin_actor_ || picker->GetCellId() < 0)
+    return {};
+  const auto corners = skin_->corners(static_cast<std::size_t>(picker->GetCellId()));
+  const double* p = picker->GetPCoords();
+  const std::vector<Vec3>& rest = scene_->surface().points;
+  const auto corner = [&](int i) {
+    return rest[static_cast<std::size_t>(corners[static_cast<std::size_t>(i)])];
+  };
+  return Place{(1 - p[0] - p[1]) * corner(0) + p[0] * corner(1) + p[1] * corner(2),
+               normalized(cross(corner(1) - corner(0), corner(2) - corner(0)))};
 }
 
 void WoundView::aim(const CameraState& state) {

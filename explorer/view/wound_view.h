@@ -1,6 +1,7 @@
 // Draws a wound scene with VTK: skin, the walls of the wound by depth, lights, camera.
 #pragma once
 
+#include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkProp.h>
 #include <vtkRenderer.h>
@@ -43,6 +44,13 @@ class WoundView {
   /// Of all times, of strain the 99th percentile: the upper end of the colours where no range is given.
   double largest_value(Coloring coloring, const Field* reference);
 
+  /// A place of the skin, where it is at rest.
+  struct Place {
+    Vec3 position, outward;
+  };
+  /// What lies under a pixel of the window, counted from the lower left; none beside the skin.
+  std::optional<Place> skin_at(int x, int y);
+
   const std::vector<Vec3>& points() const { return points_; }  ///< as drawn
   vtkRenderer* renderer() const { return renderer_; }
 
@@ -55,6 +63,7 @@ class WoundView {
 
   vtkNew<vtkRenderer> renderer_;
   std::vector<vtkSmartPointer<vtkProp>> props_;  // what the scene put into the renderer
+  vtkSmartPointer<vtkActor> skin_actor_;
   std::shared_ptr<const WoundScene> scene_;
   std::optional<SurfacePart> skin_, walls_;
   std::vector<Vec3> points_;

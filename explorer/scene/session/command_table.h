@@ -44,7 +44,8 @@ class CommandWords {
 struct Command {
   std::string name, arguments, help;
   void (*run)(Session&, CommandWords&);
-  bool recorded = true;  ///< what is only asked or written is no part of a recording of the state
+  /// What is only asked or written is no part of a recording; of `latest`, several in a row are one.
+  enum Recording { all, latest, none } recorded = all;
 };
 
 struct CommandGroup {

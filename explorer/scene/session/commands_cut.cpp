@@ -15,7 +15,7 @@ void mesh(Session& session, CommandWords& words) {
 void patch(Session& session, CommandWords&) { session.show_patch(); }
 
 /// Points in mm; `depth N` at the end is for all that have none of their own.
-void cut(Session& session, CommandWords& words) {
+CutState read_cut(CommandWords& words) {
   CutState cut;
   while (!words.empty()) {
     const std::string word = words.text("a point");
@@ -30,8 +30,11 @@ void cut(Session& session, CommandWords& words) {
     cut.points.push_back({{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, x.size() > 6 ? x[6] : 0});
   }
   if (cut.points.size() < 2) words.wrong("a cut needs two points");
-  session.cut(cut);
+  return cut;
 }
+
+void cut(Session& session, CommandWords& words) { session.cut(read_cut(words)); }
+void recut(Session& session, CommandWords& words) { session.recut(read_cut(words)); }
 
 void cut_file(Session& session, CommandWords& words) {
   const std::string file = words.text("a path file");
@@ -70,12 +73,14 @@ std::span<const Command> cut_commands() {
       {"mesh", "FILE [MM_PER_UNIT]", "a surface mesh to cut: .stl .obj .ply .vtp", mesh},
       {"patch", "", "back to the patch that was simulated", patch},
       {"cut", "X,Y,Z,NX,NY,NZ[,DEPTH] ... [depth MM]", "cut along places with outward normals, mm", cut},
+      {"recut", "X,Y,Z,NX,NY,NZ[,DEPTH] ... [depth MM]", "the last cut goes there instead", recut,
+       Command::latest},
       {"cut-file", "PATH.csv", "cut along a path file: x,y,z,nx,ny,nz[,depth], in the mesh's units",
        cut_file},
       {"undo", "", "take the last cut back", undo},
       {"redo", "", "make it again", redo},
       {"export", "FILE", "write the surface as it is shown: .vtp .stl .obj, in the mesh's units", export_mesh,
-       false},
+       Command::none},
   };
   return commands;
 }

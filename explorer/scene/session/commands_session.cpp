@@ -49,12 +49,8 @@ void info(Session& session, CommandWords&) {
                    ": " + session.study()->name(s.shown));
     session.answer("largest error of the field: " + shortest(100 * field->report.node_error) +
                    " % of the largest displacement, " + shortest(field->report.largest_displacement) + " mm");
-    double widest = 0;
-    constexpr int samples = 200;
-    for (int i = 1; i < samples; ++i)
-      widest = std::max(widest, gape(*field, field->cut().start + field->cut().length * i / samples,
-                                     std::min(s.time, field->duration())));
-    session.answer("widest gape at " + shortest(s.time) + " mm cut: " + shortest(widest) + " mm");
+    session.answer("widest gape at " + shortest(s.time) +
+                   " mm cut: " + shortest(widest_gape(*field, std::min(s.time, field->duration()))) + " mm");
   }
   if (!s.mesh.empty()) session.answer("mesh: " + s.mesh + ", cuts: " + std::to_string(s.cuts.size()));
   session.answer("length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");
@@ -71,12 +67,12 @@ void help(Session& session, CommandWords& words) {
 std::span<const Command> session_commands() {
   static const std::vector<Command> commands{
       {"screenshot", "FILE [WIDTH [HEIGHT]]", "write a PNG, which holds the saved session too", screenshot,
-       false},
-      {"save", "FILE.json", "save the session", save, false},
+       Command::none},
+      {"save", "FILE.json", "save the session", save, Command::none},
       {"load", "FILE.json|FILE.png", "go on with a saved session", load},
-      {"record", "FILE", "write the commands said so far, as a script", record, false},
-      {"info", "", "what is shown, with its figures", info, false},
-      {"help", "[COMMAND]", "this sheet, or a line of it", help, false},
+      {"record", "FILE", "write the commands said so far, as a script", record, Command::none},
+      {"info", "", "what is shown, with its figures", info, Command::none},
+      {"help", "[COMMAND]", "this sheet, or a line of it", help, Command::none},
   };
   return commands;
 }

@@ -71,6 +71,23 @@ void difference(Session& session, CommandWords& words) {
   session.changes().coloring = true;
 }
 
+void brush(Session& session, CommandWords& words) {
+  const std::string name = words.text("a parameter or figure, or 'clear'");
+  if (name == "clear" && words.empty()) {
+    session.edit().brushes.clear();
+  } else {
+    const std::vector<std::string> names = session.column_names();
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      words.wrong("'" + name + "' is neither a parameter that differs nor a figure" +
+                  did_you_mean(name, names));
+    if (words.empty()) words.wrong("needs two numbers");
+    const double low = words.number("the lower end"), high = words.number("the upper end");
+    if (low > high) words.wrong("the lower end must not be above the upper end");
+    session.edit().brushes[name] = {low, high};
+  }
+  session.changes().brushes = true;
+}
+
 }  // namespace
 
 std::span<const Command> study_commands() {
@@ -81,7 +98,9 @@ std::span<const Command> study_commands() {
       {"next", "", "show the next case", next},
       {"previous", "", "show the case before", previous},
       {"set", "PARAMETER VALUE", "show the case nearest to this value, the others kept", set},
-      {"cases", "", "list the cases by the parameters in which they differ", list_cases, false},
+      {"cases", "", "list the cases by the parameters in which they differ", list_cases, Command::none},
+      {"brush", "NAME LOW HIGH | clear", "fade cases whose parameter or figure is outside", brush,
+       Command::latest},
       {"compare", "N N [N [N]]", "show two to four cases side by side", compare},
       {"single", "", "show one case again", single},
       {"difference", "N", "colour by the difference from case N", difference},

@@ -40,7 +40,7 @@ void wait(Session& session, CommandWords& words) {
 
 std::span<const Command> time_commands() {
   static const std::vector<Command> commands{
-      {"time", "MM", "show the wound when this length is cut", time},
+      {"time", "MM", "show the wound when this length is cut", time, Command::latest},
       {"step", "[MM]", "go on by a length, back where it is negative [1]", step},
       {"end", "", "show the whole cut", end},
       {"play", "", "let the blade go on; from the start where it is at the end", play},

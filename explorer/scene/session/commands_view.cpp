@@ -70,8 +70,10 @@ std::span<const Command> view_commands() {
   static const std::vector<Command> commands{
       {"color", names, "what the surface is coloured by", color},
       {"range", "LOW HIGH | auto", "of the colours; auto: from 0 to the largest of all times", range},
-      {"camera", "AZIMUTH ELEVATION [ZOOM]", "degrees from the cut's normal; at zoom 1 all is seen", camera},
-      {"look", "X,Y,Z FX,FY,FZ UX,UY,UZ [ANGLE]", "camera, the place it looks at, up, view angle", look},
+      {"camera", "AZIMUTH ELEVATION [ZOOM]", "degrees from the cut's normal; at zoom 1 all is seen", camera,
+       Command::latest},
+      {"look", "X,Y,Z FX,FY,FZ UX,UY,UZ [ANGLE]", "camera, the place it looks at, up, view angle", look,
+       Command::latest},
       {"theme", "light|dark", "of window and pictures", theme},
   };
   return commands;

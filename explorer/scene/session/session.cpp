@@ -36,10 +36,14 @@ void Session::say(const std::string& line) {
     rest.expect_end();
   } catch (...) {  // as it was
     state_ = state, study_ = study, mesh_ = mesh;
-    cut_surfaces_.clear(), scenes_.clear();
+    cut_surfaces_.clear(), scenes_.clear(), figures_.clear();
     throw;
   }
-  if (command.recorded) said_.push_back(line);
+  if (command.recorded != Command::none) {
+    const bool again = !said_.empty() && split_line(said_.back()).front() == command.name;
+    if (again && command.recorded == Command::latest) said_.pop_back();
+    said_.push_back(line);
+  }
   notify();
 }
 
@@ -120,11 +124,13 @@ void Session::load_study(const std::string& path) {
   state_.study = absolute(path);
   scenes_.clear();
   cut_surfaces_.clear();
+  figures_.clear();
 }
 
 void Session::open(const std::string& path) {
   load_study(path);
   state_.compared.clear();
+  state_.brushes.clear();
   state_.reference = -1;
   if (state_.coloring == Coloring::difference) state_.coloring = Coloring::displacement;
   state_.shown = 0;
@@ -196,6 +202,33 @@ bool Session::shows_exactly() const {
   });
 }
 
+const CaseFigures& Session::figures(int i) {
+  const auto found = figures_.find(i);
+  return found != figures_.end() ? found->second
+                                 : figures_.emplace(i, case_figures(open_study().read(i))).first->second;
+}
+
+std::vector<std::string> Session::column_names() const {
+  std::vector<std::string> names = open_study().varying();
+  for (const FigureText& f : figure_texts()) names.push_back(f.name);
+  return names;
+}
+
+double Session::column_value(int i, const std::string& name) {
+  for (const FigureText& f : figure_texts())
+    if (f.name == name) return f.value(figures(i));
+  const auto& values = open_study().parameters(i);
+  const auto found = values.find(name);
+  return found == values.end() ? std::nan("") : found->second;
+}
+
+bool Session::brushed(int i) {
+  return std::all_of(state_.brushes.begin(), state_.brushes.end(), [&](const auto& brush) {
+    const double value = column_value(i, brush.first);
+    return value >= brush.second.first && value <= brush.second.second;
+  });
+}
+
 void Session::read_mesh_in_mm() {
   SurfaceMesh mesh = services_.read_mesh(state_.mesh);
   for (Vec3& x : mesh.points) x *= state_.scale;
@@ -238,6 +271,12 @@ void Session::cut(const CutState& cut) {
   if (first && !state_.camera.pose) changes_.camera = true;  // angles count from the first cut
 }
 
+void Session::recut(const CutState& cut) {
+  if (state_.cuts.empty()) throw InputError("there is no cut yet (say: cut ...)");
+  state_.cuts.back() = cut;
+  cuts_changed();
+}
+
 void Session::undo() {
   if (state_.cuts.empty()) throw InputError("there is no cut to undo");
   state_.undone.push_back(state_.cuts.back());
@@ -255,6 +294,13 @@ void Session::redo() {
 void Session::set_time(double t) {
   state_.time = std::clamp(t, 0., duration());
   changes_.time = true;
+}
+
+void Session::tick(double seconds) {
+  if (!state_.playing) return;
+  changes_ = {};
+  advance(seconds);
+  notify();
 }
 
 void Session::advance(double seconds) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "explorer/incision/surface_mesh.h"
+#include "explorer/scene/case_figures.h"
 #include "explorer/scene/cut_surface.h"
 #include "explorer/scene/session/session_state.h"
 #include "explorer/scene/study.h"
@@ -31,8 +32,8 @@ struct SessionServices {
 /// What a line has changed, for those who listen.
 struct Changes {
   bool study = false, shown = false, cuts = false, time = false, playing = false, coloring = false,
-       camera = false, layout = false, look = false;
-  void all() { study = shown = cuts = time = playing = coloring = camera = layout = look = true; }
+       camera = false, layout = false, look = false, brushes = false;
+  void all() { study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = true; }
 };
 
 class Session {
@@ -69,6 +70,18 @@ class Session {
   /// Whether the shown case has exactly the parameters asked for.
   bool shows_exactly() const;
 
+  /// Of case i, read where they are not known yet.
+  const CaseFigures& figures(int i);
+  bool knows_figures(int i) const { return figures_.count(i) > 0; }
+  /// Parameters that differ, and figures; and case i's value, not a number where it has none.
+  std::vector<std::string> column_names() const;
+  double column_value(int i, const std::string& name);
+  /// Whether no brush fades case i.
+  bool brushed(int i);
+
+  /// What playing does in that time, told to listeners.
+  void tick(double seconds);
+
   // For commands.
   void open(const std::string& path);
   void close();
@@ -77,6 +90,7 @@ class Session {
   void load_mesh(const std::string& file, double scale);
   void show_patch();
   void cut(const CutState& cut);
+  void recut(const CutState& cut);
   void undo();
   void redo();
   void set_time(double t);
@@ -87,6 +101,7 @@ class Session {
   SessionState& edit() { return state_; }
   Changes& changes() { return changes_; }
   void answer(const std::string& text) const;
+  void answer_to(std::function<void(const std::string&)> answer) { services_.answer = std::move(answer); }
 
  private:
   void load_study(const std::string& path);
@@ -103,6 +118,7 @@ class Session {
   std::shared_ptr<const SurfaceMesh> mesh_;
   std::map<double, std::shared_ptr<const CutSurface>> cut_surfaces_;  // by depth
   std::map<int, std::shared_ptr<const WoundScene>> scenes_;           // of the cases in the views
+  std::map<int, CaseFigures> figures_;
   std::vector<std::string> said_;
   std::vector<Listener> listeners_;
   Changes changes_;

@@ -76,6 +76,7 @@ SessionState to_state(const Json& j) {
   s.speed = j.at("speed");
   s.coloring = coloring_of(j.at("color"));
   if (!j.at("range").is_null()) s.range = j.at("range").get<std::pair<double, double>>();
+  s.brushes = j.at("brushes").get<std::map<std::string, std::pair<double, double>>>();
   s.reference = j.at("reference").get<int>() - 1;
   for (const Json& c : j.at("compared")) s.compared.push_back(c.get<int>() - 1);
   s.camera = to_camera(j.at("camera"));
@@ -103,6 +104,7 @@ std::string state_to_json(const SessionState& s) {
                {"speed", s.speed},
                {"color", text_of(s.coloring).name},
                {"range", s.range ? Json{s.range->first, s.range->second} : Json()},
+               {"brushes", s.brushes},
                {"reference", s.reference + 1},
                {"compared", compared},
                {"camera", to_json(s.camera)},

@@ -44,7 +44,9 @@ struct SessionState {
   Coloring coloring = Coloring::displacement;
   std::optional<std::pair<double, double>> range;  ///< of colours; none: from 0 to the largest of all times
   int reference = -1;                              ///< the case from which `difference` is taken
-  std::vector<int> compared;                       ///< two to four cases side by side; empty: one view
+  /// Cases outside these ranges of parameters and figures are faded.
+  std::map<std::string, std::pair<double, double>> brushes;
+  std::vector<int> compared;  ///< two to four cases side by side; empty: one view
   CameraState camera;
   bool dark = false;
 };
