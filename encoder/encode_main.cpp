@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "encoder/encode.h"
 #include "encoder/field/field_file.h"
+#include "encoder/field/field_record.h"
 
 using namespace cleft;
 
@@ -21,28 +22,16 @@ constexpr double most_control_points = 2e7;  // a file of 240 MB: no summary any
 constexpr double least_tolerance = 1e-9;
 
 Json figures_of(const Field& field, const Snapshot& snapshot, const std::string& out) {
-  const FitReport& r = field.report;
   const double raw = 3.0 * sizeof(float) * static_cast<double>(snapshot.points.size() * snapshot.frames());
   const double bytes = static_cast<double>(std::filesystem::file_size(out));
-  Json figures{{"control_points",
-                {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
-               {"relative_l2", r.relative_l2},
-               {"node_error", r.node_error},
-               {"spline_error", r.spline_error},
-               {"frame_error", r.frame_error},
-               {"gape_error", r.gape_error},
-               {"crease_degrees", r.crease},
-               {"overlap_mm", r.overlap},
-               {"least_volume", r.least_volume},
-               {"fit_seconds", r.fit_seconds},
-               {"measure_seconds", r.measure_seconds},
-               {"false_gap", r.false_gap},
-               {"largest_displacement_mm", r.largest_displacement},
-               {"condition", r.condition},
-               {"quantum_mm", field.quantum},
-               {"parametrization", field.parametrization().name()},
-               {"bytes", bytes},
-               {"ratio_to_32_bit", raw / bytes}};
+  Json figures = shown(field.report);
+  figures.update(
+      {{"control_points",
+        {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
+       {"quantum_mm", field.quantum},
+       {"parametrization", field.parametrization().name()},
+       {"bytes", bytes},
+       {"ratio_to_32_bit", raw / bytes}});
   for (const Quantity& quantity : field.quantities)
     figures["quantities"].push_back({{"name", quantity.name}, {"error", quantity.error}});
   return figures;
