@@ -53,17 +53,7 @@ struct Inputs {
   int shift;
   std::int64_t inverse;  // 2^36 over the sum of squares and 10 quanta's
 
-  explicit Inputs(const std::array<std::int32_t, inputs>& full) {
-    std::int32_t most = 0;
-    for (const std::int32_t value : full) most |= value ^ (value >> 31);
-    shift = std::max(0, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(most))) - 12);
-    for (int n = 0; n < inputs; ++n) x[n] = static_cast<std::int16_t>(full[n] >> shift);
-    std::int32_t size = (10 << 16) >> std::min(30, 2 * shift);
-    for (int n = 0; n < inputs; ++n) size += x[n] * x[n];
-    // In doubles, several times quicker, and exact: the quotient is off from a whole number by 1 / size or
-    // more, if it is none, and size is less than 2^31.
-    inverse = static_cast<std::int64_t>(0x1p36 / size);
-  }
+  explicit Inputs(const std::array<std::int32_t, inputs>& full);
 };
 
 /// Least mean squares, normalised by the inputs' size: forgets quickly, and so follows what changes from
@@ -71,22 +61,9 @@ struct Inputs {
 struct LinearPredictor {
   alignas(16) std::array<std::int16_t, inputs> weight{};  // units of 2^-14, at most 1.5
 
-  std::int64_t operator()(const Inputs& in) const {
-    std::int32_t sum = 0;
-    for (int n = 0; n < inputs; ++n) sum += weight[n] * in.x[n];
-    return (std::int64_t{sum} << in.shift) >> 14;
-  }
+  std::int64_t operator()(const Inputs& in) const;
   /// rate / 256: the part of the error that is mended at once.
-  void learn(const Inputs& in, std::int64_t error, int rate) {
-    const std::int64_t gain = ((error >> in.shift) * rate * in.inverse) >> 22;
-    const auto factor = static_cast<std::int16_t>(std::clamp<std::int64_t>(gain, -511, 511) * 64);
-    for (int n = 0; n < inputs; ++n) {
-      const auto input = static_cast<std::int16_t>(in.x[n] * 4);
-      const auto step = static_cast<std::int16_t>((factor * input) >> 16);
-      const auto next = static_cast<std::int16_t>(weight[n] + step);
-      weight[n] = std::clamp<std::int16_t>(next, -24576, 24576);
-    }
-  }
+  void learn(const Inputs& in, std::int64_t error, int rate);
 };
 
 /// Which slices are known when one is coded: halfway between two known ones, the last first.
