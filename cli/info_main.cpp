@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/sealed_json.h"
 #include "encoder/field/field_file.h"
+#include "encoder/field/field_record.h"
 #include "encoder/field/study_file.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -49,14 +50,6 @@ Json info_of_snapshot(const std::string& file) {
   return info;
 }
 
-Json list_of(const FitReport& r) {
-  return {{"relative_l2", r.relative_l2},   {"node_error", r.node_error},
-          {"spline_error", r.spline_error}, {"gape_error", r.gape_error},
-          {"false_gap", r.false_gap},       {"frame_error", r.frame_error},
-          {"crease_degrees", r.crease},     {"overlap_mm", r.overlap},
-          {"least_volume", r.least_volume}, {"largest_displacement_mm", r.largest_displacement}};
-}
-
 Json list_of(const Interpolation& made) {
   return {{"method", made.method},
           {"cases", made.cases},
@@ -86,7 +79,7 @@ Json info_of_field(const std::string& file) {
       {"quantum_mm", field.quantum},
       {"domain_mm", domain},
       {"cut", {{"start", field.cut().start}, {"length", field.cut().length}, {"depth", field.cut().depth}}},
-      {"report", list_of(field.report)},
+      {"report", shown(field.report)},
       {"bytes", std::filesystem::file_size(file)},
       {"parameters", field.parameters}};
   for (const Quantity& quantity : field.quantities)
@@ -107,7 +100,7 @@ Json info_of_study(const std::string& file) {
                      {"case", study.case_hash(i)},
                      {"bytes", study.coefficient_bytes(i)},
                      {"modes_error", study.modes_error(i)},
-                     {"report", list_of(study.report(i))},
+                     {"report", shown(study.report(i))},
                      {"parameters", study.parameters(i)}});
   return {{"format", "cleft-study"},
           {"cases", study.size()},

@@ -21,6 +21,7 @@ namespace {
 // coefficients would in the worst case.
 constexpr double share_of_space = 0.9, share_of_fit = 0.97, share_of_steps = 0.07;
 constexpr double farthest = 0.625;  // steps a coefficient may be moved to be cheaper
+constexpr double finest = 1e-9;     // bound that steps are made for, over the largest displacement
 
 class Encoder {
  public:
@@ -79,9 +80,10 @@ class Encoder {
   /// The field and its report, with steps of its coefficients that keep `bound`, mm.
   Field with_steps(const SeriesFit& fit, double bound) const {
     progress_("choosing the coefficients' steps");
+    bound = std::max(bound, finest * scale_);
     // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
     // steps.
-    double step = share_of_steps * 2 / std::sqrt(3.) * std::max(bound, 1e-9 * scale_);
+    double step = share_of_steps * 2 / std::sqrt(3.) * bound;
     const Field exact = with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest * step);
     for (int halvings = 0;; ++halvings, step /= 1.5) {
       Field field = quantised(exact, step, farthest);

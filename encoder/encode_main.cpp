@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "encoder/encode.h"
 #include "encoder/field/field_file.h"
+#include "encoder/field/field_record.h"
 
 using namespace cleft;
 
@@ -23,28 +24,18 @@ constexpr double most_control_points = 2e7;  // a file of 240 MB: no summary any
 constexpr double least_tolerance = 1e-9;
 
 Json figures_of(const Field& field, const Snapshot& snapshot, const std::string& out) {
-  const FitReport& r = field.report;
   const double raw = 3.0 * sizeof(float) * static_cast<double>(snapshot.points.size() * snapshot.frames());
   const double bytes = static_cast<double>(std::filesystem::file_size(out));
-  Json figures{{"control_points",
-                {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
-               {"relative_l2", r.relative_l2},
-               {"node_error", r.node_error},
-               {"spline_error", r.spline_error},
-               {"frame_error", r.frame_error},
-               {"gape_error", r.gape_error},
-               {"crease_degrees", r.crease},
-               {"overlap_mm", r.overlap},
-               {"least_volume", r.least_volume},
-               {"fit_seconds", r.fit_seconds},
-               {"measure_seconds", r.measure_seconds},
-               {"false_gap", r.false_gap},
-               {"largest_displacement_mm", r.largest_displacement},
-               {"condition", r.condition},
-               {"quantum_mm", field.quantum},
-               {"parametrization", field.parametrization().name()},
-               {"bytes", bytes},
-               {"ratio_to_32_bit", raw / bytes}};
+  Json figures = shown(field.report);
+  figures.update(
+      {{"control_points",
+        {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
+       {"fit_seconds", field.report.fit_seconds},
+       {"measure_seconds", field.report.measure_seconds},
+       {"quantum_mm", field.quantum},
+       {"parametrization", field.parametrization().name()},
+       {"bytes", bytes},
+       {"ratio_to_32_bit", raw / bytes}});
   figures["versions"] = {
       {"cleft", producer()},
       {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +

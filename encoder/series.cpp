@@ -123,14 +123,8 @@ Series::Series(const SnapshotReader& reader) {
     const std::vector<Vec3> d = reader.displacement(j);
     Eigen::MatrixX3d& frame = frames.emplace_back(static_cast<Eigen::Index>(d.size()), 3);
     for (std::size_t n = 0; n < d.size(); ++n)
-      for (int axis = 0; axis < 3; ++axis) {
-        const double value = d[n][axis] - closed[n][axis];
-        if (!std::isfinite(value))
-          throw InputError("frame " + std::to_string(std::isfinite(closed[n][axis]) ? j : 0) + ", node " +
-                           std::to_string(n) + ": the displacement " + "uvw"[axis] + " is " +
-                           shortest(d[n][axis]) + "; a field can only stand for finite numbers");
-        frame(static_cast<Eigen::Index>(n), axis) = value;
-      }
+      for (int axis = 0; axis < 3; ++axis)
+        frame(static_cast<Eigen::Index>(n), axis) = d[n][axis] - closed[n][axis];
     largest.push_back(frame.rowwise().norm().maxCoeff());
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());

@@ -30,8 +30,8 @@ struct Series {
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: how many of them are open
 
-  /// Reads all frames: 24 N F bytes. Throws InputError where there are fewer than two frames, a displacement
-  /// is not finite (frame and node are named), or the cut is not in the plane v = 0.
+  /// Reads all frames: 24 N F bytes. Throws InputError where there are fewer than two frames, or the cut is
+  /// not in the plane v = 0; FileError that names frame and node where a displacement is not finite.
   explicit Series(const SnapshotReader& reader);
 };
 

@@ -1,12 +1,11 @@
 #include "encoder/series_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <atomic>
-#include <optional>
 
 #include "base/error.h"
 #include "encoder/parallel.h"
+#include "encoder/series_system.h"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // absent in other BLAS libraries
 
@@ -18,12 +17,14 @@ namespace {
 // costs the data nothing; and what knots are compared with.
 constexpr double strengths[] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
 constexpr int usual = 1;
-constexpr double hardly_any = 1e-10, of_search = 1e-6;
+constexpr double hardly_any = 1e-10, of_search = 1e-6, weakest_strength = 1e-8;
 constexpr double regularisation_cost = 1.05;  // of the data's error, at most
 constexpr double of_first = 0.02;             // and of the first frame, of which one column tells little
-constexpr double time_roughness = 1e-9;       // holds what few frames leave open
 constexpr double residual_bound = 1e-5;       // of the right-hand side, where iterations stop
-constexpr int most_iterations = 60;
+// Data may be a spline of the space where the fit is off by no more than `nearly` of them, or fits of single
+// frames next to nothing. It is then looked for, and found where it is off by no more than `found`.
+constexpr double nearly = 1e-3, next_to_nothing = 1e-5, found = 1e-11;
+constexpr int most_refinements = 40;
 
 std::array<BSplineBasis, 3> in_space(const std::array<BSplineBasis, 4>& bases) {
   return {bases[0], bases[1], bases[2]};
@@ -74,20 +75,23 @@ SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization
   }
   choose_strength();
   solve();
+  refine();
 }
 
 /// The strongest regularisation that costs the first, an early and the last frame next to nothing.
 void SeriesFit::choose_strength() {
   const std::size_t frames = series_.times.size(), some[] = {1, 1 + frames / 8, frames - 1};
   int chosen[3];
+  double reached[3];
   parallel_for(3, [&](int i) {
     const std::size_t j = some[i];
     const Eigen::MatrixX3d right = fit_.project(j);
     const auto cost = [&](double of) {
       return fit_.misfit(fit_.space().factorize(fit_.normal(j, of)).solve(right), j).norm();
     };
-    const double most =
-        regularisation_cost * cost(hardly_any) + (j == 1 ? of_first : 1e-9) * series_.frames[j].norm();
+    const double least = cost(hardly_any), all = series_.frames[j].norm();
+    reached[i] = least / std::max(all, 1e-300);
+    const double most = regularisation_cost * least + (j == 1 ? of_first : 1e-9) * all;
     int strength = usual;
     if (cost(strengths[strength]) <= most)
       while (strength > 0 && cost(strengths[strength - 1]) <= most) --strength;
@@ -97,130 +101,76 @@ void SeriesFit::choose_strength() {
     chosen[i] = strength;
   });
   strength_ = strengths[*std::max_element(chosen, chosen + 3)];
+  reached_ = *std::max_element(reached, reached + 3);
 }
 
 void SeriesFit::solve() {
-  const int frames = static_cast<int>(in_time_.rows()), T = static_cast<int>(in_time_.cols()),
-            n = ties().size();
-  const TipPath& tip = parametrization_->geometry().tip;
-  const bool same = !parametrization_->moves() || tip.positions.front() == tip.positions.back();
-
-  // In t: values^T values, with what holds control points that few frames see; its Cholesky factor.
-  Eigen::MatrixXd in_t = in_time_.transpose() * in_time_;
-  const double hold = time_roughness * in_t.diagonal().mean();
-  Eigen::MatrixXd roughness = Eigen::MatrixXd::Zero(T, T);
-  for (int i = 1 - first_; i + 1 < T; ++i) {  // second differences; a first control point of 0 is one of them
-    Eigen::VectorXd d = Eigen::VectorXd::Zero(T);
-    if (i > 0) d(i - 1) = 1;
-    d(i) = -2, d(i + 1) = 1;
-    roughness += d * d.transpose();
-  }
-  in_t += hold * (roughness + Eigen::MatrixXd::Identity(T, T));
-  const Eigen::LLT<Eigen::MatrixXd> time_factor(in_t);
-
-  // Right-hand side, T blocks of n x 3, and the frames' normal matrices.
-  using Blocks = std::vector<Eigen::MatrixXd>;
-  Blocks projected(frames);
-  std::vector<SpaceFit::Normal> normals(same ? 1 : frames);
+  const int frames = static_cast<int>(in_time_.rows());
+  std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(frames));
+  std::vector<SpaceFit::Normal> normals(same_in_all_frames() ? 1 : projected.size());
   parallel_for(frames, [&](int j) {
     const auto frame = static_cast<std::size_t>(j + first_);
-    projected[j] = fit_.project(frame);
-    if (!same || j == 0) normals[j] = fit_.normal(frame, strength_);
+    projected[static_cast<std::size_t>(j)] = fit_.project(frame);
+    if (static_cast<std::size_t>(j) < normals.size())
+      normals[static_cast<std::size_t>(j)] = fit_.normal(frame, strength_);
   });
-  const auto over_frames = [&](const Blocks& of_frames) {
-    Blocks sums(T);
-    parallel_for(T, [&](int l) {
-      sums[l] = Eigen::MatrixXd::Zero(n, 3);
-      for (int j = 0; j < frames; ++j)
-        if (in_time_(j, l) != 0) sums[l] += in_time_(j, l) * of_frames[j];
-    });
-    return sums;
-  };
-  const auto mixed = [&](const Eigen::MatrixXd& factors, const Blocks& x) {
-    Blocks y(T);
-    parallel_for(T, [&](int l) {
-      y[l] = Eigen::MatrixXd::Zero(n, 3);
-      for (int k = 0; k < T; ++k)
-        if (factors(l, k) != 0) y[l] += factors(l, k) * x[k];
-    });
-    return y;
-  };
-  const Blocks right = over_frames(projected);
+  const SeriesSystem system(fit_.space(), in_time_, first_ > 0, std::move(normals));
+  control_points_ = Eigen::MatrixXd::Zero(in_time_.cols(), 3 * ties().size());
+  add(system.solve(system.over_frames(projected), residual_bound));
+  condition_ = system.condition(), iterations_ = system.iterations();
+}
 
-  // The preconditioner: L^-T blockdiag(N_l)^-1 L^-1 with N_l the mean of the normal matrices that l sees.
-  std::vector<std::optional<SpaceFit::Factor>> factors(same ? 1 : T);
-  parallel_for(static_cast<int>(factors.size()), [&](int l) {
-    SpaceFit::Normal sum;
-    if (same) {
-      sum = normals[0];
-    } else {
-      double all = 0;
-      for (int j = 0; j < frames; ++j) all += in_time_(j, l) * in_time_(j, l);
-      for (int j = 0; j < frames; ++j)
-        if (const double part = in_time_(j, l) * in_time_(j, l); part > 0)
-          sum.add(part / all, normals[j]);
-        else if (all == 0 && j == std::min(l, frames - 1))
-          sum.add(1, normals[j]);
-    }
-    factors[l].emplace(fit_.space().factorize(sum));
-  });
-  for (const auto& factor : factors) condition_ = std::max(condition_, factor->condition());
-  const Eigen::MatrixXd inverse = time_factor.matrixL().solve(Eigen::MatrixXd::Identity(T, T));  // L^-1
-  const auto precondition = [&](const Blocks& x) {
-    Blocks y = mixed(inverse, x);
-    parallel_for(T, [&](int l) { y[l] = factors[same ? 0 : l]->solve(std::move(y[l])); });
-    return mixed(inverse.transpose(), y);
-  };
-  const auto multiply = [&](const Blocks& x) {
-    Blocks of_frames(frames);
+void SeriesFit::add(const std::vector<Eigen::MatrixXd>& blocks) {
+  for (Eigen::Index l = 0; l < control_points_.rows(); ++l)
+    control_points_.row(l) += blocks[static_cast<std::size_t>(l)].reshaped().transpose();
+}
+
+Eigen::MatrixX3d SeriesFit::errors(Eigen::Index j) const {
+  const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
+  return fit_.misfit(x.reshaped(ties().size(), 3), static_cast<std::size_t>(j + first_));
+}
+
+/// Regularised solutions for what the last one left tend to the one without regularisation that is nearest to
+/// the first (the proximal point method). Worth it only where that has no misfit at all.
+void SeriesFit::refine() {
+  const int frames = static_cast<int>(in_time_.rows());
+  const SpaceFit& space = fit_.space();
+  std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(frames));
+  double data = 0;
+  for (int j = 0; j < frames; ++j) data += series_.frames[static_cast<std::size_t>(j + first_)].squaredNorm();
+  const auto project_misfit = [&] {
+    Eigen::VectorXd squares(frames);
     parallel_for(frames, [&](int j) {
-      Eigen::MatrixX3d at = Eigen::MatrixX3d::Zero(n, 3);
-      for (int l = 0; l < T; ++l)
-        if (in_time_(j, l) != 0) at += in_time_(j, l) * x[l];
-      of_frames[j] = fit_.space().multiply(normals[j], at);
+      const Eigen::MatrixX3d left = errors(j);
+      squares(j) = left.squaredNorm();
+      projected[static_cast<std::size_t>(j)] =
+          space.project(-left, series_.times[static_cast<std::size_t>(j + first_)]);
     });
-    return over_frames(of_frames);
+    return std::sqrt(squares.sum() / std::max(data, 1e-300));
   };
-  const auto products = [&](const Blocks& a, const Blocks& b) {
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (int l = 0; l < T; ++l) sum += a[l].cwiseProduct(b[l]).colwise().sum();
-    return sum;
-  };
-
-  // Conjugate gradients, three right-hand sides side by side; exact at once where the matrix is the product.
-  Blocks x = precondition(right);
-  if (!same) {
-    Blocks residual = right;
-    {
-      const Blocks applied = multiply(x);
-      for (int l = 0; l < T; ++l) residual[l] -= applied[l];
-    }
-    const Eigen::RowVector3d all = products(right, right).cwiseMax(1e-300);
-    Blocks z = precondition(residual), direction = z;
-    Eigen::RowVector3d rz = products(residual, z);
-    while (iterations_ < most_iterations && (products(residual, residual).array() / all.array()).maxCoeff() >
-                                                residual_bound * residual_bound) {
-      const Blocks applied = multiply(direction);
-      const Eigen::RowVector3d curvature = products(direction, applied);
-      Eigen::RowVector3d step = Eigen::RowVector3d::Zero();
-      for (int a = 0; a < 3; ++a) step(a) = curvature(a) > 0 ? rz(a) / curvature(a) : 0;
-      for (int l = 0; l < T; ++l) {
-        x[l] += direction[l] * step.asDiagonal();
-        residual[l] -= applied[l] * step.asDiagonal();
-      }
-      z = precondition(residual);
-      const Eigen::RowVector3d next = products(residual, z);
-      for (int l = 0; l < T; ++l) {
-        Eigen::RowVector3d keep = Eigen::RowVector3d::Zero();
-        for (int a = 0; a < 3; ++a) keep(a) = rz(a) > 0 ? next(a) / rz(a) : 0;
-        direction[l] = z[l] + direction[l] * keep.asDiagonal();
-      }
-      rz = next;
-      ++iterations_;
-    }
+  double misfit = project_misfit();
+  if ((misfit > nearly && reached_ > next_to_nothing) || data == 0) return;
+  std::vector<SpaceFit::Normal> normals(same_in_all_frames() ? 1 : projected.size());
+  parallel_for(static_cast<int>(normals.size()), [&](int j) {
+    normals[static_cast<std::size_t>(j)] =
+        space.normal(series_.times[static_cast<std::size_t>(j + first_)], weakest_strength);
+  });
+  const SeriesSystem system(space, in_time_, first_ > 0, std::move(normals));
+  const Eigen::MatrixXd regularised = control_points_;
+  Eigen::MatrixXd best = control_points_;
+  for (int refinement = 0; refinement < most_refinements; ++refinement) {
+    add(system.solve(system.over_frames(projected), 1e-3));
+    const double now = project_misfit();
+    if (now < misfit) best = control_points_;
+    if (now > 0.5 * misfit) break;
+    misfit = now;
   }
-  control_points_.resize(T, 3 * n);
-  for (int l = 0; l < T; ++l) control_points_.row(l) = x[l].reshaped().transpose();
+  control_points_ = misfit <= found ? best : regularised;
+}
+
+bool SeriesFit::same_in_all_frames() const {
+  const TipPath& tip = parametrization_->geometry().tip;
+  return !parametrization_->moves() || tip.positions.front() == tip.positions.back();
 }
 
 Misfit SeriesFit::misfit(double limit) const {

@@ -24,10 +24,8 @@ double space_misfit(const Series& series, const Parametrization& parametrization
                     const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
                     double limit, double most);
 
-/// The least-squares spline in all four variables. Where the parametrisation does not move, the normal matrix
-/// is a Kronecker product of one in t and one in space, and so solved. Where it moves, that is only a
-/// preconditioner (with a matrix in space for every control point in t, made of the frames it sees) for
-/// conjugate gradients on the sum of the frames' products.
+/// The least-squares spline in all four variables (see SeriesSystem). Data that are a spline of the space are
+/// reproduced to rounding: there the regularisation is iterated away.
 class SeriesFit {
  public:
   /// What the data are in frame 0: nothing, and then the spline is exactly that at t = 0, or anything.
@@ -57,6 +55,10 @@ class SeriesFit {
  private:
   void choose_strength();
   void solve();
+  void refine();
+  void add(const std::vector<Eigen::MatrixXd>& blocks);  ///< n x 3 for every control point in t
+  Eigen::MatrixX3d errors(Eigen::Index j) const;         ///< at the nodes, of the frame of in_time_'s row
+  bool same_in_all_frames() const;
 
   const Series& series_;
   std::shared_ptr<const Parametrization> parametrization_;
@@ -66,6 +68,7 @@ class SeriesFit {
   Eigen::MatrixXd in_time_;  // frames by control points in t, both from the first on
   Eigen::MatrixXd control_points_;
   double strength_ = 0, condition_ = 1;
+  double reached_ = 0;  // misfit of fits of single frames that are hardly regularised, over the data
   int iterations_ = 0;
 };
 

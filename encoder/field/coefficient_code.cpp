@@ -1,174 +1,22 @@
 #include "encoder/field/coefficient_code.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 
 #include "base/error.h"
+#include "encoder/field/coefficient_prediction.h"
 #include "encoder/field/range_coder.h"
 
 namespace cleft {
 
 namespace {
 
-using code::Chance;
-using code::Mixer;
+using namespace code;
 
-// Predictions and scales are in units of 1/256 of a quantum.
-constexpr std::int64_t largest_value = std::int64_t{1} << 40;
-constexpr std::int64_t largest_input = std::int64_t{1} << 28;
-constexpr int components = 3, inputs = 16;
+constexpr int components = 3;
 constexpr std::array<int, components> component_order = {1, 2, 0};  // across the cut first: it moves most
 constexpr std::int32_t unknown_error = 77;                          // 0.3, where nothing is known
-
-std::int32_t limited(std::int64_t x) {
-  return static_cast<std::int32_t>(std::clamp(x, -largest_input, largest_input));
-}
-
-/// Four levels an octave.
-int log_level(std::int64_t x) {
-  const int bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(x))) - 1;
-  return 4 * bits + static_cast<int>((bits >= 2 ? x >> (bits - 2) : x << (2 - bits)) & 3);
-}
-
-int scale_level(std::int64_t scale) { return log_level(scale + 5) - 9; }
-
-/// How probable the decisions about a residual are if it has a logistic distribution about the prediction:
-/// stretched, by the level of its scale, the prediction's distance from the nearest integer, and the
-/// decision.
-struct LogisticTable {
-  static constexpr int levels = 28, offsets = 17, decisions = 8;  // zero, sign, 3 tails above, 3 below
-  std::array<std::int16_t, levels * offsets * decisions> opinion;
-
-  LogisticTable() {
-    std::size_t at = 0;
-    for (int level = 0; level < levels; ++level) {
-      const double scale = 0.7 / 256 * (4 + level % 4 + 0.5) * std::pow(2, level / 4 + 1);
-      for (int offset = 0; offset < offsets; ++offset) {
-        const double f = offset / 32.;
-        const auto below = [&](double x) { return 1 / (1 + std::exp(-x / scale)); };
-        // below(x) / below(y) for x < y, also where both underflow
-        const auto part = [&](double x, double y) {
-          return std::exp((x - y) / scale) * (1 + std::exp(y / scale)) / (1 + std::exp(x / scale));
-        };
-        const double under = -0.5 - f, over = -(0.5 - f);
-        std::array<double, decisions> p;
-        p[0] = below(under) + below(over);
-        p[1] = 1 / (1 + part(over, under));
-        for (int tail = 0; tail < 3; ++tail) {
-          p[2 + tail] = part(over - tail - 1, over - tail);
-          p[5 + tail] = part(under - tail - 1, under - tail);
-        }
-        for (const double x : p)
-          opinion[at++] =
-              static_cast<std::int16_t>(std::lround(256 * std::clamp(std::log(x / (1 - x)), -9., 9.)));
-      }
-    }
-  }
-  const std::int16_t* at(int level, int offset) const {
-    return &opinion[static_cast<std::size_t>((std::clamp(level, 0, levels - 1) * offsets + offset) *
-                                             decisions)];
-  }
-};
-const LogisticTable logistic;
-
-/// A slice of one component in one half, with a margin so that every neighbour exists.
-template <class T>
-class Padded {
- public:
-  Padded(int along, int across, int height, T margin)
-      : row_(height + 3),
-        plane_((across + 3) * row_),
-        data_(static_cast<std::size_t>(along + 3) * plane_, margin) {}
-  int step_along() const { return plane_; }
-  int step_across() const { return row_; }
-  int index(int i, int j, int k) const { return (i + 2) * plane_ + (j + 2) * row_ + k + 2; }
-  T& operator[](int at) { return data_[static_cast<std::size_t>(at)]; }
-  const T* at(int index) const { return &data_[static_cast<std::size_t>(index)]; }
-
- private:
-  int row_, plane_;
-  std::vector<T> data_;
-};
-
-/// What a prediction is made from, all divided by 2^shift so that none needs more than 12 bits and sums of
-/// products stay below 2^31.
-struct Inputs {
-  alignas(16) std::array<std::int16_t, inputs> x;
-  int shift;
-  std::int64_t inverse;  // 2^36 over the sum of squares and 10 quanta's
-
-  explicit Inputs(const std::array<std::int32_t, inputs>& full) {
-    std::int32_t most = 0;
-    for (const std::int32_t value : full) most |= value ^ (value >> 31);
-    shift = std::max(0, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(most))) - 12);
-    for (int n = 0; n < inputs; ++n) x[n] = static_cast<std::int16_t>(full[n] >> shift);
-    std::int32_t size = (10 << 16) >> std::min(30, 2 * shift);
-    for (int n = 0; n < inputs; ++n) size += x[n] * x[n];
-    inverse = (std::int64_t{1} << 36) / size;
-  }
-};
-
-/// Least mean squares, normalised by the inputs' size: forgets quickly, and so follows what changes from
-/// place to place.
-struct LinearPredictor {
-  alignas(16) std::array<std::int16_t, inputs> weight{};  // units of 2^-14, at most 1.5
-
-  std::int64_t operator()(const Inputs& in) const {
-    std::int32_t sum = 0;
-    for (int n = 0; n < inputs; ++n) sum += weight[n] * in.x[n];
-    return (std::int64_t{sum} << in.shift) >> 14;
-  }
-  /// rate / 256: the part of the error that is mended at once.
-  void learn(const Inputs& in, std::int64_t error, int rate) {
-    const std::int64_t gain = ((error >> in.shift) * rate * in.inverse) >> 22;
-    const auto factor = static_cast<std::int16_t>(std::clamp<std::int64_t>(gain, -511, 511) * 64);
-    for (int n = 0; n < inputs; ++n) {
-      const auto input = static_cast<std::int16_t>(in.x[n] * 4);
-      const auto step = static_cast<std::int16_t>((factor * input) >> 16);
-      const auto next = static_cast<std::int16_t>(weight[n] + step);
-      weight[n] = std::clamp<std::int16_t>(next, -24576, 24576);
-    }
-  }
-};
-
-/// Which slices are known when one is coded: halfway between two known ones, the last first.
-struct SliceStep {
-  int slice, before, after;     // before: -1 the closed state, 0 everywhere; after: -1 none
-  int before_that, after_that;  // the next known ones, or -2
-};
-
-std::vector<SliceStep> slice_order(int slices) {
-  std::vector<SliceStep> order;
-  std::vector<bool> known(static_cast<std::size_t>(slices), false);
-  const auto add = [&](int slice) {
-    SliceStep s{slice, slice - 1, slice + 1, -2, -2};
-    while (s.before >= 0 && !known[s.before]) --s.before;
-    while (s.after < slices && !known[s.after]) ++s.after;
-    if (s.before >= 0)
-      for (s.before_that = s.before - 1; s.before_that >= 0 && !known[s.before_that];) --s.before_that;
-    if (s.after >= slices)
-      s.after = -1;
-    else {
-      for (s.after_that = s.after + 1; s.after_that < slices && !known[s.after_that];) ++s.after_that;
-      if (s.after_that >= slices) s.after_that = -2;
-    }
-    known[slice] = true;
-    order.push_back(s);
-  };
-  if (slices > 0) add(slices - 1);
-  std::vector<std::array<int, 2>> spans{{-1, slices - 1}};
-  for (std::size_t n = 0; n < spans.size(); ++n) {
-    const auto [from, to] = spans[n];
-    if (to - from < 2) continue;
-    const int middle = (from + to + 1) / 2;
-    add(middle);
-    spans.push_back({from, middle});
-    spans.push_back({middle, to});
-  }
-  return order;
-}
 
 /// Where the values come from: a decoder has none, an encoder knows them, and a rounder chooses among some.
 struct Known {

@@ -37,7 +37,7 @@ struct FitReport {
   double worst_time = 0;            ///<
   double condition = 0;             ///< of the fit's normal matrices, estimated
   double crease = 0;                ///< degrees: largest kink of uncut skin across v = 0
-  double overlap = 0;               ///< mm: how far lips pass through each other where the data's do not
+  double overlap = 0;               ///< mm: how much further than the data's lips pass through each other
   double least_volume = 1;          ///< least det(I + grad d) at the nodes: of a small volume, over its rest
   double fit_seconds = 0, measure_seconds = 0;  ///< what the fit and the evaluation for this report took
 };

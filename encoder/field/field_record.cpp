@@ -16,25 +16,24 @@ constexpr const char* axis_names[] = {"along", "across", "height", "time"};
 constexpr const char* domain_names[] = {"u", "v", "w", "t"};
 constexpr double most_control_points = 1e8;
 
-/// The report's figures by their names in the file.
+/// The report's figures: their names in the file, and the unit that commands add where they show them.
 struct Figure {
-  const char* name;
+  const char *name, *unit;
   double FitReport::*value;
 };
-constexpr Figure figures[] = {
-    {"relative_l2", &FitReport::relative_l2},
-    {"node_error", &FitReport::node_error},
-    {"spline_error", &FitReport::spline_error},
-    {"gape_error", &FitReport::gape_error},
-    {"false_gap", &FitReport::false_gap},
-    {"largest_displacement", &FitReport::largest_displacement},
-    {"frame_error", &FitReport::frame_error},
-    {"worst_node", &FitReport::worst_node},
-    {"worst_time", &FitReport::worst_time},
-    {"condition", &FitReport::condition},
-    {"crease", &FitReport::crease},
-    {"overlap", &FitReport::overlap},
-    {"least_volume", &FitReport::least_volume}};  // no times: equal fields, equal files
+constexpr Figure figures[] = {{"relative_l2", "", &FitReport::relative_l2},
+                              {"node_error", "", &FitReport::node_error},
+                              {"spline_error", "", &FitReport::spline_error},
+                              {"gape_error", "", &FitReport::gape_error},
+                              {"false_gap", "", &FitReport::false_gap},
+                              {"largest_displacement", "_mm", &FitReport::largest_displacement},
+                              {"frame_error", "", &FitReport::frame_error},
+                              {"worst_node", "", &FitReport::worst_node},
+                              {"worst_time", "", &FitReport::worst_time},
+                              {"condition", "", &FitReport::condition},
+                              {"crease", "_degrees", &FitReport::crease},
+                              {"overlap", "_mm", &FitReport::overlap},
+                              {"least_volume", "", &FitReport::least_volume}}};  // no times: equal fields, equal files
 
 /// The same of an interpolation.
 struct InterpolationFigure {
@@ -331,6 +330,12 @@ FitReport report_of(const Json& header) {
     for (const Figure& figure : figures) report.*figure.value = number(header.at("report").at(figure.name));
     return report;
   });
+}
+
+Json shown(const FitReport& report) {
+  Json list = Json::object();
+  for (const Figure& figure : figures) list[std::string(figure.name) + figure.unit] = report.*figure.value;
+  return list;
 }
 
 std::vector<std::uint8_t> header_bytes(const Json& header) {

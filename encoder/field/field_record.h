@@ -38,6 +38,9 @@ UnknownPlaces unknown_places(const Json& header);
 std::map<std::string, double> parameters_of(const Json& header);
 FitReport report_of(const Json& header);
 
+/// All figures of a report as commands show them, with their units in their names.
+Json shown(const FitReport& report);
+
 /// A header's bytes: text. Reading throws InputError where they are none.
 std::vector<std::uint8_t> header_bytes(const Json& header);
 Json header_from(std::span<const std::uint8_t> bytes);

@@ -1,0 +1,92 @@
+// What a coefficient is predicted from, and how its distance from the prediction is expected to be spread.
+// docs/formats.md states all of it; integers only.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace cleft::code {
+
+// Predictions and scales are in units of 1/256 of a quantum.
+inline constexpr std::int64_t largest_value = std::int64_t{1} << 40;
+inline constexpr std::int64_t largest_input = std::int64_t{1} << 28;
+inline constexpr int inputs = 16;
+
+inline std::int32_t limited(std::int64_t x) {
+  return static_cast<std::int32_t>(std::clamp(x, -largest_input, largest_input));
+}
+
+/// Four levels an octave.
+inline int log_level(std::int64_t x) {
+  const int bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(x))) - 1;
+  return 4 * bits + static_cast<int>((bits >= 2 ? x >> (bits - 2) : x << (2 - bits)) & 3);
+}
+
+inline int scale_level(std::int64_t scale) { return log_level(scale + 5) - 9; }
+
+/// A slice of one component in one half, with a margin so that every neighbour exists.
+template <class T>
+class Padded {
+ public:
+  Padded(int along, int across, int height, T margin)
+      : row_(height + 3),
+        plane_((across + 3) * row_),
+        data_(static_cast<std::size_t>(along + 3) * plane_, margin) {}
+  int step_along() const { return plane_; }
+  int step_across() const { return row_; }
+  int index(int i, int j, int k) const { return (i + 2) * plane_ + (j + 2) * row_ + k + 2; }
+  T& operator[](int at) { return data_[static_cast<std::size_t>(at)]; }
+  const T* at(int index) const { return &data_[static_cast<std::size_t>(index)]; }
+
+ private:
+  int row_, plane_;
+  std::vector<T> data_;
+};
+
+/// What a prediction is made from, all divided by 2^shift so that none needs more than 12 bits and sums of
+/// products stay below 2^31.
+struct Inputs {
+  alignas(16) std::array<std::int16_t, inputs> x;
+  int shift;
+  std::int64_t inverse;  // 2^36 over the sum of squares and 10 quanta's
+
+  explicit Inputs(const std::array<std::int32_t, inputs>& full);
+};
+
+/// Least mean squares, normalised by the inputs' size: forgets quickly, and so follows what changes from
+/// place to place.
+struct LinearPredictor {
+  alignas(16) std::array<std::int16_t, inputs> weight{};  // units of 2^-14, at most 1.5
+
+  std::int64_t operator()(const Inputs& in) const;
+  /// rate / 256: the part of the error that is mended at once.
+  void learn(const Inputs& in, std::int64_t error, int rate);
+};
+
+/// Which slices are known when one is coded: halfway between two known ones, the last first.
+struct SliceStep {
+  int slice, before, after;     // before: -1 the closed state, 0 everywhere; after: -1 none
+  int before_that, after_that;  // the next known ones, or -2
+};
+
+std::vector<SliceStep> slice_order(int slices);
+
+/// How probable the decisions about a residual are if it has a logistic distribution about the prediction:
+/// stretched, by the level of its scale, the prediction's distance from the nearest integer, and the
+/// decision.
+struct LogisticTable {
+  static constexpr int levels = 28, offsets = 17, decisions = 8;  // zero, sign, 3 tails above, 3 below
+  std::array<std::int16_t, levels * offsets * decisions> opinion;
+
+  LogisticTable();
+  const std::int16_t* at(int level, int offset) const {
+    return &opinion[static_cast<std::size_t>((std::clamp(level, 0, levels - 1) * offsets + offset) *
+                                             decisions)];
+  }
+};
+extern const LogisticTable logistic;
+
+}  // namespace cleft::code

@@ -1,0 +1,158 @@
+#include "encoder/series_system.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "encoder/parallel.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr int most_iterations = 60;
+constexpr double least_hold = 1e-9;  // of all in t, where frames are fewer than control points
+
+/// D^T D of second differences; a first control point that is 0 is one of them.
+Eigen::MatrixXd roughness_in_time(int size, bool from_zero) {
+  Eigen::MatrixXd roughness = Eigen::MatrixXd::Zero(size, size);
+  for (int i = from_zero ? 0 : 1; i + 1 < size; ++i) {
+    Eigen::VectorXd d = Eigen::VectorXd::Zero(size);
+    if (i > 0) d(i - 1) = 1;
+    d(i) = -2, d(i + 1) = 1;
+    roughness += d * d.transpose();
+  }
+  return roughness;
+}
+
+Eigen::RowVector3d products(const SeriesSystem::Blocks& a, const SeriesSystem::Blocks& b) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (std::size_t l = 0; l < a.size(); ++l) sum += a[l].cwiseProduct(b[l]).colwise().sum();
+  return sum;
+}
+
+/// a / b, of components that are not there 0.
+Eigen::RowVector3d ratio(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b) {
+  Eigen::RowVector3d result = Eigen::RowVector3d::Zero();
+  for (int c = 0; c < 3; ++c)
+    if (b(c) > 0) result(c) = a(c) / b(c);
+  return result;
+}
+
+}  // namespace
+
+SeriesSystem::SeriesSystem(const SpaceFit& space, const Eigen::MatrixXd& in_time, bool from_zero,
+                           std::vector<SpaceFit::Normal> normals)
+    : space_(space), in_time_(in_time), normals_(std::move(normals)) {
+  const auto frames = in_time.rows(), T = in_time.cols();
+  Eigen::MatrixXd in_t = in_time.transpose() * in_time;
+  hold_ = in_t.diagonal().mean() * (time_roughness * roughness_in_time(static_cast<int>(T), from_zero) +
+                                    least_hold * Eigen::MatrixXd::Identity(T, T));
+  const Eigen::LLT<Eigen::MatrixXd> time_factor(in_t + hold_);
+  inverse_ = time_factor.matrixL().solve(Eigen::MatrixXd::Identity(T, T));
+  if (!same())
+    for (const SpaceFit::Normal& normal : normals_) mean_.add(1 / static_cast<double>(frames), normal);
+
+  // The mean of the normal matrices that each control point in t sees.
+  factors_.resize(same() ? 1 : static_cast<std::size_t>(T));
+  parallel_for(static_cast<int>(factors_.size()), [&](int l) {
+    if (same()) return void(factors_[0].emplace(space_.factorize(normals_[0])));
+    SpaceFit::Normal sum;
+    double all = 0;
+    for (Eigen::Index j = 0; j < frames; ++j) all += in_time(j, l) * in_time(j, l);
+    for (Eigen::Index j = 0; j < frames; ++j)
+      if (const double part = in_time(j, l) * in_time(j, l); part > 0)
+        sum.add(part / all, normals_[static_cast<std::size_t>(j)]);
+    factors_[static_cast<std::size_t>(l)].emplace(space_.factorize(all > 0 ? sum : mean_));
+  });
+}
+
+double SeriesSystem::condition() const {
+  double condition = 1;
+  for (const auto& factor : factors_) condition = std::max(condition, factor->condition());
+  return condition;
+}
+
+SeriesSystem::Blocks SeriesSystem::over_frames(const Blocks& of_frames) const {
+  Blocks sums(static_cast<std::size_t>(in_time_.cols()));
+  parallel_for(static_cast<int>(sums.size()), [&](int l) {
+    Eigen::MatrixXd& sum = sums[static_cast<std::size_t>(l)];
+    sum = Eigen::MatrixXd::Zero(space_.ties().size(), 3);
+    for (Eigen::Index j = 0; j < in_time_.rows(); ++j)
+      if (in_time_(j, l) != 0) sum += in_time_(j, l) * of_frames[static_cast<std::size_t>(j)];
+  });
+  return sums;
+}
+
+SeriesSystem::Blocks SeriesSystem::mixed(const Eigen::MatrixXd& factors, const Blocks& x) const {
+  Blocks y(x.size());
+  parallel_for(static_cast<int>(x.size()), [&](int l) {
+    Eigen::MatrixXd& sum = y[static_cast<std::size_t>(l)];
+    sum = Eigen::MatrixXd::Zero(space_.ties().size(), 3);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (const double factor = factors(l, static_cast<Eigen::Index>(k)); factor != 0) sum += factor * x[k];
+  });
+  return y;
+}
+
+SeriesSystem::Blocks SeriesSystem::multiply(const Blocks& x) const {
+  const int frames = static_cast<int>(in_time_.rows()), T = static_cast<int>(in_time_.cols());
+  const Blocks held = mixed(hold_, x);
+  Blocks of_frames(static_cast<std::size_t>(frames)), of_hold(x.size());
+  parallel_for(frames + T, [&](int task) {
+    if (task >= frames) {
+      const auto l = static_cast<std::size_t>(task - frames);
+      of_hold[l] = space_.multiply(mean_, held[l]);
+      return;
+    }
+    const auto j = static_cast<std::size_t>(task);
+    Eigen::MatrixXd at = Eigen::MatrixXd::Zero(space_.ties().size(), 3);
+    for (int l = 0; l < T; ++l)
+      if (in_time_(task, l) != 0) at += in_time_(task, l) * x[static_cast<std::size_t>(l)];
+    of_frames[j] = space_.multiply(normals_[j], at);
+  });
+  Blocks sums = over_frames(of_frames);
+  for (std::size_t l = 0; l < sums.size(); ++l) sums[l] += of_hold[l];
+  return sums;
+}
+
+/// L^-T blockdiag(N)^-1 L^-1.
+SeriesSystem::Blocks SeriesSystem::precondition(const Blocks& x) const {
+  Blocks y = mixed(inverse_, x);
+  parallel_for(static_cast<int>(y.size()), [&](int i) {
+    const auto l = static_cast<std::size_t>(i);
+    y[l] = factors_[same() ? 0 : l]->solve(std::move(y[l]));
+  });
+  return mixed(inverse_.transpose(), y);
+}
+
+SeriesSystem::Blocks SeriesSystem::solve(const Blocks& right, double bound) const {
+  Blocks x = precondition(right);
+  iterations_ = 0;
+  if (same()) return x;  // the matrix is the product
+  const auto add = [](Blocks& to, const Blocks& block, const Eigen::RowVector3d& factors) {
+    for (std::size_t l = 0; l < to.size(); ++l) to[l] += block[l] * factors.asDiagonal();
+  };
+  const Eigen::RowVector3d one = Eigen::RowVector3d::Ones(), all = products(right, right).cwiseMax(1e-300);
+  Blocks residual = right;
+  add(residual, multiply(x), -one);
+  // Three right-hand sides side by side.
+  Blocks z = precondition(residual), direction = z;
+  Eigen::RowVector3d rz = products(residual, z);
+  while (iterations_ < most_iterations &&
+         (products(residual, residual).array() / all.array()).maxCoeff() > bound * bound) {
+    const Blocks applied = multiply(direction);
+    const Eigen::RowVector3d step = ratio(rz, products(direction, applied));
+    add(x, direction, step);
+    add(residual, applied, -step);
+    z = precondition(residual);
+    const Eigen::RowVector3d next = products(residual, z);
+    Blocks turned = z;
+    add(turned, direction, ratio(next, rz));
+    direction = std::move(turned);
+    rz = next;
+    ++iterations_;
+  }
+  return x;
+}
+
+}  // namespace cleft
