@@ -121,8 +121,8 @@ CaseStatus StudyFolder::status(const std::string& hash) const {
   return status_of_attempts(path_ + "/attempts/" + hash);
 }
 
-std::vector<CaseStatus> StudyFolder::status(const std::vector<Case>& cases) const {
-  const auto published = index();
+std::vector<CaseStatus> StudyFolder::status(const std::vector<Case>& cases,
+                                            const std::map<std::string, IndexedCase>& published) const {
   std::map<std::string, CaseStatus> attempted;
   {
     const Moment moment(path_);
