@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "encoder/field/unknowns.h"
 
 namespace cleft {
@@ -230,8 +231,12 @@ Field field_of(const FieldRecord& record) {
   return reading([&] {
     const Json& header = record.header;
     const std::array<BSplineBasis, 4> bases = bases_of(header);
-    std::size_t size = 1;
-    for (const BSplineBasis& b : bases) size *= static_cast<std::size_t>(b.size());
+    double product = 1;
+    for (const BSplineBasis& b : bases) product *= b.size();
+    if (product > most_values_of(record.coefficients.size()))
+      throw InputError("there are fewer bytes of coefficients than " + shortest(product) +
+                       " control points take");
+    const auto size = static_cast<std::size_t>(product);
     FieldGeometry geometry = geometry_of(header);
     check_break(bases[1], geometry.cut);
     const std::string name = header.at("parametrization").get<std::string>();

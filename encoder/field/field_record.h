@@ -31,4 +31,8 @@ FitReport report_of(const Json& header);
 std::vector<std::uint8_t> header_bytes(const Json& header);
 Json header_from(std::span<const std::uint8_t> bytes);
 
+/// Values that so many coded bytes can stand for at most: each costs a decision or more, of which the most
+/// likely takes 4/65536 of itself, so a byte stands for fewer than 90,909. Asked before memory is taken.
+inline double most_values_of(std::size_t bytes) { return 1e5 * (static_cast<double>(bytes) + 16); }
+
 }  // namespace cleft

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/h5.h"
 #include "base/output_file.h"
-#include "base/text.h"
+#include "base/sealed_json.h"
 #include "encoder/field/columns.h"
 
 namespace cleft {
@@ -28,13 +28,9 @@ std::map<std::string, std::string> texts_of(const Json& object) {
 }
 
 std::map<std::string, std::string> choices_of_manifest(const std::string& file) {
-  try {
-    const Json manifest = Json::parse(read_text_file(file));
-    return manifest.contains("parameters") ? texts_of(manifest["parameters"])
-                                           : std::map<std::string, std::string>();
-  } catch (const Json::exception& e) {
-    throw FileError(file, std::string("is damaged: ") + e.what());
-  }
+  const Json manifest = read_sealed(file);
+  return manifest.contains("parameters") ? texts_of(manifest["parameters"])
+                                         : std::map<std::string, std::string>();
 }
 
 Json header_of_study(const h5::File& file) {
