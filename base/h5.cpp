@@ -192,6 +192,22 @@ bool File::has_attribute(const std::string& object, const std::string& attribute
   return exists > 0;
 }
 
+namespace {
+
+constexpr double little = 64e6;  // bytes: never worth a question
+
+/// Whether so many elements can have come from what is stored: asked before memory is taken for them. Deflate
+/// makes at most 1032 bytes of one; what was never written is read as zeros, of which no reader needs many.
+bool can_be_stored(hid_t dataset, const Shape& shape, double unasked = little) {
+  constexpr double most_inflated = 1032;
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  double declared = static_cast<double>(H5Tget_size(type));
+  for (const hsize_t extent : shape) declared *= static_cast<double>(extent);
+  return declared <= unasked || declared <= most_inflated * static_cast<double>(H5Dget_storage_size(dataset));
+}
+
+}  // namespace
+
 template <class T>
 std::vector<T> File::read(const std::string& name, const Shape& expected) const {
   const Shape actual = shape(name);
@@ -210,6 +226,8 @@ std::vector<T> File::read(const std::string& name, const Shape& expected) const 
   const Handle dataset = open_dataset(name);
   if (!same_class(dataset, native<T>()))
     throw FileError(path_, "dataset " + name + " holds another type than its format says");
+  if (!can_be_stored(dataset, actual))
+    throw FileError(path_, "dataset " + name + " declares more than the file holds");
   std::vector<T> data(product(actual));
   if (!data.empty() && H5Dread(dataset, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
     throw FileError(path_, "dataset " + name + " is damaged (its checksum does not match)");
@@ -298,6 +316,9 @@ herr_t read_object(hid_t root, const char* name, const H5O_info_t* info, void*) 
   if (space < 0 || type < 0 || rows < 0) return -1;
   Shape extent(std::max(1, H5Sget_simple_extent_ndims(space)), 1);
   H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  constexpr double most_unwritten = 16e9;  // an array of zeros that an import never wrote
+  const Shape one_row(extent.begin() + 1, extent.end());
+  if (!can_be_stored(object, one_row) || !can_be_stored(object, extent, most_unwritten)) return -1;
   const hsize_t row = rows / std::max<hsize_t>(1, extent[0]),
                 block = std::max<hsize_t>(1, (hsize_t{1} << 22) / std::max<hsize_t>(1, row));
   for (hsize_t first = 0; first < extent[0] && rows > 0; first += block) {

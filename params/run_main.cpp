@@ -25,7 +25,10 @@ void list_cases(const Study& study, const std::vector<Case>& cases, const std::s
   const bool exists = std::filesystem::exists(out + "/study.toml");
   std::vector<CaseStatus> states(cases.size());
   Estimates estimates;
-  if (exists) states = StudyFolder(out).status(cases), estimates = Estimates(StudyFolder(out).index());
+  if (exists) {
+    const auto index = StudyFolder(out).index();
+    states = StudyFolder(out).status(cases, index), estimates = Estimates(index);
+  }
   Json list = Json::array();
   std::size_t published = 0;
   double seconds = 0, bytes = 0;

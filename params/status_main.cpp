@@ -14,14 +14,14 @@ Json status_of(const StudyFolder& folder) {
   Json result = {{"study", study.name}, {"published", 0}, {"running", 0},
                  {"failed", 0},         {"missing", 0},   {"cases", Json::array()}};
   const std::vector<Case> cases = cases_of(study);
-  const std::vector<CaseStatus> states = folder.status(cases);
+  const auto index = folder.index();
+  const std::vector<CaseStatus> states = folder.status(cases, index);
   for (std::size_t c = 0; c < cases.size(); ++c) {
     result["cases"].push_back(case_entry(study, cases[c], states[c]));
     auto& count = result[to_text(states[c].state)].get_ref<Json::number_integer_t&>();
     ++count;
   }
   const auto dropped = [](const auto& published) { return !published.second.snapshot; };
-  const auto index = folder.index();
   if (const auto count = std::count_if(index.begin(), index.end(), dropped))
     result["without_snapshot"] = count;
   return result;

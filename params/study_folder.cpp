@@ -46,6 +46,17 @@ void clear(const std::string& attempts) {
   fs::remove(attempts, ignored);
 }
 
+/// Anything but what create() makes, which a run that failed at once may have left.
+bool holds_others_files(const std::string& path) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = name == "cases" || name == "attempts" || name == ".lock" ||
+                      name.rfind(".probe.", 0) == 0 || name.rfind(".study.", 0) == 0;
+    if (!ours) return true;
+  }
+  return false;
+}
+
 Attempt new_attempt(const std::string& attempts) {
   const std::string token = new_token(), folder = attempts + "/" + token;
   clear(attempts);
@@ -92,7 +103,7 @@ StudyFolder StudyFolder::create(const std::string& path, const Study& study) {
   if (path.empty()) throw InputError("--out: give a folder");
   if (fs::exists(path) && !fs::is_directory(path))
     throw InputError("--out " + path + ": is a file; give a folder");
-  if (fs::is_directory(path) && !fs::is_empty(path) && !fs::exists(path + "/study.toml"))
+  if (fs::is_directory(path) && !fs::exists(path + "/study.toml") && holds_others_files(path))
     throw InputError("--out " + path +
                      ": the folder holds other files; give a new one, or the folder of a study");
   std::error_code error;
@@ -121,8 +132,8 @@ CaseStatus StudyFolder::status(const std::string& hash) const {
   return status_of_attempts(path_ + "/attempts/" + hash);
 }
 
-std::vector<CaseStatus> StudyFolder::status(const std::vector<Case>& cases) const {
-  const auto published = index();
+std::vector<CaseStatus> StudyFolder::status(const std::vector<Case>& cases,
+                                            const std::map<std::string, IndexedCase>& published) const {
   std::map<std::string, CaseStatus> attempted;
   {
     const Moment moment(path_);

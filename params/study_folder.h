@@ -46,8 +46,9 @@ class StudyFolder {
   nlohmann::ordered_json manifest(const std::string& hash) const;
   bool is_published(const std::string& hash) const;
   CaseStatus status(const std::string& hash) const;
-  /// The states of many cases, at the cost of one look at the folder.
-  std::vector<CaseStatus> status(const std::vector<Case>& cases) const;
+  /// The states of many cases, at the cost of one look at the folder. `index`: as of just now.
+  std::vector<CaseStatus> status(const std::vector<Case>& cases,
+                                 const std::map<std::string, IndexedCase>& index) const;
 
   /// An attempt of a case that is neither published nor run by another process; none where it is, or where
   /// it failed and is not to be tried again. What killed and failed attempts left is removed.

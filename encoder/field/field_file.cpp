@@ -77,8 +77,10 @@ std::optional<NodeResidual> read_residual(const std::string& path,
     if (!residual_order.empty() && residual_order.size() != static_cast<std::size_t>(residual.nodes))
       throw FileError(path, "/residual is of " + std::to_string(residual.nodes) + " nodes, not " +
                                 std::to_string(residual_order.size()));
-    residual.values = decode_residual(residual.nodes, residual.frames,
-                                      file.read<std::uint8_t>("/residual", {0}), residual_order);
+    const auto bytes = file.read<std::uint8_t>("/residual", {0});
+    if (3. * residual.nodes * residual.frames > most_values_of(bytes.size()))
+      throw FileError(path, "/residual has fewer bytes than its nodes and frames take");
+    residual.values = decode_residual(residual.nodes, residual.frames, bytes, residual_order);
     return residual;
   });
 }

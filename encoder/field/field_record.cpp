@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "encoder/field/unknowns.h"
 
 namespace cleft {
@@ -33,7 +34,8 @@ constexpr Figure figures[] = {{"relative_l2", "", &FitReport::relative_l2},
                               {"condition", "", &FitReport::condition},
                               {"crease", "_degrees", &FitReport::crease},
                               {"overlap", "_mm", &FitReport::overlap},
-                              {"least_volume", "", &FitReport::least_volume}}};  // no times: equal fields, equal files
+                              {"least_volume", "", &FitReport::least_volume}}
+};  // no times: equal fields, equal files
 
 /// The same of an interpolation.
 struct InterpolationFigure {
@@ -183,6 +185,16 @@ std::vector<Vec3> as_points(const std::vector<float>& numbers) {
   return points;
 }
 
+/// Control points in all. Throws InputError where that many cannot be coded in so few bytes.
+std::size_t count_of(const std::array<BSplineBasis, 4>& bases, std::size_t bytes) {
+  double count = 1;
+  for (const BSplineBasis& b : bases) count *= b.size();
+  if (count > most_values_of(bytes))
+    throw InputError("there are fewer bytes of coefficients than " + shortest(count) +
+                     " control points take");
+  return static_cast<std::size_t>(count);
+}
+
 /// Those of the header, whose numbers stand last among the bytes and are taken off; `size` control points.
 std::vector<Quantity> quantities_of(const Json& header, std::size_t size,
                                     std::span<const std::uint8_t>& bytes) {
@@ -250,9 +262,10 @@ FieldRecord record_of(const Field& field) {
   return record;
 }
 
-UnknownPlaces unknown_places(const Json& header) {
+UnknownPlaces unknown_places(const Json& header, std::size_t bytes) {
   return reading([&] {
     const std::array<BSplineBasis, 4> bases = bases_of(header);
+    count_of(bases, bytes);
     const int slices = header.at("slices").get<int>(), T = bases[3].size();
     if (slices != T && slices != T - 1) throw InputError("slices is neither that of the basis nor one less");
     const std::string name = header.at("parametrization").get<std::string>();
@@ -289,12 +302,11 @@ Field field_of(const FieldRecord& record) {
   Field field = field_of(header, [&](const std::array<BSplineBasis, 4>& bases, const ControlTies& ties) {
     quantum = finite(header, "quantum");
     if (quantum < 0) throw InputError("quantum is negative");
-    std::size_t size = 1;
-    for (const BSplineBasis& b : bases) size *= static_cast<std::size_t>(b.size());
+    const std::size_t size = count_of(bases, record.coefficients.size());
     std::span<const std::uint8_t> bytes = record.coefficients;
     quantities = quantities_of(header, size, bytes);
     if (quantum > 0) {
-      const auto [places, slices] = unknown_places(header);
+      const auto [places, slices] = unknown_places(header, record.coefficients.size());
       return control_points(ties, bases, multiples(decode_coefficients(places, slices, bytes), quantum));
     }
     std::vector<Vec3> points = as_points(take_planes(bytes, 3 * size));
@@ -309,7 +321,7 @@ Field field_of(const FieldRecord& record) {
 Field field_of(const FieldRecord& record, std::span<const double> unknowns) {
   if (!record.coefficients.empty()) throw InputError("a sum of modes has coefficients of its own");
   return field_of(record.header, [&](const std::array<BSplineBasis, 4>& bases, const ControlTies& ties) {
-    const auto [places, slices] = unknown_places(record.header);
+    const auto [places, slices] = unknown_places(record.header, unknowns.size());
     if (unknowns.size() != 3ul * static_cast<std::size_t>(slices) * static_cast<std::size_t>(places.unknowns))
       throw InputError("its unknowns are not those of the modes");
     return control_points(ties, bases, unknowns);

@@ -29,12 +29,12 @@ FieldRecord read_field_record(const std::string& path);
 Field field_of(const FieldRecord& record);
 /// `unknowns`, mm, in the order of encode_coefficients(): in place of the record's own, which has none.
 Field field_of(const FieldRecord& record, std::span<const double> unknowns);
-/// Where the unknowns of the record's field stand, and their slices in t.
+/// Where the unknowns of the header's field stand, and their slices in t; `bytes` of coefficients hold them.
 struct UnknownPlaces {
   CoefficientGrid grid;
   int slices;
 };
-UnknownPlaces unknown_places(const Json& header);
+UnknownPlaces unknown_places(const Json& header, std::size_t bytes);
 std::map<std::string, double> parameters_of(const Json& header);
 FitReport report_of(const Json& header);
 
@@ -44,5 +44,9 @@ Json shown(const FitReport& report);
 /// A header's bytes: text. Reading throws InputError where they are none.
 std::vector<std::uint8_t> header_bytes(const Json& header);
 Json header_from(std::span<const std::uint8_t> bytes);
+
+/// Values that so many coded bytes can stand for at most: each costs a decision or more, of which the most
+/// likely takes 4/65536 of itself, so a byte stands for fewer than 90,909. Asked before memory is taken.
+inline double most_values_of(std::size_t bytes) { return 1e5 * (static_cast<double>(bytes) + 16); }
 
 }  // namespace cleft

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/h5.h"
 #include "base/output_file.h"
-#include "base/text.h"
+#include "base/sealed_json.h"
 #include "encoder/field/columns.h"
 #include "encoder/field/field_file.h"
 #include "encoder/field/unknowns.h"
@@ -29,14 +29,21 @@ std::map<std::string, std::string> texts_of(const Json& object) {
   return texts;
 }
 
-std::map<std::string, std::string> choices_of_manifest(const std::string& file) {
-  try {
-    const Json manifest = Json::parse(read_text_file(file));
-    return manifest.contains("parameters") ? texts_of(manifest["parameters"])
-                                           : std::map<std::string, std::string>();
-  } catch (const Json::exception& e) {
-    throw FileError(file, std::string("is damaged: ") + e.what());
+std::vector<double> numbers_of(const Json& object, const char* name) {
+  if (!object.is_object() || !object.contains(name) || !object[name].is_array())
+    throw InputError(std::string(name) + " of the modes are missing");
+  std::vector<double> numbers;
+  for (const Json& number : object[name]) {
+    if (!number.is_number()) throw InputError(std::string(name) + " of the modes are no numbers");
+    numbers.push_back(number.get<double>());
   }
+  return numbers;
+}
+
+std::map<std::string, std::string> choices_of_manifest(const std::string& file) {
+  const Json manifest = read_sealed(file);
+  return manifest.contains("parameters") ? texts_of(manifest["parameters"])
+                                         : std::map<std::string, std::string>();
 }
 
 Json header_of_study(const h5::File& file) {
@@ -68,15 +75,15 @@ struct StudyFile::Parts {
 
   /// The unknowns of a case that is a sum of modes, mm.
   std::vector<double> sum_of_modes(const Json& case_header) {
-    const auto weights = case_header["modes"].at("weights").get<std::vector<double>>();
+    const std::vector<double> weights = numbers_of(case_header["modes"], "weights");
     if (weights.size() != coded.quanta.size())
       throw InputError("has " + std::to_string(weights.size()) + " weights for " +
                        std::to_string(coded.quanta.size()) + " modes");
-    const UnknownPlaces places = unknown_places(case_header);
     if (modes.empty())
-      for (std::size_t k = 0; k < coded.quanta.size(); ++k)
-        modes.push_back(multiples(decode_coefficients(places.grid, places.slices, coded.coefficients[k]),
-                                  coded.quanta[k]));
+      for (std::size_t k = 0; k < coded.quanta.size(); ++k) {
+        const auto [grid, slices] = unknown_places(case_header, coded.coefficients[k].size());
+        modes.push_back(multiples(decode_coefficients(grid, slices, coded.coefficients[k]), coded.quanta[k]));
+      }
     std::vector<double> sum(modes.empty() ? 0 : modes[0].size(), 0);
     const double largest = report_of(case_header).largest_displacement;
     for (std::size_t k = 0; k < modes.size(); ++k)
@@ -93,12 +100,14 @@ struct StudyFile::Parts {
 
  private:
   void read_modes(const Json& header) {
-    coded.quanta = header.at("quanta").get<std::vector<double>>();
-    const auto lengths = header.at("bytes").get<std::vector<std::size_t>>();
+    coded.quanta = numbers_of(header, "quanta");
+    const std::vector<double> lengths = numbers_of(header, "bytes");
     const auto bytes = file.read<std::uint8_t>("/modes", {0});
     std::size_t at = 0;
-    for (const std::size_t length : lengths) {
-      if (length > bytes.size() - at) throw InputError("there are fewer bytes of modes than told");
+    for (const double told : lengths) {
+      if (!(told >= 0 && told <= static_cast<double>(bytes.size() - at)))
+        throw InputError("there are fewer bytes of modes than told");
+      const auto length = static_cast<std::size_t>(told);
       coded.coefficients.emplace_back(bytes.begin() + static_cast<std::ptrdiff_t>(at),
                                       bytes.begin() + static_cast<std::ptrdiff_t>(at + length));
       at += length;

@@ -53,7 +53,7 @@ class LocalRun {
     report_.cases = static_cast<int>(cases.size());
     std::vector<Case> missing;
     std::vector<std::size_t> numbers;
-    const std::vector<CaseStatus> states = folder.status(cases);
+    const std::vector<CaseStatus> states = folder.status(cases, published);
     for (std::size_t c = 0; c < cases.size(); ++c) {
       const CaseStatus& state = states[c];
       if (state.state == CaseState::published)

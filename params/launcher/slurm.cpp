@@ -152,7 +152,7 @@ class SlurmRun {
 
   /// What has been published or has failed since the last look, a line each.
   void tell_what_happened(bool first) {
-    const std::vector<CaseStatus> now = folder_.status(cases_);
+    const std::vector<CaseStatus> now = folder_.status(cases_, folder_.index());
     for (std::size_t c = 0; c < now.size(); ++c) {
       const bool had_ended = ended_.contains(c);
       if (now[c].state == CaseState::published && !had_ended) {

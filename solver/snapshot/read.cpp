@@ -202,7 +202,9 @@ std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
     if (name == "displacement") continue;
     const std::string dataset = point_data + "/" + name;
     const h5::Shape shape = file_.shape(dataset);
-    const bool table = shape.size() == 1 || (shape.size() == 2 && shape[1] > 0);
+    constexpr hsize_t most_components = 1000;
+    const bool table =
+        shape.size() == 1 || (shape.size() == 2 && shape[1] > 0 && shape[1] <= most_components);
     if (!table || (shape[0] != points && shape[0] != frames * points))
       throw FileError(file_.path(), dataset + " must have a row a point (" + std::to_string(points) +
                                         "), or a row a frame and point (" + std::to_string(frames * points) +

@@ -117,6 +117,9 @@ TEST(StudyFolder, OtherPeoplesFoldersAreLeftAlone) {
   EXPECT_THROW(StudyFolder::create(place.path(), small_study()), InputError);
   EXPECT_EQ(place.entries(), 1);
   EXPECT_THROW(StudyFolder{place.path()}, InputError);
+  fs::create_directories(place / "begun/cases");  // what a run leaves whose study file could not be written
+  fs::create_directories(place / "begun/.probe.1");
+  EXPECT_NO_THROW(StudyFolder::create(place / "begun", small_study()));
   EXPECT_THROW(StudyFolder{place / "absent"}, InputError);
 }
 

@@ -37,6 +37,8 @@ Outcome solve_on_ranks(int ranks, const std::vector<std::string>& arguments) {
   return run(argv);
 }
 
+Outcome in_shell(const std::string& command) { return run({"bash", "-c", command}); }
+
 Outcome on_a_full_disk(int kilobytes, const std::string& command) {
   // The signal is ignored, so that writing fails as it does where no space is left. ulimit counts blocks of
   // 1024 bytes.

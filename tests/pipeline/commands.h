@@ -15,6 +15,9 @@ Outcome run_cleft(const std::string& command, const std::vector<std::string>& ar
 /// The same of `cleft solve` under mpirun.
 Outcome solve_on_ranks(int ranks, const std::vector<std::string>& arguments);
 
+/// `command` of the shell.
+Outcome in_shell(const std::string& command);
+
 /// `command` of the shell where no file may grow beyond `kilobytes`, as on a full disk.
 Outcome on_a_full_disk(int kilobytes, const std::string& command);
 

@@ -69,8 +69,8 @@ TEST_F(HapticCommand, AFieldOpensTheWound) {
   write_field(in / "case.dffd", field);
   const auto cut = figures({"--path", path, "--field", in / "case.dffd", "--speed", "40"});
   ASSERT_TRUE(cut.is_object());
-  // Uniform pressure p on a disc of radius a sinks a half space by 2 p a (1 - nu^2) / E in its middle: K = pi a^2 p
-  // over that.
+  // Uniform pressure p on a disc of radius a sinks a half space by 2 p a (1 - nu^2) / E in its middle: K = pi
+  // a^2 p over that.
   EXPECT_NEAR(cut["stiffness_N_per_mm"], 3.14159265 * 2 * 0.05 / (2 * 0.75), 1e-6);
   EXPECT_GT(cut["cut_mm"], 15);
   EXPECT_GT(cut["wound_us"]["max"], 0);

@@ -241,6 +241,18 @@ TEST(StudyRun, ATerminatedRunGivesUpAtOnceAndSaysSo) {
   EXPECT_EQ(now["missing"], 3) << now.dump(2);
 }
 
+TEST(StudyRun, ARankThatDiesEndsTheSolve) {
+  const TemporaryFolder place;
+  const std::string file = place.write("case.toml", "[case]\nmesh.element_size = 0.4\n");  // minutes
+  const Outcome outcome = in_shell(
+      "timeout 60 mpirun --oversubscribe --bind-to none -n 2 " CLEFT_BIN "/cleft-solve " + file + " --out " +
+      place.path() + "/case.h5 & sleep 2; rank=$(pgrep -f -n '" CLEFT_BIN "/cleft-solve " + file +
+      "'); kill -9 $rank; wait $!");
+  EXPECT_EQ(outcome.exit_code, 137) << "128 + SIGKILL, not the 124 of a hang: " << outcome.output;
+  EXPECT_NE(outcome.output.find("signal 9"), std::string::npos) << outcome.output;
+  EXPECT_EQ(place.entries(), 1) << "nothing but the case file";
+}
+
 TEST(StudyRun, AKilledRunIsFinishedByTheNext) {
   const TemporaryFolder place;
   const std::string file = place.write("study.toml", study), folder = place / "out";
