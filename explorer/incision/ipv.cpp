@@ -143,30 +143,50 @@ std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const auto [wound, on_wall] = side_of_wound(v);
   Side side = wound == Side::both ? label.side : wound;
   if (side == Side::both) side = side_of(straight);
-  // Between the curve and its chords, and where the curve is as far on both sides, v's sign may be another.
-  const double across = side == Side::left    ? std::min(straight, 0.0) - label.detour
-                        : side == Side::right ? std::max(straight, 0.0) + label.detour
-                                              : 0;
-  return Place{at.s, across, -vertex.depth * scale_, side, on_wall, straight};
+  return Place{at.s, across(straight, label.detour, side), -vertex.depth * scale_, side, on_wall, straight};
+}
+
+/// Signed. Between the curve and its chords, and where the curve is as far on both sides, v's sign may be
+/// another than the side.
+double IncisionVolume::across(double straight, double detour, Side side) const {
+  return side == Side::left    ? std::min(straight, 0.0) - detour
+         : side == Side::right ? std::max(straight, 0.0) + detour
+                               : 0;
 }
 
 std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
   const std::optional<Place> at = place_of(vertex);
-  if (!at) return std::nullopt;
+  return at ? activate(vertex, *at) : std::nullopt;
+}
+
+std::optional<ActiveVertex> IncisionVolume::locate_below(const Vec3& place, double depth, int nearest,
+                                                         Side side) const {
+  const Surroundings::Label& label = labels_[nearest];
+  if (!label.reached) return std::nullopt;
+  const PathCoordinates at = incision_.path().coordinates(place);
+  const double straight = std::abs(at.v) <= 1e-9 * incision_.path().length() ? 0 : at.v;
+  if (side == Side::both) side = side_of(straight);
+  // As deep as the blade is as deep as the canonical cut; below, depths differ by the same.
+  const double own = incision_.path().depth(at.s) * scale_, canonical = field_.cut().depth;
+  const double w = depth < own ? -depth / own * canonical : own - depth - canonical;
+  return activate(-1, {at.s, across(straight, label.detour, side), w, side, false, straight});
+}
+
+std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at) const {
   const ScalpelPath& path = incision_.path();
-  const CanonicalPlace place = canonical_place(at->s * scale_, path.length() * scale_, field_.cut());
-  const double v = at->across * scale_;
+  const CanonicalPlace place = canonical_place(at.s * scale_, path.length() * scale_, field_.cut());
+  const double v = at.across * scale_;
   const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
   const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
   const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
   const double weight =
-      outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * inside_bend(at->s, at->straight) : 0;
+      outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * inside_bend(at.s, at.straight) : 0;
   if (weight <= 0) return std::nullopt;
-  const PathFrame frame = skin_frame(at->s);
-  const double lift = lift_of_tilted_blade(path.at(at->s).outward, frame, std::abs(v));
+  const PathFrame frame = skin_frame(at.s);
+  const double lift = lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));
   return ActiveVertex{
-      vertex,        {u_in, v_in, at->w}, at->side,          frame.along, frame.across + lift * frame.outward,
-      frame.outward, at->s * scale_,      place.time_offset, weight,      at->on_cut};
+      vertex,        {u_in, v_in, at.w}, at.side,           frame.along, frame.across + lift * frame.outward,
+      frame.outward, at.s * scale_,      place.time_offset, weight,      at.on_cut};
 }
 
 /// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two

@@ -59,6 +59,10 @@ class IncisionVolume {
   /// Where a vertex lies, if the field reaches it.
   std::optional<ActiveVertex> locate(int vertex) const;
 
+  /// Where a place below the skin lies: `depth` mm under it, nearest to a vertex of it. `side` tells on which
+  /// side of the cut's surface a place on it is; elsewhere `both`. Its `vertex` is -1.
+  std::optional<ActiveVertex> locate_below(const Vec3& place, double depth, int nearest, Side side) const;
+
   /// At s, mesh units: T of the path made perpendicular to the skin's mean normal there, and that.
   PathFrame skin_frame(double s) const;
   double scale() const { return scale_; }
@@ -71,6 +75,8 @@ class IncisionVolume {
     double straight;  // distance from the path, mesh units, on the side of v
   };
   std::optional<Place> place_of(int vertex) const;
+  double across(double straight, double detour, Side side) const;
+  std::optional<ActiveVertex> activate(int vertex, const Place& at) const;
   struct WoundSide {
     Side side;
     bool on_wall;

@@ -162,7 +162,7 @@ double ScalpelPath::room_beside(double s, bool right) const {
   for (const Sample& sample : samples_) {
     const Vec3 away = sample.position - frame.position;
     const double beside = dot(away, aside);
-    if (std::abs(sample.s - s) > 0.02 * length() && beside > 1e-9 * length())
+    if (std::abs(sample.s - s) > 0.05 * length() && beside > 1e-9 * length())
       room = std::min(room, squared_norm(away) / (2 * beside));
   }
   return room;

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -28,6 +29,8 @@
 #include "base/output_file.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
+#include "explorer/io/mesh_checks.h"
+#include "explorer/io/polygons.h"
 
 namespace cleft {
 
@@ -77,120 +80,13 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   return clean->GetOutput();
 }
 
-bool is_ply_type(const std::string& word) {
-  static const char* known[] = {"char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
-                                "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
-  return std::find(std::begin(known), std::end(known), word) != std::end(known);
-}
-
-/// Whether a line of a .ply's header is one that VTK's reader survives; counts the elements it announces.
-bool is_ply_line(const std::string& line, std::size_t& elements) {
-  std::istringstream in(line);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  if (words.empty()) return false;
-  if (words[0] == "comment" || words[0] == "obj_info") return true;
-  if (words[0] == "format") return elements == 0 && words.size() == 3;
-  if (words[0] == "element" && words.size() == 3) {
-    std::size_t count = 0;
-    const bool number = static_cast<bool>(std::istringstream(words[2]) >> count);
-    elements += count;
-    return number && count < std::size_t{1} << 31;
-  }
-  if (words[0] != "property" || elements == 0) return false;
-  if (words.size() == 3) return is_ply_type(words[1]);
-  return words.size() == 5 && words[1] == "list" && is_ply_type(words[2]) && is_ply_type(words[3]);
-}
-
-/// The rows of a text .ply's body as its header announces them, each a line of words enough.
-void check_ply_rows(const std::string& path, const std::string& header, const std::string& body) {
-  std::istringstream announced(header), rows(body);
-  struct Element {
-    std::size_t count;
-    std::vector<bool> lists;
-  };
-  std::vector<Element> elements;
-  for (std::string line; std::getline(announced, line);) {
-    std::istringstream in(line);
-    std::string word, second;
-    in >> word >> second;
-    if (word == "element") in >> elements.emplace_back().count;
-    if (word == "property") elements.back().lists.push_back(second == "list");
-  }
-  std::string line;
-  std::getline(rows, line);  // what follows end_header
-  for (const Element& element : elements)
-    for (std::size_t row = 0; row < element.count; ++row) {
-      std::getline(rows, line);
-      std::istringstream in(line);
-      double number = 0;
-      for (const bool list : element.lists) {
-        in >> number;
-        if (list && in && !(number >= 0 && number < 1e6)) in.setstate(std::ios::failbit);
-        for (double left = list ? number : 0, x = 0; in && left > 0; --left) in >> x;
-      }
-      if (!in || !rows)
-        throw FileError(path, "has a row that is none of its elements: '" + line.substr(0, 60) + "'");
-    }
-}
-
-/// VTK's reader of .ply crashes on headers that are not one, or where the body ends early: look first.
-void check_ply(const std::string& path) {
-  const std::string text = read_text_file(path);
-  const auto end = text.find("end_header");
-  if (!text.starts_with("ply") || end == std::string::npos)
-    throw FileError(path, "has no header of a .ply file");
-  std::istringstream header(text.substr(0, end));
-  std::size_t elements = 0;
-  std::string line;
-  std::getline(header, line);
-  for (int number = 2; std::getline(header, line); ++number)
-    if (!is_ply_line(line, elements))
-      throw FileError(path, "line " + std::to_string(number) + " is none of a .ply file's header: '" +
-                                line.substr(0, 60) + "'");
-  // The names that VTK's reader knows, in the elements that it expects them in; it crashes without.
-  const auto face = std::min(text.find("element face "), end);
-  const auto has = [&](const std::string& property, std::size_t from, std::size_t to) {
-    const auto at = text.find(property, from);
-    return at < to && std::isspace(static_cast<unsigned char>(text[at + property.size()]));
-  };
-  const bool points = has(" x", 0, face) && has(" y", 0, face) && has(" z", 0, face);
-  const bool corners = has(" vertex_indices", face, end) || has(" vertex_index", face, end);
-  if (!points || !corners || text.find("element vertex ") > face)
-    throw FileError(path, "needs elements 'vertex' with x, y, z and then 'face' with a list vertex_indices");
-  // Every element takes a line of text, or a byte at least and usually many more.
-  const bool ascii = text.find("format ascii") < end;
-  const std::size_t there = ascii ? static_cast<std::size_t>(std::count(
-                                        text.begin() + static_cast<std::ptrdiff_t>(end), text.end(), '\n'))
-                                  : text.size() - end;
-  if (elements == 0 || there < elements)
-    throw FileError(path, "ends before the elements its header promises");
-  if (ascii) check_ply_rows(path, text.substr(0, end), text.substr(end));
-}
-
-/// A binary .stl says how many triangles it holds; VTK's reader takes fewer without a word.
-void check_stl(const std::string& path) {
-  const std::string bytes = read_text_file(path);
-  // VTK takes it for binary where a twentieth of its first 256 bytes is no text.
-  const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 256));
-  const auto odd = std::count_if(
-      bytes.begin(), end, [](char c) { return (c < 32 || c > 126) && c != '\n' && c != '\r' && c != '\t'; });
-  const bool text = 20 * odd < end - bytes.begin();
-  if (text && bytes.starts_with("solid") && bytes.find("facet") != std::string::npos) return;
-  std::uint32_t count = 0;
-  if (bytes.size() >= 84) std::memcpy(&count, bytes.data() + 80, 4);
-  const std::size_t promised = 84 + 50 * static_cast<std::size_t>(count);
-  if (bytes.size() < promised)
-    throw FileError(path, "is no whole .stl file: " + std::to_string(bytes.size()) +
-                              " bytes, where its header promises " + std::to_string(promised));
-}
-
 vtkSmartPointer<vtkPolyData> read_any(const std::string& path, int& merged) {
   const std::string ending = ending_of(path);
   const bool known = ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".vtp";
   if (known && !std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
   if (ending == ".ply") check_ply(path);
   if (ending == ".stl") check_stl(path);
+  if (ending == ".obj") check_obj(path);
   if (ending == ".stl") return read_with<vtkSTLReader>(path, merged);
   if (ending == ".obj") return read_with<vtkOBJReader>(path, merged);
   if (ending == ".ply") return read_with<vtkPLYReader>(path, merged);
@@ -210,15 +106,7 @@ vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<P
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
   data->SetPolys(cells);
-  for (const PointArray& array : arrays) {
-    CLEFT_CHECK(array.values.size(), ==, mesh.points.size() * array.components);
-    vtkNew<vtkDoubleArray> values;
-    values->SetName(array.name.c_str());
-    values->SetNumberOfComponents(array.components);
-    values->SetNumberOfTuples(static_cast<vtkIdType>(mesh.points.size()));
-    std::copy(array.values.begin(), array.values.end(), values->GetPointer(0));
-    data->GetPointData()->AddArray(values);
-  }
+  add_arrays(arrays, data->GetPointData(), mesh.points.size());
   return data;
 }
 
@@ -235,9 +123,8 @@ void write_with(const vtkNew<Writer>& writer, vtkPolyData* data, const std::stri
 
 }  // namespace
 
-SurfaceMesh read_mesh(const std::string& path, MeshReport* told) {
-  MeshReport report;
-  const auto data = read_any(path, report.merged_points);
+SurfaceMesh mesh_of_polygons(vtkPolyData* data, const std::string& path, MeshReport* told) {
+  MeshReport unread, &report = told ? *told : unread;
   SurfaceMesh mesh;
   std::vector<int> number(data->GetNumberOfPoints(), -1);
   vtkCellArray* cells = data->GetPolys();
@@ -263,7 +150,25 @@ SurfaceMesh read_mesh(const std::string& path, MeshReport* told) {
     }
   }
   if (mesh.triangles.empty()) throw FileError(path, "has no triangles");
-  mesh = repaired(mesh, report);
+  return repaired(mesh, report);
+}
+
+void add_arrays(const std::vector<PointArray>& arrays, vtkPointData* to, std::size_t points) {
+  for (const PointArray& array : arrays) {
+    CLEFT_CHECK(array.values.size(), ==, points * array.components);
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(array.name.c_str());
+    values->SetNumberOfComponents(array.components);
+    values->SetNumberOfTuples(static_cast<vtkIdType>(points));
+    std::copy(array.values.begin(), array.values.end(), values->GetPointer(0));
+    to->AddArray(values);
+  }
+}
+
+SurfaceMesh read_mesh(const std::string& path, MeshReport* told) {
+  MeshReport report;
+  const auto data = read_any(path, report.merged_points);
+  SurfaceMesh mesh = mesh_of_polygons(data, path, &report);
   if (told) *told = report;
   return mesh;
 }

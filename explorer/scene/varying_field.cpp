@@ -68,6 +68,13 @@ void VaryingField::contract(const Vec3& uvw, Side side, double s, std::span<cons
   combine(histories, weights_at(s), out);
 }
 
+Vec3 VaryingField::displacement(const Vec3& uvw, Side side, double t, double s) const {
+  const std::vector<double> weights = weights_at(s);
+  Vec3 sum;
+  for (std::size_t k = 0; k < fields_.size(); ++k) sum += weights[k] * fields_[k]->displacement(uvw, side, t);
+  return sum;
+}
+
 Derivatives VaryingField::derivatives(const Vec3& uvw, Side side, double t, double s) const {
   const std::vector<double> weights = weights_at(s);
   Derivatives sum{};

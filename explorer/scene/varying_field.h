@@ -31,6 +31,8 @@ class VaryingField {
 
   /// Field::contract at s mm of the path. The histories' memory is used again from call to call.
   void contract(const Vec3& uvw, Side side, double s, std::span<const double> stops, History& out) const;
+  /// Field::displacement at s mm of the path.
+  Vec3 displacement(const Vec3& uvw, Side side, double t, double s) const;
   /// Field::derivatives at s mm of the path.
   Derivatives derivatives(const Vec3& uvw, Side side, double t, double s) const;
   /// What the fields' cases have as a load, such as skin.prestress_v, superposed. Throws InputError where one

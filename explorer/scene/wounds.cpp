@@ -10,13 +10,11 @@ namespace {
 constexpr int relief_pieces = 48;  // of the last cut's way, between which the relief is linear
 }
 
-Wounds::Wounds(std::vector<Cut> cuts, double scale) : cuts_(std::move(cuts)) {
-  std::vector<std::unique_ptr<IncisionVolume>> volumes;
-  std::vector<CutInTension> in_tension;
+Wounds::Wounds(std::vector<Cut> cuts, double scale) : cuts_(std::move(cuts)), scale_(scale) {
   for (const Cut& cut : cuts_) {
     replays_.emplace_back(cut.field, *cut.incision, scale);
-    volumes.push_back(std::make_unique<IncisionVolume>(*cut.incision, cut.field.shape(), scale));
-    in_tension.push_back({cut.incision, &cut.field, volumes.back().get()});
+    volumes_.push_back(std::make_unique<IncisionVolume>(*cut.incision, cut.field.shape(), scale));
+    in_tension_.push_back({cut.incision, &cut.field, volumes_.back().get()});
   }
   if (cuts_.size() == 1) return;
   for (std::size_t k = 0; k + 1 < cuts_.size(); ++k) {
@@ -30,7 +28,7 @@ Wounds::Wounds(std::vector<Cut> cuts, double scale) : cuts_(std::move(cuts)) {
   }
   for (int i = 0; i <= relief_pieces; ++i) {
     blades_.push_back(replays_.back().path_length() * i / relief_pieces);
-    relief_.push_back(mutual_relief(in_tension, blades_.back()));
+    relief_.push_back(mutual_relief(in_tension_, blades_.back()));
   }
 }
 
@@ -41,6 +39,7 @@ std::size_t Wounds::active() const {
 }
 
 double Wounds::amplitude(std::size_t cut, double s, double blade) const {
+  if (relief_.empty()) return 1;
   const double at = std::clamp(blade / blades_.back(), 0., 1.) * relief_pieces;
   const auto i = std::min(static_cast<std::size_t>(at), blades_.size() - 2);
   const double part = at - static_cast<double>(i);
@@ -60,6 +59,20 @@ void Wounds::positions(double s, std::span<Vec3> out) const {
       const ActiveVertex& a = replays_[k].active()[i];
       out[static_cast<std::size_t>(a.vertex)] += amplitude(k, a.s, s) * complete_[k][i];
     }
+}
+
+Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,
+                                double s) const {
+  Vec3 sum;
+  for (std::size_t k = 0; k < cuts_.size(); ++k) {
+    const auto at = volumes_[k]->locate_below(place, depth, nearest, sides[k]);
+    if (!at) continue;
+    const double blade = k + 1 == cuts_.size() ? s : replays_[k].path_length();
+    const VaryingField& field = cuts_[k].field;
+    const double t = std::clamp(blade + at->time_offset, 0., field.shape().cut().length);
+    sum += amplitude(k, at->s, s) / scale_ * at->in_mesh(field.displacement(at->uvw, at->side, t, at->s));
+  }
+  return sum;
 }
 
 }  // namespace cleft

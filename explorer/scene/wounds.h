@@ -8,6 +8,7 @@
 
 #include "explorer/scene/mutual_relief.h"
 #include "explorer/scene/replay.h"
+#include "explorer/scene/validity.h"
 #include "explorer/scene/varying_field.h"
 
 namespace cleft {
@@ -22,15 +23,30 @@ class Wounds {
   /// The incisions, all of one mesh and in the order in which they were made, must outlive it, and so must
   /// the fields' own. `scale`: mm per mesh unit. One cut alone is a Replay.
   Wounds(std::vector<Cut> cuts, double scale);
+  Wounds(const Wounds&) = delete;
+  Wounds& operator=(const Wounds&) = delete;
 
   /// Positions of all vertices, mesh units, with the blade of the last cut at s mm of its path and the others
   /// complete.
   void positions(double s, std::span<Vec3> out) const;
 
+  /// The displacement of a place below the skin by all cuts, mesh units; the last one's blade at s mm.
+  /// `nearest` is a vertex of the skin, `depth` in mm, and sides[k] tells where it lies of cut k if on its
+  /// surface.
+  Vec3 displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,
+                          double s) const;
+
   const std::vector<Vec3>& rest() const { return replays_.back().rest(); }
   std::size_t vertex_count() const { return rest().size(); }
   std::size_t active() const;  ///< vertices that a field moves, counted for every cut
   /// How far a cut opens at s mm of its path, over what it would alone; the last one's blade at its end.
+  std::size_t cuts() const { return cuts_.size(); }
+  const Incision& incision(std::size_t cut) const { return *cuts_[cut].incision; }
+  /// How far each cut is like those that replays were compared with. `turned`: whose fields follow the
+  /// tension.
+  std::vector<Validity> validity(const std::vector<bool>& turned) const {
+    return validity_of(in_tension_, turned);
+  }
   double amplitude(std::size_t cut, double s) const {
     return relief_.empty() ? 1 : relief_.back()[cut].at(s);
   }
@@ -39,7 +55,10 @@ class Wounds {
   double amplitude(std::size_t cut, double s, double blade) const;
 
   std::vector<Cut> cuts_;
+  double scale_;
   std::vector<Replay> replays_;
+  std::vector<std::unique_ptr<IncisionVolume>> volumes_;
+  std::vector<CutInTension> in_tension_;
   std::vector<std::vector<Vec3>>
       complete_;                // displacements of all but the last cut: of their active vertices
   std::vector<double> blades_;  // of the last cut, at which the relief is known

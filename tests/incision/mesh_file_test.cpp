@@ -48,6 +48,22 @@ TEST_F(MeshFile, PolygonsBecomeTrianglesAndRubbishGoes) {
   EXPECT_EQ(mesh.points.size(), 4u);
 }
 
+TEST_F(MeshFile, ObjFacesMayNameOnlyWhatIsThere) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  for (const char* face :
+       {"f 1/2 2/2 3/2", "f 1//1 2//1 3//1", "f 1 2 4", "f 1/1/1 2/1/1 3/1/1", "f 0 1 2", "f -4 1 2"}) {
+    write("bad.obj", points + face + "\n");
+    try {
+      read_mesh(path("bad.obj"));
+      ADD_FAILURE() << face;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("line 4"), std::string::npos) << error.what();
+    }
+  }
+  write("good.obj", points + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n");
+  EXPECT_EQ(read_mesh(path("good.obj")).triangles.size(), 1u);
+}
+
 TEST_F(MeshFile, TruncatedFilesDoNotCrash) {
   const SurfaceMesh mesh = testing::sphere(2, 5);
   for (const char* ending : {".stl", ".obj", ".vtp"}) {

@@ -148,6 +148,27 @@ TEST_F(BadInput, PathThatNeverTouchesTheMesh) {
                  {"x.xyz", ".vtp"});
 }
 
+TEST_F(BadInput, TensionThatNothingIsKnownOf) {
+  const std::vector<std::string> cut = {"--mesh", flat_mesh(),   "--field", field(),
+                                        "--out",  out / "x.vtp", "--path"};
+  const auto refused = [&](std::vector<std::string> more, const std::vector<std::string>& words) {
+    more.insert(more.begin(), cut.begin(), cut.end());
+    expect_refused("cut", more, words);
+  };
+  refused({path(0), "--tension", "1,0,0"}, {"--tension", "--prestress"});
+  refused({path(0), "--tension", "1,0", "--prestress", "0.02,0.01"}, {"--tension", "3"});
+  refused({path(0), "--tension", "1,0,0", "--prestress", "0.02,0.01"}, {"field.dffd", "study.dffd"});
+  refused({in.write("p.csv", "x,y,z,nx,ny,nz,skin.prestress_v\n0,0,0,0,0,1,0.1\n9,0,0,0,0,1,0.2\n")},
+          {"p.csv", "study.dffd"});
+  expect_refused("cut",
+                 {"--mesh", flat_mesh(), "--path", path(0), "--field", field(), "--out", out / "x.vtu"},
+                 {"x.vtu", ".vtp"});
+  expect_refused("cut",
+                 {"--mesh", in.write("box.vtu", "<VTKFile"), "--path", path(0), "--field", field(), "--out",
+                  out / "x.vtu"},
+                 {"box.vtu"});
+}
+
 TEST_F(BadInput, AnOutputThatIsTheInput) {
   const std::string snapshot = solved(), kept = read_text_file(snapshot);
   expect_refused("encode", {snapshot, "--out", snapshot}, {"is the input"});

@@ -1,0 +1,22 @@
+// What `cleft cut` reports.
+#pragma once
+
+#include <vector>
+
+#include "base/command.h"
+#include "explorer/incision/incision.h"
+#include "explorer/incision/mesh_repair.h"
+#include "explorer/scene/validity.h"
+
+namespace cleft {
+
+Json figures_of(const MeshReport& report);
+
+/// Of all cuts together, at rest, before fields open them. `scale` is mm per mesh unit.
+Json figures_of(const std::vector<const Incision*>& cuts, const SurfaceMesh& before, double scale);
+
+/// Of one cut.
+Json figures_of(const Incision& cut, double scale);
+Json figures_of(const Validity& validity);
+
+}  // namespace cleft

@@ -1,0 +1,19 @@
+// A mesh of volume, cut where its surface is and moved by the same fields.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "explorer/incision/incision.h"
+#include "explorer/io/volume_mesh.h"
+#include "explorer/scene/wounds.h"
+
+namespace cleft {
+
+/// Splits the cells that the blade has passed, moves all points with the last blade at s mm of its path, and
+/// writes `out`. `surface` is the volume's, uncut. Without `wounds` nothing moves. Returns how many cells
+/// there are more than before.
+int write_cut_volume(VolumeMesh& volume, const SurfaceMesh& surface, const std::vector<const Incision*>& cuts,
+                     const Wounds* wounds, double scale, double s, const std::string& out);
+
+}  // namespace cleft

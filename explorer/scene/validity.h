@@ -1,0 +1,25 @@
+// Whether a cut is like those that replays were compared with (tests/truth): inside, openings were within a
+// tenth of the solver's; outside, nobody knows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "explorer/scene/mutual_relief.h"
+
+namespace cleft {
+
+/// Lengths in mm.
+struct Validity {
+  double smallest_radius =
+      0;  ///< of the path's bends, or half the way to another part of it; infinite: straight
+  double largest_tilt = 0;   ///< degrees: of the blade against the skin's normal
+  double length_defect = 0;  ///< how much wider than the field's an endless cut would be, over its opening
+  double nearest_cut = 0;    ///< least distance from another cut's path; infinite: there is none
+  std::vector<std::string> warnings;
+};
+
+/// Of every cut. `turned`: by cut, whether the tension turns against the path.
+std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, const std::vector<bool>& turned);
+
+}  // namespace cleft
