@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 #include "base/error.h"
@@ -28,34 +29,26 @@ void one_thread_a_product() {
   if (openblas_set_num_threads) openblas_set_num_threads(1);
 }
 
-/// Of frames' misfits.
-template <class OfFrame>
-Misfit largest_of(std::size_t frames, double limit, const OfFrame& of_frame) {
-  std::vector<Misfit> misfits(frames);
-  parallel_for(static_cast<int>(frames), [&](int j) {
-    const Eigen::VectorXd distances = of_frame(static_cast<std::size_t>(j)).rowwise().norm();
-    misfits[static_cast<std::size_t>(j)] = {distances.maxCoeff(),
-                                            (distances.array() > limit).cast<double>().mean()};
-  });
-  Misfit all;
-  for (const Misfit& one : misfits) {
-    all.largest = std::max(all.largest, one.largest);
-    all.beyond += one.beyond / static_cast<double>(frames);
-  }
-  return all;
+Misfit misfit_of(const Eigen::MatrixX3d& errors, double limit) {
+  const Eigen::VectorXd distances = errors.rowwise().norm();
+  return {distances.maxCoeff(), (distances.array() > limit).cast<double>().mean()};
 }
 
 }  // namespace
 
-Misfit space_misfit(const Series& series, const Parametrization& parametrization,
+double space_misfit(const Series& series, const Parametrization& parametrization,
                     const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
-                    double limit) {
+                    double limit, double most) {
   one_thread_a_product();
   const FrameFit fit(series, parametrization, bases);
-  return largest_of(frames.size(), limit, [&](std::size_t i) {
-    return fit.misfit(
-        fit.space().factorize(fit.normal(frames[i], strengths[0])).solve(fit.project(frames[i])), frames[i]);
+  std::atomic<double> sum = 0;
+  parallel_for(static_cast<int>(frames.size()), [&](int i) {
+    if (sum > most) return;
+    const std::size_t frame = frames[static_cast<std::size_t>(i)];
+    const auto factor = fit.space().factorize(fit.normal(frame, strengths[0]));
+    sum += misfit_of(fit.misfit(factor.solve(fit.project(frame)), frame), limit).beyond;
   });
+  return sum;
 }
 
 SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
@@ -80,17 +73,20 @@ SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization
 
 /// The strongest regularisation that costs an early and a late frame next to nothing.
 void SeriesFit::choose_strength() {
-  const std::size_t frames = series_.times.size();
-  auto strength = std::begin(strengths);
-  for (const std::size_t j : {1 + frames / 8, frames - 1}) {
+  const std::size_t frames = series_.times.size(), some[] = {1 + frames / 8, frames - 1};
+  std::ptrdiff_t weakest[2];
+  parallel_for(2, [&](int i) {
+    const std::size_t j = some[i];
     const Eigen::MatrixX3d right = fit_.project(j);
     const auto cost = [&](double of) {
       return fit_.misfit(fit_.space().factorize(fit_.normal(j, of)).solve(right), j).norm();
     };
     const double most = regularisation_cost * cost(strengths[2] / 100) + 1e-9 * series_.largest[j];
+    auto strength = std::begin(strengths);
     while (strength + 1 < std::end(strengths) && cost(*strength) > most) ++strength;
-  }
-  strength_ = *strength;
+    weakest[i] = strength - std::begin(strengths);
+  });
+  strength_ = strengths[std::max(weakest[0], weakest[1])];
 }
 
 void SeriesFit::solve() {
@@ -168,7 +164,7 @@ void SeriesFit::solve() {
   const auto multiply = [&](const Blocks& x) {
     Blocks of_frames(frames);
     parallel_for(frames, [&](int j) {
-      Eigen::MatrixXd at = Eigen::MatrixXd::Zero(n, 3);
+      Eigen::MatrixX3d at = Eigen::MatrixX3d::Zero(n, 3);
       for (int l = 0; l < T; ++l)
         if (in_time_(j, l) != 0) at += in_time_(j, l) * x[l];
       of_frames[j] = fit_.space().multiply(normals[j], at);
@@ -218,10 +214,19 @@ void SeriesFit::solve() {
 }
 
 Misfit SeriesFit::misfit(double limit) const {
-  return largest_of(static_cast<std::size_t>(in_time_.rows()), limit, [&](std::size_t j) {
-    const Eigen::RowVectorXd x = in_time_.row(static_cast<Eigen::Index>(j)) * control_points_;
-    return fit_.misfit(x.reshaped(ties().size(), 3), j + static_cast<std::size_t>(first_));
+  const int frames = static_cast<int>(in_time_.rows());
+  std::vector<Misfit> misfits(static_cast<std::size_t>(frames));
+  parallel_for(frames, [&](int j) {
+    const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
+    const auto frame = static_cast<std::size_t>(j + first_);
+    misfits[static_cast<std::size_t>(j)] = misfit_of(fit_.misfit(x.reshaped(ties().size(), 3), frame), limit);
   });
+  Misfit all;
+  for (const Misfit& one : misfits) {
+    all.largest = std::max(all.largest, one.largest);
+    all.beyond += one.beyond / static_cast<double>(frames);
+  }
+  return all;
 }
 
 std::vector<Vec3> SeriesFit::coefficients(const Eigen::MatrixXd& control_points) const {

@@ -116,7 +116,9 @@ int main(int argc, char** argv) {
     mistakes.throw_if_any();
     Progress progress("solving");
     const std::vector<SolveReport> reports =
-        solve_cases(cases, options, MPI_COMM_WORLD, [&](const std::string& state) { progress(state); });
+        solve_cases(cases, options, MPI_COMM_WORLD, [&](const std::string& state) {
+          if (root) progress(state);
+        });
     std::string failures;
     Json list = Json::array();
     for (const SolveReport& report : reports)

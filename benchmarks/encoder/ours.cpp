@@ -25,13 +25,10 @@ std::vector<float> decoded(const std::string& file, const Series& series, const 
   parallel_for(static_cast<int>(data.frames), [&](int j) {
     const auto frame = static_cast<std::size_t>(j);
     for (std::size_t n = 0; n < data.nodes; ++n) {
-      const Vec3 d =
-          field.displacement(series.samples[n].uvw, series.samples[n].side, series.times[frame + 1]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double off =
-            residual ? residual->quantum * residual->values[(n * 3 + axis) * data.frames + frame] : 0;
-        values[(frame * data.nodes + n) * 3 + axis] = static_cast<float>(d[static_cast<int>(axis)] + off);
-      }
+      Vec3 d = field.displacement(series.samples[n].uvw, series.samples[n].side, series.times[frame + 1]);
+      if (residual) d += residual->at(n, frame + 1);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        values[(frame * data.nodes + n) * 3 + axis] = static_cast<float>(d[static_cast<int>(axis)]);
     }
   });
   return values;

@@ -31,9 +31,6 @@ class Replay {
   double path_length_;
   std::vector<Vec3> rest_;
   std::vector<ActiveVertex> active_;  // in the order of their time offsets
-  std::vector<double> times_;
-  // Turned into the mesh's space, weighted and in its units; a vertex of the cut has a second history for the
-  // time before the blade has passed it.
   ReplayPieces pieces_;
 };
 

@@ -29,16 +29,22 @@ std::vector<double> knot_times(const Field& field) {
 
 }  // namespace
 
-std::vector<double> replay_times(const Field& field, double tolerance, std::span<const Place> places) {
+std::vector<double> replay_times(const Field& field, double tolerance) {
   const std::vector<double> knots = knot_times(field);
   if (!field.parametrization().moves()) return knots;
+  const Interval u = field.domain(0), v = field.domain(1);
+  std::vector<Vec3> places;
+  for (const double along : {0.1, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.9})
+    for (const double across : {0.05, 0.3, 0.46, 0.49, 0.51, 0.54, 0.7, 0.95})
+      for (const double height : {0., -0.5})
+        places.push_back({u.front + along * (u.back - u.front), v.front + across * (v.back - v.front),
+                          height * field.cut().depth});
   History history;
-  const std::size_t step = std::max<std::size_t>(1, places.size() / 100);
   for (int parts = 1;; parts *= 2) {
     std::vector<double> times = subdivided(knots, parts);
     std::size_t spans = 0, divided = 0;
-    for (std::size_t i = 0; i < places.size(); i += step) {
-      field.contract(places[i].uvw, places[i].side, tolerance, times, history);
+    for (const Vec3& place : places) {
+      field.contract(place, Side::both, tolerance, times, history);
       spans += times.size() - 1;
       auto next = history.breaks.begin();
       for (std::size_t span = 0; span + 1 < times.size(); ++span) {
@@ -121,20 +127,35 @@ Vec3 ReplayPieces::displacement(const Exception& e, const std::vector<Piece>& pi
   return r * r * r * c[0] + 3 * r * r * x * c[1] + 3 * r * x * x * c[2] + x * x * x * c[3];
 }
 
-void ReplayPieces::positions(double s, const Vec3* rest, Vec3* out) const {
+std::pair<std::size_t, std::size_t> ReplayPieces::positions(double before, double s, const Vec3* rest,
+                                                            Vec3* out) const {
+  const double from = std::min(before, s), to = std::max(before, s),
+               close = 1e-9 * (times_.back() - times_.front());
+  const auto begin = offsets_.begin(), end = begin + static_cast<std::ptrdiff_t>(vertices_.size());
+  const auto first = std::partition_point(
+                 begin, end, [&](double offset) { return to + offset < times_.front() - close; }),
+             last = std::partition_point(
+                 first, end, [&](double offset) { return from + offset <= times_.back() + close; });
+  const auto front = static_cast<std::size_t>(first - begin), back = static_cast<std::size_t>(last - begin);
+  positions(s, front, back, rest, out);
+  return {front, back};
+}
+
+void ReplayPieces::positions(double s, std::size_t front, std::size_t last, const Vec3* rest,
+                             Vec3* out) const {
   CLEFT_CHECK(next_, ==, vertices_.size());
   // In the order of offsets, and so of their own times: those of one span are neighbours.
-  const auto begin = offsets_.begin(), end = begin + static_cast<std::ptrdiff_t>(vertices_.size());
-  std::size_t front = 0;
-  for (std::size_t span = 0; span < spans() && front < vertices_.size(); ++span) {
-    std::size_t back = vertices_.size();
+  const auto begin = offsets_.begin(), end = begin + static_cast<std::ptrdiff_t>(last);
+  while (front < last) {
+    const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, s + offsets_[front]);
+    const auto span = static_cast<std::size_t>(after - times_.begin()) - 1;
+    std::size_t back = last;
     if (span + 1 < spans())
       back = static_cast<std::size_t>(
           std::partition_point(begin, end, [&](double offset) { return s + offset < times_[span + 1]; }) -
           begin);
-    if (back <= front) continue;
-    kernels_.replay(&blocks_[span * blocks_a_span_], offsets_.data(), vertices_.data(), front, back, s,
-                    times_[span], times_[span + 1] - times_[span], rest, out);
+    kernels_->replay(&blocks_[span * blocks_a_span_], offsets_.data(), vertices_.data(), front, back, s,
+                     times_[span], times_[span + 1] - times_[span], rest, out);
     const auto& [exceptions, pieces] = divided_[span];
     auto e = std::partition_point(exceptions.begin(), exceptions.end(),
                                   [&](const Exception& x) { return x.vertex < front; });

@@ -187,7 +187,7 @@ class LocalRun {
 
 RunReport run_local(const StudyFolder& folder, const std::vector<Case>& cases, const LocalOptions& options) {
   struct sigaction action = {};
-  action.sa_handler = [](int number) { stop_signal = number; };
+  action.sa_handler = [](int) { stop_signal = stop_signal + 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   return LocalRun(folder, cases, options).run();

@@ -92,7 +92,7 @@ TEST_F(StudyTest, ASingleFileIsAStudyOfOneCase) {
 TEST_F(StudyTest, APackedStudyIsTheSameAsItsFolder) {
   const std::string first = add_case("a", {{"cut.depth", 7}}), second = add_case("b", {{"cut.depth", 6}});
   const std::string file = (folder_ / "study.dffd").string();
-  write_study(file, {{"a", first}, {"b", second}});
+  write_study(file, study_records({{"a", first}, {"b", second}}));
   PublishedStudy folder(folder_.string()), packed(file);
   ASSERT_EQ(packed.size(), 2);
   for (int i = 0; i < 2; ++i) {

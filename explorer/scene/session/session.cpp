@@ -36,7 +36,7 @@ void Session::say(const std::string& line) {
     rest.expect_end();
   } catch (...) {  // as it was
     state_ = state, study_ = study, mesh_ = mesh;
-    cut_surfaces_.clear(), scenes_.clear(), figures_.clear();
+    cut_surfaces_.clear(), scenes_.clear(), figures_.clear(), findings_.clear();
     throw;
   }
   if (command.recorded != Command::none) {
@@ -125,12 +125,14 @@ void Session::load_study(const std::string& path) {
   scenes_.clear();
   cut_surfaces_.clear();
   figures_.clear();
+  findings_.clear();
 }
 
 void Session::open(const std::string& path) {
   load_study(path);
   state_.compared.clear();
   state_.brushes.clear();
+  state_.where.clear();
   state_.reference = -1;
   if (state_.coloring == Coloring::difference) state_.coloring = Coloring::displacement;
   state_.shown = 0;
@@ -222,7 +224,22 @@ double Session::column_value(int i, const std::string& name) {
   return found == values.end() ? std::nan("") : found->second;
 }
 
+void Session::find(const std::string& condition) {
+  open_study();
+  if (!condition.empty()) Condition{condition};  // says what is wrong with it
+  state_.where = condition;
+  findings_.clear();
+  changes_.brushes = true;
+}
+
+const std::optional<Finding>& Session::finding(int i) {
+  const auto found = findings_.find(i);
+  if (found != findings_.end()) return found->second;
+  return findings_.emplace(i, Condition(state_.where).find(open_study().read(i))).first->second;
+}
+
 bool Session::brushed(int i) {
+  if (!state_.where.empty() && !finding(i)) return false;
   return std::all_of(state_.brushes.begin(), state_.brushes.end(), [&](const auto& brush) {
     const double value = column_value(i, brush.first);
     return value >= brush.second.first && value <= brush.second.second;

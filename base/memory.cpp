@@ -1,4 +1,4 @@
-#include "solver/memory.h"
+#include "base/memory.h"
 
 #include <malloc.h>
 #include <sys/resource.h>
