@@ -141,11 +141,11 @@ void CaseTable::find_next_figures() {
 void CaseTable::fit_columns() {
   const QFontMetrics metrics(table_->font());
   for (int column = 0; column < model_.columnCount(); ++column) {
-    int widest = metrics.horizontalAdvance(column == 0 ? "888" : "0.02345");
+    int widest = metrics.horizontalAdvance(column == 0 ? "888888" : "0.02345");
     for (const QString& line :
          model_.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString().split('\n'))
       widest = std::max(widest, metrics.horizontalAdvance(line));
-    table_->setColumnWidth(column, widest + 14);
+    table_->setColumnWidth(column, widest + 10);
   }
 }
 

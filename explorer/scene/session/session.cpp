@@ -29,14 +29,17 @@ void Session::say(const std::string& line) {
   const SessionState state = state_;
   const auto study = study_;
   const auto mesh = mesh_;
+  const auto known = known_;
+  const auto cut_surfaces = cut_surfaces_;
+  const auto scenes = scenes_;
   changes_ = {};
   try {
     CommandWords rest(command.name, command.arguments, {words.begin() + 1, words.end()});
     command.run(*this, rest);
     rest.expect_end();
   } catch (...) {  // as it was
-    state_ = state, study_ = study, mesh_ = mesh;
-    cut_surfaces_.clear(), scenes_.clear(), figures_.clear(), findings_.clear();
+    state_ = state, study_ = study, mesh_ = mesh, known_ = known;
+    cut_surfaces_ = cut_surfaces, scenes_ = scenes;
     throw;
   }
   if (command.recorded != Command::none) {
@@ -124,8 +127,7 @@ void Session::load_study(const std::string& path) {
   state_.study = absolute(path);
   scenes_.clear();
   cut_surfaces_.clear();
-  figures_.clear();
-  findings_.clear();
+  known_ = std::make_shared<Known>();
 }
 
 void Session::open(const std::string& path) {
@@ -205,9 +207,10 @@ bool Session::shows_exactly() const {
 }
 
 const CaseFigures& Session::figures(int i) {
-  const auto found = figures_.find(i);
-  return found != figures_.end() ? found->second
-                                 : figures_.emplace(i, case_figures(open_study().read(i))).first->second;
+  auto& figures = known_->figures;
+  const auto found = figures.find(i);
+  return found != figures.end() ? found->second
+                                : figures.emplace(i, case_figures(open_study().read(i))).first->second;
 }
 
 std::vector<std::string> Session::column_names() const {
@@ -228,14 +231,14 @@ void Session::find(const std::string& condition) {
   open_study();
   if (!condition.empty()) Condition{condition};  // says what is wrong with it
   state_.where = condition;
-  findings_.clear();
   changes_.brushes = true;
 }
 
 const std::optional<Finding>& Session::finding(int i) {
-  const auto found = findings_.find(i);
-  if (found != findings_.end()) return found->second;
-  return findings_.emplace(i, Condition(state_.where).find(open_study().read(i))).first->second;
+  auto& findings = known_->findings[state_.where];
+  const auto found = findings.find(i);
+  if (found != findings.end()) return found->second;
+  return findings.emplace(i, Condition(state_.where).find(open_study().read(i))).first->second;
 }
 
 bool Session::brushed(int i) {

@@ -73,7 +73,7 @@ class Session {
 
   /// Of case i, read where they are not known yet.
   const CaseFigures& figures(int i);
-  bool knows_figures(int i) const { return figures_.count(i) > 0; }
+  bool knows_figures(int i) const { return known_->figures.count(i) > 0; }
   /// Parameters that differ, and figures; and case i's value, not a number where it has none.
   std::vector<std::string> column_names() const;
   double column_value(int i, const std::string& name);
@@ -122,8 +122,12 @@ class Session {
   std::shared_ptr<const SurfaceMesh> mesh_;
   std::map<double, std::shared_ptr<const CutSurface>> cut_surfaces_;  // by depth
   std::map<int, std::shared_ptr<const WoundScene>> scenes_;           // of the cases in the views
-  std::map<int, CaseFigures> figures_;
-  std::map<int, std::optional<Finding>> findings_;  // of state_.where
+  /// What was found out about the study's cases.
+  struct Known {
+    std::map<int, CaseFigures> figures;
+    std::map<std::string, std::map<int, std::optional<Finding>>> findings;  // by condition
+  };
+  std::shared_ptr<Known> known_ = std::make_shared<Known>();
   std::vector<std::string> said_;
   std::vector<Listener> listeners_;
   Changes changes_;
