@@ -24,6 +24,7 @@ const std::vector<Command> commands = {
     {"explore", "look at a study, or draw it"},
     {"info", "what a file holds"},
     {"check", "verify files and studies"},
+    {"find", "cases where a condition holds"},
     {"export", "write files for ParaView"},
     {"import", "take another program's series"},
     {"pack", "a study's fields in one file"},

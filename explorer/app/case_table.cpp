@@ -32,7 +32,7 @@ bool CaseModel::known(int row, int column) const {
 
 QVariant CaseModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::TextAlignmentRole) return int(Qt::AlignRight | Qt::AlignVCenter);
-  if (role == Qt::ForegroundRole && !session_.state().brushes.empty()) {
+  if (role == Qt::ForegroundRole && !(session_.state().brushes.empty() && session_.state().where.empty())) {
     for (const auto& brush : session_.state().brushes) {
       const auto column = std::find(columns_.begin(), columns_.end(), brush.first) - columns_.begin();
       if (!known(index.row(), static_cast<int>(column) + 1)) return {};
@@ -51,7 +51,7 @@ QVariant CaseModel::data(const QModelIndex& index, int role) const {
 QVariant CaseModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
   if (section == 0)
-    return role == Qt::DisplayRole   ? QVariant("case")
+    return role == Qt::DisplayRole   ? QVariant("#")
            : role == Qt::ToolTipRole ? QVariant("Number of the case, as `case N` takes it")
                                      : QVariant();
   const std::string& name = columns_[static_cast<std::size_t>(section) - 1];
@@ -81,6 +81,18 @@ CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_kn
     : session_(session), say_(std::move(say)), figures_known_(std::move(figures_known)), model_(session) {
   sorted_.setSourceModel(&model_);
   sorted_.setSortRole(Qt::UserRole);
+  condition_ = new QLineEdit(this);
+  condition_->setObjectName("find");
+  condition_->setClearButtonEnabled(true);
+  condition_->setPlaceholderText("Find: gape > 3 and t < 20");
+  condition_->setToolTip(
+      "Fades the cases where this holds nowhere. gape (of the lips at a place, mm), t (length cut, mm), u "
+      "(place along "
+      "the cut, mm), error (%), displacement (mm), parameters; and or not, < <= > >= = !=, + - * / and "
+      "brackets");
+  connect(condition_, &QLineEdit::returnPressed, this, [this] {
+    say_(condition_->text().isEmpty() ? "find clear" : "find " + condition_->text().toStdString());
+  });
   table_ = new QTableView(this);
   table_->setObjectName("cases");
   table_->setModel(&sorted_);
@@ -90,7 +102,7 @@ CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_kn
   table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setMinimumSectionSize(30);
   table_->setAlternatingRowColors(true);
   QFont small = table_->font();
   small.setPointSizeF(0.85 * small.pointSizeF());
@@ -99,6 +111,7 @@ CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_kn
   table_->horizontalHeader()->setHighlightSections(false);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(condition_);
   column->addWidget(table_);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now, const QModelIndex&) {
@@ -124,13 +137,29 @@ void CaseTable::find_next_figures() {
   ++next_;
 }
 
+/// Wide enough for the names and four digits.
+void CaseTable::fit_columns() {
+  const QFontMetrics metrics(table_->font());
+  for (int column = 0; column < model_.columnCount(); ++column) {
+    int widest = metrics.horizontalAdvance(column == 0 ? "888888" : "0.02345");
+    for (const QString& line :
+         model_.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString().split('\n'))
+      widest = std::max(widest, metrics.horizontalAdvance(line));
+    table_->setColumnWidth(column, widest + 10);
+  }
+}
+
 void CaseTable::follow(const Changes& changes) {
   if (changes.study) {
     model_.new_study();
+    fit_columns();
     next_ = 0;
     if (session_.study()) idle_.start(0);
   }
-  if (changes.brushes) model_.rows_changed();
+  if (changes.brushes) {
+    model_.rows_changed();
+    condition_->setText(QString::fromStdString(session_.state().where));
+  }
   if ((changes.study || changes.shown) && session_.study()) {
     const QModelIndex row = sorted_.mapFromSource(model_.index(session_.state().shown, 0));
     if (table_->currentIndex().row() != row.row()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QAbstractTableModel>
+#include <QLineEdit>
 #include <QSortFilterProxyModel>
 #include <QTableView>
 #include <QTimer>
@@ -38,12 +39,14 @@ class CaseTable : public QWidget, public Panel {
 
  private:
   void find_next_figures();
+  void fit_columns();
 
   Session& session_;
   Say say_;
   std::function<void()> figures_known_;
   CaseModel model_;
   QSortFilterProxyModel sorted_;
+  QLineEdit* condition_;
   QTableView* table_;
   QTimer idle_;
   int next_ = 0;

@@ -97,7 +97,7 @@ void MainWindow::make_docks() {
   auto* case_dock = dock("case_dock", "Cases", cases, Qt::LeftDockWidgetArea);
   auto* plot_dock = dock("plot_dock", "Plots", plots, Qt::RightDockWidgetArea);
   auto* line_dock = dock("line_dock", "All cases", lines, Qt::RightDockWidgetArea);
-  resizeDocks({parameter_dock, plot_dock}, {350, 320}, Qt::Horizontal);
+  resizeDocks({parameter_dock, plot_dock}, {372, 310}, Qt::Horizontal);
   resizeDocks({parameter_dock, case_dock}, {230, 330}, Qt::Vertical);
   resizeDocks({plot_dock, line_dock}, {360, 230}, Qt::Vertical);
   for (Panel* panel : std::initializer_list<Panel*>{parameters, cases, plots, lines})

@@ -81,12 +81,7 @@ void ParallelCoordinates::paintEvent(QPaintEvent*) {
   }
   QColor faded = ink, kept(0, 114, 178), shown(213, 94, 0);
   faded.setAlpha(28), kept.setAlpha(rows_.size() > 100 ? 90 : 200);
-  const auto brushed = [&](std::size_t row) {
-    for (std::size_t a = 0; a < axes_.size(); ++a)
-      if (const auto b = session_.state().brushes.find(axes_[a].name); b != session_.state().brushes.end())
-        if (!(rows_[row][a] >= b->second.first && rows_[row][a] <= b->second.second)) return false;
-    return true;
-  };
+  const auto brushed = [&](std::size_t row) { return session_.brushed(cases_[row]); };
   for (const bool inside : {false, true}) {
     painter.setPen(QPen(inside ? kept : faded, 1.3));
     for (std::size_t row = 0; row < rows_.size(); ++row)

@@ -19,6 +19,7 @@ namespace cleft {
 namespace {
 /// Okabe and Ito's, which colour-blind people tell apart.
 constexpr unsigned char colors[][3] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}};
+constexpr int milliseconds_a_plot = 150;
 }  // namespace
 
 Plots::Plots(Session& session) : session_(session) {
@@ -28,6 +29,8 @@ Plots::Plots(Session& session) : session_(session) {
   set_up(along_cut_, "opening_profile", "place along the cut, mm", "opening, mm");
   column->addWidget(over_time_.widget, 1);
   column->addWidget(along_cut_.widget, 1);
+  soon_.setSingleShot(true);
+  connect(&soon_, &QTimer::timeout, this, [this] { draw(); });
 }
 
 void Plots::set_up(Plot& plot, const char* name, const char* x, const char* y) {
@@ -105,7 +108,8 @@ void Plots::draw() {
     const double t = std::min(session_.state().time, session_.field()->duration());
     add_curve(over_time_.chart, {{t, t}, {0, highest}}, "now", 1, true);
     along_cut_.chart->GetAxis(vtkAxis::LEFT)->SetBehavior(vtkAxis::FIXED);
-    along_cut_.chart->GetAxis(vtkAxis::LEFT)->SetRange(0, highest > 0 ? 1.05 * highest : 1);
+    along_cut_.chart->GetAxis(vtkAxis::LEFT)
+        ->SetRange(0, (highest > 0 ? highest : 1) * (views.size() > 1 ? 1.5 : 1.05));
     along_cut_.chart->SetShowLegend(views.size() > 1);  // for both: the corner there is free
   }
   gapes_.swap(gapes);
@@ -121,8 +125,11 @@ void Plots::showEvent(QShowEvent* event) {
 }
 
 void Plots::follow(const Changes& changes) {
-  if (isVisible() && (changes.study || changes.shown || changes.time || changes.layout || changes.look))
+  if (!isVisible()) return;
+  if (changes.study || changes.shown || changes.layout || changes.look)
     draw();
+  else if (changes.time && !soon_.isActive())
+    soon_.start(milliseconds_a_plot);
 }
 
 }  // namespace cleft

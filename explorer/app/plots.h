@@ -7,6 +7,7 @@
 #include <vtkNew.h>
 #include <vtkTable.h>
 
+#include <QTimer>
 #include <QWidget>
 #include <map>
 
@@ -38,6 +39,7 @@ class Plots : public QWidget, public Panel {
                         bool dashed);
 
   Session& session_;
+  QTimer soon_;  ///< while time runs, plots are drawn less often than the picture
   Plot over_time_, along_cut_;
   std::map<const Field*, Curve> gapes_;  // of the fields shown
   Curve profile_;

@@ -6,7 +6,9 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include <QMouseEvent>
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -15,17 +17,20 @@ namespace cleft {
 
 namespace {
 
+constexpr double steepest = 4;          // of skin that the blade goes along, against the picture's plane
 constexpr double spacing = 1;           // mm between the places of a cut
 constexpr int milliseconds_a_cut = 60;  // while dragging, at most so often
 
 std::string text(const Vec3& x) { return shortest(x.x) + "," + shortest(x.y) + "," + shortest(x.z); }
-/// Short enough to be read in a recording: micrometres.
-Vec3 rounded(const Vec3& x, double step) {
-  return {std::round(x.x / step) * step, std::round(x.y / step) * step, std::round(x.z / step) * step};
+/// Short enough to be read in a recording.
+std::string rounded(const Vec3& x, int digits) {
+  char out[100];
+  std::snprintf(out, sizeof out, "%.*f,%.*f,%.*f", digits, x.x, digits, x.y, digits, x.z);
+  return out;
 }
 
 /// What a mouse has done to the camera becomes a line.
-void say_camera(vtkObject*, unsigned long, void* data, void*) {
+void call_back(vtkObject*, unsigned long, void* data, void*) {
   (*static_cast<std::function<void()>*>(data))();
 }
 
@@ -42,17 +47,11 @@ SceneWidget::SceneWidget(Session& session, Say say) : session_(session), say_(st
 
   vtkNew<vtkInteractorStyleTrackballCamera> style;
   static_cast<vtkRenderWindowInteractor*>(interactor())->SetInteractorStyle(style);
-  auto* turned = new std::function<void()>([this] {
-    if (stage_->views() == 0) return;
-    const CameraState::Pose now = stage_->camera();
-    if (session_.state().camera.pose && session_.state().camera.pose->position == now.position) return;
-    say_("look " + text(now.position) + " " + text(now.focal_point) + " " + text(now.up) + " " +
-         shortest(now.view_angle));
-  });
+  auto* turned = new std::function<void()>([this] { say_camera(); });
   for (const unsigned long what : {vtkCommand::EndInteractionEvent, vtkCommand::MouseWheelForwardEvent,
                                    vtkCommand::MouseWheelBackwardEvent}) {
     vtkNew<vtkCallbackCommand> after;
-    after->SetCallback(say_camera);
+    after->SetCallback(call_back);
     after->SetClientData(turned);
     if (what == vtkCommand::EndInteractionEvent) {
       after->SetClientDataDeleteCallback([](void* f) { delete static_cast<std::function<void()>*>(f); });
@@ -64,6 +63,14 @@ SceneWidget::SceneWidget(Session& session, Say say) : session_(session), say_(st
 }
 
 SceneWidget::~SceneWidget() { stage_.reset(); }
+
+void SceneWidget::say_camera() {
+  if (stage_->views() == 0) return;
+  const CameraState::Pose now = stage_->camera();
+  if (session_.state().camera.pose && session_.state().camera.pose->position == now.position) return;
+  say_("look " + text(now.position) + " " + text(now.focal_point) + " " + text(now.up) + " " +
+       shortest(now.view_angle));
+}
 
 void SceneWidget::set_cutting(bool on) {
   cutting_ = on;
@@ -100,6 +107,7 @@ bool SceneWidget::press(int x, int y) {
   blade_.clear();
   begun_ = false;
   if (view_ < 0 || !add_point(x, y)) return false;  // beside the skin the picture is turned
+  if (!session_.state().camera.pose) say_camera();  // angles count from the first cut: the picture stays
   since_cut_.start();
   return pressed_ = true;
 }
@@ -107,8 +115,14 @@ bool SceneWidget::press(int x, int y) {
 bool SceneWidget::add_point(int x, int y) {
   const auto place = stage_->view(view_).skin_at(x, y);
   if (!place) return false;
-  if (!blade_.empty() && norm(place->position - blade_.back().position) < spacing) return false;
+  if (!blade_.empty()) {
+    const double distance = norm(place->position - blade_.back().position);
+    // Over the edge of a nose the skin behind it is far away, however little the mouse has moved.
+    const double seen = stage_->mm_a_pixel(view_) * std::hypot(x - last_x_, y - last_y_);
+    if (distance < spacing || distance > steepest * seen + spacing) return false;
+  }
   blade_.push_back(*place);
+  last_x_ = x, last_y_ = y;
   return true;
 }
 
@@ -140,7 +154,7 @@ std::string SceneWidget::cut_line(const char* command) const {
     const Vec3 across = cross(outward, along);
     const double tilt = tilt_ * M_PI / 180;
     if (norm(across) > 0) outward = std::cos(tilt) * outward - std::sin(tilt) * normalized(across);
-    line += " " + text(rounded(at(i).position, 1e-3)) + "," + text(rounded(outward, 1e-4));
+    line += " " + rounded(at(i).position, 3) + "," + rounded(outward, 4);
   }
   return depth_ > 0 ? line + " depth " + shortest(depth_) : line;
 }

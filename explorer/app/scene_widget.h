@@ -3,10 +3,6 @@
 #pragma once
 
 #include <QVTKOpenGLNativeWidget.h>
-#include <vtkActor.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 
 #include <QElapsedTimer>
 #include <memory>
@@ -46,15 +42,16 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   bool add_point(int x, int y);
   std::string cut_line(const char* command) const;
   void draw();
+  void say_camera();
 
   Session& session_;
   Say say_;
   std::unique_ptr<Stage> stage_;
   bool cutting_ = false, pressed_ = false, begun_ = false;
   double depth_ = 0, tilt_ = 0, frame_seconds_ = 0;
+  int last_x_ = 0, last_y_ = 0;
   int view_ = -1;                        // that the blade is in
   std::vector<WoundView::Place> blade_;  // where it has been since the button was pressed
-  std::unique_ptr<WoundView::Place> last_;
   QElapsedTimer since_cut_;
 };
 

@@ -4,6 +4,7 @@
 #include <vtkRendererCollection.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -133,6 +134,12 @@ int Stage::view_at(int x, int y) const {
   for (std::size_t i = 0; i < views_.size(); ++i)
     if (views_[i].view->renderer()->IsInViewport(x, y)) return static_cast<int>(i);
   return -1;
+}
+
+double Stage::mm_a_pixel(int i) const {
+  vtkRenderer* renderer = views_.at(static_cast<std::size_t>(i)).view->renderer();
+  return 2 * renderer->GetActiveCamera()->GetDistance() *
+         std::tan(renderer->GetActiveCamera()->GetViewAngle() / 2 * M_PI / 180) / renderer->GetSize()[1];
 }
 
 CameraState::Pose Stage::camera() const {

@@ -24,6 +24,8 @@ class Stage {
   int views() const { return static_cast<int>(views_.size()); }
   WoundView& view(int i) { return *views_.at(static_cast<std::size_t>(i)).view; }
   int view_at(int x, int y) const;  ///< pixels from the lower left; -1: none
+  /// Of a view's picture, in the plane through the middle of what it shows.
+  double mm_a_pixel(int view) const;
   /// The camera of all views.
   CameraState::Pose camera() const;
 

@@ -29,7 +29,7 @@ void shoot(MainWindow& window, const std::string& file) {
       painter.drawPixmap((window.width() - dialog->width()) / 2, (window.height() - dialog->height()) / 2,
                          dialog->grab());
     }
-  picture.save(QString::fromStdString(file));
+  picture.save(QString::fromStdString(file), "PNG", 0);  // packed as tightly as can be
 }
 
 bool click(MainWindow& window, const std::string& name) {

@@ -15,6 +15,7 @@
 #include <QToolButton>
 #include <fstream>
 
+#include "base/text.h"
 #include "explorer/scene/session/command_table.h"
 #include "tests/app/window_fixture.h"
 
@@ -133,6 +134,8 @@ TEST_F(WindowTest, PressingAndDraggingCutsTheSkin) {
   widget<QDoubleSpinBox>("depth").setValue(2);
   drag_over(window_.scene(), 0.35, 0.5, 0.65, 0.5);
   ASSERT_EQ(now().cuts.size(), 1u) << window_.message().toStdString();
+  ASSERT_TRUE(now().camera.pose) << "the picture does not turn under the hand";
+  EXPECT_NEAR(now().camera.pose->position.x, 0, 1e-6);
   for (const ScalpelPath::Point& p : now().cuts[0].points) {
     EXPECT_NEAR(p.position.z, 0, 1e-3);
     EXPECT_GT(p.outward.z, 0.999);
@@ -250,6 +253,9 @@ TEST_F(WindowTest, WhatIsDoneByHandIsARecordingThatLeadsToTheSameState) {
   Session again(session_services([](const std::string&) {}));
   again.run_script(folder_ / "hand.txt");
   EXPECT_EQ(state_to_json(again.state()), by_hand);
+  tell("screenshot " + folder_ / "hand.png 320 200");
+  again.say("screenshot " + folder_ / "again.png 320 200");
+  EXPECT_EQ(read_text_file(folder_ / "hand.png"), read_text_file(folder_ / "again.png")) << "byte for byte";
 }
 
 }  // namespace

@@ -270,7 +270,7 @@ TEST_F(BadInput, NodesAndFramesThatAreNotTheFields) {
 }
 
 TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
-  for (const char* command : {"run", "status", "solve", "encode", "eval", "cut", "explore", "export", "info",
+  for (const char* command : {"run", "status", "solve", "encode", "eval", "cut", "explore", "find", "export", "info",
                               "check", "pack", "import"}) {
     EXPECT_NE(
         expect_success(run_cleft(command, {"--help"})).output.find("Usage: cleft " + std::string(command)),

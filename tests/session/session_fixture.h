@@ -29,25 +29,31 @@ inline SurfaceMesh flat_plate() {
   return plate;
 }
 
-class SessionTest : public testing::Test {
- protected:
-  SessionTest() {
+/// A folder with the study, made once: tests only read it.
+inline const std::string& shared_study() {
+  static const TemporaryFolder folder;
+  static const std::string study = [] {
     int number = 0;
     for (const double gape : {2., 5.})
       for (const double modulus : {0.01, 0.04}) {
         const std::string name = "case" + std::to_string(number++);
-        const std::string folder = folder_ / ("study/cases/" + name);
-        std::filesystem::create_directories(folder);
+        const std::string place = folder / ("study/cases/" + name);
+        std::filesystem::create_directories(place);
         Field field = synthetic_field(gape + 10 * modulus);
         field.parameters = {
             {"skin.prestress_v", gape / 100}, {"tissue.young_modulus", modulus}, {"cut.depth", 6}};
         field.case_hash = name;
-        write_field(folder + "/case.dffd", field);
-        write_text_file(folder + "/manifest.json", "{}");
+        write_field(place + "/case.dffd", field);
+        write_text_file(place + "/manifest.json", "{}");
       }
-  }
+    return folder / "study";
+  }();
+  return study;
+}
 
-  std::string study() const { return folder_ / "study"; }
+class SessionTest : public testing::Test {
+ protected:
+  static const std::string& study() { return shared_study(); }
   void say(const std::string& line) { session_.say(line); }
   void open() { say("open " + study()); }
   void cut_plate() {

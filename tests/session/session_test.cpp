@@ -275,6 +275,11 @@ TEST_F(SessionTest, ListenersHearWhatHasChanged) {
   EXPECT_EQ(cases, 1);
   refused("case 77");
   EXPECT_EQ(cases, 1);
+  session_.figures(2);
+  const auto scene = session_.scene();
+  refused("open /nonexistent");
+  EXPECT_TRUE(session_.knows_figures(2)) << "what was found out is not lost";
+  EXPECT_EQ(session_.scene(), scene);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Opening studies, choosing cases and parameters.
 #include <algorithm>
+#include <cstdio>
 
 #include "base/text.h"
 #include "explorer/scene/session/commands.h"
@@ -88,6 +89,24 @@ void brush(Session& session, CommandWords& words) {
   session.changes().brushes = true;
 }
 
+void find(Session& session, CommandWords& words) {
+  if (words.empty()) words.wrong("needs a condition, or 'clear'");
+  const std::string condition = words.rest();
+  session.find(condition == "clear" ? "" : condition);
+  if (condition == "clear") return;
+  int count = 0;
+  for (int i = 0; i < session.study()->size(); ++i) {
+    const std::optional<Finding>& f = session.finding(i);
+    if (!f) continue;
+    ++count;
+    char text[160];
+    std::snprintf(text, sizeof text, "case %d: %.1f to %.1f mm cut, u %.1f to %.1f mm, gape up to %.2f mm",
+                  i + 1, f->first_t, f->last_t, f->least_u, f->greatest_u, f->gape);
+    session.answer(text);
+  }
+  session.answer(std::to_string(count) + " of " + std::to_string(session.study()->size()) + " cases");
+}
+
 }  // namespace
 
 std::span<const Command> study_commands() {
@@ -101,6 +120,8 @@ std::span<const Command> study_commands() {
       {"cases", "", "list the cases by the parameters in which they differ", list_cases, Command::none},
       {"brush", "NAME LOW HIGH | clear", "fade cases whose parameter or figure is outside", brush,
        Command::latest},
+      {"find", "CONDITION | clear", "cases where it holds, like: gape > 3 and tissue.young_modulus < 0.01",
+       find, Command::latest},
       {"compare", "N N [N [N]]", "show two to four cases side by side", compare},
       {"single", "", "show one case again", single},
       {"difference", "N", "colour by the difference from case N", difference},

@@ -29,14 +29,17 @@ void Session::say(const std::string& line) {
   const SessionState state = state_;
   const auto study = study_;
   const auto mesh = mesh_;
+  const auto known = known_;
+  const auto cut_surfaces = cut_surfaces_;
+  const auto scenes = scenes_;
   changes_ = {};
   try {
     CommandWords rest(command.name, command.arguments, {words.begin() + 1, words.end()});
     command.run(*this, rest);
     rest.expect_end();
   } catch (...) {  // as it was
-    state_ = state, study_ = study, mesh_ = mesh;
-    cut_surfaces_.clear(), scenes_.clear(), figures_.clear();
+    state_ = state, study_ = study, mesh_ = mesh, known_ = known;
+    cut_surfaces_ = cut_surfaces, scenes_ = scenes;
     throw;
   }
   if (command.recorded != Command::none) {
@@ -124,13 +127,14 @@ void Session::load_study(const std::string& path) {
   state_.study = absolute(path);
   scenes_.clear();
   cut_surfaces_.clear();
-  figures_.clear();
+  known_ = std::make_shared<Known>();
 }
 
 void Session::open(const std::string& path) {
   load_study(path);
   state_.compared.clear();
   state_.brushes.clear();
+  state_.where.clear();
   state_.reference = -1;
   if (state_.coloring == Coloring::difference) state_.coloring = Coloring::displacement;
   state_.shown = 0;
@@ -203,9 +207,10 @@ bool Session::shows_exactly() const {
 }
 
 const CaseFigures& Session::figures(int i) {
-  const auto found = figures_.find(i);
-  return found != figures_.end() ? found->second
-                                 : figures_.emplace(i, case_figures(open_study().read(i))).first->second;
+  auto& figures = known_->figures;
+  const auto found = figures.find(i);
+  return found != figures.end() ? found->second
+                                : figures.emplace(i, case_figures(open_study().read(i))).first->second;
 }
 
 std::vector<std::string> Session::column_names() const {
@@ -222,7 +227,22 @@ double Session::column_value(int i, const std::string& name) {
   return found == values.end() ? std::nan("") : found->second;
 }
 
+void Session::find(const std::string& condition) {
+  open_study();
+  if (!condition.empty()) Condition{condition};  // says what is wrong with it
+  state_.where = condition;
+  changes_.brushes = true;
+}
+
+const std::optional<Finding>& Session::finding(int i) {
+  auto& findings = known_->findings[state_.where];
+  const auto found = findings.find(i);
+  if (found != findings.end()) return found->second;
+  return findings.emplace(i, Condition(state_.where).find(open_study().read(i))).first->second;
+}
+
 bool Session::brushed(int i) {
+  if (!state_.where.empty() && !finding(i)) return false;
   return std::all_of(state_.brushes.begin(), state_.brushes.end(), [&](const auto& brush) {
     const double value = column_value(i, brush.first);
     return value >= brush.second.first && value <= brush.second.second;

@@ -11,6 +11,7 @@
 #include "explorer/incision/surface_mesh.h"
 #include "explorer/scene/case_figures.h"
 #include "explorer/scene/cut_surface.h"
+#include "explorer/scene/find/find.h"
 #include "explorer/scene/session/session_state.h"
 #include "explorer/scene/study.h"
 #include "explorer/scene/wound_scene.h"
@@ -72,11 +73,13 @@ class Session {
 
   /// Of case i, read where they are not known yet.
   const CaseFigures& figures(int i);
-  bool knows_figures(int i) const { return figures_.count(i) > 0; }
+  bool knows_figures(int i) const { return known_->figures.count(i) > 0; }
   /// Parameters that differ, and figures; and case i's value, not a number where it has none.
   std::vector<std::string> column_names() const;
   double column_value(int i, const std::string& name);
-  /// Whether no brush fades case i.
+  /// Where the condition of `find` holds in case i; reads the case where that is not known yet.
+  const std::optional<Finding>& finding(int i);
+  /// Whether no brush and no condition fades case i.
   bool brushed(int i);
 
   /// What playing does in that time, told to listeners.
@@ -86,6 +89,7 @@ class Session {
   void open(const std::string& path);
   void close();
   void show_case(int i);
+  void find(const std::string& condition);  ///< empty: no condition
   void ask_for(const std::string& parameter, double value);
   void load_mesh(const std::string& file, double scale);
   void show_patch();
@@ -118,7 +122,12 @@ class Session {
   std::shared_ptr<const SurfaceMesh> mesh_;
   std::map<double, std::shared_ptr<const CutSurface>> cut_surfaces_;  // by depth
   std::map<int, std::shared_ptr<const WoundScene>> scenes_;           // of the cases in the views
-  std::map<int, CaseFigures> figures_;
+  /// What was found out about the study's cases.
+  struct Known {
+    std::map<int, CaseFigures> figures;
+    std::map<std::string, std::map<int, std::optional<Finding>>> findings;  // by condition
+  };
+  std::shared_ptr<Known> known_ = std::make_shared<Known>();
   std::vector<std::string> said_;
   std::vector<Listener> listeners_;
   Changes changes_;

@@ -77,6 +77,7 @@ SessionState to_state(const Json& j) {
   s.coloring = coloring_of(j.at("color"));
   if (!j.at("range").is_null()) s.range = j.at("range").get<std::pair<double, double>>();
   s.brushes = j.at("brushes").get<std::map<std::string, std::pair<double, double>>>();
+  s.where = j.at("where");
   s.reference = j.at("reference").get<int>() - 1;
   for (const Json& c : j.at("compared")) s.compared.push_back(c.get<int>() - 1);
   s.camera = to_camera(j.at("camera"));
@@ -105,6 +106,7 @@ std::string state_to_json(const SessionState& s) {
                {"color", text_of(s.coloring).name},
                {"range", s.range ? Json{s.range->first, s.range->second} : Json()},
                {"brushes", s.brushes},
+               {"where", s.where},
                {"reference", s.reference + 1},
                {"compared", compared},
                {"camera", to_json(s.camera)},

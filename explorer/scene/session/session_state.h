@@ -46,6 +46,7 @@ struct SessionState {
   int reference = -1;                              ///< the case from which `difference` is taken
   /// Cases outside these ranges of parameters and figures are faded.
   std::map<std::string, std::pair<double, double>> brushes;
+  std::string where;          ///< and those in which this condition holds nowhere; empty: none
   std::vector<int> compared;  ///< two to four cases side by side; empty: one view
   CameraState camera;
   bool dark = false;

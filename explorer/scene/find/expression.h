@@ -1,0 +1,30 @@
+// Conditions like "gape > 3 and (t < 20 or not tissue.young_modulus >= 0.02)".
+//
+//   or, and, not; < <= > >= == != (also =); + - * / and brackets; numbers; dotted names.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cleft {
+
+class Expression {
+ public:
+  /// Throws InputError with the place of what is no condition, or naming the nearest of `names` where a name
+  /// is none of them.
+  Expression(const std::string& text, const std::vector<std::string>& names);
+
+  /// `values` has one for each of `names`. A comparison with what is not a number does not hold.
+  bool holds(const std::vector<double>& values) const;
+  /// Whether the name with that index occurs.
+  bool uses(std::size_t name) const;
+
+  struct Node;
+
+ private:
+  std::shared_ptr<const Node> root_;
+};
+
+}  // namespace cleft
