@@ -1,5 +1,6 @@
 // cleft-benchmark-incision: microseconds for a step of the cut, one triangle crossed, walls and their column
-// included, on flat meshes of different sizes, whose triangles the path meets at the same scale.
+// included, on flat meshes of different sizes, whose triangles the path meets at the same scale; and for a
+// frame of the wound as it opens.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,6 +8,8 @@
 #include <vector>
 
 #include "explorer/incision/incision.h"
+#include "explorer/scene/live_replay.h"
+#include "tests/incision/fields.h"
 
 namespace {
 
@@ -45,6 +48,7 @@ void measure(int squares, int paths) {
   for (int number = 0; number < paths; ++number) {
     IncisionOptions options;
     options.max_edge = 0;
+    options.reach = 0;
     Incision whole(mesh, winding(number, squares), options);
     whole.advance_to(whole.path().length());
     std::vector<double> stops;
@@ -66,9 +70,37 @@ void measure(int squares, int paths) {
               2 * squares * squares, us.size(), at(.5), at(.9), at(.99), at(.999), us.back());
 }
 
+/// A cut as long as the field's, so that all the patch moves in every frame.
+void measure_frames() {
+  const Field field = testing::opening_field({-15, 30, 3}, 50, 50, 6, 3);
+  SurfaceMesh mesh = hills(98);
+  for (Vec3& p : mesh.points) p = {(p.x - 49) / 2, (p.y - 49) / 2, 0};
+  IncisionOptions options;
+  options.max_edge = 0;
+  Incision incision(mesh, ScalpelPath({{{-15, 0.1, 0}, {0, 0, 1}, 2}, {{15, 0.1, 0}, {0, 0, 1}, 2}}),
+                    options);
+  LiveReplay live(field, incision, 1);
+  std::vector<double> follow, move;
+  for (double s = 0.25; s < 30; s += 0.25) {
+    incision.advance_to(s);
+    const auto start = Clock::now();
+    live.follow();
+    const auto middle = Clock::now();
+    live.move_to(s);
+    follow.push_back(std::chrono::duration<double, std::micro>(middle - start).count());
+    move.push_back(std::chrono::duration<double, std::micro>(Clock::now() - middle).count());
+  }
+  std::sort(follow.begin(), follow.end());
+  std::sort(move.begin(), move.end());
+  std::printf("%9zu active vertices: step p50 %6.1f us, p90 %6.1f; frame p50 %6.1f us, p90 %6.1f\n",
+              live.active(), follow[follow.size() / 2], follow[follow.size() * 9 / 10], move[move.size() / 2],
+              move[move.size() * 9 / 10]);
+}
+
 }  // namespace
 
 int main() {
+  measure_frames();
   measure(78, 20);  // 12,168
   measure(78, 20);
   measure(224, 20);

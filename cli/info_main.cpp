@@ -106,10 +106,12 @@ Json info_of_study(const std::string& file) {
     cases.push_back({{"name", study.name(i)},
                      {"case", study.case_hash(i)},
                      {"bytes", study.coefficient_bytes(i)},
+                     {"modes_error", study.modes_error(i)},
                      {"report", list_of(study.report(i))},
                      {"parameters", study.parameters(i)}});
   return {{"format", "cleft-study"},
           {"cases", study.size()},
+          {"modes", study.modes()},
           {"bytes", std::filesystem::file_size(file)},
           {"list", cases}};
 }

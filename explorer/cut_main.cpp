@@ -100,7 +100,7 @@ void cut(const Options& options) {
   if (!options.field.empty()) field = read_field(options.field);
   MeshReport mesh_report;
   const SurfaceMesh surface = read_mesh(options.mesh, &mesh_report);
-  const ScalpelPath path = read_path(options.path, options.depth, options.scale, field);
+  const ScalpelPath path = read_path(options.path, options.depth, options.scale, field ? &*field : nullptr);
 
   Stopwatch watch;
   IncisionOptions incision_options;

@@ -152,7 +152,7 @@ void haptic(const Options& o) {
   if (!o.field.empty()) field = read_field(o.field);
   const SurfaceMesh mesh = read_mesh(o.mesh);
   std::optional<ScalpelPath> path;
-  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field);
+  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field ? &*field : nullptr);
 
   ForceParameters force;
   force.stiffness = stiffness(o, field);

@@ -11,20 +11,6 @@ namespace {
 
 using Piece = std::array<Vec3, 4>;
 
-/// The part of a Bezier piece between s0 and s1 of its own: blossoms at the two.
-Piece part(const Piece& piece, double s0, double s1) {
-  if (s0 == 0 && s1 == 1) return piece;
-  const auto blossom = [&piece](double a, double b, double c) {
-    Piece p = piece;
-    for (int level = 3; level > 0; --level) {
-      const double s = level == 3 ? a : level == 2 ? b : c;
-      for (int i = 0; i < level; ++i) p[i] = lerp(p[i], p[i + 1], s);
-    }
-    return p[0];
-  };
-  return {blossom(s0, s0, s0), blossom(s0, s0, s1), blossom(s0, s1, s1), blossom(s1, s1, s1)};
-}
-
 Vec3 value(const Piece& c, double s) {
   const double r = 1 - s;
   return r * r * r * c[0] + 3 * r * r * s * c[1] + 3 * r * s * s * c[2] + s * s * s * c[3];
@@ -171,7 +157,7 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
       const double to = stop != stops.end() && *stop < last ? *stop : last;
       out.breaks.push_back(from);
       out.controls.push_back(
-          part(piece, (from - begin) / (end - begin), to == end ? 1 : (to - begin) / (end - begin)));
+          part_of_piece(piece, (from - begin) / (end - begin), to == end ? 1 : (to - begin) / (end - begin)));
       from = to;
     }
   }

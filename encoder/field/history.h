@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "base/vec3.h"
@@ -17,6 +18,13 @@ struct History {
 
   std::vector<double> scratch;  ///< of the contraction
 };
+
+/// The part of a Bezier piece between s0 and s1 of its own: blossoms at the two.
+std::array<Vec3, 4> part_of_piece(const std::array<Vec3, 4>& piece, double s0, double s1);
+
+/// The sum of the histories, each times its factor, over the same first and last t: its pieces break where
+/// those of any of them do.
+void combine(std::span<const History> histories, std::span<const double> factors, History& out);
 
 /// Value at t, clamped to the breaks. Pieces need not meet: at a break the later piece counts.
 Vec3 evaluate(const History& history, double t);

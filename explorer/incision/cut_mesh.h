@@ -54,6 +54,9 @@ class CutMesh {
     double s = std::numeric_limits<double>::quiet_NaN();
     double depth_fraction = 0;  ///< 0 at the skin, 1 at the bottom of the wall
     int cut = -1;               ///< the cut that kind, s and depth_fraction speak of
+    double depth = 0;           ///< below the skin, at rest
+    /// The vertices that it was made between, or hangs from; -1: of the mesh as it was given.
+    std::array<int, 3> parents{-1, -1, -1};
   };
 
   /// A triangle of the left wall with its twin of the right one; its corners 0, 1, 2 are the twin's 0, 2, 1.

@@ -63,14 +63,16 @@ int CutMesh::split_edge(int t, int i, const Vec3& place, std::optional<double> s
 CutMesh::Vertex CutMesh::new_on_edge(int t, int i, const Vec3& place, double part,
                                      std::optional<double> s) const {
   Vertex vertex{place, place, t};
+  const int from = triangles_[t].vertex[i], to = triangles_[t].vertex[(i + 1) % 3];
+  vertex.parents = {from, to, to};
+  vertex.depth = (1 - part) * vertices_[from].depth + part * vertices_[to].depth;
   const int other = triangles_[t].neighbor[i];
   const bool other_is_wall = other >= 0 && triangles_[other].region != Region::skin;
   const bool is_wall = triangles_[t].region != Region::skin;
   if (!is_wall && !other_is_wall) return vertex;
   const int wall = is_wall ? t : other;
   const Region region = triangles_[wall].region;
-  const int a = triangles_[wall].corner(triangles_[t].vertex[i]),
-            b = triangles_[wall].corner(triangles_[t].vertex[(i + 1) % 3]);
+  const int a = triangles_[wall].corner(from), b = triangles_[wall].corner(to);
   const bool left = region == Region::left_wall;
   if (!is_wall || (other >= 0 && !other_is_wall))
     vertex.kind = left ? VertexKind::left_lip : VertexKind::right_lip;
@@ -160,6 +162,7 @@ int CutMesh::split_face(int t, const Vec3& place) {
   CLEFT_CHECK((old.region == Region::skin), ==, true);
   const auto [a, b, c] = old.vertex;
   const int m = add_vertex({place, place, t});
+  vertices_[m].parents = old.vertex;
   const int t2 = add_triangle({b, c, m}, old.region), t3 = add_triangle({c, a, m}, old.region);
   edit(t) = {{a, b, m}, {old.neighbor[0], t2, t3}, old.region};
   edit(t2).neighbor = {old.neighbor[1], t3, t};

@@ -52,6 +52,7 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
                     bisect(mesh_, start.triangle);
          ++k)
       start = find_start();
+    if (options_.reach > 0) surroundings_ = Surroundings(mesh_, path_, triangles_at(start), options_.reach);
     const int first = realise(start);
     grow(first, start.s);
     mend(before_cut_);

@@ -9,12 +9,14 @@
 // (of an earlier cut in the same mesh, or its own) it ends in its wall, and goes on from the opposite lip.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "explorer/incision/cut_mesh.h"
 #include "explorer/incision/scalpel_path.h"
+#include "explorer/incision/surroundings.h"
 #include "explorer/incision/walls.h"
 
 namespace cleft {
@@ -25,6 +27,9 @@ struct IncisionOptions {
   std::optional<double>
       chord_tolerance;  ///< how far a straight piece may stray from C(s); default length / 1000
   double snap = 0.2;    ///< a vertex nearer to the path than this part of its room is moved onto it
+  /// How far over the skin beside the path, and beyond its ends, a field may move vertices: the less, the
+  /// sooner the cut begins. 0: nothing will be moved.
+  double reach = std::numeric_limits<double>::infinity();
 };
 
 class Incision {
@@ -43,11 +48,13 @@ class Incision {
   /// Takes the whole cut back, refinement included, and makes it again: both bit for bit.
   void undo();
   void redo();
+  bool undone() const { return undone_.has_value(); }
 
   const CutMesh& mesh() const { return mesh_; }
   const ScalpelPath& path() const { return path_; }
-  int cut() const { return cut_; }                ///< the number of this cut in its mesh
-  double tip() const { return chain_.back().s; }  ///< arc length of the tip's vertex
+  const Surroundings& surroundings() const { return surroundings_; }  ///< of the skin before the cut
+  int cut() const { return cut_; }                                    ///< the number of this cut in its mesh
+  double tip() const { return chain_.back().s; }                      ///< arc length of the tip's vertex
   double start() const { return chain_.front().s; }
   /// Whether the path has left the mesh over its boundary.
   bool left_mesh() const { return state_.left_mesh; }
@@ -87,6 +94,7 @@ class Incision {
   std::optional<Step> start_on_face(double reach) const;
   std::optional<Step> start_on_boundary(double reach) const;
   std::optional<Step> snapped(const Step& crossing) const;
+  std::vector<int> triangles_at(const Step& start) const;
   Step placed(int triangle, const Vec3& place, double s) const;
   bool may_move(int v, const Vec3& place) const;
   bool may_reach(int v) const;
@@ -132,6 +140,7 @@ class Incision {
   double worst_before_;  // radius ratio
   int rows_ = 3;
   std::vector<ChainVertex> chain_;
+  Surroundings surroundings_;
 
   enum class End { closed, boundary, wound };
   struct State {

@@ -136,6 +136,12 @@ bool Incision::may_move(int v, const Vec3& place) const {
   return norm(step) <= same_place * norm(out) || (parallel(in, out) && parallel(step, out));
 }
 
+std::vector<int> Incision::triangles_at(const Step& start) const {
+  if (start.kind == Step::vertex) return mesh_.skin_fan(start.index);
+  if (start.kind == Step::face) return {start.triangle};
+  return {start.triangle, mesh_.triangle(start.triangle).neighbor[start.index]};
+}
+
 Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const {
   const CutMesh::Triangle& t = mesh_.triangle(triangle);
   const bool end = chain_.empty() || s == path_.length();

@@ -2,202 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
-#include <tuple>
+#include <numeric>
 
 namespace cleft {
 
 namespace {
 
-/// The skin triangles around every vertex, by index into one list.
-struct Star {
-  std::vector<int> first, triangles;
-
-  explicit Star(const CutMesh& mesh) : first(mesh.vertices().size() + 2) {
-    const auto each_corner = [&](const auto& use) {
-      for (std::size_t t = 0; t < mesh.triangles().size(); ++t)
-        if (mesh.triangles()[t].region == Region::skin)
-          for (const int v : mesh.triangles()[t].vertex) use(v, static_cast<int>(t));
-    };
-    each_corner([&](int v, int) { ++first[v + 2]; });
-    for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
-    triangles.resize(first.back());
-    each_corner([&](int v, int t) { triangles[first[v + 1]++] = t; });
-  }
-};
-
-class Volume {
- public:
-  Volume(const Incision& incision, const Field& field, double scale)
-      : incision_(incision),
-        mesh_(incision.mesh()),
-        path_(incision.path()),
-        field_(field),
-        scale_(scale),
-        star_(incision.mesh()) {
-    const Interval v = field.domain(1);
-    margin_ = (v.back - v.front) / 4;
-    for (const auto& c : incision.chain())
-      skin_height_.push_back(path_.coordinates(mesh_.position(c.left), c.s, c.s).w);
-    find_normals();
-  }
-
-  std::vector<ActiveVertex> run() {
-    add_cut();
-    add_skin();
-    return std::move(active_);
-  }
-
- private:
-  /// Lips, walls and closed ends: they know where they are.
-  void add_cut() {
-    for (std::size_t i = 0; i < mesh_.vertices().size(); ++i) {
-      const CutMesh::Vertex& vertex = mesh_.vertices()[i];
-      if (vertex.cut != incision_.cut()) continue;
-      const double w = -vertex.depth_fraction * field_.cut().depth;
-      add(static_cast<int>(i), vertex.s, 0, w, side_of(vertex.kind), true);
-    }
-  }
-
-  /// The skin's normal along the cut, at rest, even where its triangles are not: a mean over the triangles
-  /// at both lips, as far along as the cut is deep. The blade may be tilted against it; the field is not.
-  void find_normals() {
-    std::vector<Vec3> around;
-    for (const auto& c : incision_.chain()) {
-      Vec3 sum;
-      for (const int v : {c.left, c.right})
-        for (int k = star_.first[v]; k < star_.first[v + 1]; ++k) {
-          const auto& [a, b, d] = mesh_.triangle(star_.triangles[k]).vertex;
-          sum += cross(mesh_.position(b) - mesh_.position(a), mesh_.position(d) - mesh_.position(a));
-        }
-      around.push_back(sum);
-    }
-    const auto& chain = incision_.chain();
-    const double reach = field_.cut().depth / scale_;
-    for (const auto& c : chain) {
-      Vec3 sum;
-      for (std::size_t i = 0; i < chain.size(); ++i)
-        sum += std::max(0.0, 1 - std::abs(chain[i].s - c.s) / reach) * around[i];
-      const Vec3 blade = path_.at(c.s).outward;
-      normal_.push_back(dot(sum, blade) > 0 ? normalized(sum) : blade);
-    }
-  }
-
-  /// From both lips at once over the skin, nearest first (Dijkstra), as far as the field reaches.
-  void add_skin() {
-    using Entry = std::tuple<double, int, Side>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    std::vector<bool> done(mesh_.vertices().size());
-    for (const auto& c : incision_.chain()) {
-      front.push({0, c.left, c.left == c.right ? Side::both : Side::left});
-      if (c.left != c.right) front.push({0, c.right, Side::right});
-    }
-    while (!front.empty()) {
-      const auto [distance, v, side] = front.top();
-      front.pop();
-      if (done[v]) continue;
-      done[v] = true;
-      if (mesh_.vertex(v).kind == VertexKind::skin && !add_skin_vertex(v, side, distance)) continue;
-      for (int k = star_.first[v]; k < star_.first[v + 1]; ++k)
-        for (const int next : mesh_.triangle(star_.triangles[k]).vertex)
-          if (!done[next])
-            front.push({distance + norm(mesh_.position(next) - mesh_.position(v)), next, side});
-    }
-  }
-
-  bool add_skin_vertex(int v, Side side, double distance) {
-    const PathCoordinates at = path_.coordinates(mesh_.position(v));
-    // Along edges the way is at most sqrt(2) times as long as over a flat patch of well-shaped triangles.
-    // Where it is longer still, the surface has folded back under the cut: what counts is how far that is
-    // along it.
-    const double beyond = std::max({0.0, incision_.start() - at.s, at.s - incision_.tip()});
-    // Slopes up to 45 degrees count in full; what lies over the path itself stays at v = 0.
-    const double rise = std::min(std::abs(at.w - skin_height(at.s)), std::abs(at.v));
-    const double chord = std::hypot(at.v, rise);
-    const double along_surface = std::sqrt(std::max(0.0, distance * distance / 2.25 - beyond * beyond));
-    double across = std::copysign(std::max(chord, along_surface), at.v);
-    if (!beside_cut(at.s) || side == Side::both) {
-      // Uncut there: the sign of v tells, and what lies on the plane belongs to both sides.
-      if (std::abs(across) <= 1e-9 * path_.length()) across = 0;
-      side = side_of(across);
-    } else {
-      across = side == Side::left ? std::min(across, 0.0) : std::max(across, 0.0);
-    }
-    return add(v, at.s, across, 0, side, false);
-  }
-
-  bool beside_cut(double s) const {
-    const double tiny = 1e-9 * path_.length();
-    return s > incision_.start() + tiny && s < incision_.tip() - tiny;
-  }
-
-  /// What is known at the chain's vertices, at s between them.
-  template <class T>
-  T along_chain(const std::vector<T>& values, double s) const {
-    const auto& chain = incision_.chain();
-    const auto next =
-        std::upper_bound(chain.begin(), chain.end(), s,
-                         [](double value, const Incision::ChainVertex& c) { return value < c.s; });
-    if (next == chain.begin()) return values.front();
-    if (next == chain.end()) return values.back();
-    const auto i = next - chain.begin();
-    const double part = (s - chain[i - 1].s) / (chain[i].s - chain[i - 1].s);
-    return (1 - part) * values[i - 1] + part * values[i];
-  }
-
-  /// Height of the skin over the path at s (a path need not lie in the surface).
-  double skin_height(double s) const { return along_chain(skin_height_, s); }
-
-  /// T of the path made perpendicular to the skin's normal, and that.
-  PathFrame skin_frame(double s) const {
-    PathFrame frame = path_.at(s);
-    frame.outward = normalized(along_chain(normal_, s));
-    frame.along = normalized(frame.along - dot(frame.along, frame.outward) * frame.outward);
-    frame.across = cross(frame.outward, frame.along);
-    return frame;
-  }
-
-  /// Lengths s and across in mesh units, w in mm. False where the field does not reach.
-  bool add(int vertex, double s, double across, double w, Side side, bool on_cut) {
-    const CanonicalPlace place = canonical_place(s * scale_, path_.length() * scale_, field_.cut());
-    const double v = across * scale_;
-    const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
-    const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
-    const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
-    if (outside >= 1) return false;
-    const double weight = 1 - outside * outside * (3 - 2 * outside);
-    const PathFrame frame = skin_frame(s);
-    const double lift = lift_of_tilted_blade(path_.at(s).outward, frame, std::abs(v));
-    active_.push_back({vertex,
-                       {u_in, v_in, w},
-                       side,
-                       frame.along,
-                       frame.across + lift * frame.outward,
-                       frame.outward,
-                       s * scale_,
-                       place.time_offset,
-                       weight,
-                       on_cut});
-    return true;
-  }
-
-  /// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two
-  /// thirds of the tilt, as the solver's tilted cuts show (tests/truth), and the more the nearer to the cut.
-  double lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const {
-    const double tilt = std::atan2(-dot(blade, skin.across), dot(blade, skin.outward));
-    return std::tan(2. / 3 * tilt) * std::exp(-v / (1.5 * field_.cut().depth));
-  }
-
-  const Incision& incision_;
-  const CutMesh& mesh_;
-  const ScalpelPath& path_;
-  const Field& field_;
-  double scale_, margin_;
-  Star star_;
-  std::vector<double> skin_height_;
-  std::vector<Vec3> normal_;
-  std::vector<ActiveVertex> active_;
-};
+/// How far beside the patch, mm, displacements fall to nothing.
+double margin_of(const Field& field) { return (field.domain(1).back - field.domain(1).front) / 4; }
 
 }  // namespace
 
@@ -207,8 +19,169 @@ CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut)
   return {cut.start + cut.length / 2, cut.length / 2 - s};
 }
 
+double reach_of(const Field& field, double scale) {
+  const Interval u = field.domain(0), v = field.domain(1);
+  return (std::max({-v.front, v.back, field.cut().start - u.front,
+                    u.back - field.cut().start - field.cut().length}) +
+          margin_of(field)) /
+         scale;
+}
+
+IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, double scale)
+    : incision_(incision), field_(field), scale_(scale), margin_(margin_of(field)) {
+  labels_ = incision.surroundings().labels();
+  std::vector<int> later(incision.mesh().vertices().size());
+  std::iota(later.begin(), later.end(), 0);
+  later.erase(later.begin(),
+              later.begin() + static_cast<std::ptrdiff_t>(std::min(labels_.size(), later.size())));
+  take_in(later);
+  find_normals();
+  find_room();
+}
+
+void IncisionVolume::find_room() {
+  constexpr int pieces = 128;
+  for (int i = 0; i <= pieces; ++i)
+    for (const bool right : {false, true})
+      room_[right].push_back(incision_.path().room_beside(incision_.path().length() * i / pieces, right));
+}
+
+/// Falls smoothly from 1 in the path's half of its room to 0 at the end of it.
+double IncisionVolume::inside_bend(double s, double straight) const {
+  const std::vector<double>& room = room_[straight > 0];
+  const double at = std::clamp(s / incision_.path().length(), 0., 1.) * static_cast<double>(room.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), room.size() - 2);
+  const double part = at - static_cast<double>(i);
+  // The inverse of the room, a curvature, is linear between places: there is none beside a straight piece.
+  const double used = std::abs(straight) * ((1 - part) / room[i] + part / room[i + 1]);
+  const double x = std::clamp(2 * used - 1, 0., 1.);
+  return 1 - x * x * (3 - 2 * x);
+}
+
+void IncisionVolume::take_in(const std::vector<int>& vertices) {
+  const CutMesh& mesh = incision_.mesh();
+  labels_.resize(std::max(mesh.vertices().size(), incision_.surroundings().labels().size()));
+  for (const int v : vertices) {
+    if (static_cast<std::size_t>(v) < incision_.surroundings().labels().size()) continue;
+    Surroundings::Label mean{0, Side::both, true};
+    int left = 0, right = 0;
+    for (const int parent : mesh.vertex(v).parents) {
+      const Surroundings::Label& label = labels_[parent];
+      mean.reached = mean.reached && label.reached;
+      mean.detour += label.detour / 3;
+      left += label.side == Side::left, right += label.side == Side::right;
+    }
+    mean.side = left > 0 && right == 0 ? Side::left : right > 0 && left == 0 ? Side::right : Side::both;
+    labels_[v] = mean;
+  }
+}
+
+/// The skin's normal along the path, at rest, even where its triangles are not: a mean over the triangles
+/// under it, as far along as the cut is deep. The blade may be tilted against it; the field is not.
+void IncisionVolume::find_normals() {
+  const auto& stations = incision_.surroundings().stations();
+  const double reach = std::max(field_.cut().depth / scale_, 1e-3 * incision_.path().length());
+  for (const auto& at : stations) {
+    Vec3 sum = 1e-9 * at.length * at.normal;
+    const auto from = std::partition_point(stations.begin(), stations.end(),
+                                           [&](const auto& other) { return other.s < at.s - reach; });
+    for (auto other = from; other != stations.end() && other->s < at.s + reach; ++other)
+      sum += (1 - std::abs(other->s - at.s) / reach) * other->length * other->normal;
+    const Vec3 blade = incision_.path().at(at.s).outward;
+    station_.push_back(at.s);
+    normal_.push_back(dot(sum, blade) > 0 ? normalized(sum) : blade);
+  }
+}
+
+PathFrame IncisionVolume::skin_frame(double s) const {
+  PathFrame frame = incision_.path().at(s);
+  if (!station_.empty()) {
+    const auto next =
+        static_cast<std::size_t>(std::upper_bound(station_.begin(), station_.end(), s) - station_.begin());
+    const std::size_t a = next == 0 ? 0 : next - 1, b = std::min(next, station_.size() - 1);
+    const double part =
+        station_[b] > station_[a] ? std::clamp((s - station_[a]) / (station_[b] - station_[a]), 0., 1.) : 0;
+    frame.outward = normalized(lerp(normal_[a], normal_[b], part));
+  }
+  frame.along = normalized(frame.along - dot(frame.along, frame.outward) * frame.outward);
+  frame.across = cross(frame.outward, frame.along);
+  return frame;
+}
+
+/// Of which side of this wound a vertex is that is not its own: by the walls around it, else by the lips
+/// beside it.
+IncisionVolume::WoundSide IncisionVolume::side_of_wound(int v) const {
+  const CutMesh& mesh = incision_.mesh();
+  bool left = false, right = false, left_beside = false, right_beside = false;
+  for (const int t : mesh.fan(v)) {
+    const CutMesh::Triangle& triangle = mesh.triangle(t);
+    if (triangle.sheet >= 0) {
+      if (mesh.sheets()[triangle.sheet].cut == incision_.cut())
+        (triangle.region == Region::left_wall ? left : right) = true;
+      continue;
+    }
+    for (const int other : triangle.vertex)
+      if (mesh.vertex(other).cut == incision_.cut()) {
+        const Side side = cleft::side_of(mesh.vertex(other).kind);
+        left_beside = left_beside || side == Side::left;
+        right_beside = right_beside || side == Side::right;
+      }
+  }
+  const bool on_wall = left || right;
+  if (!on_wall) left = left_beside, right = right_beside;
+  return {left == right ? Side::both : left ? Side::left : Side::right, on_wall};
+}
+
+std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
+  const CutMesh::Vertex& vertex = incision_.mesh().vertex(v);
+  if (vertex.cut == incision_.cut())  // lips, walls and closed ends know where they are
+    return Place{vertex.s, 0, -vertex.depth_fraction * field_.cut().depth, side_of(vertex.kind), true, 0};
+  const Surroundings::Label& label = labels_[v];
+  if (!label.reached) return std::nullopt;
+  const PathCoordinates at = incision_.path().coordinates(vertex.position);
+  const double straight = std::abs(at.v) <= 1e-9 * incision_.path().length() ? 0 : at.v;
+  const auto [wound, on_wall] = side_of_wound(v);
+  Side side = wound == Side::both ? label.side : wound;
+  if (side == Side::both) side = side_of(straight);
+  // Between the curve and its chords, and where the curve is as far on both sides, v's sign may be another.
+  const double across = side == Side::left    ? std::min(straight, 0.0) - label.detour
+                        : side == Side::right ? std::max(straight, 0.0) + label.detour
+                                              : 0;
+  return Place{at.s, across, -vertex.depth * scale_, side, on_wall, straight};
+}
+
+std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
+  const std::optional<Place> at = place_of(vertex);
+  if (!at) return std::nullopt;
+  const ScalpelPath& path = incision_.path();
+  const CanonicalPlace place = canonical_place(at->s * scale_, path.length() * scale_, field_.cut());
+  const double v = at->across * scale_;
+  const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
+  const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
+  const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
+  const double weight =
+      outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * inside_bend(at->s, at->straight) : 0;
+  if (weight <= 0) return std::nullopt;
+  const PathFrame frame = skin_frame(at->s);
+  const double lift = lift_of_tilted_blade(path.at(at->s).outward, frame, std::abs(v));
+  return ActiveVertex{
+      vertex,        {u_in, v_in, at->w}, at->side,          frame.along, frame.across + lift * frame.outward,
+      frame.outward, at->s * scale_,      place.time_offset, weight,      at->on_cut};
+}
+
+/// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two
+/// thirds of the tilt, as the solver's tilted cuts show (tests/truth), and the more the nearer to the cut.
+double IncisionVolume::lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const {
+  const double tilt = std::atan2(-dot(blade, skin.across), dot(blade, skin.outward));
+  return std::tan(2. / 3 * tilt) * std::exp(-v / (1.5 * field_.cut().depth));
+}
+
 std::vector<ActiveVertex> active_vertices(const Incision& incision, const Field& field, double scale) {
-  return Volume(incision, field, scale).run();
+  const IncisionVolume volume(incision, field, scale);
+  std::vector<ActiveVertex> active;
+  for (std::size_t v = 0; v < incision.mesh().vertices().size(); ++v)
+    if (const auto one = volume.locate(static_cast<int>(v))) active.push_back(*one);
+  return active;
 }
 
 }  // namespace cleft

@@ -2,15 +2,20 @@
 // which a canonical displacement comes back. Paper, section 3.5.
 //
 // u runs with the path's arc length; a path longer than the canonical cut keeps its first and last half, and
-// between them the steady state of the middle. v is the distance from the path across it: exact on a plane;
-// on a curved surface the straight distance in the plane across the path, or where the way along the surface
-// is far longer, two thirds of that way along the mesh's edges. w is 0 on the skin; the walls reach from
-// there to the canonical depth, whatever their own, along the blade; where that is tilted, displacements are
-// still those of the skin's own frame (T, across, the skin's normal along the cut). On which side a vertex
-// lies is told by the surface, from which lip it is reached first, never by space: a vertex that lies
-// opposite the cut but far along the surface takes no part.
+// between them the steady state of the middle. v is the distance from the path over the skin, measured across
+// it. w is 0 on the skin; the walls reach from there to the canonical depth, whatever their own, along the
+// blade; where that is tilted, displacements are still those of the skin's own frame (T, across, the skin's
+// normal along the cut). On which side a vertex lies is told by the surface, from which lip it is reached
+// first, never by space: a vertex that lies opposite the cut but far along the surface takes no part.
+//
+// Where the path bends tighter than the patch is wide, the nearest place of the path jumps: displacements
+// fall to nothing before.
+//
+// Where a vertex lies does not depend on how far the blade has come, only on which side of the wound it is.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "encoder/field/field.h"
@@ -25,8 +30,9 @@ struct ActiveVertex {
   Vec3 along, across, outward;  ///< unit vectors in the mesh's space: T of the path, across it, skin's normal
   double s = 0;                 ///< mm along the path
   double time_offset = 0;  ///< tau: with the blade at p the field's time is clamp(p + tau, 0, cut length)
-  double weight = 1;       ///< 1 in the patch, falling to 0 over a quarter of its width beside it
-  bool on_cut = false;     ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
+  double weight =
+      1;  ///< 1 in the patch, falling to 0 over a quarter of its width beside it, and inside bends
+  bool on_cut = false;  ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
 
   /// A canonical displacement here, weighted, in the directions of the mesh's space; in the same unit.
   Vec3 in_mesh(const Vec3& d) const { return weight * (d.x * along + d.y * across + d.z * outward); }
@@ -38,7 +44,53 @@ struct CanonicalPlace {
 };
 CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut);
 
-/// All vertices the field can move. `scale` is mm per mesh unit.
+/// IncisionOptions::reach that a field needs, in mesh units. `scale` is mm per mesh unit, here and below.
+double reach_of(const Field& field, double scale);
+
+class IncisionVolume {
+ public:
+  /// The incision and the field must outlive it.
+  IncisionVolume(const Incision& incision, const Field& field, double scale);
+
+  /// To be told of the vertices of changed triangles, and of those that are new, sorted, after every change
+  /// of the mesh.
+  void take_in(const std::vector<int>& vertices);
+
+  /// Where a vertex lies, if the field reaches it.
+  std::optional<ActiveVertex> locate(int vertex) const;
+
+  /// At s, mesh units: T of the path made perpendicular to the skin's mean normal there, and that.
+  PathFrame skin_frame(double s) const;
+  double scale() const { return scale_; }
+
+ private:
+  struct Place {
+    double s, across, w;  // s and across in mesh units, w in mm
+    Side side;
+    bool on_cut;
+    double straight;  // distance from the path, mesh units, on the side of v
+  };
+  std::optional<Place> place_of(int vertex) const;
+  struct WoundSide {
+    Side side;
+    bool on_wall;
+  };
+  WoundSide side_of_wound(int vertex) const;
+  void find_normals();
+  void find_room();
+  double inside_bend(double s, double straight) const;
+  double lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const;
+
+  const Incision& incision_;
+  const Field& field_;
+  double scale_, margin_;
+  std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
+  std::array<std::vector<double>, 2> room_;  // beside the path, left and right, at even distances along it
+  std::vector<double> station_;              // s of the surroundings' stations
+  std::vector<Vec3> normal_;                 // of the skin there, a mean
+};
+
+/// All vertices the field can move.
 std::vector<ActiveVertex> active_vertices(const Incision& incision, const Field& field, double scale);
 
 }  // namespace cleft

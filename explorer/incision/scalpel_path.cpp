@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
@@ -94,7 +95,8 @@ ScalpelPath::ScalpelPath(const std::vector<Point>& points) {
                        " the direction (nx, ny, nz) runs along the path; it must point out of the surface");
 }
 
-ScalpelPath ScalpelPath::from_table(const NumberTable& table, const std::string& name) {
+ScalpelPath ScalpelPath::from_table(const NumberTable& table, const std::string& name,
+                                    const std::vector<std::string>& further) {
   int column[6];
   const char* names[6] = {"x", "y", "z", "nx", "ny", "nz"};
   for (int i = 0; i < 6; ++i) {
@@ -104,10 +106,15 @@ ScalpelPath ScalpelPath::from_table(const NumberTable& table, const std::string&
                                 "'; a path needs x,y,z,nx,ny,nz and may have depth");
   }
   const int depth = table.column("depth");
+  std::vector<std::string> optional = further;
+  optional.insert(optional.begin(), "depth");
+  std::string list;
+  for (const std::string& one : optional) list += (list.empty() ? "" : ", ") + one;
   for (const std::string& given : table.columns)
-    if (given != "depth" && std::find(names, names + 6, given) == names + 6)
-      throw FileError(name, "unknown column '" + given + "'" + did_you_mean(given, {"depth"}) +
-                                "; a path has x,y,z,nx,ny,nz and may have depth");
+    if (std::find(optional.begin(), optional.end(), given) == optional.end() &&
+        std::find(names, names + 6, given) == names + 6)
+      throw FileError(name, "unknown column '" + given + "'" + did_you_mean(given, optional) +
+                                "; a path has x,y,z,nx,ny,nz and may have " + list);
   std::vector<Point> points;
   for (const auto& row : table.rows) {
     points.push_back({{row[column[0]], row[column[1]], row[column[2]]},
@@ -144,6 +151,21 @@ PathFrame ScalpelPath::at(double s) const {
   frame.across = cross(frame.outward, frame.along);
   frame.position += (s - std::clamp(s, 0.0, length())) * frame.along;
   return frame;
+}
+
+double ScalpelPath::room_beside(double s, bool right) const {
+  // The smallest circle that touches the path at C(s) and meets it again. Very near to s that would be the
+  // curvature of a hand's tremor.
+  const PathFrame frame = at(s);
+  const Vec3 aside = right ? frame.across : -frame.across;
+  double room = std::numeric_limits<double>::infinity();
+  for (const Sample& sample : samples_) {
+    const Vec3 away = sample.position - frame.position;
+    const double beside = dot(away, aside);
+    if (std::abs(sample.s - s) > 0.02 * length() && beside > 1e-9 * length())
+      room = std::min(room, squared_norm(away) / (2 * beside));
+  }
+  return room;
 }
 
 double ScalpelPath::depth(double s) const {

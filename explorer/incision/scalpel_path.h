@@ -30,9 +30,10 @@ class ScalpelPath {
   /// Needs at least two different positions; steps of no length are merged. Throws InputError.
   explicit ScalpelPath(const std::vector<Point>& points);
 
-  /// Columns x, y, z, nx, ny, nz and, where present, depth; all in the mesh's units. Throws InputError naming
-  /// `name` and the row.
-  static ScalpelPath from_table(const NumberTable& table, const std::string& name);
+  /// Columns x, y, z, nx, ny, nz and, where present, depth; all in the mesh's units. Others must be among
+  /// `further` and are left alone. Throws InputError naming `name` and the row.
+  static ScalpelPath from_table(const NumberTable& table, const std::string& name,
+                                const std::vector<std::string>& further = {});
 
   double length() const { return samples_.back().s; }
 
@@ -49,6 +50,10 @@ class ScalpelPath {
   /// ruled surface C(s) + w N(s). Only the ends of the path itself are extended.
   PathCoordinates coordinates(const Vec3& x, double from, double to) const;
   PathCoordinates coordinates(const Vec3& x) const;
+
+  /// How far beside C(s), to the left or the right of it, places have C(s) as the nearest of the path: where
+  /// the path bends, up to the middle of the bend; infinite beside a straight one.
+  double room_beside(double s, bool right) const;
 
  private:
   struct Sample {

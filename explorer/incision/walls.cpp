@@ -7,18 +7,12 @@
 
 namespace cleft {
 
-Column hang_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut, int rows) {
-  Column column{{top}, {0}, s};
-  for (int row = 1; row <= rows; ++row) {
-    const double fraction = double(row) / rows;
-    const Vec3 place = mesh.position(top) + fraction * down;
-    column.vertex.push_back(mesh.add_vertex({place, place, -1, VertexKind::shared, s, fraction, cut}));
-    column.depth_fraction.push_back(fraction);
-  }
-  return column;
-}
-
 namespace {
+
+int add_below(CutMesh& mesh, int top, const Vec3& place, double s, double fraction, double depth, int cut) {
+  return mesh.add_vertex(
+      {place, place, -1, VertexKind::shared, s, fraction, cut, fraction * depth, {top, top, top}});
+}
 
 /// A corner of a wall's triangle.
 struct WallCorner {
@@ -60,6 +54,17 @@ int below_in_wall(CutMesh& mesh, int v, int& cut, double& s) {
 }
 
 }  // namespace
+
+Column hang_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut, int rows) {
+  Column column{{top}, {0}, s};
+  for (int row = 1; row <= rows; ++row) {
+    const double fraction = double(row) / rows;
+    const Vec3 place = mesh.position(top) + fraction * down;
+    column.vertex.push_back(add_below(mesh, top, place, s, fraction, norm(down), cut));
+    column.depth_fraction.push_back(fraction);
+  }
+  return column;
+}
 
 Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut, int rows,
                     const std::vector<int>& below) {
@@ -109,9 +114,8 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
   for (int i = 1; i <= more; ++i) {
     const double fraction = 1 + (from / depth - 1) * (1 - double(i) / more);
     const Vec3 place = lerp(mesh.position(bottom), mesh.position(top) + down, double(i) / more);
-    column.vertex.push_back(below.empty()
-                                ? mesh.add_vertex({place, place, -1, VertexKind::shared, s, fraction, cut})
-                                : below[static_cast<std::size_t>(i - 1)]);
+    column.vertex.push_back(below.empty() ? add_below(mesh, top, place, s, fraction, depth, cut)
+                                          : below[static_cast<std::size_t>(i - 1)]);
     column.depth_fraction.push_back(i == more ? 1 : fraction);
   }
   column.opens = !below.empty();
@@ -243,6 +247,7 @@ void Sewing::part(int v) {
     if (std::find(done.begin(), done.end(), seed) != done.end()) continue;
     const std::vector<int> fan = mesh_.fan(v, seed);
     const int name = done.empty() ? v : mesh_.add_vertex(before);
+    if (name != v) mesh_.edit_vertex(name).parents = {v, v, v};
     done.insert(done.end(), fan.begin(), fan.end());
     if (name != v)
       for (const int t : fan) {

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
 #include "explorer/incision/ipv.h"
 #include "explorer/scene/replay_pieces.h"
+#include "explorer/scene/varying_field.h"
 
 namespace cleft {
 
@@ -16,7 +16,7 @@ class Replay {
  public:
   /// Contracts the field once for each active vertex, to within its contraction_tolerance(). `scale` is mm
   /// per mesh unit.
-  Replay(const Field& field, const Incision& incision, double scale);
+  Replay(const VaryingField& field, const Incision& incision, double scale);
 
   /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
   /// for each vertex of the incision's mesh. Allocates nothing.
@@ -31,9 +31,6 @@ class Replay {
   double path_length_;
   std::vector<Vec3> rest_;
   std::vector<ActiveVertex> active_;  // in the order of their time offsets
-  std::vector<double> times_;
-  // Turned into the mesh's space, weighted and in its units; a vertex of the cut has a second history for the
-  // time before the blade has passed it.
   ReplayPieces pieces_;
 };
 

@@ -18,35 +18,51 @@ std::vector<double> subdivided(const std::vector<double>& times, int parts) {
   return result;
 }
 
-/// The field's knots in time, as far as the blade goes.
-std::vector<double> knot_times(const Field& field) {
-  std::vector<double> times = field.knot_times();
-  const double last = std::min(times.back(), field.cut().length);
-  while (times.size() > 1 && times.back() >= last) times.pop_back();
+/// The fields' knots in time, as far as the blade goes.
+std::vector<double> knot_times(std::span<const Field* const> fields) {
+  std::vector<double> times;
+  for (const Field* field : fields)
+    for (const double t : field->knot_times()) times.push_back(t);
+  std::sort(times.begin(), times.end());
+  const double last = std::min(fields[0]->duration(), fields[0]->cut().length);
+  const auto same = [last](double a, double b) { return b - a <= 1e-9 * last; };
+  times.erase(std::unique(times.begin(), times.end(), same), times.end());
+  while (times.size() > 1 && times.back() >= last * (1 - 1e-9)) times.pop_back();
   times.push_back(last);
   return times;
 }
 
+/// Whether one cubic a span is not enough in more than a twentieth of the spans.
+bool are_divided(const Field& field, double tolerance, const std::vector<double>& times) {
+  const Interval u = field.domain(0), v = field.domain(1);
+  History history;
+  std::size_t spans = 0, divided = 0;
+  for (const double along : {0.1, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.9})
+    for (const double across : {0.05, 0.3, 0.46, 0.49, 0.51, 0.54, 0.7, 0.95})
+      for (const double height : {0., -0.5}) {
+        const Vec3 place{u.front + along * (u.back - u.front), v.front + across * (v.back - v.front),
+                         height * field.cut().depth};
+        field.contract(place, Side::both, tolerance, times, history);
+        spans += times.size() - 1;
+        auto next = history.breaks.begin();
+        for (std::size_t span = 0; span + 1 < times.size(); ++span) {
+          next = std::upper_bound(next, history.breaks.end(), times[span]);
+          divided += next != history.breaks.end() && *next < times[span + 1];
+        }
+      }
+  return divided > spans / 20;
+}
+
 }  // namespace
 
-std::vector<double> replay_times(const Field& field, double tolerance, std::span<const Place> places) {
-  const std::vector<double> knots = knot_times(field);
-  if (!field.parametrization().moves()) return knots;
-  History history;
-  const std::size_t step = std::max<std::size_t>(1, places.size() / 100);
+std::vector<double> replay_times(std::span<const Field* const> fields, double tolerance) {
+  const std::vector<double> knots = knot_times(fields);
   for (int parts = 1;; parts *= 2) {
-    std::vector<double> times = subdivided(knots, parts);
-    std::size_t spans = 0, divided = 0;
-    for (std::size_t i = 0; i < places.size(); i += step) {
-      field.contract(places[i].uvw, places[i].side, tolerance, times, history);
-      spans += times.size() - 1;
-      auto next = history.breaks.begin();
-      for (std::size_t span = 0; span + 1 < times.size(); ++span) {
-        next = std::upper_bound(next, history.breaks.end(), times[span]);
-        divided += next != history.breaks.end() && *next < times[span + 1];
-      }
-    }
-    if (divided <= spans / 20 || parts == 8) return times;
+    const std::vector<double> times = subdivided(knots, parts);
+    const bool enough = std::none_of(fields.begin(), fields.end(), [&](const Field* field) {
+      return field->parametrization().moves() && are_divided(*field, tolerance, times);
+    });
+    if (enough || parts == 8) return times;
   }
 }
 
@@ -121,20 +137,35 @@ Vec3 ReplayPieces::displacement(const Exception& e, const std::vector<Piece>& pi
   return r * r * r * c[0] + 3 * r * r * x * c[1] + 3 * r * x * x * c[2] + x * x * x * c[3];
 }
 
-void ReplayPieces::positions(double s, const Vec3* rest, Vec3* out) const {
+std::pair<std::size_t, std::size_t> ReplayPieces::positions(double before, double s, const Vec3* rest,
+                                                            Vec3* out) const {
+  const double from = std::min(before, s), to = std::max(before, s),
+               close = 1e-9 * (times_.back() - times_.front());
+  const auto begin = offsets_.begin(), end = begin + static_cast<std::ptrdiff_t>(vertices_.size());
+  const auto first = std::partition_point(
+                 begin, end, [&](double offset) { return to + offset < times_.front() - close; }),
+             last = std::partition_point(
+                 first, end, [&](double offset) { return from + offset <= times_.back() + close; });
+  const auto front = static_cast<std::size_t>(first - begin), back = static_cast<std::size_t>(last - begin);
+  positions(s, front, back, rest, out);
+  return {front, back};
+}
+
+void ReplayPieces::positions(double s, std::size_t front, std::size_t last, const Vec3* rest,
+                             Vec3* out) const {
   CLEFT_CHECK(next_, ==, vertices_.size());
   // In the order of offsets, and so of their own times: those of one span are neighbours.
-  const auto begin = offsets_.begin(), end = begin + static_cast<std::ptrdiff_t>(vertices_.size());
-  std::size_t front = 0;
-  for (std::size_t span = 0; span < spans() && front < vertices_.size(); ++span) {
-    std::size_t back = vertices_.size();
+  const auto begin = offsets_.begin(), end = begin + static_cast<std::ptrdiff_t>(last);
+  while (front < last) {
+    const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, s + offsets_[front]);
+    const auto span = static_cast<std::size_t>(after - times_.begin()) - 1;
+    std::size_t back = last;
     if (span + 1 < spans())
       back = static_cast<std::size_t>(
           std::partition_point(begin, end, [&](double offset) { return s + offset < times_[span + 1]; }) -
           begin);
-    if (back <= front) continue;
-    kernels_.replay(&blocks_[span * blocks_a_span_], offsets_.data(), vertices_.data(), front, back, s,
-                    times_[span], times_[span + 1] - times_[span], rest, out);
+    kernels_->replay(&blocks_[span * blocks_a_span_], offsets_.data(), vertices_.data(), front, back, s,
+                     times_[span], times_[span + 1] - times_[span], rest, out);
     const auto& [exceptions, pieces] = divided_[span];
     auto e = std::partition_point(exceptions.begin(), exceptions.end(),
                                   [&](const Exception& x) { return x.vertex < front; });

@@ -6,15 +6,17 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "encoder/field/field.h"
 
 namespace cleft {
 
-/// A grid of times for the histories of the given places: the coarsest that divides the field's knots evenly,
-/// up to eight parts each, on which one cubic a span keeps nearly all of a sample of them to `tolerance` mm.
-std::vector<double> replay_times(const Field& field, double tolerance, std::span<const Place> places);
+/// A grid of times for the histories of sums of fields of the same cut: the coarsest that divides the fields'
+/// knots evenly, up to eight parts each, on which one cubic a span keeps nearly all of those of a sample of
+/// places to `tolerance` mm.
+std::vector<double> replay_times(std::span<const Field* const> fields, double tolerance);
 
 class ReplayPieces {
  public:
@@ -28,7 +30,16 @@ class ReplayPieces {
   void append(const History& closed, const History& open, double s);
 
   /// out[vertices[i]] = rest[vertices[i]] + displacement, with the blade at s. Allocates nothing.
-  void positions(double s, const Vec3* rest, Vec3* out) const;
+  void positions(double s, const Vec3* rest, Vec3* out) const {
+    positions(s, 0, vertices_.size(), rest, out);
+  }
+  /// The same of those alone that are not at rest while the blade goes from `before` to s: their numbers i
+  /// are the range returned.
+  std::pair<std::size_t, std::size_t> positions(double before, double s, const Vec3* rest, Vec3* out) const;
+
+  const std::vector<int>& vertices() const { return vertices_; }
+  /// From now on the displacement of vertices[i] goes to another.
+  void redirect(std::size_t i, int vertex) { vertices_[i] = vertex; }
 
   std::size_t exceptions() const { return exception_count_; }  ///< pairs of a vertex and a span of time
   const std::vector<PieceBlock>& blocks() const { return blocks_; }
@@ -46,6 +57,7 @@ class ReplayPieces {
   };
 
   std::size_t spans() const { return times_.size() - 1; }
+  void positions(double s, std::size_t front, std::size_t last, const Vec3* rest, Vec3* out) const;
   void set(std::size_t span, const std::array<Vec3, 4>& control);
   void collect(const History& history, std::size_t span);
   Vec3 displacement(const Exception& exception, const std::vector<Piece>& pieces, double s) const;
@@ -60,7 +72,7 @@ class ReplayPieces {
     std::vector<Piece> pieces;
   };
   std::vector<Divided> divided_;
-  const KernelTable& kernels_ = kernel_table(available_kernels().back());
+  const KernelTable* kernels_ = &kernel_table(available_kernels().back());
 };
 
 }  // namespace cleft

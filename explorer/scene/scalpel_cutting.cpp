@@ -75,46 +75,42 @@ void ScalpelCutting::cut_to(double s) {
   figures_.update.add(watch.lap());
   ++figures_.cuts;
   figures_.triangles_cut += changed_.size();
-  if (field_) find_active();
-}
-
-/// Which vertices the field moves changes with the cut, and where they lie in it does not.
-void ScalpelCutting::find_active() {
-  if (incision_->chain().size() < 3) return;
-  active_ = active_vertices(*incision_, *field_, scale_);
-  places_.resize(active_.size());
-  values_.resize(active_.size());
-  opened_ = -1;
+  if (!field_) return;
+  if (!opening_) opening_ = std::make_unique<LiveReplay>(*field_, *incision_, scale_);
+  opening_->follow();
+  tell();
 }
 
 void ScalpelCutting::open() {
-  if (active_.empty()) return;
+  if (!opening_) return;
   const double tip = incision_->tip() * scale_;
-  if (tip == opened_ && figures_.waiting == 0) return;
   Stopwatch watch;
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    const ActiveVertex& a = active_[i];
-    places_[i] = {a.uvw, a.side, std::clamp(tip + a.time_offset, 0., field_->cut().length)};
-  }
-  field_->displacements(places_, values_);
+  opening_->move_to(tip);
+  tell();
   moved_.clear();
-  figures_.waiting = 0;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    const std::size_t i = (next_active_ + k) % active_.size();
-    const ActiveVertex& a = active_[i];
-    const Vec3 here = a.in_mesh(values_[i]);
-    Vec3& before = displacements_[static_cast<std::size_t>(a.vertex)];
-    if (squared_norm(here - before) <= told * told) continue;
-    if (moved_.size() == most_moved) {
-      if (figures_.waiting++ == 0) next_active_ = i;
-      continue;
-    }
-    before = here;
-    moved_.push_back({a.vertex, scale_ * incision_->mesh().position(a.vertex) + here});
+  for (; !untold_.empty() && moved_.size() < most_moved; untold_.pop_front()) {
+    const int v = untold_.front();
+    is_untold_[static_cast<std::size_t>(v)] = false;
+    if (static_cast<std::size_t>(v) >= opening_->vertex_count()) continue;
+    displacements_[static_cast<std::size_t>(v)] = scale_ * opening_->displacement(v);
+    moved_.push_back({v, scale_ * opening_->position(v)});
   }
-  opened_ = tip;
+  figures_.waiting = untold_.size();
   if (!moved_.empty()) surface_->update(moved_, {});
   figures_.open.add(watch.lap());
+}
+
+/// Takes note of those that have moved so far that it can be felt.
+void ScalpelCutting::tell() {
+  displacements_.resize(opening_->vertex_count());
+  is_untold_.resize(std::max(is_untold_.size(), displacements_.size()));
+  for (const int v : opening_->touched()) {
+    const auto i = static_cast<std::size_t>(v);
+    if (is_untold_[i] || squared_norm(scale_ * opening_->displacement(v) - displacements_[i]) <= told * told)
+      continue;
+    is_untold_[i] = true;
+    untold_.push_back(v);
+  }
 }
 
 }  // namespace cleft

@@ -3,6 +3,7 @@
 // Paper, 3.4 to 3.6.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +11,7 @@
 
 #include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
-#include "explorer/incision/ipv.h"
+#include "explorer/scene/live_replay.h"
 #include "haptic/contact_surface.h"
 #include "haptic/loop.h"
 
@@ -46,19 +47,17 @@ class ScalpelCutting {
 
   double reached(const HapticState& scalpel) const;
   void cut_to(double s);
-  void find_active();
   void open();
+  void tell();
 
   double scale_;
   std::optional<Field> field_;
   std::optional<Incision> incision_;
   std::unique_ptr<ContactSurface> surface_;
-  std::vector<ActiveVertex> active_;
-  std::size_t next_active_ = 0;  // where the last step's round over them ended
-  double opened_ = -1;           // mm of the path, of the last round
-  std::vector<Place> places_;
-  std::vector<Vec3> displacements_;  // mm, of vertices, as told to the surface
-  std::vector<Vec3> values_;
+  std::unique_ptr<LiveReplay> opening_;  // from the first cut on
+  std::vector<Vec3> displacements_;      // mm, of vertices, as told to the surface
+  std::deque<int> untold_;               // vertices that have moved since
+  std::vector<bool> is_untold_;
   std::vector<ContactSurface::Moved> moved_;
   std::vector<ContactSurface::Changed> changed_;
   std::vector<int> vertices_;

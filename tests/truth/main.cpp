@@ -1,7 +1,8 @@
-// How far replayed cuts are from simulated ones, over curvature, tilt, length and depth:
-//   cleft-truth [LINES_OF_CASE]
+// How far replayed cuts are from simulated ones, over curvature, tilt, length and
+// the distance of parallel cuts:
+//   cleft-truth [LINES_OF_CASE [PARAMETER]]
 // prints CSV: the opening of the truth, mm, and the errors of the opening and of the skin over the largest
-// opening.
+// opening; by the canonical field, and by fields of three prestresses superposed as the tension turns.
 #include <cstdio>
 #include <string>
 
@@ -10,16 +11,24 @@
 
 using namespace cleft;
 
-int main(int argc, char** argv) {
-  const std::string common = argc > 1 ? argv[1] : "";
+namespace {
+
+void print(const std::string& parameter, const std::string& value, const ReplayError& e) {
+  std::printf("%s,%s,%.4f,%.4f,%.4f", parameter.c_str(), value.c_str(), e.gape, e.gape_error / e.gape,
+              e.skin_error / e.gape);
+}
+
+/// One cut, in the patch of the canonical one but where that is too short.
+void single_cuts(const std::string& common, const std::string& only) {
   const TruthCases cases(common);
   const Field field = cases.canonical();
-  std::printf("parameter,value,gape_mm,gape_error,skin_error\n");
+  const PrestressFields fields = cases.prestresses();
   const auto row = [&](const std::string& parameter, const std::string& value, const std::string& more = "") {
+    if (!only.empty() && parameter != only) return;
     const SnapshotReader truth = cases.truth(parameter + " = " + value + more);
-    const ReplayError e = replay_error(truth, field);
-    std::printf("%s,%s,%.4f,%.4f,%.4f\n", parameter.c_str(), value.c_str(), e.gape, e.gape_error / e.gape,
-                e.skin_error / e.gape);
+    print(parameter, value, replay_error(truth, field));
+    const ReplayError turned = replay_error(truth, fields);
+    std::printf(",%.4f,%.4f\n", turned.gape_error / turned.gape, turned.skin_error / turned.gape);
     std::fflush(stdout);
   };
   row("cut.radius", "0");
@@ -27,4 +36,25 @@ int main(int argc, char** argv) {
   for (const char* tilt : {"-45", "-30", "-15", "15", "30", "45"}) row("cut.tilt", tilt);
   for (const int length : {6, 10, 15, 20, 25, 40, 60, 90})
     row("cut.length", std::to_string(length), "\npatch.length = " + std::to_string(length + 30));
+}
+
+/// Two parallel cuts, in a patch so wide that both are as far from its sides as the canonical one.
+void parallel_cuts(const std::string& common) {
+  const TruthCases cases(common + "\npatch.width = 70\nmesh.grading = 1.15");
+  const Field field = cases.canonical();
+  for (const char* spacing : {"30", "20", "15", "12", "10", "8", "6", "4"}) {
+    print("cut.spacing", spacing,
+          parallel_error(cases.truth("cut.count = 2\ncut.spacing = " + std::string(spacing)), field));
+    std::printf(",,\n");
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string common = argc > 1 ? argv[1] : "", only = argc > 2 ? argv[2] : "";
+  std::printf("parameter,value,gape_mm,gape_error,skin_error,turned_gape_error,turned_skin_error\n");
+  if (only != "cut.spacing") single_cuts(common, only);
+  if (only.empty() || only == "cut.spacing") parallel_cuts(common);
 }

@@ -3,12 +3,14 @@
 
 #include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
+#include "explorer/scene/prestress_fields.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft {
 
-/// The blade's way through the snapshot's first cut: an arc where cut.radius is above 0, tilted by cut.tilt.
-ScalpelPath path_of(const Snapshot& snapshot);
+/// The blade's way through one of the snapshot's parallel cuts: an arc where cut.radius is above 0, tilted by
+/// cut.tilt.
+ScalpelPath path_of(const Snapshot& snapshot, int cut = 0);
 
 /// Over all frames; lengths in mm.
 struct ReplayError {
@@ -19,5 +21,11 @@ struct ReplayError {
 
 /// Cuts the truth's own skin along its own cut, moves it by the field, and compares each frame.
 ReplayError replay_error(const SnapshotReader& truth, const Field& field);
+
+/// Two parallel cuts, the field replayed along both, while the second is made.
+ReplayError parallel_error(const SnapshotReader& truth, const Field& field);
+
+/// One cut with the fields superposed for the truth's prestress, turned into the path's own frame.
+ReplayError replay_error(const SnapshotReader& truth, const PrestressFields& fields);
 
 }  // namespace cleft

@@ -1,0 +1,119 @@
+#include "explorer/scene/live_replay.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace cleft {
+
+LiveReplay::LiveReplay(const VaryingField& field, const Incision& incision, double scale)
+    : incision_(incision),
+      scale_(scale),
+      undone_(true),
+      contractor_(field, scale),
+      volume_(incision, field.shape(), scale),
+      rest_(1),
+      position_(1) {
+  follow();
+}
+
+/// The corners of the triangles that changed, and the chain's last vertices: they become what they are before
+/// any triangle changes. Sorted.
+std::vector<int> LiveReplay::changed_vertices() {
+  const CutMesh& mesh = incision_.mesh();
+  std::vector<int> vertices = std::move(chain_end_);
+  chain_end_.clear();
+  const auto& chain = incision_.chain();
+  for (std::size_t i = chain.size() - std::min<std::size_t>(chain.size(), 4); i < chain.size(); ++i)
+    for (const int v : {chain[i].left, chain[i].right}) chain_end_.push_back(v);
+  vertices.insert(vertices.end(), chain_end_.begin(), chain_end_.end());
+  for (const int t : incision_.changed_triangles())
+    if (static_cast<std::size_t>(t) < mesh.triangles().size())
+      vertices.insert(vertices.end(), mesh.triangle(t).vertex.begin(), mesh.triangle(t).vertex.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  while (!vertices.empty() && static_cast<std::size_t>(vertices.back()) >= mesh.vertices().size())
+    vertices.pop_back();
+  return vertices;
+}
+
+void LiveReplay::follow() {
+  const std::size_t count = incision_.mesh().vertices().size();
+  const bool begins = undone_ && !incision_.undone();
+  undone_ = incision_.undone();
+  touched_.clear();
+  contracted_ = 0;
+  shrink(count);
+  std::vector<int> changed = changed_vertices();
+  if (begins || undone_) {
+    changed.resize(count);
+    std::iota(changed.begin(), changed.end(), 0);
+  }
+  rest_.resize(count + 1), position_.resize(count + 1);
+  slots_.resize(std::max(slots_.size(), count + 1));  // those of former vertices remember their versions
+  volume_.take_in(changed);
+  for (const int v : changed) {
+    const auto at = static_cast<std::size_t>(v) + 1;
+    leave(v);
+    rest_[at] = position_[at] = incision_.mesh().position(v);
+    touched_.push_back(v);
+    if (!undone_) place(v);
+  }
+  enter();
+}
+
+/// Vertices that a step took away are nobody's.
+void LiveReplay::shrink(std::size_t vertices) {
+  for (std::size_t v = vertices; v + 1 < slots_.size(); ++v) leave(static_cast<int>(v));
+}
+
+void LiveReplay::leave(int vertex) {
+  Slot& slot = slots_[static_cast<std::size_t>(vertex) + 1];
+  ++slot.version;
+  if (slot.batch < 0) return;
+  Batch& batch = batches_[static_cast<std::size_t>(slot.batch)];
+  batch.pieces.redirect(static_cast<std::size_t>(slot.index), 0);
+  if (--batch.left == 0) batch.pieces = contractor_.contract({});
+  slot.batch = -1;
+  --active_;
+}
+
+void LiveReplay::place(int vertex) {
+  if (const auto at = volume_.locate(vertex))
+    waiting_.push({-at->time_offset, vertex, slots_[static_cast<std::size_t>(vertex) + 1].version});
+}
+
+/// All whose own time has begun.
+void LiveReplay::enter() {
+  entering_.clear();
+  for (; !waiting_.empty() && waiting_.top().enters <= blade_; waiting_.pop()) {
+    const auto& [enters, vertex, version] = waiting_.top();
+    if (slots_[static_cast<std::size_t>(vertex) + 1].version == version)
+      entering_.push_back(*volume_.locate(vertex));
+  }
+  if (entering_.empty()) return;
+  Contractor::sort(entering_);
+  for (std::size_t i = 0; i < entering_.size(); ++i) {
+    Slot& slot = slots_[static_cast<std::size_t>(entering_[i].vertex) + 1];
+    slot.batch = static_cast<int>(batches_.size());
+    slot.index = static_cast<int>(i);
+    touched_.push_back(entering_[i].vertex);
+  }
+  batches_.push_back({contractor_.contract(entering_, 1), entering_.size()});
+  batches_.back().pieces.positions(blade_, rest_.data(), position_.data());
+  active_ += entering_.size();
+  contracted_ += entering_.size();
+}
+
+void LiveReplay::move_to(double s) {
+  touched_.clear();
+  const double before = blade_;
+  blade_ = s;
+  for (const Batch& batch : batches_) {
+    const auto [front, back] = batch.pieces.positions(before, s, rest_.data(), position_.data());
+    for (std::size_t i = front; i < back; ++i)
+      if (const int v = batch.pieces.vertices()[i]; v > 0) touched_.push_back(v - 1);
+  }
+  enter();
+}
+
+}  // namespace cleft

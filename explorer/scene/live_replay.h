@@ -1,0 +1,77 @@
+// The wound while it is being cut: vertices enter when the blade comes near, each contracted once, and are
+// left alone when they have come to rest. What a step costs goes with what the cut has changed, and a frame
+// with the vertices that move. Positions are those of a Replay of the same incision, bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+#include "explorer/incision/incision.h"
+#include "explorer/incision/ipv.h"
+#include "explorer/scene/contractor.h"
+
+namespace cleft {
+
+class LiveReplay {
+ public:
+  /// The field's own fields, whose displacements at t = 0 must be 0, and the incision must outlive it.
+  /// `scale`: mm per mesh unit.
+  LiveReplay(const VaryingField& field, const Incision& incision, double scale);
+
+  /// To be called after every advance_to, undo and redo of the incision.
+  void follow();
+  /// The blade is at s mm of the path.
+  void move_to(double s);
+
+  /// Of a vertex of the incision's mesh, mesh units.
+  const Vec3& position(int vertex) const { return position_[static_cast<std::size_t>(vertex) + 1]; }
+  Vec3 displacement(int vertex) const {
+    return position(vertex) - rest_[static_cast<std::size_t>(vertex) + 1];
+  }
+  std::size_t vertex_count() const { return rest_.size() - 1; }
+
+  /// The vertices whose positions the last follow() or move_to() has computed, some perhaps twice.
+  const std::vector<int>& touched() const { return touched_; }
+  std::size_t active() const { return active_; }          ///< vertices that have entered
+  std::size_t contracted() const { return contracted_; }  ///< in the last follow()
+
+ private:
+  /// Vertices that entered together.
+  struct Batch {
+    ReplayPieces pieces;
+    std::size_t left;  ///< that are still in it
+  };
+  struct Slot {
+    int batch = -1, index = 0;
+    std::uint32_t version = 0;  ///< of its place: what waits for an older one is forgotten
+  };
+  struct Waiting {
+    double enters;  ///< mm of the path
+    int vertex;
+    std::uint32_t version;
+    bool operator<(const Waiting& other) const { return enters > other.enters; }
+  };
+
+  std::vector<int> changed_vertices();
+  void leave(int vertex);
+  void place(int vertex);
+  void enter();
+  void shrink(std::size_t vertices);
+
+  const Incision& incision_;
+  double scale_, blade_ = 0;
+  bool undone_ = false;
+  Contractor contractor_;
+  IncisionVolume volume_;
+  std::vector<Vec3> rest_, position_;  // number 0 is nobody's: it takes what is computed for those that left
+  std::vector<Slot> slots_;
+  std::vector<Batch> batches_;
+  std::priority_queue<Waiting> waiting_;
+  std::vector<ActiveVertex> entering_;
+  std::vector<int> chain_end_;  // vertices of the chain's end as of the last follow()
+  std::vector<int> touched_;
+  std::size_t active_ = 0, contracted_ = 0;
+};
+
+}  // namespace cleft

@@ -1,0 +1,48 @@
+// The field of a cut in skin that is not the same all along it: fields of the same canonical cut, superposed
+// with weights that vary along the path.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "encoder/field/field.h"
+
+namespace cleft {
+
+/// A parameter of the field's case. Throws InputError where it does not tell it.
+double parameter_of(const Field& field, const std::string& name);
+
+class VaryingField {
+ public:
+  /// One field, the same all along. Fields must outlive this, and all that is made from it.
+  VaryingField(const Field& field) : fields_{&field} {}  // NOLINT(google-explicit-constructor)
+
+  /// weights[i][k] is that of fields[k] at stations[i], mm along the path; linear between them. Throws
+  /// InputError where the fields are not of the same cut in the same patch.
+  VaryingField(std::vector<const Field*> fields, std::vector<double> stations,
+               std::vector<std::vector<double>> weights);
+
+  /// The canonical cut, the patch and the parametrisation, which all fields have in common.
+  const Field& shape() const { return *fields_.front(); }
+  std::span<const Field* const> fields() const { return fields_; }
+  double contraction_tolerance() const;
+
+  /// Field::contract at s mm of the path. The histories' memory is used again from call to call.
+  void contract(const Vec3& uvw, Side side, double s, std::span<const double> stops, History& out) const;
+  /// Field::derivatives at s mm of the path.
+  Derivatives derivatives(const Vec3& uvw, Side side, double t, double s) const;
+  /// What the fields' cases have as a load, such as skin.prestress_v, superposed. Throws InputError where one
+  /// of them does not tell it.
+  double load(const std::string& parameter, double s) const;
+
+ private:
+  std::vector<double> weights_at(double s) const;
+
+  std::vector<const Field*> fields_;
+  std::vector<double> stations_;
+  std::vector<std::vector<double>> weights_;  // none: one field, as it is
+};
+
+}  // namespace cleft
