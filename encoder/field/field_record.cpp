@@ -34,8 +34,7 @@ constexpr Figure figures[] = {{"relative_l2", "", &FitReport::relative_l2},
                               {"condition", "", &FitReport::condition},
                               {"crease", "_degrees", &FitReport::crease},
                               {"overlap", "_mm", &FitReport::overlap},
-                              {"least_volume", "", &FitReport::least_volume}}
-};  // no times: equal fields, equal files
+                              {"least_volume", "", &FitReport::least_volume}};  // no times: equal fields, equal files
 
 /// The same of an interpolation.
 struct InterpolationFigure {

@@ -17,9 +17,8 @@ class Faults : public testing::Test {
 };
 
 TEST_F(Faults, KillsLoseNothing) {
-  const KillReport report = kill_at_random(study_, 5, random_);
-  EXPECT_EQ(report.kills, 5);
-  EXPECT_GT(report.drivers, 0);
+  const KillReport report = kill_at_random(study_, 3, random_);
+  EXPECT_EQ(report.kills, 3);
 }
 
 TEST_F(Faults, DamagedFilesAreRefusedOrRead) {
