@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <iostream>
 
 #include "base/error.h"
@@ -71,13 +73,16 @@ void print_figures(const Json& figures, bool as_json) {
   }
 }
 
-Progress::Progress(std::string task) : task_(std::move(task)), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::string task) : task_(std::move(task)), terminal_(isatty(STDERR_FILENO) == 1) {
+  if (const char* file = std::getenv(progress_file)) file_ = file;
+}
 
 Progress::~Progress() {
   if (written_) std::cerr << "\r\033[K" << std::flush;
 }
 
 void Progress::operator()(const std::string& state) {
+  if (!file_.empty()) std::ofstream(file_) << state << "\n";  // nothing depends on it
   if (!terminal_) return;
   std::cerr << "\r\033[K" << task_ << ": " << state << std::flush;
   written_ = true;

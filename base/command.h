@@ -21,7 +21,11 @@ CLI::Validator above(double least);
 /// Figures on stdout: one JSON object with `as_json`, else a line "name: value" for each.
 void print_figures(const Json& figures, bool as_json);
 
-/// A line of progress on stderr, overwritten in place on a terminal, and silent otherwise.
+/// The variable that names a file for a command to keep its state in, for whoever runs it to show.
+inline constexpr const char* progress_file = "CLEFT_PROGRESS";
+
+/// A line of progress on stderr, overwritten in place on a terminal, and silent otherwise; in the file of
+/// CLEFT_PROGRESS too.
 class Progress {
  public:
   explicit Progress(std::string task);
@@ -31,7 +35,7 @@ class Progress {
   void operator()(const std::string& state);
 
  private:
-  std::string task_;
+  std::string task_, file_;
   bool terminal_, written_ = false;
 };
 

@@ -29,6 +29,9 @@ class Handle {
   Close close_ = nullptr;
 };
 
+/// Of the library: "1.10.8".
+std::string version();
+
 using Shape = std::vector<hsize_t>;
 
 /// How a dataset is stored beside its checksums.

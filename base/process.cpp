@@ -1,7 +1,10 @@
 #include "base/process.h"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -33,6 +36,61 @@ std::vector<std::string> merged_environment(const std::map<std::string, std::str
   return entries;
 }
 
+/// A file descriptor that is closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  operator int() const { return number_; }  // NOLINT: meant to be passed to system calls
+
+ private:
+  int number_;
+};
+
+int opened(const std::string& path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) throw std::runtime_error(path + ": could not be written: " + std::strerror(errno));
+  return file;
+}
+
+/// In the child: what may be called between fork and exec in a process with threads, and no more.
+[[noreturn]] void become(char** argv, char** variables, int out, int log, pid_t parent, int failure) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(127);  // it has died already
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO), dup2(out, STDOUT_FILENO), dup2(log, STDERR_FILENO);
+  close(nothing);
+  execvpe(argv[0], argv, variables);
+  const int error = errno;
+  if (write(failure, &error, sizeof error) < 0) _exit(126);
+  _exit(127);
+}
+
+/// Waits for the child's end, and passes on what `stop` says.
+int awaited(pid_t child, const StopCount* stop, rusage& usage) {
+  const Descriptor end(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));
+  int status = 0, told = 0;
+  for (;;) {
+    const pid_t ended = wait4(child, &status, WNOHANG, &usage);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) throw std::runtime_error("the end of a child could not be awaited");
+    if (stop && *stop > told) {
+      told = *stop;
+      kill(told == 1 ? child : -child, told == 1 ? SIGTERM : SIGKILL);
+    }
+    pollfd ending{end, POLLIN, 0};
+    poll(&ending, 1, end < 0 ? 10 : 50);  // without pidfd (Linux before 5.3) it is asked now and then
+  }
+}
+
 }  // namespace
 
 std::string executable_folder() {
@@ -40,30 +98,27 @@ std::string executable_folder() {
 }
 
 ProcessResult run_process(const std::vector<std::string>& argv, const std::string& log,
-                          const std::map<std::string, std::string>& environment,
-                          const volatile std::sig_atomic_t* stop) {
+                          const std::map<std::string, std::string>& environment, const StopCount* stop,
+                          const std::string& output) {
   std::vector<std::string> arguments = argv, variables = merged_environment(environment);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr, pointers(arguments).data(),
-                                 pointers(variables).data());
-  posix_spawn_file_actions_destroy(&actions);
+  const std::vector<char*> argument_list = pointers(arguments), variable_list = pointers(variables);
+  const Descriptor log_file(opened(log)), output_file(output.empty() ? -1 : opened(output));
+  int failure[2];
+  if (pipe2(failure, O_CLOEXEC) != 0) throw std::runtime_error("no pipe could be made");
+  const Descriptor read_end(failure[0]);
+  const pid_t self = getpid(), child = fork();
+  if (child == 0)
+    become(const_cast<char**>(argument_list.data()), const_cast<char**>(variable_list.data()),
+           output.empty() ? log_file : output_file, log_file, self, failure[1]);
+  int error = child < 0 ? errno : 0;
+  close(failure[1]);
+  rusage usage{};
+  if (child > 0 && read(read_end, &error, sizeof error) == sizeof error) awaited(child, nullptr, usage);
   if (error != 0) throw std::runtime_error(argv[0] + " could not be started: " + std::strerror(error));
-  int status = 0;
-  bool told = false;
-  for (;;) {
-    const pid_t ended = waitpid(child, &status, stop ? WNOHANG : 0);
-    if (ended == child) break;
-    if (ended < 0 && errno != EINTR) throw std::runtime_error(argv[0] + ": its end could not be awaited");
-    if (stop && *stop && !told) told = kill(child, SIGTERM) == 0;
-    if (ended == 0) usleep(10'000);
-  }
-  if (WIFSIGNALED(status)) return {0, WTERMSIG(status)};
-  return {WEXITSTATUS(status), 0};
+  const int status = awaited(child, stop, usage);
+  const double peak = 1024. * static_cast<double>(usage.ru_maxrss);
+  if (WIFSIGNALED(status)) return {0, WTERMSIG(status), peak};
+  return {WEXITSTATUS(status), 0, peak};
 }
 
 }  // namespace cleft

@@ -10,7 +10,7 @@
 #include "base/stopwatch.h"
 #include "solver/direct_solver.h"
 #include "solver/iterative_solver.h"
-#include "solver/memory.h"
+#include "base/memory.h"
 #include "solver/mpi_session.h"
 #include "solver/solve.h"
 

@@ -3,6 +3,7 @@
 
 #include "base/command.h"
 #include "base/error.h"
+#include "base/sealed_json.h"
 #include "encoder/field/field_file.h"
 #include "encoder/field/study_file.h"
 #include "solver/snapshot/snapshot.h"
@@ -64,6 +65,12 @@ Json list_of(const Interpolation& made) {
           {"outside", made.outside}};
 }
 
+/// Of a study's published case: whether its snapshot was kept. Empty elsewhere.
+std::string raw_data_beside(const std::string& field) {
+  const std::string manifest = (std::filesystem::path(field).parent_path() / "manifest.json").string();
+  return std::filesystem::exists(manifest) ? read_sealed(manifest).value("snapshot", "kept") : "";
+}
+
 Json info_of_field(const std::string& file) {
   const Field field = read_field(file);
   Json counts = Json::array(), domain = Json::object();
@@ -87,6 +94,7 @@ Json info_of_field(const std::string& file) {
                                   {"components", quantity.components},
                                   {"largest", quantity.largest},
                                   {"error", quantity.error}});
+  if (const std::string raw = raw_data_beside(file); !raw.empty()) info["raw_data"] = raw;
   if (field.interpolation) info["interpolation"] = list_of(*field.interpolation);
   return info;
 }
@@ -98,10 +106,12 @@ Json info_of_study(const std::string& file) {
     cases.push_back({{"name", study.name(i)},
                      {"case", study.case_hash(i)},
                      {"bytes", study.coefficient_bytes(i)},
+                     {"modes_error", study.modes_error(i)},
                      {"report", list_of(study.report(i))},
                      {"parameters", study.parameters(i)}});
   return {{"format", "cleft-study"},
           {"cases", study.size()},
+          {"modes", study.modes()},
           {"bytes", std::filesystem::file_size(file)},
           {"list", cases}};
 }

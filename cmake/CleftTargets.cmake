@@ -6,6 +6,7 @@ if(CCACHE)
 endif()
 
 find_package(Threads REQUIRED)
+find_package(Eigen3 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(PkgConfig REQUIRED)

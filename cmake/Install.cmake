@@ -8,7 +8,7 @@ install(EXPORT CleftTargets NAMESPACE Cleft:: DESTINATION ${package_folder})
 foreach(folder base encoder/field encoder/field/parametrization solver/snapshot)
   file(GLOB headers ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   list(REMOVE_ITEM headers ${PROJECT_SOURCE_DIR}/base/command.h ${PROJECT_SOURCE_DIR}/base/vtk_listener.h
-    ${PROJECT_SOURCE_DIR}/encoder/field/columns.h ${PROJECT_SOURCE_DIR}/encoder/field/field_record.h)
+    ${PROJECT_SOURCE_DIR}/encoder/field/columns.h)
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cleft/${folder})
 endforeach()
 

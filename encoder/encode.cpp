@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "encoder/field/unknowns.h"
+#include "encoder/knot_search.h"
+#include "encoder/lips.h"
 #include "encoder/measure.h"
 #include "encoder/quantities.h"
 #include "encoder/series_fit.h"
@@ -18,8 +20,6 @@ namespace {
 // What of the tolerance fits of single frames and of all frames may use up, and what steps of the
 // coefficients would in the worst case.
 constexpr double share_of_space = 0.9, share_of_fit = 0.97, share_of_steps = 0.07;
-constexpr std::size_t probes = 6;   // frames that stand for all while knots are sought
-constexpr double few = 5e-5;        // nodes that a residual mends for less than the next rung costs
 constexpr double farthest = 0.625;  // steps a coefficient may be moved to be cheaper
 
 class Encoder {
@@ -43,7 +43,10 @@ class Encoder {
   }
 
   Encoded run() {
-    if (options_.rung) return {with_steps(fit_of(*options_.rung), 0), {}};
+    if (options_.rung) {
+      const SeriesFit fit = fit_of(*options_.rung);
+      return {with_steps(fit, above(fit.misfit(0))), {}};
+    }
     const std::vector<Rung> rungs = supported(ladder_of(*parametrization_), series_, *parametrization_);
     // The smallest that single frames say will do; where none does, a residual makes up for what a good one
     // leaves.
@@ -51,13 +54,11 @@ class Encoder {
     const std::size_t within = first_within(rungs);
     progress_("fitting all frames");
     const SeriesFit fit = fit_of(rungs[within < rungs.size() ? within : good]);
-    const bool alone = fit.misfit(share_of_fit * limit_).beyond == 0;
-    Encoded encoded{with_steps(fit, alone ? limit_ : 0), {}};
-    FitReport& report = encoded.field.report;
-    if (report.spline_error * scale_ > limit_) {
+    const Misfit misfit = fit.misfit(share_of_fit * limit_);
+    Encoded encoded{with_steps(fit, misfit.beyond == 0 ? limit_ : above(misfit)), {}};
+    if (encoded.field.report.spline_error * scale_ > limit_) {
       progress_("coding what the spline leaves");
       encoded.residual = residual_of(encoded.field, series_, limit_);
-      report = measure(encoded.field, series_, &*encoded.residual);
     }
     return encoded;
   }
@@ -68,47 +69,20 @@ class Encoder {
             bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())), start_};
   }
 
-  /// Index of the first rung whose fits in space of a few frames keep their share of the tolerance, or, where
-  /// none does, keep it but at a few nodes; the rungs' number where none does that.
   std::size_t first_within(const std::vector<Rung>& rungs) const {
-    const std::size_t frames = series_.times.size();
-    std::vector<std::size_t> some;
-    for (std::size_t i = 0; i < probes; ++i) some.push_back(1 + (frames - 2) * i / (probes - 1));
-    some.erase(std::unique(some.begin(), some.end()), some.end());
-    std::vector<std::optional<Misfit>> tried(rungs.size());
-    const auto misfit = [&](std::size_t i) {
-      if (!tried[i]) {
-        progress_("trying knots");
-        const auto bases = bases_of(rungs[i], *parametrization_, static_cast<int>(frames));
-        tried[i] = space_misfit(series_, *parametrization_, {bases[0], bases[1], bases[2]}, some,
-                                share_of_space * limit_);
-      }
-      return *tried[i];
-    };
-    std::size_t low = 0;
-    for (const double most : {0., few}) {
-      low = 0;
-      for (std::size_t high = rungs.size(); low < high;) {
-        const std::size_t middle = (low + high) / 2;
-        if (misfit(middle).beyond <= most)
-          high = middle;
-        else
-          low = middle + 1;
-      }
-      if (low < rungs.size()) break;
-    }
-    return low;
+    return first_rung_within(share_of_space * limit_, rungs, series_, *parametrization_, progress_);
   }
 
-  /// The field and its report, with steps of its coefficients that keep `bound`, mm; 0: that cost little
-  /// beside the error there is.
+  /// A bound, mm, that costs little beside the error there is.
+  static double above(const Misfit& misfit) { return 1.02 * misfit.largest; }
+
+  /// The field and its report, with steps of its coefficients that keep `bound`, mm.
   Field with_steps(const SeriesFit& fit, double bound) const {
     progress_("choosing the coefficients' steps");
-    const Field exact = fit.field(fit.control_points());
-    if (bound == 0) bound = 1.02 * fit.misfit(0).largest;
     // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
     // steps.
     double step = share_of_steps * 2 / std::sqrt(3.) * std::max(bound, 1e-9 * scale_);
+    const Field exact = with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest * step);
     for (int halvings = 0;; ++halvings, step /= 1.5) {
       Field field = quantised(exact, step, farthest);
       field.report.condition = fit.condition();

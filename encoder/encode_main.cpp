@@ -1,9 +1,11 @@
 // cleft encode: a snapshot to its field.
+#include <Eigen/Core>
 #include <array>
 #include <filesystem>
 
 #include "base/command.h"
 #include "base/error.h"
+#include "base/h5.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "encoder/encode.h"
@@ -43,6 +45,11 @@ Json figures_of(const Field& field, const Snapshot& snapshot, const std::string&
                {"parametrization", field.parametrization().name()},
                {"bytes", bytes},
                {"ratio_to_32_bit", raw / bytes}};
+  figures["versions"] = {
+      {"cleft", producer()},
+      {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                    std::to_string(EIGEN_MINOR_VERSION)},
+      {"HDF5", h5::version()}};
   for (const Quantity& quantity : field.quantities)
     figures["quantities"].push_back({{"name", quantity.name}, {"error", quantity.error}});
   return figures;

@@ -113,13 +113,8 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
   std::vector<Vec3> values(places.size());
   field.displacements(places, values);
   std::string text = "du,dv,dw\n";
-  for (std::size_t n = 0; n < values.size(); ++n) {
-    for (int axis = 0; residual && j > 0 && axis < 3; ++axis)
-      values[n][axis] +=
-          residual->quantum *
-          residual->values[(n * 3 + static_cast<std::size_t>(axis)) * (s.frames() - 1) + j - 1];
-    text += row_of(values[n]) + "\n";
-  }
+  for (std::size_t n = 0; n < values.size(); ++n)
+    text += row_of(residual ? values[n] + residual->at(n, j) : values[n]) + "\n";
   return text;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 /// Figures of one frame; errors squared.
 struct Frame {
-  double squared_error = 0, squared_data = 0, spline = 0, node = 0, gape = 0, false_gap = 0;
+  double squared_error = 0, squared_data = 0, spline = 0, gape = 0, false_gap = 0;
   double crease = 0, overlap = 0, least_volume = 1;
   int worst_node = 0;
 };
@@ -57,22 +57,15 @@ void add_shape(Frame& f, const Field& field, const Series& series, std::size_t f
   }
 }
 
-Frame measure_frame(const Field& field, const Series& series, std::size_t j, const NodeResidual* residual) {
+Frame measure_frame(const Field& field, const Series& series, std::size_t j) {
   Frame f;
   const double t = series.times[j];
   const std::vector<Vec3> spline = spline_at(field, series, t);
   const auto off = [&](std::size_t n) { return spline[n] - data_at(series, j, n); };
   for (std::size_t n = 0; n < spline.size(); ++n) {
-    Vec3 error = off(n);
-    const double squared = squared_norm(error);
+    const double squared = squared_norm(off(n));
     f.squared_error += squared, f.squared_data += squared_norm(data_at(series, j, n));
     if (squared > f.spline) f.spline = squared, f.worst_node = static_cast<int>(n);
-    if (residual && j > 0)
-      for (int axis = 0; axis < 3; ++axis)
-        error[axis] += residual->quantum * residual->values[(n * 3 + static_cast<std::size_t>(axis)) *
-                                                                static_cast<std::size_t>(residual->frames) +
-                                                            j - 1];
-    f.node = std::max(f.node, squared_norm(error));
     const Sample& sample = series.samples[n];
     if (sample.uvw.y == 0 && sample.side == Side::both)
       f.false_gap = std::max(f.false_gap, norm(field.displacement(sample.uvw, Side::right, t) -
@@ -94,12 +87,11 @@ Frame measure_frame(const Field& field, const Series& series, std::size_t j, con
 
 }  // namespace
 
-FitReport measure(const Field& field, const Series& series, const NodeResidual* residual) {
+FitReport measure(const Field& field, const Series& series) {
   const Stopwatch watch;
   std::vector<Frame> frames(series.times.size());
-  parallel_for(static_cast<int>(frames.size()), [&](int j) {
-    frames[j] = measure_frame(field, series, static_cast<std::size_t>(j), residual);
-  });
+  parallel_for(static_cast<int>(frames.size()),
+               [&](int j) { frames[j] = measure_frame(field, series, static_cast<std::size_t>(j)); });
   FitReport report;
   report.condition = field.report.condition, report.fit_seconds = field.report.fit_seconds;
   const double scale = report.largest_displacement = series.largest_displacement;
@@ -110,7 +102,6 @@ FitReport measure(const Field& field, const Series& series, const NodeResidual* 
     squared_error += f.squared_error, squared_data += f.squared_data;
     if (f.spline > spline)
       spline = f.spline, report.worst_node = f.worst_node, report.worst_time = series.times[j];
-    report.node_error = std::max(report.node_error, std::sqrt(f.node) / scale);
     report.gape_error = std::max(report.gape_error, f.gape / scale);
     report.false_gap = std::max(report.false_gap, f.false_gap / scale);
     report.crease = std::max(report.crease, f.crease);
@@ -120,28 +111,30 @@ FitReport measure(const Field& field, const Series& series, const NodeResidual* 
       report.frame_error = std::max(report.frame_error, std::sqrt(f.spline) / series.largest[j]);
   }
   report.relative_l2 = std::sqrt(squared_error / squared_data);
-  report.spline_error = std::sqrt(spline) / scale;
+  report.node_error = report.spline_error = std::sqrt(spline) / scale;
   report.measure_seconds = watch.seconds();
   return report;
 }
 
-NodeResidual residual_of(const Field& field, const Series& series, double bound) {
+NodeResidual residual_of(Field& field, const Series& series, double bound) {
   NodeResidual residual;
   // Half a step each way is sqrt(3) / 2 steps together; a little less for rounding.
   residual.quantum = (1 - 1e-9) * 2 / std::sqrt(3.) * bound;
   residual.nodes = static_cast<int>(series.samples.size());
   residual.frames = static_cast<int>(series.times.size()) - 1;
   residual.values.resize(series.samples.size() * 3 * static_cast<std::size_t>(residual.frames));
-  parallel_for(residual.frames, [&](int f) {
-    const auto j = static_cast<std::size_t>(f) + 1;
+  std::vector<double> largest(series.times.size());
+  parallel_for(static_cast<int>(largest.size()), [&](int frame) {
+    const auto j = static_cast<std::size_t>(frame);
     const std::vector<Vec3> spline = spline_at(field, series, series.times[j]);
     for (std::size_t n = 0; n < spline.size(); ++n) {
       const Vec3 left = data_at(series, j, n) - spline[n];
-      for (int axis = 0; axis < 3; ++axis)
-        residual.values[(n * 3 + static_cast<std::size_t>(axis)) * static_cast<std::size_t>(residual.frames) +
-                        j - 1] = static_cast<std::int32_t>(std::lround(left[axis] / residual.quantum));
+      for (int axis = 0; j > 0 && axis < 3; ++axis)
+        residual.value(n, axis, j) = static_cast<std::int32_t>(std::lround(left[axis] / residual.quantum));
+      largest[j] = std::max(largest[j], norm(residual.at(n, j) - left));
     }
   });
+  field.report.node_error = *std::max_element(largest.begin(), largest.end()) / series.largest_displacement;
   return residual;
 }
 

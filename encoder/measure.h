@@ -7,11 +7,12 @@
 
 namespace cleft {
 
-/// Errors of a field against the series it stands for, at every node and frame; node_error with the residual
-/// where there is one. Keeps what the fit reported of itself.
-FitReport measure(const Field& field, const Series& series, const NodeResidual* residual = nullptr);
+/// Errors of a field's spline against the series it stands for, at every node and frame. Keeps what the fit
+/// reported of itself.
+FitReport measure(const Field& field, const Series& series);
 
 /// What the field leaves of the displacements, in steps such that no node is off by more than `bound`, mm.
-NodeResidual residual_of(const Field& field, const Series& series, double bound);
+/// The field's node_error becomes that of both together.
+NodeResidual residual_of(Field& field, const Series& series, double bound);
 
 }  // namespace cleft

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 #include "base/error.h"
@@ -13,10 +14,15 @@ namespace cleft {
 
 namespace {
 
-constexpr double strengths[] = {1e-6, 1e-7, 1e-8};  // of the regularisation
-constexpr double regularisation_cost = 1.05;        // of the data's error, at most
-constexpr double time_roughness = 1e-9;             // holds what few frames leave open
-constexpr double residual_bound = 1e-5;             // of the right-hand side, where iterations stop
+// Of the regularisation: what is tried, from the strongest to the weakest, beginning with the usual one; what
+// costs the data nothing; and what knots are compared with.
+constexpr double strengths[] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+constexpr int usual = 1;
+constexpr double hardly_any = 1e-10, of_search = 1e-6;
+constexpr double regularisation_cost = 1.05;  // of the data's error, at most
+constexpr double of_first = 0.02;             // and of the first frame, of which one column tells little
+constexpr double time_roughness = 1e-9;       // holds what few frames leave open
+constexpr double residual_bound = 1e-5;       // of the right-hand side, where iterations stop
 constexpr int most_iterations = 60;
 
 std::array<BSplineBasis, 3> in_space(const std::array<BSplineBasis, 4>& bases) {
@@ -28,34 +34,26 @@ void one_thread_a_product() {
   if (openblas_set_num_threads) openblas_set_num_threads(1);
 }
 
-/// Of frames' misfits.
-template <class OfFrame>
-Misfit largest_of(std::size_t frames, double limit, const OfFrame& of_frame) {
-  std::vector<Misfit> misfits(frames);
-  parallel_for(static_cast<int>(frames), [&](int j) {
-    const Eigen::VectorXd distances = of_frame(static_cast<std::size_t>(j)).rowwise().norm();
-    misfits[static_cast<std::size_t>(j)] = {distances.maxCoeff(),
-                                            (distances.array() > limit).cast<double>().mean()};
-  });
-  Misfit all;
-  for (const Misfit& one : misfits) {
-    all.largest = std::max(all.largest, one.largest);
-    all.beyond += one.beyond / static_cast<double>(frames);
-  }
-  return all;
+Misfit misfit_of(const Eigen::MatrixX3d& errors, double limit) {
+  const Eigen::VectorXd distances = errors.rowwise().norm();
+  return {distances.maxCoeff(), (distances.array() > limit).cast<double>().mean()};
 }
 
 }  // namespace
 
-Misfit space_misfit(const Series& series, const Parametrization& parametrization,
+double space_misfit(const Series& series, const Parametrization& parametrization,
                     const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
-                    double limit) {
+                    double limit, double most) {
   one_thread_a_product();
   const FrameFit fit(series, parametrization, bases);
-  return largest_of(frames.size(), limit, [&](std::size_t i) {
-    return fit.misfit(
-        fit.space().factorize(fit.normal(frames[i], strengths[0])).solve(fit.project(frames[i])), frames[i]);
+  std::atomic<double> sum = 0;
+  parallel_for(static_cast<int>(frames.size()), [&](int i) {
+    if (sum > most) return;
+    const std::size_t frame = frames[static_cast<std::size_t>(i)];
+    const auto factor = fit.space().factorize(fit.normal(frame, of_search));
+    sum += misfit_of(fit.misfit(factor.solve(fit.project(frame)), frame), limit).beyond;
   });
+  return sum;
 }
 
 SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
@@ -78,19 +76,27 @@ SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization
   solve();
 }
 
-/// The strongest regularisation that costs an early and a late frame next to nothing.
+/// The strongest regularisation that costs the first, an early and the last frame next to nothing.
 void SeriesFit::choose_strength() {
-  const std::size_t frames = series_.times.size();
-  auto strength = std::begin(strengths);
-  for (const std::size_t j : {1 + frames / 8, frames - 1}) {
+  const std::size_t frames = series_.times.size(), some[] = {1, 1 + frames / 8, frames - 1};
+  int chosen[3];
+  parallel_for(3, [&](int i) {
+    const std::size_t j = some[i];
     const Eigen::MatrixX3d right = fit_.project(j);
     const auto cost = [&](double of) {
       return fit_.misfit(fit_.space().factorize(fit_.normal(j, of)).solve(right), j).norm();
     };
-    const double most = regularisation_cost * cost(strengths[2] / 100) + 1e-9 * series_.largest[j];
-    while (strength + 1 < std::end(strengths) && cost(*strength) > most) ++strength;
-  }
-  strength_ = *strength;
+    const double most =
+        regularisation_cost * cost(hardly_any) + (j == 1 ? of_first : 1e-9) * series_.frames[j].norm();
+    int strength = usual;
+    if (cost(strengths[strength]) <= most)
+      while (strength > 0 && cost(strengths[strength - 1]) <= most) --strength;
+    else
+      do ++strength;
+      while (strength + 1 < static_cast<int>(std::size(strengths)) && cost(strengths[strength]) > most);
+    chosen[i] = strength;
+  });
+  strength_ = strengths[*std::max_element(chosen, chosen + 3)];
 }
 
 void SeriesFit::solve() {
@@ -168,7 +174,7 @@ void SeriesFit::solve() {
   const auto multiply = [&](const Blocks& x) {
     Blocks of_frames(frames);
     parallel_for(frames, [&](int j) {
-      Eigen::MatrixXd at = Eigen::MatrixXd::Zero(n, 3);
+      Eigen::MatrixX3d at = Eigen::MatrixX3d::Zero(n, 3);
       for (int l = 0; l < T; ++l)
         if (in_time_(j, l) != 0) at += in_time_(j, l) * x[l];
       of_frames[j] = fit_.space().multiply(normals[j], at);
@@ -218,10 +224,19 @@ void SeriesFit::solve() {
 }
 
 Misfit SeriesFit::misfit(double limit) const {
-  return largest_of(static_cast<std::size_t>(in_time_.rows()), limit, [&](std::size_t j) {
-    const Eigen::RowVectorXd x = in_time_.row(static_cast<Eigen::Index>(j)) * control_points_;
-    return fit_.misfit(x.reshaped(ties().size(), 3), j + static_cast<std::size_t>(first_));
+  const int frames = static_cast<int>(in_time_.rows());
+  std::vector<Misfit> misfits(static_cast<std::size_t>(frames));
+  parallel_for(frames, [&](int j) {
+    const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
+    const auto frame = static_cast<std::size_t>(j + first_);
+    misfits[static_cast<std::size_t>(j)] = misfit_of(fit_.misfit(x.reshaped(ties().size(), 3), frame), limit);
   });
+  Misfit all;
+  for (const Misfit& one : misfits) {
+    all.largest = std::max(all.largest, one.largest);
+    all.beyond += one.beyond / static_cast<double>(frames);
+  }
+  return all;
 }
 
 std::vector<Vec3> SeriesFit::coefficients(const Eigen::MatrixXd& control_points) const {

@@ -18,10 +18,11 @@ struct Misfit {
   double beyond = 0;   ///< share of the nodes and frames that are off by more than a limit
 };
 
-/// Of fits of single frames in space: what the knots in space can reach, were every frame on its own.
-Misfit space_misfit(const Series& series, const Parametrization& parametrization,
+/// Of fits of single frames in space, what the knots in space can reach, were every frame on its own: the
+/// frames' shares of nodes that are off by more than `limit`, summed until they are above `most`.
+double space_misfit(const Series& series, const Parametrization& parametrization,
                     const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
-                    double limit);
+                    double limit, double most);
 
 /// The least-squares spline in all four variables. Where the parametrisation does not move, the normal matrix
 /// is a Kronecker product of one in t and one in space, and so solved. Where it moves, that is only a

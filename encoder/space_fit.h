@@ -14,9 +14,9 @@ namespace cleft {
 
 /// The spline over (along, across, height) of a parametrisation, at scattered samples, with the control
 /// points tied where the tissue is uncut. The samples' places across and in height never move, and samples of
-/// equal u move together along the cut: what they add to the normal matrix is summed once, and a time only
-/// weighs it along u. Blocks of numbers have a row a sample or a row an unknown (ties().size()). All is safe
-/// to call from several threads at once.
+/// equal u move together along the cut: what they add to the normal matrix is summed once (for all planes of
+/// u with nodes at the same places), and a time only weighs it along u. Blocks of numbers have a row a sample
+/// or a row an unknown (ties().size()). All is safe to call from several threads at once.
 class SpaceFit {
  public:
   SpaceFit(const Parametrization& parametrization, const std::array<BSplineBasis, 3>& bases,
@@ -64,8 +64,12 @@ class SpaceFit {
   /// B ties x: the spline's values at the samples.
   Eigen::MatrixX3d values(const Eigen::MatrixX3d& x, double t) const;
 
- private:
   struct Parts;
+
+ private:
+  /// A row a control point: three components and a 0, so that all four are one operation.
+  using Grid = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+  static std::vector<Grid> multiplied(const Parts& parts, const Normal& normal, const std::vector<Grid>& x);
   std::unique_ptr<const Parts> parts_;
 };
 

@@ -37,7 +37,7 @@ look="$bin/cleft explore $out/study --case 3 --mesh $out/head.stl --path $out/pa
 for side in front:-38,12 back:32,8; do
   for millimetres in 12 34 68; do
     picture=$out/wound-${side%%:*}-$millimetres.png
-    $look --time $millimetres --view="${side#*:}" --zoom 2.4 --size 900,900 --screenshot $picture
+    $look --time $millimetres --view="${side#*:}" --zoom 2 --size 900,900 --screenshot $picture
     echo "picture: $picture"
   done
 done

@@ -1,17 +1,22 @@
-// cleft explore: looks at a study, case by case, on its patch or as a wound in a surface mesh.
+// cleft explore: looks at a study, case by case, on its patch or as wounds in a surface mesh.
+#include <iostream>
+
 #include "base/command.h"
 #include "base/error.h"
-#include "explorer/view/explore_window.h"
-#include "explorer/view/explorer.h"
+#include "base/text.h"
+#include "explorer/app/run_window.h"
+#include "explorer/scene/session/command_table.h"
+#include "explorer/scene/session/session.h"
 #include "explorer/view/picture.h"
+#include "params/study_index.h"
 
 using namespace cleft;
 
 namespace {
 
 struct Options {
-  ExplorerInput input;
-  std::string screenshot;
+  std::string study, mesh, path, screenshot, script, state;
+  double scale = 1;  ///< mm in a unit of the mesh and the path
   int shown_case = 1;
   double time = -1;  ///< the end, where none is given
   std::vector<double> view{0, 0};
@@ -20,15 +25,16 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& o) {
-  app.add_option("study", o.input.study, "A study folder or a case.dffd")->required();
-  CLI::Option* mesh = app.add_option("--mesh", o.input.mesh, "A surface mesh to cut instead of the patch");
-  CLI::Option* path =
-      app.add_option("--path", o.input.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
+  app.add_option("study", o.study, "A study folder, a study.dffd or a case.dffd");
+  CLI::Option* mesh = app.add_option("--mesh", o.mesh, "A surface mesh to cut instead of the patch");
+  CLI::Option* path = app.add_option("--path", o.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
   mesh->needs(path), path->needs(mesh);
-  app.add_option("--scale", o.input.scale, "mm in a unit of the mesh and the path")
+  app.add_option("--scale", o.scale, "mm in a unit of the mesh and the path")
       ->needs(mesh)
       ->check(above(0))
       ->capture_default_str();
+  app.add_option("--script", o.script, "Do the commands of this file and open no window");
+  app.add_option("--state", o.state, "Begin with a saved session: .json, or a .png written here");
   app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
   app.add_option("--case", o.shown_case, "The case to begin with, from 1")->capture_default_str();
   app.add_option("--time", o.time, "Length cut, mm; default: the end")->check(at_least(0));
@@ -43,21 +49,39 @@ void add_options(CLI::App& app, Options& o) {
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::Range(16, 8192));
+  app.footer("Commands, for --script and in the window:\n\n" + help_sheet());
 }
 
-void explore(const Options& o) {
-  Explorer explorer(o.input);
-  if (o.shown_case < 1 || o.shown_case > explorer.study().size())
-    throw InputError("--case " + std::to_string(o.shown_case) + ": " + o.input.study +
-                     " has the cases 1 to " + std::to_string(explorer.study().size()));
-  explorer.show_case(o.shown_case - 1);
-  explorer.view().set_time(o.time >= 0 ? o.time : explorer.view().duration());
-  explorer.view().aim({o.view[0], o.view[1], o.zoom});
-  if (!o.screenshot.empty()) {
-    write_picture(explorer.view(), o.size[0], o.size[1], o.screenshot);
-  } else {
-    ExploreWindow(explorer, o.size[0], o.size[1]).run();
-  }
+/// The options as commands.
+void begin(Session& session, const CLI::App& app, const Options& o) {
+  if (!o.state.empty()) session.say("load " + quoted(o.state));
+  if (!o.study.empty()) session.say("open " + quoted(o.study));
+  if (app.count("--case")) session.say("case " + std::to_string(o.shown_case));
+  if (!o.mesh.empty()) session.say("mesh " + quoted(o.mesh) + " " + shortest(o.scale));
+  if (!o.path.empty()) session.say("cut-file " + quoted(o.path));
+  if (o.time >= 0) session.say("time " + shortest(o.time));
+  if (app.count("--view") + app.count("--zoom") > 0)
+    session.say("camera " + shortest(o.view[0]) + " " + shortest(o.view[1]) + " " + shortest(o.zoom));
+}
+
+/// The fields are there: only comparing them with the simulation is not possible any more.
+void tell_of_dropped_snapshots(const std::string& study) {
+  int dropped = 0;
+  for (const auto& [hash, one] : study_index(study)) dropped += !one.snapshot;
+  if (dropped > 0)
+    std::cerr << study << ": the raw data of " << dropped << " cases are gone (keep_snapshots = \"none\")\n";
+}
+
+void explore(const CLI::App& app, const Options& o) {
+  Session session(session_services([](const std::string& text) { std::cout << text << '\n'; }));
+  begin(session, app, o);
+  if (!o.input.study.empty()) tell_of_dropped_snapshots(o.input.study);
+  if (!o.script.empty()) session.run_script(o.script);
+  if (!o.screenshot.empty())
+    session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +
+                std::to_string(o.size[1]));
+  if (!o.script.empty() || !o.screenshot.empty()) return;
+  run_window(session, o.size[0], o.size[1]);
 }
 
 }  // namespace
@@ -66,5 +90,5 @@ int main(int argc, char** argv) {
   CLI::App app("Looks at a study: every case, at every length cut", "cleft explore");
   Options options;
   add_options(app, options);
-  return run_command(app, argc, argv, [&] { explore(options); });
+  return run_command(app, argc, argv, [&] { explore(app, options); });
 }

@@ -64,7 +64,13 @@ void export_study(const Options& o, Progress& progress, Json& figures) {
   const auto snapshot = [&](const std::string& hash) { return study.published(hash) + "/case.h5"; };
   Mistakes mistakes;  // told at once, before the long part
   for (const std::string& hash : cases)
-    mistakes.collect([&] { SnapshotReader(snapshot(hash)).point_arrays(); });
+    mistakes.collect([&] {
+      if (study.manifest(hash).value("snapshot", "kept") == "dropped")
+        throw InputError(snapshot(hash) +
+                         ": its raw data are gone (keep_snapshots = \"none\" in the study file): solve " +
+                         study.published(hash) + "/case.toml again to export it");
+      SnapshotReader(snapshot(hash)).point_arrays();
+    });
   mistakes.throw_if_any();
   ExportFigures done;
   for (std::size_t i = 0; i < cases.size(); ++i) {

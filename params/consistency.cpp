@@ -41,7 +41,8 @@ class ConsistencyCheck {
         length_(p.mesh.cut_length > 0 ? p.mesh.cut_length : p.cut.length),
         depth_(p.mesh.cut_depth > 0 ? p.mesh.cut_depth : p.cut.depth) {}
 
-  void check() {
+  /// The number of nodes the mesh will have, about.
+  double check() {
     check_size();
     check_arc();
     check_elements();
@@ -49,6 +50,7 @@ class ConsistencyCheck {
     check_room();
     check_nodes();
     check_materials();
+    return nodes();
   }
 
  private:
@@ -131,15 +133,20 @@ class ConsistencyCheck {
     need_room(to_left_, room_left_, "-v");
   }
 
-  void check_nodes() const {
+  double nodes() const {
     const double h = p_.mesh.element_size, growth = p_.mesh.grading;
     const double along_u = length_ / h + 2 * count_of_elements((p_.patch.length - span_) / 2, h, growth);
     const double along_v = core_ / h + p_.cut.count + count_of_elements(room_left_ + to_right_, h, growth) +
                            count_of_elements(room_right_ + to_left_, h, growth);
     const double along_w = depth_ / h + count_of_elements(p_.patch.height - depth_, h, growth);
-    const double nodes = (along_u + 1) * along_v * (along_w + 1);
-    need(nodes < most_nodes, with_mm("mesh.element_size", h) + ", " + with_value("mesh.grading", "", growth) +
-                                 ": the patch would have about " + shortest(std::round(nodes)) +
+    return (along_u + 1) * along_v * (along_w + 1);
+  }
+
+  void check_nodes() const {
+    const double count = nodes();
+    need(count < most_nodes, with_mm("mesh.element_size", p_.mesh.element_size) + ", " +
+                                 with_value("mesh.grading", "", p_.mesh.grading) +
+                                 ": the patch would have about " + shortest(std::round(count)) +
                                  " nodes; at most " + shortest(most_nodes) +
                                  ": raise one of them, or make the patch smaller");
   }
@@ -174,5 +181,7 @@ class ConsistencyCheck {
 void check_consistency(const Parameters& parameters, const std::string& where) {
   ConsistencyCheck(parameters, where).check();
 }
+
+double estimated_nodes(const Parameters& parameters) { return ConsistencyCheck(parameters, "case").check(); }
 
 }  // namespace cleft

@@ -83,6 +83,9 @@ std::string to_text(const Value& value);
 /// What no single range can say: the cut lies within the patch. Throws InputError naming both values.
 void check_consistency(const Parameters& parameters, const std::string& where);
 
+/// Nodes of the mesh, about, before it is made. Throws InputError as check_consistency() does.
+double estimated_nodes(const Parameters& parameters);
+
 /// Identity of what the solver sees: a hash (16 hexadecimal digits) of every parameter as resolved, and of
 /// the snapshot format's version.
 std::string solve_hash(const Parameters& parameters);

@@ -1,4 +1,5 @@
 // cleft status: what of a study is done.
+#include <algorithm>
 #include <iostream>
 
 #include "base/command.h"
@@ -12,12 +13,17 @@ Json status_of(const StudyFolder& folder) {
   const Study study = read_study(folder.study_file());
   Json result = {{"study", study.name}, {"published", 0}, {"running", 0},
                  {"failed", 0},         {"missing", 0},   {"cases", Json::array()}};
-  for (const Case& one : cases_of(study)) {
-    const CaseStatus status = folder.status(one.hash());
-    result["cases"].push_back(case_entry(study, one, status));
-    int count = result[to_text(status.state)];
-    result[to_text(status.state)] = count + 1;
+  const std::vector<Case> cases = cases_of(study);
+  const std::vector<CaseStatus> states = folder.status(cases);
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    result["cases"].push_back(case_entry(study, cases[c], states[c]));
+    auto& count = result[to_text(states[c].state)].get_ref<Json::number_integer_t&>();
+    ++count;
   }
+  const auto dropped = [](const auto& published) { return !published.second.snapshot; };
+  const auto index = folder.index();
+  if (const auto count = std::count_if(index.begin(), index.end(), dropped))
+    result["without_snapshot"] = count;
   return result;
 }
 
@@ -25,6 +31,8 @@ void print_table(const Json& status) {
   print_cases(status["cases"]);
   for (const char* state : {"published", "running", "failed", "missing"})
     std::cout << state << ": " << status[state] << "\n";
+  if (status.contains("without_snapshot"))
+    std::cout << "raw data are gone (keep_snapshots = \"none\"): " << status["without_snapshot"] << "\n";
 }
 
 }  // namespace

@@ -66,19 +66,63 @@ class StudyReader {
   std::string where(const toml::node& node) const { return place_of(path_, node); }
 
   void read_section(const std::string& key, const toml::node& node) {
-    static const std::vector<std::string> known = {"name", "case", "vary", "sampling", "encode"};
+    static const std::vector<std::string> known = {"name",     "keep_snapshots", "case", "vary",
+                                                   "sampling", "encode",         "slurm"};
     if (key == "name") {
-      if (const auto text = node.value<std::string>())
-        study_.name = *text;
-      else
-        mistakes_.add(where(node) + ": name must be a text in quotes");
+      mistakes_.collect([&] { study_.name = text(node, "name"); });
+    } else if (key == "keep_snapshots") {
+      mistakes_.collect([&] { read_keep_snapshots(text(node, key)); });
     } else if (std::find(known.begin(), known.end(), key) == known.end()) {
       mistakes_.add(where(node) + ": unknown section '" + key + "'" + did_you_mean(key, known));
     } else if (const toml::table* table = node.as_table()) {
       if (key == "case") read_case_values(*table, "");
       if (key == "encode") read_encode(*table);
+      if (key == "slurm") read_slurm(*table);
     } else {
       mistakes_.add(where(node) + ": " + key + " must be a section [" + key + "]");
+    }
+  }
+
+  std::string text(const toml::node& node, const std::string& name) const {
+    const auto value = node.value<std::string>();
+    if (!value) throw InputError(where(node) + ": " + name + " must be a text in quotes");
+    return *value;
+  }
+
+  void read_keep_snapshots(const std::string& which) {
+    if (which != "all" && which != "none")
+      throw InputError(path_ + ": keep_snapshots = \"" + which + "\": must be \"all\" or \"none\"");
+    study_.keep_snapshots = which == "all";
+  }
+
+  void read_slurm(const toml::table& table) {
+    static const std::vector<std::string> known = {"partition", "account", "time", "options",
+                                                   "cases_per_task"};
+    SlurmSettings& slurm = study_.slurm;
+    for (const auto& [key, entry] : table) {
+      const std::string name = "slurm." + std::string(key.str());
+      const toml::node& node = entry;
+      mistakes_.collect([&] {
+        if (key == "partition") {
+          slurm.partition = text(node, name);
+        } else if (key == "account") {
+          slurm.account = text(node, name);
+        } else if (key == "time") {
+          slurm.time = text(node, name);
+        } else if (key == "cases_per_task") {
+          const auto count = node.value<std::int64_t>().value_or(0);
+          if (count < 1 || count > 10000)
+            throw InputError(where(node) + ": " + name + " must be a whole number between 1 and 10000");
+          slurm.cases_per_task = static_cast<int>(count);
+        } else if (key == "options") {
+          const toml::array* list = node.as_array();
+          if (!list) throw InputError(where(node) + ": " + name + " must be a list of texts");
+          for (const toml::node& option : *list) slurm.options.push_back(text(option, name));
+        } else {
+          throw InputError(where(node) + ": unknown key '" + name + "'" +
+                           did_you_mean(std::string(key.str()), known));
+        }
+      });
     }
   }
 

@@ -54,8 +54,17 @@ struct SamplingSettings {
   std::uint64_t seed = 0;
 };
 
+/// [slurm]: how jobs are asked for; what is empty or 0 is left to the site.
+struct SlurmSettings {
+  std::string partition, account, time;  ///< time: a limit as sbatch takes it, "2:30:00"
+  std::vector<std::string> options;      ///< further options of sbatch
+  int cases_per_task = 0;                ///< solved one after another in a task of the array
+};
+
 struct Study {
   std::string name = "study";
+  bool keep_snapshots = true;  ///< keep_snapshots = "all"; "none" drops each once its field is published
+  SlurmSettings slurm;
   Case base;
   std::vector<Variation> vary;
   SamplingSettings sampling;

@@ -1,17 +1,14 @@
 #include "params/study_folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <random>
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/sealed_json.h"
 #include "base/text.h"
 #include "params/hash.h"
 
@@ -38,31 +35,35 @@ std::vector<std::string> folders_in(const std::string& path) {
   return names;
 }
 
-/// Held for the moment in which attempts come, go or are looked at, by all processes of a study.
-class Moment {
- public:
-  explicit Moment(const std::string& study)
-      : file_(open((study + "/.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-    while (file_ >= 0 && flock(file_, LOCK_EX) != 0)
-      if (errno != EINTR) break;
-  }
-  ~Moment() {
-    if (file_ >= 0) close(file_);
-  }
-  Moment(const Moment&) = delete;
-  Moment& operator=(const Moment&) = delete;
-
- private:
-  int file_;
-};
+constexpr const char *failed_file = "/failed.txt", *again_file = "/again.txt";
 
 /// Removes what killed and failed runs left, never what another process works in; the folder too when it is
 /// empty. In a Moment of the study.
-void remove_abandoned(const std::string& attempts) {
+void clear(const std::string& attempts) {
   std::error_code ignored;
   for (const std::string& token : folders_in(attempts))
     if (!Lock::is_held(attempts + "/" + token + "/lock")) fs::remove_all(attempts + "/" + token, ignored);
   fs::remove(attempts, ignored);
+}
+
+Attempt new_attempt(const std::string& attempts) {
+  const std::string token = new_token(), folder = attempts + "/" + token;
+  clear(attempts);
+  fs::create_directories(folder);
+  return {folder, token, Lock(folder + "/lock")};
+}
+
+/// What the attempts of a case say, in a Moment of the study.
+CaseStatus status_of_attempts(const std::string& attempts) {
+  CaseStatus status;
+  for (const std::string& token : folders_in(attempts)) {
+    const std::string attempt = attempts + "/" + token;
+    if (Lock::is_held(attempt + "/lock")) return {CaseState::running, "", false};
+    for (const char* name : {failed_file, again_file})
+      if (fs::exists(attempt + name))
+        status = {CaseState::failed, read_text_file(attempt + name), name == again_file};
+  }
+  return status;
 }
 
 }  // namespace
@@ -78,23 +79,6 @@ std::string to_text(CaseState state) {
     default:
       return "missing";
   }
-}
-
-Lock::Lock(const std::string& path) : file_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-  if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) != 0)
-    throw std::runtime_error(path + ": could not be locked");
-}
-
-Lock::~Lock() {
-  if (file_ >= 0) close(file_);
-}
-
-bool Lock::is_held(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool held = flock(file, LOCK_SH | LOCK_NB) != 0;
-  close(file);
-  return held;
 }
 
 StudyFolder::StudyFolder(std::string path) : path_(std::move(path)) {
@@ -115,46 +99,80 @@ StudyFolder StudyFolder::create(const std::string& path, const Study& study) {
   fs::create_directories(path + "/cases", error);
   if (!error) fs::create_directories(path + "/attempts", error);
   if (error) throw InputError("--out " + path + ": could not be created: " + error.message());
-  write_text_file(path + "/study.toml", study.text);
+  check_file_system(path);
+  const std::string file = path + "/study.toml";
+  if (!fs::exists(file) || read_text_file(file) != study.text) write_text_file(file, study.text);
   return StudyFolder(path);
 }
 
 std::vector<std::string> StudyFolder::published_cases() const { return folders_in(path_ + "/cases"); }
 
 Json StudyFolder::manifest(const std::string& hash) const {
-  const std::string file = published(hash) + "/manifest.json";
-  try {
-    Json listed = Json::parse(read_text_file(file));
-    if (!listed.is_object()) throw FileError(file, "is not a manifest");
-    return listed;
-  } catch (const Json::exception& e) {
-    throw FileError(file, std::string("is damaged: ") + e.what());
-  }
+  return read_sealed(published(hash) + "/manifest.json");
+}
+
+bool StudyFolder::is_published(const std::string& hash) const {
+  return fs::exists(published(hash) + "/manifest.json");
 }
 
 CaseStatus StudyFolder::status(const std::string& hash) const {
-  if (fs::exists(published(hash) + "/manifest.json")) return {CaseState::published, ""};
+  if (is_published(hash)) return {CaseState::published, "", false};
   const Moment moment(path_);
-  CaseStatus status;
-  const std::string attempts = path_ + "/attempts/" + hash;
-  for (const std::string& token : folders_in(attempts)) {
-    if (Lock::is_held(attempts + "/" + token + "/lock")) return {CaseState::running, ""};
-    const std::string reason = attempts + "/" + token + "/failed.txt";
-    if (fs::exists(reason)) status = {CaseState::failed, read_text_file(reason)};
+  return status_of_attempts(path_ + "/attempts/" + hash);
+}
+
+std::vector<CaseStatus> StudyFolder::status(const std::vector<Case>& cases) const {
+  const auto published = index();
+  std::map<std::string, CaseStatus> attempted;
+  {
+    const Moment moment(path_);
+    for (const std::string& hash : folders_in(path_ + "/attempts"))
+      attempted[hash] = status_of_attempts(path_ + "/attempts/" + hash);
   }
-  return status;
+  std::vector<CaseStatus> list;
+  for (const Case& one : cases) {
+    const std::string hash = one.hash();
+    if (published.contains(hash) || is_published(hash))
+      list.push_back({CaseState::published, "", false});
+    else if (const auto found = attempted.find(hash); found != attempted.end())
+      list.push_back(found->second);
+    else
+      list.push_back({});
+  }
+  return list;
+}
+
+std::optional<Attempt> StudyFolder::begin(const std::string& hash, Retry retry, CaseStatus& status) const {
+  const std::string attempts = path_ + "/attempts/" + hash;
+  const Moment moment(path_);
+  status = is_published(hash) ? CaseStatus{CaseState::published, "", false} : status_of_attempts(attempts);
+  const bool failed = status.state == CaseState::failed && !status.again && retry == Retry::never;
+  if (status.state == CaseState::published || status.state == CaseState::running || failed) return {};
+  return new_attempt(attempts);
 }
 
 Attempt StudyFolder::begin(const std::string& hash) const {
-  const std::string attempts = path_ + "/attempts/" + hash, token = new_token();
   const Moment moment(path_);
-  remove_abandoned(attempts);
-  fs::create_directories(attempts + "/" + token);
-  return {attempts + "/" + token, token, Lock(attempts + "/" + token + "/lock")};
+  return new_attempt(path_ + "/attempts/" + hash);
 }
 
-void StudyFolder::fail(const Attempt& attempt, const std::string& reason) const {
-  write_text_file(attempt.folder + "/failed.txt", reason);
+void StudyFolder::fail(const Attempt& attempt, const std::string& reason, bool again) const {
+  write_text_file(attempt.folder + (again ? again_file : failed_file), reason);
+}
+
+void StudyFolder::abandon(const Attempt& attempt) const {
+  const Moment moment(path_);
+  std::error_code ignored;
+  fs::remove_all(attempt.folder, ignored);
+  fs::remove(fs::path(attempt.folder).parent_path(), ignored);
+}
+
+void StudyFolder::remove_abandoned() const {
+  const Moment moment(path_);
+  for (const std::string& hash : folders_in(path_ + "/attempts")) {
+    const std::string attempts = path_ + "/attempts/" + hash;
+    if (is_published(hash) || status_of_attempts(attempts).state == CaseState::missing) clear(attempts);
+  }
 }
 
 bool StudyFolder::publish(const Attempt& attempt, const std::string& hash, Json manifest,
@@ -165,27 +183,28 @@ bool StudyFolder::publish(const Attempt& attempt, const std::string& hash, Json 
     manifest["files"][name] = {{"bytes", fs::file_size(file)}, {"sha256", sha256_of_file(file)}};
   }
   manifest["token"] = attempt.token;
-  write_text_file(attempt.folder + "/manifest.json", manifest.dump(2) + "\n");
+  write_text_file(attempt.folder + "/manifest.json", sealed_text(std::move(manifest)));
+  for (const auto& entry : fs::directory_iterator(attempt.folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool keep = name == "manifest.json" || name == "lock" ||
+                      std::find(files.begin(), files.end(), name) != files.end();
+    if (!keep) fs::remove_all(entry.path());
+  }
   flush_to_disk(attempt.folder);
+  const Moment moment(path_);  // with it, that a folder takes no other's place is relied on by nobody
   std::error_code taken;
-  fs::rename(attempt.folder, published(hash), taken);
-  if (taken && !fs::exists(published(hash) + "/manifest.json"))
-    throw std::runtime_error(published(hash) + ": could not be published: " + taken.message());
+  bool won = !is_published(hash);
+  if (won) {
+    fs::rename(attempt.folder, published(hash), taken);
+    if (taken && !is_published(hash))
+      throw std::runtime_error(published(hash) + ": could not be published: " + taken.message());
+    won = !taken;
+  }
   flush_to_disk(path_ + "/cases");
-  const Moment moment(path_);
-  if (!taken) fs::remove(published(hash) + "/lock");
-  if (taken) fs::remove_all(attempt.folder);
-  remove_abandoned(path_ + "/attempts/" + hash);
-  return !taken;
-}
-
-std::map<std::string, std::string> StudyFolder::solved_cases() const {
-  std::map<std::string, std::string> solved;
-  for (const std::string& hash : published_cases()) try {
-      solved[manifest(hash).value("solve", "")] = published(hash);
-    } catch (const FileError&) {  // no case of ours: cleft check says so
-    }
-  return solved;
+  if (won) fs::remove(published(hash) + "/lock");
+  if (!won) fs::remove_all(attempt.folder);
+  clear(path_ + "/attempts/" + hash);
+  return won;
 }
 
 void StudyFolder::verify(const std::string& hash) const {

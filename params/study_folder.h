@@ -3,10 +3,13 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "params/lock.h"
 #include "params/study.h"
+#include "params/study_index.h"
 
 namespace cleft {
 
@@ -16,19 +19,7 @@ std::string to_text(CaseState state);
 struct CaseStatus {
   CaseState state = CaseState::missing;
   std::string reason;  ///< of a failure
-};
-
-/// A file that is locked while its owner lives, so that a killed run is told from a running one.
-class Lock {
- public:
-  explicit Lock(const std::string& path);
-  ~Lock();
-  Lock(Lock&& other) noexcept : file_(other.file_) { other.file_ = -1; }
-  Lock& operator=(Lock&&) = delete;
-  static bool is_held(const std::string& path);
-
- private:
-  int file_;
+  bool again = false;  ///< it failed by no fault of its own (a killed process, a full disk): it is run again
 };
 
 /// A case on its way: a folder of its own, that becomes the published one or stays behind with its logs.
@@ -50,20 +41,32 @@ class StudyFolder {
 
   /// Hashes of all published cases, those of earlier versions of the study included.
   std::vector<std::string> published_cases() const;
+  /// What is known of them at a glance, by hash.
+  std::map<std::string, IndexedCase> index() const { return study_index(path_); }
   nlohmann::ordered_json manifest(const std::string& hash) const;
+  bool is_published(const std::string& hash) const;
   CaseStatus status(const std::string& hash) const;
+  /// The states of many cases, at the cost of one look at the folder.
+  std::vector<CaseStatus> status(const std::vector<Case>& cases) const;
 
+  /// An attempt of a case that is neither published nor run by another process; none where it is, or where
+  /// it failed and is not to be tried again. What killed and failed attempts left is removed.
+  enum class Retry { never, failed };
+  std::optional<Attempt> begin(const std::string& hash, Retry retry, CaseStatus& status) const;
   Attempt begin(const std::string& hash) const;
-  /// Leaves the attempt's folder with its logs, and the reason of the failure.
-  void fail(const Attempt& attempt, const std::string& reason) const;
+  /// Leaves the attempt's folder with its logs, and the reason of the failure. `again`: the next run may try
+  /// it without being asked to.
+  void fail(const Attempt& attempt, const std::string& reason, bool again = false) const;
+  /// Removes an attempt that is given up.
+  void abandon(const Attempt& attempt) const;
+  /// Removes what killed runs left, of any case.
+  void remove_abandoned() const;
+
   /// Writes the manifest (with sizes and SHA-256 of `files`), flushes all, and renames the attempt to its
   /// published name: exactly one writer can win. False where another one had won before; the attempt is then
-  /// removed.
+  /// removed. Files of the attempt that are not listed are removed.
   bool publish(const Attempt& attempt, const std::string& hash, nlohmann::ordered_json manifest,
                const std::vector<std::string>& files) const;
-
-  /// Folders of published cases by the identity of what their solver saw: their snapshots serve again.
-  std::map<std::string, std::string> solved_cases() const;
 
   /// Recomputes sizes and checksums of a published case; throws FileError at the first that differs.
   void verify(const std::string& hash) const;

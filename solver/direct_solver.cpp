@@ -117,7 +117,8 @@ void DirectSolver::set_release(const Release& release) {
   });
 }
 
-void DirectSolver::set_loads(Block loads) {
+void DirectSolver::set_loads(Block loads, Together together) {
+  together_ = together;
   const Eigen::Index columns = loads.cols();
   Eigen::MatrixXd pulls = all_gather_rows(system_, loads, cut_.unknowns);
   cut_.to_pulls(pulls);
@@ -132,13 +133,15 @@ void DirectSolver::set_loads(Block loads) {
   entries = gather(system_, entries);
   Eigen::SparseMatrix<double> right(system_.size(), columns);
   right.setFromTriplets(entries.begin(), entries.end());
-  interior_ = factor_.solve(right);
+  if (together == Together::all) interior_ = factor_.solve(right);
+  if (together == Together::each) interior_.resize(loads.rows(), columns);
+  for (Eigen::Index c = 0; c < columns && together == Together::each; ++c)
+    interior_.col(c) = factor_.solve(right.col(c));
   const Eigen::MatrixXd near = gather_rows(system_, interior_, neighbors_);
   loads_.clear();
   if (system_.rank() != 0) return;
-  const Eigen::MatrixXd carried = coupling_.transpose() * near;
   for (Eigen::Index c = 0; c < columns; ++c) {
-    Eigen::VectorXd pull = -carried.col(c);
+    Eigen::VectorXd pull = -(coupling_.transpose() * near.col(c));
     for (std::size_t p = 0; p < cut_.pairs.size(); ++p)
       pull.segment<3>(3 * p) += pulls.col(c).segment<3>(3 * cut_.pairs[p][1]);
     loads_.push_back(opening_->prepare(pull));
@@ -146,6 +149,18 @@ void DirectSolver::set_loads(Block loads) {
 }
 
 Block DirectSolver::solve(const std::vector<Column>& columns) {
+  if (together_ == Together::all) return solve_together(columns);
+  Block solution(system_.owned(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t first = 0, end = 0; first < columns.size(); first = end) {
+    while (end < columns.size() && columns[end].load == columns[first].load) ++end;
+    solution.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(end - first)) =
+        solve_together({columns.begin() + static_cast<std::ptrdiff_t>(first),
+                        columns.begin() + static_cast<std::ptrdiff_t>(end)});
+  }
+  return solution;
+}
+
+Block DirectSolver::solve_together(const std::vector<Column>& columns) {
   const auto count = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd jumps(static_cast<Eigen::Index>(jump_unknowns_.size()), count);
   Eigen::SparseMatrix<double> right(system_.size(), count);

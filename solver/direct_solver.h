@@ -21,10 +21,13 @@ class DirectSolver : public FrameSolver {
   void factorize();
 
   void set_release(const Release& release) override;
-  void set_loads(Block loads) override;
+  void set_loads(Block loads, Together together = Together::all) override;
   Block solve(const std::vector<Column>& columns) override;
 
  private:
+  /// Columns in one block of MUMPS.
+  Block solve_together(const std::vector<Column>& columns);
+
   /// T^T K T: the unknowns of right nodes are jumps. Keeps its entries between a jump and another unknown.
   PatchSystem::Entries stiffness_with_jumps();
 
@@ -38,6 +41,7 @@ class DirectSolver : public FrameSolver {
   Eigen::SparseMatrix<double> coupling_;  // between neighbors_ and jumps; rank 0, as all below
   std::optional<Opening> opening_;
   std::vector<Opening::Load> loads_;
+  Together together_ = Together::all;
   Block interior_;  // K_ii^-1 f_i of every load; on all ranks
 };
 

@@ -3,9 +3,9 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "solver/direct_solver.h"
 #include "solver/iterative_solver.h"
-#include "solver/memory.h"
 
 namespace cleft {
 

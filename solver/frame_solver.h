@@ -32,8 +32,12 @@ class FrameSolver {
   /// How the cut opens from here on. Forgets the loads.
   virtual void set_release(const Release& release) = 0;
 
+  /// Which columns may be solved in one block. How a factor's sums are rounded depends on what stands in a
+  /// block: with `each`, the columns of a load are solved by themselves, and come out the same, bit for bit,
+  /// whatever else there is.
+  enum class Together { all, each };
   /// The loads to solve for, a column each, N.
-  virtual void set_loads(Block loads) = 0;
+  virtual void set_loads(Block loads, Together together = Together::all) = 0;
 
   /// A displacement to be found: under one of the loads, with the first pairs of the release open; with
   /// contact their lips press on each other where they would overlap.

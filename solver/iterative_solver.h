@@ -19,7 +19,7 @@ class IterativeSolver : public FrameSolver {
   static double bytes_needed(const PatchSystem& system);  ///< on this rank
 
   void set_release(const Release& release) override;
-  void set_loads(Block loads) override;
+  void set_loads(Block loads, Together together = Together::all) override;
   Block solve(const std::vector<Column>& columns) override;
   std::vector<int> iterations() const override;
 

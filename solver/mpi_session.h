@@ -4,13 +4,15 @@
 #include <deal.II/base/mpi.h>
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 
-#include "solver/memory.h"
+#include "base/memory.h"
 
 namespace cleft {
 
@@ -48,7 +50,10 @@ class MpiSession {
   /// start together.
   static int& prepared(int& argc) {
     for (const char* by_launcher : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
-      if (getenv(by_launcher)) return argc;
+      if (getenv(by_launcher)) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);  // a launcher that is killed leaves no rank behind
+        return argc;
+      }
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
     setenv("OMPI_MCA_btl", "self", 0);

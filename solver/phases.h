@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/memory.h"
 #include "base/stopwatch.h"
-#include "solver/memory.h"
 
 namespace cleft {
 

@@ -10,6 +10,7 @@
 #include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "params/stiffness.h"
 #include "solver/compliance.h"
 #include "solver/frame_figures.h"
 #include "solver/phases.h"
@@ -20,26 +21,13 @@ namespace cleft {
 namespace {
 
 constexpr double largest_residual = 1e-6;  // of the loads: beyond it the numbers mean nothing
-constexpr double block_bytes = 3e7;        // of the displacements held at a time, by all ranks
-constexpr int most_columns = 64;           // right-hand sides solved together
+constexpr double block_bytes = 6e7;        // of the displacements held at a time, by all ranks
+constexpr int most_frames = 24;            // held at a time
+constexpr int most_units = 3;              // series of unit prestresses, which these are made of
 constexpr const char* prestress_names[] = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
 
 Eigen::Vector3d prestress(const Parameters& p) {
   return {p.skin.prestress_u, p.skin.prestress_v, p.skin.prestress_uv};
-}
-
-/// What K depends on, as text: equal texts, equal K.
-std::string stiffness_key(Parameters p) {
-  if (p.skin.initial_stress_stiffness != "true")
-    p.skin.prestress_u = p.skin.prestress_v = p.skin.prestress_uv = 0;
-  if (p.mesh.cut_length == 0) p.mesh.cut_length = p.cut.length;
-  if (p.mesh.cut_depth == 0) p.mesh.cut_depth = p.cut.depth;
-  const Parameters defaults;
-  p.cut.length = defaults.cut.length, p.cut.depth = defaults.cut.depth;
-  p.cut.frames = defaults.cut.frames, p.cut.contact = defaults.cut.contact;
-  std::string key;
-  for (const Parameter& row : parameter_table()) key += to_text(get_parameter(p, row)) + ";";
-  return key;
 }
 
 /// How the cut opens in a given mesh.
@@ -122,11 +110,13 @@ class SharedStiffness::Batch {
   }
 
   void solve() {
-    const int frames = static_cast<int>(release_.released.size()), loads = static_cast<int>(loads_.cols());
-    const double column_bytes = 8. * std::max(1, system_.size()) * loads;
-    const int at_once = std::clamp(static_cast<int>(block_bytes / column_bytes), 1,
-                                   std::max(1, most_columns / std::max(1, loads)));
-    shared_.chosen_.solver->set_loads(loads_);
+    const int frames = static_cast<int>(release_.released.size());
+    // By the mesh alone: rounding depends on how many frames are solved together, and a case must not depend
+    // on the others. (Iterations go column by column.)
+    const auto width = by_units_ ? most_units : std::max(most_units, static_cast<int>(loads_.cols()));
+    const double frame_bytes = 8. * std::max(1, system_.size()) * width;
+    const int at_once = std::clamp(static_cast<int>(block_bytes / frame_bytes), 1, most_frames);
+    shared_.chosen_.solver->set_loads(loads_, FrameSolver::Together::each);
     const Stopwatch watch;
     for (int first = 0; first < frames; first += at_once) {
       const int count = std::min(at_once, frames - first);
@@ -152,21 +142,28 @@ class SharedStiffness::Batch {
     double largest_load = 0;                  // N
     std::unique_ptr<SnapshotOutput> writing;  // none once the case has failed
     std::vector<Vec3> closed;                 // frame 0, this rank's nodes
+    std::size_t part = 0;                     // the part whose loads it is a sum of
+  };
+
+  /// Some loads' frames of a block, load after load.
+  struct LoadFrames {
+    std::size_t begin, end;  // the loads
+    Block displacements, left_over;
   };
 
   const Parameters& parameters(const Member& member) const {
     return shared_.cases_[member.number].parameters;
   }
 
-  /// One case: its own load. Several, or the unit series: unit prestresses, of which their frames are sums.
-  /// With contact a series is not linear, and solved for itself.
+  /// With a factor, unit prestresses, of which the frames of every case are sums, also where there is one
+  /// case only, so that it comes out as among others. By iterations every case's own load, which takes no
+  /// more of them than a unit prestress. With contact a series is not linear, and solved for itself.
   void choose_loads(const std::vector<std::size_t>& members) {
     const auto& cases = shared_.cases_;
     const auto linear = [&](std::size_t c) { return cases[c].parameters.cut.contact != "true"; };
-    const auto linear_cases = std::count_if(members.begin(), members.end(), linear);
-    const bool by_units = linear_cases > 1 || shared_.options_.unit_prestress;
+    by_units_ = shared_.chosen_.method == Method::direct || shared_.options_.unit_prestress;
     std::vector<Eigen::VectorXd> columns;
-    if (by_units) {
+    if (by_units_) {
       Eigen::Vector3d used = Eigen::Vector3d::Constant(shared_.options_.unit_prestress ? 1. : 0.);
       for (const std::size_t c : members)
         if (linear(c)) used += prestress(cases[c].parameters).cwiseAbs();
@@ -176,12 +173,19 @@ class SharedStiffness::Batch {
           columns.emplace_back(system_.unit_loads().col(d));
         }
     }
+    parts_.emplace_back(0, columns.size());
     contact_.assign(columns.size(), false);
     for (const std::size_t c : members) {
-      Member member{c, Eigen::VectorXd(), 0, nullptr, {}};
-      if (!by_units || !linear(c)) {
+      Member member{c, Eigen::VectorXd(), 0, nullptr, {}, 0};
+      if (!by_units_ || !linear(c)) {
         columns.emplace_back(system_.load(cases[c].parameters.skin));
         contact_.push_back(!linear(c));
+        if (by_units_) {
+          member.part = parts_.size();
+          parts_.emplace_back(columns.size() - 1, columns.size());
+        } else {
+          parts_.front().second = columns.size();
+        }
       }
       members_.push_back(std::move(member));
     }
@@ -190,7 +194,7 @@ class SharedStiffness::Batch {
     Eigen::Index own = static_cast<Eigen::Index>(units_.size());
     for (Member& member : members_) {
       member.share = Eigen::VectorXd::Zero(loads_.cols());
-      if (!by_units || !linear(member.number))
+      if (!by_units_ || !linear(member.number))
         member.share(own++) = 1;
       else
         for (std::size_t i = 0; i < units_.size(); ++i)
@@ -228,38 +232,45 @@ class SharedStiffness::Batch {
   }
 
   void solve_block(int first, int count) {
+    for (std::size_t part = 0; part < parts_.size(); ++part) solve_block(first, count, part);
+    if (!shared_.options_.sensitivities.empty())
+      shared_.chosen_.solver->set_loads(loads_, FrameSolver::Together::each);
+  }
+
+  /// Frames of a part of the loads, and with them those of the cases made of these.
+  void solve_block(int first, int count, std::size_t part) {
+    const auto [begin, end] = parts_[part];
     std::vector<FrameSolver::Column> columns;
-    for (int load = 0; load < loads_.cols(); ++load)
+    for (std::size_t load = begin; load < end; ++load)
       for (int j = first; j < first + count; ++j)
-        columns.push_back({load, release_.released[j], contact_[load], 1e-10});
-    const Block displacements = shared_.chosen_.solver->solve(columns);
-    Block expanded(loads_.rows(), displacements.cols());
-    for (Eigen::Index c = 0; c < expanded.cols(); ++c) expanded.col(c) = loads_.col(c / count);
-    const Block left_over = shared_.residual_->left_over(expanded, displacements);
+        columns.push_back({static_cast<int>(load), release_.released[j], contact_[load], 1e-10});
+    LoadFrames frames{begin, end, shared_.chosen_.solver->solve(columns), {}};
+    Block expanded(loads_.rows(), frames.displacements.cols());
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      expanded.col(static_cast<Eigen::Index>(c)) = loads_.col(columns[c].load);
+    frames.left_over = shared_.residual_->left_over(expanded, frames.displacements);
     expanded.resize(0, 0);
     shared_.phases_.end("frames");
-    for (Member& member : members_) {
-      if (!member.writing) continue;
-      const std::vector<FrameSolver::Column> own(columns.begin(), columns.begin() + count);
-      finish_block(member, first, own, displacements, left_over);
-    }
-    if (!shared_.options_.sensitivities.empty()) shared_.chosen_.solver->set_loads(loads_);
+    for (Member& member : members_)
+      if (member.writing && member.part == part) finish_block(member, first, count, frames);
   }
 
   /// A case's part of a block: sums of its loads' frames.
-  void finish_block(Member& member, int first, std::vector<FrameSolver::Column> columns,
-                    const Block& displacements, const Block& left_over) {
-    const Eigen::Index count = static_cast<Eigen::Index>(columns.size());
-    for (auto& column : columns) column.contact = parameters(member).cut.contact == "true";
+  void finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads) {
+    std::vector<FrameSolver::Column> columns;
+    for (Eigen::Index j = first; j < first + count; ++j)
+      columns.push_back({0, release_.released[static_cast<std::size_t>(j)],
+                         parameters(member).cut.contact == "true", 1e-10});
     const auto combined = [&](const Block& block) {
       Block sum = Block::Zero(block.rows(), count);
-      for (Eigen::Index load = 0; load < member.share.size(); ++load)
-        if (member.share(load) != 0) sum += member.share(load) * block.middleCols(load * count, count);
+      for (std::size_t load = loads.begin; load < loads.end; ++load)
+        if (const double share = member.share(static_cast<Eigen::Index>(load)); share != 0)
+          sum += share * block.middleCols(static_cast<Eigen::Index>(load - loads.begin) * count, count);
       return sum;
     };
-    const Block frames = combined(displacements);
+    const Block frames = combined(loads.displacements);
     const std::vector<FrameFigures> figures =
-        shared_.residual_->figures(release_, columns, frames, combined(left_over), member.largest_load);
+        shared_.residual_->figures(release_, columns, frames, combined(loads.left_over), member.largest_load);
     shared_.phases_.end("frames");
     if (!add_figures(member, figures)) return;
     for (Eigen::Index j = 0; j < count; ++j) {
@@ -270,7 +281,7 @@ class SharedStiffness::Batch {
     }
     for (std::size_t i = 0; shared_.options_.unit_prestress && i < units_.size(); ++i)
       write_derivative(member, prestress_names[units_[i]], first,
-                       displacements.middleCols(static_cast<Eigen::Index>(i) * count, count));
+                       loads.displacements.middleCols(static_cast<Eigen::Index>(i) * count, count));
     shared_.phases_.end("write");
     for (const std::string& name : shared_.options_.sensitivities) {
       progress_of(name, first);
@@ -347,8 +358,10 @@ class SharedStiffness::Batch {
   SharedStiffness& shared_;
   const PatchSystem& system_;
   const Release& release_;
-  std::vector<int> units_;     // directions of the first loads
-  std::vector<bool> contact_;  // by load
+  bool by_units_ = false;
+  std::vector<int> units_;                                  // directions of the first loads
+  std::vector<std::pair<std::size_t, std::size_t>> parts_;  // of the loads: solved in one go
+  std::vector<bool> contact_;                               // by load
   Block loads_;
   std::vector<Member> members_;
   std::map<std::string, std::unique_ptr<PatchSystem::Derivative>> derivatives_;

@@ -1,10 +1,15 @@
 // cleft solve: case files to snapshots.
+#include <deal.II/base/config.h>
+#include <dmumps_c.h>
+
 #include <filesystem>
 #include <set>
 
 #include "base/command.h"
 #include "base/error.h"
+#include "base/h5.h"
 #include "base/output_file.h"
+#include "base/text.h"
 #include "params/study.h"
 #include "solver/mpi_session.h"
 #include "solver/solve.h"
@@ -12,6 +17,29 @@
 using namespace cleft;
 
 namespace {
+
+std::string number_of_trilinos() {
+  return std::to_string(DEAL_II_TRILINOS_VERSION_MAJOR) + "." +
+         std::to_string(DEAL_II_TRILINOS_VERSION_MINOR);
+}
+
+std::string version_of_mpi() {
+  char text[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+  int length = 0;
+  MPI_Get_library_version(text, &length);
+  const std::string version(text);
+  return version.substr(0, version.find_first_of(",\n"));
+}
+
+/// Of what computes.
+Json versions() {
+  return {{"cleft", producer()},
+          {"deal.II", DEAL_II_PACKAGE_VERSION},
+          {"Trilinos", number_of_trilinos()},
+          {"MUMPS", MUMPS_VERSION},
+          {"HDF5", h5::version()},
+          {"MPI", version_of_mpi()}};
+}
 
 Json figures_of(const SolveReport& r) {
   Json seconds, memory;
@@ -34,6 +62,7 @@ Json figures_of(const SolveReport& r) {
                   {"smallest_gap_mm", r.smallest_gap},
                   {"residual_equilibrium", r.worst_equilibrium},
                   {"residual_closure", r.worst_closure}};
+  figures["versions"] = versions();
   if (!r.iterations.empty()) figures["iterations"] = r.iterations;
   if (!r.phases.empty()) figures["seconds"] = seconds, figures["peak_memory_mb"] = memory;
   return figures;
@@ -116,7 +145,9 @@ int main(int argc, char** argv) {
     mistakes.throw_if_any();
     Progress progress("solving");
     const std::vector<SolveReport> reports =
-        solve_cases(cases, options, MPI_COMM_WORLD, [&](const std::string& state) { progress(state); });
+        solve_cases(cases, options, MPI_COMM_WORLD, [&](const std::string& state) {
+          if (root) progress(state);
+        });
     std::string failures;
     Json list = Json::array();
     for (const SolveReport& report : reports)

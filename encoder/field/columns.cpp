@@ -9,7 +9,7 @@ namespace cleft {
 
 namespace {
 
-constexpr const char* groups[] = {"bases", "domain", "parameters", "choices", "report"};
+constexpr const char* groups[] = {"bases", "domain", "parameters", "choices", "report", "modes"};
 const Json absent = "absent";
 
 bool is_group(const std::string& name) {

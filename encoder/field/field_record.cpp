@@ -21,21 +21,20 @@ struct Figure {
   const char* name;
   double FitReport::*value;
 };
-constexpr Figure figures[] = {{"relative_l2", &FitReport::relative_l2},
-                              {"node_error", &FitReport::node_error},
-                              {"spline_error", &FitReport::spline_error},
-                              {"gape_error", &FitReport::gape_error},
-                              {"false_gap", &FitReport::false_gap},
-                              {"largest_displacement", &FitReport::largest_displacement},
-                              {"frame_error", &FitReport::frame_error},
-                              {"worst_node", &FitReport::worst_node},
-                              {"worst_time", &FitReport::worst_time},
-                              {"condition", &FitReport::condition},
-                              {"crease", &FitReport::crease},
-                              {"overlap", &FitReport::overlap},
-                              {"least_volume", &FitReport::least_volume},
-                              {"fit_seconds", &FitReport::fit_seconds},
-                              {"measure_seconds", &FitReport::measure_seconds}};
+constexpr Figure figures[] = {
+    {"relative_l2", &FitReport::relative_l2},
+    {"node_error", &FitReport::node_error},
+    {"spline_error", &FitReport::spline_error},
+    {"gape_error", &FitReport::gape_error},
+    {"false_gap", &FitReport::false_gap},
+    {"largest_displacement", &FitReport::largest_displacement},
+    {"frame_error", &FitReport::frame_error},
+    {"worst_node", &FitReport::worst_node},
+    {"worst_time", &FitReport::worst_time},
+    {"condition", &FitReport::condition},
+    {"crease", &FitReport::crease},
+    {"overlap", &FitReport::overlap},
+    {"least_volume", &FitReport::least_volume}};  // no times: equal fields, equal files
 
 /// The same of an interpolation.
 struct InterpolationFigure {
@@ -185,6 +184,31 @@ std::vector<Vec3> as_points(const std::vector<float>& numbers) {
   return points;
 }
 
+/// Those of the header, whose numbers stand last among the bytes and are taken off; `size` control points.
+std::vector<Quantity> quantities_of(const Json& header, std::size_t size,
+                                    std::span<const std::uint8_t>& bytes) {
+  std::vector<Quantity> quantities;
+  if (!header.contains("quantities")) return quantities;
+  for (const Json& entry : header.at("quantities")) {
+    quantities.push_back({entry.at("name").get<std::string>(),
+                          entry.at("components").get<int>(),
+                          {},
+                          finite(entry, "largest"),
+                          finite(entry, "error")});
+    if (quantities.back().components < 1 || quantities.back().components > 100)
+      throw InputError("a quantity has no number of components");
+  }
+  for (std::size_t q = quantities.size(); q-- > 0;) {
+    const auto numbers = take_planes(bytes, size * static_cast<std::size_t>(quantities[q].components));
+    quantities[q].coefficients.assign(numbers.begin(), numbers.end());
+  }
+  return quantities;
+}
+
+std::array<BSplineBasis, 4> bases_of(const Field& field) {
+  return {field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+}
+
 std::vector<std::int64_t> integers_of(const Unknowns& unknowns) {
   std::vector<std::int64_t> values;
   values.reserve(unknowns.values.size());
@@ -198,24 +222,24 @@ std::vector<std::int64_t> integers_of(const Unknowns& unknowns) {
 
 }  // namespace
 
+FieldRecord record_of_sum(const Field& field, int slices) { return {header_of(field, slices), {}}; }
+
 FieldRecord record_of(const Field& field) {
-  const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+  const std::array<BSplineBasis, 4> bases = bases_of(field);
   FieldRecord record;
-  int slices = bases[3].size();
   if (field.quantum == 0) {
+    record.header = header_of(field, bases[3].size());
     append_planes(record.coefficients, as_floats(field.coefficients()));
   } else {
     const ControlTies ties = ties_of(field.parametrization().name(), bases);
     const CoefficientGrid places = places_of(ties, bases);
     const Unknowns unknowns = unknowns_of(field, places, field.quantum);
     const auto values = integers_of(unknowns);
-    const auto again = control_points(ties, bases, values, field.quantum);
+    const auto again = control_points(ties, bases, multiples(values, field.quantum));
     for (std::size_t n = 0; n < again.size(); ++n)
       CLEFT_CHECK(norm(again[n] - field.coefficients()[n]), <=, 0.01 * field.quantum);
-    slices = unknowns.slices;
-    record.coefficients = encode_coefficients(places, slices, values);
+    record = {header_of(field, unknowns.slices), encode_coefficients(places, unknowns.slices, values)};
   }
-  record.header = header_of(field, slices);
   for (const Quantity& quantity : field.quantities) {
     record.header["quantities"].push_back({{"name", quantity.name},
                                            {"components", quantity.components},
@@ -227,55 +251,69 @@ FieldRecord record_of(const Field& field) {
   return record;
 }
 
-Field field_of(const FieldRecord& record) {
+UnknownPlaces unknown_places(const Json& header) {
   return reading([&] {
-    const Json& header = record.header;
     const std::array<BSplineBasis, 4> bases = bases_of(header);
-    std::size_t size = 1;
-    for (const BSplineBasis& b : bases) size *= static_cast<std::size_t>(b.size());
+    const int slices = header.at("slices").get<int>(), T = bases[3].size();
+    if (slices != T && slices != T - 1) throw InputError("slices is neither that of the basis nor one less");
+    const std::string name = header.at("parametrization").get<std::string>();
+    return UnknownPlaces{places_of(ties_of(name, bases), bases), slices};
+  });
+}
+
+namespace {
+
+/// The field of a header and of what gives its control points, once all else there is known to be sound.
+template <class Points>
+Field field_of(const Json& header, Points&& points_of) {
+  return reading([&] {
+    const std::array<BSplineBasis, 4> bases = bases_of(header);
     FieldGeometry geometry = geometry_of(header);
     check_break(bases[1], geometry.cut);
     const std::string name = header.at("parametrization").get<std::string>();
     const auto parametrization = make_parametrization(name, std::move(geometry));
-    const double quantum = finite(header, "quantum");
-    if (quantum < 0) throw InputError("quantum is negative");
-
-    std::span<const std::uint8_t> bytes = record.coefficients;
-    std::vector<Quantity> quantities;
-    if (header.contains("quantities"))
-      for (const Json& entry : header.at("quantities")) {
-        quantities.push_back({entry.at("name").get<std::string>(),
-                              entry.at("components").get<int>(),
-                              {},
-                              finite(entry, "largest"),
-                              finite(entry, "error")});
-        if (quantities.back().components < 1 || quantities.back().components > 100)
-          throw InputError("a quantity has no number of components");
-      }
-    for (std::size_t q = quantities.size(); q-- > 0;) {
-      const auto numbers = take_planes(bytes, size * static_cast<std::size_t>(quantities[q].components));
-      quantities[q].coefficients.assign(numbers.begin(), numbers.end());
-    }
-    std::vector<Vec3> points;
-    if (quantum == 0) {
-      points = as_points(take_planes(bytes, 3 * size));
-      if (!bytes.empty()) throw InputError("there are more bytes of coefficients than control points");
-    } else {
-      const int slices = header.at("slices").get<int>(), T = bases[3].size();
-      if (slices != T && slices != T - 1)
-        throw InputError("slices is neither that of the basis nor one less");
-      const ControlTies ties = ties_of(name, bases);
-      points =
-          control_points(ties, bases, decode_coefficients(places_of(ties, bases), slices, bytes), quantum);
-    }
-    Field field(parametrization, bases, std::move(points));
-    field.quantum = quantum;
-    field.quantities = std::move(quantities);
+    Field field(parametrization, bases, points_of(bases, ties_of(name, bases)));
     field.case_hash = header.at("case").get<std::string>();
     field.parameters = parameters_of(header);
     field.report = report_of(header);
     field.interpolation = interpolation_of(header);
     return field;
+  });
+}
+
+}  // namespace
+
+Field field_of(const FieldRecord& record) {
+  const Json& header = record.header;
+  std::vector<Quantity> quantities;
+  double quantum = 0;
+  Field field = field_of(header, [&](const std::array<BSplineBasis, 4>& bases, const ControlTies& ties) {
+    quantum = finite(header, "quantum");
+    if (quantum < 0) throw InputError("quantum is negative");
+    std::size_t size = 1;
+    for (const BSplineBasis& b : bases) size *= static_cast<std::size_t>(b.size());
+    std::span<const std::uint8_t> bytes = record.coefficients;
+    quantities = quantities_of(header, size, bytes);
+    if (quantum > 0) {
+      const auto [places, slices] = unknown_places(header);
+      return control_points(ties, bases, multiples(decode_coefficients(places, slices, bytes), quantum));
+    }
+    std::vector<Vec3> points = as_points(take_planes(bytes, 3 * size));
+    if (!bytes.empty()) throw InputError("there are more bytes of coefficients than control points");
+    return points;
+  });
+  field.quantum = quantum;
+  field.quantities = std::move(quantities);
+  return field;
+}
+
+Field field_of(const FieldRecord& record, std::span<const double> unknowns) {
+  if (!record.coefficients.empty()) throw InputError("a sum of modes has coefficients of its own");
+  return field_of(record.header, [&](const std::array<BSplineBasis, 4>& bases, const ControlTies& ties) {
+    const auto [places, slices] = unknown_places(record.header);
+    if (unknowns.size() != 3ul * static_cast<std::size_t>(slices) * static_cast<std::size_t>(places.unknowns))
+      throw InputError("its unknowns are not those of the modes");
+    return control_points(ties, bases, unknowns);
   });
 }
 

@@ -9,6 +9,8 @@
 #include "base/output_file.h"
 #include "base/text.h"
 #include "encoder/field/columns.h"
+#include "encoder/field/field_file.h"
+#include "encoder/field/unknowns.h"
 
 namespace cleft {
 
@@ -16,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const FileFormat format{"cleft-study", 2, "study file", "cleft pack"};
+const FileFormat format{"cleft-study", 3, "study file", "cleft pack"};
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
 
 /// The members of an object that are text.
@@ -61,16 +63,53 @@ struct StudyFile::Parts {
     if (begins.size() != names.size() + 1 || begins.back() != file.shape("/coefficients").at(0))
       throw InputError("the cases' bytes are not those of /coefficients");
     columns = Columns(std::move(header["columns"]), names.size());
+    if (header.contains("modes")) read_modes(header["modes"]);
+  }
+
+  /// The unknowns of a case that is a sum of modes, mm.
+  std::vector<double> sum_of_modes(const Json& case_header) {
+    const auto weights = case_header["modes"].at("weights").get<std::vector<double>>();
+    if (weights.size() != coded.quanta.size())
+      throw InputError("has " + std::to_string(weights.size()) + " weights for " +
+                       std::to_string(coded.quanta.size()) + " modes");
+    const UnknownPlaces places = unknown_places(case_header);
+    if (modes.empty())
+      for (std::size_t k = 0; k < coded.quanta.size(); ++k)
+        modes.push_back(multiples(decode_coefficients(places.grid, places.slices, coded.coefficients[k]),
+                                  coded.quanta[k]));
+    std::vector<double> sum(modes.empty() ? 0 : modes[0].size(), 0);
+    const double largest = report_of(case_header).largest_displacement;
+    for (std::size_t k = 0; k < modes.size(); ++k)
+      for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += weights[k] * largest * modes[k][n];
+    return sum;
   }
 
   h5::File file;
   Columns columns;
   std::vector<std::string> names;
   std::vector<std::uint64_t> begins;  // of each case in /coefficients, and their end
+  CodedModes coded;
+  std::vector<std::vector<double>> modes;  // mm; once a case has asked for them
+
+ private:
+  void read_modes(const Json& header) {
+    coded.quanta = header.at("quanta").get<std::vector<double>>();
+    const auto lengths = header.at("bytes").get<std::vector<std::size_t>>();
+    const auto bytes = file.read<std::uint8_t>("/modes", {0});
+    std::size_t at = 0;
+    for (const std::size_t length : lengths) {
+      if (length > bytes.size() - at) throw InputError("there are fewer bytes of modes than told");
+      coded.coefficients.emplace_back(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                                      bytes.begin() + static_cast<std::ptrdiff_t>(at + length));
+      at += length;
+    }
+    if (at != bytes.size() || lengths.size() != coded.quanta.size())
+      throw InputError("the modes' bytes are not those of /modes");
+  }
 };
 
 StudyFile::StudyFile(const std::string& path)
-    : parts_(told_of_file(path, [&] { return std::make_unique<const Parts>(path); })) {}
+    : parts_(told_of_file(path, [&] { return std::make_unique<Parts>(path); })) {}
 StudyFile::~StudyFile() = default;
 StudyFile::StudyFile(StudyFile&&) noexcept = default;
 
@@ -99,9 +138,24 @@ std::map<std::string, std::string> StudyFile::choices(int i) const {
   });
 }
 
+int StudyFile::modes() const { return static_cast<int>(parts_->coded.quanta.size()); }
+
+double StudyFile::modes_error(int i) const {
+  return told_of_file(parts_->file.path(), [&] {
+    const Json group = parts_->columns.group("modes", static_cast<std::size_t>(i))["modes"];
+    if (group.empty()) return 0.;
+    if (!group.contains("error") || !group["error"].is_number())
+      throw InputError("the error of the modes is missing");
+    return group["error"].get<double>();
+  });
+}
+
 FitReport StudyFile::report(int i) const {
   return told_of_file(parts_->file.path(), [&] {
-    return report_of(parts_->columns.group("report", static_cast<std::size_t>(i)));
+    FitReport report = report_of(parts_->columns.group("report", static_cast<std::size_t>(i)));
+    const double cost = modes_error(i);
+    report.node_error += cost, report.spline_error += cost, report.frame_error += cost;
+    return report;
   });
 }
 
@@ -118,7 +172,10 @@ Field StudyFile::field(int i) const {
                                          record.coefficients);
   return told_of_file(parts_->file.path() + ", case " + name(i), [&] {
     record.header = parts_->columns.header(n);
-    return field_of(record);
+    Field field = record.header.contains("modes") ? field_of(record, parts_->sum_of_modes(record.header))
+                                                  : field_of(record);
+    field.report = report(i);
+    return field;
   });
 }
 
@@ -140,19 +197,35 @@ std::vector<StudyCase> published_study_cases(const std::string& study) {
   return cases;
 }
 
-void write_study(const std::string& path, const std::vector<StudyCase>& cases) {
+std::vector<StudyRecord> study_records(const std::vector<StudyCase>& cases) {
+  std::vector<StudyRecord> records;
+  for (const StudyCase& one : cases)
+    records.push_back({one.name, read_field_record(one.field_file), one.choices});
+  return records;
+}
+
+void write_study(const std::string& path, const std::vector<StudyRecord>& cases, const CodedModes& modes) {
   std::vector<Json> headers;
-  std::vector<std::uint8_t> coefficients;
+  std::vector<std::uint8_t> coefficients, mode_coefficients;
   Json names = Json::array(), bytes = Json::array();
-  for (const StudyCase& one : cases) {
-    FieldRecord record = read_field_record(one.field_file);
+  for (const StudyRecord& one : cases) {
+    const FieldRecord& record = one.record;
     names.push_back(one.name);
     bytes.push_back(record.coefficients.size());
     coefficients.insert(coefficients.end(), record.coefficients.begin(), record.coefficients.end());
-    for (const auto& [name, value] : one.choices) record.header["choices"][name] = value;
-    headers.push_back(std::move(record.header));
+    Json& header = headers.emplace_back(record.header);
+    for (const auto& [name, value] : one.choices) header["choices"][name] = value;
+    if (!one.weights.empty()) header["modes"] = {{"weights", one.weights}, {"error", one.modes_error}};
   }
-  const Json header{{"names", names}, {"bytes", bytes}, {"columns", columns_of(headers)}};
+  Json header{{"names", names}, {"bytes", bytes}, {"columns", columns_of(headers)}};
+  if (!modes.quanta.empty()) {
+    Json lengths = Json::array();
+    for (const auto& mode : modes.coefficients) {
+      lengths.push_back(mode.size());
+      mode_coefficients.insert(mode_coefficients.end(), mode.begin(), mode.end());
+    }
+    header["modes"] = {{"quanta", modes.quanta}, {"bytes", lengths}};
+  }
 
   OutputFile out(path);
   h5::File file = h5::File::create(out.path(), h5::Growth::none);
@@ -160,6 +233,8 @@ void write_study(const std::string& path, const std::vector<StudyCase>& cases) {
   file.write_text("/", "units", "mm N MPa");
   const auto text = header_bytes(header);
   file.write<std::uint8_t>("/header", text, {text.size()}, h5::Packing::deflate);
+  if (!mode_coefficients.empty())
+    file.write<std::uint8_t>("/modes", mode_coefficients, {mode_coefficients.size()}, h5::Packing::deflate);
   file.create_dataset<std::uint8_t>("/coefficients", {coefficients.size()}, chunk_bytes,
                                     h5::Packing::deflate);
   file.write_rows<std::uint8_t>("/coefficients", 0, coefficients.size(), coefficients);

@@ -26,7 +26,7 @@ CoefficientGrid places_of(const ControlTies& ties, const std::array<BSplineBasis
 }
 
 std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
-                                 std::span<const std::int64_t> values, double quantum) {
+                                 std::span<const double> values) {
   const std::size_t n = static_cast<std::size_t>(ties.size()), T = bases[3].size();
   const std::size_t slices = n == 0 ? T : values.size() / (3 * n), skipped = T - slices;
   std::vector<Vec3> points;
@@ -38,12 +38,18 @@ std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSpli
         for (int c = 0; c < 3 && l >= skipped; ++c)
           for (int term = 0; term < control.terms; ++term) {
             const std::size_t unknown = static_cast<std::size_t>(ties.first(i) + control.term[term].unknown);
-            point[c] += control.term[term].weight *
-                        (static_cast<double>(values[(c * slices + l - skipped) * n + unknown]) * quantum);
+            point[c] += control.term[term].weight * values[(c * slices + l - skipped) * n + unknown];
           }
         points.push_back(point);
       }
   return points;
+}
+
+std::vector<double> multiples(std::span<const std::int64_t> values, double quantum) {
+  std::vector<double> result;
+  result.reserve(values.size());
+  for (const std::int64_t value : values) result.push_back(static_cast<double>(value) * quantum);
+  return result;
 }
 
 Unknowns unknowns_of(const Field& field, const CoefficientGrid& places, double unit) {
@@ -68,7 +74,8 @@ Field quantised(const Field& field, double quantum, double farthest) {
   const CoefficientGrid places = places_of(ties, bases);
   const Unknowns unknowns = unknowns_of(field, places, quantum);
   const auto values = round_coefficients(places, unknowns.slices, unknowns.values, farthest);
-  Field result(field.shared_parametrization(), bases, control_points(ties, bases, values, quantum));
+  Field result(field.shared_parametrization(), bases,
+               control_points(ties, bases, multiples(values, quantum)));
   result.parameters = field.parameters, result.case_hash = field.case_hash, result.report = field.report;
   result.quantities = field.quantities, result.interpolation = field.interpolation;
   result.quantum = quantum;

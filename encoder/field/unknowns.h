@@ -18,10 +18,13 @@ ControlTies ties_of(const std::string& parametrization, const std::array<BSpline
 /// Where the unknowns stand on the grid along, across and in height.
 CoefficientGrid places_of(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases);
 
-/// All control points, mm, in the order of Field: integers in the order of encode_coefficients() times the
-/// quantum. Where there is one slice less than control points in t, the first are 0.
+/// All control points, mm, in the order of Field, of the unknowns' values, mm, in the order of
+/// encode_coefficients(). Where there is one slice less than control points in t, the first are 0.
 std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
-                                 std::span<const std::int64_t> values, double quantum);
+                                 std::span<const double> values);
+
+/// Integers times the quantum.
+std::vector<double> multiples(std::span<const std::int64_t> values, double quantum);
 
 /// The unknowns' values of a field over `unit`, in the order of encode_coefficients(), and their slices in t:
 /// without the first where that is 0 everywhere.

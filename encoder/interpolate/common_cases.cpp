@@ -160,6 +160,14 @@ CommonCases::CommonCases(const std::vector<StudyMember>& members)
         "the study holds one case (of different parameters); nothing lies between fewer than two");
 }
 
+std::vector<Vec3> CommonCases::points(int i) const {
+  const std::span<const float> flat = control_points(i);
+  std::vector<Vec3> points(flat.size() / 3);
+  for (std::size_t n = 0; n < flat.size(); ++n)
+    points[n / 3][static_cast<int>(n % 3)] = static_cast<double>(flat[n]);
+  return points;
+}
+
 Field CommonCases::field_of(const std::vector<Vec3>& points, FieldGeometry geometry) const {
   std::array<BSplineBasis, 4> bases = bases_;
   auto parametrization = make_parametrization(parametrization_, std::move(geometry));

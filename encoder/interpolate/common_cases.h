@@ -50,6 +50,7 @@ class CommonCases {
   /// Control points of a case on bases(), mm: [point * 3 + component]. Single precision is 1e4 times finer
   /// than any fit.
   std::span<const float> control_points(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  std::vector<Vec3> points(int i) const;  ///< the same
   /// The field of a sum of control points, in a body of this geometry.
   Field field_of(const std::vector<Vec3>& points, FieldGeometry geometry) const;
 

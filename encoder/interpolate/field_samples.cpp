@@ -71,19 +71,33 @@ std::vector<Place> sample_places(const FieldGeometry& g, double spacing) {
   return places;
 }
 
-Eigen::MatrixXd sample_cases(const CommonCases& cases, const FieldGeometry& body,
-                             const std::vector<Place>& places) {
-  Eigen::MatrixXd samples(static_cast<Eigen::Index>(3 * places.size()), cases.size());
-  std::vector<Vec3> values(places.size());
-  for (int i = 0; i < cases.size(); ++i) {
-    const std::span<const float> flat = cases.control_points(i);
-    std::vector<Vec3> points(flat.size() / 3);
-    for (std::size_t k = 0; k < flat.size(); ++k)
-      points[k / 3][static_cast<int>(k % 3)] = static_cast<double>(flat[k]);
-    cases.field_of(points, body).displacements(places, values);
-    for (std::size_t k = 0; k < values.size(); ++k)
-      for (int c = 0; c < 3; ++c) samples(static_cast<Eigen::Index>(3 * k) + c, i) = values[k][c];
-  }
+double node_spacing(const CommonCase& one) {
+  const auto size = one.parameters.find("mesh.element_size");
+  if (size != one.parameters.end()) return size->second;
+  const auto [front, back] = one.geometry.domain[0];
+  return (one.geometry.cut.length > 0 ? one.geometry.cut.length : back - front) / 24;
+}
+
+CommonPlaces places_in_common(const CommonCases& cases) {
+  const auto nodes = [](const CommonCase& one) { return one.geometry.cut.length / node_spacing(one); };
+  const CommonCase& coarsest =
+      *std::min_element(cases.cases().begin(), cases.cases().end(),
+                        [&](const CommonCase& a, const CommonCase& b) { return nodes(a) < nodes(b); });
+  return {coarsest.geometry, sample_places(coarsest.geometry, node_spacing(coarsest))};
+}
+
+Eigen::VectorXd sample(const CommonCases& cases, const std::vector<Vec3>& points, const CommonPlaces& at) {
+  std::vector<Vec3> values(at.places.size());
+  cases.field_of(points, at.body).displacements(at.places, values);
+  Eigen::VectorXd column(static_cast<Eigen::Index>(3 * values.size()));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    for (int c = 0; c < 3; ++c) column[static_cast<Eigen::Index>(3 * k) + c] = values[k][c];
+  return column;
+}
+
+Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at) {
+  Eigen::MatrixXd samples(static_cast<Eigen::Index>(3 * at.places.size()), cases.size());
+  for (int i = 0; i < cases.size(); ++i) samples.col(i) = sample(cases, cases.points(i), at);
   return samples;
 }
 

@@ -13,10 +13,21 @@ namespace cleft {
 /// still close, no simulation has told them.
 std::vector<Place> sample_places(const FieldGeometry& geometry, double spacing);
 
-/// A column for each case: x, y, z of its displacements, mm, at these places of a body that all have in
-/// common.
-Eigen::MatrixXd sample_cases(const CommonCases& cases, const FieldGeometry& body,
-                             const std::vector<Place>& places);
+/// mm: of the solver's meshes; a guess for those of others.
+double node_spacing(const CommonCase& one);
+
+/// Places of a body that all cases have in common: of the case with the fewest nodes along its cut. Where it
+/// has some, all have.
+struct CommonPlaces {
+  FieldGeometry body;
+  std::vector<Place> places;
+};
+CommonPlaces places_in_common(const CommonCases& cases);
+
+/// x, y, z one after another of the displacements of control points on the common bases, mm.
+Eigen::VectorXd sample(const CommonCases& cases, const std::vector<Vec3>& points, const CommonPlaces& at);
+/// A column for each case.
+Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at);
 
 /// The largest displacement at these places, mm.
 double largest_displacement(const Field& field, const std::vector<Place>& places);

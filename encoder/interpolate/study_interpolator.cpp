@@ -24,21 +24,6 @@ std::vector<FieldGeometry> geometries_of(const CommonCases& cases) {
   return list;
 }
 
-/// mm: of the solver's meshes; a guess for those of others.
-double node_spacing(const CommonCase& one) {
-  const auto size = one.parameters.find("mesh.element_size");
-  if (size != one.parameters.end()) return size->second;
-  const auto [front, back] = one.geometry.domain[0];
-  return (one.geometry.cut.length > 0 ? one.geometry.cut.length : back - front) / 24;
-}
-
-/// The case with the fewest nodes along its cut: where it has some, all have.
-const CommonCase& coarsest_of(const CommonCases& cases) {
-  const auto nodes = [](const CommonCase& one) { return one.geometry.cut.length / node_spacing(one); };
-  return *std::min_element(cases.cases().begin(), cases.cases().end(),
-                           [&](const CommonCase& a, const CommonCase& b) { return nodes(a) < nodes(b); });
-}
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -73,9 +58,7 @@ StudyInterpolator::StudyInterpolator(CommonCases cases)
       range.least = std::min(range.least, one.at(name)),
       range.greatest = std::max(range.greatest, one.at(name));
   }
-  const CommonCase& coarsest = coarsest_of(cases_);
-  const Eigen::MatrixXd samples =
-      sample_cases(cases_, coarsest.geometry, sample_places(coarsest.geometry, node_spacing(coarsest)));
+  const Eigen::MatrixXd samples = sample_cases(cases_, places_in_common(cases_));
   for (const Loading loading : loadings_of(cases_)) {
     DisplacementModel model(parameters_, samples, loading);
     if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));

@@ -12,35 +12,34 @@ namespace cleft {
 
 namespace fs = std::filesystem;
 
-PublishedStudy::PublishedStudy(const std::string& path) {
+PublishedStudy::PublishedStudy(const std::string& path) : path_(path) {
   if (!fs::exists(path))
     throw InputError(path + ": no such file or folder (give a study folder, a study.dffd or a case.dffd)");
   if (fs::is_regular_file(path) && format_of(path) == "cleft-study") {
     packed_.emplace(path);
     for (int i = 0; i < packed_->size(); ++i)
-      cases_.push_back({packed_->name(i), "", packed_->parameters(i), std::nullopt, i});
+      cases_.push_back({packed_->name(i), "", packed_->parameters(i), i});
     if (cases_.empty()) throw InputError(path + ": holds no case; run `cleft pack` again");
     name_and_sort();
     return;
   }
   const bool folder = fs::is_directory(path);
   for (const StudyCase& one : folder ? published_study_cases(path) : std::vector<StudyCase>{{"", path}})
-    cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), std::nullopt, -1});
+    cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), -1});
   name_and_sort();
 }
 
 void PublishedStudy::name_and_sort() {
-  std::vector<std::string> varying;
   for (const auto& [name, value] : cases_.front().parameters) {
     const auto differs = [&name = name, value = value](const Case& c) {
       const auto found = c.parameters.find(name);
       return found == c.parameters.end() || found->second != value;
     };
-    if (std::any_of(cases_.begin(), cases_.end(), differs)) varying.push_back(name);
+    if (std::any_of(cases_.begin(), cases_.end(), differs)) varying_.push_back(name);
   }
-  const auto values = [&varying](const Case& c) {
+  const auto values = [this](const Case& c) {
     std::vector<double> row;
-    for (const std::string& name : varying) {
+    for (const std::string& name : varying_) {
       const auto found = c.parameters.find(name);
       row.push_back(found == c.parameters.end() ? -HUGE_VAL : found->second);
     }
@@ -49,7 +48,7 @@ void PublishedStudy::name_and_sort() {
   std::stable_sort(cases_.begin(), cases_.end(),
                    [&](const Case& a, const Case& b) { return values(a) < values(b); });
   for (Case& c : cases_) {
-    for (const std::string& name : varying)
+    for (const std::string& name : varying_)
       if (const auto found = c.parameters.find(name); found != c.parameters.end())
         c.name += (c.name.empty() ? "" : " ") + name + "=" + shortest(found->second);
     const fs::path file(c.file);
@@ -58,10 +57,23 @@ void PublishedStudy::name_and_sort() {
   }
 }
 
-const Field& PublishedStudy::field(int i) {
-  Case& wanted = cases_.at(i);
-  if (!wanted.field) wanted.field = packed_ ? packed_->field(wanted.packed) : read_field(wanted.file);
-  return *wanted.field;
+Field PublishedStudy::read(int i) const {
+  const Case& wanted = cases_.at(i);
+  return packed_ ? packed_->field(wanted.packed) : read_field(wanted.file);
+}
+
+std::shared_ptr<const Field> PublishedStudy::field(int i) {
+  const auto found =
+      std::find_if(recent_.begin(), recent_.end(), [i](const auto& r) { return r.first == i; });
+  if (found != recent_.end()) {
+    recent_.splice(recent_.begin(), recent_, found);
+  } else {
+    const Case& wanted = cases_.at(i);
+    recent_.emplace_front(
+        i, std::make_shared<const Field>(packed_ ? packed_->field(wanted.packed) : read_field(wanted.file)));
+    if (recent_.size() > kept) recent_.pop_back();
+  }
+  return recent_.front().second;
 }
 
 }  // namespace cleft

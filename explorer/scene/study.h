@@ -1,7 +1,9 @@
 // The published cases of a study, opened at once and read when they are looked at.
 #pragma once
 
+#include <list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,22 +25,32 @@ class PublishedStudy {
   /// The parameters in which the cases differ, "skin.prestress_v=0.03 tissue.young_modulus=0.02", in the
   /// order of the cases; the case's folder or file where they do not differ.
   const std::string& name(int i) const { return cases_.at(i).name; }
+  /// Names of the parameters in which the cases differ.
+  const std::vector<std::string>& varying() const { return varying_; }
   const std::map<std::string, double>& parameters(int i) const { return cases_.at(i).parameters; }
   const std::string& file(int i) const { return cases_.at(i).file; }
 
-  /// Read from its file at the first call, then kept. The reference lives as long as the study.
-  const Field& field(int i);
+  /// Read from its file when it is asked for; the cases looked at last are kept.
+  std::shared_ptr<const Field> field(int i);
+  static constexpr std::size_t kept = 16;  ///< cases, some MB each once decoded
+
+  /// The same, and nothing is kept: for going through all cases.
+  Field read(int i) const;
+
+  const std::string& path() const { return path_; }  ///< as it was opened
 
  private:
   struct Case {
     std::string file, name;
     std::map<std::string, double> parameters;
-    std::optional<Field> field;
     int packed = -1;  // its number in the study file
   };
   void name_and_sort();
 
+  std::string path_;
   std::vector<Case> cases_;
+  std::vector<std::string> varying_;
+  std::list<std::pair<int, std::shared_ptr<const Field>>> recent_;  // the last one first
   std::optional<StudyFile> packed_;
 };
 

@@ -1,8 +1,9 @@
-// A picture of a view, drawn without a window.
+// Pictures, drawn without a window.
 #pragma once
 
 #include <string>
 
+#include "explorer/scene/session/session.h"
 #include "explorer/view/wound_view.h"
 
 namespace cleft {
@@ -10,5 +11,14 @@ namespace cleft {
 /// Draws `view` with four samples a pixel and writes a PNG of that size, whole or not at all. Throws
 /// InputError where nothing can be drawn on this machine or the file cannot be written.
 void write_picture(WoundView& view, int width, int height, const std::string& path);
+
+/// The same of all that a session shows. The PNG holds the session's state as text.
+void write_picture(Session& session, int width, int height, const std::string& path);
+
+/// The state in a picture, as JSON; throws FileError where there is none.
+std::string state_in_picture(const std::string& path);
+
+/// Mesh files and pictures for a session; answers go to `answer`.
+SessionServices session_services(std::function<void(const std::string&)> answer);
 
 }  // namespace cleft

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "explorer/view/wound_scene.h"
+#include "explorer/scene/wound_scene.h"
 
 namespace cleft {
 
@@ -24,6 +24,13 @@ class SurfacePart {
 
   /// Rewrites the colour scalar of every vertex from that of its point.
   void color(const std::function<double(int point)>& scalar);
+
+  /// The surface's points at the corners of a cell.
+  std::array<int, 3> corners(std::size_t cell) const {
+    const auto& t = triangles_.at(cell);
+    return {source_[static_cast<std::size_t>(t[0])], source_[static_cast<std::size_t>(t[1])],
+            source_[static_cast<std::size_t>(t[2])]};
+  }
 
   vtkPolyData* data() const { return data_; }
 

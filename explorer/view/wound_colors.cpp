@@ -12,14 +12,14 @@ struct Stop {
   double at, red, green, blue;
 };
 
-vtkSmartPointer<vtkLookupTable> table(const std::vector<Stop>& stops, double largest) {
+vtkSmartPointer<vtkLookupTable> table(const std::vector<Stop>& stops, double least, double greatest) {
   vtkNew<vtkColorTransferFunction> between;
   between->SetColorSpaceToLab();
   for (const Stop& s : stops) between->AddRGBPoint(s.at, s.red, s.green, s.blue);
   vtkNew<vtkLookupTable> colors;
   constexpr int count = 256;
   colors->SetNumberOfTableValues(count);
-  colors->SetTableRange(0, largest);
+  colors->SetTableRange(least, greatest);
   for (int i = 0; i < count; ++i) {
     double rgb[3];
     between->GetColor(i / (count - 1.), rgb);
@@ -37,16 +37,16 @@ vtkSmartPointer<vtkLookupTable> tissue_colors() {
                 {0.50, 0.90, 0.66, 0.36},
                 {0.64, 0.66, 0.17, 0.13},
                 {1, 0.34, 0.04, 0.05}},
-               1);
+               0, 1);
 }
 
-vtkSmartPointer<vtkLookupTable> displacement_colors(double largest) {
+vtkSmartPointer<vtkLookupTable> value_colors(double least, double greatest) {
   return table({{0, 0.93, 0.83, 0.75},
                 {0.25, 0.90, 0.66, 0.50},
                 {0.5, 0.78, 0.44, 0.44},
                 {0.75, 0.54, 0.26, 0.45},
                 {1, 0.24, 0.12, 0.38}},
-               largest);
+               least, greatest);
 }
 
 }  // namespace cleft

@@ -13,7 +13,7 @@ inline constexpr std::array<double, 3> skin_color{0.91, 0.70, 0.60};
 /// From the skin down to the bottom of the cut, by depth fraction 0 to 1: dermis, fat, muscle.
 vtkSmartPointer<vtkLookupTable> tissue_colors();
 
-/// For displacements from 0 to `largest` mm: skin tone, then warm to dark, even in lightness.
-vtkSmartPointer<vtkLookupTable> displacement_colors(double largest);
+/// For values of that range: skin tone, then warm to dark, even in lightness.
+vtkSmartPointer<vtkLookupTable> value_colors(double least, double greatest);
 
 }  // namespace cleft

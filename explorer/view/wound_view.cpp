@@ -2,6 +2,7 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkCellPicker.h>
 #include <vtkLight.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -37,37 +38,27 @@ vtkSmartPointer<vtkActor> make_actor(const SurfacePart& part, vtkLookupTable* co
   return actor;
 }
 
-vtkSmartPointer<vtkScalarBarActor> make_legend(vtkLookupTable* colors) {
+vtkSmartPointer<vtkScalarBarActor> make_legend(vtkLookupTable* colors, const std::string& title) {
   vtkNew<vtkScalarBarActor> legend;
   legend->SetLookupTable(colors);
-  legend->SetTitle("displacement, mm");
-  legend->SetNumberOfLabels(3);
+  legend->SetTitle(title.c_str());
+  legend->SetNumberOfLabels(2);  // the ends: the middle is the title's
   legend->SetLabelFormat("%.2g");
   legend->SetOrientationToHorizontal();
-  legend->SetPosition(0.70, 0.86);
-  legend->SetWidth(0.27);
+  legend->SetPosition(0.33, 0.015);
+  legend->SetWidth(0.34);
   legend->SetHeight(0.11);
+  legend->SetBarRatio(0.22);
+  legend->SetVerticalTitleSeparation(6);
   legend->UnconstrainedFontSizeOn();
   for (vtkTextProperty* text : {legend->GetTitleTextProperty(), legend->GetLabelTextProperty()}) {
-    text->SetFontSize(15);
+    text->SetFontSize(14);
     text->ItalicOff();
     text->BoldOff();
     text->ShadowOff();
     text->SetColor(0.1, 0.1, 0.12);
   }
   return legend;
-}
-
-double largest_displacement(const WoundScene& scene) {
-  constexpr int samples = 8;
-  std::vector<Vec3> points;
-  double largest = 0;
-  for (int i = 1; i <= samples; ++i) {
-    scene.positions(scene.duration() * i / samples, points);
-    for (std::size_t p = 0; p < points.size(); ++p)
-      largest = std::max(largest, squared_norm(points[p] - scene.surface().points[p]));
-  }
-  return largest > 0 ? std::sqrt(largest) : 1;
 }
 
 }  // namespace
@@ -101,6 +92,7 @@ void WoundView::add_lights() {
 void WoundView::show(std::shared_ptr<const WoundScene> scene) {
   const bool first = !scene_;
   scene_ = std::move(scene);
+  largest_.reset();
   const WoundSurface& surface = scene_->surface();
   CLEFT_CHECK(surface.regions.size(), ==, surface.triangles.size());
   CLEFT_CHECK(surface.depth_fraction.size(), ==, surface.points.size());
@@ -111,13 +103,47 @@ void WoundView::show(std::shared_ptr<const WoundScene> scene) {
   if (first) aim({});
 }
 
+void WoundView::color_by(Coloring coloring, std::shared_ptr<const Field> reference,
+                         std::optional<std::pair<double, double>> range) {
+  coloring_ = coloring, reference_ = std::move(reference), range_ = range;
+  if (!scene_) return;
+  add_actors();
+  set_time(time_);
+}
+
+double WoundView::largest_value(Coloring coloring, const Field* reference) {
+  if (coloring == Coloring::tissue) return 0;
+  if (largest_ && std::get<0>(*largest_) == coloring && std::get<1>(*largest_) == reference)
+    return std::get<2>(*largest_);
+  constexpr int samples = 8;
+  std::vector<double> values;
+  double largest = 0;
+  for (int i = 1; i <= samples; ++i) {
+    scene_->values(coloring, reference, scene_->duration() * i / samples, values);
+    if (values.empty()) continue;
+    // Strain has no bound at the ends of the cut: the highest values there would leave no colour for the
+    // rest.
+    const double part = coloring == Coloring::strain ? 0.99 : 1;
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    largest = std::max(largest, *at);
+  }
+  largest_ = {coloring, reference, largest};
+  return largest;
+}
+
 void WoundView::add_actors() {
   for (vtkProp* prop : props_) renderer_->RemoveViewProp(prop);  // the window's sliders stay
   props_.clear();
+  legend_ = nullptr;
   vtkSmartPointer<vtkLookupTable> skin;
-  if (scene_->shows_displacement()) {
-    skin = displacement_colors(largest_displacement(*scene_));
-    add_prop(make_legend(skin));
+  if (coloring_ != Coloring::tissue) {
+    const auto [least, greatest] = range_.value_or(std::pair{0., largest_value(coloring_, reference_.get())});
+    skin = value_colors(least, greatest > least ? greatest : least + 1);
+    legend_ = make_legend(skin, text_of(coloring_).title);
+    legend_->SetVisibility(has_legend_);
+    add_prop(legend_);
   }
   const vtkSmartPointer<vtkActor> skin_actor = make_actor(*skin_, skin);
   if (skin) {  // colours must be read against the legend
@@ -125,11 +151,33 @@ void WoundView::add_actors() {
     skin_actor->GetProperty()->SetDiffuse(0.62);
   }
   add_prop(skin_actor);
+  skin_actor_ = skin_actor;
   vtkSmartPointer<vtkActor> walls = make_actor(*walls_, tissue_colors());
   walls->GetProperty()->SetSpecular(0.3);  // moist
   walls->GetProperty()->SetSpecularPower(40);
   add_prop(walls);
   walls_->color([this](int p) { return scene_->surface().depth_fraction[p]; });
+  set_background();
+}
+
+void WoundView::set_dark(bool dark) {
+  if (dark == dark_) return;
+  dark_ = dark;
+  set_background();
+}
+
+void WoundView::set_background() {
+  if (dark_) {
+    renderer_->SetBackground(0.10, 0.11, 0.13);
+    renderer_->SetBackground2(0.20, 0.22, 0.25);
+  } else {
+    renderer_->SetBackground(0.80, 0.83, 0.86);
+    renderer_->SetBackground2(0.96, 0.97, 0.98);
+  }
+  if (!legend_) return;
+  const double ink = dark_ ? 0.9 : 0.1;
+  for (vtkTextProperty* text : {legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty()})
+    text->SetColor(ink, ink, ink);
 }
 
 void WoundView::add_prop(vtkProp* prop) {
@@ -143,30 +191,74 @@ void WoundView::set_time(double t) {
   CLEFT_CHECK(points_.size(), ==, scene_->surface().points.size());
   skin_->move(points_);
   walls_->move(points_);
-  if (scene_->shows_displacement())
-    skin_->color([this](int p) { return norm(points_[p] - scene_->surface().points[p]); });
+  if (coloring_ == Coloring::tissue) return;
+  scene_->values(coloring_, reference_.get(), time_, values_);
+  skin_->color([this](int p) { return values_[static_cast<std::size_t>(p)]; });
 }
 
-void WoundView::aim(const ViewAngles& angles) {
+std::optional<WoundView::Place> WoundView::skin_at(int x, int y) {
+  vtkNew<vtkCellPicker> picker;
+  picker->SetTolerance(0);
+  if (!picker->Pick(x, y, 0, renderer_) || picker->GetActor() != skin_actor_ || picker->GetCellId() < 0)
+    return {};
+  const auto corners = skin_->corners(static_cast<std::size_t>(picker->GetCellId()));
+  const double* p = picker->GetPCoords();
+  const std::vector<Vec3>& rest = scene_->surface().points;
+  const auto corner = [&](int i) {
+    return rest[static_cast<std::size_t>(corners[static_cast<std::size_t>(i)])];
+  };
+  return Place{(1 - p[0] - p[1]) * corner(0) + p[0] * corner(1) + p[1] * corner(2),
+               normalized(cross(corner(1) - corner(0), corner(2) - corner(0)))};
+}
+
+void WoundView::aim(const CameraState& state) {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  if (state.pose) {
+    const CameraState::Pose& p = *state.pose;
+    camera->SetViewAngle(p.view_angle);
+    camera->SetFocalPoint(p.focal_point.x, p.focal_point.y, p.focal_point.z);
+    camera->SetPosition(p.position.x, p.position.y, p.position.z);
+    camera->SetViewUp(p.up.x, p.up.y, p.up.z);
+    renderer_->ResetCameraClippingRange();
+    return;
+  }
   const WoundSurface& surface = scene_->surface();
   const Vec3 &middle = surface.middle, normal = normalized(surface.outward);
-  double radius = 0;
-  for (const Vec3& x : surface.points) radius = std::max(radius, norm(x - middle));
   // Heads and patches stand with y upwards; a cut that faces up or down turns the picture along itself.
   const Vec3 up = std::abs(normal.y) < 0.9 ? Vec3{0, 1, 0} : surface.along;
   constexpr double view_angle = 24;
-  const double distance = radius / std::sin(view_angle / 2 * M_PI / 180);
-  const Vec3 eye = middle + distance * normal;
-  vtkCamera* camera = renderer_->GetActiveCamera();
-  camera->SetViewAngle(view_angle / angles.zoom);
+  const Vec3 eye = middle + normal;
+  camera->SetViewAngle(view_angle / state.zoom);
   camera->SetFocalPoint(middle.x, middle.y, middle.z);
   camera->SetPosition(eye.x, eye.y, eye.z);
   camera->SetViewUp(up.x, up.y, up.z);
   camera->OrthogonalizeViewUp();
-  camera->Azimuth(angles.azimuth);
-  camera->Elevation(angles.elevation);
+  camera->Azimuth(state.azimuth);
+  camera->Elevation(state.elevation);
   camera->OrthogonalizeViewUp();
+  const double distance = distance_to_see_all(view_angle);
+  const double* back = camera->GetDirectionOfProjection();
+  camera->SetPosition(middle.x - distance * back[0], middle.y - distance * back[1],
+                      middle.z - distance * back[2]);
   renderer_->ResetCameraClippingRange();
+}
+
+/// From the middle of the cut, at the camera's direction, with a margin.
+double WoundView::distance_to_see_all(double view_angle) const {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  const auto vec = [](const double* x) { return Vec3{x[0], x[1], x[2]}; };
+  const Vec3 forward = vec(camera->GetDirectionOfProjection()), up = vec(camera->GetViewUp()),
+             right = cross(forward, up);
+  const int* size = renderer_->GetSize();
+  const double aspect = size[0] > 1 && size[1] > 1 ? double(size[0]) / size[1] : 16. / 9;
+  const double high = std::tan(view_angle / 2 * M_PI / 180), wide = aspect * high;
+  double distance = 0;
+  for (const Vec3& x : scene_->surface().points) {
+    const Vec3 from = x - scene_->surface().middle;
+    const double needed = std::max(std::abs(dot(from, up)) / high, std::abs(dot(from, right)) / wide);
+    distance = std::max(distance, 1.35 * needed - dot(from, forward));
+  }
+  return distance;
 }
 
 }  // namespace cleft

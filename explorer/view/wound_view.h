@@ -1,25 +1,23 @@
 // Draws a wound scene with VTK: skin, the walls of the wound by depth, lights, camera.
 #pragma once
 
+#include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkProp.h>
 #include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
 #include <vtkSmartPointer.h>
 
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <vector>
 
+#include "explorer/scene/session/session_state.h"
+#include "explorer/scene/wound_scene.h"
 #include "explorer/view/surface_part.h"
-#include "explorer/view/wound_scene.h"
 
 namespace cleft {
-
-/// Where the camera stands: at 0, 0 it looks at the middle of the cut along its mean normal.
-struct ViewAngles {
-  double azimuth = 0, elevation = 0;  ///< degrees, towards the picture's right and up
-  double zoom = 1;                    ///< at 1 the whole scene is in the picture
-};
 
 class WoundView {
  public:
@@ -34,7 +32,24 @@ class WoundView {
   double time() const { return time_; }
   double duration() const { return scene_->duration(); }
 
-  void aim(const ViewAngles& angles);
+  /// The surface is coloured so; `reference` is what `difference` is taken from. Without a range: from 0 to
+  /// the largest value of all times.
+  void color_by(Coloring coloring, std::shared_ptr<const Field> reference = nullptr,
+                std::optional<std::pair<double, double>> range = std::nullopt);
+
+  void aim(const CameraState& camera);
+  void set_dark(bool dark);
+  /// Of views side by side, with the same colours, one has it.
+  void set_legend(bool visible) { has_legend_ = visible; }
+  /// Of all times, of strain the 99th percentile: the upper end of the colours where no range is given.
+  double largest_value(Coloring coloring, const Field* reference);
+
+  /// A place of the skin, where it is at rest.
+  struct Place {
+    Vec3 position, outward;
+  };
+  /// What lies under a pixel of the window, counted from the lower left; none beside the skin.
+  std::optional<Place> skin_at(int x, int y);
 
   const std::vector<Vec3>& points() const { return points_; }  ///< as drawn
   vtkRenderer* renderer() const { return renderer_; }
@@ -42,13 +57,23 @@ class WoundView {
  private:
   void add_lights();
   void add_actors();
+  void set_background();
+  double distance_to_see_all(double view_angle) const;
   void add_prop(vtkProp* prop);
 
   vtkNew<vtkRenderer> renderer_;
   std::vector<vtkSmartPointer<vtkProp>> props_;  // what the scene put into the renderer
+  vtkSmartPointer<vtkActor> skin_actor_;
   std::shared_ptr<const WoundScene> scene_;
   std::optional<SurfacePart> skin_, walls_;
   std::vector<Vec3> points_;
+  Coloring coloring_ = Coloring::tissue;
+  std::shared_ptr<const Field> reference_;
+  std::optional<std::pair<double, double>> range_;
+  std::optional<std::tuple<Coloring, const Field*, double>> largest_;  // as last asked for
+  vtkSmartPointer<vtkScalarBarActor> legend_;
+  bool dark_ = false, has_legend_ = true;
+  std::vector<double> values_;
   double time_ = 0;
 };
 

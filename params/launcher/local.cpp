@@ -1,196 +1,364 @@
 #include "params/launcher/local.h"
 
-#include <unistd.h>
-
-#include <atomic>
+#include <algorithm>
+#include <condition_variable>
 #include <csignal>
+#include <deque>
 #include <filesystem>
-#include <iostream>
+#include <memory>
 #include <mutex>
 #include <thread>
 
 #include "base/error.h"
-#include "base/output_file.h"
-#include "base/process.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "params/launcher/case_work.h"
+#include "params/launcher/estimates.h"
+#include "params/launcher/run_table.h"
+#include "params/launcher/solve_groups.h"
 
 namespace cleft {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 namespace {
 
-volatile std::sig_atomic_t stop_signal = 0;
+StopCount stop_count = 0, stop_signal = 0;
 
-/// A child fails its case by what it prints last; a signal to the run stops the run.
-struct CaseFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-struct Interrupted {};
+constexpr std::size_t check_together = 8;  // cases
+constexpr double longest_wait = 5;         // seconds of an encoded case for others to be checked with
 
-std::string last_line(const std::string& log) {
-  std::string text = read_text_file(log), line;
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
+using CasePointer = std::unique_ptr<CaseOnItsWay>;
+
+CaseWork::Settings settings_of(const LocalOptions& options) {
+  CaseWork::Settings settings{options.ranks, options.threads, options.mpi_launcher};
+  if (settings.mpi_launcher.empty() && options.ranks > 1)
+    settings.mpi_launcher = {"mpirun",          "--bind-to", "none",
+                             "--oversubscribe", "-n",        std::to_string(options.ranks)};
+  return settings;
 }
 
+/// Workers take what is nearest to being published: cases to check, then cases to encode, then groups to
+/// solve.
 class LocalRun {
  public:
-  LocalRun(const StudyFolder& folder, const std::vector<Case>& cases, const LocalOptions& options)
-      : folder_(folder), cases_(cases), options_(options), bin_(executable_folder()) {
-    solved_ = folder.solved_cases();
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    environment_["OPENBLAS_NUM_THREADS"] = environment_["OMP_NUM_THREADS"] =
-        std::to_string(std::max(1, cores / (options.jobs * options.ranks)));
-    if (geteuid() == 0)
-      environment_["OMPI_ALLOW_RUN_AS_ROOT"] = environment_["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
+  LocalRun(const StudyFolder& folder, const Study& study, const std::vector<Case>& cases,
+           const LocalOptions& options)
+      : folder_(folder),
+        cases_(cases),
+        options_(options),
+        work_(folder, study, settings_of(options), stop_count) {
+    const auto published = folder.index();
+    estimates_ = Estimates(published);
+    for (const auto& [hash, one] : published)
+      if (one.snapshot) solved_[one.solve] = hash;
+    report_.cases = static_cast<int>(cases.size());
+    std::vector<Case> missing;
+    std::vector<std::size_t> numbers;
+    const std::vector<CaseStatus> states = folder.status(cases);
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+      const CaseStatus& state = states[c];
+      if (state.state == CaseState::published)
+        ++report_.already_published;
+      else if (state.state == CaseState::failed && !state.again && !options.retry_failed)
+        not_retried(c, state.reason);
+      else
+        missing.push_back(cases[c]), numbers.push_back(c);
+    }
+    for (std::vector<std::size_t> group : solve_groups(missing, options.jobs)) {
+      for (std::size_t& member : group) member = numbers[member], unfinished_work_ += seconds_of(member);
+      groups_.push_back(std::move(group));
+    }
   }
 
   RunReport run() {
-    report_.cases = static_cast<int>(cases_.size());
+    RunTable table([this] { return rows(); });
+    table_ = &table;
+    for (const std::string& line : early_lines_) table.say(line);
+    if (report_.already_published > 0)
+      table.say(std::to_string(report_.already_published) + " of " + std::to_string(report_.cases) +
+                " cases are already published");
     std::vector<std::thread> workers;
     for (int i = 0; i < options_.jobs; ++i) workers.emplace_back([this] { work(); });
     for (std::thread& worker : workers) worker.join();
-    const int ended = report_.already_published + report_.published + report_.superseded + report_.failed;
-    report_.interrupted = report_.cases - ended;  // running or not yet begun when the run was stopped
+    table_ = nullptr;
+    for (auto* queue : {&to_encode_, &to_check_})
+      for (const CasePointer& one : *queue) folder_.abandon(one->attempt);
+    report_.interrupted = report_.cases - ended();  // running or not yet begun when the run was stopped
+    report_.stopped_by = stop_signal;
     return report_;
   }
 
  private:
+  struct Task {
+    enum { solve, encode, check, none } kind = none;
+    std::vector<std::size_t> group = {};
+    std::vector<CasePointer> cases = {};
+    double memory = 0;
+    Stopwatch watch = {};
+  };
+
+  int ended() const {
+    return report_.already_published + report_.published + report_.superseded + report_.failed;
+  }
+
   void work() {
-    for (std::size_t i; !stop_signal && (i = next_++) < cases_.size();) {
-      const std::string hash = cases_[i].hash();
-      try {
-        run_case(cases_[i]);
-      } catch (const std::exception& e) {  // a full disk, say: this case's failure, not the others'
-        count(&RunReport::failed, hash, std::string("failed: ") + e.what());
-      }
-    }
-  }
-
-  void run_case(const Case& one) {
-    const std::string hash = one.hash();
-    const CaseState state = folder_.status(hash).state;
-    if (state == CaseState::published) return count(&RunReport::already_published, hash, "already published");
-    if (state == CaseState::running)
-      return count(&RunReport::superseded, hash, "is being run by another process");
-    const Attempt attempt = folder_.begin(hash);
-    try {
-      const Stopwatch watch;
-      Json manifest = attempt_case(one, attempt);
-      manifest["seconds"] = watch.seconds();
-      const bool won = folder_.publish(attempt, hash, std::move(manifest),
-                                       {"case.toml", "case.h5", "case.dffd", "solve.log", "encode.log"});
-      if (won) {
+    for (Task task = next_task(); task.kind != Task::none; task = next_task()) {
+      {
         const std::lock_guard guard(mutex_);
-        solved_[solve_hash(one.parameters)] = folder_.published(hash);
+        running_.push_back(&task);
       }
-      count(won ? &RunReport::published : &RunReport::superseded, hash,
-            won ? "published" : "superseded: another run published it first");
-    } catch (const CaseFailure& e) {
-      folder_.fail(attempt, e.what());
-      count(&RunReport::failed, hash, std::string("failed: ") + e.what() + " (log: " + attempt.folder + ")");
-    } catch (const Interrupted&) {
-      say(hash, "interrupted");
+      try {
+        if (task.kind == Task::solve) begin_and_solve(task);
+        if (task.kind == Task::encode) encode(task);
+        if (task.kind == Task::check) check_and_publish(task);
+      } catch (const Interrupted&) {
+        for (const CasePointer& one : task.cases)
+          if (one) folder_.abandon(one->attempt);
+      } catch (const std::exception& e) {  // a full disk, say: these cases' failure, not the others'
+        for (const CasePointer& one : task.cases)
+          if (one) fail(*one, {e.what(), true});
+      }
+      const std::lock_guard guard(mutex_);
+      task.cases.clear();
+      --active_;
+      running_.erase(std::find(running_.begin(), running_.end(), &task));
+      memory_ -= task.memory;
+      changed_.notify_all();
+    }
+    changed_.notify_all();
+  }
+
+  /// Waits for something to do; none where all is done, or the run is to stop.
+  Task next_task() {
+    std::unique_lock guard(mutex_);
+    Task task;
+    while (!stop_count && !may_take(task) && !is_done())
+      changed_.wait_for(guard, std::chrono::milliseconds(100));
+    if (task.kind == Task::none) return task;
+    ++active_;
+    memory_ += task.memory;
+    return task;
+  }
+
+  bool is_done() const { return active_ == 0 && to_check_.empty() && to_encode_.empty() && groups_.empty(); }
+
+  bool may_take(Task& task) {
+    const auto fits = [&](double memory) {
+      task.memory = memory;
+      return active_ == 0 || memory_ + memory <= options_.memory;
+    };
+    const auto size = [&](std::size_t number) { return size_of(cases_[number].parameters); };
+    const bool nobody_to_wait_for = to_encode_.empty() || oldest_to_check_.seconds() > longest_wait;
+    if (to_check_.size() >= check_together || (!to_check_.empty() && nobody_to_wait_for)) {
+      take_checks(task);
+    } else if (!to_encode_.empty()) {
+      if (!fits(estimates_.encoder_memory(size(to_encode_.front()->number)))) return false;
+      task.kind = Task::encode;
+      task.cases.push_back(std::move(to_encode_.front()));
+      to_encode_.pop_front();
+    } else if (!groups_.empty()) {
+      if (!fits(estimates_.solver_memory(size(groups_.front().front())))) return false;
+      task.kind = Task::solve;
+      task.group = std::move(groups_.front());
+      groups_.pop_front();
+    }
+    return task.kind != Task::none;
+  }
+
+  void take_checks(Task& task) {
+    task.kind = Task::check;
+    while (!to_check_.empty() && task.cases.size() < check_together) {
+      task.cases.push_back(std::move(to_check_.front()));
+      to_check_.pop_front();
+    }
+    oldest_to_check_ = Stopwatch();
+  }
+
+  void begin_and_solve(Task& task) {
+    for (const std::size_t number : task.group) begin(task, number);
+    std::vector<CaseOnItsWay*> to_solve;
+    for (const CasePointer& one : task.cases)
+      if (!reuse(*one)) to_solve.push_back(one.get());
+    if (!to_solve.empty()) work_.solve(to_solve);
+    if (to_solve.size() > 1) solve_singly(to_solve);
+    for (CasePointer& one : task.cases) {
+      if (one->failure) {
+        fail(*one, *one->failure);
+        continue;
+      }
+      const std::lock_guard guard(mutex_);
+      to_encode_.push_back(std::move(one));
     }
   }
 
-  Json attempt_case(const Case& one, const Attempt& attempt) {
-    const std::string file = attempt.folder + "/case.toml", snapshot = attempt.folder + "/case.h5",
-                      field = attempt.folder + "/case.dffd";
-    write_text_file(file, case_file_text(one));
-    const std::string solve_identity = solve_hash(one.parameters);
-    if (!reuse(solve_identity, attempt.folder))
-      child("solve", {file, "--out", snapshot, "--json"}, attempt.folder + "/solve.log");
-    std::vector<std::string> encode = {snapshot, "--out", field, "--json"};
-    for (const std::string& argument : one.encode.arguments()) encode.push_back(argument);
-    child("encode", encode, attempt.folder + "/encode.log");
-    child("check", {snapshot, field}, attempt.folder + "/check.log");
-    fs::remove(attempt.folder + "/check.log");
-
-    Json manifest = {{"format", "cleft-case"},
-                     {"version", 1},
-                     {"producer", producer()},
-                     {"case", one.hash()},
-                     {"solve", solve_identity}};
-    for (const Parameter& row : parameter_table()) {
-      const Value value = get_parameter(one.parameters, row);
-      std::visit([&](const auto& v) { manifest["parameters"][row.name] = v; }, value);
+  /// A process that ended over one case has not solved the others.
+  void solve_singly(const std::vector<CaseOnItsWay*>& cases) {
+    for (CaseOnItsWay* one : cases) {
+      if (!one->failure || !one->failure->again) continue;
+      one->failure.reset();
+      work_.solve({one});
     }
-    return manifest;
   }
 
-  /// A new [encode] does not solve again: where a published snapshot of the same solve is sound it serves
-  /// again, as the same file, or as a copy where links are not possible.
-  bool reuse(const std::string& solve_identity, const std::string& attempt) {
+  void begin(Task& task, std::size_t number) {
+    const std::string hash = cases_[number].hash();
+    try {
+      CaseStatus state;
+      auto attempt = folder_.begin(
+          hash, options_.retry_failed ? StudyFolder::Retry::failed : StudyFolder::Retry::never, state);
+      if (attempt) {
+        const std::lock_guard guard(mutex_);
+        task.cases.push_back(
+            std::make_unique<CaseOnItsWay>(CaseOnItsWay{number, &cases_[number], hash, std::move(*attempt)}));
+      } else if (state.state == CaseState::published) {
+        count(&RunReport::already_published, number, "published by another run");
+      } else {
+        count(&RunReport::superseded, number, "is being run by another process");
+      }
+    } catch (const std::exception& e) {
+      count(&RunReport::failed, number, std::string("failed: ") + e.what());
+    }
+  }
+
+  bool reuse(CaseOnItsWay& one) {
     std::string published;
     {
       const std::lock_guard guard(mutex_);
-      const auto found = solved_.find(solve_identity);
+      const auto found = solved_.find(solve_hash(one.one->parameters));
       if (found == solved_.end()) return false;
-      published = found->second;
+      published = folder_.published(found->second);
     }
-    const ProcessResult check = run_process({bin_ + "/cleft-check", published + "/case.h5"},
-                                            attempt + "/check.log", environment_, &stop_signal);
-    if (!check.success()) return false;
-    for (const char* name : {"/case.h5", "/solve.log"}) {
-      std::error_code error;
-      fs::create_hard_link(published + name, attempt + name, error);
-      if (error) fs::copy_file(published + name, attempt + name);
-    }
-    return true;
+    return work_.reuse(one, published);
   }
 
-  void child(const std::string& command, const std::vector<std::string>& arguments,
-             const std::string& log) const {
-    std::vector<std::string> argv;
-    if (command == "solve" && options_.ranks > 1)
-      argv = {"mpirun", "--bind-to", "none", "--oversubscribe", "-n", std::to_string(options_.ranks)};
-    argv.push_back(bin_ + "/cleft-" + command);
-    argv.insert(argv.end(), arguments.begin(), arguments.end());
-    const ProcessResult result = run_process(argv, log, environment_, &stop_signal);
-    if (stop_signal) throw Interrupted();
-    if (result.success()) return;
-    if (result.signal) throw CaseFailure(command + " was ended by signal " + std::to_string(result.signal));
-    throw CaseFailure(command + " ended with exit code " + std::to_string(result.exit_code) + ": " +
-                      last_line(log));
+  void encode(Task& task) {
+    CasePointer& one = task.cases.front();
+    work_.encode(*one);
+    if (one->failure) return fail(*one, *one->failure);
+    const std::lock_guard guard(mutex_);
+    if (to_check_.empty()) oldest_to_check_ = Stopwatch();
+    to_check_.push_back(std::move(one));
   }
 
-  void count(int RunReport::*counter, const std::string& hash, const std::string& what) {
+  void check_and_publish(Task& task) {
+    std::vector<CaseOnItsWay*> cases;
+    for (const CasePointer& one : task.cases) cases.push_back(one.get());
+    work_.check(cases);
+    for (CasePointer& one : task.cases) {
+      if (one->failure) {
+        fail(*one, *one->failure);
+      } else if (work_.publish(*one)) {
+        count(&RunReport::published, one->number, "published, " + as_clock(one->seconds));
+      } else {
+        count(&RunReport::superseded, one->number, "superseded: another run published it first");
+      }
+      const std::lock_guard guard(mutex_);
+      one.reset();
+    }
+  }
+
+  void fail(const CaseOnItsWay& one, const Failure& failure) {
+    std::string where = " (log: " + one.attempt.folder + ")";
+    try {
+      folder_.fail(one.attempt, failure.reason, failure.again);
+    } catch (const std::exception&) {  // where nothing can be written, it is told here only
+      where.clear();
+    }
+    count(&RunReport::failed, one.number, "failed: " + failure.reason + where);
+  }
+
+  void not_retried(std::size_t number, const std::string& reason) {
+    ++report_.failed;
+    early_lines_.push_back(cases_[number].hash() + " failed before: " + reason +
+                           " (--retry-failed tries it again)");
+  }
+
+  void count(int RunReport::*counter, std::size_t number, const std::string& what) {
+    std::string line;
     {
       const std::lock_guard guard(mutex_);
       ++(report_.*counter);
+      unfinished_work_ -= seconds_of(number);
+      finished_work_ += seconds_of(number);
+      line = "[" + std::to_string(ended()) + "/" + std::to_string(cases_.size()) + "] " +
+             cases_[number].hash() + " " + what;
     }
-    say(hash, what);
+    table_->say(line);
   }
 
-  void say(const std::string& hash, const std::string& what) {
+  /// By which cases are weighed against each other; seconds where some have been measured.
+  double seconds_of(std::size_t number) const {
+    const CaseSize size = size_of(cases_[number].parameters);
+    return estimates_.seconds(size).value_or(size.nodes);
+  }
+
+  std::vector<std::string> rows() {
     const std::lock_guard guard(mutex_);
-    std::cerr << "[" << ++done_ << "/" << cases_.size() << "] " << hash << " " << what << "\n";
+    std::vector<std::string> lines;
+    for (const Task* task : running_) {
+      const char* names[] = {"solving", "encoding", "checking"};
+      std::string line = "  " + std::string(names[task->kind]);
+      if (!task->cases.empty() && task->cases.front()) {
+        line += " " + task->cases.front()->hash;
+        if (task->cases.size() > 1) line += " and " + std::to_string(task->cases.size() - 1) + " more";
+        line += progress_of(*task->cases.front());
+      }
+      lines.push_back(line + "  " + as_clock(task->watch.seconds()));
+    }
+    std::string summary = std::to_string(report_.already_published + report_.published) + " of " +
+                          std::to_string(cases_.size()) + " published";
+    if (report_.failed > 0) summary += ", " + std::to_string(report_.failed) + " failed";
+    if (finished_work_ > 0 && unfinished_work_ > 0)
+      summary += ", " + as_clock(watch_.seconds() * unfinished_work_ / finished_work_) + " left";
+    else if (const auto seconds = estimates_.seconds({1, 1}); seconds && unfinished_work_ > 0)
+      summary += ", " + as_clock(unfinished_work_ / options_.jobs) + " left";
+    lines.push_back(summary);
+    return lines;
+  }
+
+  static std::string progress_of(const CaseOnItsWay& one) {
+    try {
+      std::string state = read_text_file(one.file("progress"));
+      while (!state.empty() && state.back() == '\n') state.pop_back();
+      return ": " + state;
+    } catch (const std::exception&) {
+      return "";
+    }
   }
 
   const StudyFolder& folder_;
   const std::vector<Case>& cases_;
   const LocalOptions options_;
-  const std::string bin_;
-  std::map<std::string, std::string> environment_;
-  std::atomic<std::size_t> next_ = 0;
-  std::mutex mutex_;
-  std::size_t done_ = 0;
+  const CaseWork work_;
+  Estimates estimates_;
+  std::map<std::string, std::string> solved_;  // published hashes by what their solver saw
+  std::vector<std::string> early_lines_;
+  RunTable* table_ = nullptr;
+  Stopwatch watch_;
+
+  std::mutex mutex_;  // of all below
+  std::condition_variable changed_;
+  std::deque<std::vector<std::size_t>> groups_;
+  std::deque<CasePointer> to_encode_, to_check_;
+  Stopwatch oldest_to_check_;
+  std::vector<const Task*> running_;
+  int active_ = 0;     // tasks
+  double memory_ = 0;  // of what runs, as estimated
+  double unfinished_work_ = 0, finished_work_ = 0;
   RunReport report_;
-  std::map<std::string, std::string> solved_;  // published folders by what their solver saw
 };
 
 }  // namespace
 
-RunReport run_local(const StudyFolder& folder, const std::vector<Case>& cases, const LocalOptions& options) {
+RunReport run_local(const StudyFolder& folder, const Study& study, const std::vector<Case>& cases,
+                    const LocalOptions& options) {
   struct sigaction action = {};
-  action.sa_handler = [](int number) { stop_signal = number; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  return LocalRun(folder, cases, options).run();
+  action.sa_handler = [](int number) {
+    stop_count = stop_count + 1;
+    stop_signal = number;
+  };
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+  folder.remove_abandoned();
+  return LocalRun(folder, study, cases, options).run();
 }
 
 }  // namespace cleft

@@ -69,9 +69,9 @@ Differences compare(const AccuracyRow& before, const AccuracyRow& now) {
     const std::string what = now.case_name + " at tolerance " + shortest(now.tolerance) + ": " +
                              figure_names[i] + " " + formatted("%.6g", was) + " -> " + formatted("%.6g", is) +
                              (was > 0 ? " (" + formatted("%+.1f", 100 * (is / was - 1)) + " %)" : "");
-    const double margin = 0.01 * was + floor;
-    if (!(is <= was + margin)) differences.worse.push_back(what);  // no number is worse too
-    if (is < was - margin) differences.better.push_back(what);
+    const double margin = 0.01 * std::abs(was) + floor, gain = i == least_volume ? is - was : was - is;
+    if (!(gain >= -margin)) differences.worse.push_back(what);  // no number is worse too
+    if (gain > margin) differences.better.push_back(what);
   }
   return differences;
 }

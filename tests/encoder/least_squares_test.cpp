@@ -152,7 +152,7 @@ TEST(LeastSquares, ReproducesASplineOfTheSpace) {
     std::vector<std::int64_t> values(static_cast<std::size_t>(3 * (bases[3].size() - 1) * ties.size()));
     std::mt19937 random(1);
     for (std::int64_t& value : values) value = std::uniform_int_distribution<int>(-1000, 1000)(random);
-    const Field truth(parametrization, bases, control_points(ties, bases, values, 1e-3));
+    const Field truth(parametrization, bases, control_points(ties, bases, multiples(values, 1e-3)));
     std::vector<Vec3> points;  // ties or none, left and right agree on single nodes of v = 0
     for (const Vec3& p : grid())
       if (std::string(name) == "tip" || p.y != 0 || (std::abs(p.x) < 4 && p.z > -1.5)) points.push_back(p);

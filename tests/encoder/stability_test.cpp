@@ -63,8 +63,7 @@ TEST(Stability, HoleInTheCloud) {
   for (const Vec3& p : grid(24, 20, 5))
     if (!in_hole(p, 1.2)) points.push_back(p);
   const SyntheticSnapshot data(cut_in(points, eight_times), smoothly);
-  for (const char* parametrization : {"fixed", "tip"}) {
-    const Encoded encoded = encoded_on(data.series(), parametrization, {2, 8, 2, 5, 2, 1, 2});
+  const auto expect_no_worse_inside = [&](const Encoded& encoded) {
     expect_bounded(encoded);
     double inside = 0, beside = 0;
     for (double x = -0.5; x <= 4.5; x += 0.1)
@@ -75,7 +74,14 @@ TEST(Stability, HoleInTheCloud) {
           kind = std::max(kind, error_at(encoded.field, p, 8));
         }
     EXPECT_LT(inside, 2 * beside);
-  }
+  };
+  const Series series = data.series();
+  expect_no_worse_inside(encoded_on(series, "fixed", {2, 8, 2, 5, 2, 1, 2}));
+  for (const char* parametrization : {"fixed", "tip"})
+    for (const double tolerance : {0.05, 0.005}) {
+      SCOPED_TRACE(std::string(parametrization) + ", " + std::to_string(tolerance));
+      expect_no_worse_inside(encoded_within(series, tolerance, parametrization));
+    }
 }
 
 TEST(Stability, SingleNodeInASpan) {

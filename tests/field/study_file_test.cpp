@@ -33,7 +33,7 @@ struct Packed {
       write_field(folder / (name + ".dffd"), fields[i]);
       cases.push_back({name, folder / (name + ".dffd"), {}});
     }
-    write_study(file(), cases);
+    write_study(file(), study_records(cases));
   }
   std::string file() const { return folder / "study.dffd"; }
 
@@ -73,7 +73,7 @@ TEST(StudyFile, KeepsParametersThatAreText) {
   Packed packed(different_fields());
   packed.cases[0].choices = {{"cut.contact", "true"}, {"tissue.formulation", "displacement"}};
   packed.cases[3].choices = {{"cut.contact", "false"}};
-  write_study(packed.file(), packed.cases);
+  write_study(packed.file(), study_records(packed.cases));
   const StudyFile study(packed.file());
   EXPECT_EQ(study.choices(0), packed.cases[0].choices);
   EXPECT_TRUE(study.choices(1).empty());
@@ -136,7 +136,7 @@ TEST(StudyFile, WhatIsNoneIsNamed) {
   write_field(folder / "a.dffd", following_field());
   EXPECT_THROW(StudyFile(folder / "a.dffd"), FileError);
   EXPECT_THROW(StudyFile(folder / "absent.dffd"), FileError);
-  EXPECT_THROW(write_study(folder / "b.dffd", {{"x", folder / "absent.dffd"}}), FileError);
+  EXPECT_THROW(write_study(folder / "b.dffd", study_records({{"x", folder / "absent.dffd"}})), FileError);
   EXPECT_FALSE(std::filesystem::exists(folder / "b.dffd"));
   write_study(folder / "c.dffd", {});
   EXPECT_EQ(StudyFile(folder / "c.dffd").size(), 0);

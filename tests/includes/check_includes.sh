@@ -29,6 +29,7 @@ explorer/incision:base|encoder/field|haptic
 explorer/io:base|explorer/incision|solver/snapshot
 explorer/scene:base|encoder/field|haptic|explorer/incision|solver/snapshot|params
 explorer/view:base|encoder/field|explorer/incision|explorer/scene|explorer/io
+explorer/app:base|params|encoder/field|explorer/incision|explorer/scene|explorer/view
 cli:base|params|solver/snapshot|encoder/field
 examples:base
 PARTS
@@ -42,6 +43,7 @@ forbid() {
 forbid "deal.II or Trilinos" 'deal\.II/|Epetra|ml_|Teuchos|dmumps' base params solver/snapshot encoder haptic explorer cli examples
 forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer cli examples
 except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/scene cli
+forbid "Qt" 'Q[A-Z]' base params solver encoder haptic explorer/incision explorer/scene explorer/io explorer/view cli examples
 forbid "Eigen" 'Eigen/' base params encoder/field haptic
 forbid "HDF5" 'hdf5|H5' params solver encoder haptic explorer cli examples
 found=$(cd "$root" && grep -rn --include='*.h' --include='*.cpp' '#include "encoder/import/' base params solver encoder haptic \

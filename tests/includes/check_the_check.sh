@@ -22,6 +22,10 @@ haptic|"explorer/incision/incision.h"
 explorer/incision|"explorer/view/wound_view.h"
 explorer/scene|<vtkPolyData.h>
 explorer/incision|<QWidget>
+explorer/view|<QWidget>
+explorer/view|"explorer/app/panel.h"
+explorer/scene|"explorer/view/stage.h"
+explorer/app|"solver/snapshot/snapshot.h"
 explorer/view|<deal.II/grid/tria.h>
 encoder/field|<Eigen/Core>
 explorer/scene|<hdf5.h>

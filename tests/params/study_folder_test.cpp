@@ -43,7 +43,8 @@ TEST(StudyFolder, APublishedCaseVerifiesUntilAByteChanges) {
   }
   EXPECT_EQ(folder.status("a").state, CaseState::published);
   EXPECT_NO_THROW(folder.verify("a"));
-  EXPECT_EQ(folder.solved_cases(), (std::map<std::string, std::string>{{"s", folder.published("a")}}));
+  ASSERT_EQ(folder.index().size(), 1u);
+  EXPECT_EQ(folder.index().at("a").solve, "s");
   std::FILE* file = std::fopen((folder.published("a") + "/case.h5").c_str(), "r+");
   std::fputc('D', file);
   std::fclose(file);
@@ -86,10 +87,11 @@ TEST(StudyFolder, AManifestOfAnotherCaseOrNoneIsTold) {
     EXPECT_TRUE(folder.publish(attempt, "a", {{"case", "b"}, {"solve", "s"}}, {"case.h5"}));
   }
   EXPECT_THROW(folder.verify("a"), FileError);
+  EXPECT_EQ(folder.index().size(), 1u);
   place.write("study/cases/a/manifest.json", "[]");
   EXPECT_THROW(folder.manifest("a"), FileError);
   fs::create_directories(place / "study/cases/stray");
-  EXPECT_TRUE(folder.solved_cases().empty()) << "what is no case of ours stops nobody";
+  EXPECT_TRUE(folder.index().empty()) << "what is no case of ours stops nobody";
 }
 
 TEST(StudyFolder, ManyBeginAtOnceAndNoneLosesItsFolder) {

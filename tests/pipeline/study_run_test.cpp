@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
+#include "params/study_folder.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"
 
@@ -124,6 +126,68 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   EXPECT_NE(found.output.find(encoded), std::string::npos) << found.output;
 }
 
+/// Of all published files but the manifests, which tell times.
+std::map<std::string, std::string> published_bytes(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder + "/cases"))
+    if (entry.is_regular_file() && entry.path().filename() != "manifest.json")
+      files[fs::relative(entry.path(), folder).string()] = read_text_file(entry.path().string());
+  files["study.dffd"] = read_text_file(folder + "/study.dffd");
+  return files;
+}
+
+TEST(StudyRun, IsTheSameHoweverItsCasesAreGrouped) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", study);
+  expect_success(run_cleft("run", {file, "--out", place / "together", "--jobs", "1"}));
+  expect_success(run_cleft("run", {file, "--out", place / "apart", "--jobs", "4", "--memory", "0.001"}));
+  const auto together = published_bytes(place / "together");
+  EXPECT_EQ(together.size(), 13u);
+  EXPECT_TRUE(together == published_bytes(place / "apart"));
+
+  // What a case was made with stands in its manifest.
+  const StudyFolder folder(place / "together");
+  for (const std::string& hash : folder.published_cases()) {
+    const auto manifest = folder.manifest(hash);
+    EXPECT_EQ(manifest["solver"]["cases_sharing"], 2);
+    for (const char* library : {"cleft", "deal.II", "Trilinos", "MUMPS", "HDF5", "MPI"})
+      EXPECT_TRUE(manifest["solver"]["versions"].contains(library)) << library;
+    EXPECT_TRUE(manifest["encoder"]["versions"].contains("Eigen"));
+    EXPECT_EQ(manifest["parameters"]["patch.length"], 14);
+    for (const char* name : {"host", "ranks", "threads", "seconds", "published", "sampling"})
+      EXPECT_TRUE(manifest.contains(name)) << name;
+  }
+
+  // The measured cases tell what one more will take.
+  std::string more = study;
+  more.replace(more.find("[0.02, 0.04]"), 12, "[0.02, 0.04, 0.05]");
+  const auto plan =
+      nlohmann::json::parse(expect_success(run_cleft("run", {place.write("more.toml", more), "--out",
+                                                             place / "together", "--dry-run", "--json"}))
+                                .output);
+  EXPECT_EQ(plan["published"], 4);
+  EXPECT_EQ(plan["to_run"], 2);
+  EXPECT_GT(plan["estimated_bytes"], 1e5);
+}
+
+TEST(StudyRun, WithoutItsSnapshotsIsSound) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", std::string("keep_snapshots = 'none'\n") + study);
+  expect_success(run_cleft("run", {file, "--out", place / "out"}));
+  const std::string checked = expect_success(run_cleft("check", {place / "out"})).output;
+  EXPECT_NE(checked.find("4 cases without raw data"), std::string::npos) << checked;
+  const auto now = status(place / "out");
+  EXPECT_EQ(now["published"], 4);
+  EXPECT_EQ(now["without_snapshot"], 4);
+  const std::string one = place / "out/cases/" + std::string(now["cases"][0]["case"]);
+  EXPECT_FALSE(fs::exists(one + "/case.h5"));
+  EXPECT_NE(expect_success(run_cleft("info", {one + "/case.dffd"})).output.find("raw_data: dropped"),
+            std::string::npos);
+  const Outcome exported = run_cleft("export", {place / "out", "--paraview", place / "views"});
+  EXPECT_EQ(exported.exit_code, 2);
+  EXPECT_NE(exported.output.find("keep_snapshots"), std::string::npos) << exported.output;
+}
+
 TEST(StudyRun, AFailedCaseKeepsItsLogAndStopsNoOther) {
   const TemporaryFolder place;
   // Without springs the patch floats: K is singular, and the factorisation says so.
@@ -139,7 +203,20 @@ TEST(StudyRun, AFailedCaseKeepsItsLogAndStopsNoOther) {
   for (const auto& one : now["cases"]) {
     const std::string reason = one.value("reason", "");
     EXPECT_EQ(one["state"] == "failed", reason.find("not positive definite") != std::string::npos) << one;
+    if (one["state"] != "failed") continue;
+    const std::string attempts = place / "out/attempts/" + std::string(one["case"]);
+    const std::string attempt = fs::directory_iterator(attempts)->path().string();
+    EXPECT_TRUE(fs::exists(attempt + "/case.toml") && fs::exists(attempt + "/failed.txt"));
   }
+
+  // It is tried again only where that is asked for.
+  const std::string file = place / "study.toml";
+  const Outcome again = run_cleft("run", {file, "--out", place / "out"});
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_NE(again.output.find("--retry-failed"), std::string::npos) << again.output;
+  const Outcome retried = run_cleft("run", {file, "--out", place / "out", "--retry-failed"});
+  EXPECT_EQ(retried.exit_code, 1);
+  EXPECT_EQ(retried.output.find("--retry-failed"), std::string::npos) << retried.output;
 }
 
 TEST(StudyRun, ATerminatedRunGivesUpAtOnceAndSaysSo) {

@@ -1,5 +1,5 @@
 // What the direct solver says it needs against what it takes.
-#include "solver/memory.h"
+#include "base/memory.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,7 @@
 // Cases solved together against the same cases solved alone.
 #include <gtest/gtest.h>
 
+#include "base/text.h"
 #include "solver/compliance.h"
 #include "tests/solver/dense_patch.h"
 #include "tests/solver/solved_snapshot.h"
@@ -42,33 +43,28 @@ std::vector<Parameters> cases_of_one_stiffness() {
   return cases;
 }
 
-void expect_as_alone(const SolveReport& report, const Parameters& p, double tolerance) {
+/// Bit for bit, file against file; and against a file whose series was asked for in another way.
+void expect_as_alone(const SolveReport& report, const Parameters& p) {
   ASSERT_EQ(report.failure, "");
   check_snapshot(report.out);
   const TemporaryFolder folder;
   const SolveReport alone = solve_into(folder, {p})[0];
-  const Snapshot s = SnapshotReader(report.out).snapshot(), t = SnapshotReader(alone.out).snapshot();
+  const Snapshot s = SnapshotReader(report.out).snapshot();
   EXPECT_EQ(s.case_hash, solve_hash(p));
-  EXPECT_EQ(s.case_hash, t.case_hash);
-  EXPECT_EQ(s.released, t.released);
-  EXPECT_EQ(s.pairs, t.pairs);
-  EXPECT_EQ(s.times, t.times);
+  EXPECT_TRUE(read_text_file(report.out) == read_text_file(alone.out)) << report.out;
   const Eigen::MatrixXd u = displacement_of(report.out);
   if (p.skin.prestress_v > 0) {
-    EXPECT_LT(difference(u, displacement_of(alone.out)), tolerance) << report.out;
+    EXPECT_GT(u.cwiseAbs().maxCoeff(), 1e-3);
   } else {
     EXPECT_EQ(u.cwiseAbs().maxCoeff(), 0);
   }
-  for (const char* shared : {"compliance", "dent"})
-    EXPECT_LT(difference(array_of(report.out, shared), array_of(alone.out, shared)), tolerance);
   for (std::size_t j = 0; j < s.frames(); ++j) {
-    EXPECT_NEAR(s.smallest_gap[j], t.smallest_gap[j], 1e-12) << report.out;
     EXPECT_LT(s.residual_equilibrium[j], 1e-10);
     EXPECT_LT(s.residual_closure[j], 1e-12);
   }
-  EXPECT_NEAR(report.gape, alone.gape, 1e-12);
-  EXPECT_NEAR(report.largest_displacement, alone.largest_displacement, 1e-12);
-  EXPECT_NEAR(report.smallest_gap, alone.smallest_gap, 1e-12);
+  EXPECT_EQ(report.gape, alone.gape);
+  EXPECT_EQ(report.largest_displacement, alone.largest_displacement);
+  EXPECT_EQ(report.smallest_gap, alone.smallest_gap);
   EXPECT_EQ(report.frames, alone.frames);
   EXPECT_EQ(report.pairs, alone.pairs);
 }
@@ -117,7 +113,7 @@ TEST(SolveCases, OfOneStiffnessAreAsAloneAfterOneFactorisation) {
   ASSERT_EQ(reports.size(), cases.size());
   int with_phases = 0;
   for (std::size_t c = 0; c < cases.size(); ++c) {
-    expect_as_alone(reports[c], cases[c], rounding);
+    expect_as_alone(reports[c], cases[c]);
     EXPECT_EQ(reports[c].cases_sharing, static_cast<int>(cases.size()));
     EXPECT_EQ(reports[c].first_of_sharing, c == 0);
     EXPECT_EQ(reports[c].method, "direct");
@@ -147,7 +143,7 @@ TEST(SolveCases, OfSeveralStiffnessesShareWithTheirOwn) {
   const std::vector<int> sharing = {2, 2, 2, 2, 1, 1, 1};
   const std::vector<SolveReport> reports = solve_into(folder, cases);
   for (std::size_t c = 0; c < cases.size(); ++c) {
-    expect_as_alone(reports[c], cases[c], rounding);
+    expect_as_alone(reports[c], cases[c]);
     EXPECT_EQ(reports[c].cases_sharing, sharing[c]) << c;
     EXPECT_EQ(reports[c].first_of_sharing, c != 2 && c != 3) << c;
   }
@@ -165,6 +161,7 @@ TEST(SolveCases, OfOneStiffnessAreAsAloneByIterations) {
     EXPECT_EQ(reports[c].method, "iterative");
     ASSERT_EQ(reports[c].failure, "");
     if (cases[c].skin.prestress_v == 0) continue;
+    EXPECT_EQ(displacement_of(reports[c].out), solved_alone(cases[c], options));
     // Residuals of 1e-10, times the condition.
     EXPECT_LT(difference(displacement_of(reports[c].out), solved_alone(cases[c])), 1e-7);
   }
@@ -185,7 +182,7 @@ TEST(SolveCases, ManyAreAsAlone) {
     EXPECT_EQ(report.failure, "");
     EXPECT_EQ(report.cases_sharing, 67);
   }
-  for (const std::size_t c : {0, 1, 60, 63, 64, 66}) expect_as_alone(reports[c], cases[c], rounding);
+  for (const std::size_t c : {0, 1, 60, 63, 64, 66}) expect_as_alone(reports[c], cases[c]);
 }
 
 TEST(SolveCases, AFailureKeepsNoOtherCaseFromBeingWritten) {
@@ -200,7 +197,7 @@ TEST(SolveCases, AFailureKeepsNoOtherCaseFromBeingWritten) {
       changed(base(), {"tissue.young_modulus=0.03"}),
   };
   const std::vector<SolveReport> reports = solve_into(folder, cases);
-  for (const std::size_t c : {0, 4, 5}) expect_as_alone(reports[c], cases[c], rounding);
+  for (const std::size_t c : {0, 4, 5}) expect_as_alone(reports[c], cases[c]);
   for (const std::size_t c : {1, 2})
     EXPECT_NE(reports[c].failure.find("orders of magnitude"), std::string::npos) << reports[c].failure;
   EXPECT_NE(reports[3].failure.find("not positive definite"), std::string::npos) << reports[3].failure;
@@ -225,7 +222,7 @@ TEST(SolveCases, UnitSeriesAddUpToAnyPrestress) {
       other.skin.prestress_u = u, other.skin.prestress_v = v, other.skin.prestress_uv = uv;
       EXPECT_LT(difference(u * unit("u") + v * unit("v") + uv * unit("uv"), solved_alone(other)), rounding);
     }
-    expect_as_alone(reports[c], cases[c], rounding);
+    EXPECT_EQ(difference(displacement_of(reports[c].out), solved_alone(cases[c])), 0);
   }
 }
 

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "explorer/view/patch_scene.h"
+#include "explorer/scene/patch_scene.h"
 #include "tests/view/synthetic_field.h"
 
 namespace cleft {
@@ -20,7 +20,10 @@ constexpr int width = 240, height = 160;
 
 class Picture : public testing::Test {
  protected:
-  Picture() { view_.show(std::make_shared<PatchScene>(field_)); }
+  Picture() {
+    view_.color_by(Coloring::displacement);
+    view_.show(std::make_shared<PatchScene>(shared_));
+  }
   ~Picture() override { std::filesystem::remove(file()); }
 
   static std::string file() {
@@ -47,7 +50,8 @@ class Picture : public testing::Test {
     return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
   }
 
-  Field field_ = synthetic_field(5);
+  std::shared_ptr<const Field> shared_ = std::make_shared<Field>(synthetic_field(5));
+  const Field& field_ = *shared_;
   WoundView view_;
 };
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "explorer/view/mesh_scene.h"
-#include "explorer/view/patch_scene.h"
+#include "explorer/scene/mesh_scene.h"
+#include "explorer/scene/patch_scene.h"
 #include "explorer/view/wound_view.h"
 #include "tests/view/synthetic_field.h"
 
@@ -15,7 +15,7 @@ namespace cleft {
 namespace {
 
 /// A flat skin of 60 x 40 mm with a straight path through its middle, as long as the field's cut.
-std::shared_ptr<const Incision> cut_plate(const Field& field, int& original_points) {
+std::shared_ptr<const CutSurface> cut_plate(const Field& field) {
   SurfaceMesh plate;
   const int nx = 31, ny = 21;
   for (int j = 0; j < ny; ++j)
@@ -26,14 +26,11 @@ std::shared_ptr<const Incision> cut_plate(const Field& field, int& original_poin
       plate.triangles.push_back({a, b, c});
       plate.triangles.push_back({a, c, d});
     }
-  original_points = nx * ny;
   const CanonicalCut& cut = field.cut();
   std::vector<ScalpelPath::Point> path;
   for (int i = 0; i <= 10; ++i)
     path.push_back({{cut.start + cut.length * i / 10 + 0.3, 0.7, 0}, {0, 0, 1}, cut.depth});
-  auto incision = std::make_shared<Incision>(plate, ScalpelPath(path));
-  incision->advance_to(incision->path().length());
-  return incision;
+  return std::make_shared<CutSurface>(plate, std::vector{ScalpelPath(path)});
 }
 
 /// Both kinds of scenes, from one field.
@@ -41,11 +38,9 @@ class AnyScene : public testing::TestWithParam<const char*> {
  protected:
   AnyScene() {
     if (std::string(GetParam()) == "patch") {
-      scene_ = std::make_shared<PatchScene>(field_);
+      scene_ = std::make_shared<PatchScene>(shared_);
     } else {
-      int original = 0;
-      const auto incision = cut_plate(field_, original);
-      scene_ = std::make_shared<MeshScene>(incision, field_, original);
+      scene_ = std::make_shared<MeshScene>(cut_plate(*shared_), shared_);
     }
   }
 
@@ -67,7 +62,8 @@ class AnyScene : public testing::TestWithParam<const char*> {
     return found;
   }
 
-  Field field_ = synthetic_field(5);
+  std::shared_ptr<const Field> shared_ = std::make_shared<Field>(synthetic_field(5));
+  const Field& field_ = *shared_;
   std::shared_ptr<WoundScene> scene_;
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, AnyScene, testing::Values("patch", "mesh"));

@@ -1,6 +1,7 @@
 // Writes a field, reads it back and evaluates it; a missing snapshot is an error, not a crash.
 #include <base/error.h>
 #include <encoder/field/field_file.h>
+#include <encoder/field/study_file.h>
 #include <solver/snapshot/snapshot.h>
 
 using namespace cleft;

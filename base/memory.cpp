@@ -1,0 +1,52 @@
+#include "base/memory.h"
+
+#include <malloc.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace cleft {
+
+namespace {
+
+/// The first number of a file; `otherwise` where there is none ("max").
+double number_in(const std::string& path, double otherwise) {
+  std::ifstream file(path);
+  double number = 0;
+  return file >> number ? number : otherwise;
+}
+
+}  // namespace
+
+double available_memory() {
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  double available = unlimited;
+  std::ifstream file("/proc/meminfo");
+  for (std::string name, unit; file >> name;) {
+    double kilobytes = 0;
+    file >> kilobytes;
+    std::getline(file, unit);
+    if (name == "MemAvailable:") available = 1024 * kilobytes;
+  }
+  for (const auto& [limit, used] :
+       {std::pair("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
+        {"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes"}})
+    available = std::min(available, number_in(limit, unlimited) - number_in(used, 0));
+  return std::max(0., available);
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024. * static_cast<double>(usage.ru_maxrss);
+}
+
+void return_large_blocks() {
+  mallopt(M_MMAP_MAX, 1 << 16);
+  mallopt(M_MMAP_THRESHOLD, 16 << 20);  // vectors of a million unknowns still come from the heap, for speed
+}
+
+}  // namespace cleft

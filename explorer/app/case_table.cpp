@@ -1,0 +1,143 @@
+#include "explorer/app/case_table.h"
+
+#include <QColor>
+#include <QHeaderView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "params/parameters.h"
+
+namespace cleft {
+
+void CaseModel::new_study() {
+  beginResetModel();
+  columns_.clear();
+  if (session_.study()) columns_ = session_.column_names();
+  parameters_ = session_.study() ? static_cast<int>(session_.study()->varying().size()) : 0;
+  endResetModel();
+}
+
+int CaseModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() || !session_.study() || columns_.empty() ? 0 : session_.study()->size();
+}
+
+int CaseModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(columns_.size()) + 1;
+}
+
+bool CaseModel::known(int row, int column) const {
+  return column <= parameters_ || session_.knows_figures(row);
+}
+
+QVariant CaseModel::data(const QModelIndex& index, int role) const {
+  if (role == Qt::TextAlignmentRole) return int(Qt::AlignRight | Qt::AlignVCenter);
+  if (role == Qt::ForegroundRole && !session_.state().brushes.empty()) {
+    for (const auto& brush : session_.state().brushes) {
+      const auto column = std::find(columns_.begin(), columns_.end(), brush.first) - columns_.begin();
+      if (!known(index.row(), static_cast<int>(column) + 1)) return {};
+    }
+    return session_.brushed(index.row()) ? QVariant() : QVariant(QColor(150, 150, 150));
+  }
+  if (role != Qt::DisplayRole && role != Qt::UserRole) return {};
+  if (index.column() == 0) return index.row() + 1;
+  if (!known(index.row(), index.column()))
+    return role == Qt::UserRole ? QVariant(-HUGE_VAL) : QVariant(QStringLiteral("..."));
+  const double value =
+      session_.column_value(index.row(), columns_[static_cast<std::size_t>(index.column()) - 1]);
+  return role == Qt::UserRole ? QVariant(value) : QVariant(QString::number(value, 'g', 4));
+}
+
+QVariant CaseModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) return {};
+  if (section == 0)
+    return role == Qt::DisplayRole   ? QVariant("case")
+           : role == Qt::ToolTipRole ? QVariant("Number of the case, as `case N` takes it")
+                                     : QVariant();
+  const std::string& name = columns_[static_cast<std::size_t>(section) - 1];
+  std::string unit, help;
+  if (section <= parameters_) {
+    const Parameter& row = find_parameter(name, "cases");
+    unit = row.unit, help = row.help;
+  } else {
+    const FigureText& figure = figure_texts()[static_cast<std::size_t>(section - 1 - parameters_)];
+    unit = figure.unit, help = figure.help;
+  }
+  if (role == Qt::ToolTipRole)
+    return QString::fromStdString(name + (unit.empty() ? "" : ", " + unit) + ": " + help);
+  if (role != Qt::DisplayRole) return {};
+  const std::size_t dot = name.find('.');
+  std::string last = dot == std::string::npos ? name : name.substr(0, dot) + "\n" + name.substr(dot + 1);
+  std::replace(last.begin(), last.end(), '_', '\n');
+  return QString::fromStdString(last + (unit.empty() ? "" : "\n" + unit));
+}
+
+void CaseModel::row_changed(int i) { emit dataChanged(index(i, 0), index(i, columnCount() - 1)); }
+void CaseModel::rows_changed() {
+  if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
+}
+
+CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_known)
+    : session_(session), say_(std::move(say)), figures_known_(std::move(figures_known)), model_(session) {
+  sorted_.setSourceModel(&model_);
+  sorted_.setSortRole(Qt::UserRole);
+  table_ = new QTableView(this);
+  table_->setObjectName("cases");
+  table_->setModel(&sorted_);
+  table_->setSortingEnabled(true);
+  table_->sortByColumn(0, Qt::AscendingOrder);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->setAlternatingRowColors(true);
+  QFont small = table_->font();
+  small.setPointSizeF(0.85 * small.pointSizeF());
+  table_->setFont(small);
+  table_->horizontalHeader()->setFont(small);
+  table_->horizontalHeader()->setHighlightSections(false);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(table_);
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& now, const QModelIndex&) {
+            const int i = sorted_.mapToSource(now).row();
+            if (now.isValid() && i != session_.state().shown) say_("case " + std::to_string(i + 1));
+          });
+  connect(&idle_, &QTimer::timeout, this, [this] { find_next_figures(); });
+}
+
+void CaseTable::find_next_figures() {
+  const int cases = session_.study() ? session_.study()->size() : 0;
+  while (next_ < cases && session_.knows_figures(next_)) ++next_;
+  if (next_ >= cases) {
+    idle_.stop();
+    figures_known_();
+    return;
+  }
+  try {
+    session_.figures(next_);
+    model_.row_changed(next_);
+  } catch (const std::exception& e) {  // told when somebody looks at the case
+  }
+  ++next_;
+}
+
+void CaseTable::follow(const Changes& changes) {
+  if (changes.study) {
+    model_.new_study();
+    next_ = 0;
+    if (session_.study()) idle_.start(0);
+  }
+  if (changes.brushes) model_.rows_changed();
+  if ((changes.study || changes.shown) && session_.study()) {
+    const QModelIndex row = sorted_.mapFromSource(model_.index(session_.state().shown, 0));
+    if (table_->currentIndex().row() != row.row()) {
+      table_->setCurrentIndex(row);
+      table_->scrollTo(row);
+    }
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,69 @@
+// The window: the picture, and around it the panels. Widgets only say lines to the session and follow it.
+#pragma once
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMainWindow>
+#include <QMenu>
+#include <QStackedWidget>
+#include <vector>
+
+#include "explorer/app/message_bar.h"
+#include "explorer/app/panel.h"
+#include "explorer/app/scene_widget.h"
+#include "explorer/app/welcome_page.h"
+
+namespace cleft {
+
+class MainWindow : public QMainWindow {
+ public:
+  explicit MainWindow(Session& session);
+  ~MainWindow() override;
+
+  /// Says a line to the session; a refusal is told in the message bar.
+  bool say(const std::string& line);
+  /// What a command has answered.
+  void answer(const std::string& text);
+
+  SceneWidget& scene() { return *scene_; }
+  QString message() const { return message_->message(); }
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  void make_middle();
+  void make_docks();
+  void make_actions();
+  void make_tools();
+  QAction* add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
+                      std::function<void()> run);
+  void follow(const Changes& changes);
+  void follow_tools();
+  void paint_theme();
+  void choose(const QString& title, const QString& filter, const std::string& command, bool save);
+  void choose_study();
+  void fill_recent();
+  void open_any(const std::string& path);
+  void show_help();
+  void take_command_line();
+
+  Session& session_;
+  std::vector<Panel*> panels_;
+  QStackedWidget* stack_;
+  WelcomePage* welcome_;
+  SceneWidget* scene_;
+  MessageBar* message_;
+  QLineEdit* command_line_;
+  QLabel* status_;
+  QComboBox* coloring_;
+  QAction *scalpel_, *undo_, *redo_, *dark_;
+  QDoubleSpinBox *depth_, *tilt_;
+  QMenu* recent_;
+  std::vector<QAction*> layouts_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,176 @@
+// Menus, tool bar and theme of the window.
+#include <QAction>
+#include <QApplication>
+#include <QMenuBar>
+#include <QPalette>
+#include <QSignalBlocker>
+#include <QStyle>
+#include <QToolBar>
+
+#include "base/text.h"
+#include "explorer/app/main_window.h"
+#include "explorer/scene/session/command_table.h"
+
+namespace cleft {
+
+namespace {
+constexpr const char* meshes = "Surface meshes (*.stl *.obj *.ply *.vtp)";
+}
+
+QAction* MainWindow::add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
+                                std::function<void()> run) {
+  auto* action = new QAction(text, this);
+  action->setObjectName(name);
+  action->setShortcut(key);
+  menu->addAction(action);
+  connect(action, &QAction::triggered, this, [run = std::move(run)] { run(); });
+  return action;
+}
+
+void MainWindow::make_actions() {
+  const auto line = [this](const std::string& text) { return [this, text] { say(text); }; };
+  QMenu* file = menuBar()->addMenu("&File");
+  add_action(file, "open", "&Open a study ...", QKeySequence("Ctrl+O"), [this] { choose_study(); });
+  add_action(file, "open_mesh", "Open a &mesh to cut ...", QKeySequence("Ctrl+M"),
+             [this] { choose("Open a mesh", meshes, "mesh", false); });
+  add_action(file, "open_path", "Cut along a &path file ...", {},
+             [this] { choose("Open a path", "Paths (*.csv)", "cut-file", false); });
+  recent_ = file->addMenu("&Recent");
+  file->addSeparator();
+  add_action(file, "save", "&Save the session ...", QKeySequence("Ctrl+S"),
+             [this] { choose("Save the session", "Sessions (*.json)", "save", true); });
+  add_action(file, "load", "&Load a session ...", QKeySequence("Ctrl+L"),
+             [this] { choose("Load a session", "Sessions and pictures (*.json *.png)", "load", false); });
+  add_action(file, "screenshot", "S&creenshot ...", QKeySequence("Ctrl+P"),
+             [this] { choose("Save a picture", "Pictures (*.png)", "screenshot", true); });
+  add_action(file, "export", "&Export the cut mesh ...", {},
+             [this] { choose("Export the mesh", "Surface meshes (*.vtp *.stl *.obj)", "export", true); });
+  add_action(file, "record", "&Write the commands so far ...", {},
+             [this] { choose("Write the commands", "Scripts (*.txt)", "record", true); });
+  file->addSeparator();
+  add_action(file, "quit", "&Quit", QKeySequence("Ctrl+Q"), [this] { close(); });
+
+  QMenu* edit = menuBar()->addMenu("&Cut");
+  scalpel_ = add_action(edit, "scalpel", "S&calpel", QKeySequence("C"),
+                        [this] { scene_->set_cutting(scalpel_->isChecked()); });
+  scalpel_->setCheckable(true);
+  scalpel_->setToolTip("Press and drag over the skin to cut it (C)");
+  undo_ = add_action(edit, "undo", "&Undo", QKeySequence("Ctrl+Z"), line("undo"));
+  redo_ = add_action(edit, "redo", "&Redo", QKeySequence("Ctrl+Shift+Z"), line("redo"));
+  add_action(edit, "patch", "Back to the &patch", {}, line("patch"));
+
+  QMenu* view = menuBar()->addMenu("&View");
+  add_action(view, "front", "&Camera to the front", QKeySequence("Home"), line("camera 0 0"));
+  add_action(view, "single", "&One view", QKeySequence("1"), line("single"));
+  add_action(view, "compare", "&Four cases from this one", QKeySequence("4"), [this] {
+    if (!session_.study()) return static_cast<void>(say("compare 1 2"));
+    std::string cases = "compare";
+    const int count = session_.study()->size(), views = std::min(count, 4);
+    for (int k = 0; k < views; ++k) cases += " " + std::to_string((session_.state().shown + k) % count + 1);
+    say(cases);
+  });
+  add_action(view, "previous", "Case &before", QKeySequence("PgUp"), line("previous"));
+  add_action(view, "next", "&Next case", QKeySequence("PgDown"), line("next"));
+  add_action(view, "play_pause", "&Play or pause", QKeySequence("Space"),
+             [this] { say(session_.state().playing ? "pause" : "play"); });
+  add_action(view, "back", "&Back by 1 mm", QKeySequence("Left"), line("step -1"));
+  add_action(view, "on", "On by 1 &mm", QKeySequence("Right"), line("step 1"));
+  dark_ = add_action(view, "dark", "&Dark", QKeySequence("Ctrl+D"),
+                     [this] { say(session_.state().dark ? "theme light" : "theme dark"); });
+  dark_->setCheckable(true);
+
+  QMenu* help = menuBar()->addMenu("&Help");
+  add_action(help, "help_sheet", "&Keys and commands", QKeySequence("F1"), [this] { show_help(); });
+}
+
+void MainWindow::make_tools() {
+  QToolBar* bar = addToolBar("Tools");
+  bar->setObjectName("tools");
+  bar->setMovable(false);
+  bar->addWidget(new QLabel(" Colour by "));
+  coloring_ = new QComboBox;
+  coloring_->setObjectName("coloring");
+  for (const ColoringText& c : colorings()) {
+    coloring_->addItem(QString::fromStdString(c.name));
+    coloring_->setItemData(coloring_->count() - 1, QString::fromStdString(c.help), Qt::ToolTipRole);
+  }
+  coloring_->setToolTip("What the surface is coloured by");
+  bar->addWidget(coloring_);
+  connect(coloring_, QOverload<int>::of(&QComboBox::activated), this,
+          [this](int i) { say("color " + coloring_->itemText(i).toStdString()); });
+  bar->addSeparator();
+  bar->addAction(scalpel_);
+  depth_ = new QDoubleSpinBox;
+  depth_->setObjectName("depth");
+  depth_->setRange(0, 50);
+  depth_->setSingleStep(0.5);
+  depth_->setSuffix(" mm deep");
+  depth_->setSpecialValueText("the case's depth");
+  depth_->setToolTip("Depth of the cuts to come, mm");
+  tilt_ = new QDoubleSpinBox;
+  tilt_->setObjectName("tilt");
+  tilt_->setRange(-60, 60);
+  tilt_->setSingleStep(5);
+  tilt_->setDecimals(0);
+  tilt_->setPrefix("tilt ");
+  tilt_->setSuffix("\u00b0");
+  tilt_->setToolTip("How far the blade leans to its left, degrees");
+  bar->addWidget(depth_);
+  bar->addWidget(tilt_);
+  connect(depth_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this](double depth) { scene_->set_depth(depth); });
+  connect(tilt_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this](double tilt) { scene_->set_tilt(tilt); });
+  bar->addAction(undo_);
+  bar->addAction(redo_);
+  bar->addSeparator();
+  for (const char* name : {"single", "compare", "front", "screenshot", "help_sheet"})
+    bar->addAction(findChild<QAction*>(name));
+}
+
+void MainWindow::follow_tools() {
+  const SessionState& s = session_.state();
+  const QSignalBlocker quiet(coloring_);
+  coloring_->setCurrentIndex(static_cast<int>(s.coloring));
+  coloring_->setEnabled(session_.has_scene());
+  const bool can_cut = session_.mesh() != nullptr;
+  if (!can_cut && scalpel_->isChecked()) scalpel_->setChecked(false), scene_->set_cutting(false);
+  for (QAction* action : {scalpel_}) action->setEnabled(can_cut);
+  depth_->setEnabled(can_cut), tilt_->setEnabled(can_cut);
+  undo_->setEnabled(!s.cuts.empty());
+  redo_->setEnabled(!s.undone.empty());
+  dark_->setChecked(s.dark);
+}
+
+void MainWindow::fill_recent() {
+  recent_->clear();
+  for (const QString& path : recent_files())
+    connect(recent_->addAction(path), &QAction::triggered, this,
+            [this, path] { say("open " + quoted(path.toStdString())); });
+  recent_->setEnabled(!recent_->isEmpty());
+}
+
+void MainWindow::paint_theme() {
+  QPalette palette = QApplication::style()->standardPalette();
+  if (session_.state().dark) {
+    const QColor window(38, 40, 44), base(28, 30, 33), text(224, 224, 224), faint(128, 128, 128);
+    palette.setColor(QPalette::Window, window);
+    palette.setColor(QPalette::WindowText, text);
+    palette.setColor(QPalette::Base, base);
+    palette.setColor(QPalette::AlternateBase, window);
+    palette.setColor(QPalette::ToolTipBase, base);
+    palette.setColor(QPalette::ToolTipText, text);
+    palette.setColor(QPalette::Text, text);
+    palette.setColor(QPalette::Button, QColor(52, 55, 60));
+    palette.setColor(QPalette::ButtonText, text);
+    palette.setColor(QPalette::Link, QColor(86, 180, 233));
+    palette.setColor(QPalette::Highlight, QColor(0, 114, 178));
+    palette.setColor(QPalette::HighlightedText, Qt::white);
+    palette.setColor(QPalette::PlaceholderText, faint);
+    for (const auto role : {QPalette::Text, QPalette::ButtonText, QPalette::WindowText})
+      palette.setColor(QPalette::Disabled, role, faint);
+  }
+  QApplication::setPalette(palette);
+}
+
+}  // namespace cleft

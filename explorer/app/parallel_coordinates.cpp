@@ -1,0 +1,149 @@
+#include "explorer/app/parallel_coordinates.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+
+namespace cleft {
+
+namespace {
+constexpr double side = 34, above = 56, below = 22;  // margins, pixels
+}
+
+ParallelCoordinates::ParallelCoordinates(Session& session, Say say)
+    : session_(session), say_(std::move(say)) {
+  setObjectName("parallel_coordinates");
+  setMinimumHeight(180);
+  setToolTip(
+      "A line for every case. Drag along an axis to keep the cases in that range; double-click to keep all");
+}
+
+void ParallelCoordinates::take_figures() {
+  axes_.clear(), rows_.clear(), cases_.clear();
+  if (session_.study()) {
+    const std::vector<std::string> names = session_.column_names();
+    for (int i = 0; i < session_.study()->size(); ++i) {
+      if (!session_.knows_figures(i)) continue;
+      rows_.emplace_back();
+      cases_.push_back(i);
+      for (const std::string& name : names) rows_.back().push_back(session_.column_value(i, name));
+    }
+    for (std::size_t a = 0; a < names.size(); ++a) {
+      Axis axis{names[a], HUGE_VAL, -HUGE_VAL};
+      for (const auto& row : rows_)
+        if (std::isfinite(row[a]))
+          axis.least = std::min(axis.least, row[a]), axis.greatest = std::max(axis.greatest, row[a]);
+      if (axis.least > axis.greatest) axis.least = 0, axis.greatest = 1;
+      if (axis.least == axis.greatest) axis.greatest += axis.least != 0 ? std::abs(axis.least) : 1;
+      axes_.push_back(axis);
+    }
+  }
+  update();
+}
+
+double ParallelCoordinates::x_of(std::size_t axis) const {
+  return axes_.size() < 2 ? width() / 2.
+                          : side + (width() - 2 * side) * double(axis) / double(axes_.size() - 1);
+}
+double ParallelCoordinates::y_of(const Axis& axis, double value) const {
+  return height() - below - (height() - above - below) * (value - axis.least) / (axis.greatest - axis.least);
+}
+double ParallelCoordinates::value_at(const Axis& axis, double y) const {
+  const double part = (height() - below - y) / (height() - above - below);
+  return axis.least + (axis.greatest - axis.least) * std::clamp(part, -0.01, 1.01);
+}
+
+std::optional<std::size_t> ParallelCoordinates::axis_at(double x) const {
+  for (std::size_t a = 0; a < axes_.size(); ++a)
+    if (std::abs(x - x_of(a)) < 14) return a;
+  return {};
+}
+
+void ParallelCoordinates::paint_line(QPainter& painter, std::size_t row) const {
+  QPolygonF line;
+  for (std::size_t a = 0; a < axes_.size(); ++a)
+    if (std::isfinite(rows_[row][a])) line << QPointF(x_of(a), y_of(axes_[a], rows_[row][a]));
+  painter.drawPolyline(line);
+}
+
+void ParallelCoordinates::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.fillRect(rect(), palette().base());
+  const QColor ink = palette().text().color();
+  if (rows_.empty()) {
+    painter.drawText(rect(), Qt::AlignCenter,
+                     session_.study() ? "Reading the cases ..." : "No study is open.");
+    return;
+  }
+  QColor faded = ink, kept(0, 114, 178), shown(213, 94, 0);
+  faded.setAlpha(28), kept.setAlpha(rows_.size() > 100 ? 90 : 200);
+  const auto brushed = [&](std::size_t row) {
+    for (std::size_t a = 0; a < axes_.size(); ++a)
+      if (const auto b = session_.state().brushes.find(axes_[a].name); b != session_.state().brushes.end())
+        if (!(rows_[row][a] >= b->second.first && rows_[row][a] <= b->second.second)) return false;
+    return true;
+  };
+  for (const bool inside : {false, true}) {
+    painter.setPen(QPen(inside ? kept : faded, 1.3));
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (brushed(row) == inside) paint_line(painter, row);
+  }
+  painter.setPen(QPen(shown, 2.6));
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    if (cases_[row] == session_.state().shown) paint_line(painter, row);
+
+  QFont small = font();
+  small.setPointSizeF(0.85 * small.pointSizeF());
+  painter.setFont(small);
+  for (std::size_t a = 0; a < axes_.size(); ++a) {
+    const double x = x_of(a);
+    painter.setPen(QPen(ink, 1));
+    painter.drawLine(QPointF(x, above), QPointF(x, height() - below));
+    if (const auto b = session_.state().brushes.find(axes_[a].name); b != session_.state().brushes.end()) {
+      QColor band = shown;
+      band.setAlpha(90);
+      const double high = above - 2, low = height() - below + 2;
+      const double top = std::clamp(y_of(axes_[a], b->second.second), high, low);
+      const double bottom = std::clamp(y_of(axes_[a], b->second.first), high, low);
+      painter.fillRect(QRectF(x - 6, top, 12, std::max(bottom - top, 2.)), band);
+    }
+    std::string name = axes_[a].name;
+    std::replace(name.begin(), name.end(), '_', '\n');
+    std::replace(name.begin(), name.end(), '.', '\n');
+    const QRectF over(x - 44, 1, 88, above - 14);
+    painter.drawText(over, Qt::AlignHCenter | Qt::AlignBottom, QString::fromStdString(name));
+    const auto number = [](double v) { return QString::number(v, 'g', 3); };
+    painter.drawText(QRectF(x - side, above - 14, 2 * side, 13), Qt::AlignHCenter, number(axes_[a].greatest));
+    painter.drawText(QRectF(x - side, height() - below + 2, 2 * side, below - 4), Qt::AlignHCenter,
+                     number(axes_[a].least));
+  }
+}
+
+void ParallelCoordinates::mousePressEvent(QMouseEvent* event) {
+  dragged_ = axis_at(event->x());
+  pressed_y_ = event->y();
+  if (!dragged_ || event->type() == QEvent::MouseButtonDblClick) say_("brush clear");
+}
+
+void ParallelCoordinates::say_brush(double y) {
+  const Axis& axis = axes_[*dragged_];
+  const double a = value_at(axis, pressed_y_), b = value_at(axis, y);
+  say_("brush " + axis.name + " " + shortest(std::min(a, b)) + " " + shortest(std::max(a, b)));
+}
+
+void ParallelCoordinates::mouseMoveEvent(QMouseEvent* event) {
+  if (dragged_ && std::abs(event->y() - pressed_y_) > 2) say_brush(event->y());
+}
+
+void ParallelCoordinates::mouseReleaseEvent(QMouseEvent*) { dragged_.reset(); }
+
+void ParallelCoordinates::follow(const Changes& changes) {
+  if (changes.study) take_figures();
+  if (changes.shown || changes.brushes || changes.look) update();
+}
+
+}  // namespace cleft

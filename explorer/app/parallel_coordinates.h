@@ -1,0 +1,49 @@
+// All cases as lines over parallel axes, one for every parameter that differs and every figure. Dragging
+// along an axis keeps the cases in that range and fades the others; a click on an axis' name lifts it.
+#pragma once
+
+#include <QWidget>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "explorer/app/panel.h"
+
+namespace cleft {
+
+class ParallelCoordinates : public QWidget, public Panel {
+ public:
+  ParallelCoordinates(Session& session, Say say);
+  void follow(const Changes& changes) override;
+  /// Figures that were not known before are now.
+  void take_figures();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+
+ private:
+  struct Axis {
+    std::string name;
+    double least, greatest;
+  };
+  double x_of(std::size_t axis) const;
+  double y_of(const Axis& axis, double value) const;
+  double value_at(const Axis& axis, double y) const;
+  std::optional<std::size_t> axis_at(double x) const;
+  void say_brush(double y);
+  void paint_line(QPainter& painter, std::size_t row) const;
+
+  Session& session_;
+  Say say_;
+  std::vector<Axis> axes_;
+  std::vector<std::vector<double>> rows_;  // of cases whose values are known
+  std::vector<int> cases_;                 // their numbers
+  std::optional<std::size_t> dragged_;
+  double pressed_y_ = 0;
+};
+
+}  // namespace cleft

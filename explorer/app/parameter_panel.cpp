@@ -1,0 +1,102 @@
+#include "explorer/app/parameter_panel.h"
+
+#include <QSignalBlocker>
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "params/parameters.h"
+
+namespace cleft {
+
+namespace {
+constexpr int steps = 1000;
+}
+
+ParameterPanel::ParameterPanel(Session& session, Say say) : session_(session), say_(std::move(say)) {
+  column_ = new QVBoxLayout(this);
+  note_ = new QLabel(this);
+  note_->setObjectName("parameter_note");
+  note_->setWordWrap(true);
+  note_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  column_->addWidget(note_);
+  column_->addStretch(1);
+}
+
+void ParameterPanel::make_rows() {
+  delete rows_widget_;
+  rows_.clear();
+  rows_widget_ = new QWidget(this);
+  auto* column = new QVBoxLayout(rows_widget_);
+  column->setContentsMargins(0, 0, 0, 0);
+  column_->insertWidget(0, rows_widget_);
+  if (!session_.study()) return;
+  const PublishedStudy& study = *session_.study();
+  for (const std::string& name : study.varying()) {
+    const Parameter& row = find_parameter(name, "parameters");
+    double least = HUGE_VAL, greatest = -HUGE_VAL;
+    for (int i = 0; i < study.size(); ++i)
+      if (const auto found = study.parameters(i).find(name); found != study.parameters(i).end())
+        least = std::min(least, found->second), greatest = std::max(greatest, found->second);
+    if (!(greatest > least)) continue;
+    auto* text = new QLabel(rows_widget_);
+    auto* slider = new QSlider(Qt::Horizontal, rows_widget_);
+    slider->setObjectName(QString::fromStdString(name));
+    slider->setRange(0, steps);
+    slider->setPageStep(steps / 10);
+    const QString tip = QString("%1\n%2 to %3 %4 in this study")
+                            .arg(QString::fromStdString(row.help))
+                            .arg(least)
+                            .arg(greatest)
+                            .arg(QString::fromStdString(row.unit));
+    slider->setToolTip(tip);
+    text->setToolTip(tip);
+    column->addWidget(text);
+    column->addWidget(slider);
+    rows_.push_back({name, row.unit, least, greatest, text, slider});
+    connect(slider, &QSlider::valueChanged, this, [this, name, least, greatest](int value) {
+      say_("set " + name + " " + shortest(least + (greatest - least) * value / steps));
+    });
+  }
+}
+
+void ParameterPanel::show_values() {
+  if (!session_.study()) {
+    note_->setText("No study is open.");
+    return;
+  }
+  const SessionState& s = session_.state();
+  const auto& shown = session_.study()->parameters(s.shown);
+  for (const Row& row : rows_) {
+    const auto asked = s.parameters.find(row.name);
+    const auto value = shown.find(row.name);
+    if (asked == s.parameters.end() || value == shown.end()) continue;
+    const QSignalBlocker quiet(row.slider);
+    row.slider->setValue(
+        static_cast<int>(std::lround(steps * (asked->second - row.least) / (row.greatest - row.least))));
+    QString text = QString("%1: <b>%2</b> %3")
+                       .arg(QString::fromStdString(row.name))
+                       .arg(value->second, 0, 'g', 4)
+                       .arg(QString::fromStdString(row.unit));
+    if (asked->second != value->second) text += QString(" (asked: %1)").arg(asked->second, 0, 'g', 4);
+    row.text->setText(text);
+  }
+  const auto field = session_.field();
+  QString note =
+      QString(
+          "Case %1 of %2, simulated.<br>Largest displacement %3 mm; no node of the field is off by more "
+          "than %4 % of it.")
+          .arg(s.shown + 1)
+          .arg(session_.study()->size())
+          .arg(field->report.largest_displacement, 0, 'g', 3)
+          .arg(100 * field->report.node_error, 0, 'g', 2);
+  if (!session_.shows_exactly()) note += "<br><b>No case has exactly these values: the nearest is shown.</b>";
+  note_->setText(note);
+}
+
+void ParameterPanel::follow(const Changes& changes) {
+  if (changes.study) make_rows();
+  if (changes.study || changes.shown) show_values();
+}
+
+}  // namespace cleft

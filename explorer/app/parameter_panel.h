@@ -1,0 +1,37 @@
+// A slider for every parameter that varies in the study, and what of it is shown.
+#pragma once
+
+#include <QLabel>
+#include <QSlider>
+#include <QVBoxLayout>
+#include <QWidget>
+#include <vector>
+
+#include "explorer/app/panel.h"
+
+namespace cleft {
+
+class ParameterPanel : public QWidget, public Panel {
+ public:
+  ParameterPanel(Session& session, Say say);
+  void follow(const Changes& changes) override;
+
+ private:
+  void make_rows();
+  void show_values();
+
+  struct Row {
+    std::string name, unit;
+    double least, greatest;
+    QLabel* text;
+    QSlider* slider;
+  };
+  Session& session_;
+  Say say_;
+  QVBoxLayout* column_;
+  QWidget* rows_widget_ = nullptr;
+  QLabel* note_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,128 @@
+#include "explorer/app/plots.h"
+
+#include <vtkAxis.h>
+#include <vtkBrush.h>
+#include <vtkChartLegend.h>
+#include <vtkContextScene.h>
+#include <vtkFloatArray.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkPen.h>
+#include <vtkPlot.h>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+
+#include <QVBoxLayout>
+#include <algorithm>
+
+namespace cleft {
+
+namespace {
+/// Okabe and Ito's, which colour-blind people tell apart.
+constexpr unsigned char colors[][3] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}};
+}  // namespace
+
+Plots::Plots(Session& session) : session_(session) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  set_up(over_time_, "gape_over_time", "length cut, mm", "widest gape, mm");
+  set_up(along_cut_, "opening_profile", "place along the cut, mm", "opening, mm");
+  column->addWidget(over_time_.widget, 1);
+  column->addWidget(along_cut_.widget, 1);
+}
+
+void Plots::set_up(Plot& plot, const char* name, const char* x, const char* y) {
+  plot.widget = new QVTKOpenGLNativeWidget(this);
+  plot.widget->setObjectName(name);
+  plot.widget->setMinimumHeight(140);
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  window->SetMultiSamples(0);
+  plot.widget->setRenderWindow(window);
+  plot.view->SetRenderWindow(window);
+  plot.view->GetScene()->AddItem(plot.chart);
+  for (const auto& [side, title] : {std::pair{vtkAxis::BOTTOM, x}, {vtkAxis::LEFT, y}}) {
+    vtkAxis* axis = plot.chart->GetAxis(side);
+    axis->SetTitle(title);
+    axis->GetTitleProperties()->SetBold(false);
+    axis->GetTitleProperties()->SetFontSize(12);
+    axis->GetLabelProperties()->SetFontSize(11);
+  }
+  plot.chart->SetActionToButton(vtkChart::PAN, -1);  // a look only: time is chosen in the time bar
+  plot.chart->SetActionToButton(vtkChart::ZOOM, -1);
+}
+
+void Plots::dress(Plot& plot) {
+  const bool dark = session_.state().dark;
+  const double paper = dark ? 0.14 : 1, ink = dark ? 0.88 : 0.12;
+  plot.view->GetRenderer()->SetBackground(paper, paper, paper);
+  for (const int side : {vtkAxis::BOTTOM, vtkAxis::LEFT}) {
+    vtkAxis* axis = plot.chart->GetAxis(side);
+    axis->GetTitleProperties()->SetColor(ink, ink, ink);
+    axis->GetLabelProperties()->SetColor(ink, ink, ink);
+    axis->GetPen()->SetColorF(ink, ink, ink);
+    axis->GetGridPen()->SetColorF(dark ? 0.25 : 0.9, dark ? 0.25 : 0.9, dark ? 0.25 : 0.9);
+  }
+  plot.chart->GetLegend()->GetLabelProperties()->SetColor(ink, ink, ink);
+  plot.chart->GetLegend()->GetBrush()->SetColorF(paper, paper, paper, 0.8);
+}
+
+void Plots::add_curve(vtkChartXY* chart, const Curve& curve, const std::string& name, int color,
+                      bool dashed) {
+  vtkNew<vtkTable> table;
+  vtkNew<vtkFloatArray> x, y;
+  x->SetName("x"), y->SetName(name.c_str());
+  table->AddColumn(x), table->AddColumn(y);
+  table->SetNumberOfRows(static_cast<vtkIdType>(curve.x.size()));
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    table->SetValue(static_cast<vtkIdType>(i), 0, curve.x[i]);
+    table->SetValue(static_cast<vtkIdType>(i), 1, curve.y[i]);
+  }
+  vtkPlot* line = chart->AddPlot(vtkChart::LINE);
+  line->SetInputData(table, 0, 1);
+  line->SetColor(colors[color][0], colors[color][1], colors[color][2], dashed ? 150 : 255);
+  line->SetWidth(dashed ? 1.2F : 2.2F);
+  if (dashed) line->GetPen()->SetLineType(vtkPen::DASH_LINE), line->SetLegendVisibility(false);
+}
+
+void Plots::draw() {
+  over_time_.chart->ClearPlots();
+  along_cut_.chart->ClearPlots();
+  dress(over_time_), dress(along_cut_);
+  std::map<const Field*, Curve> gapes;
+  if (session_.study()) {
+    const std::vector<int> views = session_.views();
+    double highest = 0;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      const auto field = session_.study()->field(views[k]);
+      const auto known = gapes_.find(field.get());
+      const Curve& gape = gapes[field.get()] = known != gapes_.end() ? known->second : gape_over_time(*field);
+      const std::string name = "case " + std::to_string(views[k] + 1);
+      add_curve(over_time_.chart, gape, name, static_cast<int>(k), false);
+      const Curve profile = opening_profile(*field, std::min(session_.state().time, field->duration()));
+      if (k == 0) profile_ = profile;
+      add_curve(along_cut_.chart, profile, name, static_cast<int>(k), false);
+      highest = std::max(highest, *std::max_element(gape.y.begin(), gape.y.end()));
+    }
+    const double t = std::min(session_.state().time, session_.field()->duration());
+    add_curve(over_time_.chart, {{t, t}, {0, highest}}, "now", 1, true);
+    along_cut_.chart->GetAxis(vtkAxis::LEFT)->SetBehavior(vtkAxis::FIXED);
+    along_cut_.chart->GetAxis(vtkAxis::LEFT)->SetRange(0, highest > 0 ? 1.05 * highest : 1);
+    along_cut_.chart->SetShowLegend(views.size() > 1);  // for both: the corner there is free
+  }
+  gapes_.swap(gapes);
+  for (Plot* plot : {&over_time_, &along_cut_}) {
+    plot->chart->RecalculateBounds();
+    plot->widget->renderWindow()->Render();
+  }
+}
+
+void Plots::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  draw();
+}
+
+void Plots::follow(const Changes& changes) {
+  if (isVisible() && (changes.study || changes.shown || changes.time || changes.layout || changes.look))
+    draw();
+}
+
+}  // namespace cleft

@@ -1,0 +1,46 @@
+// Curves of the shown case beside those compared: gape over the length cut, and the opening along the cut.
+#pragma once
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkChartXY.h>
+#include <vtkContextView.h>
+#include <vtkNew.h>
+#include <vtkTable.h>
+
+#include <QWidget>
+#include <map>
+
+#include "explorer/app/panel.h"
+#include "explorer/scene/case_figures.h"
+
+namespace cleft {
+
+class Plots : public QWidget, public Panel {
+ public:
+  explicit Plots(Session& session);
+  void follow(const Changes& changes) override;
+  /// The curves drawn last, of the first view, for tests.
+  const Curve& profile() const { return profile_; }
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  struct Plot {
+    QVTKOpenGLNativeWidget* widget;
+    vtkNew<vtkContextView> view;
+    vtkNew<vtkChartXY> chart;
+  };
+  void set_up(Plot& plot, const char* name, const char* x, const char* y);
+  void draw();
+  void dress(Plot& plot);
+  static void add_curve(vtkChartXY* chart, const Curve& curve, const std::string& name, int color,
+                        bool dashed);
+
+  Session& session_;
+  Plot over_time_, along_cut_;
+  std::map<const Field*, Curve> gapes_;  // of the fields shown
+  Curve profile_;
+};
+
+}  // namespace cleft

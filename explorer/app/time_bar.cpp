@@ -1,0 +1,116 @@
+#include "explorer/app/time_bar.h"
+
+#include <QApplication>
+#include <QHBoxLayout>
+#include <QPainter>
+#include <QSignalBlocker>
+#include <algorithm>
+
+#include "base/text.h"
+
+namespace cleft {
+
+namespace {
+constexpr int steps = 10000;  // of the slider, over the whole cut
+constexpr int frame_ms = 16;
+
+/// Triangles and bars in the palette's ink, as the style's own icons vanish in the dark. Coordinates 0 to 1.
+QIcon icon(const QColor& ink, const std::vector<QPolygonF>& shapes) {
+  constexpr int size = 32;
+  QPixmap picture(size, size);
+  picture.fill(Qt::transparent);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(ink);
+  painter.scale(size, size);
+  for (const QPolygonF& shape : shapes) painter.drawPolygon(shape);
+  return picture;
+}
+
+QPolygonF bar(double from, double to) { return QPolygonF(QRectF(from, 0.2, to - from, 0.6)); }
+QPolygonF triangle(double base, double tip) {
+  return QPolygonF(QVector<QPointF>{{base, 0.2}, {tip, 0.5}, {base, 0.8}});
+}
+}  // namespace
+
+QToolButton* TimeBar::button(const char* name, const char* tip) {
+  auto* made = new QToolButton(this);
+  made->setObjectName(name);
+  made->setToolTip(tip);
+  made->setAutoRaise(true);
+  return made;
+}
+
+TimeBar::TimeBar(Session& session, Say say) : session_(session), say_(std::move(say)) {
+  back_ = button("step_back", "Back by 1 mm of cut (Left)");
+  play_ = button("play", "Play or pause (Space)");
+  forward_ = button("step_forward", "On by 1 mm of cut (Right)");
+  back_->setAutoRepeat(true), forward_->setAutoRepeat(true);
+  slider_ = new QSlider(Qt::Horizontal, this);
+  slider_->setObjectName("time");
+  slider_->setRange(0, steps);
+  slider_->setPageStep(steps / 20);
+  slider_->setToolTip("Length cut, mm: drag to scrub");
+  label_ = new QLabel(this);
+  label_->setObjectName("time_label");
+  label_->setMinimumWidth(label_->fontMetrics().horizontalAdvance("888.8 of 888.8 mm cut "));
+  loop_ = new QCheckBox("Loop", this);
+  loop_->setObjectName("loop");
+  loop_->setToolTip("Begin again at the end");
+  speed_ = new QDoubleSpinBox(this);
+  speed_->setObjectName("speed");
+  speed_->setRange(0.1, 1000);
+  speed_->setDecimals(1);
+  speed_->setSuffix(" mm/s");
+  speed_->setToolTip("Speed of the blade while playing, mm of cut a second");
+
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(6, 2, 6, 2);
+  for (QWidget* w : std::initializer_list<QWidget*>{back_, play_, forward_}) row->addWidget(w);
+  row->addWidget(slider_, 1);
+  for (QWidget* w : std::initializer_list<QWidget*>{label_, loop_, speed_}) row->addWidget(w);
+
+  connect(back_, &QToolButton::clicked, this, [this] { say_("step -1"); });
+  connect(forward_, &QToolButton::clicked, this, [this] { say_("step 1"); });
+  connect(play_, &QToolButton::clicked, this, [this] { say_(session_.state().playing ? "pause" : "play"); });
+  connect(slider_, &QSlider::valueChanged, this,
+          [this](int value) { say_("time " + shortest(session_.duration() * value / steps)); });
+  connect(loop_, &QCheckBox::toggled, this, [this](bool on) { say_(on ? "loop on" : "loop off"); });
+  connect(speed_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+          [this](double value) { say_("speed " + shortest(value)); });
+  connect(&clock_, &QTimer::timeout, this,
+          [this] { session_.tick(1e-3 * static_cast<double>(since_.restart())); });
+}
+
+void TimeBar::paint_icons() {
+  const QColor ink = QApplication::palette().color(QPalette::Text);
+  back_->setIcon(icon(ink, {bar(0.22, 0.3), triangle(0.78, 0.34)}));
+  forward_->setIcon(icon(ink, {bar(0.7, 0.78), triangle(0.22, 0.66)}));
+  if (session_.state().playing)
+    play_->setIcon(icon(ink, {bar(0.25, 0.43), bar(0.57, 0.75)}));
+  else
+    play_->setIcon(icon(ink, {triangle(0.25, 0.8)}));
+}
+
+void TimeBar::follow(const Changes& changes) {
+  setEnabled(session_.has_scene());
+  const SessionState& s = session_.state();
+  const QSignalBlocker no_slider(slider_), no_loop(loop_), no_speed(speed_);
+  const double duration = session_.has_scene() ? session_.duration() : 0;
+  slider_->setValue(duration > 0 ? static_cast<int>(steps * s.time / duration + 0.5) : 0);
+  label_->setText(QString("%1 of %2 mm cut").arg(s.time, 0, 'f', 1).arg(duration, 0, 'f', 1));
+  loop_->setChecked(s.loop);
+  speed_->setValue(s.speed);
+  if (changes.look) paint_icons();
+  if (!changes.playing) return;
+  paint_icons();
+  if (s.playing && !clock_.isActive()) {
+    since_.start();
+    clock_.start(frame_ms);
+  } else if (!s.playing) {
+    clock_.stop();
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,38 @@
+// Play, pause, step, scrub, loop and speed; shows the length cut.
+#pragma once
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QSlider>
+#include <QTimer>
+#include <QToolButton>
+#include <QWidget>
+
+#include "explorer/app/panel.h"
+
+namespace cleft {
+
+class TimeBar : public QWidget, public Panel {
+ public:
+  TimeBar(Session& session, Say say);
+  void follow(const Changes& changes) override;
+
+ private:
+  QToolButton* button(const char* name, const char* tip);
+
+  void paint_icons();
+
+  Session& session_;
+  Say say_;
+  QToolButton *back_, *play_, *forward_;
+  QSlider* slider_;
+  QCheckBox* loop_;
+  QDoubleSpinBox* speed_;
+  QLabel* label_;
+  QTimer clock_;
+  QElapsedTimer since_;
+};
+
+}  // namespace cleft

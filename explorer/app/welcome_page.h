@@ -1,0 +1,25 @@
+// What stands where the picture will be as long as nothing is open: the studies opened last.
+#pragma once
+
+#include <QListWidget>
+#include <QWidget>
+
+#include "explorer/app/panel.h"
+
+namespace cleft {
+
+/// The files and folders opened last, newest first; kept in the user's settings.
+QStringList recent_files();
+void remember_recent(const std::string& path);
+
+class WelcomePage : public QWidget {
+ public:
+  WelcomePage(Say say, const std::function<void()>& choose_folder, const std::function<void()>& choose_file);
+  void refresh();
+
+ private:
+  Say say_;
+  QListWidget* recent_;
+};
+
+}  // namespace cleft

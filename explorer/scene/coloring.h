@@ -1,0 +1,32 @@
+// What a surface can be coloured by, evaluated from a field.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "encoder/field/field.h"
+
+namespace cleft {
+
+enum class Coloring { tissue, displacement, gape, strain, difference };
+
+struct ColoringText {
+  Coloring coloring;
+  std::string name;   ///< as in commands
+  std::string title;  ///< with its unit, as in legends
+  std::string help;
+};
+const std::vector<ColoringText>& colorings();
+const ColoringText& text_of(Coloring coloring);
+/// Throws InputError for an unknown name, with the nearest one.
+Coloring coloring_of(const std::string& name);
+
+/// Opening of the lips at u when the length t is cut, mm.
+double gape(const Field& field, double u, double t);
+
+/// The value at a point: displacement and difference (from `reference`) in mm, gape in mm, on both sides
+/// of the cut that between a point and its mirror image, the largest principal Green-Lagrange strain as a
+/// number. `tissue` has none: 0.
+double color_value(Coloring coloring, const Field& field, const Field* reference, const Place& place);
+
+}  // namespace cleft

@@ -1,0 +1,37 @@
+// The canonical patch of a case: its skin and the walls of its cut, sampled from the field.
+#pragma once
+
+#include <memory>
+
+#include "encoder/field/field.h"
+#include "explorer/scene/wound_scene.h"
+
+namespace cleft {
+
+class PatchScene : public WoundScene {
+ public:
+  /// The skin is a grid over the field's (u, v), finest at the cut, parted along it; the walls go down to the
+  /// cut's depth.
+  explicit PatchScene(std::shared_ptr<const Field> field);
+
+  const WoundSurface& surface() const override { return surface_; }
+  double duration() const override { return field_.duration(); }
+  void positions(double t, std::vector<Vec3>& out) const override;
+  void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
+
+ private:
+  void add_skin(const std::vector<double>& us, const std::vector<double>& vs);
+  void add_walls(const std::vector<double>& us);
+  int add_point(const Vec3& uvw, Side side);
+  void add_quad(int a, int b, int c, int d, Region region);
+  bool inside_cut(double u) const;
+  Place place(std::size_t point, double t) const;
+
+  std::shared_ptr<const Field> shared_;
+  const Field& field_;
+  WoundSurface surface_;
+  std::vector<Side> sides_;        ///< of every point
+  std::vector<int> left_, right_;  ///< the lips' points by column of the grid; the same where uncut
+};
+
+}  // namespace cleft

@@ -1,0 +1,14 @@
+// The tables of commands, one a file.
+#pragma once
+
+#include "explorer/scene/session/command_table.h"
+
+namespace cleft {
+
+std::span<const Command> study_commands();
+std::span<const Command> time_commands();
+std::span<const Command> view_commands();
+std::span<const Command> cut_commands();
+std::span<const Command> session_commands();
+
+}  // namespace cleft

@@ -1,0 +1,80 @@
+// Pictures, saved sessions, recordings, help.
+#include <cmath>
+
+#include "base/output_file.h"
+#include "base/text.h"
+#include "explorer/scene/session/commands.h"
+#include "explorer/scene/session/session.h"
+
+namespace cleft {
+
+namespace {
+
+void screenshot(Session& session, CommandWords& words) {
+  const std::string file = words.text("a file .png");
+  const int width = words.empty() ? 1280 : words.whole("the width", 16, 8192);
+  const int height = words.empty() ? width * 9 / 16 : words.whole("the height", 16, 8192);
+  words.expect_end();
+  session.scene();  // says what is missing
+  session.services().draw(session, file, width, height);
+}
+
+void save(Session& session, CommandWords& words) {
+  const std::string file = words.text("a file .json");
+  words.expect_end();
+  write_text_file(file, state_to_json(session.state()));
+}
+
+void load(Session& session, CommandWords& words) {
+  const std::string file = words.text("a file .json or .png");
+  told_of_file(file, [&] {
+    session.restore(state_from_json(file.ends_with(".png") ? session.services().state_in_picture(file)
+                                                           : read_text_file(file)));
+  });
+}
+
+void record(Session& session, CommandWords& words) {
+  const std::string file = words.text("a file");
+  words.expect_end();
+  std::string text;
+  for (const std::string& line : session.said()) text += line + "\n";
+  write_text_file(file, text);
+}
+
+void info(Session& session, CommandWords&) {
+  const SessionState& s = session.state();
+  const auto scene = session.scene();
+  if (const auto field = session.field()) {
+    session.answer("case " + std::to_string(s.shown + 1) + " of " + std::to_string(session.study()->size()) +
+                   ": " + session.study()->name(s.shown));
+    session.answer("largest error of the field: " + shortest(100 * field->report.node_error) +
+                   " % of the largest displacement, " + shortest(field->report.largest_displacement) + " mm");
+    session.answer("widest gape at " + shortest(s.time) +
+                   " mm cut: " + shortest(widest_gape(*field, std::min(s.time, field->duration()))) + " mm");
+  }
+  if (!s.mesh.empty()) session.answer("mesh: " + s.mesh + ", cuts: " + std::to_string(s.cuts.size()));
+  session.answer("length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");
+}
+
+void help(Session& session, CommandWords& words) {
+  if (words.empty()) return session.answer(help_sheet());
+  const Command& command = find_command(words.text("a command"));
+  session.answer(command.name + " " + command.arguments + ": " + command.help);
+}
+
+}  // namespace
+
+std::span<const Command> session_commands() {
+  static const std::vector<Command> commands{
+      {"screenshot", "FILE [WIDTH [HEIGHT]]", "write a PNG, which holds the saved session too", screenshot,
+       Command::none},
+      {"save", "FILE.json", "save the session", save, Command::none},
+      {"load", "FILE.json|FILE.png", "go on with a saved session", load},
+      {"record", "FILE", "write the commands said so far, as a script", record, Command::none},
+      {"info", "", "what is shown, with its figures", info, Command::none},
+      {"help", "[COMMAND]", "this sheet, or a line of it", help, Command::none},
+  };
+  return commands;
+}
+
+}  // namespace cleft

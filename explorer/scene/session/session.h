@@ -1,0 +1,127 @@
+// What the explorer does, without a window: every action is a line of text (command_table.h), said to a
+// session. Windows, scripts and tests say lines and listen; nothing else changes a session.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "explorer/incision/surface_mesh.h"
+#include "explorer/scene/case_figures.h"
+#include "explorer/scene/cut_surface.h"
+#include "explorer/scene/session/session_state.h"
+#include "explorer/scene/study.h"
+#include "explorer/scene/wound_scene.h"
+
+namespace cleft {
+
+class Session;
+
+/// What a session asks of others, as it knows neither mesh files nor pictures.
+struct SessionServices {
+  std::function<SurfaceMesh(const std::string& file)> read_mesh;
+  std::function<void(const std::string& file, const SurfaceMesh& mesh)> write_mesh;
+  std::function<void(Session& session, const std::string& file, int width, int height)> draw;
+  /// The saved session in a picture, as JSON.
+  std::function<std::string(const std::string& file)> state_in_picture;
+  std::function<void(const std::string& text)> answer;  ///< to what was asked: a line or several
+};
+
+/// What a line has changed, for those who listen.
+struct Changes {
+  bool study = false, shown = false, cuts = false, time = false, playing = false, coloring = false,
+       camera = false, layout = false, look = false, brushes = false;
+  void all() { study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = true; }
+};
+
+class Session {
+ public:
+  explicit Session(SessionServices services);
+
+  /// Does what a line says. Throws InputError where it cannot be done; the session is then as it was.
+  void say(const std::string& line);
+  /// Says the lines of a file; an error names file and line.
+  void run_script(const std::string& file);
+  /// The lines said so far, that made the session what it is.
+  const std::vector<std::string>& said() const { return said_; }
+
+  using Listener = std::function<void(const Changes&)>;
+  void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
+
+  const SessionState& state() const { return state_; }
+  PublishedStudy* study() const { return study_.get(); }
+  /// Throws InputError where no study is open.
+  PublishedStudy& open_study() const;
+  const SurfaceMesh* mesh() const { return mesh_.get(); }  ///< mm
+  const SessionServices& services() const { return services_; }
+
+  /// Whether there is anything to draw.
+  bool has_scene() const { return study_ || mesh_; }
+  /// The shown case's; throws InputError where nothing is open.
+  std::shared_ptr<const WoundScene> scene() { return scene_of(state_.shown); }
+  std::shared_ptr<const WoundScene> scene_of(int i);
+  /// The cases side by side: at least one.
+  std::vector<int> views() const;
+  std::shared_ptr<const Field> field();      ///< of the shown case; null without a study
+  std::shared_ptr<const Field> reference();  ///< null where none is chosen
+  double duration();                         ///< t of the end, of the longest view
+  /// Whether the shown case has exactly the parameters asked for.
+  bool shows_exactly() const;
+
+  /// Of case i, read where they are not known yet.
+  const CaseFigures& figures(int i);
+  bool knows_figures(int i) const { return figures_.count(i) > 0; }
+  /// Parameters that differ, and figures; and case i's value, not a number where it has none.
+  std::vector<std::string> column_names() const;
+  double column_value(int i, const std::string& name);
+  /// Whether no brush fades case i.
+  bool brushed(int i);
+
+  /// What playing does in that time, told to listeners.
+  void tick(double seconds);
+
+  // For commands.
+  void open(const std::string& path);
+  void close();
+  void show_case(int i);
+  void ask_for(const std::string& parameter, double value);
+  void load_mesh(const std::string& file, double scale);
+  void show_patch();
+  void cut(const CutState& cut);
+  void recut(const CutState& cut);
+  void undo();
+  void redo();
+  void set_time(double t);
+  /// Moves the time on, as playing does.
+  void advance(double seconds);
+  void restore(const SessionState& state);
+  /// Plain values, and what of them was changed.
+  SessionState& edit() { return state_; }
+  Changes& changes() { return changes_; }
+  void answer(const std::string& text) const;
+  void answer_to(std::function<void(const std::string&)> answer) { services_.answer = std::move(answer); }
+
+ private:
+  void load_study(const std::string& path);
+  void read_mesh_in_mm();
+  int nearest_case() const;
+  void take_parameters();
+  void cuts_changed();
+  std::shared_ptr<const CutSurface> cut_surface(double depth);
+  void notify();
+
+  SessionServices services_;
+  SessionState state_;
+  std::shared_ptr<PublishedStudy> study_;
+  std::shared_ptr<const SurfaceMesh> mesh_;
+  std::map<double, std::shared_ptr<const CutSurface>> cut_surfaces_;  // by depth
+  std::map<int, std::shared_ptr<const WoundScene>> scenes_;           // of the cases in the views
+  std::map<int, CaseFigures> figures_;
+  std::vector<std::string> said_;
+  std::vector<Listener> listeners_;
+  Changes changes_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,128 @@
+#include "explorer/scene/session/session_state.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace cleft {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* format = "cleft-session";
+constexpr int version = 1;
+
+Json to_json(const Vec3& x) { return {x.x, x.y, x.z}; }
+Vec3 to_vec3(const Json& j) { return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()}; }
+
+Json to_json(const std::vector<CutState>& cuts) {
+  Json list = Json::array();
+  for (const CutState& cut : cuts) {
+    Json points = Json::array();
+    for (const ScalpelPath::Point& p : cut.points)
+      points.push_back(
+          {p.position.x, p.position.y, p.position.z, p.outward.x, p.outward.y, p.outward.z, p.depth});
+    list.push_back(points);
+  }
+  return list;
+}
+
+std::vector<CutState> to_cuts(const Json& list) {
+  std::vector<CutState> cuts;
+  for (const Json& points : list) {
+    cuts.emplace_back();
+    for (const Json& p : points) {
+      const auto x = p.get<std::vector<double>>();
+      if (x.size() != 7) throw InputError("a point of a cut has x, y, z, nx, ny, nz and depth");
+      cuts.back().points.push_back({{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, x[6]});
+    }
+  }
+  return cuts;
+}
+
+Json to_json(const CameraState& camera) {
+  Json j{{"azimuth", camera.azimuth}, {"elevation", camera.elevation}, {"zoom", camera.zoom}};
+  if (camera.pose)
+    j["pose"] = {{"position", to_json(camera.pose->position)},
+                 {"focal_point", to_json(camera.pose->focal_point)},
+                 {"up", to_json(camera.pose->up)},
+                 {"view_angle", camera.pose->view_angle}};
+  return j;
+}
+
+CameraState to_camera(const Json& j) {
+  CameraState camera{j.at("azimuth"), j.at("elevation"), j.at("zoom"), std::nullopt};
+  if (j.contains("pose")) {
+    const Json& pose = j.at("pose");
+    camera.pose = CameraState::Pose{to_vec3(pose.at("position")), to_vec3(pose.at("focal_point")),
+                                    to_vec3(pose.at("up")), pose.at("view_angle")};
+  }
+  return camera;
+}
+
+SessionState to_state(const Json& j) {
+  SessionState s;
+  s.study = j.at("study");
+  s.shown = j.at("case").get<int>() - 1;
+  s.parameters = j.at("parameters").get<std::map<std::string, double>>();
+  s.mesh = j.at("mesh");
+  s.scale = j.at("scale");
+  s.cuts = to_cuts(j.at("cuts"));
+  s.undone = to_cuts(j.at("undone"));
+  s.time = j.at("time");
+  s.loop = j.at("loop");
+  s.speed = j.at("speed");
+  s.coloring = coloring_of(j.at("color"));
+  if (!j.at("range").is_null()) s.range = j.at("range").get<std::pair<double, double>>();
+  s.brushes = j.at("brushes").get<std::map<std::string, std::pair<double, double>>>();
+  s.reference = j.at("reference").get<int>() - 1;
+  for (const Json& c : j.at("compared")) s.compared.push_back(c.get<int>() - 1);
+  s.camera = to_camera(j.at("camera"));
+  s.dark = j.at("dark");
+  return s;
+}
+
+}  // namespace
+
+std::string state_to_json(const SessionState& s) {
+  Json compared = Json::array();
+  for (const int c : s.compared) compared.push_back(c + 1);
+  const Json j{{"format", format},
+               {"version", version},
+               {"producer", producer()},
+               {"study", s.study},
+               {"case", s.shown + 1},
+               {"parameters", s.parameters},
+               {"mesh", s.mesh},
+               {"scale", s.scale},
+               {"cuts", to_json(s.cuts)},
+               {"undone", to_json(s.undone)},
+               {"time", s.time},
+               {"loop", s.loop},
+               {"speed", s.speed},
+               {"color", text_of(s.coloring).name},
+               {"range", s.range ? Json{s.range->first, s.range->second} : Json()},
+               {"brushes", s.brushes},
+               {"reference", s.reference + 1},
+               {"compared", compared},
+               {"camera", to_json(s.camera)},
+               {"dark", s.dark}};
+  return j.dump(1) + "\n";
+}
+
+SessionState state_from_json(const std::string& json) {
+  try {
+    const Json j = Json::parse(json);
+    if (j.value("format", "") != format) throw InputError("is no saved session of cleft explore");
+    if (j.value("version", 0) != version)
+      throw InputError("is a session of version " + std::to_string(j.value("version", 0)) +
+                       "; this program reads version " + std::to_string(version));
+    return to_state(j);
+  } catch (const Json::exception& e) {
+    throw InputError(std::string("is no whole saved session: ") + e.what());
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,144 @@
+#include "explorer/view/stage.h"
+
+#include <vtkCamera.h>
+#include <vtkRendererCollection.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+namespace cleft {
+
+Stage::Stage(vtkRenderWindow* window) : window_(window) {}
+
+Stage::~Stage() { make_views(0); }
+
+void Stage::make_views(std::size_t count) {
+  if (count == views_.size()) return;
+  for (View& v : views_) {
+    v.furniture.reset();
+    window_->RemoveRenderer(v.view->renderer());
+  }
+  views_.clear();
+  scenes_.assign(count, nullptr);
+  const int columns = count > 1 ? 2 : 1, rows = count > 2 ? 2 : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    views_.push_back({std::make_unique<WoundView>(), nullptr});
+    vtkRenderer* renderer = views_.back().view->renderer();
+    const int column = static_cast<int>(i) % columns, row = rows - 1 - static_cast<int>(i) / columns;
+    renderer->SetViewport(double(column) / columns, double(row) / rows, double(column + 1) / columns,
+                          double(row + 1) / rows);
+    views_.back().view->set_legend(i + 1 == count);
+    if (i > 0) renderer->SetActiveCamera(view(0).renderer()->GetActiveCamera());
+    window_->AddRenderer(renderer);
+    views_.back().furniture = std::make_unique<Furniture>(window_, renderer);
+  }
+}
+
+void Stage::show(Session& session) {
+  if (!session.has_scene()) return make_views(0);
+  const std::vector<int> cases = session.views();
+  const bool relaid = cases.size() != views_.size();
+  make_views(cases.size());
+  bool fresh = relaid;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto scene = session.scene_of(cases[i]);
+    if (scene == scenes_[i]) continue;
+    scenes_[i] = scene;
+    views_[i].view->show(scene);
+    fresh = true;
+  }
+  color(session, fresh);
+  for (View& v : views_)
+    if (fresh || v.view->time() != session.state().time) v.view->set_time(session.state().time);
+  aim(session.state().camera, relaid);
+  label(session);
+}
+
+void Stage::color(Session& session, bool fresh) {
+  const SessionState& s = session.state();
+  const auto reference = s.coloring == Coloring::difference ? session.reference() : nullptr;
+  const bool other = s.coloring != shown_.coloring || reference.get() != shown_.reference;
+  if (s.range) {
+    if (!fresh && !other && *s.range == shown_.range) return;
+    shown_.range = *s.range;
+  } else {
+    double largest = 0;
+    for (View& v : views_) largest = std::max(largest, v.view->largest_value(s.coloring, reference.get()));
+    const std::pair range{0., largest > 0 ? largest : 1.};
+    if (!fresh && !other && range == shown_.range) return;
+    shown_.range = range;
+  }
+  shown_.coloring = s.coloring;
+  shown_.reference = reference.get();
+  for (View& v : views_) v.view->color_by(s.coloring, reference, shown_.range);
+}
+
+void Stage::aim(const CameraState& camera, bool fresh) {
+  const auto same = [](const CameraState& a, const CameraState& b) {
+    if (a.pose.has_value() != b.pose.has_value()) return false;
+    if (a.pose)
+      return a.pose->position == b.pose->position && a.pose->focal_point == b.pose->focal_point &&
+             a.pose->up == b.pose->up && a.pose->view_angle == b.pose->view_angle;
+    return a.azimuth == b.azimuth && a.elevation == b.elevation && a.zoom == b.zoom;
+  };
+  const Vec3 middle = scenes_.front()->surface().middle;
+  if (!fresh && same(camera, shown_.camera) && (camera.pose || middle == shown_.middle)) {
+    for (View& v : views_) v.view->renderer()->ResetCameraClippingRange();
+    return;
+  }
+  shown_.camera = camera;
+  shown_.middle = middle;
+  view(0).aim(camera);
+  for (View& v : views_) v.view->renderer()->ResetCameraClippingRange();
+}
+
+/// "skin.prestress_v=0.05" as "prestress_v=0.05", so that it fits a small view.
+std::string without_groups(const std::string& name) {
+  std::string out;
+  std::istringstream words(name);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('='), dot = word.rfind('.', equals);
+    out += (out.empty() ? "" : " ") +
+           (equals == std::string::npos || dot == std::string::npos ? word : word.substr(dot + 1));
+  }
+  return out;
+}
+
+void Stage::label(Session& session) {
+  const bool dark = session.state().dark;
+  const std::vector<int> cases = session.views();
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    std::string title;
+    if (session.study()) {
+      const std::string name = session.study()->name(cases[i]);
+      title =
+          "case " + std::to_string(cases[i] + 1) + ": " + (views_.size() > 1 ? without_groups(name) : name);
+    }
+    char time[80];
+    std::snprintf(time, sizeof time, "%.1f of %.1f mm cut", views_[i].view->time(),
+                  views_[i].view->duration());
+    views_[i].furniture->set_text(title, time, views_.size() > 1);
+    if (session.mesh())
+      views_[i].furniture->set_axes({"x", "y", "z"});
+    else
+      views_[i].furniture->set_axes({"u", "v", "w"});
+    views_[i].view->set_dark(dark);
+    const double ink = dark ? 0.9 : 0.1;
+    views_[i].furniture->set_ink(ink, ink, ink);
+  }
+}
+
+int Stage::view_at(int x, int y) const {
+  for (std::size_t i = 0; i < views_.size(); ++i)
+    if (views_[i].view->renderer()->IsInViewport(x, y)) return static_cast<int>(i);
+  return -1;
+}
+
+CameraState::Pose Stage::camera() const {
+  vtkCamera* c = views_.front().view->renderer()->GetActiveCamera();
+  const auto vec = [](const double* x) { return Vec3{x[0], x[1], x[2]}; };
+  return {vec(c->GetPosition()), vec(c->GetFocalPoint()), vec(c->GetViewUp()), c->GetViewAngle()};
+}
+
+}  // namespace cleft

@@ -1,0 +1,55 @@
+// Draws what a session is at into a render window: one view, or up to four cases side by side.
+#pragma once
+
+#include <vtkRenderWindow.h>
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <vector>
+
+#include "explorer/scene/session/session.h"
+#include "explorer/view/furniture.h"
+#include "explorer/view/wound_view.h"
+
+namespace cleft {
+
+class Stage {
+ public:
+  explicit Stage(vtkRenderWindow* window);
+  ~Stage();
+
+  /// Makes everything as the session has it; what is so already is left alone.
+  void show(Session& session);
+
+  int views() const { return static_cast<int>(views_.size()); }
+  WoundView& view(int i) { return *views_.at(static_cast<std::size_t>(i)).view; }
+  int view_at(int x, int y) const;  ///< pixels from the lower left; -1: none
+  /// The camera of all views.
+  CameraState::Pose camera() const;
+
+ private:
+  struct View {
+    std::unique_ptr<WoundView> view;
+    std::unique_ptr<Furniture> furniture;
+  };
+  /// What the views were last made for.
+  struct Shown {
+    Coloring coloring = Coloring::tissue;
+    const Field* reference = nullptr;
+    std::pair<double, double> range{0, 0};
+    CameraState camera;
+    Vec3 middle;
+    bool dark = false;
+  };
+  void make_views(std::size_t count);
+  void color(Session& session, bool fresh);
+  void aim(const CameraState& camera, bool fresh);
+  void label(Session& session);
+
+  vtkSmartPointer<vtkRenderWindow> window_;
+  std::vector<View> views_;
+  std::vector<std::shared_ptr<const WoundScene>> scenes_;
+  Shown shown_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,256 @@
+// Every widget, found by its name, says what a user means by it and shows what the session is at.
+#include <QAction>
+#include <QCheckBox>
+#include <QClipboard>
+#include <QComboBox>
+#include <QDialog>
+#include <QDoubleSpinBox>
+#include <QDropEvent>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSlider>
+#include <QTableView>
+#include <QTest>
+#include <QTextBrowser>
+#include <QToolButton>
+#include <fstream>
+
+#include "explorer/scene/session/command_table.h"
+#include "tests/app/window_fixture.h"
+
+namespace cleft {
+namespace {
+
+TEST_F(WindowTest, BeginsWithTheWelcomePageAndRemembersStudies) {
+  EXPECT_TRUE(widget<QWidget>("welcome").isVisible());
+  tell("open " + study());
+  EXPECT_FALSE(widget<QWidget>("welcome").isVisible());
+  EXPECT_TRUE(window_.scene().isVisible());
+  tell("close");
+  EXPECT_TRUE(widget<QWidget>("welcome").isVisible());
+  auto& recent = widget<QListWidget>("recent");
+  ASSERT_GE(recent.count(), 1);
+  EXPECT_EQ(recent.item(0)->text().toStdString(), study());
+  emit recent.itemActivated(recent.item(0));
+  EXPECT_EQ(now().study, study());
+}
+
+TEST_F(WindowTest, TheTimeBarScrubsStepsPlaysAndLoops) {
+  tell("open " + study());
+  auto& slider = widget<QSlider>("time");
+  EXPECT_EQ(slider.value(), slider.maximum());
+  slider.setValue(slider.maximum() / 2);
+  EXPECT_NEAR(now().time, 15, 1e-9);
+  EXPECT_EQ(widget<QLabel>("time_label").text().toStdString(), "15.0 of 30.0 mm cut");
+  QTest::mouseClick(&widget<QToolButton>("step_forward"), Qt::LeftButton);
+  EXPECT_NEAR(now().time, 16, 1e-9);
+  QTest::mouseClick(&widget<QToolButton>("step_back"), Qt::LeftButton);
+  EXPECT_NEAR(now().time, 15, 1e-9);
+  widget<QCheckBox>("loop").click();
+  EXPECT_TRUE(now().loop);
+  widget<QDoubleSpinBox>("speed").setValue(25);
+  EXPECT_EQ(now().speed, 25);
+  QTest::mouseClick(&widget<QToolButton>("play"), Qt::LeftButton);
+  EXPECT_TRUE(now().playing);
+  settle(150);
+  EXPECT_GT(now().time, 15);
+  QTest::mouseClick(&widget<QToolButton>("play"), Qt::LeftButton);
+  EXPECT_FALSE(now().playing);
+  const double stopped = now().time;
+  settle(20);
+  EXPECT_EQ(now().time, stopped);
+}
+
+TEST_F(WindowTest, ASliderForEveryParameterThatVaries) {
+  tell("open " + study());
+  auto& slider = widget<QSlider>("skin.prestress_v");
+  EXPECT_EQ(window_.findChild<QSlider*>("cut.depth"), nullptr) << "all cases have the same";
+  slider.setValue(slider.maximum());
+  EXPECT_EQ(real_.study()->parameters(now().shown).at("skin.prestress_v"), 0.05);
+  EXPECT_TRUE(real_.shows_exactly());
+  slider.setValue(slider.maximum() * 2 / 3);
+  EXPECT_EQ(real_.study()->parameters(now().shown).at("skin.prestress_v"), 0.05);
+  EXPECT_NE(widget<QLabel>("parameter_note").text().indexOf("nearest is shown"), -1);
+  EXPECT_NE(slider.toolTip().indexOf("MPa"), -1) << slider.toolTip().toStdString();
+  tell("case 1");
+  EXPECT_EQ(slider.value(), 0) << "it follows the session";
+}
+
+TEST_F(WindowTest, TheListOfCasesIsSortedAndChooses) {
+  tell("open " + study());
+  wait_for_figures();  // figures are read when nothing else is to be done
+  auto& table = widget<QTableView>("cases");
+  ASSERT_EQ(table.model()->rowCount(), 4);
+  const int gape = 3;
+  ASSERT_EQ(table.model()->headerData(gape, Qt::Horizontal).toString().toStdString(), "gape\nmm");
+  table.sortByColumn(gape, Qt::DescendingOrder);
+  EXPECT_EQ(table.model()->index(0, 0).data().toInt(), 4) << "the widest wound is that of the last case";
+  EXPECT_NEAR(table.model()->index(0, gape).data(Qt::UserRole).toDouble(), 5.4, 0.1 * 5.4);
+  table.setCurrentIndex(table.model()->index(0, 0));
+  EXPECT_EQ(now().shown, 3);
+  tell("case 2");
+  EXPECT_EQ(table.model()->index(table.currentIndex().row(), 0).data().toInt(), 2);
+}
+
+TEST_F(WindowTest, DraggingOverAParallelAxisFadesTheOtherCases) {
+  tell("open " + study());
+  wait_for_figures();
+  auto& lines = widget<QWidget>("parallel_coordinates");
+  const double x = 34. / lines.width();  // the first axis: skin.prestress_v
+  drag_over(lines, x, 0.2, x, 0.5);
+  ASSERT_EQ(now().brushes.count("skin.prestress_v"), 1u);
+  EXPECT_FALSE(real_.brushed(0));
+  EXPECT_TRUE(real_.brushed(3));
+  auto& table = widget<QTableView>("cases");
+  EXPECT_TRUE(table.model()->index(0, 0).data(Qt::ForegroundRole).isValid()) << "faded";
+  EXPECT_FALSE(table.model()->index(3, 0).data(Qt::ForegroundRole).isValid());
+  QTest::mouseDClick(&lines, Qt::LeftButton, {}, QPoint(lines.width() / 2 + 20, 4));
+  EXPECT_TRUE(now().brushes.empty());
+}
+
+TEST_F(WindowTest, ColouringsAreChosen) {
+  tell("open " + study());
+  auto& box = widget<QComboBox>("coloring");
+  EXPECT_EQ(box.currentText(), "displacement");
+  box.setCurrentIndex(box.findText("strain"));
+  emit box.activated(box.currentIndex());
+  EXPECT_EQ(now().coloring, Coloring::strain);
+  tell("color gape");
+  EXPECT_EQ(box.currentText(), "gape");
+  box.setCurrentIndex(box.findText("difference"));
+  emit box.activated(box.currentIndex());
+  EXPECT_NE(window_.message().indexOf("difference N"), -1) << "from which case?";
+  EXPECT_EQ(box.currentText(), "gape") << "the box comes back to what is shown";
+}
+
+TEST_F(WindowTest, PressingAndDraggingCutsTheSkin) {
+  tell("open " + study());
+  tell("mesh " + mesh());
+  settle(20);
+  auto& scalpel = widget<QAction>("scalpel");
+  ASSERT_TRUE(scalpel.isEnabled());
+  scalpel.trigger();
+  widget<QDoubleSpinBox>("depth").setValue(2);
+  drag_over(window_.scene(), 0.35, 0.5, 0.65, 0.5);
+  ASSERT_EQ(now().cuts.size(), 1u) << window_.message().toStdString();
+  for (const ScalpelPath::Point& p : now().cuts[0].points) {
+    EXPECT_NEAR(p.position.z, 0, 1e-3);
+    EXPECT_GT(p.outward.z, 0.999);
+    EXPECT_EQ(p.depth, 2);
+  }
+  EXPECT_GT(real_.duration(), 10);
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(now().cuts.size(), 0u);
+  widget<QAction>("redo").trigger();
+  EXPECT_EQ(now().cuts.size(), 1u);
+  widget<QAction>("patch").trigger();
+  EXPECT_FALSE(scalpel.isEnabled());
+  EXPECT_FALSE(window_.scene().cutting());
+}
+
+TEST_F(WindowTest, WithoutTheScalpelDraggingTurnsThePicture) {
+  tell("open " + study());
+  tell("mesh " + mesh());
+  settle(20);
+  drag_over(window_.scene(), 0.5, 0.5, 0.7, 0.6);
+  EXPECT_TRUE(now().camera.pose.has_value());
+  EXPECT_TRUE(now().cuts.empty());
+  widget<QAction>("front").trigger();
+  EXPECT_FALSE(now().camera.pose.has_value());
+}
+
+TEST_F(WindowTest, ErrorsAreToldAndTheSessionIsIntact) {
+  tell("open " + study());
+  tell("time 12");
+  const std::string before = state_to_json(now());
+  std::ofstream(folder_ / "lines.obj") << "v 0 0 0\nv 1 0 0\nl 1 2\n";
+  std::ofstream(folder_ / "torn.dffd") << "HDF";
+  for (const std::string& line :
+       {"mesh " + folder_ / "lines.obj", "open " + folder_ / "torn.dffd", std::string("open /gone"),
+        "screenshot " + folder_ / "no/such/folder.png", "export " + folder_ / "a.xyz"}) {
+    EXPECT_FALSE(window_.say(line)) << line;
+    EXPECT_TRUE(widget<QWidget>("message_bar").isVisible()) << line;
+    EXPECT_EQ(state_to_json(now()), before) << line;
+  }
+  widget<QPushButton>("copy_message").click();
+  EXPECT_EQ(QApplication::clipboard()->text(), window_.message());
+  tell("time 13");
+  EXPECT_FALSE(widget<QWidget>("message_bar").isVisible());
+}
+
+TEST_F(WindowTest, FilesAreDropped) {
+  const auto drop = [&](const std::string& file) {
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(QString::fromStdString(file))});
+    QDragEnterEvent enter({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&window_, &enter);
+    QDropEvent event({10, 10}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&window_, &event);
+  };
+  drop(study());
+  EXPECT_EQ(now().study, study());
+  drop(mesh());
+  EXPECT_EQ(now().mesh, mesh());
+  tell("time 0");
+  tell("screenshot " + folder_ / "a.png 320 200");
+  tell("close");
+  drop(folder_ / "a.png");
+  EXPECT_EQ(now().mesh, mesh()) << "a picture holds its session";
+}
+
+TEST_F(WindowTest, TheHelpSheetNamesEveryCommand) {
+  QTest::keyClick(&window_, Qt::Key_F1);
+  settle(50);
+  auto& help = widget<QDialog>("help");
+  EXPECT_TRUE(help.isVisible());
+  const std::string text = widget<QTextBrowser>("help_text").toPlainText().toStdString();
+  for (const CommandGroup& group : command_groups())
+    for (const Command& c : group.commands) EXPECT_NE(text.find(c.name), std::string::npos) << c.name;
+}
+
+TEST_F(WindowTest, TheCommandLineTakesCommands) {
+  auto& line = widget<QLineEdit>("command_line");
+  QTest::keyClicks(&line, QString::fromStdString("open " + study()));
+  QTest::keyClick(&line, Qt::Key_Return);
+  EXPECT_EQ(now().study, study());
+  EXPECT_TRUE(line.text().isEmpty());
+  QTest::keyClicks(&line, "tme 3");
+  QTest::keyClick(&line, Qt::Key_Return);
+  EXPECT_NE(window_.message().indexOf("'time'"), -1);
+  EXPECT_EQ(line.text(), "tme 3") << "to be mended";
+}
+
+TEST_F(WindowTest, DarkAndLightAndSideBySide) {
+  tell("open " + study());
+  widget<QAction>("dark").trigger();
+  EXPECT_TRUE(now().dark);
+  EXPECT_LT(QApplication::palette().color(QPalette::Window).lightness(), 80);
+  widget<QAction>("compare").trigger();
+  EXPECT_EQ(now().compared, (std::vector{0, 1, 2, 3}));
+  EXPECT_EQ(window_.scene().stage().views(), 4);
+  widget<QAction>("single").trigger();
+  EXPECT_EQ(window_.scene().stage().views(), 1);
+  widget<QAction>("dark").trigger();
+  EXPECT_GT(QApplication::palette().color(QPalette::Window).lightness(), 180);
+}
+
+TEST_F(WindowTest, WhatIsDoneByHandIsARecordingThatLeadsToTheSameState) {
+  tell("open " + study());
+  widget<QSlider>("tissue.young_modulus").setValue(1000);
+  tell("mesh " + mesh());
+  settle(20);
+  widget<QAction>("scalpel").trigger();
+  drag_over(window_.scene(), 0.35, 0.45, 0.65, 0.55);
+  widget<QAction>("scalpel").trigger();
+  window_.scene().set_cutting(false);
+  drag_over(window_.scene(), 0.5, 0.5, 0.6, 0.6);
+  widget<QSlider>("time").setValue(4000);
+  tell("record " + folder_ / "hand.txt");
+  const std::string by_hand = state_to_json(now());
+  Session again(session_services([](const std::string&) {}));
+  again.run_script(folder_ / "hand.txt");
+  EXPECT_EQ(state_to_json(again.state()), by_hand);
+}
+
+}  // namespace
+}  // namespace cleft

@@ -1,0 +1,68 @@
+// Every case once, and none beside one of another stiffness.
+#include "params/launcher/solve_groups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "params/launcher/estimates.h"
+#include "params/stiffness.h"
+
+namespace cleft {
+
+namespace {
+
+std::vector<Case> cases_of(int moduli, int prestresses) {
+  std::vector<Case> cases;
+  for (int p = 0; p < prestresses; ++p)
+    for (int m = 0; m < moduli; ++m) {
+      cases.emplace_back();
+      cases.back().parameters.tissue.young_modulus = 0.01 * (m + 1);
+      cases.back().parameters.skin.prestress_v = 0.001 * (p + 1);
+    }
+  return cases;
+}
+
+}  // namespace
+
+TEST(SolveGroups, HoldEveryCaseOnceWithOthersOfItsStiffness) {
+  for (const int moduli : {1, 2, 5})
+    for (const int prestresses : {1, 3, 70})
+      for (const int workers : {1, 2, 7}) {
+        const std::vector<Case> cases = cases_of(moduli, prestresses);
+        const auto groups = solve_groups(cases, workers);
+        std::vector<std::size_t> all;
+        for (const auto& group : groups) {
+          ASSERT_FALSE(group.empty());
+          EXPECT_LE(group.size(), most_solved_together);
+          for (const std::size_t c : group) {
+            EXPECT_EQ(stiffness_key(cases[c].parameters), stiffness_key(cases[group[0]].parameters));
+            all.push_back(c);
+          }
+        }
+        std::sort(all.begin(), all.end());
+        ASSERT_EQ(all.size(), cases.size());
+        for (std::size_t c = 0; c < all.size(); ++c) EXPECT_EQ(all[c], c);
+        EXPECT_GE(groups.size(), std::min<std::size_t>(cases.size(), workers)) << "somebody would be idle";
+      }
+  EXPECT_TRUE(solve_groups({}, 3).empty());
+}
+
+/// Two measured cases in which everything is in proportion to the work say the same of a third.
+TEST(Estimates, AreThoseOfMeasuredCases) {
+  Estimates estimates;
+  EXPECT_FALSE(estimates.seconds({1000, 10}).has_value());
+  const double unmeasured = estimates.solver_memory({1000, 10});
+  EXPECT_GT(unmeasured, 1e8);
+  IndexedCase one;
+  one.nodes = 1000, one.columns = 10, one.seconds = 4, one.bytes = 1e6, one.memory = 3 * unmeasured;
+  estimates.add(one);
+  EXPECT_DOUBLE_EQ(estimates.seconds({1000, 10}).value(), 4);
+  EXPECT_DOUBLE_EQ(estimates.bytes({2000, 10}).value(), 2e6);
+  EXPECT_GT(estimates.seconds({2000, 10}).value(), 8);
+  EXPECT_DOUBLE_EQ(estimates.solver_memory({1000, 10}), 3 * unmeasured);
+  estimates.add(one);
+  EXPECT_DOUBLE_EQ(estimates.seconds({1000, 10}).value(), 4);
+}
+
+}  // namespace cleft

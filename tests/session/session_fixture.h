@@ -1,0 +1,91 @@
+// A session over a study of four cases and a plate to cut, made on the spot.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "encoder/field/field_file.h"
+#include "explorer/scene/session/session.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/view/synthetic_field.h"
+
+namespace cleft {
+
+/// 60 x 40 mm, in cells of 2 mm.
+inline SurfaceMesh flat_plate() {
+  SurfaceMesh plate;
+  const int nx = 31, ny = 21;
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) plate.points.push_back({2. * i - 30, 2. * j - 20, 0});
+  for (int j = 0; j + 1 < ny; ++j)
+    for (int i = 0; i + 1 < nx; ++i) {
+      const int a = j * nx + i, b = a + 1, c = b + nx, d = a + nx;
+      plate.triangles.push_back({a, b, c});
+      plate.triangles.push_back({a, c, d});
+    }
+  return plate;
+}
+
+class SessionTest : public testing::Test {
+ protected:
+  SessionTest() {
+    int number = 0;
+    for (const double gape : {2., 5.})
+      for (const double modulus : {0.01, 0.04}) {
+        const std::string name = "case" + std::to_string(number++);
+        const std::string folder = folder_ / ("study/cases/" + name);
+        std::filesystem::create_directories(folder);
+        Field field = synthetic_field(gape + 10 * modulus);
+        field.parameters = {
+            {"skin.prestress_v", gape / 100}, {"tissue.young_modulus", modulus}, {"cut.depth", 6}};
+        field.case_hash = name;
+        write_field(folder + "/case.dffd", field);
+        write_text_file(folder + "/manifest.json", "{}");
+      }
+  }
+
+  std::string study() const { return folder_ / "study"; }
+  void say(const std::string& line) { session_.say(line); }
+  void open() { say("open " + study()); }
+  void cut_plate() {
+    open();
+    say("mesh plate.stl");
+    say("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  }
+  const SessionState& state() const { return session_.state(); }
+  /// Of the error that a line gives; empty where it gives none.
+  std::string refused(const std::string& line) {
+    try {
+      session_.say(line);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  std::vector<Vec3> points() {
+    std::vector<Vec3> out;
+    session_.scene()->positions(state().time, out);
+    return out;
+  }
+
+  TemporaryFolder folder_;
+  std::string answers_, written_;
+  SurfaceMesh exported_;
+  Session session_{{[](const std::string& file) {
+                      if (!file.ends_with("plate.stl")) throw FileError(file, "no such file");
+                      return flat_plate();
+                    },
+                    [this](const std::string&, const SurfaceMesh& mesh) { exported_ = mesh; },
+                    [this](Session& s, const std::string& file, int width, int height) {
+                      written_ = file + " " + std::to_string(width) + "x" + std::to_string(height);
+                      picture_state_ = state_to_json(s.state());
+                    },
+                    [this](const std::string&) { return picture_state_; },
+                    [this](const std::string& text) { answers_ += text + "\n"; }}};
+  std::string picture_state_;
+};
+
+}  // namespace cleft

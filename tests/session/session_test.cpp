@@ -1,0 +1,281 @@
+// What commands do to a session.
+#include "base/text.h"
+#include "tests/session/session_fixture.h"
+
+namespace cleft {
+namespace {
+
+double widest(const std::vector<Vec3>& points, const std::vector<Vec3>& rest) {
+  double largest = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) largest = std::max(largest, norm(points[i] - rest[i]));
+  return largest;
+}
+
+TEST_F(SessionTest, OpensAStudyAtItsEnd) {
+  open();
+  EXPECT_EQ(session_.study()->size(), 4);
+  EXPECT_EQ(state().shown, 0);
+  EXPECT_EQ(state().time, 30);
+  EXPECT_EQ(state().parameters.at("tissue.young_modulus"), 0.01);
+  EXPECT_EQ(state().parameters.count("cut.depth"), 0u) << "it is the same in all cases";
+}
+
+TEST_F(SessionTest, AParameterChoosesTheNearestCaseAndKeepsTheOthers) {
+  open();
+  say("set skin.prestress_v 0.05");
+  EXPECT_EQ(session_.study()->parameters(state().shown).at("skin.prestress_v"), 0.05);
+  EXPECT_EQ(session_.study()->parameters(state().shown).at("tissue.young_modulus"), 0.01);
+  EXPECT_TRUE(session_.shows_exactly());
+  say("set tissue.young_modulus 0.03");
+  EXPECT_EQ(session_.study()->parameters(state().shown).at("skin.prestress_v"), 0.05);
+  EXPECT_EQ(session_.study()->parameters(state().shown).at("tissue.young_modulus"), 0.04);
+  EXPECT_FALSE(session_.shows_exactly());
+  say("case 2");
+  EXPECT_TRUE(session_.shows_exactly());
+}
+
+TEST_F(SessionTest, TimeIsClampedPlayedAndLooped) {
+  open();
+  say("time 1000");
+  EXPECT_EQ(state().time, 30);
+  say("step -4");
+  EXPECT_EQ(state().time, 26);
+  say("speed 10");
+  say("wait 1");
+  EXPECT_EQ(state().time, 26) << "nothing plays";
+  say("play");
+  say("wait 0.3");
+  EXPECT_NEAR(state().time, 29, 1e-12);
+  say("wait 0.3");
+  EXPECT_EQ(state().time, 30);
+  EXPECT_FALSE(state().playing) << "the end";
+  say("loop on");
+  say("play");
+  EXPECT_EQ(state().time, 0) << "from the start again";
+  say("wait 3.5");
+  EXPECT_NEAR(state().time, 5, 1e-12);
+  EXPECT_TRUE(state().playing);
+}
+
+TEST_F(SessionTest, CutsAreMadeUndoneAndMadeAgainBitForBit) {
+  open();
+  say("mesh plate.stl");
+  const std::vector<Vec3> whole = points();
+  say("cut -15,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  const std::vector<Vec3> once = points();
+  EXPECT_EQ(state().time, session_.duration());
+  EXPECT_NEAR(session_.duration(), 30, 1e-9);
+  EXPECT_GT(widest(once,
+                   [&] {
+                     auto r = once;
+                     session_.scene()->positions(0, r);
+                     return r;
+                   }()),
+            0.5);
+  say("cut -10,12,0,0,0,1 10,12,0,0,0,1 depth 2");
+  EXPECT_NEAR(session_.duration(), 50, 1e-9) << "one after another";
+  const std::vector<Vec3> twice = points();
+  say("undo");
+  EXPECT_EQ(points(), once);
+  say("undo");
+  EXPECT_EQ(points(), whole);
+  EXPECT_NE(refused("undo").find("no cut"), std::string::npos);
+  say("redo");
+  EXPECT_EQ(points(), once);
+  say("redo");
+  EXPECT_EQ(points(), twice);
+  EXPECT_NE(refused("redo"), "");
+}
+
+TEST_F(SessionTest, TheSecondCutStaysClosedUntilTheFirstIsMade) {
+  cut_plate();
+  say("cut -10,12,0,0,0,1 10,12,0,0,0,1");
+  std::vector<Vec3> rest, first, both;
+  session_.scene()->positions(0, rest);
+  session_.scene()->positions(30, first);
+  session_.scene()->positions(50, both);
+  EXPECT_GT(widest(first, rest), 0.5);
+  bool more = false;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    if (std::abs(rest[i].y - 12) < 1e-9 && std::abs(rest[i].x) < 9)
+      more = more || norm(both[i] - first[i]) > 0.5;
+  EXPECT_TRUE(more);
+}
+
+TEST_F(SessionTest, TheWoundFollowsTheCase) {
+  cut_plate();
+  const std::vector<Vec3> narrow = points();
+  say("set skin.prestress_v 0.05");
+  EXPECT_EQ(state().cuts.size(), 1u);
+  ASSERT_EQ(points().size(), narrow.size());
+  std::vector<Vec3> rest;
+  session_.scene()->positions(0, rest);
+  EXPECT_GT(widest(points(), rest), 1.5 * widest(narrow, rest)) << "gape 5 against 2 mm";
+}
+
+TEST_F(SessionTest, WhatCannotBeDoneLeavesTheSessionAsItWas) {
+  cut_plate();
+  say("time 12");
+  const std::string before = state_to_json(state());
+  const std::vector<Vec3> where = points();
+  for (const char* line : {"open /nonexistent",
+                           "case 5",
+                           "case 1.5",
+                           "case 0",
+                           "set tissue.young_modulus soft",
+                           "set cut.depth 3",
+                           "set tissue.young_modulos 0.02",
+                           "time",
+                           "time -1",
+                           "time nan",
+                           "color gap",
+                           "mesh other.stl",
+                           "cut 1,2,3,0,0,1",
+                           "cut 0,0,500,0,0,1 1,0,500,0,0,1",
+                           "compare 1",
+                           "compare 1 9",
+                           "range 3 1",
+                           "range a",
+                           "camera 0",
+                           "look 0,0,0 0,0,0 0,1,0",
+                           "theme grey",
+                           "screenshot a.png 3 3",
+                           "load /nonexistent.json",
+                           "difference 7",
+                           "color difference",
+                           "undo 3",
+                           "case 2 3",
+                           "export",
+                           "paly"}) {
+    EXPECT_NE(refused(line), "") << line;
+    EXPECT_EQ(state_to_json(state()), before) << line;
+  }
+  EXPECT_EQ(points(), where);
+}
+
+TEST_F(SessionTest, ErrorsNameTheRemedy) {
+  EXPECT_NE(refused("case 1").find("open DIR"), std::string::npos);
+  EXPECT_NE(refused("screenshot a.png").find("open DIR"), std::string::npos);
+  open();
+  EXPECT_NE(refused("set cut.depth 3").find("the same in all cases of this study (6 mm)"), std::string::npos);
+  EXPECT_NE(refused("set cut.depth 3").find("skin.prestress_v"), std::string::npos);
+  EXPECT_NE(refused("set tissue.young_modulos 1").find("tissue.young_modulus"), std::string::npos);
+  EXPECT_NE(refused("color gap").find("gape"), std::string::npos);
+  EXPECT_NE(refused("cut 0,0,0,0,0,1 1,0,0,0,0,1").find("mesh FILE"), std::string::npos);
+}
+
+TEST_F(SessionTest, TheStateComesBackFromItsFile) {
+  cut_plate();
+  say("cut -10,12,0,0,0,1 10,12,0,0,0,1 depth 2");
+  say("undo");
+  say("set skin.prestress_v 0.05");
+  say("time 17.25");
+  say("color strain");
+  say("range 0 0.5");
+  say("look 0,0,100 0,0,0 0,1,0 30");
+  say("theme dark");
+  say("compare 1 3 4");
+  say("loop on");
+  const std::string before = state_to_json(state());
+  const std::vector<Vec3> where = points();
+  say("save " + folder_ / "a.json");
+  say("close");
+  EXPECT_FALSE(session_.has_scene());
+  say("load " + folder_ / "a.json");
+  EXPECT_EQ(state_to_json(state()), before);
+  EXPECT_EQ(points(), where);
+  say("redo");
+  EXPECT_EQ(state().cuts.size(), 2u);
+}
+
+TEST_F(SessionTest, ADamagedStateIsRefused) {
+  open();
+  say("save " + folder_ / "a.json");
+  const std::string whole = read_text_file(folder_ / "a.json");
+  for (std::size_t length = 0; length + 2 < whole.size(); length += 11) {
+    write_text_file(folder_ / "b.json", whole.substr(0, length));
+    EXPECT_NE(refused("load " + folder_ / "b.json").find("b.json"), std::string::npos) << length;
+  }
+  write_text_file(folder_ / "b.json", "{\"format\": \"other\"}");
+  EXPECT_NE(refused("load " + folder_ / "b.json").find("no saved session"), std::string::npos);
+}
+
+TEST_F(SessionTest, ARecordingLeadsToTheSameState) {
+  cut_plate();
+  say("time 12");
+  say("camera 20 10 2");
+  say("info");
+  refused("case 99");
+  say("record " + folder_ / "a.txt");
+  const std::string before = state_to_json(state());
+  const std::string text = read_text_file(folder_ / "a.txt");
+  EXPECT_EQ(text.find("info"), std::string::npos);
+  EXPECT_EQ(text.find("99"), std::string::npos);
+  say("close");
+  session_.run_script(folder_ / "a.txt");
+  EXPECT_EQ(state_to_json(state()), before);
+}
+
+TEST_F(SessionTest, ScriptErrorsNameFileAndLine) {
+  const std::string script = folder_.write("s.txt", "# a comment\nopen '" + study() + "'\n\nclor gape\n");
+  try {
+    session_.run_script(script);
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("s.txt:4: 'clor' is no command (did you mean 'color'?)"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+TEST_F(SessionTest, ComparedCasesAreLinkedByTheValueOfTime) {
+  open();
+  say("time 7");
+  say("compare 1 4");
+  EXPECT_EQ(session_.views(), (std::vector{0, 3}));
+  EXPECT_EQ(state().time, 7);
+  say("single");
+  EXPECT_EQ(session_.views(), std::vector{0});
+}
+
+TEST_F(SessionTest, TheDifferenceOfACaseFromItselfIsNothing) {
+  open();
+  say("difference 1");
+  std::vector<double> values;
+  session_.scene()->values(state().coloring, session_.reference().get(), 20, values);
+  for (const double v : values) EXPECT_EQ(v, 0);
+  say("difference 4");
+  session_.scene()->values(state().coloring, session_.reference().get(), 30, values);
+  // Case 1 was made with a gape of 2.1 mm and case 4 with 5.4, half of it on either side.
+  EXPECT_NEAR(*std::max_element(values.begin(), values.end()), (5.4 - 2.1) / 2, 0.1 * (5.4 - 2.1) / 2);
+}
+
+TEST_F(SessionTest, PicturesAndExportsAreAskedOfTheServices) {
+  cut_plate();
+  say("screenshot 'my picture.png' 640");
+  EXPECT_EQ(written_, "my picture.png 640x360");
+  EXPECT_EQ(picture_state_, state_to_json(state()));
+  say("time 0");
+  say("export a.vtp");
+  EXPECT_EQ(exported_.points, points());
+  say("mesh plate.stl 10");
+  say("export a.vtp");
+  EXPECT_EQ(exported_.points, flat_plate().points) << "in the mesh's units";
+  say("load picture.png");
+  EXPECT_EQ(state_to_json(state()), picture_state_);
+}
+
+TEST_F(SessionTest, ListenersHearWhatHasChanged) {
+  int times = 0, cases = 0;
+  session_.listen([&](const Changes& c) { times += c.time, cases += c.shown; });
+  open();
+  EXPECT_EQ(cases, 1);
+  say("time 3");
+  EXPECT_EQ(times, 2);
+  EXPECT_EQ(cases, 1);
+  refused("case 77");
+  EXPECT_EQ(cases, 1);
+}
+
+}  // namespace
+}  // namespace cleft
