@@ -152,7 +152,8 @@ double sum_of(const T* memory, std::size_t count) {
 /// 10,000 vertices about the cut, frame after frame from one end of it to the other.
 void replay(const Field& field, double tolerance) {
   const std::vector<Place> places = random_places();
-  const std::vector<double> times = replay_times(field, tolerance);
+  const Field* const fields[] = {&field};
+  const std::vector<double> times = replay_times(fields, tolerance);
   std::vector<int> vertices;
   std::vector<Vec3> rest, out(places.size());
   for (const Place& p : places) vertices.push_back(static_cast<int>(vertices.size())), rest.push_back(p.uvw);
