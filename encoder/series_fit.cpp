@@ -169,8 +169,7 @@ void SeriesFit::refine() {
 }
 
 bool SeriesFit::same_in_all_frames() const {
-  const TipPath& tip = parametrization_->geometry().tip;
-  return !parametrization_->moves() || tip.positions.front() == tip.positions.back();
+  return !parametrization_->moves() || parametrization_->geometry().tip.still();
 }
 
 Misfit SeriesFit::misfit(double limit) const {

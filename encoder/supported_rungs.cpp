@@ -52,7 +52,9 @@ std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& serie
   bool thorough = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
     thorough = thorough && determined(bases_of_least[axis], places[axis]);
-  const std::size_t nodes_each = parametrization.moves() ? 6 : thorough ? 0 : 2;  // for a control point
+  // For a control point; along an axis on which all nodes have one place, one is what they say.
+  const bool passes = parametrization.moves() && !parametrization.geometry().tip.still();
+  const std::size_t nodes_each = passes ? 6 : thorough ? 0 : 2;
   std::vector<Rung> rungs = {least};
   for (const Rung& rung : ladder) {
     Rung next = rungs.back();
@@ -60,8 +62,9 @@ std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& serie
       Rung more = next;
       more.*spans = rung.*spans;
       const auto bases = bases_of(more, parametrization, static_cast<int>(series.times.size()));
-      const auto control_points =
-          static_cast<std::size_t>(bases[0].size()) * bases[1].size() * bases[2].size();
+      std::size_t control_points = 1;
+      for (std::size_t on = 0; on < 3; ++on)
+        if (places[on].size() > 1) control_points *= static_cast<std::size_t>(bases[on].size());
       if (determined(bases[axis], places[axis]) && nodes_each * control_points <= series.samples.size())
         next = more;
     }

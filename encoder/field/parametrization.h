@@ -23,6 +23,7 @@ struct CanonicalCut {
 struct TipPath {
   std::vector<double> times, positions;
 
+  bool still() const { return positions.front() == positions.back(); }  ///< at one place all the time
   double at(double t) const;     ///< position, constant outside the times
   double speed(double t) const;  ///< of the piece that begins at t or contains it
   double passes(
