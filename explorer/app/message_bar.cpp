@@ -9,9 +9,6 @@ namespace cleft {
 
 MessageBar::MessageBar() {
   setObjectName("message_bar");
-  setStyleSheet(
-      "#message_bar { background: #fbe3df; border-top: 2px solid #b3261e; }"
-      "#message { color: #410e0b; } ");
   text_ = new QLabel(this);
   text_->setObjectName("message");
   text_->setWordWrap(true);
@@ -33,7 +30,19 @@ MessageBar::MessageBar() {
 
 void MessageBar::tell(const QString& message) {
   text_->setText(message);
+  show_as("#fbe3df", "#b3261e", "#410e0b");
   setVisible(!message.isEmpty());
+}
+
+void MessageBar::answer(const QString& line) {
+  text_->setText(text_->text().isEmpty() ? line : text_->text() + "\n" + line);
+  show_as("#e3eef8", "#0072b2", "#0b2a41");
+  show();
+}
+
+void MessageBar::show_as(const char* paper, const char* edge, const char* ink) {
+  setStyleSheet(QString("#message_bar { background: %1; border-top: 2px solid %2; } #message { color: %3; }")
+                    .arg(paper, edge, ink));
 }
 
 }  // namespace cleft
