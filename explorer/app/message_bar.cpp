@@ -4,6 +4,7 @@
 #include <QClipboard>
 #include <QHBoxLayout>
 #include <QPushButton>
+#include <QScrollArea>
 
 namespace cleft {
 
@@ -12,6 +13,7 @@ MessageBar::MessageBar() {
   text_ = new QLabel(this);
   text_->setObjectName("message");
   text_->setWordWrap(true);
+  text_->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   text_->setTextFormat(Qt::PlainText);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   auto* copy = new QPushButton("Copy", this);
@@ -20,7 +22,13 @@ MessageBar::MessageBar() {
   close->setObjectName("close_message");
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(10, 4, 10, 4);
-  row->addWidget(text_, 1);
+  auto* scrolled = new QScrollArea(this);  // an answer may have a line for every case
+  scrolled->setWidget(text_);
+  scrolled->setWidgetResizable(true);
+  scrolled->setFrameShape(QFrame::NoFrame);
+  scrolled->setMaximumHeight(6 * fontMetrics().lineSpacing());
+  scrolled->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  row->addWidget(scrolled, 1);
   row->addWidget(copy);
   row->addWidget(close);
   connect(copy, &QPushButton::clicked, this, [this] { QApplication::clipboard()->setText(text_->text()); });
@@ -41,7 +49,8 @@ void MessageBar::answer(const QString& line) {
 }
 
 void MessageBar::show_as(const char* paper, const char* edge, const char* ink) {
-  setStyleSheet(QString("#message_bar { background: %1; border-top: 2px solid %2; } #message { color: %3; }")
+  setStyleSheet(QString("#message_bar { background: %1; border-top: 2px solid %2; } #message_bar "
+                        "QScrollArea, #message { background: transparent; color: %3; }")
                     .arg(paper, edge, ink));
 }
 
