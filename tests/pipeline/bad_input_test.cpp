@@ -254,15 +254,16 @@ TEST_F(BadInput, AWindowWithoutADisplayNamesTheRemedy) {
 }
 
 TEST_F(BadInput, ConditionsAndScriptsSayWhereTheyAreWrong) {
-  expect_refused("find", {in / "absent", "--where", "gape > "}, {"condition 'gape > '", "a value is missing"});
+  expect_refused("find", {in / "absent", "--where", "gape > "},
+                 {"condition 'gape > '", "a value is missing"});
   expect_refused("find", {in / "absent", "--where", "gape > 1"}, {"absent"});
   in.write("script.txt", "# nothing\ncolr gape\n");
   expect_refused("explore", {"--script", in / "script.txt"}, {"script.txt:2", "did you mean 'color'"});
 }
 
 TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
-  for (const char* command : {"run", "status", "solve", "encode", "eval", "cut", "explore", "find", "export", "info",
-                              "check", "pack", "import"}) {
+  for (const char* command : {"run", "status", "solve", "encode", "eval", "cut", "explore", "find", "export",
+                              "info", "check", "pack", "import"}) {
     EXPECT_NE(
         expect_success(run_cleft(command, {"--help"})).output.find("Usage: cleft " + std::string(command)),
         std::string::npos)
