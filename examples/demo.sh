@@ -30,7 +30,7 @@ echo "The cut head: $out/cut.vtp"
 
 step "5/5 Explore"
 if [ -n "${DISPLAY:-}" ]; then
-  echo "The explorer opens; sliders choose the time and the case. Close its window to end."
+  echo "The explorer opens; F1 shows its keys and commands. Close its window to end."
   exec $bin/cleft explore $out/study --mesh $out/head.stl --path $out/path.csv
 fi
 look="$bin/cleft explore $out/study --case 3 --mesh $out/head.stl --path $out/path.csv"

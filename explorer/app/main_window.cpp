@@ -42,6 +42,7 @@ MainWindow::MainWindow(Session& session) : session_(session) {
                   .arg(session_.state().cuts.size());
     status_->setText(text);
   };
+  session_.answer_to([this](const std::string& text) { message_->answer(QString::fromStdString(text)); });
   session_.listen([this](const Changes& changes) { follow(changes); });
   Changes all;
   all.all();
@@ -116,11 +117,6 @@ bool MainWindow::say(const std::string& line) {
     follow(all);
     return false;
   }
-}
-
-void MainWindow::answer(const std::string& text) {
-  const QString before = message_->message();
-  message_->tell(before + (before.isEmpty() ? "" : "\n") + QString::fromStdString(text));
 }
 
 void MainWindow::take_command_line() {

@@ -24,8 +24,6 @@ class MainWindow : public QMainWindow {
 
   /// Says a line to the session; a refusal is told in the message bar.
   bool say(const std::string& line);
-  /// What a command has answered.
-  void answer(const std::string& text);
 
   SceneWidget& scene() { return *scene_; }
   QString message() const { return message_->message(); }

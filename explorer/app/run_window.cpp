@@ -25,7 +25,6 @@ void run_window(Session& session, int width, int height) {
   QApplication application(argc, argv);
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   MainWindow window(session);
-  session.answer_to([&window](const std::string& text) { window.answer(text); });
   window.resize(width, height);
   window.show();
   QApplication::exec();

@@ -17,6 +17,7 @@ namespace cleft {
 
 namespace {
 
+constexpr double coarsest = 4;          // pixels between the places of a cut, at least
 constexpr double steepest = 4;          // of skin that the blade goes along, against the picture's plane
 constexpr double spacing = 1;           // mm between the places of a cut
 constexpr int milliseconds_a_cut = 60;  // while dragging, at most so often
@@ -119,7 +120,8 @@ bool SceneWidget::add_point(int x, int y) {
     const double distance = norm(place->position - blade_.back().position);
     // Over the edge of a nose the skin behind it is far away, however little the mouse has moved.
     const double seen = stage_->mm_a_pixel(view_) * std::hypot(x - last_x_, y - last_y_);
-    if (distance < spacing || distance > steepest * seen + spacing) return false;
+    const double least = std::max(spacing, coarsest * stage_->mm_a_pixel(view_));
+    if (distance < least || distance > steepest * seen + least) return false;
   }
   blade_.push_back(*place);
   last_x_ = x, last_y_ = y;
@@ -145,7 +147,15 @@ std::string SceneWidget::cut_line(const char* command) const {
   constexpr int reach = 3;
   std::string line = command;
   const int count = static_cast<int>(blade_.size());
-  const auto at = [&](int i) { return blade_[static_cast<std::size_t>(std::clamp(i, 0, count - 1))]; };
+  std::vector<WoundView::Place> blade = blade_;
+  const auto at = [&](int i) { return blade[static_cast<std::size_t>(std::clamp(i, 0, count - 1))]; };
+  for (int pass = 0; pass < 2; ++pass) {  // a mouse goes from pixel to pixel, a hand does not
+    std::vector<WoundView::Place> smooth = blade;
+    for (int i = 1; i + 1 < count; ++i)
+      smooth[static_cast<std::size_t>(i)].position =
+          0.25 * (at(i - 1).position + 2 * at(i).position + at(i + 1).position);
+    blade.swap(smooth);
+  }
   for (int i = 0; i < count; ++i) {
     Vec3 outward;
     for (int k = -reach; k <= reach; ++k) outward += at(i + k).outward;

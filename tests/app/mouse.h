@@ -25,7 +25,7 @@ inline void mouse(QWidget& widget, QEvent::Type type, const QPointF& at,
 }
 
 /// From a place to another, in parts of the widget's width and height, pressed.
-inline void drag_over(QWidget& widget, double x0, double y0, double x1, double y1, int steps = 25) {
+inline void drag_over(QWidget& widget, double x0, double y0, double x1, double y1, int steps = 12) {
   const auto at = [&](double part) {
     return QPointF(widget.width() * (x0 + part * (x1 - x0)), widget.height() * (y0 + part * (y1 - y0)));
   };

@@ -269,9 +269,22 @@ TEST_F(BadInput, NodesAndFramesThatAreNotTheFields) {
   refused(in / "other.h5", "1", {"other.h5", "case"});
 }
 
+TEST_F(BadInput, AWindowWithoutADisplayNamesTheRemedy) {
+  unsetenv("DISPLAY");
+  expect_refused("explore", {}, {"no display", "--screenshot", "--script"});
+}
+
+TEST_F(BadInput, ConditionsAndScriptsSayWhereTheyAreWrong) {
+  expect_refused("find", {in / "absent", "--where", "gape > "},
+                 {"condition 'gape > '", "a value is missing"});
+  expect_refused("find", {in / "absent", "--where", "gape > 1"}, {"absent"});
+  in.write("script.txt", "# nothing\ncolr gape\n");
+  expect_refused("explore", {"--script", in / "script.txt"}, {"script.txt:2", "did you mean 'color'"});
+}
+
 TEST_F(BadInput, EveryCommandHelpsAndTellsItsVersion) {
-  for (const char* command : {"run", "status", "solve", "encode", "eval", "cut", "explore", "find", "export", "info",
-                              "check", "pack", "import"}) {
+  for (const char* command : {"run", "status", "solve", "encode", "eval", "cut", "explore", "find", "export",
+                              "info", "check", "pack", "import"}) {
     EXPECT_NE(
         expect_success(run_cleft(command, {"--help"})).output.find("Usage: cleft " + std::string(command)),
         std::string::npos)

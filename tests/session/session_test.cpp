@@ -1,4 +1,6 @@
 // What commands do to a session.
+#include <map>
+
 #include "base/text.h"
 #include "tests/session/session_fixture.h"
 
@@ -100,6 +102,21 @@ TEST_F(SessionTest, TheSecondCutStaysClosedUntilTheFirstIsMade) {
     if (std::abs(rest[i].y - 12) < 1e-9 && std::abs(rest[i].x) < 9)
       more = more || norm(both[i] - first[i]) > 0.5;
   EXPECT_TRUE(more);
+  // Half of the second cut's 20 mm: it ends at x = 0, and beyond its lips lie on each other.
+  std::vector<Vec3> half;
+  session_.scene()->positions(40, half);
+  double behind = 0, ahead = 0;
+  std::map<std::pair<double, double>, std::size_t> lips;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (std::abs(rest[i].y - 12) > 1e-9 || rest[i].z != 0) continue;
+    const auto [other, fresh] = lips.try_emplace({rest[i].x, rest[i].y}, i);
+    if (!fresh) {
+      double& widest_gap = rest[i].x < 0 ? behind : ahead;
+      widest_gap = std::max(widest_gap, norm(half[i] - half[other->second]));
+    }
+  }
+  EXPECT_GT(behind, 0.5);
+  EXPECT_EQ(ahead, 0);
 }
 
 TEST_F(SessionTest, TheWoundFollowsTheCase) {
@@ -214,6 +231,15 @@ TEST_F(SessionTest, ARecordingLeadsToTheSameState) {
   say("close");
   session_.run_script(folder_ / "a.txt");
   EXPECT_EQ(state_to_json(state()), before);
+}
+
+TEST_F(SessionTest, SeveralTimesInARowAreRecordedAsTheLast) {
+  open();
+  say("time 3");
+  say("time 4");
+  say("theme dark");
+  say("time 5");
+  EXPECT_EQ(session_.said(), (std::vector<std::string>{"open " + study(), "time 4", "theme dark", "time 5"}));
 }
 
 TEST_F(SessionTest, ScriptErrorsNameFileAndLine) {

@@ -76,6 +76,20 @@ TEST_F(StudyTest, FieldsAreReadWhenAskedForAndKept) {
   EXPECT_EQ(study.field(0)->parameters.at("cut.depth"), 6);
 }
 
+TEST_F(StudyTest, OnlyTheCasesLookedAtLastAreKept) {
+  for (std::size_t i = 0; i <= PublishedStudy::kept; ++i)
+    add_case("case" + std::to_string(i), {{"cut.depth", 3 + 0.1 * static_cast<double>(i)}});
+  PublishedStudy study(folder_.string());
+  const std::weak_ptr<const Field> first = study.field(0), second = study.field(1);
+  for (int i = 2; i < study.size() - 1; ++i) study.field(i);
+  study.field(0);  // looked at again
+  EXPECT_FALSE(first.expired());
+  EXPECT_FALSE(second.expired());
+  study.field(study.size() - 1);
+  EXPECT_FALSE(first.expired());
+  EXPECT_TRUE(second.expired()) << "nobody has looked at it for longest";
+}
+
 TEST_F(StudyTest, WhatIsNotPublishedIsNotThere) {
   add_case("a", {{"cut.depth", 6}});
   add_case("b", {{"cut.depth", 7}}, false);
