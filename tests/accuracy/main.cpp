@@ -55,7 +55,9 @@ AccuracyRow encoded(const std::string& folder, const std::string& name, double t
   const SnapshotReader reader(folder + "/" + name + ".h5");
   const Series series(reader);
   row.figures[centroid_error] = error_at_centroids(read_field(stem + ".dffd"), series, reader.snapshot());
-  for (const auto& [frame, error] : errors_unseen(series, {.tolerance = tolerance}))
+  EncodeOptions options;
+  options.tolerance = tolerance;
+  for (const auto& [frame, error] : errors_unseen(series, options))
     row.figures[unseen_error] = std::max(row.figures[unseen_error], error);
   return row;
 }
