@@ -75,7 +75,7 @@ void tell_of_dropped_snapshots(const std::string& study) {
 void explore(const CLI::App& app, const Options& o) {
   Session session(session_services([](const std::string& text) { std::cout << text << '\n'; }));
   begin(session, app, o);
-  if (!o.input.study.empty()) tell_of_dropped_snapshots(o.input.study);
+  if (!o.study.empty()) tell_of_dropped_snapshots(o.study);
   if (!o.script.empty()) session.run_script(o.script);
   if (!o.screenshot.empty())
     session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +
