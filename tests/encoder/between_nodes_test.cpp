@@ -116,9 +116,10 @@ TEST(BetweenNodes, SupportedRungsAreDeterminedByTheNodes) {
     EXPECT_NE(rungs.back(), ladder.back()) << name;
     for (std::size_t i = 1; i < rungs.size(); ++i) {
       const auto bases = bases_of(rungs[i], *parametrization, 8);
-      if (std::string(name) == "tip")
+      if (std::string(name) == "tip") {
         EXPECT_LE(6 * bases[0].size() * bases[1].size() * bases[2].size(),
                   static_cast<int>(series.samples.size()));
+      }
       for (int axis = 0; axis < 3; ++axis) {
         Eigen::MatrixXd values =
             Eigen::MatrixXd::Zero(2 * static_cast<int>(series.samples.size()), bases[axis].size());

@@ -36,7 +36,7 @@ class TruthCases {
                         name = "prestress" + std::to_string(cases.size());
       cases.push_back({name, encode(name, lines)});
     }
-    write_study(folder_ / "study.dffd", cases);
+    write_study(folder_ / "study.dffd", study_records(cases));
     return PrestressFields(folder_ / "study.dffd");
   }
 
