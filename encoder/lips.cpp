@@ -1,6 +1,7 @@
 #include "encoder/lips.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "encoder/field/unknowns.h"
 
@@ -82,9 +83,10 @@ class Jumps {
 
 }  // namespace
 
-Field with_lips_apart(const Field& field, const Series& series, double margin) {
-  if (series.pairs.empty() || series.largest_displacement == 0) return field;
-  const Jumps jumps(field);
+namespace {
+
+/// What is missing at released pairs and frames.
+std::vector<Bound> bounds_of(const Field& field, const Jumps& jumps, const Series& series, double margin) {
   std::vector<Bound> bounds;
   for (std::size_t j = 1; j < series.times.size(); ++j)
     for (int p = 0; p < series.released[j]; ++p) {
@@ -100,10 +102,13 @@ Field with_lips_apart(const Field& field, const Series& series, double margin) {
       bound.missing = missing;
       if (bound.squares > 0) bounds.push_back(std::move(bound));
     }
-  if (bounds.empty()) return field;
-  // Hildreth's method: the nearest point of all half-spaces. All factors are positive, so that no bound that
-  // is kept is ever lost.
-  std::vector<double> by(jumps.size(), 0.);
+  return bounds;
+}
+
+/// Openings at control points that keep all bounds: Hildreth's method, the nearest point of all half-spaces.
+/// All factors are positive, so that no bound that is kept is ever lost.
+std::vector<double> nearest(std::vector<Bound> bounds, std::size_t jumps, double margin) {
+  std::vector<double> by(jumps, 0.);
   double moved = margin;
   for (int sweep = 0; sweep < sweeps && moved > enough * margin; ++sweep) {
     moved = 0;
@@ -115,7 +120,40 @@ Field with_lips_apart(const Field& field, const Series& series, double margin) {
       for (const auto& [jump, factor] : bound.terms) by[static_cast<std::size_t>(jump)] += step * factor;
     }
   }
-  return jumps.widened(by);
+  return by;
+}
+
+/// Largest error at released pairs, mm: a shift of the lips is nowhere larger.
+double error_at_lips(const Field& field, const Series& series) {
+  double largest = 0;
+  for (std::size_t j = 1; j < series.times.size(); ++j)
+    for (int p = 0; p < series.released[j]; ++p) {
+      const auto [left, right] = series.pairs[static_cast<std::size_t>(p)];
+      for (const auto& [node, side] : {std::pair{left, Side::left}, {right, Side::right}}) {
+        const Vec3 d =
+            field.displacement(series.samples[static_cast<std::size_t>(node)].uvw, side, series.times[j]);
+        const auto data = series.frames[j].row(node);
+        largest = std::max(largest, squared_norm(d - Vec3{data[0], data[1], data[2]}));
+      }
+    }
+  return std::sqrt(largest);
+}
+
+}  // namespace
+
+Field with_lips_apart(const Field& field, const Series& series, double margin, double most) {
+  if (series.pairs.empty() || series.largest_displacement == 0) return field;
+  const Jumps jumps(field);
+  std::vector<Bound> bounds = bounds_of(field, jumps, series, margin);
+  // Where control points hardly answer for a pair, next to the tip, they would have to go far for it: such
+  // pairs are given up first.
+  for (const double least : {0., 0.01, 0.1, 0.5}) {
+    std::erase_if(bounds, [&](const Bound& bound) { return bound.squares < least; });
+    if (bounds.empty()) break;
+    Field apart = jumps.widened(nearest(bounds, jumps.size(), margin));
+    if (error_at_lips(apart, series) <= most) return apart;
+  }
+  return field;
 }
 
 }  // namespace cleft

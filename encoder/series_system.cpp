@@ -9,7 +9,7 @@ namespace cleft {
 
 namespace {
 
-constexpr int most_iterations = 60;
+constexpr int most_iterations = 200;
 constexpr double least_hold = 1e-9;  // of all in t, where frames are fewer than control points
 
 /// D^T D of second differences; a first control point that is 0 is one of them.
@@ -61,8 +61,9 @@ SeriesSystem::SeriesSystem(const SpaceFit& space, const Eigen::MatrixXd& in_time
     for (Eigen::Index j = 0; j < frames; ++j) all += in_time(j, l) * in_time(j, l);
     for (Eigen::Index j = 0; j < frames; ++j)
       if (const double part = in_time(j, l) * in_time(j, l); part > 0)
-        sum.add(part / all, normals_[static_cast<std::size_t>(j)]);
-    factors_[static_cast<std::size_t>(l)].emplace(space_.factorize(all > 0 ? sum : mean_));
+        sum.add(part / (all + hold_(l, l)), normals_[static_cast<std::size_t>(j)]);
+    sum.add(hold_(l, l) / (all + hold_(l, l)), mean_);
+    factors_[static_cast<std::size_t>(l)].emplace(space_.factorize(sum));
   });
 }
 

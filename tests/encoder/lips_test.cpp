@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "encoder/measure.h"
 #include "encoder/series_fit.h"
 #include "tests/encoder/synthetic_snapshot.h"
@@ -54,7 +56,7 @@ TEST(Lips, DoNotPassThroughEachOtherWhereTheDataDoNot) {
       const Field before = fitted(series, parametrization);
       ASSERT_LT(least_rest(before, series), -1e-3) << "nothing to mend";
       for (const double margin : {1e-4, 1e-2}) {
-        const Field field = with_lips_apart(before, series, margin);
+        const Field field = with_lips_apart(before, series, margin, std::numeric_limits<double>::infinity());
         // Sweeps end where the last moved no bound by more than a thousandth of the margin.
         EXPECT_GT(least_rest(field, series), 0.9 * margin) << parametrization << " " << margin;
       }
@@ -64,7 +66,8 @@ TEST(Lips, DoNotPassThroughEachOtherWhereTheDataDoNot) {
 /// What is changed are the lips' own control points, on both sides as much, and no opening becomes less.
 TEST(Lips, AreMovedApartAndNothingElseIs) {
   const Series series = SyntheticSnapshot(crossing).series();
-  const Field before = fitted(series, "tip"), after = with_lips_apart(before, series, 1e-3);
+  const Field before = fitted(series, "tip"),
+              after = with_lips_apart(before, series, 1e-3, std::numeric_limits<double>::infinity());
   const int V = before.basis(1).size(), W = before.basis(2).size(), T = before.basis(3).size();
   int moved = 0;
   for (std::size_t n = 0; n < before.coefficients().size(); ++n) {
@@ -105,7 +108,7 @@ TEST(Lips, MoveAsLittleAsPossible) {
   ASSERT_LT(least, -1e-3);
   series.pairs = {series.pairs[worst]};
   series.released.assign(series.released.size(), 0), series.released[frame] = 1;
-  const Field after = with_lips_apart(before, series, 1e-6);
+  const Field after = with_lips_apart(before, series, 1e-6, std::numeric_limits<double>::infinity());
   const Vec3& uvw = series.samples[static_cast<std::size_t>(series.pairs[0][0])].uvw;
   double length = 0, factors = 0;
   for (std::size_t n = 0; n < before.coefficients().size(); ++n)
