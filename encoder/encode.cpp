@@ -84,8 +84,7 @@ class Encoder {
     // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
     // steps.
     double step = share_of_steps * 2 / std::sqrt(3.) * bound;
-    const Field exact = with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest * step,
-                                        (1 - share_of_steps) * bound);
+    const Field exact = with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest * step, bound);
     for (int halvings = 0;; ++halvings, step /= 1.5) {
       Field field = quantised(exact, step, farthest);
       field.report.condition = fit.condition();
