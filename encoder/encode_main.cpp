@@ -77,6 +77,17 @@ Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   return rung;
 }
 
+/// What was measured is what stands in the file; else there is none.
+void verify_written(const std::string& out, const Field& field, const std::optional<NodeResidual>& residual) {
+  const std::optional<NodeResidual> kept = read_residual(out);
+  const bool same_residual =
+      kept.has_value() == residual.has_value() &&
+      (!kept || (kept->quantum == residual->quantum && kept->values == residual->values));
+  if (same_residual && read_field(out).coefficients() == field.coefficients()) return;
+  std::filesystem::remove(out);
+  throw std::runtime_error(out + ": reads back as something else than was written, and was removed");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -118,6 +129,7 @@ int main(int argc, char** argv) {
     field.case_hash = reader.snapshot().case_hash;
     progress("writing");
     write_field(out, field, residual ? &*residual : nullptr);
+    verify_written(out, field, residual);
     print_figures(figures_of(field, reader.snapshot(), out), json);
   });
 }
