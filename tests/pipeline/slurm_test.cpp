@@ -40,7 +40,8 @@ bool slurm_is_here() { return in_shell("sinfo -h | grep -q idle").exit_code == 0
 std::map<std::string, std::string> published_bytes(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder + "/cases"))
-    if (entry.is_regular_file() && entry.path().filename() != "manifest.json")
+    if (entry.is_regular_file() && entry.path().filename() != "manifest.json" &&
+        entry.path().extension() != ".log")
       files[fs::relative(entry.path(), folder).string()] = read_text_file(entry.path().string());
   return files;
 }
