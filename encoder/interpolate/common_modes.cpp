@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "base/error.h"
 #include "encoder/field/unknowns.h"
@@ -19,11 +18,6 @@ namespace {
 constexpr double share_of_steps = 0.25;
 constexpr double weights_per_unit = 1e5;    // modes are as large as the cases
 constexpr std::size_t bytes_of_weight = 3;  // deflated
-
-/// Largest norm of the points (x, y, z one after another) in a column.
-double largest_point(const Eigen::VectorXd& column) {
-  return Eigen::Map<const Eigen::Matrix3Xd>(column.data(), 3, column.size() / 3).colwise().norm().maxCoeff();
-}
 
 /// The cases on common knots, each over its largest displacement: their unknowns, and samples of them.
 class ScaledCases {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "encoder/interpolate/convex_hull.h"
+#include "encoder/interpolate/field_samples.h"
 
 namespace cleft {
 
@@ -18,11 +19,6 @@ double quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
-}
-
-/// Largest norm of the points (x, y, z one after another) in a column.
-double largest_point(const Eigen::Ref<const Eigen::VectorXd>& column) {
-  return Eigen::Map<const Eigen::Matrix3Xd>(column.data(), 3, column.size() / 3).colwise().norm().maxCoeff();
 }
 
 /// Exponents of the power law in the features that fits the columns' norms best.

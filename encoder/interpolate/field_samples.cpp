@@ -101,6 +101,10 @@ Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at) {
   return samples;
 }
 
+double largest_point(const Eigen::Ref<const Eigen::VectorXd>& column) {
+  return Eigen::Map<const Eigen::Matrix3Xd>(column.data(), 3, column.size() / 3).colwise().norm().maxCoeff();
+}
+
 double largest_displacement(const Field& field, const std::vector<Place>& places) {
   std::vector<Vec3> values(places.size());
   field.displacements(places, values);

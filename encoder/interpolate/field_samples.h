@@ -29,6 +29,9 @@ Eigen::VectorXd sample(const CommonCases& cases, const std::vector<Vec3>& points
 /// A column for each case.
 Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at);
 
+/// Largest norm of the points (x, y, z one after another) in a column.
+double largest_point(const Eigen::Ref<const Eigen::VectorXd>& column);
+
 /// The largest displacement at these places, mm.
 double largest_displacement(const Field& field, const std::vector<Place>& places);
 

@@ -6,6 +6,7 @@
 #include "base/output_file.h"
 #include "base/text.h"
 #include "params/study_folder.h"
+#include "tests/support/small_study.h"
 
 namespace cleft::faults {
 
@@ -13,26 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* study = R"(
-[case]
-patch.length = 12
-patch.width = 8
-patch.height = 4
-cut.length = 6
-cut.depth = 2
-mesh.element_size = 2
-[vary]
-"tissue.young_modulus" = [0.01, 0.03]
-"skin.prestress_v" = [0.02, 0.04]
-[encode]
-tolerance = 0.1
-)";
-
 std::map<std::string, std::string> bytes_of(const std::string& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder + "/cases"))
-    if (entry.is_regular_file() && entry.path().filename() != "manifest.json")
-      files[fs::relative(entry.path(), folder).string()] = read_text_file(entry.path().string());
+  std::map<std::string, std::string> files = published_bytes(folder, Logs::compared);
   files["study.dffd"] = read_text_file(folder + "/study.dffd");
   return files;
 }
@@ -40,7 +23,7 @@ std::map<std::string, std::string> bytes_of(const std::string& folder) {
 }  // namespace
 
 StudyUnderFault::StudyUnderFault(std::string place, int ranks) : place_(std::move(place)), ranks_(ranks) {
-  write_text_file(place_ + "/study.toml", study);
+  write_text_file(place_ + "/study.toml", small_study);
   const bool done = run(reference()).success();
   promise(done, "the undisturbed run failed: " + read_text_file(reference() + ".log"));
   undisturbed_ = bytes_of(reference());

@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "tests/pipeline/commands.h"
+#include "tests/support/small_study.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
@@ -17,34 +18,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* study = R"(
-[case]
-patch.length = 12
-patch.width = 8
-patch.height = 4
-cut.length = 6
-cut.depth = 2
-mesh.element_size = 2
-[vary]
-"tissue.young_modulus" = [0.01, 0.03]
-"skin.prestress_v" = [0.02, 0.04]
-[encode]
-tolerance = 0.1
-[slurm]
+const std::string study = std::string(small_study) + R"([slurm]
 time = "10"
 cases_per_task = 1
 )";
 
 bool slurm_is_here() { return in_shell("sinfo -h | grep -q idle").exit_code == 0; }
-
-std::map<std::string, std::string> published_bytes(const std::string& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder + "/cases"))
-    if (entry.is_regular_file() && entry.path().filename() != "manifest.json" &&
-        entry.path().extension() != ".log")
-      files[fs::relative(entry.path(), folder).string()] = read_text_file(entry.path().string());
-  return files;
-}
 
 int arrays_of(const std::string& folder) {
   int count = 0;
@@ -74,7 +53,7 @@ TEST(Slurm, PublishesWhatALocalRunDoesAndFindsItsJobsAgain) {
 
   expect_success(run_cleft("run", {file, "--out", folder, "--launcher", "slurm"}));
   EXPECT_EQ(arrays_of(folder), 1) << "the jobs of the killed run were not found";
-  EXPECT_TRUE(published_bytes(folder) == published_bytes(place / "local"));
+  EXPECT_TRUE(published_bytes(folder, Logs::left_out) == published_bytes(place / "local", Logs::left_out));
   expect_success(run_cleft("check", {folder}));
 
   const Outcome refused = run_cleft(

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "params/study_folder.h"
 #include "tests/pipeline/commands.h"
+#include "tests/support/small_study.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
@@ -128,12 +129,8 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
 
 /// Of all published files but the manifests, which tell times, and logs, where libraries may tell of the
 /// machine.
-std::map<std::string, std::string> published_bytes(const std::string& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder + "/cases"))
-    if (entry.is_regular_file() && entry.path().filename() != "manifest.json" &&
-        entry.path().extension() != ".log")
-      files[fs::relative(entry.path(), folder).string()] = read_text_file(entry.path().string());
+std::map<std::string, std::string> study_bytes(const std::string& folder) {
+  std::map<std::string, std::string> files = published_bytes(folder, Logs::left_out);
   files["study.dffd"] = read_text_file(folder + "/study.dffd");
   return files;
 }
@@ -143,9 +140,9 @@ TEST(StudyRun, IsTheSameHoweverItsCasesAreGrouped) {
   const std::string file = place.write("study.toml", study);
   expect_success(run_cleft("run", {file, "--out", place / "together", "--jobs", "1"}));
   expect_success(run_cleft("run", {file, "--out", place / "apart", "--jobs", "4", "--memory", "0.001"}));
-  const auto together = published_bytes(place / "together");
+  const auto together = study_bytes(place / "together");
   EXPECT_EQ(together.size(), 13u);
-  EXPECT_TRUE(together == published_bytes(place / "apart"));
+  EXPECT_TRUE(together == study_bytes(place / "apart"));
 
   // What a case was made with stands in its manifest.
   const StudyFolder folder(place / "together");
