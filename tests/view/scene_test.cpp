@@ -9,6 +9,7 @@
 #include "explorer/scene/mesh_scene.h"
 #include "explorer/scene/patch_scene.h"
 #include "explorer/view/wound_view.h"
+#include "tests/support/flat_plate.h"
 #include "tests/view/synthetic_field.h"
 
 namespace cleft {
@@ -16,21 +17,11 @@ namespace {
 
 /// A flat skin of 60 x 40 mm with a straight path through its middle, as long as the field's cut.
 std::shared_ptr<const CutSurface> cut_plate(const Field& field) {
-  SurfaceMesh plate;
-  const int nx = 31, ny = 21;
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i) plate.points.push_back({2. * i - 30, 2. * j - 20, 0});
-  for (int j = 0; j + 1 < ny; ++j)
-    for (int i = 0; i + 1 < nx; ++i) {
-      const int a = j * nx + i, b = a + 1, c = b + nx, d = a + nx;
-      plate.triangles.push_back({a, b, c});
-      plate.triangles.push_back({a, c, d});
-    }
   const CanonicalCut& cut = field.cut();
   std::vector<ScalpelPath::Point> path;
   for (int i = 0; i <= 10; ++i)
     path.push_back({{cut.start + cut.length * i / 10 + 0.3, 0.7, 0}, {0, 0, 1}, cut.depth});
-  return std::make_shared<CutSurface>(plate, std::vector{ScalpelPath(path)});
+  return std::make_shared<CutSurface>(flat_plate(), std::vector{ScalpelPath(path)});
 }
 
 /// Both kinds of scenes, from one field.
