@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/file_versions.h"
 #include "base/text.h"
 #include "params/hash.h"
 #include "params/sampling/read_sampling.h"
@@ -205,7 +206,7 @@ std::vector<std::string> EncodeSettings::arguments() const {
 }
 
 std::string Case::hash() const {
-  std::string text = solve_hash(parameters) + " field 2";  // the version of the file that is made
+  std::string text = solve_hash(parameters) + " field " + std::to_string(field_version);
   for (const std::string& argument : encode.arguments()) text += " " + argument;
   return sha256(text).substr(0, 16);
 }
