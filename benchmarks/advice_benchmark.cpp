@@ -78,16 +78,16 @@ int main(int argc, char** argv) {
     const Truth truth(p, chosen, work.path());
     const Outcome outcome = truth.outcomes(chosen, {chosen.tolerance}).front();
     within += outcome.error <= error, within_twice += outcome.error <= 2 * error;
-    // Everything that is expected to be cheaper, from the cheapest on, until one keeps the error.
-    std::vector<Setting> others = models.front().settings();
-    std::erase_if(others, [&](const Setting& s) { return s.tolerance != 0.05; });
-    const auto cost = [&](const Setting& s) { return models.front().expectation(s).seconds; };
-    std::sort(others.begin(), others.end(),
-              [&](const Setting& a, const Setting& b) { return cost(a) < cost(b); });
+    // Every setting of a lattice whose mesh is smaller.
+    std::vector<Setting> others;
+    for (const double elements : {12, 16, 24, 32, 48})
+      for (const double margin : {0.5, 1., 2., 4.})
+        others.push_back({p.cut.length / elements, margin * p.cut.length, 0});
+    const auto nodes = [&](const Setting& s) { return estimated_nodes(applied(s, p)); };
     double cheapest = outcome.seconds;
     int tried = 0;
     for (const Setting& other : others) {
-      if (cost(other) >= cost(chosen)) break;
+      if (nodes(other) >= nodes(chosen)) continue;
       ++tried;
       const std::vector<double> some = {0.1, 0.02};
       for (const Outcome& o : truth.outcomes(other, some))

@@ -16,6 +16,7 @@ namespace {
 constexpr int grid = 48;                                             // samples along the cut and over time
 constexpr double elements_along_cut[] = {8, 16, 32};                 // of the cheap meshes
 constexpr double margins[] = {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 6};  // over the cut's length
+constexpr double least_tip_order = 0.5;  // of a square root that a mesh cannot follow
 constexpr double widest = 12, cheap_margin = 0.5;
 constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
@@ -37,10 +38,6 @@ double size_of(const std::vector<Vec3>& samples) {
   double most = 0;
   for (const Vec3& x : samples) most = std::max(most, norm(x));
   return most;
-}
-
-double seconds_of(const Chain& chain, const Chain::Encoded& encoded) {
-  return chain.solve_seconds() + encoded.seconds;
 }
 
 }  // namespace
@@ -83,28 +80,40 @@ void CaseModel::measure_meshes() {
     const Opening& opening = chain.opening();
     const auto at = [&](double s, double t) { return opening.at(s, t); };
     if (before) {
+      const double coarser = size_of(mesh_);
       mesh_ = difference(sampled(length, [&](double s, double t) { return before->at(s, t); }),
                          sampled(length, at));
       mesh_size_ = 2 * length / elements;
+      if (coarser > 0) mesh_order_ = std::clamp(std::log2(coarser / size_of(mesh_)), 0.7, 1.5);
     }
     before = opening;
     largest_ = opening.largest();
-    const bool finest = elements == *std::rbegin(elements_along_cut);
-    if (!finest) {
-      costs_.emplace_back(chain.nodes(), seconds_of(chain, chain.encoded(0.01)));
-      continue;
-    }
-    for (auto tolerance = std::rbegin(tolerances); tolerance != std::rend(tolerances); ++tolerance) {
-      const Chain::Encoded encoded = chain.encoded(*tolerance);
-      const double apart = size_of(
-          difference(sampled(length, [&](double s, double t) { return cleft::opening(encoded.field, s, t); }),
+    const auto apart = [&](const Field& field) {
+      return size_of(
+          difference(sampled(length, [&](double s, double t) { return cleft::opening(field, s, t); }),
                      sampled(length, at)));
-      if (codes_.empty())
-        tip_ = apart, tip_size_ = length / elements, frame_ms_ = 1e3 * frame_seconds(encoded.field);
-      codes_.push_back({*tolerance, std::max(0., apart - tip_), encoded.bytes});
-      if (*tolerance == 0.01) costs_.emplace_back(chain.nodes(), seconds_of(chain, encoded));
+    };
+    const Chain::Encoded tight = chain.encoded(tolerances[std::size(tolerances) - 1]);
+    tips_.emplace_back(length / elements, apart(tight.field));
+    costs_.emplace_back(chain.nodes(), chain.solve_seconds() + tight.seconds);
+    if (elements != elements_along_cut[std::size(elements_along_cut) - 1]) continue;
+    frame_ms_ = 1e3 * frame_seconds(tight.field);
+    for (const double tolerance : tolerances) {
+      const Chain::Encoded encoded = chain.encoded(tolerance);
+      codes_.push_back({tolerance, std::max(0., apart(encoded.field) - tips_.back().second), encoded.bytes});
     }
   }
+}
+
+/// Straight in logarithms between the measured sizes.
+double CaseModel::tip_error(double size) const {
+  std::size_t i = 0;
+  while (i + 2 < tips_.size() && size < tips_[i + 1].first) ++i;
+  const auto& [coarse, coarse_error] = tips_[i];
+  const auto& [fine, fine_error] = tips_[i + 1];
+  const double order =
+      std::max(least_tip_order, std::log(coarse_error / fine_error) / std::log(coarse / fine));
+  return fine_error * std::pow(size / fine, order);
 }
 
 void CaseModel::measure_patches() {
@@ -121,14 +130,15 @@ void CaseModel::measure_patches() {
   // Meshes were compared in a small patch: what they differ by goes with the opening.
   for (Vec3& x : mesh_) x *= grown;
   for (Code& code : codes_) code.error *= grown;
-  tip_ *= grown, largest_ *= grown;
+  for (auto& [size, error] : tips_) error *= grown;
+  largest_ *= grown;
 }
 
 Expectation CaseModel::expectation(const Setting& setting) const {
   Expectation e;
-  const double finer = setting.element_size / mesh_size_;
-  // Against one twice as fine: half of what there is in all, where the order is one.
-  const double share = 2 * finer;
+  // Against one twice as fine: what is left there is 2^-order of it.
+  const double share =
+      std::pow(setting.element_size / mesh_size_, mesh_order_) / (1 - std::pow(2, -mesh_order_));
   const Samples* patch = nullptr;
   for (const auto& [margin, samples] : patches_)
     if (std::abs(margin - setting.margin) < 1e-9 * margin) patch = &samples;
@@ -136,10 +146,10 @@ Expectation CaseModel::expectation(const Setting& setting) const {
   Samples sum = *patch;
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share * mesh_[i];
   e.mesh = share * size_of(mesh_) / largest_, e.patch = size_of(*patch) / largest_;
-  e.tip = std::sqrt(setting.element_size / tip_size_) * tip_ / largest_;
+  e.tip = tip_error(setting.element_size) / largest_;
   for (const Code& code : codes_)
     if (code.tolerance == setting.tolerance) e.code = code.error / largest_, e.bytes = code.bytes;
-  e.total = std::max(size_of(sum) / largest_, e.tip) + e.code;
+  e.total = std::hypot(size_of(sum) / largest_, e.tip) + e.code;
   e.nodes = estimated_nodes(applied(setting, parameters_));
   const auto& [n0, s0] = costs_.front();
   const auto& [n1, s1] = costs_.back();
@@ -150,7 +160,7 @@ Expectation CaseModel::expectation(const Setting& setting) const {
 
 std::vector<Setting> CaseModel::settings() const {
   std::vector<Setting> all;
-  for (const double elements : {6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
+  for (const double elements : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
     for (const auto& [margin, samples] : patches_)
       for (const Code& code : codes_)
         all.push_back({parameters_.cut.length / elements, margin, code.tolerance});

@@ -4,14 +4,14 @@
 // An error is a difference of openings, right lip less left lip, over the cut and over time; its size is its
 // largest length over the largest opening. What a link does is measured where it is cheap:
 //
-//   mesh     nodes of a coarse mesh against those of one twice as fine: of first order in the element's size
-//   tip      the field against its own mesh, between nodes, where the lips close as the square root of the
-//            distance from the tip: of order one half
+//   mesh     nodes of coarse meshes of three sizes against each other; they give the order in the element's size
+//   tip      the field against its own mesh between nodes and frames, where the lips close as the square root
+//            of the distance from the tip, at the same sizes; finer ones go on with the order of the last two
 //   patch    against one that is far wider, in a coarse mesh
 //   code     what a looser tolerance adds, at the finest of those meshes
 //
 // Mesh and patch may cancel: their differences are added with their signs before their size is taken. The
-// error at the tip is elsewhere, so the larger of both counts; the code's is added.
+// error at the tip is largest elsewhere: the root of both squares counts. The code's is added.
 #pragma once
 
 #include <functional>
@@ -36,7 +36,7 @@ Parameters applied(const Setting& setting, Parameters parameters);
 /// What a setting is expected to come to. Errors are over the largest opening.
 struct Expectation {
   double mesh = 0, tip = 0, patch = 0, code = 0, total = 0;
-  double nodes = 0, seconds = 0, bytes = 0;  ///< seconds: to solve and encode
+  double nodes = 0, seconds = 0, bytes = 0;  ///< seconds: of processors, to solve and encode
 
   /// The link whose error is largest.
   std::string dominating() const;
@@ -60,15 +60,17 @@ class CaseModel {
 
   void measure_meshes();
   void measure_patches();
+  double tip_error(double size) const;  // mm
   Parameters coarse(double elements, double margin) const;
 
   Parameters parameters_;
   std::string work_;
   std::function<void(const std::string&)> progress_;
-  double largest_ = 0;                   // opening, mm
-  double mesh_size_ = 0, tip_size_ = 0;  // element sizes at which the next two were measured
+  double largest_ = 0;    // opening, mm
+  double mesh_size_ = 0;  // element size of the coarser of the two meshes compared
+  double mesh_order_ = 1;
   Samples mesh_;
-  double tip_ = 0;                                   // mm
+  std::vector<std::pair<double, double>> tips_;      // by element size, coarsest first: mm
   std::vector<std::pair<double, Samples>> patches_;  // by margin
   struct Code {
     double tolerance, error, bytes;  // mm beyond the mesh's

@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
                     {"expected_error", shown(e)},
                     {"dominates", e.dominating()},
                     {"nodes", std::round(e.nodes)},
-                    {"seconds_a_case", rounded(e.seconds)},
+                    {"processor_seconds_a_case", rounded(e.seconds)},
                     {"bytes_a_case", std::round(e.bytes)},
                     {"frame_ms", rounded(models.front().frame_ms())},
                     {"cases", goals.cases}};

@@ -17,11 +17,11 @@ class Chain {
 
   const Opening& opening() const { return opening_; }
   double nodes() const { return nodes_; }
-  double solve_seconds() const { return solve_seconds_; }  ///< of all phases, by the command's own clock
+  double solve_seconds() const { return solve_seconds_; }  ///< of all processors together
 
   struct Encoded {
     Field field;
-    double bytes, seconds;
+    double bytes, seconds;  ///< of all processors together
   };
   Encoded encoded(double tolerance) const;
 
