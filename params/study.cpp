@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/file_versions.h"
@@ -264,6 +266,34 @@ std::string case_file_text(const Case& a_case) {
   else
     text += "tolerance = " + shortest(encode.tolerance) + "\n";
   return text;
+}
+
+std::string with_settings(const Study& study, const std::vector<std::pair<std::string, double>>& values,
+                          double tolerance) {
+  toml::table file = toml::parse(study.text);
+  const auto section = [](toml::table& parent, std::string_view name) -> toml::table& {
+    return *parent.insert(name, toml::table{}).first->second.as_table();
+  };
+  toml::table& a_case = section(file, "case");
+  for (const auto& [name, value] : values) {
+    const auto dot = name.find('.');
+    a_case.erase(name);  // as one quoted key
+    section(a_case, name.substr(0, dot)).insert_or_assign(name.substr(dot + 1), value);
+  }
+  toml::table& encode = section(file, "encode");
+  encode.erase("control_points");
+  encode.insert_or_assign("tolerance", tolerance);
+  std::ostringstream text;
+  text << file << "\n";
+  // Numbers in all their digits, 0.10000000000000001, in the fewest that say the same.
+  const std::regex digits(R"(\d+\.\d{15,}(e[+-]?\d+)?)");
+  std::string shown, all = text.str();
+  auto from = all.cbegin();
+  for (std::sregex_iterator it(all.begin(), all.end(), digits), end; it != end; ++it) {
+    shown.append(from, (*it)[0].first).append(shortest(std::stod(it->str())));
+    from = (*it)[0].second;
+  }
+  return shown.append(from, all.cend());
 }
 
 }  // namespace cleft
