@@ -102,8 +102,8 @@ TEST_F(InterpolatedStudy, DerivativesHelpWhereCasesAreFew) {
   for (const HeldOut& one : with) EXPECT_LE(one.error, 2 * one.estimate);
   // Against the simulations' frames, and against fields fitted to them, without the fits' own errors.
   const auto worst = [](const std::vector<HeldOut>& list, auto figure) {
-    const auto values = of_each(list, figure);
-    return *std::max_element(values.begin(), values.end());
+    const auto figures = of_each(list, figure);
+    return *std::max_element(figures.begin(), figures.end());
   };
   const auto error = [](const HeldOut& one) { return one.error; };
   const auto against_field = [](const HeldOut& one) { return one.against_field; };
