@@ -22,12 +22,19 @@ void check_study_file(const std::string& file) {
   h5::File::open(file).read_everything();
 }
 
+void check_field_file(const std::string& file) {
+  const Field field = read_field(file);
+  read_residual(file);
+  for (std::size_t q = 0; q < field.quantities.size(); ++q) read_quantity_residual(file, q);
+  h5::File::open(file).read_everything();
+}
+
 void check_file(const std::string& file) {
   const std::string format = format_of(file);
   if (format == "cleft-snapshot")
     check_snapshot(file);
   else if (format == "cleft-field")
-    read_field(file), read_residual(file), h5::File::open(file).read_everything();
+    check_field_file(file);
   else if (format == "cleft-study")
     check_study_file(file);
   else

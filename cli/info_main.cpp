@@ -89,7 +89,11 @@ Json info_of_field(const std::string& file) {
     info["quantities"].push_back({{"name", quantity.name},
                                   {"components", quantity.components},
                                   {"largest", quantity.largest},
-                                  {"error", quantity.error}});
+                                  {"error", quantity.error},
+                                  {"spline_error", quantity.spline_error}});
+  for (const ParameterDerivative& one : field.by_parameter)
+    info["by_parameter"].push_back(
+        {{"parameter", one.parameter}, {"largest", one.largest}, {"error", one.error}});
   if (const std::string raw = raw_data_beside(file); !raw.empty()) info["raw_data"] = raw;
   if (field.interpolation) info["interpolation"] = list_of(*field.interpolation);
   return info;

@@ -26,8 +26,11 @@ struct EncodeSettings {
 struct Case {
   Parameters parameters;
   EncodeSettings encode;
+  std::vector<std::string> sensitivities = {};  ///< parameters to differentiate the series by
 
-  /// Identity of the case as encoded; solve_hash(parameters) is the solver's half of it.
+  /// Identity of the snapshot: solve_hash(parameters), and the sensitivities that it holds.
+  std::string snapshot_hash() const;
+  /// Identity of the case as encoded, of which that is the solver's half.
   std::string hash() const;
 };
 

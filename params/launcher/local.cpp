@@ -225,7 +225,7 @@ class LocalRun {
     std::string published;
     {
       const std::lock_guard guard(mutex_);
-      const auto found = solved_.find(solve_hash(one.one->parameters));
+      const auto found = solved_.find(one.one->snapshot_hash());
       if (found == solved_.end()) return false;
       published = folder_.published(found->second);
     }

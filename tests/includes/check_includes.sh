@@ -21,7 +21,7 @@ params:base
 solver/snapshot:base
 solver:base|params
 encoder/field:base
-encoder:base|solver/snapshot
+encoder:base|params|solver/snapshot
 encoder/import:base|solver/snapshot
 encoder/interpolate:base|encoder/field|params
 haptic:base|encoder/field
