@@ -1,5 +1,7 @@
 #include "solver/frame_solver.h"
 
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "base/error.h"
@@ -56,6 +58,29 @@ void on_root(const PatchSystem& system, const std::function<void()>& work) {
   failure.resize(static_cast<std::size_t>(length));
   MPI_Bcast(failure.data(), length, MPI_CHAR, 0, system.communicator());
   if (!failure.empty()) throw SolveError(failure);
+}
+
+double rounding_error(const PatchSystem& system, FrameSolver& solver) {
+  const Block translation = Block::Ones(system.owned(), 1);
+  solver.set_loads(system.multiply(translation));
+  const Block difference = solver.solve({{0, 0}}) - translation;
+  double largest = difference.size() > 0 ? difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0;
+  if (std::isnan(largest)) largest = std::numeric_limits<double>::infinity();
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, system.communicator());
+  return largest;
+}
+
+void check_rounding(const PatchSystem& system, const ChosenSolver& chosen) {
+  if (chosen.method != Method::direct) return;
+  const double error = rounding_error(system, *chosen.solver);
+  if (error < largest_rounding) return;
+  std::ostringstream text;
+  text.precision(1);
+  text << std::scientific << error;
+  throw SolveError(
+      "rounding would change the displacements by " + text.str() +
+      " of themselves: the parameters differ by too many orders of magnitude; bring the moduli of "
+      "skin and tissue, the springs and the sides of the elements nearer to each other");
 }
 
 ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system, Method method,

@@ -53,6 +53,11 @@ class FrameSolver {
   virtual std::vector<int> iterations() const { return {}; }
 };
 
+/// What rounding makes of a displacement, relative: how far K^-1 K x is from x, a translation, which only the
+/// springs resist. It is the unit roundoff times the condition of K or so, which no residual tells. Needs a
+/// release, and forgets the loads. Collective; the same on every rank.
+double rounding_error(const PatchSystem& system, FrameSolver& solver);
+
 enum class Method { automatic, direct, iterative };
 
 /// What was chosen, and why.
@@ -61,6 +66,13 @@ struct ChosenSolver {
   Method method;
   std::string reason;
 };
+
+/// Beyond it the numbers mean nothing.
+inline constexpr double largest_rounding = 1e-6;
+
+/// A factor balances the forces however little of the displacement is left in it: throws SolveError where
+/// that is the chosen solver and its rounding_error above the largest. Iterations do not balance them then.
+void check_rounding(const PatchSystem& system, const ChosenSolver& chosen);
 
 /// Takes the direct solver where its factor fits into memory, unless a method is forced. Throws InputError
 /// where what is left does not fit. `progress` is told what is being done.

@@ -372,6 +372,7 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
   const Release release = make_release(mesh_, cases_[members.front()].parameters);
   chosen_.solver->set_release(release);
   if (compliance_.at_node.empty() && compliance_.dent.size() == 0) {
+    check_rounding(*system_, chosen_);
     progress_("compliance of the skin");
     compliance_ = compliance_of(mesh_, *system_, *chosen_.solver);
     phases_.end("compliance");

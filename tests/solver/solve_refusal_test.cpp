@@ -117,3 +117,13 @@ TEST_F(SolveRefuses, APatchThatNothingHolds) {
   expect(1, run_cleft("solve", arguments), parts);
   expect(1, solve_on_ranks(2, arguments), parts);
 }
+
+/// The factor balances the forces to rounding all the same.
+TEST_F(SolveRefuses, DisplacementsThatRoundingWouldChange) {
+  const std::vector<std::string> arguments = {a_case, "--out", out / "x.h5", "--set",
+                                              "skin.young_modulus=1e10"};
+  const std::vector<std::string> parts = {"x.h5", "rounding would change the displacements by",
+                                          "too many orders of magnitude", "bring the moduli"};
+  expect(1, run_cleft("solve", arguments), parts);
+  expect(1, solve_on_ranks(2, arguments), parts);
+}
