@@ -54,6 +54,12 @@ FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
   if (g.cut.length > 0 && !(g.domain[1].front < 0 && g.domain[1].back > 0))
     throw InputError("the nodes reach from v = " + shortest(g.domain[1].front) + " to " +
                      shortest(g.domain[1].back) + " mm: the cut plane v = 0 does not divide them");
+  const auto [nearest, farthest] = std::minmax_element(s.position.begin(), s.position.end());
+  const double slack = 1e-6 * (g.domain[0].back - g.domain[0].front);
+  if (g.cut.length > 0 && (*farthest < g.domain[0].front - slack || *nearest > g.domain[0].back + slack))
+    throw InputError("the tip stands between u = " + shortest(*nearest) + " and " + shortest(*farthest) +
+                     " mm, and the nodes between " + shortest(g.domain[0].front) + " and " +
+                     shortest(g.domain[0].back) + " mm: mend /cut/position, and /cut's start and length");
   // The tip stands at `position`; frame 0 is closed, and then it grows with the blade.
   for (std::size_t j = 0; j < s.times.size(); ++j) {
     const bool closed = j == 0 && g.cut.start != s.cut_start && s.position.front() != s.position.back();

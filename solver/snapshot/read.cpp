@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "solver/snapshot/snapshot.h"
@@ -41,6 +42,7 @@ class SnapshotCheck {
     check_table("/foundation/triangles", s_.foundation_triangles);
     check_table("/foundation/quads", s_.foundation_quads);
     check_table("/cut/pairs", s_.pairs);
+    check_pairs();
     check_cut();
     if (s_.source) check_source(*s_.source);
   }
@@ -76,6 +78,27 @@ class SnapshotCheck {
     for (const auto& row : rows)
       require(std::all_of(row.begin(), row.end(), [=](std::int32_t i) { return 0 <= i && i < points; }),
               name + " names a point that does not exist");
+  }
+
+  /// A pair of nodes that earlier pairs join already, or of one node, would close nothing, and leave some
+  /// other node without its side.
+  void check_pairs() const {
+    std::vector<std::int32_t> joined(s_.points.size());  // toward a node that stands for all joined ones
+    std::iota(joined.begin(), joined.end(), 0);
+    const auto find = [&](std::int32_t node) {
+      const auto next = [&](std::int32_t n) -> std::int32_t& { return joined[static_cast<std::size_t>(n)]; };
+      while (next(node) != node) node = next(node) = next(next(node));
+      return node;
+    };
+    for (std::size_t p = 0; p < s_.pairs.size(); ++p) {
+      const auto [left, right] = s_.pairs[p];
+      const std::int32_t a = find(left), b = find(right);
+      require(a != b, "/cut/pairs: row " + std::to_string(p) + ", nodes " + std::to_string(left) + " and " +
+                          std::to_string(right) +
+                          (left == right ? ": a node is no pair" : ": earlier rows join them already") +
+                          "; leave the row out");
+      joined[static_cast<std::size_t>(b)] = a;
+    }
   }
 
   void check_cut() const {
