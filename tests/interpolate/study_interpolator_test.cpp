@@ -8,6 +8,7 @@
 #include "encoder/field/unknowns.h"
 #include "encoder/interpolate/compact.h"
 #include "tests/interpolate/made_study.h"
+#include "tests/support/stability_row.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
@@ -110,6 +111,16 @@ TEST(StudyInterpolator, SaysHowFarOutsideItIsAsked) {
   EXPECT_GT(beyond.interpolation->estimated_error, inside);
   // Prestress superposes: none lies outside as long as its direction is known.
   EXPECT_EQ(study.at(values_at(0.5, 0.5, 3)).interpolation->outside, 0);
+  const auto outside = values_at(1.5, 0.5, 0.5);
+  const double error = distance_of(beyond, made_field(outside), nodes_of_millimetres());
+  record_limit({.method = "interpolation between cases",
+                .limit = "parameters outside the study",
+                .shown = "half the spread outside, the field is off by " + rounded(error) +
+                         " of its largest displacement; in the middle it says " + rounded(inside),
+                .noticed = "`cleft interpolate` warns, and the file holds how far outside it is (" +
+                           rounded(beyond.interpolation->outside) + ")",
+                .then = "extrapolates; its estimate of the error grows to " +
+                        rounded(beyond.interpolation->estimated_error)});
 }
 
 TEST(StudyInterpolator, TwoValuesDoNotPassForACurve) {

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "tests/solver/verification_support.h"
+#include "tests/support/refusal.h"
+#include "tests/support/stability_row.h"
 
 namespace cleft {
 
@@ -163,10 +165,25 @@ TEST(Manufactured, MeanDilatationDoesNotLock) {
   EXPECT_GT(std::log2(coarse / fine), 1.9);
   // The answer does not depend on nu, and so the errors do not either.
   EXPECT_NEAR(errors(8, 0.4999, "mean-dilatation") / fine, 1, 0.01);
-  // Without it the elements are far too stiff, and refining them once hardly helps.
-  const double locked = errors(8, 0.499, "displacement");
-  EXPECT_GT(locked, 3 * fine);
-  EXPECT_LT(std::log2(errors(4, 0.499, "displacement") / locked), 1);
+  // Without it the elements are far too stiff, and refining them once hardly helps; less so at 0.49, which is
+  // still allowed.
+  const double locked[] = {errors(8, 0.49, "displacement"), errors(8, 0.499, "displacement"),
+                           errors(8, 0.4999, "displacement")};
+  EXPECT_LT(locked[0], locked[1]);
+  EXPECT_GT(locked[2], 3 * fine);
+  EXPECT_GT(locked[1], 3 * fine);
+  EXPECT_LT(std::log2(errors(4, 0.499, "displacement") / locked[1]), 1);
+  Parameters p;
+  p.tissue.poisson_ratio = 0.491;
+  record_limit({.method = "linear wedges, displacement formulation",
+                .limit = "nearly incompressible tissue: Poisson's ratio above 0.49",
+                .shown = "error against the exact isochoric field at 0.49, 0.499, 0.4999: " +
+                         rounded(locked[0] / fine) + ", " + rounded(locked[1] / fine) + ", " +
+                         rounded(locked[2] / fine) + " times that of mean dilatation",
+                .noticed = "refused: " + quoted(refusal_of(p), "tissue.poisson_ratio"),
+                .then = "`mean-dilatation` keeps its error at 0.4999 to within " +
+                        rounded(100 * (errors(8, 0.4999, "mean-dilatation") / fine - 1)) +
+                        " % of that at 0.499"});
 }
 
 }  // namespace cleft
