@@ -88,10 +88,14 @@ std::string check_study(const std::string& path) {
   const StudyFolder folder(path);
   Mistakes mistakes;
   std::size_t without = 0;
+  std::vector<std::string> older;
   for (const std::string& hash : folder.published_cases())
     mistakes.collect([&] {
       folder.verify(hash);
-      check_file(folder.published(hash) + "/case.dffd");
+      if (const std::string field = folder.published(hash) + "/case.dffd"; is_older_field(field))
+        older.push_back(hash);
+      else
+        check_file(field);
       if (folder.manifest(hash).value("snapshot", "kept") == "dropped")
         ++without;
       else
@@ -100,9 +104,11 @@ std::string check_study(const std::string& path) {
   if (const std::string packed = path + "/study.dffd"; std::filesystem::exists(packed))
     mistakes.collect([&] { check_packed(packed, path); });
   mistakes.throw_if_any();
-  return without > 0
-             ? "sound; " + std::to_string(without) + " cases without raw data (keep_snapshots = \"none\")"
-             : "sound";
+  std::string verdict = "sound";
+  if (without > 0)
+    verdict += "; " + std::to_string(without) + " cases without raw data (keep_snapshots = \"none\")";
+  if (!older.empty()) verdict += "; " + note_of_older(path, older);
+  return verdict;
 }
 
 void check_all(const std::vector<std::string>& places) {

@@ -9,10 +9,11 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
-#include "encoder/field/field_file.h"
 #include "explorer/io/mesh_file.h"
+#include "explorer/scene/cut_fields.h"
 #include "explorer/scene/path_file.h"
 #include "explorer/scene/scalpel_cutting.h"
+#include "explorer/tension_options.h"
 #include "haptic/bare_timer.h"
 #include "haptic/devices/list.h"
 #include "haptic/devices/recorded.h"
@@ -30,6 +31,7 @@ struct Options {
   double depth = 0, seconds = 0, stiffness = 0;  // 0: not given
   double delay = 0;                              // ms
   bool real_time = false, json = false;
+  TensionOptions tension;
 };
 
 /// N/mm, of the skin over the middle of the cut in a simulation, closed.
@@ -46,7 +48,7 @@ double snapshot_stiffness(const std::string& file) {
   throw FileError(file, "has no compliance of the skin (imported data have none): give --stiffness");
 }
 
-double stiffness(const Options& o, const std::optional<Field>& field) {
+double stiffness(const Options& o, const Field* field) {
   if (o.stiffness > 0) return o.stiffness;
   if (!o.snapshot.empty()) return snapshot_stiffness(o.snapshot);
   return field ? surface_stiffness(*field) : ForceParameters{}.stiffness;
@@ -148,11 +150,12 @@ void haptic(const Options& o) {
   refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.snapshot, o.trajectory});
   std::optional<OutputFile> probe;
   if (!o.record.empty()) probe.emplace(o.record);  // a bad name is told before the work
-  std::optional<Field> field;
-  if (!o.field.empty()) field = read_field(o.field);
+  std::optional<CutFields> fields;
+  if (!o.field.empty()) fields = read_cut_fields(o.field, o.tension.direction, o.tension.prestresses);
+  const Field* field = fields ? &fields->shape() : nullptr;
   const SurfaceMesh mesh = read_mesh(o.mesh);
   std::optional<ScalpelPath> path;
-  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field ? &*field : nullptr);
+  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field);
 
   ForceParameters force;
   force.stiffness = stiffness(o, field);
@@ -167,7 +170,7 @@ void haptic(const Options& o) {
   if (o.seconds <= 0 && o.device == "hand") seconds = request.script.back().time;
   if (o.seconds <= 0 && o.device == "recorded") seconds = static_cast<Recorded&>(*device).duration();
 
-  ScalpelCutting cutting(mesh, path, std::move(field), o.scale);
+  ScalpelCutting cutting(mesh, path, std::move(fields), o.scale);
   LoopOptions options;
   options.rate = o.rate;
   options.measure = true;
@@ -209,7 +212,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--path", o.path,
                  "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where cuts go");
-  app.add_option("--field", o.field, "field file case.dffd that opens the cut");
+  app.add_option("--field", o.field,
+                 "field file case.dffd that opens the cut; or study.dffd of three cases of other prestress");
+  o.tension.add_to(app);
   app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
       ->check(above(0));
   app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();

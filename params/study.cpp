@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "base/error.h"
+#include "base/file_versions.h"
 #include "base/text.h"
 #include "params/encode_limits.h"
 #include "params/hash.h"
@@ -196,7 +199,7 @@ std::string Case::snapshot_hash() const {
 }
 
 std::string Case::hash() const {
-  std::string text = snapshot_hash() + " field 2";  // the version of the file that is made
+  std::string text = snapshot_hash() + " field " + std::to_string(field_version);
   for (const std::string& argument : encode.arguments()) text += " " + argument;
   return sha256(text).substr(0, 16);
 }
@@ -261,6 +264,34 @@ std::string case_file_text(const Case& a_case) {
   else
     text += "tolerance = " + shortest(encode.tolerance) + "\n";
   return text;
+}
+
+std::string with_settings(const Study& study, const std::vector<std::pair<std::string, double>>& values,
+                          double tolerance) {
+  toml::table file = toml::parse(study.text);
+  const auto section = [](toml::table& parent, std::string_view name) -> toml::table& {
+    return *parent.insert(name, toml::table{}).first->second.as_table();
+  };
+  toml::table& a_case = section(file, "case");
+  for (const auto& [name, value] : values) {
+    const auto dot = name.find('.');
+    a_case.erase(name);  // as one quoted key
+    section(a_case, name.substr(0, dot)).insert_or_assign(name.substr(dot + 1), value);
+  }
+  toml::table& encode = section(file, "encode");
+  encode.erase("control_points");
+  encode.insert_or_assign("tolerance", tolerance);
+  std::ostringstream text;
+  text << file << "\n";
+  // Numbers in all their digits, 0.10000000000000001, in the fewest that say the same.
+  const std::regex digits(R"(\d+\.\d{15,}(e[+-]?\d+)?)");
+  std::string shown, all = text.str();
+  auto from = all.cbegin();
+  for (std::sregex_iterator it(all.begin(), all.end(), digits), end; it != end; ++it) {
+    shown.append(from, (*it)[0].first).append(shortest(std::stod(it->str())));
+    from = (*it)[0].second;
+  }
+  return shown.append(from, all.cend());
 }
 
 }  // namespace cleft

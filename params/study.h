@@ -89,4 +89,9 @@ std::vector<Case> cases_of(const Study& study);
 /// Text of a case file that read_case resolves to the same case: every parameter, with its unit.
 std::string case_file_text(const Case& a_case);
 
+/// The study's file with other values of some parameters of its [case] and another tolerance; comments are
+/// lost.
+std::string with_settings(const Study& study, const std::vector<std::pair<std::string, double>>& values,
+                          double tolerance);
+
 }  // namespace cleft

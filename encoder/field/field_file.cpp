@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/file_versions.h"
 #include "base/h5.h"
 #include "base/output_file.h"
 #include "encoder/field/field_record.h"
@@ -12,7 +13,7 @@ namespace cleft {
 
 namespace {
 
-const FileFormat format{"cleft-field", 3, "field file", "cleft encode"};
+const FileFormat format{"cleft-field", field_version, "field file", "cleft encode"};
 
 std::string residual_of_quantity(std::size_t index) {
   return "/residual_of_quantity_" + std::to_string(index);
@@ -86,6 +87,12 @@ FieldRecord read_field_record(const std::string& path) {
 
 Field read_field(const std::string& path) {
   return told_of_file(path, [&] { return field_of(read_field_record(path)); });
+}
+
+bool is_older_field(const std::string& path) {
+  const h5::File file = h5::File::open(path);
+  return file.has_attribute("/", "format") && file.read_text("/", "format") == format.name &&
+         file.read_number("/", "version") < format.version;
 }
 
 std::map<std::string, double> read_field_parameters(const std::string& path) {

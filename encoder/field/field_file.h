@@ -20,6 +20,10 @@ void write_field(const std::string& path, const Field& field, const NodeResidual
 /// Reads and checks a field file; throws FileError naming what is missing, damaged or out of range.
 Field read_field(const std::string& path);
 
+/// Whether it is of a format that an earlier version of this program wrote, and this one does not read.
+/// Throws FileError where it is no HDF5 file.
+bool is_older_field(const std::string& path);
+
 /// The case's parameters alone, by dotted name: coefficients stay on disk.
 std::map<std::string, double> read_field_parameters(const std::string& path);
 

@@ -15,12 +15,13 @@ constexpr double told = 2e-3;  // mm: smaller motions of the skin are not felt
 }  // namespace
 
 ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, const std::optional<ScalpelPath>& path,
-                               std::optional<Field> field, double scale)
-    : scale_(scale), field_(std::move(field)) {
+                               std::optional<CutFields> fields, double scale)
+    : scale_(scale), fields_(std::move(fields)) {
   SurfaceMesh felt = mesh;
   if (path) {
     incision_.emplace(mesh, *path);
     felt = incision_->mesh().surface();
+    if (fields_) field_ = fields_->along(*incision_, scale_);
   }
   for (Vec3& p : felt.points) p *= scale_;
   surface_ = std::make_unique<ContactSurface>(felt.points, felt.triangles);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
+#include "explorer/scene/cut_fields.h"
 #include "explorer/scene/live_replay.h"
 #include "haptic/contact_surface.h"
 #include "haptic/loop.h"
@@ -28,10 +28,10 @@ struct CuttingFigures {
 
 class ScalpelCutting {
  public:
-  /// Without a path the mesh is felt and never cut; without a field cuts stay closed. `scale`: mm per mesh
+  /// Without a path the mesh is felt and never cut; without fields cuts stay closed. `scale`: mm per mesh
   /// unit. Throws InputError where the path does not meet the mesh.
-  ScalpelCutting(const SurfaceMesh& mesh, const std::optional<ScalpelPath>& path, std::optional<Field> field,
-                 double scale);
+  ScalpelCutting(const SurfaceMesh& mesh, const std::optional<ScalpelPath>& path,
+                 std::optional<CutFields> fields, double scale);
 
   const ContactSurface& surface() const { return *surface_; }  ///< in mm
   double cut_length() const;                                   ///< mm
@@ -51,7 +51,8 @@ class ScalpelCutting {
   void tell();
 
   double scale_;
-  std::optional<Field> field_;
+  std::optional<CutFields> fields_;
+  std::optional<VaryingField> field_;  // of the path
   std::optional<Incision> incision_;
   std::unique_ptr<ContactSurface> surface_;
   std::unique_ptr<LiveReplay> opening_;  // from the first cut on

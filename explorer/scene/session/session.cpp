@@ -107,13 +107,21 @@ std::shared_ptr<const WoundScene> Session::scene_of(int i) {
                 [&](const auto& s) { return std::find(shown.begin(), shown.end(), s.first) == shown.end(); });
   auto& found = scenes_[i];
   if (found) return found;
-  const std::shared_ptr<const Field> field = study_ ? study_->field(i) : nullptr;
   constexpr double depth_without_study = 3;
-  if (mesh_)
-    found = std::make_shared<MeshScene>(cut_surface(field ? field->cut().depth : depth_without_study), field);
-  else
-    found = std::make_shared<PatchScene>(field);
+  if (mesh_) {
+    const std::optional<CutFields> fields = cut_fields(i);
+    found = std::make_shared<MeshScene>(
+        cut_surface(fields ? fields->shape().cut().depth : depth_without_study), fields);
+  } else {
+    found = std::make_shared<PatchScene>(study_->field(i));
+  }
   return found;
+}
+
+std::optional<CutFields> Session::cut_fields(int i) {
+  if (!study_) return std::nullopt;
+  if (!state_.tension) return CutFields(study_->field(i));
+  return CutFields(std::make_shared<const PrestressFields>(*study_, i), state_.tension);
 }
 
 double Session::duration() {
@@ -258,7 +266,7 @@ void Session::read_mesh_in_mm() {
 void Session::load_mesh(const std::string& file, double scale) {
   state_.mesh = absolute(file);
   state_.scale = scale;
-  state_.cuts.clear(), state_.undone.clear();
+  state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
   read_mesh_in_mm();
   state_.coloring = Coloring::tissue;
   state_.camera = {};
@@ -268,7 +276,7 @@ void Session::load_mesh(const std::string& file, double scale) {
 
 void Session::show_patch() {
   open_study();
-  state_.mesh.clear(), state_.cuts.clear(), state_.undone.clear();
+  state_.mesh.clear(), state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
   mesh_.reset();
   state_.coloring = Coloring::displacement;
   state_.camera = {};
@@ -295,6 +303,15 @@ void Session::recut(const CutState& cut) {
   if (state_.cuts.empty()) throw InputError("there is no cut yet (say: cut ...)");
   state_.cuts.back() = cut;
   cuts_changed();
+}
+
+void Session::pull(const std::optional<SkinTension>& tension) {
+  if (tension) open_study();
+  if (tension && !mesh_) throw InputError("there is no skin to pull (say: mesh FILE)");
+  state_.tension = tension;
+  scenes_.clear();
+  set_time(state_.time);  // makes the scenes, and throws where they cannot be made
+  changes_.cuts = true;
 }
 
 void Session::undo() {

@@ -10,6 +10,7 @@
 
 #include "explorer/incision/surface_mesh.h"
 #include "explorer/scene/case_figures.h"
+#include "explorer/scene/cut_fields.h"
 #include "explorer/scene/cut_surface.h"
 #include "explorer/scene/find/find.h"
 #include "explorer/scene/session/session_state.h"
@@ -95,6 +96,8 @@ class Session {
   void show_patch();
   void cut(const CutState& cut);
   void recut(const CutState& cut);
+  /// The skin's tension, against which cuts turn; none: as in the shown case, whichever way a cut goes.
+  void pull(const std::optional<SkinTension>& tension);
   void undo();
   void redo();
   void set_time(double t);
@@ -114,6 +117,7 @@ class Session {
   void take_parameters();
   void cuts_changed();
   std::shared_ptr<const CutSurface> cut_surface(double depth);
+  std::optional<CutFields> cut_fields(int i);
   void notify();
 
   SessionServices services_;
