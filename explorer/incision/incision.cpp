@@ -163,7 +163,7 @@ void Incision::check_progress() const {
 
 void Incision::mend(const CutMesh::Checkpoint& since) {
   mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, 5 * asked_));
-  mend_slivers(mesh_, mesh_.changed_since(since), 2 * asked_, chord_tolerance_ / 10);
+  bent_ |= mend_slivers(mesh_, mesh_.changed_since(since), 2 * asked_, chord_tolerance_ / 10);
   const double least = 1e-4 * std::min(0.1, worst_before_);
   for (const int t : mesh_.changed_since(since))
     if (mesh_.triangle(t).region == Region::skin && radius_ratio(mesh_, t) < least)

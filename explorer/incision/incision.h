@@ -60,6 +60,8 @@ class Incision {
   bool left_mesh() const { return state_.left_mesh; }
   int original_triangles() const { return original_triangles_; }
   int moved_vertices() const;
+  /// Whether slivers were mended across a bend, which moves the surface by up to chord_tolerance / 10.
+  bool bent() const { return bent_; }
 
   /// The triangles that the last advance_to, undo or redo has changed, added or taken away (the latter are
   /// out of range), in no order: what a structure over the mesh's triangles has to take in again.
@@ -142,6 +144,7 @@ class Incision {
   double worst_before_;  // radius ratio
   double asked_;         // radius ratio of triangles that the cut makes, at least
   int rows_ = 3;
+  bool bent_ = false;
   std::vector<ChainVertex> chain_;
   Surroundings surroundings_;
 
