@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "encoder/field/field_file.h"
 #include "explorer/io/mesh_file.h"
+#include "explorer/scene/hand_script.h"
 #include "explorer/scene/path_file.h"
 #include "explorer/scene/scalpel_cutting.h"
 #include "haptic/bare_timer.h"
@@ -46,55 +47,10 @@ double snapshot_stiffness(const std::string& file) {
   throw FileError(file, "has no compliance of the skin (imported data have none): give --stiffness");
 }
 
-double stiffness(const Options& o, const std::optional<Field>& field) {
+double stiffness(const Options& o, const Field* field) {
   if (o.stiffness > 0) return o.stiffness;
   if (!o.snapshot.empty()) return snapshot_stiffness(o.snapshot);
   return field ? surface_stiffness(*field) : ForceParameters{}.stiffness;
-}
-
-/// mm; `height` above the path's place s.
-ScalpelPose over(const ScalpelPath& path, double scale, double s, double height) {
-  const PathFrame frame = path.at(s);
-  ScalpelPose pose;
-  pose.tip = scale * frame.position + height * frame.outward;
-  pose.axis = frame.outward;
-  pose.edge = frame.along;
-  return pose;
-}
-
-ScalpelPose above_middle(const SurfaceMesh& mesh, double scale) {
-  Vec3 low = mesh.points.front(), high = low;
-  for (const Vec3& p : mesh.points)
-    for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
-  ScalpelPose pose;
-  pose.tip = scale * Vec3{(low.x + high.x) / 2, (low.y + high.y) / 2, high.z} + Vec3{0, 0, 10};
-  return pose;
-}
-
-/// Down onto the path's start, through the skin, along the path at its depth, and up again.
-std::vector<HandTarget> hand_along(const ScalpelPath& path, const Options& o, const HandParameters& hand,
-                                   const ForceParameters& force) {
-  std::vector<HandTarget> script;
-  double time = 0;
-  const auto go = [&](double seconds, double s, double height) {
-    time += seconds;
-    script.push_back({time, over(path, o.scale, s, height)});
-  };
-  // The grip and the skin give way until the skin holds no longer.
-  const double through = 1.2 * force.puncture_force * (1 / hand.stiffness + 1 / force.stiffness) + 1;
-  go(0, 0, 10);
-  go(10 / 40., 0, 1);
-  go(through / 40, 0, -through);
-  go(0.2, 0, -through);
-  go(0.2, 0, -o.scale * path.depth(0));
-  const int pieces = std::max(1, static_cast<int>(std::ceil(path.length() * o.scale)));
-  for (int k = 1; k <= pieces; ++k) {
-    const double s = path.length() * k / pieces;
-    go(path.length() * o.scale / pieces / o.speed, s, -o.scale * path.depth(s));
-  }
-  go(0.3, path.length(), 15);
-  go(0.2, path.length(), 15);
-  return script;
 }
 
 Json quantiles_us(const TimeHistogram& h) {
@@ -125,6 +81,7 @@ Json figures_of(const HapticLoop& loop, const TimeHistogram& bare, const Scalpel
       {"energy_created_Nmm", loop.passivity().created()},
       {"punctures", loop.state().punctures},
       {"last_puncture_N", loop.model().last_puncture_force()},
+      {"cuts", cutting.incisions()},
       {"cut_mm", cutting.cut_length()},
       {"triangles_cut", c.triangles_cut},
       {"cut_steps", c.cuts},
@@ -148,26 +105,26 @@ void haptic(const Options& o) {
   refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.snapshot, o.trajectory});
   std::optional<OutputFile> probe;
   if (!o.record.empty()) probe.emplace(o.record);  // a bad name is told before the work
-  std::optional<Field> field;
-  if (!o.field.empty()) field = read_field(o.field);
+  std::shared_ptr<const Field> field;
+  if (!o.field.empty()) field = std::make_shared<Field>(read_field(o.field));
   const SurfaceMesh mesh = read_mesh(o.mesh);
   std::optional<ScalpelPath> path;
-  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field ? &*field : nullptr);
+  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field.get());
 
   ForceParameters force;
-  force.stiffness = stiffness(o, field);
+  force.stiffness = stiffness(o, field.get());
   DeviceRequest request;
   request.trajectory = o.trajectory;
   request.hand.delay = 1e-3 * o.delay;
   request.hand.period = 1 / o.rate;
-  request.start = path ? over(*path, o.scale, 0, 10) : above_middle(mesh, o.scale);
-  if (path) request.script = hand_along(*path, o, request.hand, force);
+  request.start = path ? pose_over(*path, o.scale, 0, 10) : pose_above(mesh, o.scale);
+  if (path) request.script = hand_along(*path, o.scale, o.speed, request.hand, force);
   const std::unique_ptr<Device> device = make_device(o.device, request);
   double seconds = o.seconds > 0 ? o.seconds : 10;
   if (o.seconds <= 0 && o.device == "hand") seconds = request.script.back().time;
   if (o.seconds <= 0 && o.device == "recorded") seconds = static_cast<Recorded&>(*device).duration();
 
-  ScalpelCutting cutting(mesh, path, std::move(field), o.scale);
+  ScalpelCutting cutting(mesh, {path, {}, field, o.scale, o.depth});
   LoopOptions options;
   options.rate = o.rate;
   options.measure = true;
@@ -208,9 +165,11 @@ int main(int argc, char** argv) {
   app.add_option("--device", o.device, "hand (simulated), recorded, spacemouse, gamepad or phantom")
       ->capture_default_str();
   app.add_option("--path", o.path,
-                 "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where cuts go");
+                 "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where the cut goes "
+                 "[wherever the scalpel does]");
   app.add_option("--field", o.field, "field file case.dffd that opens the cut");
-  app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
+  app.add_option("--depth", o.depth,
+                 "depth of the cut, mm [the path's column, else the field's; without a path the scalpel's]")
       ->check(above(0));
   app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
   app.add_option("--seconds", o.seconds, "how long, s [the hand's or the recording's time, else 10]")

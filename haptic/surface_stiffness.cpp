@@ -8,7 +8,7 @@
 namespace cleft {
 
 namespace {
-constexpr double radius = 2;  // mm, of the disc: docs/formats.md
+constexpr double radius = stiffness_radius;
 }
 
 double stiffness_from_compliance(double compliance) {

@@ -5,6 +5,8 @@
 
 namespace cleft {
 
+constexpr double stiffness_radius = 2;  ///< mm, of the disc: docs/formats.md
+
 /// N/mm, from the compliance c (mm/MPa) of the surface's middle under a disc of 2 mm radius that a snapshot
 /// holds: the force pi a^2 p sinks the disc by c p.
 double stiffness_from_compliance(double compliance);
