@@ -137,7 +137,12 @@ void ForceModel::follow_skin(const Vec3& tip) {
 double ForceModel::engagement(const Vec3& tip) {
   const double thickness = p_.blade_half_thickness;
   const NearestPoint p = reader_.nearest(tip, 4 * thickness);
-  if (!p) return engaged_;  // far from all surface: as before, in or out
+  if (!p) {  // far from all surface: as before, in or out, but for what was passed in one leap
+    const SurfaceHit in = reader_.first_contact(last_tip_, tip, Facing::front),
+                     out = reader_.first_contact(last_tip_, tip, Facing::back);
+    if (in || out) return !out || (in && in.fraction > out.fraction) ? 1 : 0;
+    return engaged_;
+  }
   if (p.distance <= thickness) return 1;
   return std::max(0., 2 - p.distance / thickness);
 }

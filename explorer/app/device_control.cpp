@@ -115,7 +115,6 @@ void DeviceControl::tick() {
     ticks_ = state_.tick;
     since_rate_.restart();
   }
-  watch_presence();
   const auto moment = scalpel_->moment();
   if (scene_ && scene_->has_surface_of(*moment))
     scene_->show(moment);
@@ -123,7 +122,9 @@ void DeviceControl::tick() {
     scene_ = std::make_shared<LiveScene>(moment, session_.scene()->surface());
   scene_->dent(state_);
   widget_.show_live(scene_, &state_);
-  say_cuts(scalpel_->ended_cuts());
+  const auto ended = scalpel_->ended_cuts();
+  say_cuts(ended);
+  watch_presence(!ended.empty());
   if (const std::string why = scalpel_->stopped(); !why.empty()) tell_(why);
 }
 
@@ -134,8 +135,10 @@ void DeviceControl::say_cuts(const std::vector<LiveScalpel::Places>& cuts) {
   own_ = false;
 }
 
-void DeviceControl::watch_presence() {
-  if (state_.tick == 0 || state_.pose.present == present_ || name_ == "mouse") return;
+/// `again`: what was told has been wiped away by a line.
+void DeviceControl::watch_presence(bool again) {
+  const bool changed = state_.pose.present != present_;
+  if (state_.tick == 0 || name_ == "mouse" || !(changed || (again && !present_))) return;
   present_ = state_.pose.present;
   tell_(present_ ? "" : "the " + name_ + " is gone: nothing is cut until it is plugged in again");
 }
@@ -146,7 +149,8 @@ void DeviceControl::move_mouse(double seconds) {
   if (!mouse || !place_) return;
   const double through = forces(session_.field()).puncture_force / forces(session_.field()).stiffness;
   const double deepest = std::max(1.1 * through, session_.depth_of_case(session_.state().shown));
-  const double step = sinking * seconds;
+  // What is met is met on the way down: it begins above the skin, and slow pictures are no leaps.
+  const double step = state_.pose.present ? sinking * std::min(seconds, 0.05) : 0;
   height_ = std::clamp(pressed_ ? height_ - step : height_ + 4 * step, -deepest, hover);
   ScalpelPose pose;
   pose.axis = place_->outward;

@@ -36,7 +36,7 @@ class DeviceControl : public Panel {
   void put_away();
   void tick();
   void say_cuts(const std::vector<LiveScalpel::Places>& cuts);
-  void watch_presence();
+  void watch_presence(bool again);
   void move_mouse(double seconds);
 
   Session& session_;

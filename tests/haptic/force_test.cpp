@@ -155,6 +155,20 @@ TEST(Force, PunctureThresholdRampAndExit) {
   EXPECT_EQ(led.loop.state().phase, Phase::contact);
 }
 
+TEST(Force, OneLeapOutOfTheTissueIsOut) {
+  const auto s = testing::flat(20, 1);
+  const ContactSurface surface(s.points, s.triangles);
+  Led led(surface);
+  led.to({0.3, 0.2, 1});
+  led.go({0.3, 0.2, -5}, 20);
+  led.rest(100);
+  ASSERT_EQ(led.loop.state().phase, Phase::cutting);
+  led.to({0.3, 0.2, 4});  // from far under the skin to far above it
+  EXPECT_EQ(led.rest(50).phase, Phase::free);
+  led.go({0.3, 0.2, -1}, 10);
+  EXPECT_EQ(led.loop.state().phase, Phase::contact) << "and it can be felt again";
+}
+
 TEST(Force, WithoutTheButtonNothingIsPunctured) {
   const auto s = testing::flat(20, 1);
   const ContactSurface surface(s.points, s.triangles);
