@@ -143,9 +143,8 @@ void haptic(const Options& o) {
     constexpr std::int64_t frame = clock_second / 60;
     for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !over;
          due = std::max(due, clock_time(CLOCK_MONOTONIC) - frame)) {
-      const HapticState& state = loop.for_cutting().read();
-      cutting.step(state);
-      progress(shortest(std::round(10 * state.time) / 10) + " s");
+      cutting.step(loop.for_cutting());
+      progress(shortest(std::round(10 * loop.for_view().read().time) / 10) + " s");
       sleep_until(due += frame);
     }
   }

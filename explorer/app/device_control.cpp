@@ -70,6 +70,7 @@ void DeviceControl::take(const std::string& name, const std::string& file) {
       pressed_ = pressed;
     };
   widget_.setMouseTracking(name == "mouse");
+  widget_.keep_camera();
   begin();
 }
 

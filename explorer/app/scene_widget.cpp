@@ -126,7 +126,7 @@ bool SceneWidget::press(int x, int y) {
   view_ = stage_->view_at(x, y);
   blade_.clear();
   if (view_ < 0 || !add_point(x, y)) return false;  // beside the skin the picture is turned
-  if (!session_.state().camera.pose) say_camera();  // angles count from the first cut: the picture stays
+  keep_camera();
   since_drawn_.start();
   return pressed_ = true;
 }

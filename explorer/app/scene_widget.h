@@ -30,6 +30,10 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   void set_tilt(double tilt) { tilt_ = tilt; }
   /// Of the last picture, points and drawing.
   double frame_seconds() const { return frame_seconds_; }
+  /// Cuts do not turn the picture from now on: angles count from the first cut.
+  void keep_camera() {
+    if (!session_.state().camera.pose) say_camera();
+  }
   std::function<void()> drawn;  ///< called after every picture
   /// Where there is one it is told which place of the skin the mouse is over, and whether it is pressed.
   std::function<void(const std::optional<WoundView::Place>& place, bool pressed)> pointed;

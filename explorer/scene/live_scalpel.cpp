@@ -33,7 +33,7 @@ void LiveScalpel::follow() {
   constexpr std::int64_t frame = clock_second / 60;
   for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !stop_;
        due = std::max(due, clock_time(CLOCK_MONOTONIC) - frame)) {
-    cutting_.step(loop_.for_cutting().read());
+    cutting_.step(loop_.for_cutting());
     tell();
     sleep_until(due += frame);
   }

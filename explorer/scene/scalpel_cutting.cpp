@@ -61,13 +61,25 @@ double ScalpelCutting::cut_length() const {
   return length;
 }
 
-void ScalpelCutting::step(const HapticState& scalpel) {
-  ++figures_.steps;
-  if (!setup_.path)
-    follow_scalpel(scalpel);
-  else if (const double s = reached(scalpel); s > wounds_.back().incision->tip() && figures_.stopped.empty())
-    cut([&] { wounds_.back().incision->advance_to(s); });
+void ScalpelCutting::step(TickQueue<HapticState>& ticks) {
+  HapticState scalpel;
+  bool any = false;
+  for (; ticks.pop(scalpel); any = true)
+    setup_.path ? follow_path(scalpel, piece / setup_.scale) : follow_scalpel(scalpel);
+  if (any && setup_.path) follow_path(scalpel, 0);
   open();
+}
+
+void ScalpelCutting::step(const HapticState& scalpel) {
+  setup_.path ? follow_path(scalpel, 0) : follow_scalpel(scalpel);
+  open();
+}
+
+/// Along the path that was given, by more than `least`.
+void ScalpelCutting::follow_path(const HapticState& scalpel, double least) {
+  const double s = reached(scalpel);
+  if (s > incision()->tip() + least && figures_.stopped.empty())
+    cut([&] { wounds_.back().incision->advance_to(s); });
 }
 
 /// Arc length of the path, mesh units, that the blade has come to; 0 where it does not cut.
@@ -133,6 +145,10 @@ void ScalpelCutting::cut_on_to(const ScalpelPath::Point& at) {
     if (cutting_) cut([&] { lead_on(at); });
   } else if (cutting_ && leads_on(at)) {
     cut([&] { lead_on(at); });
+  } else if (cutting_ &&
+             setup_.scale * norm(at.position - incision()->path().at(incision()->led()).position) > beside) {
+    end_cut();  // it has turned back, or leapt: that is another cut
+    entered_ = at;
   }
 }
 
@@ -211,6 +227,7 @@ void ScalpelCutting::take_in_changes() {
 }
 
 void ScalpelCutting::open() {
+  ++figures_.steps;
   if (!setup_.field || wounds_.empty()) return;
   Stopwatch watch;
   for (Wound& wound : wounds_)

@@ -58,6 +58,8 @@ class ScalpelCutting {
 
   /// Cuts to where the scalpel is, if it cuts, and opens the wounds.
   void step(const HapticState& scalpel);
+  /// The same for all that the loop has done since the last time: the way between is known.
+  void step(TickQueue<HapticState>& ticks);
   /// A place of a blade that nobody feels, of the skin at rest, mesh units: cuts there from the one before.
   void cut_at(const ScalpelPath::Point& place);
   void end_cut();
@@ -73,6 +75,7 @@ class ScalpelCutting {
   void add_wound(const ScalpelPath& path, const IncisionOptions& options);
   double reached(const HapticState& scalpel) const;
   std::optional<ScalpelPath::Point> contact(const HapticState& scalpel);
+  void follow_path(const HapticState& scalpel, double least);
   void follow_scalpel(const HapticState& scalpel);
   void cut_on_to(const ScalpelPath::Point& at);
   void begin_cut(const ScalpelPath::Point& first, const ScalpelPath::Point& next);

@@ -66,7 +66,7 @@ Trial cut(int rings, const std::shared_ptr<const Field>& field, double depth) {
   const double end = 1 + path.length() / speed;
   for (int tick = 0; loop.state().time < hand.duration(); ++tick) {
     loop.update(1e-3);
-    if (tick % 16 == 0) cutting.step(loop.for_cutting().read());
+    if (tick % 16 == 0) cutting.step(loop.for_cutting());
     const double t = loop.state().time;
     trial.left_early += t > 1 && t < end && loop.state().phase != Phase::cutting;
   }
