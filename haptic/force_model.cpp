@@ -133,16 +133,30 @@ void ForceModel::follow_skin(const Vec3& tip) {
   depth_ = std::max(0., dot(proxy_.position - tip, proxy_.normal));
 }
 
+/// Whether the tip is in tissue after all that it has passed since the last tick. The two walls of a closed
+/// wound lie on each other and change nothing.
+double ForceModel::after_leap(const Vec3& tip) const {
+  constexpr int most = 8;
+  const Vec3 way = tip - last_tip_;
+  const double tie = touching / std::max(norm(way), touching);
+  double inside = engaged_, passed = 0;
+  for (int k = 0; k < most && passed < 1; ++k) {
+    const Vec3 from = last_tip_ + passed * way;
+    const SurfaceHit in = reader_.first_contact(from, tip, Facing::front),
+                     out = reader_.first_contact(from, tip, Facing::back);
+    if (!in && !out) break;
+    const double first = in ? in.fraction : 2, second = out ? out.fraction : 2;
+    if (std::abs(first - second) > tie) inside = first < second ? 1 : 0;
+    passed += (1 - passed) * std::min(first, second) + 2 * tie;
+  }
+  return inside;
+}
+
 /// 1 in tissue and between walls that touch the blade, 0 in the air and in a wound wide open.
 double ForceModel::engagement(const Vec3& tip) {
   const double thickness = p_.blade_half_thickness;
   const NearestPoint p = reader_.nearest(tip, 4 * thickness);
-  if (!p) {  // far from all surface: as before, in or out, but for what was passed in one leap
-    const SurfaceHit in = reader_.first_contact(last_tip_, tip, Facing::front),
-                     out = reader_.first_contact(last_tip_, tip, Facing::back);
-    if (in || out) return !out || (in && in.fraction > out.fraction) ? 1 : 0;
-    return engaged_;
-  }
+  if (!p) return after_leap(tip);  // far from all surface: as before, but for what was passed at once
   if (p.distance <= thickness) return 1;
   return std::max(0., 2 - p.distance / thickness);
 }
