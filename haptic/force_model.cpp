@@ -133,21 +133,18 @@ void ForceModel::follow_skin(const Vec3& tip) {
   depth_ = std::max(0., dot(proxy_.position - tip, proxy_.normal));
 }
 
-/// Whether the tip is in tissue after all that it has passed since the last tick. The two walls of a closed
-/// wound lie on each other and change nothing.
+/// Whether the tip is in tissue after all the skin that it has passed since the last tick. Walls do not
+/// count: those of a wound that is hardly open lie on each other, and the blade has just made them.
 double ForceModel::after_leap(const Vec3& tip) const {
   constexpr int most = 8;
   const Vec3 way = tip - last_tip_;
-  const double tie = touching / std::max(norm(way), touching);
+  const double on = 2 * touching / std::max(norm(way), touching);
   double inside = engaged_, passed = 0;
   for (int k = 0; k < most && passed < 1; ++k) {
-    const Vec3 from = last_tip_ + passed * way;
-    const SurfaceHit in = reader_.first_contact(from, tip, Facing::front),
-                     out = reader_.first_contact(from, tip, Facing::back);
-    if (!in && !out) break;
-    const double first = in ? in.fraction : 2, second = out ? out.fraction : 2;
-    if (std::abs(first - second) > tie) inside = first < second ? 1 : 0;
-    passed += (1 - passed) * std::min(first, second) + 2 * tie;
+    const SurfaceHit hit = reader_.first_contact(last_tip_ + passed * way, tip, Facing::any);
+    if (!hit) break;
+    if (!hit.wall) inside = dot(hit.normal, way) < 0 ? 1 : 0;
+    passed += (1 - passed) * hit.fraction + on;
   }
   return inside;
 }
