@@ -50,7 +50,7 @@ TEST(LiveScalpel, TellsMomentsAndEndedCuts) {
   EXPECT_EQ(first->surface->triangles.size(), sheet.triangles.size());
   for (double z = 2; z > -5; z -= 0.2) move(-8, z);
   for (double x = -8; x < 8; x += 0.2) move(x, -5);
-  for (int tries = 0; tries < 500 && scalpel.moment()->cut_length < 13; ++tries) move(8, -5);
+  for (int tries = 0; tries < 5000 && scalpel.moment()->cut_length < 13; ++tries) move(8, -5);
   EXPECT_GT(scalpel.moment()->cut_length, 13);
   EXPECT_GT(scalpel.moment()->surface->triangles.size(), sheet.triangles.size());
   EXPECT_TRUE(scalpel.ended_cuts().empty()) << "the blade is still in";
