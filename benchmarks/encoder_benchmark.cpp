@@ -8,10 +8,10 @@
 #include <random>
 
 #include "base/stopwatch.h"
-#include "benchmarks/encoder/node_data.h"
+#include "tradeoff/rivals/node_data.h"
 #include "benchmarks/encoder/ours.h"
 #include "benchmarks/encoder/pod_rival.h"
-#include "benchmarks/encoder/zfp_rival.h"
+#include "tradeoff/rivals/zfp_rival.h"
 
 using namespace cleft;
 

@@ -22,12 +22,19 @@ void check_study_file(const std::string& file) {
   h5::File::open(file).read_everything();
 }
 
+void check_field_file(const std::string& file) {
+  const Field field = read_field(file);
+  read_residual(file);
+  for (std::size_t q = 0; q < field.quantities.size(); ++q) read_quantity_residual(file, q);
+  h5::File::open(file).read_everything();
+}
+
 void check_file(const std::string& file) {
   const std::string format = format_of(file);
   if (format == "cleft-snapshot")
     check_snapshot(file);
   else if (format == "cleft-field")
-    read_field(file), read_residual(file), h5::File::open(file).read_everything();
+    check_field_file(file);
   else if (format == "cleft-study")
     check_study_file(file);
   else
@@ -81,10 +88,14 @@ std::string check_study(const std::string& path) {
   const StudyFolder folder(path);
   Mistakes mistakes;
   std::size_t without = 0;
+  std::vector<std::string> older;
   for (const std::string& hash : folder.published_cases())
     mistakes.collect([&] {
       folder.verify(hash);
-      check_file(folder.published(hash) + "/case.dffd");
+      if (const std::string field = folder.published(hash) + "/case.dffd"; is_older_field(field))
+        older.push_back(hash);
+      else
+        check_file(field);
       if (folder.manifest(hash).value("snapshot", "kept") == "dropped")
         ++without;
       else
@@ -93,9 +104,11 @@ std::string check_study(const std::string& path) {
   if (const std::string packed = path + "/study.dffd"; std::filesystem::exists(packed))
     mistakes.collect([&] { check_packed(packed, path); });
   mistakes.throw_if_any();
-  return without > 0
-             ? "sound; " + std::to_string(without) + " cases without raw data (keep_snapshots = \"none\")"
-             : "sound";
+  std::string verdict = "sound";
+  if (without > 0)
+    verdict += "; " + std::to_string(without) + " cases without raw data (keep_snapshots = \"none\")";
+  if (!older.empty()) verdict += "; " + note_of_older(path, older);
+  return verdict;
 }
 
 void check_all(const std::vector<std::string>& places) {

@@ -25,6 +25,8 @@ const std::vector<Command> commands = {
     {"info", "what a file holds"},
     {"check", "verify files and studies"},
     {"find", "cases where a condition holds"},
+    {"advise", "settings for an error"},
+    {"chart", "speed against accuracy"},
     {"export", "write files for ParaView"},
     {"import", "take another program's series"},
     {"pack", "a study's fields in one file"},

@@ -1,5 +1,8 @@
 // cleft info: what a snapshot, a field or a study file holds.
+#include <algorithm>
 #include <filesystem>
+#include <iostream>
+#include <sstream>
 
 #include "base/command.h"
 #include "base/error.h"
@@ -86,7 +89,11 @@ Json info_of_field(const std::string& file) {
     info["quantities"].push_back({{"name", quantity.name},
                                   {"components", quantity.components},
                                   {"largest", quantity.largest},
-                                  {"error", quantity.error}});
+                                  {"error", quantity.error},
+                                  {"spline_error", quantity.spline_error}});
+  for (const ParameterDerivative& one : field.by_parameter)
+    info["by_parameter"].push_back(
+        {{"parameter", one.parameter}, {"largest", one.largest}, {"error", one.error}});
   if (const std::string raw = raw_data_beside(file); !raw.empty()) info["raw_data"] = raw;
   if (field.interpolation) info["interpolation"] = list_of(*field.interpolation);
   return info;
@@ -109,6 +116,65 @@ Json info_of_study(const std::string& file) {
           {"list", cases}};
 }
 
+std::string text_of(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+/// Names of parameters that are not the same in all cases.
+std::vector<std::string> varying_of(const Json& cases) {
+  std::vector<std::string> names;
+  if (cases.empty()) return names;
+  for (const auto& [name, value] : cases.front()["parameters"].items())
+    if (std::any_of(cases.begin(), cases.end(), [&, &key = name, &first = value](const Json& one) {
+          return one["parameters"].value(key, Json()) != first;
+        }))
+      names.push_back(name);
+  return names;
+}
+
+/// A line for each case, in columns; of many cases and parameters, the first ones.
+void print_cases(const Json& cases) {
+  constexpr std::size_t most_cases = 40, most_parameters = 5;
+  std::vector<std::string> varying = varying_of(cases);
+  const std::size_t further = varying.size() - std::min(varying.size(), most_parameters);
+  varying.resize(varying.size() - further);
+  std::vector<std::vector<std::string>> rows = {{"case", "bytes", "node_error"}};
+  rows[0].insert(rows[0].end(), varying.begin(), varying.end());
+  for (std::size_t i = 0; i < std::min(cases.size(), most_cases); ++i) {
+    const Json& one = cases[i];
+    auto& row = rows.emplace_back();
+    row = {text_of(one["name"]), text_of(one["bytes"]), rounded(one["report"]["node_error"].get<double>())};
+    for (const std::string& name : varying) row.push_back(text_of(one["parameters"].value(name, Json("-"))));
+  }
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      std::size_t width = 0;
+      for (const auto& other : rows) width = std::max(width, other[c].size());
+      line += (c > 0 ? "  " : "") + row[c] + std::string(width - row[c].size(), ' ');
+    }
+    std::cout << line.substr(0, line.find_last_not_of(' ') + 1) << "\n";
+  }
+  if (cases.size() > most_cases) std::cout << "... and " << cases.size() - most_cases << " more cases";
+  if (further > 0)
+    std::cout << (cases.size() > most_cases ? "; " : "... and ") << further << " more parameters that differ";
+  if (cases.size() > most_cases || further > 0) std::cout << " (--json prints all)\n";
+}
+
+/// A study's cases are a table where people read.
+void print_info(Json info, bool as_json) {
+  if (as_json || !info.contains("list")) return print_figures(info, as_json);
+  const Json cases = info["list"];
+  info.erase("list");
+  print_figures(info, false);
+  print_cases(cases);
+}
+
 Json info_of(const std::string& file) {
   const std::string format = format_of(file);
   if (format == "cleft-snapshot") return info_of_snapshot(file);
@@ -125,5 +191,5 @@ int main(int argc, char** argv) {
   bool json = false;
   app.add_option("FILE", file, "case.h5, case.dffd or study.dffd")->required();
   app.add_flag("--json", json, "print as JSON");
-  return run_command(app, argc, argv, [&] { print_figures(info_of(file), json); });
+  return run_command(app, argc, argv, [&] { print_info(info_of(file), json); });
 }

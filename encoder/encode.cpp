@@ -9,6 +9,7 @@
 #include "encoder/knot_search.h"
 #include "encoder/lips.h"
 #include "encoder/measure.h"
+#include "encoder/parameter_derivatives.h"
 #include "encoder/quantities.h"
 #include "encoder/series_fit.h"
 #include "encoder/supported_rungs.h"
@@ -46,7 +47,7 @@ class Encoder {
   Encoded run() {
     if (options_.rung) {
       const SeriesFit fit = fit_of(*options_.rung);
-      return {with_steps(fit, above(fit.misfit(0))), {}};
+      return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit), {}};
     }
     const std::vector<Rung> rungs = supported(ladder_of(*parametrization_), series_, *parametrization_);
     // The smallest that single frames say will do; where none does, a residual makes up for what a good one
@@ -61,6 +62,7 @@ class Encoder {
       progress_("coding what the spline leaves");
       encoded.residual = residual_of(encoded.field, series_, limit_);
     }
+    encoded.field = with_derivatives(std::move(encoded.field), fit);
     return encoded;
   }
 
@@ -72,6 +74,12 @@ class Encoder {
 
   std::size_t first_within(const std::vector<Rung>& rungs) const {
     return first_rung_within(share_of_space * limit_, rungs, series_, *parametrization_, progress_);
+  }
+
+  Field with_derivatives(Field field, const SeriesFit& fit) const {
+    if (!series_.derivatives.empty()) progress_("fitting derivatives");
+    field.by_parameter = fit_derivatives(series_, fit);
+    return field;
   }
 
   /// A bound, mm, that costs little beside the error there is.
@@ -127,9 +135,12 @@ Encoded encode(const Series& series, const EncodeOptions& options,
   if (series.largest_displacement == 0 && !options.rung)
     chosen.rung = rung_of_quantities(series, options, progress);
   Encoded encoded = Encoder(series, chosen, progress).run();
-  if (!series.quantities.empty()) {
-    progress("fitting further quantities");
-    encoded.field.quantities = fit_quantities(series, encoded.field, options.tolerance);
+  for (const SeriesQuantity& data : series.quantities) {
+    progress("fitting " + data.name);
+    const std::optional<double> tolerance = options.rung ? std::nullopt : std::optional(options.tolerance);
+    FittedQuantity fitted = fit_quantity(series, data, encoded.field, tolerance);
+    encoded.field.quantities.push_back(std::move(fitted.quantity));
+    encoded.of_quantities.push_back(std::move(fitted.residual));
   }
   encoded.field.report.fit_seconds = watch.seconds();
   return encoded;

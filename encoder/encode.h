@@ -26,12 +26,14 @@ struct EncodeOptions {
 struct Encoded {
   Field field;                           ///< with its report
   std::optional<NodeResidual> residual;  ///< where the spline alone does not keep the tolerance
+  std::vector<std::optional<NodeResidual>> of_quantities = {};  ///< the same of field.quantities
 };
 
 /// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the
 /// displacements from frame 0, by regularised least squares over all frames. Coefficients are multiples of
 /// field.quantum. Further quantities of the series are fitted on the knots that the displacement needs, or
-/// that they need where nothing moves; their errors are told, and bound by nothing. Without a cut there is no
+/// that they need where nothing moves; the tolerance bounds them likewise, each over its own largest value.
+/// Derivatives by parameters are fitted on the same knots, and bound by nothing. Without a cut there is no
 /// break, and the parametrisation is "fixed".
 Encoded encode(const Series& series, const EncodeOptions& options,
                const std::function<void(const std::string&)>& progress);

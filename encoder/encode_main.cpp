@@ -1,6 +1,5 @@
 // cleft encode: a snapshot to its field.
 #include <Eigen/Core>
-#include <array>
 #include <filesystem>
 
 #include "base/command.h"
@@ -11,17 +10,11 @@
 #include "encoder/encode.h"
 #include "encoder/field/field_file.h"
 #include "encoder/field/field_record.h"
+#include "params/encode_limits.h"
 
 using namespace cleft;
 
 namespace {
-
-// What can be asked for. The same numbers stand in params/study.cpp, which refuses a study before it is
-// solved and may not see the encoder.
-constexpr std::array<int, 4> least_following_tip = {10, 8, 7, 4}, least_fixed = {4, 8, 4, 4};
-constexpr int most_along_axis = 1000;
-constexpr double most_control_points = 2e7;  // a file of 240 MB: no summary any more
-constexpr double least_tolerance = 1e-9;
 
 Json figures_of(const Field& field, const Snapshot& snapshot, const std::string& out) {
   const double raw = 3.0 * sizeof(float) * static_cast<double>(snapshot.points.size() * snapshot.frames());
@@ -42,28 +35,18 @@ Json figures_of(const Field& field, const Snapshot& snapshot, const std::string&
                     std::to_string(EIGEN_MINOR_VERSION)},
       {"HDF5", h5::version()}};
   for (const Quantity& quantity : field.quantities)
-    figures["quantities"].push_back({{"name", quantity.name}, {"error", quantity.error}});
+    figures["quantities"].push_back(
+        {{"name", quantity.name}, {"error", quantity.error}, {"spline_error", quantity.spline_error}});
+  for (const ParameterDerivative& one : field.by_parameter)
+    figures["by_parameter"].push_back({{"parameter", one.parameter}, {"error", one.error}});
   return figures;
 }
 
 /// Spans of bases with about so many control points: as many as asked for where nothing is tied.
 Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   if (counts.size() != 4) throw InputError("--control-points: expected four whole numbers U,V,W,T");
-  const auto& least = follows_tip ? least_following_tip : least_fixed;
-  double product = 1;
-  for (int axis = 0; axis < 4; ++axis) {
-    if (counts[axis] < least[axis])
-      throw InputError(std::string("--control-points: ") + std::to_string(counts[axis]) +
-                       " control points along " + "uvwt"[axis] + ": at least " + std::to_string(least[axis]));
-    if (counts[axis] > most_along_axis)
-      throw InputError(std::string("--control-points: ") + std::to_string(counts[axis]) +
-                       " control points along " + "uvwt"[axis] + ": at most " +
-                       std::to_string(most_along_axis));
-    product *= counts[axis];
-  }
-  if (product > most_control_points)
-    throw InputError("--control-points: " + shortest(product) + " in all; at most " +
-                     shortest(most_control_points));
+  check_control_points({counts[0], counts[1], counts[2], counts[3]}, follows_tip ? "tip" : "fixed",
+                       "--control-points");
   Rung rung;
   rung.across = counts[1] / 2 - 3, rung.time = counts[3] - 3;
   if (follows_tip) {
@@ -78,12 +61,21 @@ Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
 }
 
 /// What was measured is what stands in the file; else there is none.
-void verify_written(const std::string& out, const Field& field, const std::optional<NodeResidual>& residual) {
-  const std::optional<NodeResidual> kept = read_residual(out);
-  const bool same_residual =
-      kept.has_value() == residual.has_value() &&
-      (!kept || (kept->quantum == residual->quantum && kept->values == residual->values));
-  if (same_residual && read_field(out).coefficients() == field.coefficients()) return;
+void verify_written(const std::string& out, const Encoded& encoded) {
+  const auto same = [](const std::optional<NodeResidual>& kept, const std::optional<NodeResidual>& residual) {
+    return kept.has_value() == residual.has_value() &&
+           (!kept || (kept->quantum == residual->quantum && kept->values == residual->values));
+  };
+  const Field kept = read_field(out), &field = encoded.field;
+  bool good = kept.coefficients() == field.coefficients() && same(read_residual(out), encoded.residual) &&
+              kept.quantities.size() == field.quantities.size() &&
+              kept.by_parameter.size() == field.by_parameter.size();
+  for (std::size_t q = 0; good && q < field.quantities.size(); ++q)
+    good = kept.quantities[q].coefficients == field.quantities[q].coefficients &&
+           same(read_quantity_residual(out, q), encoded.of_quantities[q]);
+  for (std::size_t d = 0; good && d < field.by_parameter.size(); ++d)
+    good = kept.by_parameter[d].control_points == field.by_parameter[d].control_points;
+  if (good) return;
   std::filesystem::remove(out);
   throw std::runtime_error(out + ": reads back as something else than was written, and was removed");
 }
@@ -99,8 +91,10 @@ int main(int argc, char** argv) {
   app.add_option("CASE.h5", snapshot, "snapshot")->required();
   app.add_option("--out", out, "field to write, case.dffd")->required();
   auto* tolerance =
-      app.add_option("--tolerance", options.tolerance,
-                     "largest error at any node and frame over the largest displacement, at most")
+      app.add_option(
+             "--tolerance", options.tolerance,
+             "largest error at any node and frame over the largest displacement (of a further quantity: over "
+             "its largest value), at most")
           ->capture_default_str();
   app.add_option("--control-points", counts,
                  "U,V,W,T: control points along each axis instead of a tolerance, V for both sides together")
@@ -123,13 +117,14 @@ int main(int argc, char** argv) {
     const SnapshotReader reader(snapshot);
     progress("reading");
     const Series series(reader);
-    auto [field, residual] = encode(series, options, [&](const std::string& state) { progress(state); });
+    Encoded encoded = encode(series, options, [&](const std::string& state) { progress(state); });
+    Field& field = encoded.field;
     for (const auto& [name, value] : reader.snapshot().parameters)
       if (const double* number = std::get_if<double>(&value)) field.parameters[name] = *number;
     field.case_hash = reader.snapshot().case_hash;
     progress("writing");
-    write_field(out, field, residual ? &*residual : nullptr);
-    verify_written(out, field, residual);
+    write_field(out, field, encoded.residual ? &*encoded.residual : nullptr, {}, encoded.of_quantities);
+    verify_written(out, encoded);
     print_figures(figures_of(field, reader.snapshot(), out), json);
   });
 }

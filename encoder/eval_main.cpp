@@ -85,9 +85,10 @@ void check_fit(const Field& field, const std::optional<NodeResidual>& residual, 
     need(s.points.size() == static_cast<std::size_t>(residual->nodes),
          "holds " + std::to_string(s.points.size()) + " nodes, and the field has a residual at " +
              std::to_string(residual->nodes));
-    need(s.frames() == static_cast<std::size_t>(residual->frames) + 1,
-         "holds " + std::to_string(s.frames()) + " frames, and the field has a residual in " +
-             std::to_string(residual->frames + 1));
+    const int frames = residual->frames + residual->first_frame;
+    need(s.frames() == static_cast<std::size_t>(frames), "holds " + std::to_string(s.frames()) +
+                                                             " frames, and the field has a residual in " +
+                                                             std::to_string(frames));
   }
   need(s.times.back() == field.duration(),
        "ends at t = " + shortest(s.times.back()) + ", and the field at t = " + shortest(field.duration()));
@@ -112,9 +113,23 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
   }
   std::vector<Vec3> values(places.size());
   field.displacements(places, values);
-  std::string text = "du,dv,dw\n";
-  for (std::size_t n = 0; n < values.size(); ++n)
-    text += row_of(residual ? values[n] + residual->at(n, j) : values[n]) + "\n";
+  std::vector<std::optional<NodeResidual>> of_quantities;
+  for (std::size_t q = 0; q < field.quantities.size(); ++q) {
+    of_quantities.push_back(read_quantity_residual(file, q));
+    check_fit(field, of_quantities.back(), s, file, nodes);
+  }
+  std::string text = "du,dv,dw" + quantity_names(field) + "\n";
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    text += row_of(residual ? values[n] + residual->at(n, j) : values[n]);
+    for (std::size_t q = 0; q < of_quantities.size(); ++q) {
+      std::vector<double> numbers(static_cast<std::size_t>(field.quantities[q].components));
+      field.quantity(q, places[n].uvw, places[n].side, places[n].t, numbers);
+      for (std::size_t c = 0; c < numbers.size(); ++c)
+        text += "," + shortest(numbers[c] +
+                               (of_quantities[q] ? of_quantities[q]->at(n, static_cast<int>(c), j) : 0));
+    }
+    text += "\n";
+  }
   return text;
 }
 
@@ -140,9 +155,9 @@ int main(int argc, char** argv) {
                            ->needs(nodes_option)
                            ->check(CLI::NonNegativeNumber);
   nodes_option->needs(frame_option);
-  app.add_option("--out", out,
-                 "CSV to write, columns du,dv,dw, and at points the field's further quantities (default: "
-                 "standard output)");
+  app.add_option(
+      "--out", out,
+      "CSV to write, columns du,dv,dw and the field's further quantities (default: standard output)");
   return run_command(app, argc, argv, [&] {
     refuse_to_overwrite(out, nodes.empty() ? std::vector{file, points} : std::vector{file, nodes});
     const Field field = read_field(file);

@@ -84,11 +84,11 @@ SpaceFit::Normal FrameFit::normal(std::size_t frame, double strength) const {
   return sum;
 }
 
-Eigen::MatrixX3d FrameFit::project(std::size_t frame) const {
+Eigen::MatrixX3d FrameFit::project(std::size_t frame, const Eigen::MatrixX3d& d) const {
   const double t = series_.times[frame];
-  Eigen::MatrixX3d sum = nodes_.project(series_.frames[frame], t);
+  Eigen::MatrixX3d sum = nodes_.project(d, t);
   for (const Group& group : groups_)
-    if (group.of_frame[frame]) sum += group.fit.project(group.centres.mean(series_.frames[frame]), t);
+    if (group.of_frame[frame]) sum += group.fit.project(group.centres.mean(d), t);
   return sum;
 }
 

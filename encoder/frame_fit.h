@@ -24,7 +24,8 @@ class FrameFit {
   const SpaceFit& space() const { return nodes_; }
   /// B^T B + strength R, and ties^T B^T d, of a frame.
   SpaceFit::Normal normal(std::size_t frame, double strength) const;
-  Eigen::MatrixX3d project(std::size_t frame) const;
+  Eigen::MatrixX3d project(std::size_t frame) const { return project(frame, series_.frames[frame]); }
+  Eigen::MatrixX3d project(std::size_t frame, const Eigen::MatrixX3d& d) const;
   /// B ties x - d at the nodes.
   Eigen::MatrixX3d misfit(const Eigen::MatrixX3d& x, std::size_t frame) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/field/unknowns.h"
 #include "encoder/parallel.h"
 #include "encoder/series_fit.h"
 
@@ -10,33 +11,110 @@ namespace cleft {
 
 namespace {
 
-constexpr double share_of_rounding = 0.05;  // of the tolerance
+constexpr double share_of_fit = 0.97, share_of_steps = 0.07;  // of the tolerance, as of a displacement's
+constexpr double farthest = 0.625;  // steps a control point may be moved to be cheaper
+constexpr double finest = 1e-9;     // bound that steps are made for, over the largest value
+constexpr int at_once = 3;          // components that are fitted and coded together
 
-/// Largest distance from the data at any node and frame.
-double error_of(const Field& field, std::size_t index, const Series& series) {
-  const SeriesQuantity& data = series.quantities[index];
-  std::vector<double> errors(series.times.size());
-  parallel_for(static_cast<int>(errors.size()), [&](int j) {
-    const auto frame = static_cast<std::size_t>(j);
-    std::vector<double> value(static_cast<std::size_t>(data.frames[frame].cols()));
-    for (std::size_t n = 0; n < series.samples.size(); ++n) {
-      const Sample& sample = series.samples[n];
-      field.quantity(index, sample.uvw, sample.side, series.times[frame], value);
-      double squared = 0;
-      for (std::size_t c = 0; c < value.size(); ++c)
-        squared += std::pow(
-            value[c] - data.frames[frame](static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(c)), 2);
-      errors[frame] = std::max(errors[frame], std::sqrt(squared));
+/// A quantity's spline: a field for every three components.
+class Spline {
+ public:
+  Spline(const Series& series, const SeriesQuantity& data, std::vector<Field> parts)
+      : series_(series), data_(data), parts_(std::move(parts)) {}
+
+  const std::vector<Field>& parts() const { return parts_; }
+  int components() const { return static_cast<int>(data_.frames.front().cols()); }
+
+  /// N x components: the data less the spline.
+  Eigen::MatrixXd left(std::size_t frame) const {
+    std::vector<Place> places;
+    for (const Sample& sample : series_.samples)
+      places.push_back({sample.uvw, sample.side, series_.times[frame]});
+    std::vector<Vec3> values(places.size());
+    Eigen::MatrixXd left = data_.frames[frame];
+    for (int first = 0; first < components(); first += at_once) {
+      parts_[static_cast<std::size_t>(first / at_once)].displacements(places, values);
+      for (std::size_t n = 0; n < values.size(); ++n)
+        for (int c = first; c < std::min(first + at_once, components()); ++c)
+          left(static_cast<Eigen::Index>(n), c) -= values[n][c - first];
     }
+    return left;
+  }
+
+  /// The largest distance from the data at any node and frame.
+  double error() const {
+    std::vector<double> errors(data_.frames.size());
+    parallel_for(static_cast<int>(errors.size()), [&](int j) {
+      const auto frame = static_cast<std::size_t>(j);
+      errors[frame] = left(frame).rowwise().norm().maxCoeff();
+    });
+    return *std::max_element(errors.begin(), errors.end());
+  }
+
+  Spline stepped(double step) const {
+    std::vector<Field> parts;
+    for (const Field& part : parts_) parts.push_back(quantised(part, step, farthest));
+    return {series_, data_, std::move(parts)};
+  }
+
+  /// All components of all control points.
+  std::vector<double> coefficients() const {
+    std::vector<double> all;
+    for (std::size_t n = 0; n < parts_.front().coefficients().size(); ++n)
+      for (int c = 0; c < components(); ++c)
+        all.push_back(parts_[static_cast<std::size_t>(c / at_once)].coefficients()[n][c % at_once]);
+    return all;
+  }
+
+ private:
+  const Series& series_;
+  const SeriesQuantity& data_;
+  std::vector<Field> parts_;
+};
+
+Spline fitted(const Series& series, const SeriesQuantity& data, const Field& field) {
+  const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+  std::vector<Field> parts;
+  for (int first = 0; first < data.frames.front().cols(); first += at_once) {
+    const Series part = series_of(series, data, first);
+    const SeriesFit fit(part, field.shared_parametrization(), bases, SeriesFit::Start::any);
+    parts.push_back(fit.field(fit.control_points()));
+  }
+  return {series, data, std::move(parts)};
+}
+
+/// What `spline` leaves, so that nothing is off by more than `bound`; and how far the worst then is.
+NodeResidual residual_of(const Spline& spline, const Series& series, double bound, double& largest) {
+  NodeResidual residual;
+  residual.components = spline.components(), residual.first_frame = 0;
+  // Half a step each way is sqrt(components) / 2 steps together; a little less for rounding.
+  residual.quantum = (1 - 1e-9) * 2 / std::sqrt(static_cast<double>(residual.components)) * bound;
+  residual.nodes = static_cast<int>(series.samples.size());
+  residual.frames = static_cast<int>(series.times.size());
+  residual.values.resize(series.samples.size() * static_cast<std::size_t>(residual.components) *
+                         series.times.size());
+  std::vector<double> errors(series.times.size());
+  parallel_for(residual.frames, [&](int j) {
+    const auto frame = static_cast<std::size_t>(j);
+    Eigen::MatrixXd left = spline.left(frame);
+    for (Eigen::Index n = 0; n < left.rows(); ++n)
+      for (int c = 0; c < residual.components; ++c) {
+        const auto node = static_cast<std::size_t>(n);
+        residual.value(node, c, frame) =
+            static_cast<std::int32_t>(std::lround(left(n, c) / residual.quantum));
+        left(n, c) -= residual.at(node, c, frame);
+      }
+    errors[frame] = left.rowwise().norm().maxCoeff();
   });
-  return *std::max_element(errors.begin(), errors.end());
+  largest = *std::max_element(errors.begin(), errors.end());
+  return residual;
 }
 
 }  // namespace
 
 Series series_of(const Series& series, const SeriesQuantity& quantity, int component) {
   Series result = series;
-  result.quantities.clear();
+  result.quantities.clear(), result.derivatives.clear();
   result.centres = {};  // displacements alone are linear in a cell
   result.largest_displacement = quantity.largest;
   for (std::size_t j = 0; j < series.frames.size(); ++j) {
@@ -49,31 +127,29 @@ Series series_of(const Series& series, const SeriesQuantity& quantity, int compo
   return result;
 }
 
-std::vector<Quantity> fit_quantities(const Series& series, const Field& field, double tolerance) {
-  const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
-  Field with = field;
-  for (const SeriesQuantity& data : series.quantities) {
-    const int components = static_cast<int>(data.frames.front().cols());
-    Quantity& quantity = with.quantities.emplace_back();
-    quantity.name = data.name, quantity.components = components;
-    quantity.largest = data.largest;
-    quantity.coefficients.resize(field.coefficients().size() * static_cast<std::size_t>(components));
-    // A power of two: floats keep its multiples exactly, and their last bits are all 0.
-    const double finest = share_of_rounding * tolerance * data.largest,
-                 step = finest > 0 ? std::exp2(std::floor(std::log2(finest))) : 1;
-    for (int first = 0; first < components; first += 3) {
-      const Series part = series_of(series, data, first);
-      const SeriesFit fit(part, field.shared_parametrization(), bases, SeriesFit::Start::any);
-      const std::vector<Vec3> points = fit.coefficients(fit.control_points());
-      for (std::size_t n = 0; n < points.size(); ++n)
-        for (int c = 0; c < std::min(3, components - first); ++c)
-          quantity
-              .coefficients[n * static_cast<std::size_t>(components) + static_cast<std::size_t>(first + c)] =
-              static_cast<float>(step * std::round(points[n][c] / step));
-    }
-    if (data.largest > 0) quantity.error = error_of(with, with.quantities.size() - 1, series) / data.largest;
+FittedQuantity fit_quantity(const Series& series, const SeriesQuantity& data, const Field& field,
+                            std::optional<double> tolerance) {
+  const Spline exact = fitted(series, data, field);
+  const double scale = data.largest > 0 ? data.largest : 1, misfit = exact.error();
+  const double limit = tolerance ? *tolerance * scale : 0;
+  const bool within = misfit <= share_of_fit * limit;
+  const double bound = std::max(within ? limit : 1.02 * misfit, finest * scale);
+  double step = share_of_steps * 2 / std::sqrt(static_cast<double>(exact.components())) * bound;
+  std::optional<Spline> stepped(exact.stepped(step));
+  double error = stepped->error();
+  for (int times = 0; error > bound && times < 12; ++times) {
+    step /= 1.5;
+    stepped.emplace(exact.stepped(step));
+    error = stepped->error();
   }
-  return std::move(with.quantities);
+  FittedQuantity result{{data.name, exact.components(), stepped->coefficients(), data.largest, error / scale,
+                         error / scale, step},
+                        {}};
+  if (!tolerance || error <= limit) return result;
+  double largest = 0;
+  result.residual = residual_of(*stepped, series, limit, largest);
+  result.quantity.error = largest / scale;
+  return result;
 }
 
 }  // namespace cleft

@@ -109,6 +109,34 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader) {
   return quantities;
 }
 
+/// The solver's, which imported data do not know.
+std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader) {
+  const std::string prefix = "displacement_per_";
+  std::vector<SeriesDerivative> derivatives;
+  if (reader.snapshot().source) return derivatives;
+  const auto nodes = static_cast<Eigen::Index>(reader.snapshot().points.size());
+  for (const SnapshotArray& array : reader.point_arrays()) {
+    if (!array.name.starts_with(prefix) || array.components != 3 || !array.varies) continue;
+    SeriesDerivative& derivative = derivatives.emplace_back();
+    derivative.parameter = array.name.substr(prefix.size());
+    Eigen::MatrixX3d closed;
+    for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) {
+      const std::vector<double> numbers = reader.point_array(array, j);
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+      Eigen::MatrixX3d frame = Eigen::Map<const RowMajor>(numbers.data(), nodes, 3);
+      if (j == 0) closed = frame;
+      frame -= closed;
+      for (Eigen::Index n = 0; n < nodes; ++n)
+        if (!frame.row(n).allFinite())
+          throw InputError("frame " + std::to_string(j) + ", node " + std::to_string(n) + ": " + array.name +
+                           " is not finite; a field can only stand for finite numbers");
+      derivative.largest = std::max(derivative.largest, frame.rowwise().norm().maxCoeff());
+      derivative.frames.push_back(std::move(frame));
+    }
+  }
+  return derivatives;
+}
+
 }  // namespace
 
 Series::Series(const SnapshotReader& reader) {
@@ -129,7 +157,7 @@ Series::Series(const SnapshotReader& reader) {
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
   centres = cell_centres(s, samples);
-  quantities = quantities_of(reader);
+  quantities = quantities_of(reader), derivatives = derivatives_of(reader);
   geometry = geometry_of(s, cut_of(s, frames.back(), largest_displacement));
 }
 

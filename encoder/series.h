@@ -18,6 +18,13 @@ struct SeriesQuantity {
   double largest = 0;                   ///< Euclidean norm over the components, of all
 };
 
+/// The displacement's derivative by a parameter, mm per its unit, from frame 0.
+struct SeriesDerivative {
+  std::string parameter;
+  std::vector<Eigen::MatrixX3d> frames;  ///< F: N x 3; frame 0 is zero
+  double largest = 0;                    ///< Euclidean norm, of all
+};
+
 struct Series {
   std::vector<double> times;             ///< F, mm
   std::vector<Sample> samples;           ///< N
@@ -25,7 +32,8 @@ struct Series {
   std::vector<double> largest;           ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;       ///< mm, of all
   CellCentres centres;
-  std::vector<SeriesQuantity> quantities;  ///< of imported data: what was taken beside the displacement
+  std::vector<SeriesQuantity> quantities;     ///< of imported data: what was taken beside the displacement
+  std::vector<SeriesDerivative> derivatives;  ///< of a simulation: those that it knows
   FieldGeometry geometry;
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: how many of them are open

@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "encoder/parallel.h"
-#include "encoder/series_system.h"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // absent in other BLAS libraries
 
@@ -114,10 +113,23 @@ void SeriesFit::solve() {
     if (static_cast<std::size_t>(j) < normals.size())
       normals[static_cast<std::size_t>(j)] = fit_.normal(frame, strength_);
   });
-  const SeriesSystem system(fit_.space(), in_time_, first_ > 0, std::move(normals));
+  system_.emplace(fit_.space(), in_time_, first_ > 0, std::move(normals));
   control_points_ = Eigen::MatrixXd::Zero(in_time_.cols(), 3 * ties().size());
-  add(system.solve(system.over_frames(projected), residual_bound));
-  condition_ = system.condition(), iterations_ = system.iterations();
+  add(system_->solve(system_->over_frames(projected), residual_bound));
+  condition_ = system_->condition(), iterations_ = system_->iterations();
+}
+
+Eigen::MatrixXd SeriesFit::control_points_of(const std::vector<Eigen::MatrixX3d>& frames) const {
+  std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(in_time_.rows()));
+  parallel_for(static_cast<int>(projected.size()), [&](int j) {
+    const auto frame = static_cast<std::size_t>(j + first_);
+    projected[static_cast<std::size_t>(j)] = fit_.project(frame, frames[frame]);
+  });
+  const SeriesSystem::Blocks blocks = system_->solve(system_->over_frames(projected), residual_bound);
+  Eigen::MatrixXd points(control_points_.rows(), control_points_.cols());
+  for (Eigen::Index l = 0; l < points.rows(); ++l)
+    points.row(l) = blocks[static_cast<std::size_t>(l)].reshaped().transpose();
+  return points;
 }
 
 void SeriesFit::add(const std::vector<Eigen::MatrixXd>& blocks) {

@@ -4,11 +4,13 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "encoder/field/field.h"
 #include "encoder/frame_fit.h"
 #include "encoder/series.h"
+#include "encoder/series_system.h"
 
 namespace cleft {
 
@@ -34,11 +36,15 @@ class SeriesFit {
   /// Keeps references to `series`. `bases` over along, across, height and time.
   SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
             const std::array<BSplineBasis, 4>& bases, Start start = Start::zero);
+  SeriesFit(const SeriesFit&) = delete;  // the system refers to the fit's space
 
   /// Control points in t of every unknown, column axis n + unknown: T x 3 n, or (T - 1) x 3 n where the first
   /// are 0 and left out.
   const Eigen::MatrixXd& control_points() const { return control_points_; }
   Misfit misfit(double limit) const;
+  /// The control points that the same normal matrices, as they are factorised, give for other data that are 0
+  /// in frame 0 too: F frames, N x 3.
+  Eigen::MatrixXd control_points_of(const std::vector<Eigen::MatrixX3d>& frames) const;
 
   /// All control points, in the order of Field; and the field of them.
   std::vector<Vec3> coefficients(const Eigen::MatrixXd& control_points) const;
@@ -67,6 +73,7 @@ class SeriesFit {
   int first_;                // frame and control point in t; before it all is 0
   Eigen::MatrixXd in_time_;  // frames by control points in t, both from the first on
   Eigen::MatrixXd control_points_;
+  std::optional<SeriesSystem> system_;
   double strength_ = 0, condition_ = 1;
   double reached_ = 0;  // misfit of fits of single frames that are hardly regularised, over the data
   int iterations_ = 0;

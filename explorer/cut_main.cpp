@@ -6,16 +6,16 @@
 
 #include "base/command.h"
 #include "base/error.h"
-#include "base/h5.h"
 #include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "encoder/field/field_file.h"
 #include "explorer/cut_figures.h"
 #include "explorer/cut_volume.h"
 #include "explorer/io/mesh_file.h"
+#include "explorer/scene/cut_fields.h"
 #include "explorer/scene/path_file.h"
 #include "explorer/scene/wounds.h"
+#include "explorer/tension_options.h"
 
 namespace {
 
@@ -28,47 +28,20 @@ struct Options {
   double scale = 1;                 // mm per mesh unit
   double depth = 0, progress = -1;  // mm; 0 and -1: not given
   std::optional<double> max_edge;   // mm
-  std::vector<double> tension, prestress;
+  TensionOptions tension;
 };
 
 bool is_volume(const std::string& path) { return path.ends_with(".vtu"); }
 
-/// One field, or three to be superposed.
-struct Fields {
-  std::optional<Field> one;
-  std::unique_ptr<PrestressFields> turning;
+/// A surface, or a volume with its surface.
+struct Skin {
+  MeshReport report;
+  std::optional<VolumeMesh> volume;
+  SurfaceMesh surface;
 
-  explicit Fields(const Options& options) {
-    if (options.field.empty()) return;
-    if (format_of(options.field) == "cleft-study")
-      turning = std::make_unique<PrestressFields>(options.field);
-    else
-      one = read_field(options.field);
-    if (one && !options.tension.empty())
-      throw InputError(
-          "--tension needs a study.dffd of three cases that differ in skin.prestress_u, _v and _uv alone; " +
-          options.field + " is one case");
-  }
-  const Field* shape() const { return one ? &*one : turning ? &turning->shape() : nullptr; }
-
-  VaryingField along(const Incision& cut, const std::string& path_file, const Options& options) const {
-    const std::optional<PathPrestress> own = read_prestress(path_file, cut.path(), options.scale);
-    if (one && own)
-      throw FileError(path_file,
-                      "has prestresses along the path: they need a study.dffd of three cases that differ in "
-                      "skin.prestress_u, _v and _uv alone as --field");
-    if (one) return *one;
-    if (own) return turning->along(*own);
-    if (options.tension.empty())
-      throw InputError(
-          options.field +
-          " holds several cases: give --tension and --prestress, or the path columns skin.prestress_u, "
-          "_v, _uv, or one case.dffd as --field");
-    const double larger = std::max(options.prestress[0], options.prestress[1]),
-                 smaller = std::min(options.prestress[0], options.prestress[1]);
-    const Vec3 direction{options.tension[0], options.tension[1], options.tension[2]};
-    const IncisionVolume volume(cut, turning->shape(), options.scale);
-    return turning->along(prestress_along(volume, cut.path().length(), {direction, larger, smaller}));
+  explicit Skin(const std::string& file) {
+    if (is_volume(file)) volume.emplace(file);
+    surface = volume ? volume->surface(&report) : read_mesh(file, &report);
   }
 };
 
@@ -111,73 +84,92 @@ IncisionOptions incision_options(const Options& options, const ScalpelPath& path
   return result;
 }
 
-/// Opens the cuts: positions of the mesh, and what is told of that.
-std::unique_ptr<Wounds> open(const Options& options, const Fields& fields,
-                             const std::vector<const Incision*>& cuts, double progress,
-                             std::vector<Vec3>& positions, Json& figures) {
-  std::vector<Wounds::Cut> wounds_of;
-  for (std::size_t k = 0; k < cuts.size(); ++k)
-    wounds_of.push_back({cuts[k], fields.along(*cuts[k], options.paths[k], options)});
-  auto wounds = std::make_unique<Wounds>(std::move(wounds_of), options.scale);
-  wounds->positions(progress, positions);  // the second frame is timed: memory is warm then
+/// The cuts, made one after the other, the last one as far as --progress.
+struct Cuts {
+  CutMesh mesh;
+  std::vector<std::unique_ptr<Incision>> made;
+  std::vector<const Incision*> list;
+  double t = 0;  // where the blade is, mm of all paths
+  double making = 0, stepping = 0;
+
+  Cuts(const Options& options, const SurfaceMesh& surface, const Field* field) : mesh(surface) {
+    for (const std::string& file : options.paths) {
+      const ScalpelPath path = read_path(file, options.depth, options.scale, field);
+      const IncisionOptions how = incision_options(options, path, field);
+      const double length = path.length() * options.scale;
+      const bool last = made.size() + 1 == options.paths.size();
+      const double progress = options.progress < 0 || !last ? length : std::min(options.progress, length);
+      Stopwatch watch;
+      made.push_back(std::make_unique<Incision>(mesh, path, how));
+      watch.lap();
+      made.back()->advance_to(progress / options.scale);
+      stepping += watch.lap(), making += watch.seconds();
+      list.push_back(made.back().get());
+      t += progress;
+    }
+  }
+};
+
+std::unique_ptr<Wounds> open(const Options& options, const CutFields& fields, const Cuts& cuts) {
+  std::vector<Wounds::Cut> opened;
+  for (std::size_t k = 0; k < cuts.list.size(); ++k) {
+    const Incision& cut = *cuts.list[k];
+    const auto own = read_prestress(options.paths[k], cut.path(), options.scale);
+    try {
+      opened.push_back({&cut, fields.along(cut, options.scale, own)});
+    } catch (const InputError& e) {
+      throw FileError(options.paths[k], e.what());
+    }
+  }
+  return std::make_unique<Wounds>(std::move(opened), options.scale);
+}
+
+/// Moves the mesh as the wounds say, and tells of that.
+void move(const Wounds& wounds, const CutFields& fields, const Options& options, double t,
+          std::vector<Vec3>& positions, Json& figures) {
+  wounds.positions(t, positions);  // the second frame is timed: memory is warm then
   const Stopwatch frame;
-  wounds->positions(progress, positions);
+  wounds.positions(t, positions);
   figures["frame_ms"] = 1e3 * frame.seconds();
   double largest = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    largest = std::max(largest, norm(positions[i] - wounds->rest()[i]));
-  figures["active_vertices"] = wounds->active();
+    largest = std::max(largest, norm(positions[i] - wounds.rest()[i]));
+  figures["active_vertices"] = wounds.active();
   figures["largest_displacement_mm"] = largest * options.scale;
   figures["warnings"] = Json::array();
-  const std::vector<bool> turned(cuts.size(), fields.turning != nullptr);
-  const std::vector<Validity> validity = wounds->validity(turned);
-  for (std::size_t k = 0; k < cuts.size(); ++k) {
+  const std::vector<Validity> validity = wounds.validity(fields.turning());
+  for (std::size_t k = 0; k < validity.size(); ++k) {
     figures["cuts"][k].update(figures_of(validity[k]));
     for (const std::string& warning : validity[k].warnings) {
       std::fprintf(stderr, "cleft cut: warning: %s\n", warning.c_str());
       figures["warnings"].push_back(warning);
     }
   }
-  return wounds;
 }
 
 void cut(const Options& options) {
   check_files(options);
-  const Fields fields(options);
-  MeshReport mesh_report;
-  std::optional<VolumeMesh> volume;
-  if (is_volume(options.mesh)) volume.emplace(options.mesh);
-  const SurfaceMesh surface = volume ? volume->surface(&mesh_report) : read_mesh(options.mesh, &mesh_report);
-  CutMesh mesh(surface);
-  std::vector<std::unique_ptr<Incision>> incisions;
-  std::vector<const Incision*> cuts;
-  double progress = 0, cutting = 0, stepping = 0;
-  for (const std::string& file : options.paths) {
-    const ScalpelPath path = read_path(file, options.depth, options.scale, fields.shape());
-    const IncisionOptions how = incision_options(options, path, fields.shape());
-    const double length = path.length() * options.scale;
-    const bool last = incisions.size() + 1 == options.paths.size();
-    progress = options.progress < 0 || !last ? length : std::min(options.progress, length);
-    Stopwatch watch;
-    incisions.push_back(std::make_unique<Incision>(mesh, path, how));
-    watch.lap();
-    incisions.back()->advance_to(progress / options.scale);
-    stepping += watch.lap(), cutting += watch.seconds();
-    cuts.push_back(incisions.back().get());
-  }
-  SurfaceMesh result = mesh.surface();
-  Json figures = figures_of(cuts, surface, options.scale);
-  figures["mesh"] = figures_of(mesh_report);
-  figures["cut_ms"] = 1e3 * cutting;
-  figures["us_per_step"] = 1e6 * stepping / figures["steps"].get<double>();
-  for (const Incision* one : cuts) figures["cuts"].push_back(figures_of(*one, options.scale));
+  std::optional<CutFields> fields;
+  if (!options.rest)
+    fields = read_cut_fields(options.field, options.tension.direction, options.tension.prestresses);
+  Skin skin(options.mesh);
+  const Cuts cuts(options, skin.surface, fields ? &fields->shape() : nullptr);
+  SurfaceMesh result = cuts.mesh.surface();
+  Json figures = figures_of(cuts.list, skin.surface, options.scale);
+  figures["mesh"] = figures_of(skin.report);
+  figures["cut_ms"] = 1e3 * cuts.making;
+  figures["us_per_step"] = 1e6 * cuts.stepping / figures["steps"].get<double>();
+  for (const Incision* one : cuts.list) figures["cuts"].push_back(figures_of(*one, options.scale));
   std::unique_ptr<Wounds> wounds;
-  if (fields.shape()) wounds = open(options, fields, cuts, progress, result.points, figures);
-  if (volume)
-    figures["cells_added"] =
-        write_cut_volume(*volume, surface, cuts, wounds.get(), options.scale, progress, options.out);
+  if (fields) {
+    wounds = open(options, *fields, cuts);
+    move(*wounds, *fields, options, cuts.t, result.points, figures);
+  }
+  if (skin.volume)
+    figures["cells_added"] = write_cut_volume(*skin.volume, skin.surface, cuts.list, wounds.get(),
+                                              options.scale, cuts.t, options.out);
   else
-    write_mesh(options.out, result, point_arrays(cuts, result.points, options.scale));
+    write_mesh(options.out, result, point_arrays(cuts.list, result.points, options.scale));
   print_figures(figures, options.json);
 }
 
@@ -205,17 +197,7 @@ int main(int argc, char** argv) {
       ->check(above(0));
   app.add_option("--progress", o.progress, "how far the blade of the last cut has come, mm [the whole path]")
       ->check(at_least(0));
-  auto* tension =
-      app.add_option("--tension", o.tension, "X,Y,Z: direction of the skin's larger tension, in space")
-          ->delimiter(',')
-          ->expected(3);
-  auto* prestress =
-      app.add_option("--prestress", o.prestress, "LARGER,SMALLER: the skin's principal prestresses, MPa")
-          ->delimiter(',')
-          ->expected(2)
-          ->check(at_least(0));
-  tension->needs(prestress);
-  prestress->needs(tension);
+  o.tension.add_to(app);
   app.add_option("--max-edge", o.max_edge,
                  "split longer edges near the path, mm; 0 leaves them [1/30 of the path]")
       ->check(at_least(0));

@@ -10,10 +10,10 @@
 
 namespace cleft {
 
-/// Splits the cells that the blade has passed, moves all points with the last blade at s mm of its path, and
+/// Splits the cells that the blade has passed, moves all points as they are at t mm of all paths, and
 /// writes `out`. `surface` is the volume's, uncut. Without `wounds` nothing moves. Returns how many cells
 /// there are more than before.
 int write_cut_volume(VolumeMesh& volume, const SurfaceMesh& surface, const std::vector<const Incision*>& cuts,
-                     const Wounds* wounds, double scale, double s, const std::string& out);
+                     const Wounds* wounds, double scale, double t, const std::string& out);
 
 }  // namespace cleft

@@ -9,11 +9,12 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
-#include "encoder/field/field_file.h"
 #include "explorer/io/mesh_file.h"
+#include "explorer/scene/cut_fields.h"
 #include "explorer/scene/hand_script.h"
 #include "explorer/scene/path_file.h"
 #include "explorer/scene/scalpel_cutting.h"
+#include "explorer/tension_options.h"
 #include "haptic/bare_timer.h"
 #include "haptic/devices/list.h"
 #include "haptic/devices/recorded.h"
@@ -31,6 +32,7 @@ struct Options {
   double depth = 0, seconds = 0, stiffness = 0;  // 0: not given
   double delay = 0;                              // ms
   bool real_time = false, json = false;
+  TensionOptions tension;
 };
 
 /// N/mm, of the skin over the middle of the cut in a simulation, closed.
@@ -105,14 +107,15 @@ void haptic(const Options& o) {
   refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.snapshot, o.trajectory});
   std::optional<OutputFile> probe;
   if (!o.record.empty()) probe.emplace(o.record);  // a bad name is told before the work
-  std::shared_ptr<const Field> field;
-  if (!o.field.empty()) field = std::make_shared<Field>(read_field(o.field));
+  std::optional<CutFields> fields;
+  if (!o.field.empty()) fields = read_cut_fields(o.field, o.tension.direction, o.tension.prestresses);
+  const Field* field = fields ? &fields->shape() : nullptr;
   const SurfaceMesh mesh = read_mesh(o.mesh);
   std::optional<ScalpelPath> path;
-  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field.get());
+  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field);
 
   ForceParameters force;
-  force.stiffness = stiffness(o, field.get());
+  force.stiffness = stiffness(o, field);
   DeviceRequest request;
   request.trajectory = o.trajectory;
   request.hand.delay = 1e-3 * o.delay;
@@ -124,7 +127,7 @@ void haptic(const Options& o) {
   if (o.seconds <= 0 && o.device == "hand") seconds = request.script.back().time;
   if (o.seconds <= 0 && o.device == "recorded") seconds = static_cast<Recorded&>(*device).duration();
 
-  ScalpelCutting cutting(mesh, {path, {}, field, o.scale, o.depth});
+  ScalpelCutting cutting(mesh, {path, {}, fields, o.scale, o.depth});
   LoopOptions options;
   options.rate = o.rate;
   options.measure = true;
@@ -166,7 +169,9 @@ int main(int argc, char** argv) {
   app.add_option("--path", o.path,
                  "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where the cut goes "
                  "[wherever the scalpel does]");
-  app.add_option("--field", o.field, "field file case.dffd that opens the cut");
+  app.add_option("--field", o.field,
+                 "field file case.dffd that opens the cut; or study.dffd of three cases of other prestress");
+  o.tension.add_to(app);
   app.add_option("--depth", o.depth,
                  "depth of the cut, mm [the path's column, else the field's; without a path the scalpel's]")
       ->check(above(0));

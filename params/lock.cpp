@@ -46,12 +46,12 @@ bool Lock::is_held(const std::string& path) {
   return held;
 }
 
-Moment::Moment(const std::string& study) : file_(open_lock(study + "/.lock")) {
+Moment::Moment(const std::string& study, const std::string& file) : file_(open_lock(study + file)) {
   while (file_ >= 0 && flock(file_, LOCK_EX) != 0)
     if (errno != EINTR) {
       const int error = errno;
       close(file_);
-      throw std::runtime_error(study + "/.lock: could not be locked: " + std::strerror(error));
+      throw std::runtime_error(study + file + ": could not be locked: " + std::strerror(error));
     }
 }
 

@@ -18,10 +18,11 @@ class Lock {
   int file_;
 };
 
-/// Held for the moment in which attempts come, go, are published or looked at, by all processes of a study.
+/// Held for the moment in which attempts come, go, are published or looked at, by all processes of a study;
+/// or, with another file, in which something else is done by one of them at a time. Waits for it.
 class Moment {
  public:
-  explicit Moment(const std::string& study);
+  explicit Moment(const std::string& study, const std::string& file = "/.lock");
   ~Moment();
   Moment(const Moment&) = delete;
   Moment& operator=(const Moment&) = delete;

@@ -7,10 +7,10 @@
 #include "base/command.h"
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/process.h"
 #include "params/case_list.h"
 #include "params/launcher/estimates.h"
 #include "params/launcher/local.h"
+#include "params/launcher/packing.h"
 #include "params/launcher/run_table.h"
 #include "params/launcher/slurm.h"
 #include "params/study.h"
@@ -70,15 +70,6 @@ SlurmSettings over(SlurmSettings settings, const SlurmSettings& said) {
   if (said.cases_per_task > 0) settings.cases_per_task = said.cases_per_task;
   settings.options.insert(settings.options.end(), said.options.begin(), said.options.end());
   return settings;
-}
-
-/// Its published fields in one file, out/study.dffd.
-void pack(const std::string& out) {
-  const std::string log = out + "/pack.log";
-  if (!run_process({executable_folder() + "/cleft-pack", out}, log, {}).success())
-    throw std::runtime_error("the study's fields could not be packed into " + out + "/study.dffd; " + log +
-                             " says why");
-  std::filesystem::remove(log);
 }
 
 }  // namespace
@@ -141,7 +132,7 @@ int main(int argc, char** argv) {
                                  : run_local(folder, study, cases, options);
     if (task.empty() && report.interrupted == 0 &&
         report.already_published + report.published + report.superseded > 0)
-      pack(out);
+      pack_study(out);
     print_figures(figures_of(report), json);
     if (report.failed > 0)
       throw std::runtime_error(std::to_string(report.failed) + " of " + std::to_string(report.cases) +

@@ -4,50 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "base/error.h"
+#include "base/file_versions.h"
 #include "base/text.h"
+#include "params/encode_limits.h"
 #include "params/hash.h"
 #include "params/sampling/read_sampling.h"
 #include "params/sampling/sampling.h"
+#include "params/sensitivities.h"
 #include "params/toml_value.h"
 
 namespace cleft {
 
 namespace {
 
-constexpr const char* axis_names[] = {"u", "v", "w", "t"};
-
-// What cleft encode takes, told before anything is solved. The same numbers stand in encoder/encode_main.cpp,
-// which is not part of this.
-constexpr std::array<int, 4> least_following_tip = {10, 8, 7, 4}, least_fixed = {4, 8, 4, 4};
-constexpr int most_along_axis = 1000;
-constexpr double most_control_points = 2e7, least_tolerance = 1e-9;
-
 /// "26,16,9,16", as --control-points takes it.
 std::string control_points_text(const std::array<int, 4>& counts) {
   std::string text;
   for (const int count : counts) text += (text.empty() ? "" : ",") + std::to_string(count);
   return text;
-}
-
-/// Throws InputError "<where>: ..." where the encoder would refuse them.
-void check_control_points(const std::array<int, 4>& counts, const std::string& parametrization,
-                          const std::string& where) {
-  const auto& least = parametrization == "fixed" ? least_fixed : least_following_tip;
-  double product = 1;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (counts[i] < least[i] || counts[i] > most_along_axis)
-      throw InputError(where + ": " + std::to_string(counts[i]) + " control points along " + axis_names[i] +
-                       ": must be a whole number between " + std::to_string(least[i]) + " and " +
-                       std::to_string(most_along_axis) + (i == 1 ? " (both sides of the cut together)" : "") +
-                       " where the parametrization is " + parametrization);
-    product *= counts[i];
-  }
-  if (product > most_control_points)
-    throw InputError(where + ": " + shortest(product) + " control points in all; at most " +
-                     shortest(most_control_points));
 }
 
 /// Reads one parsed file into a Study.
@@ -66,12 +45,14 @@ class StudyReader {
   std::string where(const toml::node& node) const { return place_of(path_, node); }
 
   void read_section(const std::string& key, const toml::node& node) {
-    static const std::vector<std::string> known = {"name",     "keep_snapshots", "case", "vary",
-                                                   "sampling", "encode",         "slurm"};
+    static const std::vector<std::string> known = {"name", "keep_snapshots", "sensitivities", "case",
+                                                   "vary", "sampling",       "encode",        "slurm"};
     if (key == "name") {
       mistakes_.collect([&] { study_.name = text(node, "name"); });
     } else if (key == "keep_snapshots") {
       mistakes_.collect([&] { read_keep_snapshots(text(node, key)); });
+    } else if (key == "sensitivities") {
+      mistakes_.collect([&] { study_.base.sensitivities = texts(node, key); });
     } else if (std::find(known.begin(), known.end(), key) == known.end()) {
       mistakes_.add(where(node) + ": unknown section '" + key + "'" + did_you_mean(key, known));
     } else if (const toml::table* table = node.as_table()) {
@@ -87,6 +68,14 @@ class StudyReader {
     const auto value = node.value<std::string>();
     if (!value) throw InputError(where(node) + ": " + name + " must be a text in quotes");
     return *value;
+  }
+
+  std::vector<std::string> texts(const toml::node& node, const std::string& name) const {
+    const toml::array* list = node.as_array();
+    if (!list) throw InputError(where(node) + ": " + name + " must be a list of texts");
+    std::vector<std::string> result;
+    for (const toml::node& entry : *list) result.push_back(text(entry, name));
+    return result;
   }
 
   void read_keep_snapshots(const std::string& which) {
@@ -115,9 +104,7 @@ class StudyReader {
             throw InputError(where(node) + ": " + name + " must be a whole number between 1 and 10000");
           slurm.cases_per_task = static_cast<int>(count);
         } else if (key == "options") {
-          const toml::array* list = node.as_array();
-          if (!list) throw InputError(where(node) + ": " + name + " must be a list of texts");
-          for (const toml::node& option : *list) slurm.options.push_back(text(option, name));
+          slurm.options = texts(node, name);
         } else {
           throw InputError(where(node) + ": unknown key '" + name + "'" +
                            did_you_mean(std::string(key.str()), known));
@@ -204,8 +191,15 @@ std::vector<std::string> EncodeSettings::arguments() const {
   return {"--parametrization", parametrization, "--tolerance", shortest(tolerance)};
 }
 
+std::string Case::snapshot_hash() const {
+  std::string text = solve_hash(parameters);
+  if (sensitivities.empty()) return text;
+  for (const std::string& name : sensitivities) text += " per " + name;
+  return sha256(text).substr(0, 16);
+}
+
 std::string Case::hash() const {
-  std::string text = solve_hash(parameters) + " field 2";  // the version of the file that is made
+  std::string text = snapshot_hash() + " field " + std::to_string(field_version);
   for (const std::string& argument : encode.arguments()) text += " " + argument;
   return sha256(text).substr(0, 16);
 }
@@ -230,6 +224,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& assignme
                      ": is a study with [vary]; use cleft run, or remove [vary] to solve its base case");
   for (const std::string& assignment : assignments) set_from_text(study.base.parameters, assignment, "--set");
   check_consistency(study.base.parameters, assignments.empty() ? path : path + " with --set");
+  check_sensitivities(study.base.sensitivities, study.base.parameters, path + ": sensitivities");
   return study.base;
 }
 
@@ -241,7 +236,10 @@ std::vector<Case> cases_of(const Study& study) {
     std::string which = study.name;
     for (const Variation& v : study.vary)
       which += ", " + v.name + " = " + to_text(get_parameter(one.parameters, find_parameter(v.name, which)));
-    mistakes.collect([&] { check_consistency(one.parameters, which); });
+    mistakes.collect([&] {
+      check_consistency(one.parameters, which);
+      check_sensitivities(one.sensitivities, one.parameters, which + ": sensitivities");
+    });
     if (!identities.insert(one.hash()).second)
       mistakes.add(which + ": the case stands twice in the study; remove the repeated value");
   }
@@ -250,7 +248,10 @@ std::vector<Case> cases_of(const Study& study) {
 }
 
 std::string case_file_text(const Case& a_case) {
-  std::string text = "[case]\n";
+  std::string text;
+  for (const std::string& name : a_case.sensitivities)
+    text += (text.empty() ? "sensitivities = [\"" : ", \"") + name + "\"";
+  text += text.empty() ? "[case]\n" : "]\n\n[case]\n";
   for (const Parameter& row : parameter_table()) {
     const std::string quote = row.is_text() ? "\"" : "";
     text += row.name + " = " + quote + to_text(get_parameter(a_case.parameters, row)) + quote +
@@ -263,6 +264,34 @@ std::string case_file_text(const Case& a_case) {
   else
     text += "tolerance = " + shortest(encode.tolerance) + "\n";
   return text;
+}
+
+std::string with_settings(const Study& study, const std::vector<std::pair<std::string, double>>& values,
+                          double tolerance) {
+  toml::table file = toml::parse(study.text);
+  const auto section = [](toml::table& parent, std::string_view name) -> toml::table& {
+    return *parent.insert(name, toml::table{}).first->second.as_table();
+  };
+  toml::table& a_case = section(file, "case");
+  for (const auto& [name, value] : values) {
+    const auto dot = name.find('.');
+    a_case.erase(name);  // as one quoted key
+    section(a_case, name.substr(0, dot)).insert_or_assign(name.substr(dot + 1), value);
+  }
+  toml::table& encode = section(file, "encode");
+  encode.erase("control_points");
+  encode.insert_or_assign("tolerance", tolerance);
+  std::ostringstream text;
+  text << file << "\n";
+  // Numbers in all their digits, 0.10000000000000001, in the fewest that say the same.
+  const std::regex digits(R"(\d+\.\d{15,}(e[+-]?\d+)?)");
+  std::string shown, all = text.str();
+  auto from = all.cbegin();
+  for (std::sregex_iterator it(all.begin(), all.end(), digits), end; it != end; ++it) {
+    shown.append(from, (*it)[0].first).append(shortest(std::stod(it->str())));
+    from = (*it)[0].second;
+  }
+  return shown.append(from, all.cend());
 }
 
 }  // namespace cleft

@@ -26,8 +26,11 @@ struct EncodeSettings {
 struct Case {
   Parameters parameters;
   EncodeSettings encode;
+  std::vector<std::string> sensitivities = {};  ///< parameters to differentiate the series by
 
-  /// Identity of the case as encoded; solve_hash(parameters) is the solver's half of it.
+  /// Identity of the snapshot: solve_hash(parameters), and the sensitivities that it holds.
+  std::string snapshot_hash() const;
+  /// Identity of the case as encoded, of which that is the solver's half.
   std::string hash() const;
 };
 
@@ -85,5 +88,10 @@ std::vector<Case> cases_of(const Study& study);
 
 /// Text of a case file that read_case resolves to the same case: every parameter, with its unit.
 std::string case_file_text(const Case& a_case);
+
+/// The study's file with other values of some parameters of its [case] and another tolerance; comments are
+/// lost.
+std::string with_settings(const Study& study, const std::vector<std::pair<std::string, double>>& values,
+                          double tolerance);
 
 }  // namespace cleft

@@ -5,15 +5,20 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
 
 #include "solver/frame_solver.h"
+#include "solver/message_order.h"
 
 namespace cleft {
 
 namespace {
+
+constexpr int most_with_same_sums = 1000000;  // unknowns, on two ranks
 
 struct NotEnoughWorkspace : SolveError {
   using SolveError::SolveError;
@@ -83,6 +88,7 @@ struct CondensedFactor::Mumps {
   Eigen::MatrixXd schur;
   std::vector<int> solution_rows;              // 1-based unknowns of this rank's part of a solution
   std::optional<Redistribution> redistribute;  // known with the first solution
+  bool same_sums = false;                      // in every run
 
   /// Control parameters are numbered from 1, as in the manual.
   MUMPS_INT& icntl(int number) { return id.icntl[number - 1]; }
@@ -120,13 +126,18 @@ CondensedFactor::CondensedFactor(const PatchSystem& system, PatchSystem::Entries
   m.icntl(7) = 1;                                                                // order given by the user
   // Percent of extra workspace: alone, without pivoting, the estimate is exact; MUMPS would touch the rest
   // too.
-  m.icntl(14) = system.offsets().size() > 2 ? 30 : 0;
+  const int ranks = static_cast<int>(system.offsets().size()) - 1;
+  m.icntl(14) = ranks > 1 ? 30 : 0;
   m.icntl(18) = 3;  // matrix distributed by the user
   m.icntl(19) = 1;  // Schur complement, whole, on rank 0
   // MUMPS merges neighbouring fronts of fewer pivots than this, or where that adds less than this percent of
   // zeros (its NEMIN, not in the manual; 5). The grid's dissection has large fronts already: of 370,000
   // unknowns the factor is 6 % smaller so, and no slower.
   m.id.keep[0] = 2;
+  // A front of as many rows as this is spread over ranks (KEEP(9), not in the manual either), and its sums
+  // are other ones in every run. The fronts of this many unknowns one rank can do.
+  m.same_sums = ranks == 2 && system.size() <= most_with_same_sums;
+  if (m.same_sums) m.id.keep[8] = std::numeric_limits<MUMPS_INT>::max() / 2;
 
   m.entries = std::move(entries);
   for (int& row : m.entries.row) ++row;
@@ -213,7 +224,10 @@ Block CondensedFactor::solve(const SparseColumns& right) {
     m.id.lsol_loc = length;
     m.id.isol_loc = m.solution_rows.data();
     m.id.sol_loc = values.data();
-    m.run(3, "solving for the displacements");
+    {
+      const auto order = m.same_sums ? std::make_unique<MessageOrder>() : nullptr;
+      m.run(3, "solving for the displacements");
+    }
     if (!m.redistribute) {
       std::vector<int> unknowns(m.solution_rows.begin(), m.solution_rows.begin() + m.id.info[22]);
       for (int& unknown : unknowns) --unknown;

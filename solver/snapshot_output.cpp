@@ -1,5 +1,8 @@
 #include "solver/snapshot_output.h"
 
+#include <filesystem>
+#include <iostream>
+
 namespace cleft {
 
 namespace {
@@ -14,6 +17,23 @@ void add_cells(Snapshot& s, const PatchMesh& mesh) {
   for (const auto& t : mesh.skin) add(Snapshot::triangle, {t[0], t[1], t[2]});
   // VTK's wedge begins with the face whose normal points outward: the upper one.
   for (const auto& w : mesh.wedges) add(Snapshot::wedge, {w[3], w[4], w[5], w[0], w[1], w[2]});
+}
+
+/// Runs what writes. On several ranks a failure ends them all here: it is one rank's, the others wait for it,
+/// and an exception would have HDF5 close files, which waits for them.
+template <class Work>
+void written(MPI_Comm communicator, const std::string& unfinished, const Work& work) {
+  int ranks = 1;
+  MPI_Comm_size(communicator, &ranks);
+  if (ranks == 1) return work();
+  try {
+    work();
+  } catch (const std::exception& e) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    std::cerr << "cleft solve: failed: " << e.what() << std::endl;
+    MPI_Abort(communicator, 1);
+  }
 }
 
 }  // namespace
@@ -43,30 +63,35 @@ SnapshotOutput::SnapshotOutput(const std::string& out, Snapshot snapshot,
       nodes_(snapshot_.points.size()),
       slabs_(slabs),
       communicator_(system.communicator()) {
-  std::string name;
-  if (system.rank() == 0) {
+  written(communicator_, name_, [&] {
+    if (system.rank() != 0) return;
     writer_.emplace(out, snapshot_, arrays);
+    name_ = writer_->path();
     writer_->close();
-    name = writer_->path();
-  }
-  int length = static_cast<int>(name.size());
+  });
+  int length = static_cast<int>(name_.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, communicator_);
-  name.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(name.data(), length, MPI_CHAR, 0, communicator_);
-  rows_.emplace(name, nodes_, communicator_);
+  name_.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(name_.data(), length, MPI_CHAR, 0, communicator_);
+  written(communicator_, name_, [&] { rows_.emplace(name_, nodes_, communicator_); });
   snapshot_ = {};
 }
 
 void SnapshotOutput::write_vectors(const std::string& array, std::size_t frame,
                                    const std::vector<Vec3>& slab) {
-  rows_->write(array, 3, frame, slabs_.first(), {slab.empty() ? nullptr : &slab.front().x, 3 * slab.size()});
+  written(communicator_, name_, [&] {
+    rows_->write(array, 3, frame, slabs_.first(),
+                 {slab.empty() ? nullptr : &slab.front().x, 3 * slab.size()});
+  });
 }
 
 void SnapshotOutput::write_scalars(const std::string& array, std::vector<double> values) {
   values.resize(nodes_);
   MPI_Bcast(values.data(), static_cast<int>(nodes_), MPI_DOUBLE, 0, communicator_);
-  rows_->write(array, 1, 0, slabs_.first(),
-               std::span<const double>(values).subspan(slabs_.first(), slabs_.count()));
+  written(communicator_, name_, [&] {
+    rows_->write(array, 1, 0, slabs_.first(),
+                 std::span<const double>(values).subspan(slabs_.first(), slabs_.count()));
+  });
 }
 
 void SnapshotOutput::add_figures(const FrameFigures& f) {
@@ -76,8 +101,10 @@ void SnapshotOutput::add_figures(const FrameFigures& f) {
 }
 
 void SnapshotOutput::finish() {
-  rows_->close();
-  if (writer_) writer_->finish(snapshot_);
+  written(communicator_, name_, [&] {
+    rows_->close();
+    if (writer_) writer_->finish(snapshot_);
+  });
 }
 
 }  // namespace cleft

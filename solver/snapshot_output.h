@@ -16,7 +16,9 @@ namespace cleft {
 /// A case's snapshot without its frames.
 Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Release& release);
 
-/// Takes its final name with finish(), and leaves nothing behind without it. Calls are collective.
+/// Takes its final name with finish(), and leaves nothing behind without it. Calls are collective. What
+/// cannot be written is a std::runtime_error on one rank, and on several the end of them all, with exit
+/// code 1.
 class SnapshotOutput {
  public:
   SnapshotOutput(const std::string& out, Snapshot snapshot, const std::vector<SnapshotArray>& arrays,
@@ -37,6 +39,7 @@ class SnapshotOutput {
   std::size_t nodes_;
   const NodeSlabs& slabs_;
   MPI_Comm communicator_;
+  std::string name_;                      // of the unfinished file
   std::optional<SnapshotWriter> writer_;  // rank 0
   std::optional<SnapshotRows> rows_;
 };

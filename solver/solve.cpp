@@ -10,6 +10,7 @@
 #include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "params/sensitivities.h"
 #include "params/stiffness.h"
 #include "solver/compliance.h"
 #include "solver/frame_figures.h"
@@ -401,20 +402,11 @@ void check_options(const Parameters& p, const SolveOptions& options, const std::
     throw InputError(where +
                      ": --method iterative: contact is found with the factor; set cut.contact to false, or "
                      "use --method direct");
-  if (!options.sensitivities.empty() && contact)
-    throw InputError(where +
-                     ": --sensitivities: the series has no derivative where lips begin to touch; set "
-                     "cut.contact to false");
-  for (const std::string& name : options.sensitivities) {
-    const Parameter& row = find_parameter(name, where + ": --sensitivities");
-    const std::string part = name.substr(0, name.find('.'));
-    if (row.is_text() || (part != "skin" && part != "tissue" && part != "foundation"))
-      throw InputError(where + ": --sensitivities " + name +
-                       ": must be a number of skin, tissue or foundation");
+  check_sensitivities(options.sensitivities, p, where + ": --sensitivities");
+  for (const std::string& name : options.sensitivities)
     if (options.unit_prestress && name.find("prestress") != std::string::npos)
       throw InputError(where + ": --sensitivities " + name +
                        ": --unit-prestress writes it already; leave one out");
-  }
 }
 
 std::vector<SolveReport> solve_cases(const std::vector<CaseToSolve>& cases, const SolveOptions& options,

@@ -18,6 +18,15 @@ using namespace cleft;
 
 namespace {
 
+/// Those of the case files, which are solved together.
+void take_sensitivities(const Case& one, bool first, const std::string& file, SolveOptions& options) {
+  if (first) options.sensitivities = one.sensitivities;
+  if (options.sensitivities != one.sensitivities)
+    throw InputError(file +
+                     ": sensitivities are not those of the first case file; solve the cases one by one, or "
+                     "give --sensitivities for all");
+}
+
 std::string number_of_trilinos() {
   return std::to_string(DEAL_II_TRILINOS_VERSION_MAJOR) + "." +
          std::to_string(DEAL_II_TRILINOS_VERSION_MINOR);
@@ -124,7 +133,8 @@ int main(int argc, char** argv) {
       "--unit-prestress", options.unit_prestress,
       "write the series per unit of skin.prestress_u, _v and _uv too, of which any other prestress is a sum");
   app.add_option("--sensitivities", options.sensitivities,
-                 "NAME,...: write the derivative of the series with respect to these parameters, mm per unit")
+                 "NAME,...: write the derivative of the series with respect to these parameters, mm per unit "
+                 "(default: what the case files say)")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_flag("--json", json, "print the figures as JSON; several cases: a list");
@@ -139,7 +149,9 @@ int main(int argc, char** argv) {
     for (std::size_t c = 0; c < case_files.size(); ++c)
       mistakes.collect([&] {
         refuse_to_overwrite(outs[c], case_files);
-        cases.push_back({read_case(case_files[c], assignments).parameters, outs[c]});
+        const Case one = read_case(case_files[c], assignments);
+        cases.push_back({one.parameters, outs[c]});
+        if (app.count("--sensitivities") == 0) take_sensitivities(one, c == 0, case_files[c], options);
         check_options(cases.back().parameters, options, case_files[c]);
       });
     mistakes.throw_if_any();

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "benchmarks/encoder/node_data.h"
+#include "tradeoff/rivals/node_data.h"
 #include "encoder/field/field.h"
 #include "solver/snapshot/snapshot.h"
 

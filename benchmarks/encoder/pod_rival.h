@@ -1,7 +1,7 @@
 // Proper orthogonal decomposition over the frames: modes in space times histories.
 #pragma once
 
-#include "benchmarks/encoder/node_data.h"
+#include "tradeoff/rivals/node_data.h"
 
 namespace cleft {
 

@@ -61,8 +61,20 @@ struct Quantity {
   std::string name;
   int components = 1;
   std::vector<double> coefficients;  ///< [(((i * V + j) * W + k) * T + l) * components + c]
-  double largest = 0;  ///< Euclidean norm over the components, at any node and frame of the data
-  double error = 0;    ///< the same of the difference from them, over `largest`
+  double largest = 0;       ///< Euclidean norm over the components, at any node and frame of the data
+  double error = 0;         ///< the same of the difference from them, as stored, over `largest`
+  double spline_error = 0;  ///< the same for the spline alone (equal where no residual is stored)
+  double quantum = 0;       ///< unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
+};
+
+/// The displacement's derivative by a parameter of the case, over the field's bases: what interpolation
+/// between cases uses.
+struct ParameterDerivative {
+  std::string parameter;             ///< dotted name
+  std::vector<Vec3> control_points;  ///< as the field's, mm per the parameter's unit
+  double quantum = 0;                ///< unknowns are whole multiples of it
+  double largest = 0;                ///< Euclidean norm, at any node and frame of the data
+  double error = 0;                  ///< the same of the difference from them, over `largest`
 };
 
 class Field {
@@ -124,6 +136,7 @@ class Field {
 
   double quantum = 0;  ///< mm: unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
   std::vector<Quantity> quantities;
+  std::vector<ParameterDerivative> by_parameter;
   std::map<std::string, double> parameters;  ///< of the case, by dotted name
   std::string case_hash;
   FitReport report;

@@ -12,12 +12,17 @@
 namespace cleft {
 
 /// Writes the field whole or not at all: coefficients as multiples of its quantum, or as 32-bit floats where
-/// it has none; and the residual where there is one.
+/// it has none; and the residuals, of the displacement and of the quantities, where there are some.
 void write_field(const std::string& path, const Field& field, const NodeResidual* residual = nullptr,
-                 std::span<const std::int32_t> residual_order = {});
+                 std::span<const std::int32_t> residual_order = {},
+                 std::span<const std::optional<NodeResidual>> of_quantities = {});
 
 /// Reads and checks a field file; throws FileError naming what is missing, damaged or out of range.
 Field read_field(const std::string& path);
+
+/// Whether it is of a format that an earlier version of this program wrote, and this one does not read.
+/// Throws FileError where it is no HDF5 file.
+bool is_older_field(const std::string& path);
 
 /// The case's parameters alone, by dotted name: coefficients stay on disk.
 std::map<std::string, double> read_field_parameters(const std::string& path);
@@ -26,5 +31,8 @@ std::map<std::string, double> read_field_parameters(const std::string& path);
 /// it was written with.
 std::optional<NodeResidual> read_residual(const std::string& path,
                                           std::span<const std::int32_t> residual_order = {});
+/// The same of the field's quantities[index].
+std::optional<NodeResidual> read_quantity_residual(const std::string& path, std::size_t index,
+                                                   std::span<const std::int32_t> residual_order = {});
 
 }  // namespace cleft

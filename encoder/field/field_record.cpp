@@ -1,13 +1,12 @@
 #include "encoder/field/field_record.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
 #include "base/text.h"
-#include "encoder/field/unknowns.h"
+#include "encoder/field/coded_points.h"
 
 namespace cleft {
 
@@ -22,19 +21,20 @@ struct Figure {
   const char *name, *unit;
   double FitReport::*value;
 };
-constexpr Figure figures[] = {{"relative_l2", "", &FitReport::relative_l2},
-                              {"node_error", "", &FitReport::node_error},
-                              {"spline_error", "", &FitReport::spline_error},
-                              {"gape_error", "", &FitReport::gape_error},
-                              {"false_gap", "", &FitReport::false_gap},
-                              {"largest_displacement", "_mm", &FitReport::largest_displacement},
-                              {"frame_error", "", &FitReport::frame_error},
-                              {"worst_node", "", &FitReport::worst_node},
-                              {"worst_time", "", &FitReport::worst_time},
-                              {"condition", "", &FitReport::condition},
-                              {"crease", "_degrees", &FitReport::crease},
-                              {"overlap", "_mm", &FitReport::overlap},
-                              {"least_volume", "", &FitReport::least_volume}};  // no times: equal fields, equal files
+constexpr Figure figures[] = {
+    {"relative_l2", "", &FitReport::relative_l2},
+    {"node_error", "", &FitReport::node_error},
+    {"spline_error", "", &FitReport::spline_error},
+    {"gape_error", "", &FitReport::gape_error},
+    {"false_gap", "", &FitReport::false_gap},
+    {"largest_displacement", "_mm", &FitReport::largest_displacement},
+    {"frame_error", "", &FitReport::frame_error},
+    {"worst_node", "", &FitReport::worst_node},
+    {"worst_time", "", &FitReport::worst_time},
+    {"condition", "", &FitReport::condition},
+    {"crease", "_degrees", &FitReport::crease},
+    {"overlap", "_mm", &FitReport::overlap},
+    {"least_volume", "", &FitReport::least_volume}};  // no times: equal fields, equal files
 
 /// The same of an interpolation.
 struct InterpolationFigure {
@@ -147,30 +147,6 @@ void check_break(const BSplineBasis& across, const CanonicalCut& cut) {
     throw InputError("the basis across has no knot of full multiplicity at 0");
 }
 
-/// 32-bit floats as four planes of bytes, the least significant first: they pack better.
-void append_planes(std::vector<std::uint8_t>& bytes, std::span<const float> numbers) {
-  for (int plane = 0; plane < 4; ++plane)
-    for (const float number : numbers)
-      bytes.push_back(static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(number) >> 8 * plane));
-}
-
-/// The floats of the last bytes, which are then taken off.
-std::vector<float> take_planes(std::span<const std::uint8_t>& bytes, std::size_t count) {
-  if (bytes.size() / 4 < count)
-    throw InputError("there are " + std::to_string(bytes.size()) +
-                     " bytes of coefficients, expected at least " + std::to_string(4 * count));
-  const auto planes = bytes.last(4 * count);
-  bytes = bytes.first(bytes.size() - 4 * count);
-  std::vector<float> numbers(count);
-  for (std::size_t n = 0; n < count; ++n) {
-    std::uint32_t bits = 0;
-    for (std::size_t plane = 4; plane-- > 0;) bits = bits << 8 | planes[plane * count + n];
-    numbers[n] = std::bit_cast<float>(bits);
-    if (!std::isfinite(numbers[n])) throw InputError("a control point is not a finite number");
-  }
-  return numbers;
-}
-
 std::vector<float> as_floats(const std::vector<Vec3>& points) {
   std::vector<float> numbers;
   for (const Vec3& point : points)
@@ -194,40 +170,8 @@ std::size_t count_of(const std::array<BSplineBasis, 4>& bases, std::size_t bytes
   return static_cast<std::size_t>(count);
 }
 
-/// Those of the header, whose numbers stand last among the bytes and are taken off; `size` control points.
-std::vector<Quantity> quantities_of(const Json& header, std::size_t size,
-                                    std::span<const std::uint8_t>& bytes) {
-  std::vector<Quantity> quantities;
-  if (!header.contains("quantities")) return quantities;
-  for (const Json& entry : header.at("quantities")) {
-    quantities.push_back({entry.at("name").get<std::string>(),
-                          entry.at("components").get<int>(),
-                          {},
-                          finite(entry, "largest"),
-                          finite(entry, "error")});
-    if (quantities.back().components < 1 || quantities.back().components > 100)
-      throw InputError("a quantity has no number of components");
-  }
-  for (std::size_t q = quantities.size(); q-- > 0;) {
-    const auto numbers = take_planes(bytes, size * static_cast<std::size_t>(quantities[q].components));
-    quantities[q].coefficients.assign(numbers.begin(), numbers.end());
-  }
-  return quantities;
-}
-
 std::array<BSplineBasis, 4> bases_of(const Field& field) {
   return {field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
-}
-
-std::vector<std::int64_t> integers_of(const Unknowns& unknowns) {
-  std::vector<std::int64_t> values;
-  values.reserve(unknowns.values.size());
-  for (const double x : unknowns.values) {
-    CLEFT_CHECK(std::abs(x), <=, std::ldexp(1., 40));
-    values.push_back(std::llround(x));
-    CLEFT_CHECK(std::abs(x - static_cast<double>(values.back())), <=, 1e-3);
-  }
-  return values;
 }
 
 }  // namespace
@@ -242,22 +186,10 @@ FieldRecord record_of(const Field& field) {
     append_planes(record.coefficients, as_floats(field.coefficients()));
   } else {
     const ControlTies ties = ties_of(field.parametrization().name(), bases);
-    const CoefficientGrid places = places_of(ties, bases);
-    const Unknowns unknowns = unknowns_of(field, places, field.quantum);
-    const auto values = integers_of(unknowns);
-    const auto again = control_points(ties, bases, multiples(values, field.quantum));
-    for (std::size_t n = 0; n < again.size(); ++n)
-      CLEFT_CHECK(norm(again[n] - field.coefficients()[n]), <=, 0.01 * field.quantum);
-    record = {header_of(field, unknowns.slices), encode_coefficients(places, unknowns.slices, values)};
+    CodedPoints coded = coded_points(field.coefficients(), ties, bases, field.quantum);
+    record = {header_of(field, coded.slices), std::move(coded.bytes)};
   }
-  for (const Quantity& quantity : field.quantities) {
-    record.header["quantities"].push_back({{"name", quantity.name},
-                                           {"components", quantity.components},
-                                           {"largest", quantity.largest},
-                                           {"error", quantity.error}});
-    append_planes(record.coefficients,
-                  std::vector<float>(quantity.coefficients.begin(), quantity.coefficients.end()));
-  }
+  append_beside(record.header, record.coefficients, field);
   return record;
 }
 
@@ -296,14 +228,14 @@ Field field_of(const Json& header, Points&& points_of) {
 
 Field field_of(const FieldRecord& record) {
   const Json& header = record.header;
-  std::vector<Quantity> quantities;
+  Beside beside;
   double quantum = 0;
   Field field = field_of(header, [&](const std::array<BSplineBasis, 4>& bases, const ControlTies& ties) {
     quantum = finite(header, "quantum");
     if (quantum < 0) throw InputError("quantum is negative");
     const std::size_t size = count_of(bases, record.coefficients.size());
     std::span<const std::uint8_t> bytes = record.coefficients;
-    quantities = quantities_of(header, size, bytes);
+    beside = take_beside(header, bytes, bases);
     if (quantum > 0) {
       const auto [places, slices] = unknown_places(header, record.coefficients.size());
       return control_points(ties, bases, multiples(decode_coefficients(places, slices, bytes), quantum));
@@ -313,7 +245,7 @@ Field field_of(const FieldRecord& record) {
     return points;
   });
   field.quantum = quantum;
-  field.quantities = std::move(quantities);
+  field.quantities = std::move(beside.quantities), field.by_parameter = std::move(beside.by_parameter);
   return field;
 }
 

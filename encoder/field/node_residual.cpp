@@ -13,7 +13,7 @@ namespace {
 using code::Chance;
 using code::Mixer;
 
-constexpr int components = 3, earlier_nodes = 3;
+constexpr int earlier_nodes = 3;
 
 /// One component of a node over the frames, with a margin of zeros before and after.
 class History {
@@ -42,19 +42,23 @@ int sign_of(std::int32_t value) { return value < 0 ? 0 : value > 0 ? 2 : 1; }
 template <class Coder>
 class Model {
  public:
-  Model(Coder& coder, int frames) : coder_(coder) {
-    for (int n = 0; n <= earlier_nodes; ++n)
-      nodes_.push_back({History(frames), History(frames), History(frames)});
+  Model(Coder& coder, int components, int frames)
+      : coder_(coder),
+        components_(components),
+        nodes_(earlier_nodes + 1,
+               std::vector<History>(static_cast<std::size_t>(components), History(frames))),
+        third_(static_cast<std::size_t>(components) * 14 * 6 * 16) {
     for (auto& mixer : mixers_) mixer.weight = {26214, 26214, 26214};
   }
 
-  /// One node: 3 x frames values, read where the coder decodes.
+  /// One node: components x frames values, read where the coder decodes.
   void code_node(std::int32_t* values, int frames) {
     std::rotate(nodes_.begin(), nodes_.end() - 1, nodes_.end());
-    for (int c = 0; c < components; ++c) {
-      History& own = nodes_[0][c];
-      const History &last = nodes_[1][c], &second = nodes_[2][c], &third = nodes_[3][c];
-      const History *other = c > 0 ? &nodes_[0][c - 1] : nullptr, *another = c > 1 ? &nodes_[0][0] : nullptr;
+    for (int c = 0; c < components_; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      History& own = nodes_[0][k];
+      const History &last = nodes_[1][k], &second = nodes_[2][k], &third = nodes_[3][k];
+      const History *other = c > 0 ? &nodes_[0][k - 1] : nullptr, *another = c > 1 ? &nodes_[0][0] : nullptr;
       for (int f = 0; f < frames; ++f) {
         const int in_time = 2 * size_of(own[f - 1]) + size_of(own[f - 2]);
         const int beside =
@@ -99,42 +103,44 @@ class Model {
   }
 
   Coder& coder_;
-  std::vector<std::array<History, components>> nodes_;  // this one, and those before it
+  int components_;
+  std::vector<std::vector<History>> nodes_;  // this one, and those before it
   std::vector<Chance> first_ = std::vector<Chance>(14 * 14 * 16);
   std::vector<Chance> second_ = std::vector<Chance>(81 * 6 * 16);
-  std::vector<Chance> third_ = std::vector<Chance>(components * 14 * 6 * 16);
+  std::vector<Chance> third_;
   std::array<Mixer<3>, 16 * 14> mixers_;
 };
 
 template <class Coder>
-void code_nodes(Coder& coder, int nodes, int frames, std::int32_t* values,
+void code_nodes(Coder& coder, int nodes, int components, int frames, std::int32_t* values,
                 std::span<const std::int32_t> order) {
-  Model<Coder> model(coder, frames);
+  Model<Coder> model(coder, components, frames);
   for (int n = 0; n < nodes; ++n) {
     const std::size_t node = static_cast<std::size_t>(order.empty() ? n : order[static_cast<std::size_t>(n)]);
-    model.code_node(values + node * components * static_cast<std::size_t>(frames), frames);
+    model.code_node(values + node * static_cast<std::size_t>(components) * static_cast<std::size_t>(frames),
+                    frames);
   }
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> encode_residual(const NodeResidual& residual, std::span<const std::int32_t> order) {
-  CLEFT_CHECK(
-      residual.values.size(), ==,
-      static_cast<std::size_t>(components) * residual.nodes * static_cast<std::size_t>(residual.frames));
+  CLEFT_CHECK(residual.values.size(), ==,
+              static_cast<std::size_t>(residual.components) * residual.nodes *
+                  static_cast<std::size_t>(residual.frames));
   code::Encoder coder;
   // The model gives back what it was given.
   std::vector<std::int32_t> values = residual.values;
-  code_nodes(coder, residual.nodes, residual.frames, values.data(), order);
+  code_nodes(coder, residual.nodes, residual.components, residual.frames, values.data(), order);
   return coder.finish();
 }
 
 std::vector<std::int32_t> decode_residual(int nodes, int frames, std::span<const std::uint8_t> bytes,
-                                          std::span<const std::int32_t> order) {
+                                          std::span<const std::int32_t> order, int components) {
   std::vector<std::int32_t> values(static_cast<std::size_t>(components) * nodes *
                                    static_cast<std::size_t>(frames));
   code::Decoder coder(bytes);
-  code_nodes(coder, nodes, frames, values.data(), order);
+  code_nodes(coder, nodes, components, frames, values.data(), order);
   coder.finish();
   return values;
 }

@@ -10,27 +10,33 @@
 
 namespace cleft {
 
-/// Whole multiples of `quantum` (mm), mostly 0: added to the spline's displacement at each node and frame
-/// after frame 0.
+/// Whole multiples of `quantum` (mm, or the quantity's unit), mostly 0: added to the spline's value at each
+/// node and frame from first_frame on.
 struct NodeResidual {
   double quantum = 0;
-  int nodes = 0, frames = 0;         ///< frames without frame 0
-  std::vector<std::int32_t> values;  ///< (node * 3 + component) * frames + frame
+  int nodes = 0, frames = 0;
+  std::vector<std::int32_t> values;  ///< (node * components + component) * frames + frame
+  int components = 3;
+  int first_frame = 1;  ///< of the series: a displacement is 0 in frame 0, a further quantity need not be
 
-  /// Of a frame of the series, from 1 on.
+  /// Of a frame of the series, from first_frame on.
   std::int32_t& value(std::size_t node, int component, std::size_t frame) {
     return values[place(node, component, frame)];
   }
-  /// mm; nothing in frame 0.
+  /// Of one component, and of a displacement; 0 before first_frame.
+  double at(std::size_t node, int component, std::size_t frame) const {
+    return frame < static_cast<std::size_t>(first_frame) ? 0
+                                                         : quantum * values[place(node, component, frame)];
+  }
   Vec3 at(std::size_t node, std::size_t frame) const {
-    Vec3 off;
-    for (int c = 0; frame > 0 && c < 3; ++c) off[c] = quantum * values[place(node, c, frame)];
-    return off;
+    return {at(node, 0, frame), at(node, 1, frame), at(node, 2, frame)};
   }
 
  private:
   std::size_t place(std::size_t node, int component, std::size_t frame) const {
-    return (node * 3 + static_cast<std::size_t>(component)) * static_cast<std::size_t>(frames) + frame - 1;
+    return (node * static_cast<std::size_t>(components) + static_cast<std::size_t>(component)) *
+               static_cast<std::size_t>(frames) +
+           frame - static_cast<std::size_t>(first_frame);
   }
 };
 
@@ -39,9 +45,9 @@ struct NodeResidual {
 std::vector<std::uint8_t> encode_residual(const NodeResidual& residual,
                                           std::span<const std::int32_t> order = {});
 
-/// Values of the same nodes and frames, in the same order; throws InputError where the bytes are damaged and
-/// it can be told.
+/// Values of the same nodes, frames and components, in the same order; throws InputError where the bytes are
+/// damaged and it can be told.
 std::vector<std::int32_t> decode_residual(int nodes, int frames, std::span<const std::uint8_t> bytes,
-                                          std::span<const std::int32_t> order = {});
+                                          std::span<const std::int32_t> order = {}, int components = 3);
 
 }  // namespace cleft

@@ -188,14 +188,22 @@ Field StudyFile::field(int i) const {
   });
 }
 
-std::vector<StudyCase> published_study_cases(const std::string& study) {
+std::vector<StudyCase> published_study_cases(const std::string& study, std::vector<std::string>* older) {
   if (!fs::is_directory(study)) throw InputError(study + ": no such folder (give a study folder)");
   std::vector<StudyCase> cases;
+  std::vector<std::string> left_out;
   std::error_code absent;
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(study) / "cases", absent))
-    if (fs::exists(entry.path() / "manifest.json") && fs::exists(entry.path() / "case.dffd"))
-      cases.push_back({entry.path().filename().string(), (entry.path() / "case.dffd").string(),
-                       choices_of_manifest((entry.path() / "manifest.json").string())});
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(study) / "cases", absent)) {
+    const std::string name = entry.path().filename().string(), field = (entry.path() / "case.dffd").string(),
+                      manifest = (entry.path() / "manifest.json").string();
+    if (!fs::exists(manifest) || !fs::exists(field)) continue;
+    if (is_older_field(field))
+      left_out.push_back(name);
+    else
+      cases.push_back({name, field, choices_of_manifest(manifest)});
+  }
+  if (older) older->insert(older->end(), left_out.begin(), left_out.end());
+  if (cases.empty() && !left_out.empty()) throw InputError(study + ": " + note_of_older(study, left_out));
   if (cases.empty())
     throw InputError(study +
                      ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
@@ -204,6 +212,20 @@ std::vector<StudyCase> published_study_cases(const std::string& study) {
   std::sort(cases.begin(), cases.end(),
             [](const StudyCase& a, const StudyCase& b) { return a.name < b.name; });
   return cases;
+}
+
+std::string note_of_older(const std::string& study, std::vector<std::string> older) {
+  std::sort(older.begin(), older.end());
+  constexpr std::size_t most_named = 10;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(older.size(), most_named); ++i)
+    names += (i > 0 ? ", " : "") + older[i];
+  if (older.size() > most_named) names += " and " + std::to_string(older.size() - most_named) + " more";
+  const bool one = older.size() == 1;
+  return (one ? "left out, since its field is" : "left out, since their fields are") +
+         std::string(" of an older format: ") + (one ? "case " : "cases ") + names +
+         "; cleft run STUDY.toml --out " + study + " encodes anew what the study asks for, then " + study +
+         "/cases/" + (one ? older.front() : "NAME of each") + " can be deleted";
 }
 
 std::vector<StudyRecord> study_records(const std::vector<StudyCase>& cases) {

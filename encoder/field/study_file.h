@@ -48,9 +48,14 @@ struct StudyCase {
   std::map<std::string, std::string> choices = {};
 };
 
-/// The published cases of a study folder, by name. Throws InputError where it has none, FileError where a
-/// manifest is damaged.
-std::vector<StudyCase> published_study_cases(const std::string& study);
+/// The published cases of a study folder, by name, without those whose fields are of an older format: their
+/// names are added to `older`. Throws InputError where there is none, FileError where a manifest or a field
+/// is damaged.
+std::vector<StudyCase> published_study_cases(const std::string& study,
+                                             std::vector<std::string>* older = nullptr);
+
+/// What to do about cases of an older format; a sentence for users.
+std::string note_of_older(const std::string& study, std::vector<std::string> older);
 
 /// Fields in the unknowns of one set of control points, that cases are sums of: unknowns in multiples of a
 /// quantum, mm, coded by encode_coefficients().

@@ -53,8 +53,12 @@ std::vector<double> multiples(std::span<const std::int64_t> values, double quant
 }
 
 Unknowns unknowns_of(const Field& field, const CoefficientGrid& places, double unit) {
-  const std::size_t T = field.basis(3).size(), n = static_cast<std::size_t>(places.unknowns);
-  const auto& points = field.coefficients();
+  return unknowns_of(field.coefficients(), field.basis(3), places, unit);
+}
+
+Unknowns unknowns_of(std::span<const Vec3> points, const BSplineBasis& time, const CoefficientGrid& places,
+                     double unit) {
+  const std::size_t T = time.size(), n = static_cast<std::size_t>(places.unknowns);
   bool zero = T > 1;
   for (std::size_t at = 0; at < points.size() && zero; at += T) zero = points[at] == Vec3{};
   const std::size_t skipped = zero ? 1 : 0, slices = T - skipped;
@@ -68,16 +72,22 @@ Unknowns unknowns_of(const Field& field, const CoefficientGrid& places, double u
   return result;
 }
 
+std::vector<Vec3> quantised(std::span<const Vec3> points, const ControlTies& ties,
+                            const std::array<BSplineBasis, 4>& bases, double quantum, double farthest) {
+  const CoefficientGrid places = places_of(ties, bases);
+  const Unknowns unknowns = unknowns_of(points, bases[3], places, quantum);
+  const auto values = round_coefficients(places, unknowns.slices, unknowns.values, farthest);
+  return control_points(ties, bases, multiples(values, quantum));
+}
+
 Field quantised(const Field& field, double quantum, double farthest) {
   const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
   const ControlTies ties = ties_of(field.parametrization().name(), bases);
-  const CoefficientGrid places = places_of(ties, bases);
-  const Unknowns unknowns = unknowns_of(field, places, quantum);
-  const auto values = round_coefficients(places, unknowns.slices, unknowns.values, farthest);
   Field result(field.shared_parametrization(), bases,
-               control_points(ties, bases, multiples(values, quantum)));
+               quantised(field.coefficients(), ties, bases, quantum, farthest));
   result.parameters = field.parameters, result.case_hash = field.case_hash, result.report = field.report;
-  result.quantities = field.quantities, result.interpolation = field.interpolation;
+  result.quantities = field.quantities, result.by_parameter = field.by_parameter;
+  result.interpolation = field.interpolation;
   result.quantum = quantum;
   return result;
 }

@@ -33,9 +33,15 @@ struct Unknowns {
   std::vector<double> values;
 };
 Unknowns unknowns_of(const Field& field, const CoefficientGrid& places, double unit);
+/// The same of any control points on these bases.
+Unknowns unknowns_of(std::span<const Vec3> points, const BSplineBasis& time, const CoefficientGrid& places,
+                     double unit);
 
 /// The field with unknowns that are multiples of `quantum`, none moved by more than `farthest` quanta (0.5 to
 /// 1: the further, the fewer bytes).
 Field quantised(const Field& field, double quantum, double farthest);
+/// The same of any control points on these bases.
+std::vector<Vec3> quantised(std::span<const Vec3> points, const ControlTies& ties,
+                            const std::array<BSplineBasis, 4>& bases, double quantum, double farthest);
 
 }  // namespace cleft

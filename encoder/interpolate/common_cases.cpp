@@ -151,17 +151,27 @@ CommonCases::CommonCases(const std::vector<StudyMember>& members)
     const Field& field = member->field;
     cases_.push_back(
         {member->name, parameters_as_solved(field), field.parametrization().geometry(), field.report});
-    std::vector<float>& points = points_.emplace_back();
-    for (const Vec3& point : insert_knots(field.coefficients(), normal_bases(field), bases_))
-      for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(point[c]));
+    const auto own = normal_bases(field);
+    const auto raised = [&](const std::vector<Vec3>& control_points) {
+      std::vector<float> points;
+      for (const Vec3& point : insert_knots(control_points, own, bases_))
+        for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(point[c]));
+      return points;
+    };
+    points_.push_back(raised(field.coefficients()));
+    for (const ParameterDerivative& one : field.by_parameter) {
+      derivatives_.push_back({size() - 1, one.parameter, one.error * one.largest});
+      derivative_points_.push_back(raised(one.control_points));
+    }
   }
   if (cases_.size() < 2)
     throw InputError(
         "the study holds one case (of different parameters); nothing lies between fewer than two");
 }
 
-std::vector<Vec3> CommonCases::points(int i) const {
-  const std::span<const float> flat = control_points(i);
+std::vector<Vec3> CommonCases::points(int i) const { return points_of(control_points(i)); }
+
+std::vector<Vec3> points_of(std::span<const float> flat) {
   std::vector<Vec3> points(flat.size() / 3);
   for (std::size_t n = 0; n < flat.size(); ++n)
     points[n / 3][static_cast<int>(n % 3)] = static_cast<double>(flat[n]);

@@ -32,6 +32,13 @@ struct CommonCase {
   FitReport report;
 };
 
+/// A derivative of a case's displacement by a parameter.
+struct CommonDerivative {
+  int of;  ///< case
+  std::string parameter;
+  double error;  ///< mm per unit: largest at any node and frame
+};
+
 class CommonCases {
  public:
   /// Raises all cases to the bases that hold the knots of each. Of cases with the same parameters the one
@@ -51,6 +58,9 @@ class CommonCases {
   /// than any fit.
   std::span<const float> control_points(int i) const { return points_[static_cast<std::size_t>(i)]; }
   std::vector<Vec3> points(int i) const;  ///< the same
+  /// Of all cases; their control points likewise, mm per unit.
+  const std::vector<CommonDerivative>& derivatives() const { return derivatives_; }
+  std::span<const float> derivative_points(std::size_t d) const { return derivative_points_[d]; }
   /// The field of a sum of control points, in a body of this geometry.
   Field field_of(const std::vector<Vec3>& points, FieldGeometry geometry) const;
 
@@ -60,6 +70,11 @@ class CommonCases {
   std::map<std::string, std::string> choices_;
   std::array<BSplineBasis, 4> bases_;
   std::vector<std::vector<float>> points_;
+  std::vector<CommonDerivative> derivatives_;
+  std::vector<std::vector<float>> derivative_points_;
 };
+
+/// The same control points in double precision.
+std::vector<Vec3> points_of(std::span<const float> flat);
 
 }  // namespace cleft

@@ -34,7 +34,8 @@ class ScaledCases {
       if (i == 0)
         slices_ = unknowns.slices,
         unknowns_.resize(static_cast<Eigen::Index>(unknowns.values.size()), size());
-      apart_.push_back(unknowns.slices != slices_ || !member(i).field.quantities.empty() || !(largest > 0));
+      apart_.push_back(unknowns.slices != slices_ || !member(i).field.quantities.empty() ||
+                       !member(i).field.by_parameter.empty() || !(largest > 0));
       for (Eigen::Index n = 0; n < unknowns_.rows(); ++n)
         unknowns_(n, i) =
             apart_.back() ? 0 : static_cast<float>(unknowns.values[static_cast<std::size_t>(n)] / largest);

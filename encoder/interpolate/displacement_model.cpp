@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "encoder/interpolate/convex_hull.h"
 #include "encoder/interpolate/field_samples.h"
@@ -40,9 +42,31 @@ Eigen::MatrixXd few_of(const Eigen::MatrixXd& samples) {
 
 }  // namespace
 
-DisplacementModel::DisplacementModel(const std::vector<CaseParameters>& cases, const Eigen::MatrixXd& samples,
+std::vector<int> representative_cases(const std::vector<CaseParameters>& cases, int most) {
+  const int n = static_cast<int>(cases.size());
+  std::vector<int> list(cases.size());
+  std::iota(list.begin(), list.end(), 0);
+  if (n <= most) return list;
+  const Features features(cases, Loading::general);
+  Eigen::MatrixXd places(features.size(), n);
+  for (int i = 0; i < n; ++i) places.col(i) = features.at(cases[static_cast<std::size_t>(i)]);
+  Eigen::VectorXd distances = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
+  Eigen::Index next = 0;
+  (places.colwise() - places.rowwise().mean()).colwise().squaredNorm().maxCoeff(&next);
+  list.clear();
+  while (static_cast<int>(list.size()) < most) {
+    list.push_back(static_cast<int>(next));
+    distances = distances.cwiseMin(
+        (places.colwise() - Eigen::VectorXd(places.col(next))).colwise().squaredNorm().transpose());
+    distances.maxCoeff(&next);
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+DisplacementModel::DisplacementModel(const std::vector<CaseParameters>& cases, const CaseSamples& samples,
                                      Loading loading)
-    : features_(cases, loading) {
+    : features_(cases, loading), derivatives_(samples.derivatives.cols()) {
   const auto n = static_cast<Eigen::Index>(cases.size());
   places_.resize(n, features_.size()), loads_.resize(n, features_.load(cases[0]).size()), scales_.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -51,23 +75,78 @@ DisplacementModel::DisplacementModel(const std::vector<CaseParameters>& cases, c
     const double scale = features_.scale(one);
     scales_[i] = scale > 0 ? scale : 1;
   }
+  const auto normal = [&] {
+    return Eigen::MatrixXd(samples.displacements * scales_(samples.cases).cwiseInverse().asDiagonal());
+  };
   if (!sees_curvature()) {
-    const Eigen::MatrixXd normal = samples * scales_.cwiseInverse().asDiagonal();
     const Covariance straight{"", 1,    Covariance::Correlation::none,
                               1,  1e-9, Eigen::VectorXd::Ones(features_.size())};
-    plain_.emplace(
-        Plain{scales_, {{places_, loads_, normal.transpose() * normal}, straight}, few_of(samples)});
+    TrainingCases plain = training(samples.cases, false);
+    plain.gram = normal().transpose() * normal();
+    plain_.emplace(Plain{scales_(samples.cases), {plain, straight}, few_of(samples.displacements), {}, {}});
   }
-  exponents_ = exponents_of(places_, samples.colwise().norm().transpose().cwiseQuotient(scales_));
+  const Eigen::VectorXd norms = samples.displacements.colwise().norm().transpose();
+  exponents_ = exponents_of(places_(samples.cases, Eigen::all), norms.cwiseQuotient(scales_(samples.cases)));
   scales_.array() *= (places_ * exponents_).array().exp();
-  const Eigen::MatrixXd normal = samples * scales_.cwiseInverse().asDiagonal();
-  choose({places_, loads_, normal.transpose() * normal}, normal);
+  add_ways(cases, samples);
+  Eigen::MatrixXd data(samples.displacements.rows(),
+                       samples.displacements.cols() + static_cast<Eigen::Index>(ways_.size()));
+  data.leftCols(samples.displacements.cols()) = normal();
+  for (std::size_t w = 0; w < ways_.size(); ++w) {  // of d / scale
+    const Way& way = ways_[w];
+    data.col(samples.displacements.cols() + static_cast<Eigen::Index>(w)) =
+        (samples.derivatives.col(way.derivative) - way.log_scale * samples.displacements.col(way.of)) /
+        (scales_[way.of] * way.size);
+  }
+  choose(samples.cases, data);
+  if (plain_ && uses_derivatives() && ways_see_all_features()) plain_.reset();
 }
 
-void DisplacementModel::choose(const TrainingCases& training, const Eigen::MatrixXd& normal) {
-  const Eigen::Index n = normal.cols();
-  for (KernelRegression& regression : all_methods(training)) {
-    const Eigen::MatrixXd residuals = normal * regression.left_out();
+/// Derivatives by parameters that change what stays the same in all cases say nothing of what is between
+/// them.
+void DisplacementModel::add_ways(const std::vector<CaseParameters>& cases, const CaseSamples& samples) {
+  constexpr double nothing = 1e-9;  // of a change of the parameter by its step
+  for (Eigen::Index d = 0; d < derivatives_; ++d) {
+    const Eigen::Index of = samples.derivative_of[static_cast<std::size_t>(d)];
+    const CaseParameters& one = cases[static_cast<std::size_t>(of)];
+    const std::string& name = samples.parameter[static_cast<std::size_t>(d)];
+    if (!one.contains(name) || !(features_.scale(one) > 0)) continue;
+    Way way{d, of, features_.slope(one, name), 0, 0};
+    way.size = std::hypot(way.slope.features.norm(), way.slope.load.norm());
+    if (way.slope.leaves || way.size * way.slope.step < nothing) continue;
+    way.log_scale = way.slope.log_scale + exponents_.dot(way.slope.features);
+    ways_.push_back(std::move(way));
+  }
+}
+
+TrainingCases DisplacementModel::training(const std::vector<int>& cases, bool with_ways) const {
+  TrainingCases training{places_(cases, Eigen::all), loads_(cases, Eigen::all), {}};
+  if (!with_ways) return training;
+  const auto q = static_cast<Eigen::Index>(ways_.size());
+  auto& slopes = training.slopes;
+  slopes.features.resize(q, places_.cols()), slopes.loads.resize(q, loads_.cols());
+  for (Eigen::Index w = 0; w < q; ++w) {
+    const Way& way = ways_[static_cast<std::size_t>(w)];
+    slopes.of.push_back(way.of);
+    slopes.features.row(w) = way.slope.features.transpose() / way.size;
+    slopes.loads.row(w) = way.slope.load.transpose() / way.size;
+  }
+  return training;
+}
+
+void DisplacementModel::choose(const std::vector<int>& cases, const Eigen::MatrixXd& normal) {
+  const auto n = static_cast<Eigen::Index>(cases.size());
+  const Eigen::MatrixXd gram = normal.transpose() * normal;
+  std::vector<KernelRegression> methods;
+  for (const bool with_ways : {false, true}) {
+    if (with_ways && ways_.empty()) continue;
+    TrainingCases some = training(cases, with_ways);
+    const Eigen::Index rows = n + (with_ways ? static_cast<Eigen::Index>(ways_.size()) : 0);
+    some.gram = gram.topLeftCorner(rows, rows);
+    for (KernelRegression& method : all_methods(some)) methods.push_back(std::move(method));
+  }
+  for (KernelRegression& regression : methods) {
+    const Eigen::MatrixXd residuals = normal.leftCols(regression.left_out().rows()) * regression.left_out();
     Eigen::VectorXd errors(n);
     std::vector<double> ratios;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -81,6 +160,19 @@ void DisplacementModel::choose(const TrainingCases& training, const Eigen::Matri
     errors_ = errors, left_out_error_ = error;
     error_of_deviation_ = quantile(ratios, share_below_estimate);
   }
+  if (plain_)
+    plain_->chosen.emplace(*regression_), plain_->data = few_of(normal.leftCols(regression_->rows()));
+  if (n == places_.rows()) return;
+  std::vector<int> all(static_cast<std::size_t>(places_.rows()));
+  std::iota(all.begin(), all.end(), 0);
+  const Covariance chosen = regression_->covariance();
+  regression_.emplace(training(all, false), chosen);
+}
+
+bool DisplacementModel::ways_see_all_features() const {
+  Eigen::VectorXd seen = Eigen::VectorXd::Zero(places_.cols());
+  for (const Way& way : ways_) seen = seen.cwiseMax(way.slope.features.cwiseAbs() / way.size);
+  return seen.size() == 0 || seen.minCoeff() > 1e-3;
 }
 
 /// Two values of a feature tell nothing of what is between them, nor do cases left out.
@@ -97,20 +189,34 @@ bool DisplacementModel::sees_curvature() const {
 DisplacementModel::Prediction DisplacementModel::at(const CaseParameters& parameters) const {
   const Eigen::VectorXd place = features_.at(parameters), load = features_.load(parameters);
   const double scale = features_.scale(parameters) * std::exp(exponents_.dot(place));
-  Prediction prediction{scale * regression_->weights(place, load).cwiseQuotient(scales_),
+  const Eigen::VectorXd weights = scale * regression_->weights(place, load);
+  const Eigen::Index n = places_.rows();
+  Prediction prediction{weights.head(n).cwiseQuotient(scales_), Eigen::VectorXd::Zero(derivatives_),
                         scale * error_of_deviation_ * regression_->deviation(place, load)};
+  for (Eigen::Index w = 0; w < weights.size() - n; ++w) {
+    const Way& way = ways_[static_cast<std::size_t>(w)];
+    const double weight = weights[n + w] / (scales_[way.of] * way.size);
+    prediction.derivatives[way.derivative] += weight;
+    prediction.weights[way.of] -= weight * way.log_scale;
+  }
   if (plain_) {  // then how far two models are apart says more
     const Eigen::VectorXd other =
         features_.scale(parameters) * plain_->regression.weights(place, load).cwiseQuotient(plain_->scales);
-    prediction.error =
-        std::hypot(prediction.error, largest_point(plain_->samples * (prediction.weights - other)));
+    const Eigen::VectorXd apart =
+        scale * plain_->data * plain_->chosen->weights(place, load) - plain_->samples * other;
+    prediction.error = std::hypot(prediction.error, largest_point(apart));
   }
   return prediction;
 }
 
 double DisplacementModel::outside(const CaseParameters& parameters) const {
   const Eigen::VectorXd load = features_.load(parameters);
-  const Eigen::MatrixXd loads = loads_.transpose();
+  Eigen::MatrixXd loads = loads_.transpose();
+  if (uses_derivatives()) {
+    loads.conservativeResize(Eigen::NoChange, loads.cols() + static_cast<Eigen::Index>(ways_.size()));
+    for (std::size_t w = 0; w < ways_.size(); ++w)
+      loads.col(loads_.rows() + static_cast<Eigen::Index>(w)) = ways_[w].slope.load / ways_[w].size;
+  }
   const double unknown = (loads * loads.completeOrthogonalDecomposition().solve(load) - load).norm();
   const double distance =
       0.5 * std::hypot(distance_to_hull(places_, features_.at(parameters)), features_.off(parameters));

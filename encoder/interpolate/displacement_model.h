@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "encoder/interpolate/features.h"
@@ -10,18 +11,33 @@
 
 namespace cleft {
 
+/// Places at which the displacements of cases are compared.
+struct CaseSamples {
+  /// Of cases: all, or where there are many some that stand for all (representative_cases).
+  std::vector<int> cases;
+  /// A column for each, x, y, z of displacements, mm.
+  Eigen::MatrixXd displacements;
+  /// The same of derivatives by parameters, mm per unit: of a case, by a name.
+  std::vector<int> derivative_of;
+  std::vector<std::string> parameter;
+  Eigen::MatrixXd derivatives;
+};
+
+/// Those that lie farthest from one another, `most` at most; in order.
+std::vector<int> representative_cases(const std::vector<CaseParameters>& cases, int most);
+
 /// What is regressed on are displacements over the scale of their load (Features) and over a power law of the
 /// features that is fitted to their norms. Of all methods that one is taken that predicts cases left out
-/// best, in their worst points.
+/// best, in their worst points: with the derivatives, which move along with features and load, or without.
 class DisplacementModel {
  public:
-  /// `samples`: a column for each case, x, y, z of displacements at places where they are to be compared, mm.
-  DisplacementModel(const std::vector<CaseParameters>& cases, const Eigen::MatrixXd& samples,
-                    Loading loading);
+  /// Derivatives are of all cases or left out.
+  DisplacementModel(const std::vector<CaseParameters>& cases, const CaseSamples& samples, Loading loading);
 
   struct Prediction {
-    Eigen::VectorXd weights;  ///< of the cases, for whatever is linear in their displacements
-    double error;             ///< mm: expected of the largest at any place
+    Eigen::VectorXd weights;      ///< of the cases, for whatever is linear in their displacements
+    Eigen::VectorXd derivatives;  ///< of the derivatives, unit of their parameter; 0: without
+    double error;                 ///< mm: expected of the largest at any place
   };
   Prediction at(const CaseParameters& parameters) const;
 
@@ -31,6 +47,7 @@ class DisplacementModel {
 
   const Features& features() const { return features_; }
   const KernelRegression& regression() const { return *regression_; }
+  bool uses_derivatives() const { return regression_->rows() > places_.rows(); }
   /// Largest residual of each case left out, over its largest displacement; and the root of their mean
   /// square.
   const Eigen::VectorXd& left_out_errors() const { return errors_; }
@@ -41,15 +58,28 @@ class DisplacementModel {
   struct Plain {
     Eigen::VectorXd scales;
     KernelRegression regression;
-    Eigen::MatrixXd samples;  ///< a few
+    Eigen::MatrixXd samples;                 ///< a few
+    std::optional<KernelRegression> chosen;  ///< of the same cases
+    Eigen::MatrixXd data;                    ///< what that is made from, of the same few
   };
-  void choose(const TrainingCases& training, const Eigen::MatrixXd& normal);
+  /// A derivative that features or load move along, as a row of the regression.
+  struct Way {
+    Eigen::Index derivative, of;
+    Features::Slope slope;
+    double log_scale, size;  ///< of scales_; of the slope
+  };
+  void add_ways(const std::vector<CaseParameters>& cases, const CaseSamples& samples);
+  TrainingCases training(const std::vector<int>& cases, bool with_ways) const;
+  void choose(const std::vector<int>& cases, const Eigen::MatrixXd& normal);
   bool sees_curvature() const;
+  bool ways_see_all_features() const;
 
   Features features_;
   Eigen::MatrixXd places_, loads_;  // n x d, n x k
   Eigen::VectorXd exponents_;       // of the power law
   Eigen::VectorXd scales_;          // n, mm: what displacements are divided by
+  std::vector<Way> ways_;
+  Eigen::Index derivatives_ = 0;
   std::optional<KernelRegression> regression_;
   Eigen::VectorXd errors_;
   double left_out_error_ = 0;

@@ -137,6 +137,23 @@ Eigen::VectorXd Features::load(const CaseParameters& p) const {
   return q.norm() > 0 ? Eigen::VectorXd(q / q.norm()) : q;
 }
 
+Features::Slope Features::slope(const CaseParameters& parameters, const std::string& name) const {
+  // Central differences of closed forms: off by 1e-8 or so, far below any fit.
+  constexpr double part = 1e-4;
+  double unit = std::abs(parameters.at(name));
+  if (unit == 0 && is_in(prestress, name))
+    for (const std::string& other : prestress) unit = std::max(unit, std::abs(parameters.at(other)));
+  Slope slope;
+  slope.step = part * (unit > 0 ? unit : 1);
+  CaseParameters less = parameters, more = parameters;
+  less[name] -= slope.step, more[name] += slope.step;
+  const double width = 2 * slope.step;
+  slope.features = (at(more) - at(less)) / width, slope.load = (load(more) - load(less)) / width;
+  slope.log_scale = std::log(scale(more) / scale(less)) / width;
+  slope.leaves = off(more) > 0 || off(less) > 0;
+  return slope;
+}
+
 double Features::scale(const CaseParameters& p) const {
   if (!ours_) return 1;
   Eigen::Vector3d q;

@@ -40,6 +40,14 @@ class Features {
   double off(const CaseParameters& parameters) const;
   /// Components of the prestress over its norm; (1) where it does not superpose.
   Eigen::VectorXd load(const CaseParameters& parameters) const;
+  /// How these change with a parameter; `leaves`: off() grows with it.
+  struct Slope {
+    Eigen::VectorXd features, load;  ///< of at() and load(), per unit of the parameter
+    double log_scale = 0;            ///< of the logarithm of scale()
+    bool leaves = false;
+    double step = 0;  ///< units of the parameter that it was seen in
+  };
+  Slope slope(const CaseParameters& parameters, const std::string& name) const;
   /// mm: q / E, or 1 for imported data.
   double scale(const CaseParameters& parameters) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace cleft {
 
@@ -96,8 +97,24 @@ Eigen::VectorXd sample(const CommonCases& cases, const std::vector<Vec3>& points
 }
 
 Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at) {
-  Eigen::MatrixXd samples(static_cast<Eigen::Index>(3 * at.places.size()), cases.size());
-  for (int i = 0; i < cases.size(); ++i) samples.col(i) = sample(cases, cases.points(i), at);
+  std::vector<int> all(static_cast<std::size_t>(cases.size()));
+  std::iota(all.begin(), all.end(), 0);
+  return sample_cases(cases, at, all);
+}
+
+Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at, const std::vector<int>& some) {
+  Eigen::MatrixXd samples(static_cast<Eigen::Index>(3 * at.places.size()),
+                          static_cast<Eigen::Index>(some.size()));
+  for (std::size_t i = 0; i < some.size(); ++i)
+    samples.col(static_cast<Eigen::Index>(i)) = sample(cases, cases.points(some[i]), at);
+  return samples;
+}
+
+Eigen::MatrixXd sample_derivatives(const CommonCases& cases, const CommonPlaces& at) {
+  Eigen::MatrixXd samples(static_cast<Eigen::Index>(3 * at.places.size()),
+                          static_cast<Eigen::Index>(cases.derivatives().size()));
+  for (Eigen::Index d = 0; d < samples.cols(); ++d)
+    samples.col(d) = sample(cases, points_of(cases.derivative_points(static_cast<std::size_t>(d))), at);
   return samples;
 }
 

@@ -26,8 +26,11 @@ CommonPlaces places_in_common(const CommonCases& cases);
 
 /// x, y, z one after another of the displacements of control points on the common bases, mm.
 Eigen::VectorXd sample(const CommonCases& cases, const std::vector<Vec3>& points, const CommonPlaces& at);
-/// A column for each case.
+/// A column for each case, and for each of some cases.
 Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at);
+Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at, const std::vector<int>& some);
+/// A column for each of their derivatives.
+Eigen::MatrixXd sample_derivatives(const CommonCases& cases, const CommonPlaces& at);
 
 /// Largest norm of the points (x, y, z one after another) in a column.
 double largest_point(const Eigen::Ref<const Eigen::VectorXd>& column);

@@ -39,6 +39,7 @@ Json figures_of(const Field& field, const StudyInterpolator& study, const std::s
           {"features", features},
           {"prestress_superposed", study.features().loading() == Loading::superposed},
           {"cases", study.cases().size()},
+          {"derivatives", study.cases().derivatives().size()},
           {"largest_displacement_mm", field.report.largest_displacement},
           {"parametrization", field.parametrization().name()},
           {"control_points",

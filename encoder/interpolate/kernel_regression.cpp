@@ -8,14 +8,62 @@ namespace cleft {
 
 namespace {
 
+/// Covariance of the data of a case, or of a slope there, with another.
+struct Row {
+  Eigen::VectorXd x, load, dx, dload;
+  bool slope = false;
+};
+
+double covariance_of(const Row& a, const Row& b, const Covariance& covariance) {
+  const double loads = a.load.dot(b.load);
+  if (!a.slope && !b.slope) return loads * covariance(a.x, b.x);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(a.x.size());
+  const Covariance::Jet k = covariance.along(a.x, a.slope ? a.dx : none, b.x, b.slope ? b.dx : none);
+  double sum = 0;
+  if (a.slope && b.slope)
+    sum = a.dload.dot(b.dload) * k.value + a.dload.dot(b.load) * k.by_y + a.load.dot(b.dload) * k.by_x +
+          loads * k.by_both;
+  else if (a.slope)
+    sum = a.dload.dot(b.load) * k.value + loads * k.by_x;
+  else
+    sum = a.load.dot(b.dload) * k.value + loads * k.by_y;
+  return sum;
+}
+
+Row row_of(const TrainingCases& cases, Eigen::Index row) {
+  const Eigen::Index n = cases.features.rows(), slope = row - n;
+  const Eigen::Index of = slope < 0 ? row : cases.slopes.of[static_cast<std::size_t>(slope)];
+  Row result{cases.features.row(of).transpose(), cases.loads.row(of).transpose(), {}, {}, slope >= 0};
+  if (slope >= 0)
+    result.dx = cases.slopes.features.row(slope).transpose(),
+    result.dload = cases.slopes.loads.row(slope).transpose();
+  return result;
+}
+
+Eigen::Index rows_of(const TrainingCases& cases) {
+  return cases.features.rows() + static_cast<Eigen::Index>(cases.slopes.of.size());
+}
+
 Eigen::MatrixXd matrix_of(const TrainingCases& cases, const Covariance& covariance) {
-  const Eigen::Index n = cases.features.rows();
-  Eigen::MatrixXd K(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
+  const Eigen::Index m = rows_of(cases);
+  std::vector<Row> rows;
+  for (Eigen::Index i = 0; i < m; ++i) rows.push_back(row_of(cases, i));
+  Eigen::MatrixXd K(m, m);
+  for (Eigen::Index i = 0; i < m; ++i)
     for (Eigen::Index j = 0; j <= i; ++j)
-      K(i, j) = K(j, i) = cases.loads.row(i).dot(cases.loads.row(j)) *
-                          covariance(cases.features.row(i).transpose(), cases.features.row(j).transpose());
+      K(i, j) = K(j, i) =
+          covariance_of(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)], covariance);
   return K;
+}
+
+/// The rows of each case: its own, then its slopes'.
+std::vector<std::vector<Eigen::Index>> blocks_of(const TrainingCases& cases) {
+  const Eigen::Index n = cases.features.rows();
+  std::vector<std::vector<Eigen::Index>> blocks(static_cast<std::size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i) blocks[static_cast<std::size_t>(i)] = {i};
+  for (std::size_t s = 0; s < cases.slopes.of.size(); ++s)
+    blocks[static_cast<std::size_t>(cases.slopes.of[s])].push_back(n + static_cast<Eigen::Index>(s));
+  return blocks;
 }
 
 /// Coordinate descent on logarithms: the error is smooth in them, and seldom has more than one minimum.
@@ -24,14 +72,15 @@ Covariance tuned(const TrainingCases& cases, Covariance covariance, bool one_len
   double best = KernelRegression(cases, covariance).left_out_error();
   const auto attempt = [&](Covariance changed) {
     if (changed.lengths.minCoeff() < 0.05 || changed.lengths.maxCoeff() > 200 || changed.nugget < 1e-9 ||
-        changed.nugget > 0.1)
+        changed.nugget > 0.1 || changed.slope_nugget < 1e-9 || changed.slope_nugget > 0.1)
       return false;
     const double error = KernelRegression(cases, changed).left_out_error();
     if (!(error < best * (1 - 1e-6))) return false;
     best = error, covariance = std::move(changed);
     return true;
   };
-  const Eigen::Index knobs = (one_length ? 1 : d) + (with_nugget ? 1 : 0);
+  const Eigen::Index lengths = one_length ? 1 : d,
+                     knobs = lengths + (with_nugget ? cases.slopes.of.empty() ? 1 : 2 : 0);
   for (double step = 4; step > 1.15; step = std::sqrt(step)) {
     bool moved = true;
     for (int round = 0; moved && round < 8; ++round) {
@@ -39,8 +88,10 @@ Covariance tuned(const TrainingCases& cases, Covariance covariance, bool one_len
       for (Eigen::Index knob = 0; knob < knobs; ++knob)
         for (const double factor : {step, 1 / step}) {
           Covariance changed = covariance;
-          if (with_nugget && knob == knobs - 1)
+          if (knob == lengths)
             changed.nugget *= factor * factor;
+          else if (knob > lengths)
+            changed.slope_nugget *= factor * factor;
           else if (one_length)
             changed.lengths *= factor;
           else
@@ -63,22 +114,54 @@ double Covariance::operator()(const Eigen::VectorXd& x, const Eigen::VectorXd& y
   return value + (1 + r + r * r / 3) * std::exp(-r);
 }
 
+Covariance::Jet Covariance::along(const Eigen::VectorXd& x, const Eigen::VectorXd& dx,
+                                  const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const {
+  const double s = 1 + x.dot(y), first = trend * degree * std::pow(s, degree - 1),
+               second = degree > 1 ? trend * degree * (degree - 1) * std::pow(s, degree - 2) : 0;
+  const double by_x = y.dot(dx), by_y = x.dot(dy);
+  Jet jet{trend * std::pow(s, degree), first * by_x, first * by_y, second * by_x * by_y + first * dx.dot(dy)};
+  if (correlation == Correlation::none) return jet;
+  const Eigen::VectorXd z = (x - y).cwiseQuotient(lengths), u = dx.cwiseQuotient(lengths),
+                        v = dy.cwiseQuotient(lengths);
+  const double zu = z.dot(u), zv = z.dot(v), uv = u.dot(v), squared = z.squaredNorm();
+  if (correlation == Correlation::gaussian) {
+    const double e = std::exp(-0.5 * squared);
+    return {jet.value + e, jet.by_x - e * zu, jet.by_y + e * zv, jet.by_both + e * (uv - zu * zv)};
+  }
+  const double r = std::sqrt(5 * squared), e = std::exp(-r), slope = 5. / 3 * (1 + r) * e;
+  return {jet.value + (1 + r + r * r / 3) * e, jet.by_x - slope * zu, jet.by_y + slope * zv,
+          jet.by_both + slope * uv - 25. / 3 * e * zu * zv};
+}
+
 KernelRegression::KernelRegression(const TrainingCases& cases, Covariance covariance)
-    : features_(cases.features),
-      loads_(cases.loads),
+    : cases_{cases.features, cases.loads, {}, cases.slopes},
       matrix_(matrix_of(cases, covariance)),
-      covariance_(std::move(covariance)),
-      nugget_(covariance_.nugget *
-              covariance_(Eigen::VectorXd::Zero(features_.cols()), Eigen::VectorXd::Zero(features_.cols()))) {
-  const Eigen::Index n = features_.rows();
-  factor_.compute(matrix_ + nugget_ * Eigen::MatrixXd::Identity(n, n));
-  left_out_ = factor_.solve(Eigen::MatrixXd::Identity(n, n));
-  left_out_deviation_.resize(n);
+      covariance_(std::move(covariance)) {
+  const Eigen::Index n = cases.features.rows(), m = rows_of(cases), d = cases.features.cols();
+  const double own = covariance_(Eigen::VectorXd::Zero(d), Eigen::VectorXd::Zero(d));
+  nugget_ = covariance_.nugget * own;
+  nuggets_ = Eigen::VectorXd::Constant(m, covariance_.slope_nugget * own);
+  nuggets_.head(n).setConstant(nugget_);
+  factor_.compute(matrix_ + Eigen::MatrixXd(nuggets_.asDiagonal()));
+  if (cases.gram.size() == 0) return;
+  const Eigen::MatrixXd inverse = factor_.solve(Eigen::MatrixXd::Identity(m, m));
+  const auto blocks = blocks_of(cases);
+  left_out_.resize(m, n), left_out_deviation_.resize(n);
   double sum = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double diagonal = std::max(left_out_(i, i), 1e-300);
-    left_out_.col(i) /= diagonal;
-    left_out_deviation_[i] = 1 / std::sqrt(diagonal);
+    const auto& block = blocks[static_cast<std::size_t>(i)];
+    if (block.size() == 1) {
+      const double diagonal = std::max(inverse(i, i), 1e-300);
+      left_out_.col(i) = inverse.col(i) / diagonal;
+      left_out_deviation_[i] = 1 / std::sqrt(diagonal);
+    } else {
+      const Eigen::MatrixXd own_block = inverse(block, block);
+      Eigen::VectorXd first = Eigen::VectorXd::Zero(own_block.rows());
+      first[0] = 1;
+      const Eigen::VectorXd shares = own_block.ldlt().solve(first);
+      left_out_.col(i) = inverse(Eigen::all, block) * shares;
+      left_out_deviation_[i] = std::sqrt(std::max(shares[0], 1e-300));
+    }
     const double whole = std::max(cases.gram(i, i), 1e-300);
     sum += std::max(0., left_out_.col(i).dot(cases.gram * left_out_.col(i))) / whole;
   }
@@ -88,9 +171,9 @@ KernelRegression::KernelRegression(const TrainingCases& cases, Covariance covari
 
 Eigen::VectorXd KernelRegression::against(const Eigen::VectorXd& features,
                                           const Eigen::VectorXd& load) const {
-  Eigen::VectorXd k(features_.rows());
-  for (Eigen::Index i = 0; i < k.size(); ++i)
-    k[i] = loads_.row(i).dot(load) * covariance_(features_.row(i).transpose(), features);
+  const Row wanted{features, load, {}, {}, false};
+  Eigen::VectorXd k(matrix_.rows());
+  for (Eigen::Index i = 0; i < k.size(); ++i) k[i] = covariance_of(row_of(cases_, i), wanted, covariance_);
   return k;
 }
 
@@ -104,23 +187,24 @@ double KernelRegression::deviation(const Eigen::VectorXd& features, const Eigen:
   const Eigen::VectorXd w = factor_.solve(k);
   const double own = load.squaredNorm() * covariance_(features, features);
   // Of the prediction w as it was rounded: own - k . K^-1 k would only add up the errors of w.
-  const double variance = own - 2 * k.dot(w) + w.dot(matrix_ * w) + nugget_ * w.squaredNorm();
+  const double variance = own - 2 * k.dot(w) + w.dot(matrix_ * w) + w.dot(nuggets_.cwiseProduct(w));
   return std::sqrt(std::max(variance, 0.) + nugget_);
 }
 
 std::vector<KernelRegression> all_methods(const TrainingCases& cases) {
   using enum Covariance::Correlation;
   const Eigen::VectorXd lengths = Eigen::VectorXd::Constant(cases.features.cols(), 2.0);
+  const std::string with = cases.slopes.of.empty() ? "" : " with derivatives";
   std::vector<KernelRegression> methods;
-  methods.emplace_back(cases, Covariance{"linear polynomial", 1, none, 1, 1e-9, lengths});
+  methods.emplace_back(cases, Covariance{"linear polynomial" + with, 1, none, 1, 1e-9, lengths});
   if (cases.features.cols() == 0) return methods;
-  methods.emplace_back(cases, Covariance{"quadratic polynomial", 2, none, 1, 1e-9, lengths});
-  methods.emplace_back(cases,
-                       tuned(cases, {"radial basis functions", 1, matern, 100, 1e-9, lengths}, true, false));
+  methods.emplace_back(cases, Covariance{"quadratic polynomial" + with, 2, none, 1, 1e-9, lengths});
+  methods.emplace_back(
+      cases, tuned(cases, {"radial basis functions" + with, 1, matern, 100, 1e-9, lengths}, true, false));
   std::optional<KernelRegression> process;
   for (const int degree : {1, 2}) {
     KernelRegression one(
-        cases, tuned(cases, {"Gaussian process", degree, gaussian, 100, 1e-6, lengths}, false, true));
+        cases, tuned(cases, {"Gaussian process" + with, degree, gaussian, 100, 1e-6, lengths}, false, true));
     if (!process || one.left_out_error() < process->left_out_error()) process.emplace(std::move(one));
   }
   methods.push_back(std::move(*process));

@@ -4,6 +4,10 @@
 // covariance between the cases and Y their data, the data of case i differ from what all others predict by
 //
 //     r_i = (Y K^-1)_i / (K^-1)_ii        with variance 1 / (K^-1)_ii
+//
+// Where derivatives of the data are known too (Hermite data), they are further rows of K, whose covariances
+// are derivatives of the kernel (Solak et al., Derivative observations in Gaussian process models, 2003); a
+// case left out takes its derivatives with it, and the quotient becomes a solution with its block of K^-1.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -13,11 +17,16 @@
 
 namespace cleft {
 
-/// What is regressed on: n cases.
+/// What is regressed on: n cases. Without gram nothing is known of cases left out.
 struct TrainingCases {
   Eigen::MatrixXd features;  ///< n x d, from -1 to 1
   Eigen::MatrixXd loads;     ///< n x k: data are linear in them
-  Eigen::MatrixXd gram;      ///< n x n: inner products of the cases' data
+  Eigen::MatrixXd gram;      ///< n + q: inner products of the cases' data, and of the slopes' behind them
+  /// q derivatives of cases' data, along ways on which features and load change as told.
+  struct Slopes {
+    std::vector<Eigen::Index> of;     ///< case
+    Eigen::MatrixXd features, loads;  ///< q x d, q x k
+  } slopes = {};
 };
 
 /// k(x, y) = load_x . load_y (trend (1 + x . y)^degree + correlation(|(x - y) / lengths|)), and on
@@ -29,8 +38,16 @@ struct Covariance {
   Correlation correlation = Correlation::none;
   double trend = 1, nugget = 1e-9;
   Eigen::VectorXd lengths;
+  double slope_nugget = 1e-6;  ///< the same of slopes
 
   double operator()(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const;
+
+  /// Without the loads: the value, its derivative as y moves along dy, and that as x moves along dx too.
+  struct Jet {
+    double value, by_x, by_y, by_both;
+  };
+  Jet along(const Eigen::VectorXd& x, const Eigen::VectorXd& dx, const Eigen::VectorXd& y,
+            const Eigen::VectorXd& dy) const;
 };
 
 class KernelRegression {
@@ -38,14 +55,15 @@ class KernelRegression {
   KernelRegression(const TrainingCases& cases, Covariance covariance);
 
   const Covariance& covariance() const { return covariance_; }
-  /// Column i: weights of all cases whose sum of data is r_i.
+  Eigen::Index rows() const { return matrix_.rows(); }  ///< cases and slopes
+  /// Column i: weights of all cases (and slopes behind them) whose sum of data is r_i.
   const Eigen::MatrixXd& left_out() const { return left_out_; }
   /// sqrt of the variance of r_i.
   const Eigen::VectorXd& left_out_deviation() const { return left_out_deviation_; }
   /// sqrt of the mean of |r_i|^2 / |y_i|^2.
   double left_out_error() const { return left_out_error_; }
 
-  /// Of the cases, for the data at these features under this load.
+  /// Of the cases (and slopes behind them), for the data at these features under this load.
   Eigen::VectorXd weights(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
   /// sqrt of the variance of that prediction, in the same units as left_out_deviation().
   double deviation(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
@@ -53,16 +71,18 @@ class KernelRegression {
  private:
   Eigen::VectorXd against(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
 
-  Eigen::MatrixXd features_, loads_, matrix_, left_out_;  // matrix_: without the nugget
+  TrainingCases cases_;                // without the gram matrix
+  Eigen::MatrixXd matrix_, left_out_;  // matrix_: without the nugget
   Covariance covariance_;
   double nugget_;
+  Eigen::VectorXd nuggets_;
   Eigen::LDLT<Eigen::MatrixXd> factor_;
   Eigen::VectorXd left_out_deviation_;
   double left_out_error_ = 0;
 };
 
-/// Every method, with the lengths and nugget of least left_out_error(): polynomials, radial basis functions,
-/// and Gaussian processes with a length for each feature.
+/// Every method, with the lengths and nuggets of least left_out_error(): polynomials, radial basis functions,
+/// and Gaussian processes with a length for each feature. Where there are slopes, all of them use these.
 std::vector<KernelRegression> all_methods(const TrainingCases& cases);
 
 }  // namespace cleft

@@ -1,6 +1,7 @@
 // cleft pack: the fields of a study's published cases in one file.
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 
 #include "base/command.h"
 #include "base/error.h"
@@ -26,7 +27,9 @@ int main(int argc, char** argv) {
   return run_command(app, argc, argv, [&] {
     if (app.count("--modes") && !(error >= 1e-4 && error <= 0.1))
       throw InputError("--modes " + shortest(error) + ": must be from 0.0001 to 0.1");
-    PackedStudy study{study_records(published_study_cases(folder))};
+    std::vector<std::string> older;
+    PackedStudy study{study_records(published_study_cases(folder, &older))};
+    if (!older.empty()) std::cerr << "cleft pack: " << note_of_older(folder, older) << "\n";
     if (error > 0) study = with_common_modes(read_members(folder), study, error);
     const std::string out = (fs::path(folder) / "study.dffd").string();
     write_study(out, study.cases, study.modes);

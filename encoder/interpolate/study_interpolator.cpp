@@ -58,23 +58,43 @@ StudyInterpolator::StudyInterpolator(CommonCases cases)
       range.least = std::min(range.least, one.at(name)),
       range.greatest = std::max(range.greatest, one.at(name));
   }
-  const Eigen::MatrixXd samples = sample_cases(cases_, places_in_common(cases_));
+  const CaseSamples samples = this->samples();
   for (const Loading loading : loadings_of(cases_)) {
     DisplacementModel model(parameters_, samples, loading);
     if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));
   }
 }
 
+/// Where cases are many, some tell which method serves and how far it is off; and what lies between them
+/// needs no derivatives.
+CaseSamples StudyInterpolator::samples() const {
+  constexpr int most_compared = 128;
+  constexpr std::size_t most_rows = 512;
+  const CommonPlaces places = places_in_common(cases_);
+  CaseSamples samples;
+  samples.cases = representative_cases(parameters_, most_compared);
+  samples.displacements = sample_cases(cases_, places, samples.cases);
+  if (cases_.size() > most_compared || parameters_.size() + cases_.derivatives().size() > most_rows)
+    return samples;
+  for (const CommonDerivative& one : cases_.derivatives())
+    samples.derivative_of.push_back(one.of), samples.parameter.push_back(one.parameter);
+  samples.derivatives = sample_derivatives(cases_, places);
+  return samples;
+}
+
 /// Neighbours are fitted alike, and so a field between them is as good as they are; where large weights of
 /// either sign make it from differences of cases, their errors grow with them.
-double StudyInterpolator::fit_error(const Eigen::VectorXd& weights, double largest) const {
+double StudyInterpolator::fit_error(const DisplacementModel::Prediction& prediction, double largest) const {
   std::vector<double> fits;
   double squares = 0;
   for (int i = 0; i < cases_.size(); ++i) {
     const FitReport& report = cases_.cases()[static_cast<std::size_t>(i)].report;
     fits.push_back(std::isfinite(report.spline_error) ? report.spline_error : 0);
-    squares += std::pow(weights[i] * fits.back() * report.largest_displacement, 2);
+    squares += std::pow(prediction.weights[i] * fits.back() * report.largest_displacement, 2);
   }
+  for (Eigen::Index d = 0; d < prediction.derivatives.size(); ++d)
+    squares +=
+        std::pow(prediction.derivatives[d] * cases_.derivatives()[static_cast<std::size_t>(d)].error, 2);
   return std::max(median(fits), largest > 0 ? std::sqrt(squares) / largest : 0);
 }
 
@@ -131,11 +151,13 @@ Field StudyInterpolator::at(const CaseParameters& values) const {
 
   // Sums in the same order for every point: control points that are one in all cases stay one, bit for bit.
   std::vector<double> sum(cases_.control_points(0).size(), 0);
-  for (int i = 0; i < cases_.size(); ++i) {
-    const double weight = prediction.weights[i];
-    const std::span<const float> points = cases_.control_points(i);
-    for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += weight * static_cast<double>(points[n]);
-  }
+  const auto add = [&](double weight, std::span<const float> points) {
+    for (std::size_t n = 0; n < sum.size() && weight != 0; ++n)
+      sum[n] += weight * static_cast<double>(points[n]);
+  };
+  for (int i = 0; i < cases_.size(); ++i) add(prediction.weights[i], cases_.control_points(i));
+  for (Eigen::Index d = 0; d < prediction.derivatives.size(); ++d)
+    add(prediction.derivatives[d], cases_.derivative_points(static_cast<std::size_t>(d)));
   std::vector<Vec3> points(sum.size() / 3);
   for (std::size_t n = 0; n < sum.size(); ++n) points[n / 3][static_cast<int>(n % 3)] = sum[n];
 
@@ -145,7 +167,7 @@ Field StudyInterpolator::at(const CaseParameters& values) const {
   const double error = largest > 0 ? prediction.error / largest : 0;
   field.parameters = parameters;
   field.interpolation = {regression().covariance().name, static_cast<double>(cases_.size()),
-                         std::hypot(error, fit_error(prediction.weights, largest)), error,
+                         std::hypot(error, fit_error(prediction, largest)), error,
                          model_->outside(parameters)};
   const double none = std::nan("");
   field.report = {none, none, none, none, none, none, none, none, none, none, none, none, none, none, none};

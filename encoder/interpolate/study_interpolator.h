@@ -42,7 +42,8 @@ class StudyInterpolator {
  private:
   CaseParameters complete(const CaseParameters& values) const;
   /// Of the sum of the cases' fields, from their own errors, over its largest displacement.
-  double fit_error(const Eigen::VectorXd& weights, double largest) const;
+  double fit_error(const DisplacementModel::Prediction& prediction, double largest) const;
+  CaseSamples samples() const;
 
   CommonCases cases_;
   std::vector<CaseParameters> parameters_;  // of the cases

@@ -77,7 +77,7 @@ void DeviceControl::take(const std::string& name, const std::string& file) {
 void DeviceControl::begin() {
   ScalpelCutting::Setup setup;
   setup.made = session_.cut_paths();
-  setup.field = session_.field();
+  setup.fields = session_.cut_fields(session_.state().shown);
   timer_.stop();
   scalpel_.reset();
   scalpel_ =

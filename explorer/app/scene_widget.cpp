@@ -174,7 +174,7 @@ ScalpelCutting& SceneWidget::live_cutting() {
   if (!live_) {
     ScalpelCutting::Setup setup;
     setup.made = session_.cut_paths();
-    setup.field = session_.field();
+    setup.fields = session_.cut_fields(session_.state().shown);
     live_ = std::make_unique<ScalpelCutting>(*session_.mesh(), std::move(setup));
     moment_.reset();
   }

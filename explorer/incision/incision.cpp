@@ -36,7 +36,8 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
       longest_step_(path_.length() / 4),  // even a cut inside one triangle has vertices that can open
       max_edge_(options.max_edge.value_or(path_.length() / 30)),
       original_triangles_(static_cast<int>(mesh_.triangles().size())),
-      worst_before_(smallest_radius_ratio(mesh_)) {
+      worst_before_(smallest_radius_ratio(mesh_)),
+      asked_(0.05 * std::min(0.1, smallest_given_radius_ratio(mesh_))) {
   if (!(path_.smallest_depth() > 0))
     throw InputError("the cut has no depth: give the path a column 'depth', or a depth for all of it");
   mesh_.forget_changes();
@@ -186,7 +187,8 @@ void Incision::check_progress() const {
 }
 
 void Incision::mend(const CutMesh::Checkpoint& since) {
-  mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, worst_before_ / 4));
+  mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, 5 * asked_));
+  mend_slivers(mesh_, mesh_.changed_since(since), 2 * asked_, chord_tolerance_ / 10);
   const double least = 1e-4 * std::min(0.1, worst_before_);
   for (const int t : mesh_.changed_since(since))
     if (mesh_.triangle(t).region == Region::skin && radius_ratio(mesh_, t) < least)

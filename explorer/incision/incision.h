@@ -106,6 +106,8 @@ class Incision {
   Step placed(int triangle, const Vec3& place, double s) const;
   bool may_move(int v, const Vec3& place) const;
   bool may_reach(int v) const;
+  double room_of(int v) const;
+  std::optional<Step> exit_at(int v, double s) const;
 
   // Where the path goes on: incision_walk.cpp.
   const Step& next_step();
@@ -149,6 +151,7 @@ class Incision {
   double led_ = 0;
   int original_triangles_;
   double worst_before_;  // radius ratio
+  double asked_;         // radius ratio of triangles that the cut makes, at least
   int rows_ = 3;
   std::vector<ChainVertex> chain_;
   Surroundings surroundings_;

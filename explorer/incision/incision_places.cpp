@@ -21,6 +21,19 @@ double quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) 
   return dot(cross(b - a, c - a), normal) / longest;
 }
 
+/// The worst quality of the skin's triangles around v, were it at `place`.
+double quality_around(const CutMesh& mesh, int v, const Vec3& place) {
+  double worst = 1;
+  for (const int t : mesh.skin_fan(v)) {
+    const auto& corners = mesh.triangle(t).vertex;
+    const int i = mesh.triangle(t).corner(v);
+    const Vec3 &a = mesh.position(corners[(i + 1) % 3]), &b = mesh.position(corners[(i + 2) % 3]);
+    const Vec3 n = normalized(cross(a - mesh.position(v), b - mesh.position(v)));
+    worst = std::min(worst, quality(place, a, b, n));
+  }
+  return worst;
+}
+
 }  // namespace
 
 Incision::Step Incision::find_start() const {
@@ -77,8 +90,9 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
   double least = options_.snap;
   for (const int v : {t.vertex[crossing.index], t.vertex[(crossing.index + 1) % 3]}) {
     const Vec3& position = mesh_.position(v);
-    const double room = mesh_.room(v), to_crossing = norm(crossing.place - position);
+    const double room = room_of(v), to_crossing = norm(crossing.place - position);
     Step step{Step::vertex, -1, v, position, crossing.s};
+    if (const auto exit = exit_at(v, crossing.s)) return exit;
     if (mesh_.vertex(v).kind != VertexKind::skin || (mesh_.on_boundary(v) && !may_move(v, crossing.place))) {
       // What cannot be moved draws the path to itself.
       if (to_crossing > least / 2 * room || !may_reach(v)) continue;
@@ -99,7 +113,7 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
       frame = path_.at(step.s);
     }
     const double away = std::abs(dot(position - frame.position, frame.across)) / room;
-    if (away > least || step.s - chain_.back().s < 0.1 * room ||
+    if (away > least || step.s - chain_.back().s < 0.1 * room || step.s - crossing.s > longest_step_ ||
         step.s - path_.length() > options_.snap * room)
       continue;
     if (away > same_place) {
@@ -113,6 +127,35 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
     best = step;
   }
   return best;
+}
+
+/// How far a vertex may move, or draw the path to itself: not so far that a short path would lose its shape.
+double Incision::room_of(int v) const { return std::min(mesh_.room(v), longest_step_); }
+
+/// Where the path is about to leave the surface beside a vertex of its boundary, which may go there.
+std::optional<Incision::Step> Incision::exit_at(int v, double s) const {
+  if (chain_.empty() || !mesh_.on_boundary(v) || !may_reach(v)) return std::nullopt;
+  const Vec3& position = mesh_.position(v);
+  const std::vector<int> fan = mesh_.skin_fan(v);
+  const auto spoke = [&](int t, int corner) {
+    return mesh_.position(mesh_.triangle(t).vertex[(mesh_.triangle(t).corner(v) + corner) % 3]) - position;
+  };
+  const Vec3 onward = spoke(fan.front(), 1), outline = normalized(onward);
+  Step step{Step::vertex, -1, v, position, s};
+  for (int k = 0; k < 3; ++k) {
+    const PathFrame frame = path_.at(step.s);
+    const double turn = dot(outline, frame.across);  // positive where the path leaves
+    if (turn < 0.1) return std::nullopt;
+    step.place = position - (dot(position - frame.position, frame.across) / turn) * outline;
+    step.s += dot(step.place - frame.position, frame.along);
+  }
+  const double way = norm(step.place - position), room = mesh_.room(v);
+  if (way > options_.snap * std::min(norm(onward), norm(spoke(fan.back(), 2))) || step.s > path_.length() ||
+      step.s - chain_.back().s < 0.1 * room || !may_move(v, step.place))
+    return std::nullopt;
+  return quality_around(mesh_, v, step.place) >= 0.5 * quality_around(mesh_, v, position)
+             ? std::optional(step)
+             : std::nullopt;
 }
 
 bool Incision::may_reach(int v) const {
@@ -146,9 +189,11 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
   const CutMesh::Triangle& t = mesh_.triangle(triangle);
   const bool end = chain_.empty() || s == path_.length();
   for (const int v : t.vertex) {
-    const double room = mesh_.room(v), away = norm(place - mesh_.position(v));
+    const double room = room_of(v), away = norm(place - mesh_.position(v));
     if (away <= same_place * room && may_reach(v)) return {Step::vertex, -1, v, mesh_.position(v), s};
-    if (away <= options_.snap * room && may_move(v, place)) return {Step::vertex, -1, v, place, s};
+    const bool own = mesh_.vertex(v).parents[0] >= 0;  // made by cutting: nothing of the surface's shape
+    if (away <= (own ? 1.5 : 1) * options_.snap * room && may_move(v, place))
+      return {Step::vertex, -1, v, place, s};
     if (end && away <= options_.snap / 2 * room && may_reach(v))
       return {Step::vertex, -1, v, mesh_.position(v), s};
   }

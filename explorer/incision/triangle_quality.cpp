@@ -20,7 +20,7 @@ Quad quad_at(const CutMesh& mesh, int t, int i) {
 }
 
 /// The smaller radius ratio of the two triangles after flipping edge i of t; 0 where it must not be flipped.
-double ratio_after_flip(const CutMesh& mesh, int t, int i) {
+double ratio_after_flip(const CutMesh& mesh, int t, int i, double bend) {
   const int other = mesh.triangle(t).neighbor[i];
   if (!mesh.is_skin(other)) return 0;
   const Quad q = quad_at(mesh, t, i);
@@ -28,17 +28,18 @@ double ratio_after_flip(const CutMesh& mesh, int t, int i) {
              &d = mesh.position(q.d);
   const Vec3 n = cross(d - c, b - a);  // of the quadrilateral, by its diagonals
   const double size = norm(n);
-  if (size == 0 || std::abs(dot(n, a - c)) > flat * size * std::max(norm(b - a), norm(d - c))) return 0;
+  const double plane = std::max(bend, flat * std::max(norm(b - a), norm(d - c)));
+  if (size == 0 || std::abs(dot(n, a - c)) > plane * size) return 0;  // between the diagonals
   if (dot(cross(d - a, c - a), n) <= 0 || dot(cross(b - d, c - d), n) <= 0) return 0;  // not convex
   if (mesh.any_triangle_with(q.c, q.d) >= 0 || mesh.any_triangle_with(q.d, q.c) >= 0) return 0;
   return std::min(radius_ratio(a, d, c), radius_ratio(d, b, c));
 }
 
-bool flip_best(CutMesh& mesh, int t) {
+bool flip_best(CutMesh& mesh, int t, double bend) {
   int best = -1;
   double most = 0;
   for (int i = 0; i < 3; ++i) {
-    const double after = ratio_after_flip(mesh, t, i);
+    const double after = ratio_after_flip(mesh, t, i, bend);
     if (after <= 0) continue;
     const double before = std::min(radius_ratio(mesh, t), radius_ratio(mesh, mesh.triangle(t).neighbor[i]));
     if (after > 1.2 * before && after > most) most = after, best = i;
@@ -96,7 +97,21 @@ double smallest_radius_ratio(const CutMesh& mesh) {
   return least;
 }
 
-void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target) {
+double smallest_given_radius_ratio(const CutMesh& mesh) {
+  const auto given = [&](int v) {
+    const CutMesh::Vertex& x = mesh.vertex(v);
+    return x.parents[0] < 0 && x.cut < 0 && x.original == x.position;
+  };
+  double least = 1;
+  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
+    const auto& v = mesh.triangles()[t].vertex;
+    if (given(v[0]) && given(v[1]) && given(v[2]))
+      least = std::min(least, radius_ratio(mesh, static_cast<int>(t)));
+  }
+  return least;
+}
+
+void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend) {
   std::vector<int> work = triangles;
   for (std::size_t changes = 0, most = 3 * triangles.size() + 12; !work.empty() && changes < most;) {
     const int t = work.back();
@@ -104,7 +119,7 @@ void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double targe
     if (!mesh.is_skin(t) || radius_ratio(mesh, t) >= target) continue;
     const std::size_t first_new = mesh.triangles().size();
     const auto neighbors = mesh.triangle(t).neighbor;
-    if (!flip_best(mesh, t) && !split_longest(mesh, t)) continue;
+    if (!flip_best(mesh, t, bend) && !split_longest(mesh, t)) continue;
     ++changes;
     work.insert(work.begin(), neighbors.begin(), neighbors.end());
     work.insert(work.begin(), t);

@@ -11,10 +11,12 @@ double radius_ratio(const CutMesh& mesh, int triangle);
 
 /// The smallest of all triangles of the skin.
 double smallest_radius_ratio(const CutMesh& mesh);
+/// Of those that are still as the mesh was given; 1 where none is.
+double smallest_given_radius_ratio(const CutMesh& mesh);
 
 /// Mends the skin's triangles among `triangles`, and those made on the way, whose radius ratio is below
-/// `target`: by flipping an edge where the surface is flat across it, else by splitting the longest edge. The
-/// surface stays what it is. Stops after a number of changes in proportion to the triangles given.
-void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target);
+/// `target`: by flipping an edge where that moves the surface by no more than `bend`, else by splitting the
+/// longest edge. Stops after a number of changes in proportion to the triangles given.
+void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend = 0);
 
 }  // namespace cleft

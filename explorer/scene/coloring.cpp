@@ -41,15 +41,15 @@ double gape(const Field& field, double u, double t) {
 
 namespace {
 
-double opening_across(const Field& field, const Place& place) {
+double opening_across(const VaryingField& field, const Place& place, double s) {
   if (place.side == Side::both && place.uvw.y == 0) return 0;
   const Vec3 right{place.uvw.x, std::abs(place.uvw.y), place.uvw.z}, left{right.x, -right.y, right.z};
-  return norm(field.displacement(right, Side::right, place.t) -
-              field.displacement(left, Side::left, place.t));
+  return norm(field.displacement(right, Side::right, place.t, s) -
+              field.displacement(left, Side::left, place.t, s));
 }
 
-double largest_strain(const Field& field, const Place& place) {
-  const Derivatives d = field.derivatives(place.uvw, place.side, place.t);
+double largest_strain(const VaryingField& field, const Place& place, double s) {
+  const Derivatives d = field.derivatives(place.uvw, place.side, place.t, s);
   Eigen::Matrix3d gradient;
   const Vec3* columns[] = {&d.by_u, &d.by_v, &d.by_w};
   for (int j = 0; j < 3; ++j)
@@ -62,16 +62,17 @@ double largest_strain(const Field& field, const Place& place) {
 
 }  // namespace
 
-double color_value(Coloring coloring, const Field& field, const Field* reference, const Place& place) {
+double color_value(Coloring coloring, const VaryingField& field, const Field* reference, const Place& place,
+                   double s) {
   switch (coloring) {
     case Coloring::displacement:
-      return norm(field.displacement(place.uvw, place.side, place.t));
+      return norm(field.displacement(place.uvw, place.side, place.t, s));
     case Coloring::gape:
-      return opening_across(field, place);
+      return opening_across(field, place, s);
     case Coloring::strain:
-      return largest_strain(field, place);
+      return largest_strain(field, place, s);
     case Coloring::difference:
-      return reference ? norm(field.displacement(place.uvw, place.side, place.t) -
+      return reference ? norm(field.displacement(place.uvw, place.side, place.t, s) -
                               reference->displacement(place.uvw, place.side, place.t))
                        : 0;
     case Coloring::tissue:

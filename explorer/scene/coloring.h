@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "encoder/field/field.h"
+#include "explorer/scene/varying_field.h"
 
 namespace cleft {
 
@@ -27,6 +27,8 @@ double gape(const Field& field, double u, double t);
 /// The value at a point: displacement and difference (from `reference`) in mm, gape in mm, on both sides
 /// of the cut that between a point and its mirror image, the largest principal Green-Lagrange strain as a
 /// number. `tissue` has none: 0.
-double color_value(Coloring coloring, const Field& field, const Field* reference, const Place& place);
+/// `field` is taken at s mm of the path.
+double color_value(Coloring coloring, const VaryingField& field, const Field* reference, const Place& place,
+                   double s = 0);
 
 }  // namespace cleft

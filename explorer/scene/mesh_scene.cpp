@@ -4,12 +4,14 @@
 
 namespace cleft {
 
-MeshScene::MeshScene(std::shared_ptr<const CutSurface> cut, std::shared_ptr<const Field> field)
-    : cut_(std::move(cut)), field_(std::move(field)) {
+MeshScene::MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<CutFields>& fields)
+    : cut_(std::move(cut)), fields_(fields) {
+  std::vector<Wounds::Cut> cuts;
   for (const auto& incision : cut_->cuts()) {
-    if (field_) replays_.emplace_back(*field_, *incision, 1);
+    if (fields_) cuts.push_back({incision.get(), fields_->along(*incision, 1)});
     duration_ += incision->path().length();
   }
+  if (!cuts.empty()) wounds_ = std::make_unique<Wounds>(std::move(cuts), 1);
   surface_ = wound_surface_of(cut_->mesh(), cut_->original_points());
   aim_at_cuts();
 }
@@ -34,34 +36,24 @@ void MeshScene::aim_at_cuts() {
 
 void MeshScene::positions(double t, std::vector<Vec3>& out) const {
   out = surface_.points;
-  double before = 0;
-  for (const Replay& replay : replays_) {
-    if (t <= before) break;
-    moved_.resize(out.size());
-    replay.positions(std::min(t - before, replay.path_length()), moved_);
-    for (const ActiveVertex& a : replay.active()) {
-      const auto v = static_cast<std::size_t>(a.vertex);
-      out[v] += moved_[v] - surface_.points[v];
-    }
-    before += replay.path_length();
-  }
+  if (wounds_) wounds_->positions(t, out);
 }
 
 void MeshScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
   out.assign(surface_.points.size(), 0);
-  if (coloring == Coloring::tissue) return;
-  double before = 0;
-  for (const Replay& replay : replays_) {
-    if (t <= before) break;
-    const double s = std::min(t - before, replay.path_length());
-    for (const ActiveVertex& a : replay.active()) {
+  if (coloring == Coloring::tissue || !wounds_) return;
+  const Wounds::Blade now = wounds_->blade(t);
+  for (std::size_t k = 0; k <= now.cut; ++k) {
+    const VaryingField& field = wounds_->field(k);
+    const double s = k == now.cut ? now.s : cut_->cuts()[k]->path().length();
+    for (const ActiveVertex& a : wounds_->active(k)) {
       const bool closed = a.on_cut && a.s >= s;
-      const double own_time = std::clamp(s + a.time_offset, 0., field_->cut().length);
+      const double own_time = std::clamp(s + a.time_offset, 0., field.shape().cut().length);
       const Place place{a.uvw, closed ? Side::both : a.side, own_time};
       double& value = out[static_cast<std::size_t>(a.vertex)];
-      value = std::max(value, a.weight * color_value(coloring, *field_, reference, place));
+      value = std::max(value, a.weight * wounds_->amplitude(k, a.s, now) *
+                                  color_value(coloring, field, reference, place, a.s));
     }
-    before += replay.path_length();
   }
 }
 

@@ -2,19 +2,21 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
-#include "encoder/field/field.h"
+#include "explorer/scene/cut_fields.h"
 #include "explorer/scene/cut_surface.h"
-#include "explorer/scene/replay.h"
 #include "explorer/scene/wound_scene.h"
+#include "explorer/scene/wounds.h"
 
 namespace cleft {
 
 /// The blade makes the cuts one after another: t runs over the lengths of all of them.
 class MeshScene : public WoundScene {
  public:
-  /// Without a field the cuts stay closed.
-  MeshScene(std::shared_ptr<const CutSurface> cut, std::shared_ptr<const Field> field);
+  /// Without fields the cuts stay closed. Throws InputError where the fields do not tell how several cuts
+  /// relieve each other.
+  MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<CutFields>& fields);
 
   const WoundSurface& surface() const override { return surface_; }
   double duration() const override { return duration_; }
@@ -25,11 +27,10 @@ class MeshScene : public WoundScene {
   void aim_at_cuts();
 
   std::shared_ptr<const CutSurface> cut_;
-  std::shared_ptr<const Field> field_;
-  std::vector<Replay> replays_;
+  std::optional<CutFields> fields_;
+  std::unique_ptr<Wounds> wounds_;  // none without fields or cuts
   double duration_ = 0;
   WoundSurface surface_;
-  mutable std::vector<Vec3> moved_;  // by one of several cuts
 };
 
 }  // namespace cleft

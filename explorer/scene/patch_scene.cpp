@@ -118,7 +118,8 @@ void PatchScene::positions(double t, std::vector<Vec3>& out) const {
 
 void PatchScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
   out.resize(surface_.points.size());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = color_value(coloring, field_, reference, place(i, t));
+  const VaryingField field(field_);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = color_value(coloring, field, reference, place(i, t));
 }
 
 }  // namespace cleft

@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "encoder/field/study_file.h"
 
 namespace cleft {
 
@@ -21,7 +20,7 @@ Vec3 prestress_of(const std::map<std::string, double>& parameters) {
 }
 
 /// The first parameter but prestresses in which two cases differ; "" where there is none.
-std::string difference(const StudyFile& study, int i, int j) {
+std::string difference(const PublishedStudy& study, int i, int j) {
   auto a = study.parameters(i), b = study.parameters(j);
   for (const char* name : names) a.erase(name), b.erase(name);
   for (const auto& [name, value] : a)
@@ -30,6 +29,14 @@ std::string difference(const StudyFile& study, int i, int j) {
   for (const auto& [name, value] : c)
     if (const auto found = d.find(name); found == d.end() || found->second != value) return name;
   return "";
+}
+
+PublishedStudy all_alike(PublishedStudy study) {
+  for (int i = 1; i < study.size(); ++i)
+    if (const std::string name = difference(study, 0, i); !name.empty())
+      throw InputError(study.path() + ": cases " + study.name(0) + " and " + study.name(i) + " differ in " +
+                       name + "; fields superpose where cases differ in skin.prestress_u, _v and _uv alone");
+  return study;
 }
 
 }  // namespace
@@ -43,7 +50,7 @@ PathPrestress prestress_along(const IncisionVolume& volume, double length, const
     const PathFrame frame = volume.skin_frame(s);
     const double along = dot(tension.direction, frame.along), across = dot(tension.direction, frame.across);
     if (std::hypot(along, across) < 0.02 * norm(tension.direction))
-      throw InputError("--tension stands upright on the skin " + shortest(s) +
+      throw InputError("the tension stands upright on the skin " + shortest(s) +
                        " mesh units along the path; give its direction in the skin");
     const double twice = 2 * std::atan2(across, along);
     result.stations.push_back(s * volume.scale());
@@ -53,20 +60,20 @@ PathPrestress prestress_along(const IncisionVolume& volume, double length, const
   return result;
 }
 
-PrestressFields::PrestressFields(const std::string& study_file) {
-  const StudyFile study(study_file);
-  for (int i = 1; i < study.size(); ++i)
-    if (const std::string name = difference(study, 0, i); !name.empty())
-      throw InputError(study_file + ": cases " + study.name(0) + " and " + study.name(i) + " differ in " +
-                       name + "; fields superpose where cases differ in skin.prestress_u, _v and _uv alone");
-  if (const auto choices = study.choices(0);
-      (choices.contains("cut.contact") && choices.at("cut.contact") == "true") ||
-      (choices.contains("skin.initial_stress_stiffness") &&
-       choices.at("skin.initial_stress_stiffness") == "true"))
-    throw InputError(study_file +
+PrestressFields::PrestressFields(const std::string& study_file)
+    : PrestressFields(all_alike(PublishedStudy(study_file)), 0) {}
+
+PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
+  const auto chosen = [&](const char* name) {
+    const auto found = study.choices(like).find(name);
+    return found != study.choices(like).end() && found->second == "true";
+  };
+  if (chosen("cut.contact") || chosen("skin.initial_stress_stiffness"))
+    throw InputError(study.path() +
                      ": fields do not superpose with cut.contact or skin.initial_stress_stiffness");
   Vec3 p[3];
   for (int i = 0; i < study.size() && fields_.size() < 3; ++i) {
+    if (!difference(study, like, i).empty()) continue;
     const std::size_t n = fields_.size();
     p[n] = prestress_of(study.parameters(i));
     const double size = norm(p[n]);
@@ -74,11 +81,13 @@ PrestressFields::PrestressFields(const std::string& study_file) {
                                : n == 1 ? norm(cross(p[0], p[1])) / norm(p[0])
                                         : std::abs(dot(cross(p[0], p[1]), p[2])) / norm(cross(p[0], p[1]));
     if (!(independent > 1e-3 * size)) continue;
-    fields_.push_back(study.field(i));
+    fields_.push_back(study.read(i));
   }
   if (fields_.size() < 3)
-    throw InputError(study_file + ": needs three cases whose prestresses are independent, such as " +
-                     "(skin.prestress_u, _v, _uv) = (0.01, 0, 0), (0, 0.01, 0) and (0.01, 0.01, 0.005) MPa");
+    throw InputError(study.path() +
+                     ": a tension that turns needs three cases that differ in skin.prestress_u, _v and _uv "
+                     "alone and whose prestresses are independent, such as (0.01, 0, 0), (0, 0.01, 0) and "
+                     "(0.01, 0.01, 0.005) MPa");
   const double volume = dot(cross(p[0], p[1]), p[2]);
   for (int i = 0; i < 3; ++i) inverse_[i] = 1 / volume * cross(p[(i + 1) % 3], p[(i + 2) % 3]);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "explorer/incision/ipv.h"
+#include "explorer/scene/study.h"
 #include "explorer/scene/varying_field.h"
 
 namespace cleft {
@@ -32,8 +33,10 @@ PathPrestress prestress_along(const IncisionVolume& volume, double length, const
 
 class PrestressFields {
  public:
-  /// A study.dffd. Throws InputError where its cases differ in anything but skin.prestress_u, _v and _uv, or
-  /// hold no three whose prestresses are independent.
+  /// Cases of a study that differ from case `like` in skin.prestress_u, _v and _uv alone. Throws InputError
+  /// where there are no three of them whose prestresses are independent.
+  PrestressFields(const PublishedStudy& study, int like);
+  /// A study.dffd. Throws InputError too where its cases differ in anything else.
   explicit PrestressFields(const std::string& study_file);
 
   const Field& shape() const { return fields_.front(); }

@@ -46,12 +46,13 @@ void ScalpelCutting::add_wound(const ScalpelPath& path, const IncisionOptions& o
   Wound& wound = wounds_.emplace_back();
   try {
     wound.incision = std::make_unique<Incision>(mesh_, path, options);
+    if (setup_.fields)
+      wound.opening = std::make_unique<LiveReplay>(setup_.fields->along(*wound.incision, setup_.scale),
+                                                   *wound.incision, setup_.scale);
   } catch (...) {
     wounds_.pop_back();
     throw;
   }
-  if (setup_.field)
-    wound.opening = std::make_unique<LiveReplay>(*setup_.field, *wound.incision, setup_.scale);
 }
 
 double ScalpelCutting::cut_length() const {
@@ -160,17 +161,17 @@ void ScalpelCutting::lead_on(ScalpelPath::Point next) {
   next.position -= 0.5 * dot(next.position - end.position, end.across) * end.across;
   next.outward = normalized(next.outward + end.outward);
   // The field moves vertices from half its cut's length ahead of the blade on.
-  const double beyond = (setup_.field ? setup_.field->cut().length / 2 : far) / setup_.scale;
+  const double beyond = (setup_.fields ? setup_.fields->shape().cut().length / 2 : far) / setup_.scale;
   incision.lead_on(next, beyond);
   led_.back().push_back(next);
 }
 
 void ScalpelCutting::begin_cut(const ScalpelPath::Point& first, const ScalpelPath::Point& next) {
-  const double length = (setup_.field ? setup_.field->cut().length : far) / setup_.scale;
+  const double length = (setup_.fields ? setup_.fields->shape().cut().length : far) / setup_.scale;
   ScalpelPath::Point end = next;
   end.position = first.position + length * normalized(next.position - first.position);
   IncisionOptions options;
-  options.reach = setup_.field ? reach_of(*setup_.field, setup_.scale) : 0;
+  options.reach = setup_.fields ? reach_of(setup_.fields->shape(), setup_.scale) : 0;
   options.refined = norm(next.position - first.position);
   add_wound(ScalpelPath({first, end}), options);
   led_.push_back({first});
@@ -228,7 +229,7 @@ void ScalpelCutting::take_in_changes() {
 
 void ScalpelCutting::open() {
   ++figures_.steps;
-  if (!setup_.field || wounds_.empty()) return;
+  if (!setup_.fields || wounds_.empty()) return;
   Stopwatch watch;
   for (Wound& wound : wounds_)
     if (wound.opening) wound.opening->move_to(wound.incision->tip() * setup_.scale);

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
+#include "explorer/scene/cut_fields.h"
 #include "explorer/scene/live_replay.h"
 #include "haptic/contact_query.h"
 #include "haptic/loop.h"
@@ -35,7 +35,7 @@ class ScalpelCutting {
   struct Setup {
     std::optional<ScalpelPath> path;  ///< where alone the scalpel cuts
     std::vector<ScalpelPath> made;    ///< cuts that are there already
-    std::shared_ptr<const Field> field;
+    std::optional<CutFields> fields;
     double scale = 1;
     double depth = 0;  ///< mm, of cuts without a path; 0: as deep as the scalpel is
   };

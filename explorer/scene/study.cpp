@@ -18,14 +18,14 @@ PublishedStudy::PublishedStudy(const std::string& path) : path_(path) {
   if (fs::is_regular_file(path) && format_of(path) == "cleft-study") {
     packed_.emplace(path);
     for (int i = 0; i < packed_->size(); ++i)
-      cases_.push_back({packed_->name(i), "", packed_->parameters(i), i});
+      cases_.push_back({packed_->name(i), "", packed_->parameters(i), packed_->choices(i), i});
     if (cases_.empty()) throw InputError(path + ": holds no case; run `cleft pack` again");
     name_and_sort();
     return;
   }
   const bool folder = fs::is_directory(path);
   for (const StudyCase& one : folder ? published_study_cases(path) : std::vector<StudyCase>{{"", path}})
-    cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), -1});
+    cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), one.choices, -1});
   name_and_sort();
 }
 

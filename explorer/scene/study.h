@@ -28,6 +28,8 @@ class PublishedStudy {
   /// Names of the parameters in which the cases differ.
   const std::vector<std::string>& varying() const { return varying_; }
   const std::map<std::string, double>& parameters(int i) const { return cases_.at(i).parameters; }
+  /// Those that are text, where the study tells them.
+  const std::map<std::string, std::string>& choices(int i) const { return cases_.at(i).choices; }
   const std::string& file(int i) const { return cases_.at(i).file; }
 
   /// Read from its file when it is asked for; the cases looked at last are kept.
@@ -43,6 +45,7 @@ class PublishedStudy {
   struct Case {
     std::string file, name;
     std::map<std::string, double> parameters;
+    std::map<std::string, std::string> choices;
     int packed = -1;  // its number in the study file
   };
   void name_and_sort();

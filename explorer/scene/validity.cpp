@@ -79,7 +79,7 @@ bool pulled_alike(const Field& field) {
 
 }  // namespace
 
-std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, const std::vector<bool>& turned) {
+std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool turned) {
   std::vector<Validity> result;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const Field& field = cuts[i].field->shape();
@@ -94,7 +94,7 @@ std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, const s
     const auto warn = [&](const std::string& what) {
       v.warnings.push_back(which + what + ": its opening may be off by more than a tenth");
     };
-    const bool known = turned[i] || pulled_alike(field);
+    const bool known = turned || pulled_alike(field);
     const double radius = canonical * (known ? least_radius : least_radius_not_turned);
     if (v.smallest_radius < radius)
       warn("the path bends with a radius of " + rounded(v.smallest_radius) + " mm, below " + rounded(radius) +

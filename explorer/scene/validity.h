@@ -19,7 +19,7 @@ struct Validity {
   std::vector<std::string> warnings;
 };
 
-/// Of every cut. `turned`: by cut, whether the tension turns against the path.
-std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, const std::vector<bool>& turned);
+/// Of every cut. `turned`: whether their fields follow the tension.
+std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool turned);
 
 }  // namespace cleft

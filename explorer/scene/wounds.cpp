@@ -7,28 +7,29 @@
 namespace cleft {
 
 namespace {
-constexpr int relief_pieces = 48;  // of the last cut's way, between which the relief is linear
+constexpr int relief_pieces = 48;  // of a cut's way, between which the relief is linear
 }
 
-Wounds::Wounds(std::vector<Cut> cuts, double scale) : cuts_(std::move(cuts)), scale_(scale) {
+Wounds::Wounds(std::vector<Cut> cuts, double scale) : cuts_(std::move(cuts)), scale_(scale), begins_{0} {
   for (const Cut& cut : cuts_) {
     replays_.emplace_back(cut.field, *cut.incision, scale);
     volumes_.push_back(std::make_unique<IncisionVolume>(*cut.incision, cut.field.shape(), scale));
     in_tension_.push_back({cut.incision, &cut.field, volumes_.back().get()});
+    begins_.push_back(begins_.back() + replays_.back().path_length());
   }
-  if (cuts_.size() == 1) return;
+  relief_.resize(cuts_.size());
+  std::vector<Vec3> moved(cuts_.size() > 1 ? vertex_count() : 0);
   for (std::size_t k = 0; k + 1 < cuts_.size(); ++k) {
-    std::vector<Vec3> moved(vertex_count());
     replays_[k].positions(replays_[k].path_length(), moved);
     std::vector<Vec3>& displacements = complete_.emplace_back();
     for (const ActiveVertex& a : replays_[k].active()) {
       const auto v = static_cast<std::size_t>(a.vertex);
       displacements.push_back(moved[v] - rest()[v]);
     }
-  }
-  for (int i = 0; i <= relief_pieces; ++i) {
-    blades_.push_back(replays_.back().path_length() * i / relief_pieces);
-    relief_.push_back(mutual_relief(in_tension_, blades_.back()));
+    const std::vector<CutInTension> until(in_tension_.begin(),
+                                          in_tension_.begin() + static_cast<std::ptrdiff_t>(k + 2));
+    for (int i = 0; i <= relief_pieces; ++i)
+      relief_[k + 1].push_back(mutual_relief(until, replays_[k + 1].path_length() * i / relief_pieces));
   }
 }
 
@@ -38,39 +39,49 @@ std::size_t Wounds::active() const {
   return count;
 }
 
-double Wounds::amplitude(std::size_t cut, double s, double blade) const {
-  if (relief_.empty()) return 1;
-  const double at = std::clamp(blade / blades_.back(), 0., 1.) * relief_pieces;
-  const auto i = std::min(static_cast<std::size_t>(at), blades_.size() - 2);
-  const double part = at - static_cast<double>(i);
-  return (1 - part) * relief_[i][cut].at(s) + part * relief_[i + 1][cut].at(s);
+Wounds::Blade Wounds::blade(double t) const {
+  std::size_t cut = 0;
+  while (cut + 1 < cuts_.size() && t > begins_[cut + 1]) ++cut;
+  return {cut, std::clamp(t - begins_[cut], 0., replays_[cut].path_length())};
 }
 
-void Wounds::positions(double s, std::span<Vec3> out) const {
-  replays_.back().positions(s, out);
-  if (cuts_.size() == 1) return;
-  const std::size_t last = cuts_.size() - 1;
-  for (const ActiveVertex& a : replays_.back().active()) {
+double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
+  const auto& relief = relief_[blade.cut];
+  if (relief.empty()) return 1;
+  const double at = blade.s / replays_[blade.cut].path_length() * relief_pieces;
+  const auto i = std::min(static_cast<std::size_t>(at), relief.size() - 2);
+  const double part = at - static_cast<double>(i);
+  return (1 - part) * relief[i][cut].at(s) + part * relief[i + 1][cut].at(s);
+}
+
+void Wounds::positions(double t, std::span<Vec3> out) const {
+  const Blade now = blade(t);
+  const Replay& cutting = replays_[now.cut];
+  cutting.positions(now.s, out);
+  if (now.cut == 0) return;
+  for (const ActiveVertex& a : cutting.active()) {
     const auto v = static_cast<std::size_t>(a.vertex);
-    out[v] = rest()[v] + amplitude(last, a.s, s) * (out[v] - rest()[v]);
+    out[v] = rest()[v] + amplitude(now.cut, a.s, now) * (out[v] - rest()[v]);
   }
-  for (std::size_t k = 0; k < last; ++k)
+  for (std::size_t k = 0; k < now.cut; ++k)
     for (std::size_t i = 0; i < complete_[k].size(); ++i) {
       const ActiveVertex& a = replays_[k].active()[i];
-      out[static_cast<std::size_t>(a.vertex)] += amplitude(k, a.s, s) * complete_[k][i];
+      out[static_cast<std::size_t>(a.vertex)] += amplitude(k, a.s, now) * complete_[k][i];
     }
 }
 
 Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,
-                                double s) const {
+                                double t) const {
+  const Blade now = blade(t);
   Vec3 sum;
-  for (std::size_t k = 0; k < cuts_.size(); ++k) {
+  for (std::size_t k = 0; k <= now.cut; ++k) {
     const auto at = volumes_[k]->locate_below(place, depth, nearest, sides[k]);
     if (!at) continue;
-    const double blade = k + 1 == cuts_.size() ? s : replays_[k].path_length();
+    const double s = k == now.cut ? now.s : replays_[k].path_length();
     const VaryingField& field = cuts_[k].field;
-    const double t = std::clamp(blade + at->time_offset, 0., field.shape().cut().length);
-    sum += amplitude(k, at->s, s) / scale_ * at->in_mesh(field.displacement(at->uvw, at->side, t, at->s));
+    const double own_time = std::clamp(s + at->time_offset, 0., field.shape().cut().length);
+    sum += amplitude(k, at->s, now) / scale_ *
+           at->in_mesh(field.displacement(at->uvw, at->side, own_time, at->s));
   }
   return sum;
 }

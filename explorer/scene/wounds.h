@@ -21,48 +21,49 @@ class Wounds {
   };
 
   /// The incisions, all of one mesh and in the order in which they were made, must outlive it, and so must
-  /// the fields' own. `scale`: mm per mesh unit. One cut alone is a Replay.
+  /// the fields' own. `scale`: mm per mesh unit.
   Wounds(std::vector<Cut> cuts, double scale);
   Wounds(const Wounds&) = delete;
   Wounds& operator=(const Wounds&) = delete;
 
-  /// Positions of all vertices, mesh units, with the blade of the last cut at s mm of its path and the others
-  /// complete.
-  void positions(double s, std::span<Vec3> out) const;
+  /// The length of all paths, mm. The blade makes one cut after another: at t it has come to `s` mm of the
+  /// path of `cut`, those before are complete, and later ones not begun.
+  double duration() const { return begins_.back(); }
+  struct Blade {
+    std::size_t cut;
+    double s;
+  };
+  Blade blade(double t) const;
 
-  /// The displacement of a place below the skin by all cuts, mesh units; the last one's blade at s mm.
-  /// `nearest` is a vertex of the skin, `depth` in mm, and sides[k] tells where it lies of cut k if on its
-  /// surface.
+  /// Positions of all vertices at t, mesh units. Allocates nothing.
+  void positions(double t, std::span<Vec3> out) const;
+
+  /// The displacement of a place below the skin by all cuts at t, mesh units. `nearest` is a vertex of the
+  /// skin, `depth` in mm, and sides[k] tells where it lies of cut k if on its surface.
   Vec3 displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,
-                          double s) const;
+                          double t) const;
 
-  const std::vector<Vec3>& rest() const { return replays_.back().rest(); }
+  const std::vector<Vec3>& rest() const { return replays_.front().rest(); }
   std::size_t vertex_count() const { return rest().size(); }
   std::size_t active() const;  ///< vertices that a field moves, counted for every cut
-  /// How far a cut opens at s mm of its path, over what it would alone; the last one's blade at its end.
-  std::size_t cuts() const { return cuts_.size(); }
-  const Incision& incision(std::size_t cut) const { return *cuts_[cut].incision; }
-  /// How far each cut is like those that replays were compared with. `turned`: whose fields follow the
+  const std::vector<ActiveVertex>& active(std::size_t cut) const { return replays_[cut].active(); }
+  const VaryingField& field(std::size_t cut) const { return cuts_[cut].field; }
+  /// How far each cut is like those that replays were compared with. `turned`: whether the fields follow the
   /// tension.
-  std::vector<Validity> validity(const std::vector<bool>& turned) const {
-    return validity_of(in_tension_, turned);
-  }
-  double amplitude(std::size_t cut, double s) const {
-    return relief_.empty() ? 1 : relief_.back()[cut].at(s);
-  }
+  std::vector<Validity> validity(bool turned) const { return validity_of(in_tension_, turned); }
+  /// How far a cut opens at s mm of its path, over what it would alone, with the blade there.
+  double amplitude(std::size_t cut, double s, const Blade& blade) const;
 
  private:
-  double amplitude(std::size_t cut, double s, double blade) const;
-
   std::vector<Cut> cuts_;
   double scale_;
+  std::vector<double> begins_;  // t at which each cut begins, and the end
   std::vector<Replay> replays_;
   std::vector<std::unique_ptr<IncisionVolume>> volumes_;
   std::vector<CutInTension> in_tension_;
-  std::vector<std::vector<Vec3>>
-      complete_;                // displacements of all but the last cut: of their active vertices
-  std::vector<double> blades_;  // of the last cut, at which the relief is known
-  std::vector<std::vector<Amplitude>> relief_;
+  std::vector<std::vector<Vec3>> complete_;  // displacements of every cut's active vertices, but the last's
+  /// While cut k is made: of the cuts until it, with its blade at equal steps of its path.
+  std::vector<std::vector<std::vector<Amplitude>>> relief_;
 };
 
 }  // namespace cleft

@@ -211,7 +211,7 @@ bool CaseWork::publish(CaseOnItsWay& one) const {
                    {"version", 2},
                    {"producer", producer()},
                    {"case", one.hash},
-                   {"solve", solve_hash(one.one->parameters)},
+                   {"solve", one.one->snapshot_hash()},
                    {"study", study_.name},
                    {"sampling",
                     {{"method", study_.sampling.method},

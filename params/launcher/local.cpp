@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "params/launcher/case_work.h"
 #include "params/launcher/estimates.h"
+#include "params/launcher/packing.h"
 #include "params/launcher/run_table.h"
 #include "params/launcher/solve_groups.h"
 
@@ -45,7 +46,8 @@ class LocalRun {
       : folder_(folder),
         cases_(cases),
         options_(options),
-        work_(folder, study, settings_of(options), stop_count) {
+        work_(folder, study, settings_of(options), stop_count),
+        packing_(folder.path(), stop_count) {
     const auto published = folder.index();
     estimates_ = Estimates(published);
     for (const auto& [hash, one] : published)
@@ -223,7 +225,7 @@ class LocalRun {
     std::string published;
     {
       const std::lock_guard guard(mutex_);
-      const auto found = solved_.find(solve_hash(one.one->parameters));
+      const auto found = solved_.find(one.one->snapshot_hash());
       if (found == solved_.end()) return false;
       published = folder_.published(found->second);
     }
@@ -248,6 +250,7 @@ class LocalRun {
         fail(*one, *one->failure);
       } else if (work_.publish(*one)) {
         count(&RunReport::published, one->number, "published, " + as_clock(one->seconds));
+        packing_.published();
       } else {
         count(&RunReport::superseded, one->number, "superseded: another run published it first");
       }
@@ -329,6 +332,7 @@ class LocalRun {
   const std::vector<Case>& cases_;
   const LocalOptions options_;
   const CaseWork work_;
+  Packing packing_;
   Estimates estimates_;
   std::map<std::string, std::string> solved_;  // published hashes by what their solver saw
   std::vector<std::string> early_lines_;

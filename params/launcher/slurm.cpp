@@ -18,6 +18,7 @@
 #include "base/process.h"
 #include "base/sealed_json.h"
 #include "base/text.h"
+#include "params/launcher/packing.h"
 #include "params/launcher/solve_groups.h"
 
 namespace cleft {
@@ -89,7 +90,8 @@ class SlurmRun {
         cases_(cases),
         options_(options),
         settings_(std::move(settings)),
-        place_(fs::absolute(folder.path()).string() + "/slurm") {
+        place_(fs::absolute(folder.path()).string() + "/slurm"),
+        packing_(folder.path(), leave) {
     fs::create_directories(place_);
     for (const Case& one : cases) hashes_.push_back(one.hash());
   }
@@ -158,6 +160,7 @@ class SlurmRun {
       if (now[c].state == CaseState::published && !had_ended) {
         ++(first ? report_.already_published : report_.published);
         ended_.insert(c);
+        packing_.published();
         if (!first) say(c, "published");
       }
     }
@@ -266,6 +269,7 @@ class SlurmRun {
   std::map<std::size_t, int> submissions_;
   std::set<std::size_t> ended_;
   bool silent_ = false;  // Slurm did not answer
+  Packing packing_;
   RunReport report_;
 };
 

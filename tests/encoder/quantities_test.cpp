@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "encoder/field/field_file.h"
 #include "tests/encoder/synthetic_snapshot.h"
 
 namespace cleft {
@@ -86,31 +87,78 @@ TEST(Quantities, ATemperatureAloneKeepsTheToleranceEverywhere) {
   }
 }
 
-TEST(Quantities, AStressIsFittedBesideTheDisplacementAndItsErrorIsTold) {
+TEST(Quantities, AStressKeepsTheToleranceAtEveryNodeAndFrameAsItIsWritten) {
   const SyntheticSnapshot snapshot(opening);
   Series series = snapshot.series();
   const Field alone = encoded_within(series, 0.05).field;
   add_quantity(series, "stress", 6, stress);
-  const Field field = encoded_within(series, 0.05).field;
-  ASSERT_EQ(field.quantities.size(), 1u);
-  const Quantity& found = field.quantities[0];
-  EXPECT_EQ(found.components, 6);
+  add_quantity(series, "temperature", 1, temperature);
+  for (const double tolerance : {0.05, 1e-3}) {
+    const Encoded encoded = encoded_within(series, tolerance);
+    if (tolerance == 0.05) {
+      EXPECT_EQ(encoded.field.coefficients(), alone.coefficients()) << "the displacement does not change";
+    }
+    const TemporaryFolder folder;
+    write_field(folder / "case.dffd", encoded.field, encoded.residual ? &*encoded.residual : nullptr, {},
+                encoded.of_quantities);
+    const Field field = read_field(folder / "case.dffd");
+    ASSERT_EQ(field.quantities.size(), 2u);
+    for (std::size_t q = 0; q < 2; ++q) {
+      const Quantity& found = field.quantities[q];
+      const auto residual = read_quantity_residual(folder / "case.dffd", q);
+      EXPECT_GT(found.quantum, 0);
+      double worst = 0, of_spline = 0;
+      for (std::size_t j = 0; j < series.times.size(); ++j)
+        for (std::size_t n = 0; n < series.samples.size(); ++n) {
+          const Sample& sample = series.samples[n];
+          std::vector<double> value(static_cast<std::size_t>(found.components));
+          field.quantity(q, sample.uvw, sample.side, series.times[j], value);
+          double squared = 0, squared_of_spline = 0;
+          for (int c = 0; c < found.components; ++c) {
+            const double off = value[static_cast<std::size_t>(c)] -
+                               (q == 0 ? stress : temperature)(sample.uvw, sample.side, series.times[j], c);
+            squared_of_spline += off * off;
+            squared += std::pow(off + (residual ? residual->at(n, c, j) : 0), 2);
+          }
+          worst = std::max(worst, std::sqrt(squared));
+          of_spline = std::max(of_spline, std::sqrt(squared_of_spline));
+        }
+      EXPECT_LE(worst / found.largest, tolerance);
+      EXPECT_NEAR(worst / found.largest, found.error, 1e-12);
+      EXPECT_NEAR(of_spline / found.largest, found.spline_error, 1e-12);
+      EXPECT_EQ(residual.has_value(), found.spline_error > tolerance);
+    }
+  }
+}
+
+/// A fit is linear: of a derivative that is 2.5 times the displacement it makes control points that are so
+/// too.
+TEST(Quantities, ADerivativeIsFittedAsTheDisplacementIs) {
+  const SyntheticSnapshot snapshot(opening);
+  Series series = snapshot.series();
+  const Field alone = encoded_within(series, 0.02).field;
+  EXPECT_TRUE(alone.by_parameter.empty());
+  SeriesDerivative derivative{"tissue.young_modulus", {}, 2.5 * series.largest_displacement};
+  for (const Eigen::MatrixX3d& frame : series.frames) derivative.frames.push_back(2.5 * frame);
+  series.derivatives = {derivative};
+  const Field field = encoded_within(series, 0.02).field;
+  EXPECT_EQ(field.coefficients(), alone.coefficients()) << "the displacement does not change";
+  ASSERT_EQ(field.by_parameter.size(), 1u);
+  const ParameterDerivative& found = field.by_parameter[0];
+  EXPECT_EQ(found.parameter, "tissue.young_modulus");
+  const Field of_derivative(field.shared_parametrization(),
+                            {field.basis(0), field.basis(1), field.basis(2), field.basis(3)},
+                            found.control_points);
   double worst = 0;
   for (std::size_t j = 0; j < series.times.size(); ++j)
-    for (const Sample& sample : series.samples) {
-      std::array<double, 6> value;
-      field.quantity(0, sample.uvw, sample.side, series.times[j], value);
-      double squared = 0;
-      for (int c = 0; c < 6; ++c) {
-        const double off =
-            value[static_cast<std::size_t>(c)] - stress(sample.uvw, sample.side, series.times[j], c);
-        squared += off * off;
-      }
-      worst = std::max(worst, std::sqrt(squared));
+    for (std::size_t n = 0; n < series.samples.size(); ++n) {
+      const Sample& sample = series.samples[n];
+      const auto row = derivative.frames[j].row(static_cast<Eigen::Index>(n));
+      const Vec3 value = of_derivative.displacement(sample.uvw, sample.side, series.times[j]);
+      worst = std::max(worst, norm(value - Vec3{row(0), row(1), row(2)}));
     }
-  EXPECT_NEAR(worst / found.largest, found.error, 1e-12);
-  EXPECT_LT(found.error, 0.1);
-  EXPECT_EQ(field.coefficients(), alone.coefficients()) << "the displacement does not change";
+  EXPECT_NEAR(worst / derivative.largest, found.error, 1e-12);
+  EXPECT_LE(found.error, 1.5 * field.report.spline_error) << "a quarter for steps, and a little for lips";
 }
 
 }  // namespace cleft

@@ -33,6 +33,15 @@ TEST_F(Faults, AFullDiskDelaysAStudy) {
   EXPECT_EQ(report->runs, 1);
 }
 
+TEST(FaultsOnTwoRanks, AFullDiskDelaysAStudy) {
+  const TemporaryFolder place;
+  const StudyUnderFault study(place.path(), 2);
+  std::mt19937 random(3);
+  const auto report = fill_the_disk(study, 1, random);
+  if (!report) GTEST_SKIP() << "only root may mount a small file system";
+  EXPECT_EQ(report->runs, 1);
+}
+
 TEST_F(Faults, AFailingWriteDelaysAStudy) { EXPECT_EQ(fail_writes(study_, 1, random_).runs, 1); }
 
 }  // namespace

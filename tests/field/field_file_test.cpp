@@ -191,6 +191,47 @@ TEST(FieldFile, FurtherQuantitiesComeBack) {
   }
 }
 
+TEST(FieldFile, CodedQuantitiesAndDerivativesComeBack) {
+  Field field = following_field();
+  const auto bases = std::array{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+  const auto points = [&](double quantum, unsigned seed) {
+    return quantised(random_coefficients(bases, seed), ties_of("tip", bases), bases, quantum, 0.5);
+  };
+  Quantity stress{"stress", 4, std::vector<double>(4 * field.coefficients().size()), 1.5, 0.01, 0.02, 0.125};
+  const auto three = points(stress.quantum, 5), one = points(stress.quantum, 6);
+  for (std::size_t n = 0; n < three.size(); ++n) {
+    for (std::size_t c = 0; c < 3; ++c) stress.coefficients[4 * n + c] = three[n][static_cast<int>(c)];
+    stress.coefficients[4 * n + 3] = one[n].x;
+  }
+  field.quantities = {stress};
+  field.by_parameter = {{"tissue.young_modulus", points(0.25, 7), 0.25, 40, 0.03},
+                        {"skin.prestress_v", points(0.5, 8), 0.5, 30, 0.02}};
+  const TemporaryFolder folder;
+  write_field(folder / "a.dffd", field);
+  const Field found = read_field(folder / "a.dffd");
+  EXPECT_TRUE(same(found, field));
+  ASSERT_EQ(found.quantities.size(), 1u);
+  EXPECT_EQ(found.quantities[0].coefficients, stress.coefficients);
+  EXPECT_EQ(found.quantities[0].error, 0.01);
+  EXPECT_EQ(found.quantities[0].spline_error, 0.02);
+  ASSERT_EQ(found.by_parameter.size(), 2u);
+  for (std::size_t d = 0; d < 2; ++d) {
+    EXPECT_EQ(found.by_parameter[d].parameter, field.by_parameter[d].parameter);
+    EXPECT_EQ(found.by_parameter[d].control_points, field.by_parameter[d].control_points);
+    EXPECT_EQ(found.by_parameter[d].largest, field.by_parameter[d].largest);
+    EXPECT_EQ(found.by_parameter[d].error, field.by_parameter[d].error);
+  }
+  std::string kept;
+  EXPECT_EQ(unnoticed_damages(
+                folder / "a.dffd", 60,
+                [&](const std::string& file) {
+                  const Field read = read_field(file);
+                  kept = record_of(read).header.dump();
+                },
+                [&] { return kept == record_of(field).header.dump(); }),
+            0);
+}
+
 TEST(FieldFile, TheResidualComesBack) {
   const TemporaryFolder folder;
   const NodeResidual residual = random_residual();

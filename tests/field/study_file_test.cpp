@@ -13,6 +13,7 @@
 #include "encoder/field/field_file.h"
 #include "tests/field/random_field.h"
 #include "tests/support/damage.h"
+#include "tests/support/older_field.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
@@ -145,6 +146,27 @@ TEST(StudyFile, WhatIsNoneIsNamed) {
   file.write_number("/", "version", 7);
   file.close();
   EXPECT_THROW(StudyFile(folder / "d.dffd"), FileError);
+}
+
+TEST(StudyFile, CasesOfAnOlderFormatAreLeftOutByName) {
+  const TemporaryFolder study;
+  publish_older_case(study.path(), "old");
+  EXPECT_TRUE(is_older_field(study / "cases/old/case.dffd"));
+  try {
+    published_study_cases(study.path());
+    FAIL() << "there is no case to be read";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("case old; cleft run"), std::string::npos) << e.what();
+  }
+  std::filesystem::create_directories(study / "cases/new");
+  study.write("cases/new/manifest.json", "{\"version\": 1}");
+  write_field(study / "cases/new/case.dffd", following_field());
+  EXPECT_FALSE(is_older_field(study / "cases/new/case.dffd"));
+  std::vector<std::string> older;
+  const auto cases = published_study_cases(study.path(), &older);
+  ASSERT_EQ(cases.size(), 1u);
+  EXPECT_EQ(cases[0].name, "new");
+  EXPECT_EQ(older, std::vector<std::string>{"old"});
 }
 
 TEST(Columns, GiveBackTheHeaders) {

@@ -52,6 +52,11 @@ struct Trial {
   Phase last = Phase::cutting;
 };
 
+std::optional<CutFields> fields_of(const std::shared_ptr<const Field>& field) {
+  if (!field) return std::nullopt;
+  return CutFields(field);
+}
+
 Trial cut(int rings, const std::shared_ptr<const Field>& field, double depth) {
   // Poles beside the path.
   testing::Surface ball = testing::ball(rings, radius);
@@ -59,7 +64,7 @@ Trial cut(int rings, const std::shared_ptr<const Field>& field, double depth) {
   for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
   const ScalpelPath path = path_over_the_ball(depth);
   const double speed = 40;
-  ScalpelCutting cutting(mesh, {path, {}, field, 1, 0});
+  ScalpelCutting cutting(mesh, {path, {}, fields_of(field), 1, 0});
   Hand hand({}, script(path, depth, speed));
   HapticLoop loop(hand, cutting.surface(), {});
   Trial trial;
@@ -97,7 +102,7 @@ TEST(Cutting, TheWoundThatIsFeltIsTheOneThatIsSeen) {
   SurfaceMesh mesh{ball.points, ball.triangles};
   for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
   const ScalpelPath path = path_over_the_ball(5);
-  ScalpelCutting cutting(mesh, {path, {}, field, 1, 0});
+  ScalpelCutting cutting(mesh, {path, {}, fields_of(field), 1, 0});
   HapticState scalpel;
   scalpel.phase = Phase::cutting;
   for (double s = 0; s < 25; s += 0.7) {

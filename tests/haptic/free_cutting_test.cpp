@@ -62,7 +62,7 @@ double astray(const Incision& incision, const ScalpelPath& path) {
 TEST(FreeCutting, TheCutIsWhereTheBladeHasBeen) {
   for (const int rings : {20, 54, 110}) {
     const SurfaceMesh mesh = ball_on_its_side(rings);
-    ScalpelCutting cutting(mesh, {{}, {}, nullptr, 1, 0});
+    ScalpelCutting cutting(mesh, {{}, {}, {}, 1, 0});
     const ScalpelPath path = over_the_ball(-20, 20, 0, 1.2);
     cut_along(cutting, path, path.length());
     EXPECT_EQ(cutting.figures().stopped, "") << rings;
@@ -80,7 +80,7 @@ TEST(FreeCutting, TheCutIsWhereTheBladeHasBeen) {
 TEST(FreeCutting, SeveralCutsAndWhatStopsThem) {
   const SurfaceMesh mesh = ball_on_its_side(54);
   const auto field = std::make_shared<Field>(testing::opening_field({-10, 20, depth}, 40, 30, 8, 2));
-  ScalpelCutting cutting(mesh, {{}, {}, field, 1, 0});
+  ScalpelCutting cutting(mesh, {{}, {}, CutFields(field), 1, 0});
   cut_along(cutting, over_the_ball(-20, 20, 0, 0), 30);
   const double first = cutting.cut_length();
   EXPECT_GT(first, 28.5);
@@ -113,7 +113,7 @@ TEST(FreeCutting, ItOpensAsTheCutWouldHaveThatWasDrawnBefore) {
   for (const double bend : {0., 0.6}) {
     const SurfaceMesh mesh = ball_on_its_side(54);
     const auto field = std::make_shared<Field>(testing::opening_field({-15, 30, depth}, 60, 50, 8, 4));
-    ScalpelCutting cutting(mesh, {{}, {}, field, 1, 0});
+    ScalpelCutting cutting(mesh, {{}, {}, CutFields(field), 1, 0});
     const ScalpelPath path = over_the_ball(-20, 20, 0, bend);
     cut_along(cutting, path, 32);
     take_out(cutting);

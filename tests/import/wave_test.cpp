@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
+#include "base/text.h"
 #include "tests/import/source_series.h"
+#include "tests/pipeline/commands.h"
 
 namespace cleft {
 
@@ -130,6 +133,30 @@ TEST_F(ImportWave, TheSlitIsFoundAndThePressureKept) {
   EXPECT_LT(r.released[1], slit_nodes) << "the wave has not arrived everywhere";
   EXPECT_EQ(r.position.back(), 5) << "the first single node";
   EXPECT_EQ(imported.notes(), "");
+}
+
+TEST_F(ImportWave, ItsFieldKeepsTheToleranceAtEveryNodeAndFrame) {
+  constexpr double tolerance = 0.02;
+  const SourceSeries s = Wave(12, 4).run(30);
+  const std::string snapshot = folder / "case.h5", field = folder / "case.dffd",
+                    values = folder / "values.csv";
+  expect_success(run_cleft("import", {s.write(folder), "--field", "pressure", "--out", snapshot}));
+  expect_success(run_cleft("encode", {snapshot, "--tolerance", shortest(tolerance), "--out", field}));
+  expect_success(run_cleft("check", {field}));
+  double largest = 0, worst = 0;
+  for (std::size_t j = 0; j < s.times.size(); ++j) {
+    for (const double p : s.fields[0].frames[j]) largest = std::max(largest, std::abs(p));
+    expect_success(
+        run_cleft("eval", {field, "--nodes", snapshot, "--frame", std::to_string(j), "--out", values}));
+    const NumberTable table = read_csv(values);
+    const auto column = static_cast<std::size_t>(table.column("pressure"));
+    ASSERT_EQ(table.rows.size(), s.fields[0].frames[j].size());
+    for (std::size_t n = 0; n < table.rows.size(); ++n)
+      worst = std::max(worst, std::abs(table.rows[n][column] - s.fields[0].frames[j][n]));
+    std::filesystem::remove(values);
+  }
+  EXPECT_LE(worst, tolerance * largest);
+  EXPECT_GT(worst, 0.1 * tolerance * largest) << "kept, and not by keeping all";
 }
 
 /// A wave along the slit is the same on both sides: nothing in the series says that there is one.

@@ -57,11 +57,14 @@ class InterpolatedStudy : public testing::Test {
 "skin.prestress_v" = [0.05]
 "skin.prestress_uv" = [-0.02]
 )");
+    solve("stiff", "\"tissue.young_modulus\" = [0.005, 0.02, 0.08]\n",
+          "sensitivities = [\"tissue.young_modulus\"]\n");
+    solve("stiff_held", "\"tissue.young_modulus\" = [0.007, 0.012, 0.03, 0.055]\n");
   }
   static void TearDownTestSuite() { delete place_; }
 
-  static void solve(const std::string& name, const std::string& vary) {
-    const std::string file = place_->write(name + ".toml", study_of(name, vary));
+  static void solve(const std::string& name, const std::string& vary, const std::string& before = "") {
+    const std::string file = place_->write(name + ".toml", before + study_of(name, vary));
     expect_success(run_cleft("run", {file, "--out", folder(name)}));
   }
   static std::string folder(const std::string& name) { return *place_ / name; }
@@ -84,6 +87,28 @@ TEST_F(InterpolatedStudy, IsAsGoodAsItSays) {
   }
   const auto median = [&](auto function) { return median_of(of_each(list, function)); };
   EXPECT_LE(median([](const HeldOut& one) { return one.estimate / one.error; }), 3);
+}
+
+TEST_F(InterpolatedStudy, DerivativesHelpWhereCasesAreFew) {
+  auto members = read_members(folder("stiff"));
+  for (const StudyMember& member : members) EXPECT_EQ(member.field.by_parameter.size(), 1u);
+  const StudyInterpolator study{CommonCases(members)};
+  EXPECT_TRUE(study.regression().covariance().name.ends_with(" with derivatives"));
+  const auto with = compare_held_out(study, members, folder("stiff_held"));
+  for (StudyMember& member : members) member.field.by_parameter.clear();
+  const StudyInterpolator values{CommonCases(members)};
+  const auto without = compare_held_out(values, members, folder("stiff_held"));
+  ASSERT_EQ(with.size(), 4u);
+  for (const HeldOut& one : with) EXPECT_LE(one.error, 2 * one.estimate);
+  // Against the simulations' frames, and against fields fitted to them, without the fits' own errors.
+  const auto worst = [](const std::vector<HeldOut>& list, auto figure) {
+    const auto figures = of_each(list, figure);
+    return *std::max_element(figures.begin(), figures.end());
+  };
+  const auto error = [](const HeldOut& one) { return one.error; };
+  const auto against_field = [](const HeldOut& one) { return one.against_field; };
+  EXPECT_LT(worst(with, error), worst(without, error));
+  EXPECT_LT(worst(with, against_field), 0.5 * worst(without, against_field));
 }
 
 TEST_F(InterpolatedStudy, PrestressesSuperpose) {

@@ -77,6 +77,18 @@ inline Field made_field(const CaseParameters& values) {
   return field;
 }
 
+/// With its derivative by a parameter.
+inline Field with_derivative(Field field, const std::string& name) {
+  CaseParameters less = field.parameters, more = field.parameters;
+  const double step = 1e-5 * field.parameters.at(name);
+  less[name] -= step, more[name] += step;
+  const std::vector<Vec3> a = made_points(less), b = made_points(more);
+  ParameterDerivative& one = field.by_parameter.emplace_back();
+  one.parameter = name, one.error = 1e-6, one.largest = 1 / field.parameters.at(name);
+  for (std::size_t n = 0; n < a.size(); ++n) one.control_points.push_back((1 / (2 * step)) * (b[n] - a[n]));
+  return field;
+}
+
 /// On finer knots along one axis.
 inline Field finer(const Field& field, int axis, double knot) {
   std::array<BSplineBasis, 4> from = tip_bases(), to = from;
@@ -84,7 +96,10 @@ inline Field finer(const Field& field, int axis, double knot) {
   knots.insert(std::upper_bound(knots.begin(), knots.end(), knot), knot);
   to[axis] = BSplineBasis(3, knots);
   Field result(field.shared_parametrization(), to, insert_knots(field.coefficients(), from, to));
-  result.parameters = field.parameters, result.report = field.report;
+  result.parameters = field.parameters, result.report = field.report,
+  result.by_parameter = field.by_parameter;
+  for (ParameterDerivative& one : result.by_parameter)
+    one.control_points = insert_knots(one.control_points, from, to);
   return result;
 }
 

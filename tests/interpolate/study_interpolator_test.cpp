@@ -132,6 +132,39 @@ TEST(StudyInterpolator, TwoValuesDoNotPassForACurve) {
   }
 }
 
+/// Largest error of cases in between, of these values of one parameter with its derivatives or without.
+double error_of_cases(const std::string& name, const std::vector<double>& values, bool derivatives) {
+  std::vector<StudyMember> members;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Field field = made_field({{name, values[i]}});
+    if (derivatives) field = with_derivative(field, name);
+    members.push_back(
+        {"case" + std::to_string(i), i == 1 ? finer(field, 2, -0.7) : field, {{"cut.contact", "false"}}});
+  }
+  const StudyInterpolator study{CommonCases(members)};
+  EXPECT_EQ(study.regression().covariance().name.ends_with(" with derivatives"), derivatives);
+  double worst = 0;
+  for (double part = 0.05; part < 1; part += 0.1) {
+    const CaseParameters at = {{name, values.front() * std::pow(values.back() / values.front(), part)}};
+    const Field field = study.at(at);
+    const double error = distance_of(field, made_field(at), nodes_of_millimetres());
+    EXPECT_LE(error, 2 * field.interpolation->estimated_error) << name << " " << at.at(name);
+    worst = std::max(worst, error);
+  }
+  return worst;
+}
+
+TEST(StudyInterpolator, WithDerivativesThreeCasesDoForMore) {
+  for (const auto& [name, least] : {std::pair("tissue.young_modulus", 0.005), {"skin.prestress_v", 0.01}}) {
+    std::vector<double> three, five;
+    for (int i = 0; i < 3; ++i) three.push_back(least * std::pow(4., i));
+    for (int i = 0; i < 5; ++i) five.push_back(least * std::pow(2., i));
+    const double with = error_of_cases(name, three, true), without = error_of_cases(name, three, false);
+    EXPECT_LE(with, name == std::string("skin.prestress_v") ? 1e-4 : without / 4) << name;
+    if (name == std::string("tissue.young_modulus")) EXPECT_LE(with, error_of_cases(name, five, false));
+  }
+}
+
 TEST(StudyInterpolator, UncutTissueStaysClosedToTheLastBit) {
   // All cases are closed where nothing is cut; so is what lies between, also as it is written.
   auto members = made_study(three_varied(8));

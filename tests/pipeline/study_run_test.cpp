@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "params/study_folder.h"
 #include "tests/pipeline/commands.h"
+#include "tests/support/older_field.h"
 #include "tests/support/small_study.h"
 #include "tests/support/temporary_folder.h"
 
@@ -87,8 +88,10 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   expect_stale("study.dffd: holds case " + lost + ", which is not published");
   expect_success(run_cleft("pack", {folder}));
   const std::string without = read_text_file(folder + "/study.dffd");
-  EXPECT_NE(expect_success(run_cleft("info", {folder + "/study.dffd"})).output.find("cases: 3"),
-            std::string::npos);
+  const std::string shown = expect_success(run_cleft("info", {folder + "/study.dffd"})).output;
+  EXPECT_NE(shown.find("cases: 3"), std::string::npos);
+  EXPECT_NE(shown.find("node_error  skin.prestress_v  tissue.young_modulus\n"), std::string::npos) << shown;
+  EXPECT_EQ(shown.find('{'), std::string::npos) << "a table, for people: " << shown;
   EXPECT_NE(expect_success(run_cleft("run", {file, "--out", folder, "--json", "--ranks", "2"}))
                 .output.find("\"published\": 1"),
             std::string::npos);
@@ -167,6 +170,49 @@ TEST(StudyRun, IsTheSameHoweverItsCasesAreGrouped) {
   EXPECT_EQ(plan["published"], 4);
   EXPECT_EQ(plan["to_run"], 2);
   EXPECT_GT(plan["estimated_bytes"], 1e5);
+}
+
+TEST(StudyRun, OnTwoRanksIsTheSameEveryTime) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", small_study);
+  for (const char* folder : {"first", "second", "third"})
+    expect_success(run_cleft("run", {file, "--out", place / folder, "--ranks", "2", "--jobs", "2"}));
+  EXPECT_TRUE(study_bytes(place / "first") == study_bytes(place / "second"));
+  EXPECT_TRUE(study_bytes(place / "first") == study_bytes(place / "third"));
+}
+
+TEST(StudyRun, PacksWhatIsPublishedWhileItGoesOn) {
+  const TemporaryFolder place;
+  // One case takes a second, the other one minutes.
+  const std::string file = place.write("study.toml", "[vary]\n'mesh.element_size' = [3, 0.4]\n"),
+                    packed = place / "out/study.dffd";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(CLEFT_BIN "/cleft", "cleft", "run", file.c_str(), "--out", (place / "out").c_str(), "--jobs", "2",
+          "--memory", "1000", nullptr);
+    _exit(127);
+  }
+  int result = 0;
+  for (int i = 0; i < 900 && !fs::exists(packed); ++i) usleep(100'000);
+  EXPECT_EQ(waitpid(child, &result, WNOHANG), 0) << "it goes on";
+  EXPECT_TRUE(fs::exists(packed));
+  kill(child, SIGTERM);
+  waitpid(child, &result, 0);
+  const auto info = nlohmann::json::parse(expect_success(run_cleft("info", {packed, "--json"})).output);
+  EXPECT_EQ(info["cases"], 1);
+  expect_success(run_cleft("check", {place / "out"}));
+}
+
+TEST(StudyRun, CasesOfAnOlderFormatAreNamedAndLeftOut) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", small_study), folder = place / "out";
+  publish_older_case(folder, "0123456789abcdef");
+  fs::copy(file, folder + "/study.toml");
+  const std::string told = "of an older format: case 0123456789abcdef; cleft run";
+  for (const Outcome& outcome :
+       {run_cleft("run", {file, "--out", folder}), run_cleft("pack", {folder}), run_cleft("check", {folder})})
+    EXPECT_NE(expect_success(outcome).output.find(told), std::string::npos) << outcome.output;
+  EXPECT_EQ(status(folder)["published"], 4);
 }
 
 TEST(StudyRun, WithoutItsSnapshotsIsSound) {

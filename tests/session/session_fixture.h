@@ -27,7 +27,9 @@ inline const std::string& shared_study() {
         std::filesystem::create_directories(place);
         Field field = synthetic_field(gape + 10 * modulus);
         field.parameters = {
-            {"skin.prestress_v", gape / 100}, {"tissue.young_modulus", modulus}, {"cut.depth", 6}};
+            {"skin.prestress_v", gape / 100}, {"tissue.young_modulus", modulus}, {"cut.depth", 6},
+            {"skin.thickness", 1.5},          {"skin.young_modulus", 0.5},       {"skin.poisson_ratio", 0.4},
+            {"tissue.poisson_ratio", 0.45}};
         field.case_hash = name;
         write_field(place + "/case.dffd", field);
         write_text_file(place + "/manifest.json", "{}");

@@ -119,6 +119,71 @@ TEST_F(SessionTest, TheSecondCutStaysClosedUntilTheFirstIsMade) {
   EXPECT_EQ(ahead, 0);
 }
 
+TEST_F(SessionTest, CutsSideBySideRelieveEachOther) {
+  cut_plate();
+  const std::vector<Vec3> alone = points();
+  std::vector<Vec3> rest;
+  session_.scene()->positions(0, rest);
+  const double gape = widest(alone, rest);
+  say("cut -15,8.7,0,0,0,1 0,8.7,0,0,0,1 15,8.7,0,0,0,1");
+  // Twice as much of the force across the cuts is relieved as by one: neither opens as far as alone.
+  std::vector<Vec3> both = points(), closed;
+  session_.scene()->positions(0, closed);
+  double first = 0, second = 0;
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    double& lip = std::abs(closed[i].y - 0.7) < 1e-9 ? first : second;
+    if (std::abs(closed[i].y - 0.7) < 1e-9 || std::abs(closed[i].y - 8.7) < 1e-9)
+      lip = std::max(lip, norm(both[i] - closed[i]));
+  }
+  EXPECT_GT(std::min(first, second), 0.1 * gape);
+  EXPECT_LT(std::max(first, second), 0.98 * gape);
+  say("undo");
+  EXPECT_EQ(points(), alone);
+}
+
+TEST_F(SessionTest, CutsTurnAgainstATension) {
+  const TemporaryFolder folder;
+  int number = 0;
+  const std::vector<Vec3> prestresses{{0.01, 0.03, 0}, {0.02, 0.01, 0}, {0.01, 0.01, 0.005}};
+  for (const Vec3& p : prestresses) {
+    const std::string place = folder / ("study/cases/case" + std::to_string(number));
+    std::filesystem::create_directories(place);
+    Field field = synthetic_field(5 - number);
+    field.parameters = {{"skin.prestress_u", p.x}, {"skin.prestress_v", p.y}, {"skin.prestress_uv", p.z}};
+    field.case_hash = "case" + std::to_string(number++);
+    write_field(place + "/case.dffd", field);
+    write_text_file(place + "/manifest.json", "{}");
+  }
+  EXPECT_NE(refused("tension 0,1,0 0.03,0.01").find("open"), std::string::npos);
+  say("open " + (folder / "study"));
+  say("set skin.prestress_v 0.03");
+  EXPECT_NE(refused("tension 0,1,0 0.03,0.01").find("mesh FILE"), std::string::npos);
+  say("mesh plate.stl");
+  say("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  const std::vector<Vec3> as_simulated = points();
+  // Across the cut, as in the case that is shown: the sum of the three is that case.
+  say("tension 0,1,0 0.01,0.03");
+  const std::vector<Vec3> across = points();
+  for (std::size_t i = 0; i < across.size(); ++i) ASSERT_LT(norm(across[i] - as_simulated[i]), 1e-6) << i;
+  say("tension 1,1,0 0.03,0.01");
+  EXPECT_GT(widest(points(), across), 0.1);
+  const SessionState saved = state_from_json(state_to_json(state()));
+  ASSERT_TRUE(saved.tension);
+  EXPECT_EQ(saved.tension->direction, (Vec3{1, 1, 0}));
+  EXPECT_NE(refused("tension 0,0,1 0.03,0.01").find("upright"), std::string::npos);
+  EXPECT_EQ(state().tension->direction, (Vec3{1, 1, 0})) << "as it was";
+  EXPECT_NE(refused("tension 0,1,0 0.03,-0.01").find("below 0"), std::string::npos);
+  say("tension none");
+  EXPECT_EQ(points(), as_simulated);
+}
+
+TEST_F(SessionTest, ATensionNeedsThreeCasesOfOtherPrestress) {
+  cut_plate();
+  const std::vector<Vec3> before = points();
+  EXPECT_NE(refused("tension 0,1,0 0.03,0.01").find("three cases"), std::string::npos);
+  EXPECT_EQ(points(), before);
+}
+
 TEST_F(SessionTest, TheWoundFollowsTheCase) {
   cut_plate();
   const std::vector<Vec3> narrow = points();

@@ -129,7 +129,7 @@ ReplayError parallel_error(const SnapshotReader& truth, const Field& field) {
   std::vector<Vec3> moved(wounds.vertex_count());
   for (std::size_t j = 1; j < s.frames(); ++j) {
     if (s.times[j] <= s.cut_length) continue;
-    wounds.positions(s.times[j] - s.cut_length, moved);
+    wounds.positions(s.times[j], moved);
     comparison.add(j, mesh, {&first, &second}, moved);
   }
   return comparison.result;

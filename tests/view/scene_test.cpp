@@ -31,7 +31,7 @@ class AnyScene : public testing::TestWithParam<const char*> {
     if (std::string(GetParam()) == "patch") {
       scene_ = std::make_shared<PatchScene>(shared_);
     } else {
-      scene_ = std::make_shared<MeshScene>(cut_plate(*shared_), shared_);
+      scene_ = std::make_shared<MeshScene>(cut_plate(*shared_), CutFields(shared_));
     }
   }
 

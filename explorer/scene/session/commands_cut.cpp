@@ -1,4 +1,7 @@
 // The mesh and the cuts in it.
+#include <algorithm>
+#include <cmath>
+
 #include "base/text.h"
 #include "explorer/scene/session/commands.h"
 #include "explorer/scene/session/session.h"
@@ -64,6 +67,17 @@ void device(Session& session, CommandWords& words) {
   session.services().device(name, file);
 }
 
+void tension(Session& session, CommandWords& words) {
+  const std::string first = words.text("a direction, or none");
+  if (first == "none") return session.pull(std::nullopt);
+  CommandWords direction("tension", "X,Y,Z", {first});
+  const std::vector<double> x = direction.numbers("a direction", 3, 3),
+                            p = words.numbers("the larger and the smaller prestress", 2, 2);
+  if (!(std::hypot(x[0], x[1], x[2]) > 0)) words.wrong("the direction of a tension has a length");
+  if (!(std::min(p[0], p[1]) >= 0)) words.wrong("a prestress is not below 0 MPa");
+  session.pull(SkinTension{{x[0], x[1], x[2]}, std::max(p[0], p[1]), std::min(p[0], p[1])});
+}
+
 void undo(Session& session, CommandWords&) { session.undo(); }
 void redo(Session& session, CommandWords&) { session.redo(); }
 
@@ -92,6 +106,8 @@ std::span<const Command> cut_commands() {
       {"device", "NAME [FILE] | off",
        "cut with a haptic device: mouse, hand PATH.csv, recorded POSES.csv, spacemouse, gamepad, phantom",
        device, Command::none},
+      {"tension", "X,Y,Z LARGER,SMALLER | none",
+       "the skin's larger tension and its direction, prestresses in MPa: cuts turn against it", tension},
       {"undo", "", "take the last cut back", undo},
       {"redo", "", "make it again", redo},
       {"export", "FILE", "write the surface as it is shown: .vtp .stl .obj, in the mesh's units", export_mesh,

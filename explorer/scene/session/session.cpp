@@ -116,12 +116,17 @@ std::shared_ptr<const WoundScene> Session::scene_of(int i) {
                 [&](const auto& s) { return std::find(shown.begin(), shown.end(), s.first) == shown.end(); });
   auto& found = scenes_[i];
   if (found) return found;
-  const std::shared_ptr<const Field> field = study_ ? study_->field(i) : nullptr;
   if (mesh_)
-    found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), field);
+    found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), cut_fields(i));
   else
-    found = std::make_shared<PatchScene>(field);
+    found = std::make_shared<PatchScene>(study_->field(i));
   return found;
+}
+
+std::optional<CutFields> Session::cut_fields(int i) {
+  if (!study_) return std::nullopt;
+  if (!state_.tension) return CutFields(study_->field(i));
+  return CutFields(std::make_shared<const PrestressFields>(*study_, i), state_.tension);
 }
 
 double Session::duration() {
@@ -266,7 +271,7 @@ void Session::read_mesh_in_mm() {
 void Session::load_mesh(const std::string& file, double scale) {
   state_.mesh = absolute(file);
   state_.scale = scale;
-  state_.cuts.clear(), state_.undone.clear();
+  state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
   read_mesh_in_mm();
   state_.coloring = Coloring::tissue;
   state_.camera = {};
@@ -276,7 +281,7 @@ void Session::load_mesh(const std::string& file, double scale) {
 
 void Session::show_patch() {
   open_study();
-  state_.mesh.clear(), state_.cuts.clear(), state_.undone.clear();
+  state_.mesh.clear(), state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
   mesh_.reset();
   state_.coloring = Coloring::displacement;
   state_.camera = {};
@@ -303,6 +308,15 @@ void Session::recut(const CutState& cut) {
   if (state_.cuts.empty()) throw InputError("there is no cut yet (say: cut ...)");
   state_.cuts.back() = cut;
   cuts_changed();
+}
+
+void Session::pull(const std::optional<SkinTension>& tension) {
+  if (tension) open_study();
+  if (tension && !mesh_) throw InputError("there is no skin to pull (say: mesh FILE)");
+  state_.tension = tension;
+  scenes_.clear();
+  set_time(state_.time);  // makes the scenes, and throws where they cannot be made
+  changes_.cuts = true;
 }
 
 void Session::undo() {

@@ -10,6 +10,7 @@
 
 #include "explorer/incision/surface_mesh.h"
 #include "explorer/scene/case_figures.h"
+#include "explorer/scene/cut_fields.h"
 #include "explorer/scene/cut_surface.h"
 #include "explorer/scene/find/find.h"
 #include "explorer/scene/session/session_state.h"
@@ -62,7 +63,8 @@ class Session {
 
   /// The cuts' paths, as deep as the shown case where they say nothing else.
   std::vector<ScalpelPath> cut_paths() { return cut_paths(depth_of_case(state_.shown)); }
-  double depth_of_case(int i);  ///< mm, of cuts that say nothing else
+  std::optional<CutFields> cut_fields(int i);  ///< what opens cuts in case i; none without a study
+  double depth_of_case(int i);                 ///< mm, of cuts that say nothing else
 
   /// Whether there is anything to draw.
   bool has_scene() const { return study_ || mesh_; }
@@ -101,6 +103,8 @@ class Session {
   void show_patch();
   void cut(const CutState& cut);
   void recut(const CutState& cut);
+  /// The skin's tension, against which cuts turn; none: as in the shown case, whichever way a cut goes.
+  void pull(const std::optional<SkinTension>& tension);
   void undo();
   void redo();
   void set_time(double t);

@@ -73,6 +73,9 @@ SessionState to_state(const Json& j) {
   s.scale = j.at("scale");
   s.cuts = to_cuts(j.at("cuts"));
   s.undone = to_cuts(j.at("undone"));
+  if (j.contains("tension"))  // sessions saved before there was one have none
+    s.tension = SkinTension{to_vec3(j["tension"].at("direction")), j["tension"].at("larger"),
+                            j["tension"].at("smaller")};
   s.time = j.at("time");
   s.loop = j.at("loop");
   s.speed = j.at("speed");
@@ -104,27 +107,31 @@ std::string cut_line(const std::string& command, const CutState& cut) {
 std::string state_to_json(const SessionState& s) {
   Json compared = Json::array();
   for (const int c : s.compared) compared.push_back(c + 1);
-  const Json j{{"format", format},
-               {"version", version},
-               {"producer", producer()},
-               {"study", s.study},
-               {"case", s.shown + 1},
-               {"parameters", s.parameters},
-               {"mesh", s.mesh},
-               {"scale", s.scale},
-               {"cuts", to_json(s.cuts)},
-               {"undone", to_json(s.undone)},
-               {"time", s.time},
-               {"loop", s.loop},
-               {"speed", s.speed},
-               {"color", text_of(s.coloring).name},
-               {"range", s.range ? Json{s.range->first, s.range->second} : Json()},
-               {"brushes", s.brushes},
-               {"where", s.where},
-               {"reference", s.reference + 1},
-               {"compared", compared},
-               {"camera", to_json(s.camera)},
-               {"dark", s.dark}};
+  Json j{{"format", format},
+         {"version", version},
+         {"producer", producer()},
+         {"study", s.study},
+         {"case", s.shown + 1},
+         {"parameters", s.parameters},
+         {"mesh", s.mesh},
+         {"scale", s.scale},
+         {"cuts", to_json(s.cuts)},
+         {"undone", to_json(s.undone)},
+         {"time", s.time},
+         {"loop", s.loop},
+         {"speed", s.speed},
+         {"color", text_of(s.coloring).name},
+         {"range", s.range ? Json{s.range->first, s.range->second} : Json()},
+         {"brushes", s.brushes},
+         {"where", s.where},
+         {"reference", s.reference + 1},
+         {"compared", compared},
+         {"camera", to_json(s.camera)},
+         {"dark", s.dark}};
+  if (s.tension)
+    j["tension"] = {{"direction", to_json(s.tension->direction)},
+                    {"larger", s.tension->larger},
+                    {"smaller", s.tension->smaller}};
   return j.dump(1) + "\n";
 }
 

@@ -9,6 +9,7 @@
 
 #include "explorer/incision/scalpel_path.h"
 #include "explorer/scene/coloring.h"
+#include "explorer/scene/prestress_fields.h"
 
 namespace cleft {
 
@@ -36,6 +37,7 @@ struct SessionState {
   std::string mesh;  ///< file of the surface mesh to cut; empty: the canonical patch
   double scale = 1;  ///< mm in a unit of the mesh
   std::vector<CutState> cuts, undone;
+  std::optional<SkinTension> tension;  ///< of the mesh; none: that of the shown case, along every cut
 
   double time = 0;  ///< length cut
   bool playing = false, loop = false;

@@ -168,6 +168,29 @@ def check(case, plate, axes, results):
     return wrong
 
 
+def check_field(cleft, case, folder):
+    """The field keeps its tolerance at every node and frame, for the stress as for the displacement."""
+    wrong, tolerance = [], 0.02
+    field, values = str(folder / "case.dffd"), folder / "values.csv"
+    run(cleft, "encode", case, "--tolerance", str(tolerance), "--out", field)
+    with h5py.File(case) as file:
+        frames = len(file["VTKHDF/Steps/Values"])
+        data = {name: file["VTKHDF/PointData/" + name][:].reshape(frames, -1, width)
+                for name, width in (("displacement", 3), ("stress", 6))}
+    data["displacement"] = data["displacement"] - data["displacement"][0]
+    found = {name: np.empty_like(array) for name, array in data.items()}
+    for j in range(frames):
+        run(cleft, "eval", field, "--nodes", case, "--frame", str(j), "--out", str(values))
+        table = np.loadtxt(values, delimiter=",", skiprows=1)
+        found["displacement"][j], found["stress"][j] = table[:, :3], table[:, 3:]
+    for name, array in data.items():
+        error = np.linalg.norm(found[name] - array, axis=2).max() / np.linalg.norm(array, axis=2).max()
+        print(f"{name} of the field: off by {error:.4f}")
+        if not error <= tolerance:
+            wrong.append(f"{name} of the field is off by {error}")
+    return wrong
+
+
 def main():
     cleft, name = sys.argv[1:]
     if not shutil.which("ccx"):
@@ -181,6 +204,7 @@ def main():
         run(cleft, "import", str(folder / "plate.pvd"), "--field", "U:displacement,S:stress", "--out", case)
         run(cleft, "check", case)
         wrong = check(case, plate, axes, results)
+        wrong += check_field(cleft, case, folder)
     print("\n".join(wrong) or "as CalculiX has it")
     return 1 if wrong else 0
 

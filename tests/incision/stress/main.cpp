@@ -22,6 +22,7 @@ struct Options {
 struct Subject {
   std::string name;
   SurfaceMesh mesh;
+  bool good = true;  // no defects, and no folds as sharp as an edge of a box
 };
 
 double hills(double x, double y) { return 0.8 * std::sin(0.9 * x) * std::cos(0.7 * y); }
@@ -33,7 +34,7 @@ std::vector<Subject> generated(bool large) {
   std::vector<Subject> subjects{
       {"plane", grid(30, 30, -15, -15, 1)},    {"hills", grid(50, 50, -10, -10, 0.4, hills)},
       {"stretched plane", stretched},          {"sphere", sphere(4, 10)},
-      {"octahedron", sphere(1, 10)},           {"torus", ring(60, 24, 10, 4, true)},
+      {"octahedron", sphere(1, 10), false},    {"torus", ring(60, 24, 10, 4, true)},
       {"cylinder", ring(40, 20, 10, 3, false)}};
   if (large) subjects.push_back({"plane of a million", grid(708, 708, -10, -10, 20. / 708, hills)});
   return subjects;
@@ -48,18 +49,21 @@ void report(const std::string& name, const stress::Tally& t, bool json) {
                        {"refused", t.refused},
                        {"violations", t.violations},
                        {"poor_triangles", t.poor},
+                       {"poor_triangles_squeezed", t.squeezed},
                        {"worst_quality_over_asked", t.worst_quality},
                        {"lips_off_by_1_percent", t.long_lips},
                        {"worst_lip_length_error", t.worst_lip_length},
+                       {"blades_that_jump", t.jumping},
                        {"worst_area_change", t.worst_area}},
                   true);
   } else {
     std::printf(
-        "%-34s %7ld paths %8ld steps %6ld crossings %5ld refused %4ld violations  quality %.2g (%ld poor)  "
+        "%-34s %7ld paths %8ld steps %6ld crossings %5ld refused %4ld violations  quality %.2g (%ld poor, "
+        "%ld squeezed)  "
         "lip %.2g "
-        "(%ld)  area %.1g\n",
+        "(%ld, %ld jump)  area %.1g\n",
         name.c_str(), t.paths, t.steps, t.crossings, t.refused, t.violations, t.worst_quality, t.poor,
-        t.worst_lip_length, t.long_lips, t.worst_area);
+        t.squeezed, t.worst_lip_length, t.long_lips, t.jumping, t.worst_area);
   }
   std::fflush(stdout);
 }
@@ -72,7 +76,9 @@ void run(const Options& o) {
       if (entry.path().extension() == ".obj" || entry.path().extension() == ".stl")
         files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    for (const fs::path& file : files) subjects.push_back({file.stem().string(), read_mesh(file.string())});
+    for (const fs::path& file : files)
+      subjects.push_back(
+          {file.stem().string(), read_mesh(file.string()), file.parent_path().filename() != "defective"});
   }
   if (!o.only.empty())
     std::erase_if(subjects, [&](const Subject& s) { return s.name.find(o.only) == s.name.npos; });
@@ -81,6 +87,7 @@ void run(const Options& o) {
   stress::Plan plan = o.plan;
   plan.paths = std::max(1L, plan.paths / static_cast<long>(subjects.size()));
   for (const Subject& subject : subjects) {
+    plan.good = subject.good;
     const stress::Tally tally = stress::stress(subject.name, subject.mesh, plan);
     report(subject.name, tally, o.json);
     all.add(tally);

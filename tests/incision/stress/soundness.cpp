@@ -92,11 +92,12 @@ std::string Soundness::step() {
   return "";
 }
 
-double Soundness::worst_new_quality() const {
-  double worst = 1;
-  for (const int t : touched_)
-    if (t < static_cast<int>(mesh_.triangles().size()) && mesh_.triangle(t).region == Region::skin)
-      worst = std::min(worst, radius_ratio(mesh_, t));
+int Soundness::worst_new_triangle() const {
+  int worst = -1;
+  for (const int t : touched_) {
+    if (t >= static_cast<int>(mesh_.triangles().size()) || mesh_.triangle(t).region != Region::skin) continue;
+    if (worst < 0 || radius_ratio(mesh_, t) < radius_ratio(mesh_, worst)) worst = t;
+  }
   return worst;
 }
 

@@ -21,8 +21,9 @@ class Soundness {
   double skin_area() const { return area_; }
   int euler() const;
   long boundary_edges() const { return boundary_; }
-  /// The smallest radius ratio, as they are now, of skin triangles that were changed since forget_quality().
-  double worst_new_quality() const;
+  /// Of the skin's triangles that were changed since forget_quality(), the one with the smallest radius
+  /// ratio, as they are now; -1 where there is none.
+  int worst_new_triangle() const;
   void forget_quality() { touched_.clear(); }
 
  private:

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "explorer/incision/incision.h"
 #include "explorer/incision/triangle_quality.h"
+#include "tests/incision/stress/blade_trace.h"
 #include "tests/incision/stress/soundness.h"
 
 namespace cleft::stress {
@@ -131,16 +132,26 @@ class Stress {
       if (!(mesh_.position(chain[i].left) == mesh_.position(chain[i].right))) violation("lips apart at rest");
     }
     if (closed_again) violation("a vertex of the lips without a pair");
-    const double length = cut.tip() - cut.start();
     if (chain.size() > 2) {
-      const double error = std::abs(lip / length - 1);
+      const auto length = blade_trace(ground_, cut.path(), mesh_.position(chain.front().left), cut.start(),
+                                      mesh_.position(chain.back().left), cut.tip());
+      tally_.jumping += !length;
+      const double error = length ? std::abs(lip / *length - 1) : 0;
       tally_.worst_lip_length = std::max(tally_.worst_lip_length, error);
       tally_.long_lips += error > 0.01;
+      if (error > 0.01 && plan_.good)
+        violation("lips " + std::to_string(lip / *length) + " of the blade's way");
     }
-    const double worst = soundness_.worst_new_quality(), asked = 0.05 * std::min(worst_before_, 0.1);
+    const int worst_triangle = soundness_.worst_new_triangle();
+    const double worst = worst_triangle < 0 ? 1 : radius_ratio(mesh_, worst_triangle),
+                 asked = 0.05 * std::min(worst_before_, 0.1);
     tally_.worst_quality = std::min(tally_.worst_quality, worst / asked);
     const bool poor = worst < asked;
     tally_.poor += poor;
+    const bool squeezed = poor && between_edges(worst_triangle, cut.cut());
+    tally_.squeezed += squeezed;
+    if (poor && !squeezed && plan_.good)
+      violation("a triangle of " + std::to_string(worst / asked) + " of what is asked");
     tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
     bool moved = false;
     for (const auto& c : chain) moved |= !(mesh_.vertex(c.left).original == mesh_.position(c.left));
@@ -149,6 +160,21 @@ class Stress {
       tally_.worst_area = std::max(tally_.worst_area, change);
       if (change > 1e-10) violation("the skin's area has changed by " + std::to_string(change));
     }
+  }
+
+  /// Whether a triangle, or a neighbour of it, touches the outline or another cut: where a path grazes these,
+  /// the strip between them is as thin as it is.
+  bool between_edges(int triangle, int cut) const {
+    std::vector<int> triangles{triangle};
+    for (const int n : mesh_.triangle(triangle).neighbor)
+      if (n >= 0) triangles.push_back(n);
+    for (const int t : triangles)
+      for (const int v : mesh_.triangle(t).vertex) {
+        const CutMesh::Vertex& x = mesh_.vertex(v);
+        if (x.cut >= 0 && x.cut != cut) return true;
+        if (mesh_.is_skin(x.triangle) && mesh_.on_boundary(v)) return true;
+      }
+    return false;
   }
 
   void take_back(Incision& cut) {
@@ -167,7 +193,7 @@ class Stress {
 
   void violation(const std::string& what) {
     ++tally_.violations;
-    if (tally_.first_violations.size() < 3) tally_.first_violations.push_back(label_ + ": " + what);
+    if (tally_.first_violations.size() < 8) tally_.first_violations.push_back(label_ + ": " + what);
   }
 
   std::string name_, label_;
@@ -186,7 +212,7 @@ class Stress {
 void Tally::add(const Tally& o) {
   paths += o.paths, refused += o.refused, violations += o.violations, steps += o.steps,
       crossings += o.crossings;
-  undone += o.undone, poor += o.poor, long_lips += o.long_lips;
+  undone += o.undone, poor += o.poor, jumping += o.jumping, squeezed += o.squeezed, long_lips += o.long_lips;
   worst_quality = std::min(worst_quality, o.worst_quality);
   worst_lip_length = std::max(worst_lip_length, o.worst_lip_length);
   worst_area = std::max(worst_area, o.worst_area);

@@ -15,9 +15,11 @@ namespace cleft::stress {
 struct Tally {
   long paths = 0, refused = 0, violations = 0, steps = 0, crossings = 0, undone = 0;
   double worst_quality = 1;      ///< of new triangles over what the issue asks for: at least 1 is asked
-  double worst_lip_length = 0;   ///< relative error of the lip's length
+  double worst_lip_length = 0;   ///< relative error of the lip's length, to the blade's way over the surface
   double worst_area = 0;         ///< relative change of the skin where nothing was moved
   long poor = 0, long_lips = 0;  ///< paths beyond what the issue asks for
+  long squeezed = 0;             ///< poor ones between the cut and the outline or another cut that it grazes
+  long jumping = 0;  ///< whose blade's way over the surface jumps: lips without a length to compare
   std::map<std::string, long> reasons;        ///< of refusals, without their numbers
   std::vector<std::string> first_violations;  ///< with what makes them again
   std::array<long, path_kinds> paths_of{}, refused_of{}, poor_of{};
@@ -27,6 +29,7 @@ struct Tally {
 struct Plan {
   std::uint64_t seed = 1;
   long paths = 100;
+  bool good = true;      ///< the mesh: poor triangles and lips of another length are violations
   int cuts_at_once = 3;  ///< up to so many cuts lie in the mesh before all are undone
 };
 

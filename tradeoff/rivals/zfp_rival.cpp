@@ -1,18 +1,19 @@
-#include "benchmarks/encoder/zfp_rival.h"
+#include "tradeoff/rivals/zfp_rival.h"
 
 #include <zfp.h>
 
 #include <memory>
 #include <numeric>
 
-#include "benchmarks/encoder/nearest.h"
+#include "base/stopwatch.h"
+#include "tradeoff/rivals/nearest.h"
 
 namespace cleft {
 
 namespace {
 
-/// One array through zfp and back, in place; bytes.
-double through_zfp(std::vector<float>& values, std::size_t nx, std::size_t ny, std::size_t nz) {
+/// One array through zfp and back, in place.
+ZfpCost through_zfp(std::vector<float>& values, std::size_t nx, std::size_t ny, std::size_t nz) {
   const std::unique_ptr<zfp_field, decltype(&zfp_field_free)> field(
       nz == 1 ? zfp_field_2d(values.data(), zfp_type_float, nx, ny)
               : zfp_field_3d(values.data(), zfp_type_float, nx, ny, nz),
@@ -27,8 +28,9 @@ double through_zfp(std::vector<float>& values, std::size_t nx, std::size_t ny, s
   zfp_stream_rewind(stream.get());
   const std::size_t bytes = zfp_compress(stream.get(), field.get());
   zfp_stream_rewind(stream.get());
+  Stopwatch watch;
   zfp_decompress(stream.get(), field.get());
-  return static_cast<double>(bytes);
+  return {static_cast<double>(bytes), watch.lap()};
 }
 
 }  // namespace
@@ -41,12 +43,12 @@ std::string name_of(ZfpLayout layout) {
                                            : "3D";
 }
 
-double zfp_bytes(const NodeData& data, std::span<const int> order, ZfpLayout layout, double step,
-                 std::vector<float>& approximation) {
+ZfpCost through_zfp(const NodeData& data, std::span<const int> order, ZfpLayout layout, double step,
+                    std::vector<float>& approximation) {
   const std::size_t kept = order.size(), frames = data.frames;
   const auto factor = static_cast<float>(1 / step), back = static_cast<float>(step);
   const bool apart = layout == ZfpLayout::components;
-  double bytes = 0;
+  ZfpCost cost;
   std::vector<float> block;
   for (std::size_t part = 0; part < (apart ? 3 : 1); ++part) {
     const std::size_t axes = apart ? 1 : 3;
@@ -58,11 +60,12 @@ double zfp_bytes(const NodeData& data, std::span<const int> order, ZfpLayout lay
     };
     block.resize(axes * kept * frames);
     each([&](std::size_t at, std::size_t from) { block[at] = factor * data.values[from]; });
-    bytes += layout == ZfpLayout::triples ? through_zfp(block, 3, kept, frames)
-                                          : through_zfp(block, axes * kept, frames, 1);
+    const ZfpCost part_cost = layout == ZfpLayout::triples ? through_zfp(block, 3, kept, frames)
+                                                           : through_zfp(block, axes * kept, frames, 1);
+    cost.bytes += part_cost.bytes, cost.decode_seconds += part_cost.decode_seconds;
     each([&](std::size_t at, std::size_t to) { approximation[to] = back * block[at]; });
   }
-  return bytes;
+  return cost;
 }
 
 Compressed zfp_within(const NodeData& data, std::span<const int> order, Goal goal, double limit) {
@@ -71,13 +74,14 @@ Compressed zfp_within(const NodeData& data, std::span<const int> order, Goal goa
   ZfpLayout best = ZfpLayout::interleaved;
   double least = 0;
   for (const ZfpLayout layout : zfp_layouts)  // the same step gives about the same error
-    if (const double bytes = zfp_bytes(data, order, layout, first, approximation);
+    if (const double bytes = through_zfp(data, order, layout, first, approximation).bytes;
         least == 0 || bytes < least)
       least = bytes, best = layout;
   return coarsest_within(
       [&](double step) {
-        const double bytes = zfp_bytes(data, order, best, step, approximation);
-        return Compressed{bytes, errors_of(data, approximation), name_of(best)};
+        const ZfpCost cost = through_zfp(data, order, best, step, approximation);
+        return Compressed{cost.bytes, errors_of(data, approximation), name_of(best),
+                          1e9 * cost.decode_seconds / static_cast<double>(data.nodes * data.frames)};
       },
       goal, limit, first);
 }
@@ -102,7 +106,7 @@ std::optional<Compressed> decimated_within(const NodeData& data, const std::vect
     if (of(fill(data.values), goal) > 0.9 * limit) break;  // further apart, it is worse still
     const Compressed c = coarsest_within(
         [&](double step) {
-          const double bytes = zfp_bytes(data, kept, ZfpLayout::components, step, approximation);
+          const double bytes = through_zfp(data, kept, ZfpLayout::components, step, approximation).bytes;
           return Compressed{bytes, fill(std::vector<float>(approximation)),
                             "every " + std::to_string(n) + "th node"};
         },

@@ -34,6 +34,7 @@ struct Compressed {
   double bytes = 0;
   Errors errors;
   std::string how;
+  double nanoseconds_a_point = 0;  ///< to decode all nodes and frames, over their number; 0: not timed
 };
 
 /// The largest step, to 1 %, whose approximation stays within `limit`: the error grows with the step.

@@ -1,4 +1,4 @@
-#include "benchmarks/encoder/node_data.h"
+#include "tradeoff/rivals/node_data.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "benchmarks/encoder/nearest.h"
+#include "tradeoff/rivals/nearest.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "benchmarks/encoder/node_data.h"
+#include "tradeoff/rivals/node_data.h"
 
 namespace cleft {
 
@@ -17,11 +17,15 @@ inline constexpr ZfpLayout zfp_layouts[] = {ZfpLayout::interleaved, ZfpLayout::c
                                             ZfpLayout::triples};
 std::string name_of(ZfpLayout layout);
 
+struct ZfpCost {
+  double bytes = 0, decode_seconds = 0;
+};
+
 /// Compressed and decompressed: the nodes of `order` (node order[i] is the i-th), all frames. zfp rounds its
 /// tolerance down to a power of two, so the values are divided by `step`, and the tolerance is 1.
 /// `approximation` is as long as the data; nodes that are not in `order` keep what it holds.
-double zfp_bytes(const NodeData& data, std::span<const int> order, ZfpLayout layout, double step,
-                 std::vector<float>& approximation);
+ZfpCost through_zfp(const NodeData& data, std::span<const int> order, ZfpLayout layout, double step,
+                    std::vector<float>& approximation);
 
 /// All nodes in the given order, in the layout that takes the fewest bytes.
 Compressed zfp_within(const NodeData& data, std::span<const int> order, Goal goal, double limit);

@@ -1,7 +1,7 @@
 // Instead of zfp_rival.cpp where there is no libzfp.
 #include <stdexcept>
 
-#include "benchmarks/encoder/zfp_rival.h"
+#include "tradeoff/rivals/zfp_rival.h"
 
 namespace cleft {
 

@@ -1,0 +1,104 @@
+// What advice is worth: cases of random tissue, skin and cut, the error that the advised setting truly has,
+// and what it costs beside the cheapest setting that truly keeps the error.
+//   cleft-benchmark-advice [SETS [SEED [ERROR]]]
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+
+#include "base/output_folder.h"
+#include "tradeoff/advice.h"
+#include "tradeoff/chain.h"
+
+using namespace cleft;
+
+namespace {
+
+Parameters drawn(std::mt19937& random) {
+  const auto between = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  Parameters p;
+  p.tissue.young_modulus = 0.005 * std::pow(16, between(0, 1));
+  p.skin.young_modulus = 0.06 * std::pow(6, between(0, 1));
+  p.skin.prestress_v = between(0.02, 0.05), p.skin.prestress_u = between(0.005, 0.02);
+  p.skin.thickness = between(1, 2.5);
+  p.cut.length = std::round(between(15, 50)), p.cut.depth = between(2, 5);
+  p.foundation.stiffness = p.foundation.side_stiffness = 0.002 * std::pow(10, between(0, 1));
+  return p;
+}
+
+struct Outcome {
+  double error, seconds;
+};
+
+/// Settings are run once each and kept.
+class Truth {
+ public:
+  Truth(const Parameters& parameters, const Setting& finest, const std::string& work)
+      : parameters_(parameters),
+        work_(work),
+        opening_(
+            Chain(applied({finest.element_size / 3, 2 * finest.margin, 0}, parameters), work).opening()) {}
+
+  std::vector<Outcome> outcomes(const Setting& setting, const std::vector<double>& tolerances) const {
+    const Chain chain(applied(setting, parameters_), work_);
+    std::vector<Outcome> all;
+    for (const double tolerance : tolerances) {
+      const Chain::Encoded encoded = chain.encoded(tolerance);
+      all.push_back({opening_error(encoded.field, opening_), chain.solve_seconds() + encoded.seconds});
+    }
+    return all;
+  }
+
+ private:
+  Parameters parameters_;
+  std::string work_;
+  Opening opening_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int sets = argc > 1 ? std::atoi(argv[1]) : 10;
+  std::mt19937 random(static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 1));
+  const double error = argc > 3 ? std::atof(argv[3]) : 0.1;
+  const OutputFolder work(std::filesystem::temp_directory_path().string(), "cleft-benchmark-advice");
+  int within = 0, within_twice = 0, cheap = 0;
+  std::printf("%5s %8s %8s %9s %8s %8s %8s %9s %8s %9s\n", "set", "element", "margin", "tolerance",
+              "expected", "true", "seconds", "cheapest", "ratio", "tried");
+  for (int i = 0; i < sets; ++i) {
+    const Parameters p = drawn(random);
+    std::vector<CaseModel> models;
+    models.emplace_back(p, work.path(), [](const std::string&) {});
+    const Setting chosen = advise(models, {.error = error});
+    const double expected = expectation(models, chosen).total;
+    const Truth truth(p, chosen, work.path());
+    const Outcome outcome = truth.outcomes(chosen, {chosen.tolerance}).front();
+    within += outcome.error <= error, within_twice += outcome.error <= 2 * error;
+    // Every setting of a lattice whose mesh is smaller.
+    std::vector<Setting> others;
+    for (const double elements : {12, 16, 24, 32, 48})
+      for (const double margin : {0.5, 1., 2., 4.})
+        others.push_back({p.cut.length / elements, margin * p.cut.length, 0});
+    const auto nodes = [&](const Setting& s) { return estimated_nodes(applied(s, p)); };
+    double cheapest = outcome.seconds;
+    int tried = 0;
+    for (const Setting& other : others) {
+      if (nodes(other) >= nodes(chosen)) continue;
+      ++tried;
+      const std::vector<double> some = {0.1, 0.02};
+      for (const Outcome& o : truth.outcomes(other, some))
+        if (o.error <= error) cheapest = std::min(cheapest, o.seconds);
+    }
+    cheap += outcome.seconds <= 2 * cheapest;
+    std::printf("%5d %8.3f %8.1f %9g %8.4f %8.4f %8.2f %9.2f %8.2f %9d\n", i, chosen.element_size,
+                chosen.margin, chosen.tolerance, expected, outcome.error, outcome.seconds, cheapest,
+                outcome.seconds / cheapest, tried);
+    std::fflush(stdout);
+  }
+  std::printf("of %d: within the error %d, within twice %d; at most twice the cheapest %d\n", sets, within,
+              within_twice, cheap);
+}

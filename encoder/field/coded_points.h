@@ -1,0 +1,43 @@
+// Control points as bytes: multiples of a quantum, or 32-bit floats (docs/formats.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
+
+#include "encoder/field/field.h"
+#include "encoder/field/unknowns.h"
+
+namespace cleft {
+
+/// 32-bit floats as four planes of bytes, the least significant first: they pack better.
+void append_planes(std::vector<std::uint8_t>& bytes, std::span<const float> numbers);
+/// The floats of the last bytes, which are then taken off.
+std::vector<float> take_planes(std::span<const std::uint8_t>& bytes, std::size_t count);
+
+/// Slices of t that are stored, and their code.
+struct CodedPoints {
+  int slices = 0;
+  std::vector<std::uint8_t> bytes;
+};
+/// Of control points that are what their unknowns give, which are multiples of `quantum`; anything else is a
+/// bug.
+CodedPoints coded_points(std::span<const Vec3> points, const ControlTies& ties,
+                         const std::array<BSplineBasis, 4>& bases, double quantum);
+/// The last `count` bytes, which are then taken off. Throws InputError where there are fewer.
+std::span<const std::uint8_t> take_bytes(std::span<const std::uint8_t>& bytes, std::size_t count);
+
+/// What a field holds beside its displacement: further quantities, and derivatives by parameters.
+struct Beside {
+  std::vector<Quantity> quantities;
+  std::vector<ParameterDerivative> by_parameter;
+};
+/// Puts them into the header, and their bytes behind those of the displacement.
+void append_beside(nlohmann::ordered_json& header, std::vector<std::uint8_t>& bytes, const Field& field);
+/// Takes their bytes off the end. Throws InputError or a JSON error where they are damaged.
+Beside take_beside(const nlohmann::ordered_json& header, std::span<const std::uint8_t>& bytes,
+                   const std::array<BSplineBasis, 4>& bases);
+
+}  // namespace cleft

@@ -1,0 +1,41 @@
+// What is measured for the charts, link by link of the chain. Each takes seconds to minutes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "params/parameters.h"
+#include "tradeoff/chart.h"
+
+namespace cleft {
+
+/// What is charted: a simulated case, and its study's settings.
+struct ChartedCase {
+  std::string snapshot;   ///< case.h5
+  Parameters parameters;  ///< what it was solved with
+  double tolerance;       ///< that the study encodes with
+  std::string parametrization;
+};
+
+struct ChartOptions {
+  double most_nodes = 120000;  ///< of the finest mesh that others are compared with
+  std::function<void(const std::string&)> progress;
+};
+
+/// A folder for what is made on the way.
+using WorkFolder = std::string;
+
+/// Largest error at any node and frame, over bytes, time to encode, and time to evaluate a point: the
+/// parametrisations, and zfp at the same error (its time: of decoding all, over the points).
+std::vector<Chart> encoder_charts(const ChartedCase& charted, const ChartOptions& options);
+
+/// Error of the opening over unknowns and over time: against the finest mesh, and of a slit in a sheet
+/// against its closed form.
+std::vector<Chart> solver_charts(const ChartedCase& charted, const ChartOptions& options,
+                                 const WorkFolder& work);
+
+/// Error of the force over the rate at which it is updated: a blade that presses, slides, cuts and leaves.
+std::vector<Chart> haptic_charts(const ChartOptions& options);
+
+}  // namespace cleft
