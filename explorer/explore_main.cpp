@@ -22,13 +22,14 @@ struct Options {
   std::vector<double> view{0, 0};
   double zoom = 1;
   std::vector<int> size{1280, 720};
+  std::string device, device_file;
 };
 
 void add_options(CLI::App& app, Options& o) {
   app.add_option("study", o.study, "A study folder, a study.dffd or a case.dffd");
   CLI::Option* mesh = app.add_option("--mesh", o.mesh, "A surface mesh to cut instead of the patch");
   CLI::Option* path = app.add_option("--path", o.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
-  mesh->needs(path), path->needs(mesh);
+  path->needs(mesh);
   app.add_option("--scale", o.scale, "mm in a unit of the mesh and the path")
       ->needs(mesh)
       ->check(above(0))
@@ -36,6 +37,10 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--script", o.script, "Do the commands of this file and open no window");
   app.add_option("--state", o.state, "Begin with a saved session: .json, or a .png written here");
   app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
+  app.add_option("--device", o.device,
+                 "Cut the mesh in the window with mouse, hand, recorded, spacemouse, gamepad or phantom")
+      ->needs(mesh);
+  app.add_option("--device-file", o.device_file, "The hand's path, or the recording that is played");
   app.add_option("--case", o.shown_case, "The case to begin with, from 1")->capture_default_str();
   app.add_option("--time", o.time, "Length cut, mm; default: the end")->check(at_least(0));
   app.add_option("--view", o.view, "AZIMUTH,ELEVATION from the cut's normal, degrees")
@@ -81,7 +86,9 @@ void explore(const CLI::App& app, const Options& o) {
     session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +
                 std::to_string(o.size[1]));
   if (!o.script.empty() || !o.screenshot.empty()) return;
-  run_window(session, o.size[0], o.size[1]);
+  const std::string file = o.device_file.empty() ? "" : " " + quoted(o.device_file);
+  const std::string device = o.device.empty() ? "" : "device " + quoted(o.device) + file;
+  run_window(session, o.size[0], o.size[1], device);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/scene/cut_fields.h"
+#include "explorer/scene/hand_script.h"
 #include "explorer/scene/path_file.h"
 #include "explorer/scene/scalpel_cutting.h"
 #include "explorer/tension_options.h"
@@ -54,51 +55,6 @@ double stiffness(const Options& o, const Field* field) {
   return field ? surface_stiffness(*field) : ForceParameters{}.stiffness;
 }
 
-/// mm; `height` above the path's place s.
-ScalpelPose over(const ScalpelPath& path, double scale, double s, double height) {
-  const PathFrame frame = path.at(s);
-  ScalpelPose pose;
-  pose.tip = scale * frame.position + height * frame.outward;
-  pose.axis = frame.outward;
-  pose.edge = frame.along;
-  return pose;
-}
-
-ScalpelPose above_middle(const SurfaceMesh& mesh, double scale) {
-  Vec3 low = mesh.points.front(), high = low;
-  for (const Vec3& p : mesh.points)
-    for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
-  ScalpelPose pose;
-  pose.tip = scale * Vec3{(low.x + high.x) / 2, (low.y + high.y) / 2, high.z} + Vec3{0, 0, 10};
-  return pose;
-}
-
-/// Down onto the path's start, through the skin, along the path at its depth, and up again.
-std::vector<HandTarget> hand_along(const ScalpelPath& path, const Options& o, const HandParameters& hand,
-                                   const ForceParameters& force) {
-  std::vector<HandTarget> script;
-  double time = 0;
-  const auto go = [&](double seconds, double s, double height) {
-    time += seconds;
-    script.push_back({time, over(path, o.scale, s, height)});
-  };
-  // The grip and the skin give way until the skin holds no longer.
-  const double through = 1.2 * force.puncture_force * (1 / hand.stiffness + 1 / force.stiffness) + 1;
-  go(0, 0, 10);
-  go(10 / 40., 0, 1);
-  go(through / 40, 0, -through);
-  go(0.2, 0, -through);
-  go(0.2, 0, -o.scale * path.depth(0));
-  const int pieces = std::max(1, static_cast<int>(std::ceil(path.length() * o.scale)));
-  for (int k = 1; k <= pieces; ++k) {
-    const double s = path.length() * k / pieces;
-    go(path.length() * o.scale / pieces / o.speed, s, -o.scale * path.depth(s));
-  }
-  go(0.3, path.length(), 15);
-  go(0.2, path.length(), 15);
-  return script;
-}
-
 Json quantiles_us(const TimeHistogram& h) {
   return {{"p50", 1e6 * h.quantile(0.5)},
           {"p99", 1e6 * h.quantile(0.99)},
@@ -127,6 +83,7 @@ Json figures_of(const HapticLoop& loop, const TimeHistogram& bare, const Scalpel
       {"energy_created_Nmm", loop.passivity().created()},
       {"punctures", loop.state().punctures},
       {"last_puncture_N", loop.model().last_puncture_force()},
+      {"cuts", cutting.incisions()},
       {"cut_mm", cutting.cut_length()},
       {"triangles_cut", c.triangles_cut},
       {"cut_steps", c.cuts},
@@ -163,14 +120,14 @@ void haptic(const Options& o) {
   request.trajectory = o.trajectory;
   request.hand.delay = 1e-3 * o.delay;
   request.hand.period = 1 / o.rate;
-  request.start = path ? over(*path, o.scale, 0, 10) : above_middle(mesh, o.scale);
-  if (path) request.script = hand_along(*path, o, request.hand, force);
+  request.start = path ? pose_over(*path, o.scale, 0, 10) : pose_above(mesh, o.scale);
+  if (path) request.script = hand_along(*path, o.scale, o.speed, request.hand, force);
   const std::unique_ptr<Device> device = make_device(o.device, request);
   double seconds = o.seconds > 0 ? o.seconds : 10;
   if (o.seconds <= 0 && o.device == "hand") seconds = request.script.back().time;
   if (o.seconds <= 0 && o.device == "recorded") seconds = static_cast<Recorded&>(*device).duration();
 
-  ScalpelCutting cutting(mesh, path, std::move(fields), o.scale);
+  ScalpelCutting cutting(mesh, {path, {}, fields, o.scale, o.depth});
   LoopOptions options;
   options.rate = o.rate;
   options.measure = true;
@@ -189,9 +146,8 @@ void haptic(const Options& o) {
     constexpr std::int64_t frame = clock_second / 60;
     for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !over;
          due = std::max(due, clock_time(CLOCK_MONOTONIC) - frame)) {
-      const HapticState& state = loop.for_cutting().read();
-      cutting.step(state);
-      progress(shortest(std::round(10 * state.time) / 10) + " s");
+      cutting.step(loop.for_cutting());
+      progress(shortest(std::round(10 * loop.for_view().read().time) / 10) + " s");
       sleep_until(due += frame);
     }
   }
@@ -211,11 +167,13 @@ int main(int argc, char** argv) {
   app.add_option("--device", o.device, "hand (simulated), recorded, spacemouse, gamepad or phantom")
       ->capture_default_str();
   app.add_option("--path", o.path,
-                 "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where cuts go");
+                 "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where the cut goes "
+                 "[wherever the scalpel does]");
   app.add_option("--field", o.field,
                  "field file case.dffd that opens the cut; or study.dffd of three cases of other prestress");
   o.tension.add_to(app);
-  app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
+  app.add_option("--depth", o.depth,
+                 "depth of the cut, mm [the path's column, else the field's; without a path the scalpel's]")
       ->check(above(0));
   app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
   app.add_option("--seconds", o.seconds, "how long, s [the hand's or the recording's time, else 10]")

@@ -133,11 +133,27 @@ void ForceModel::follow_skin(const Vec3& tip) {
   depth_ = std::max(0., dot(proxy_.position - tip, proxy_.normal));
 }
 
+/// Whether the tip is in tissue after all the skin that it has passed since the last tick. Walls do not
+/// count: those of a wound that is hardly open lie on each other, and the blade has just made them.
+double ForceModel::after_leap(const Vec3& tip) const {
+  constexpr int most = 8;
+  const Vec3 way = tip - last_tip_;
+  const double on = 2 * touching / std::max(norm(way), touching);
+  double inside = engaged_, passed = 0;
+  for (int k = 0; k < most && passed < 1; ++k) {
+    const SurfaceHit hit = reader_.first_contact(last_tip_ + passed * way, tip, Facing::any);
+    if (!hit) break;
+    if (!hit.wall) inside = dot(hit.normal, way) < 0 ? 1 : 0;
+    passed += (1 - passed) * hit.fraction + on;
+  }
+  return inside;
+}
+
 /// 1 in tissue and between walls that touch the blade, 0 in the air and in a wound wide open.
 double ForceModel::engagement(const Vec3& tip) {
   const double thickness = p_.blade_half_thickness;
   const NearestPoint p = reader_.nearest(tip, 4 * thickness);
-  if (!p) return engaged_;  // far from all surface: as before, in or out
+  if (!p) return after_leap(tip);  // far from all surface: as before, but for what was passed at once
   if (p.distance <= thickness) return 1;
   return std::max(0., 2 - p.distance / thickness);
 }

@@ -44,6 +44,7 @@ class ForceModel {
   bool find_contact(const Vec3& tip);
   void follow_skin(const Vec3& tip);
   double engagement(const Vec3& tip);
+  double after_leap(const Vec3& tip) const;
 
   ForceParameters p_;
   double stiffness_, damping_, drag_;

@@ -10,6 +10,8 @@ namespace cleft {
 
 namespace {
 
+constexpr double seconds_late = 4;  // that the thread which cuts may be busy
+
 double checked_period(const LoopOptions& options) {
   if (!(options.rate >= 100 && options.rate <= 10000))
     throw InputError("a haptic loop of " + shortest(options.rate) + " Hz: from 100 to 10000 Hz");
@@ -31,7 +33,8 @@ HapticLoop::HapticLoop(Device& device, const ContactSurface& surface, const Forc
       parameters_(parameters),
       limits_(device.limits()),
       model_(surface, parameters, options.passive ? limits_ : undamped(limits_), checked_period(options)),
-      passivity_(parameters, limits_, 1 / options.rate) {
+      passivity_(parameters, limits_, 1 / options.rate),
+      for_cutting_(static_cast<std::size_t>(seconds_late * options.rate)) {
   recorded_.resize(options.record);  // touches the pages before a tick does
   recorded_.clear();
 }
@@ -58,7 +61,7 @@ void HapticLoop::update(double dt) {
   state_.proxy = model_.proxy();
   state_.normal = model_.normal();
   state_.punctures = model_.punctures();
-  for_cutting_.write(state_);
+  for_cutting_.push(state_);
   for_view_.write(state_);
 }
 

@@ -16,6 +16,7 @@
 #include "haptic/force_model.h"
 #include "haptic/loop_statistics.h"
 #include "haptic/passivity.h"
+#include "haptic/tick_queue.h"
 #include "haptic/triple_buffer.h"
 
 namespace cleft {
@@ -60,8 +61,9 @@ class HapticLoop {
   double rate() const { return options_.rate; }
   double period() const { return 1 / options_.rate; }
 
-  /// The newest tick, for one thread each: for the one that cuts, and for the one that draws.
-  TripleBuffer<HapticState>& for_cutting() { return for_cutting_; }
+  /// Every tick, for the thread that cuts: where the blade goes while that is busy is cut, too. And the
+  /// newest one for the thread that draws.
+  TickQueue<HapticState>& for_cutting() { return for_cutting_; }
   TripleBuffer<HapticState>& for_view() { return for_view_; }
 
   // While the loop runs these belong to its thread.
@@ -85,7 +87,8 @@ class HapticLoop {
   PassivityControl passivity_;
   HapticState state_;
   LoopStatistics statistics_;
-  TripleBuffer<HapticState> for_cutting_, for_view_;
+  TickQueue<HapticState> for_cutting_;
+  TripleBuffer<HapticState> for_view_;
   std::vector<RecordedPose> recorded_;
   std::string refused_;
 };

@@ -1,5 +1,7 @@
 #include "haptic/surface_stiffness.h"
 
+#include <array>
+#include <cmath>
 #include <numbers>
 #include <span>
 
@@ -8,7 +10,84 @@
 namespace cleft {
 
 namespace {
-constexpr double radius = 2;  // mm, of the disc: docs/formats.md
+
+constexpr double radius = stiffness_radius;
+
+/// One of the four solutions in a layer for the wave number x: displacements U sin(x r), W cos(x r) in a
+/// plane (J1 and J0 about an axis), their derivatives in z, and lambda times the divergence.
+struct Mode {
+  double u, w, du, dw, lambda_div;
+};
+
+/// Two that decay downward from z = 0, two that decay upward from z = -height.
+std::array<Mode, 4> modes(const SkinLayer& layer, double x, double z) {
+  const double nu = layer.poisson_ratio, kappa = 3 - 4 * nu;
+  const double mu = layer.young_modulus / (2 * (1 + nu)), s = x * z;
+  const double down = std::exp(s), up = std::exp(-s - x * layer.height);
+  return {{{-down, down, -x * down, x * down, 0},
+           {-s * down, (s - kappa) * down, -x * (s + 1) * down, x * (s - kappa + 1) * down,
+            -4 * mu * nu * x * down},
+           {-up, -up, x * up, x * up, 0},
+           {s * up, (s + kappa) * up, x * (1 - s) * up, x * (1 - s - kappa) * up, -4 * mu * nu * x * up}}};
+}
+
+/// Gaussian elimination with pivots; the last column is the right-hand side.
+std::array<double, 4> solved(std::array<std::array<double, 5>, 4> a) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::size_t pivot = i;
+    for (std::size_t r = i + 1; r < 4; ++r)
+      if (std::abs(a[r][i]) > std::abs(a[pivot][i])) pivot = r;
+    std::swap(a[i], a[pivot]);
+    for (std::size_t r = i + 1; r < 4; ++r)
+      for (std::size_t c = 5; c-- > i;) a[r][c] -= a[r][i] / a[i][i] * a[i][c];
+  }
+  std::array<double, 4> x{};
+  for (std::size_t i = 4; i-- > 0;) {
+    x[i] = a[i][4];
+    for (std::size_t c = i + 1; c < 4; ++c) x[i] -= a[i][c] * x[c];
+    x[i] /= a[i][i];
+  }
+  return x;
+}
+
+/// x times how far the skin sinks under the pressure cos(x r), or J0.
+double sinking(const SkinLayer& layer, double x) {
+  const double mu = layer.young_modulus / (2 * (1 + layer.poisson_ratio));
+  const auto top = modes(layer, x, 0), bottom = modes(layer, x, -layer.height);
+  std::array<std::array<double, 5>, 4> a{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Mode &t = top[i], &b = bottom[i];
+    a[0][i] = t.lambda_div + 2 * mu * t.dw;
+    a[1][i] = mu * (t.du - x * t.w) + layer.membrane * x * x * t.u;
+    a[2][i] = b.lambda_div + 2 * mu * b.dw - layer.foundation * b.w;
+    a[3][i] = mu * (b.du - x * b.w) - layer.foundation * b.u;
+  }
+  a[0][4] = -1;
+  const auto part = solved(a);
+  double w = 0;
+  for (std::size_t i = 0; i < 4; ++i) w += part[i] * top[i].w;
+  return -x * w;
+}
+
+double parameter(const Field& field, const char* name) {
+  const auto found = field.parameters.find(name);
+  return found == field.parameters.end() ? std::nan("") : found->second;
+}
+
+}  // namespace
+
+double layer_compliance(const SkinLayer& layer) {
+  // The pressure of the disc is a J1(a x) / x. Short waves only feel what is near, and sink as 1 / x: theirs
+  // is the closed form, and the rest falls as x^-2.5 or faster.
+  constexpr int pieces = 2000;
+  constexpr double farthest = 120;  // over a
+  const double near = sinking(layer, 1e3 * farthest / radius);
+  double sum = near;
+  for (int i = 0; i < pieces; ++i) {
+    const double part = (i + 0.5) / pieces, x = farthest * part * part;
+    sum += (sinking(layer, x / radius) - near) * std::cyl_bessel_j(1., x) / x * 2 * farthest * part / pieces;
+  }
+  return radius * sum;
 }
 
 double stiffness_from_compliance(double compliance) {
@@ -25,12 +104,17 @@ double surface_stiffness(const Field& field) {
     field.quantity(i, {cut.start + cut.length / 2, 0, 0}, Side::both, 0, std::span(&compliance, 1));
     return stiffness_from_compliance(compliance);
   }
-  const auto modulus = field.parameters.find("tissue.young_modulus"),
-             ratio = field.parameters.find("tissue.poisson_ratio");
-  if (modulus == field.parameters.end() || ratio == field.parameters.end())
+  const double modulus = parameter(field, "tissue.young_modulus"),
+               nu = parameter(field, "tissue.poisson_ratio");
+  if (std::isnan(modulus) || std::isnan(nu))
     throw InputError("the field knows neither a compliance nor its tissue's modulus: give --stiffness");
-  const double nu = ratio->second;
-  return stiffness_from_compliance(2 * radius * (1 - nu * nu) / modulus->second);
+  const double skin_nu = parameter(field, "skin.poisson_ratio"),
+               thickness = parameter(field, "skin.thickness");
+  const SkinLayer layer{modulus, nu, parameter(field, "patch.height"),
+                        parameter(field, "foundation.stiffness"),
+                        parameter(field, "skin.young_modulus") * thickness / (1 - skin_nu * skin_nu)};
+  const bool known = layer.height > 0 && layer.foundation > 0 && !std::isnan(layer.membrane);
+  return stiffness_from_compliance(known ? layer_compliance(layer) : 2 * radius * (1 - nu * nu) / modulus);
 }
 
 }  // namespace cleft

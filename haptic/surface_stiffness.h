@@ -5,13 +5,29 @@
 
 namespace cleft {
 
+constexpr double stiffness_radius = 2;  ///< mm, of the disc: docs/formats.md
+
 /// N/mm, from the compliance c (mm/MPa) of the surface's middle under a disc of 2 mm radius that a snapshot
 /// holds: the force pi a^2 p sinks the disc by c p.
 double stiffness_from_compliance(double compliance);
 
-/// N/mm, of a field's tissue: from its quantity "compliance" at the middle of the cut where it has one; else
-/// of the same disc on a half space of the tissue alone, 2 a (1 - nu^2) / E (Johnson, Contact
-/// Mechanics, 3.4): no skin, no prestress, no bone. Throws InputError where the field tells neither.
+/// A layer of tissue under a membrane, on springs that act in all directions: the solver's patch without
+/// sides.
+struct SkinLayer {
+  double young_modulus, poisson_ratio;  ///< of the tissue, MPa
+  double height;                        ///< mm
+  double foundation;                    ///< N/mm^3, above 0
+  double membrane;                      ///< of the skin, E t / (1 - nu^2), N/mm
+};
+
+/// mm/MPa, of the same disc on it: the Hankel transform of the layer's equations, solved for every wave
+/// number.
+double layer_compliance(const SkinLayer& layer);
+
+/// N/mm, of a field's case: from its quantity "compliance" at the middle of the cut where it has one; else of
+/// its skin, tissue and foundation as a layer, within about 2 % of the solver's; else, where the field knows
+/// its tissue alone, of a half space 2 a (1 - nu^2) / E (Johnson, Contact Mechanics, 3.4). Throws InputError
+/// where the field tells none of them.
 double surface_stiffness(const Field& field);
 
 }  // namespace cleft

@@ -54,7 +54,9 @@ void add_ours(Panels& panels, const Series& series, const ChartedCase& charted,
     EncodeOptions options;
     options.parametrization = parametrization, options.tolerance = tolerance;
     Stopwatch watch;
-    const auto [field, residual] = encode(series, options, [](const std::string&) {});
+    const Encoded encoded = encode(series, options, [](const std::string&) {});
+    const Field& field = encoded.field;
+    const std::optional<NodeResidual>& residual = encoded.residual;
     const double seconds = watch.lap();
     double bytes = static_cast<double>(record_of(field).coefficients.size());
     if (residual) bytes += static_cast<double>(encode_residual(*residual).size());

@@ -48,7 +48,9 @@ OurRun run_ours(const Series& series, const Snapshot& snapshot, const NodeData& 
   options.tolerance = tolerance;
   OurRun run;
   Stopwatch watch;
-  const auto [field, residual] = encode(series, options, [](const std::string&) {});
+  const Encoded encoded = encode(series, options, [](const std::string&) {});
+  const Field& field = encoded.field;
+  const std::optional<NodeResidual>& residual = encoded.residual;
   run.fit = watch.lap();
   const std::string file =
       (fs::temp_directory_path() / ("cleft-benchmark-encoder-" + std::to_string(getpid()))).string();

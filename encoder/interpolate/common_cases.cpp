@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "base/error.h"
@@ -16,18 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<StudyMember> members_of_folder(const std::string& path) {
-  std::vector<StudyMember> members;
-  for (const StudyCase& one : published_study_cases(path))
-    members.push_back({one.name, read_field(one.field_file), one.choices});
-  return members;
-}
-
-std::vector<StudyMember> members_of_file(const std::string& path) {
-  const StudyFile file(path);
-  std::vector<StudyMember> members;
-  for (int i = 0; i < file.size(); ++i) members.push_back({file.name(i), file.field(i), file.choices(i)});
-  return members;
+void for_each_member(const std::string& study, const std::function<void(StudyMember)>& take) {
+  if (fs::is_directory(study)) {
+    for (const StudyCase& one : published_study_cases(study))
+      take({one.name, read_field(one.field_file), one.choices});
+    return;
+  }
+  if (!fs::exists(study)) throw InputError(study + ": no such study folder or study.dffd");
+  const StudyFile file(study);
+  for (int i = 0; i < file.size(); ++i) take({file.name(i), file.field(i), file.choices(i)});
 }
 
 /// The cut ends at nodes: where the mesh was made for another one, not where it was asked to.
@@ -81,87 +79,128 @@ std::array<BSplineBasis, 4> normal_bases(const Field& field) {
   return bases;
 }
 
-std::string both(const StudyMember& a, const StudyMember& b) {
-  return "the cases " + a.name + " and " + b.name;
+std::vector<float> floats_of(const std::vector<Vec3>& points) {
+  std::vector<float> flat;
+  flat.reserve(3 * points.size());
+  for (const Vec3& point : points)
+    for (int c = 0; c < 3; ++c) flat.push_back(static_cast<float>(point[c]));
+  return flat;
 }
 
-void check_alike(const StudyMember& a, const StudyMember& b) {
-  const std::string of_a = a.field.parametrization().name(), of_b = b.field.parametrization().name();
-  if (of_a != of_b)
-    throw InputError(both(a, b) + " are encoded with different parametrisations ('" + of_a + "' and '" +
-                     of_b + "'); encode all cases with the same");
-  for (const auto& [name, value] : a.choices)
-    if (const auto other = b.choices.find(name); other != b.choices.end() && other->second != value)
-      throw InputError(both(a, b) + " differ in " + name + " (\"" + value + "\" and \"" + other->second +
-                       "\"), between which nothing lies; make a study of each");
-  for (const auto& [name, value] : a.field.parameters)
-    if (!b.field.parameters.contains(name))
-      throw InputError("case " + b.name + " has no parameter " + name + ", which case " + a.name + " has");
-  if (a.field.parameters.size() != b.field.parameters.size()) check_alike(b, a);
-}
-
-std::array<BSplineBasis, 4> common_bases(const std::vector<StudyMember>& members) {
-  constexpr const char* axes[] = {"along the cut", "across it", "in height", "in time"};
-  std::array<BSplineBasis, 4> bases = normal_bases(members.front().field);
-  for (const StudyMember& member : members) {
-    const auto own = normal_bases(member.field);
-    for (int axis = 0; axis < 4; ++axis) try {
-        bases[axis] = common_basis(bases[axis], own[axis]);
-      } catch (const InputError& e) {
-        throw InputError(
-            both(members.front(), member) + " have no common knots " + axes[axis] + ": " + e.what() +
-            "; all cuts of a study must end within the patch, or all at the same of its edges, and "
-            "cases have at least four frames");
-      }
-  }
-  return bases;
-}
-
-/// Without those of the same parameters that are fitted worse.
-std::vector<const StudyMember*> distinct(const std::vector<StudyMember>& members) {
-  std::map<std::map<std::string, double>, const StudyMember*> best;
-  for (const StudyMember& member : members) {
-    const StudyMember*& kept = best[parameters_as_solved(member.field)];
-    if (!kept || member.field.report.spline_error < kept->field.report.spline_error) kept = &member;
-  }
-  std::vector<const StudyMember*> list;
-  for (const StudyMember& member : members)
-    if (best[parameters_as_solved(member.field)] == &member) list.push_back(&member);
-  return list;
-}
+std::string both(const std::string& a, const std::string& b) { return "the cases " + a + " and " + b; }
 
 }  // namespace
 
-std::vector<StudyMember> read_members(const std::string& study) {
-  if (fs::is_directory(study)) return members_of_folder(study);
-  if (!fs::exists(study)) throw InputError(study + ": no such study folder or study.dffd");
-  return members_of_file(study);
+struct CommonCases::Own {
+  CommonCase kept;
+  std::map<std::string, double> parameters;  // as asked for
+  std::map<std::string, std::string> choices;
+  std::string parametrization;
+  std::array<BSplineBasis, 4> bases;
+  std::vector<float> points;
+  struct Derivative {
+    std::string parameter;
+    double error;
+    std::vector<float> points;
+  };
+  std::vector<Derivative> derivatives;
+};
+
+CommonCases::Own CommonCases::own_of(const StudyMember& member) {
+  const Field& field = member.field;
+  Own own{{member.name, parameters_as_solved(field), field.parametrization().geometry(), field.report},
+          field.parameters,
+          member.choices,
+          field.parametrization().name(),
+          normal_bases(field),
+          floats_of(field.coefficients()),
+          {}};
+  for (const ParameterDerivative& one : field.by_parameter)
+    own.derivatives.push_back({one.parameter, one.error * one.largest, floats_of(one.control_points)});
+  return own;
 }
 
-CommonCases::CommonCases(const std::vector<StudyMember>& members)
-    : bases_{
-          members.empty()
-              ? throw InputError("the study holds no case; run it, or cleft pack it again")
-              : common_bases((std::for_each(members.begin(), members.end(),
-                                            [&](const StudyMember& m) { check_alike(members.front(), m); }),
-                              members))} {
-  parametrization_ = members.front().field.parametrization().name();
-  choices_ = members.front().choices;
-  for (const StudyMember* member : distinct(members)) {
-    const Field& field = member->field;
-    cases_.push_back(
-        {member->name, parameters_as_solved(field), field.parametrization().geometry(), field.report});
-    const auto own = normal_bases(field);
-    const auto raised = [&](const std::vector<Vec3>& control_points) {
-      std::vector<float> points;
-      for (const Vec3& point : insert_knots(control_points, own, bases_))
-        for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(point[c]));
-      return points;
+std::vector<CommonCases::Own> CommonCases::own_of(const std::vector<StudyMember>& members) {
+  std::vector<Own> all;
+  for (const StudyMember& member : members) all.push_back(own_of(member));
+  return all;
+}
+
+void CommonCases::check_alike(const Own& a, const Own& b) {
+  const std::string pair = both(a.kept.name, b.kept.name);
+  if (a.parametrization != b.parametrization)
+    throw InputError(pair + " are encoded with different parametrisations ('" + a.parametrization +
+                     "' and '" + b.parametrization + "'); encode all cases with the same");
+  for (const auto& [name, value] : a.choices)
+    if (const auto other = b.choices.find(name); other != b.choices.end() && other->second != value)
+      throw InputError(pair + " differ in " + name + " (\"" + value + "\" and \"" + other->second +
+                       "\"), between which nothing lies; make a study of each");
+  for (const auto& [name, value] : a.parameters)
+    if (!b.parameters.contains(name))
+      throw InputError("case " + b.kept.name + " has no parameter " + name + ", which case " + a.kept.name +
+                       " has");
+  if (a.parameters.size() != b.parameters.size()) check_alike(b, a);
+}
+
+std::array<BSplineBasis, 4> CommonCases::common_bases(const std::vector<Own>& all) {
+  constexpr const char* axes[] = {"along the cut", "across it", "in height", "in time"};
+  if (all.empty()) throw InputError("the study holds no case; run it, or cleft pack it again");
+  for (const Own& own : all) check_alike(all.front(), own);
+  std::array<BSplineBasis, 4> bases = all.front().bases;
+  for (const Own& own : all)
+    for (int axis = 0; axis < 4; ++axis) try {
+        bases[axis] = common_basis(bases[axis], own.bases[axis]);
+      } catch (const InputError& e) {
+        throw InputError(
+            both(all.front().kept.name, own.kept.name) + " have no common knots " + axes[axis] + ": " +
+            e.what() +
+            "; all cuts of a study must end within the patch, or all at the same of its edges, and "
+            "cases have at least four frames");
+      }
+  return bases;
+}
+
+/// All but those of the same parameters that are fitted worse.
+std::vector<bool> CommonCases::distinct(const std::vector<Own>& all) {
+  std::map<std::map<std::string, double>, const Own*> best;
+  for (const Own& own : all) {
+    const Own*& kept = best[own.kept.parameters];
+    if (!kept || own.kept.report.spline_error < kept->kept.report.spline_error) kept = &own;
+  }
+  std::vector<bool> list;
+  for (const Own& own : all) list.push_back(best[own.kept.parameters] == &own);
+  return list;
+}
+
+std::vector<StudyMember> read_members(const std::string& study) {
+  std::vector<StudyMember> members;
+  for_each_member(study, [&](StudyMember member) { members.push_back(std::move(member)); });
+  return members;
+}
+
+CommonCases CommonCases::of_study(const std::string& study) {
+  std::vector<Own> all;
+  for_each_member(study, [&](const StudyMember& member) { all.push_back(own_of(member)); });
+  return CommonCases(std::move(all));
+}
+
+CommonCases::CommonCases(const std::vector<StudyMember>& members) : CommonCases(own_of(members)) {}
+
+CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all)) {
+  parametrization_ = all.front().parametrization;
+  choices_ = all.front().choices;
+  const std::vector<bool> is_kept = distinct(all);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Own own = std::move(all[i]);
+    if (!is_kept[i]) continue;
+    const auto raised = [&](const std::vector<float>& points) {
+      return floats_of(insert_knots(points_of(points), own.bases, bases_));
     };
-    points_.push_back(raised(field.coefficients()));
-    for (const ParameterDerivative& one : field.by_parameter) {
-      derivatives_.push_back({size() - 1, one.parameter, one.error * one.largest});
-      derivative_points_.push_back(raised(one.control_points));
+    cases_.push_back(own.kept);
+    points_.push_back(raised(own.points));
+    for (const Own::Derivative& one : own.derivatives) {
+      derivatives_.push_back({size() - 1, one.parameter, one.error});
+      derivative_points_.push_back(raised(one.points));
     }
   }
   if (cases_.size() < 2)

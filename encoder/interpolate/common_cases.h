@@ -45,6 +45,8 @@ class CommonCases {
   /// fitted best is taken. Throws InputError where fewer than two are left, where parametrisations or
   /// choices differ, or one cut reaches an edge of the patch that another does not.
   explicit CommonCases(const std::vector<StudyMember>& members);
+  /// The same of a study folder or a study.dffd, of which it holds one field at a time.
+  static CommonCases of_study(const std::string& study);
 
   const std::vector<CommonCase>& cases() const { return cases_; }
   int size() const { return static_cast<int>(cases_.size()); }
@@ -65,6 +67,14 @@ class CommonCases {
   Field field_of(const std::vector<Vec3>& points, FieldGeometry geometry) const;
 
  private:
+  struct Own;  // a case on its own knots
+  explicit CommonCases(std::vector<Own> all);
+  static Own own_of(const StudyMember& member);
+  static std::vector<Own> own_of(const std::vector<StudyMember>& members);
+  static void check_alike(const Own& a, const Own& b);
+  static std::array<BSplineBasis, 4> common_bases(const std::vector<Own>& all);
+  static std::vector<bool> distinct(const std::vector<Own>& all);
+
   std::vector<CommonCase> cases_;
   std::string parametrization_;
   std::map<std::string, std::string> choices_;

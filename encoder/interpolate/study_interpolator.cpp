@@ -46,7 +46,7 @@ std::vector<Loading> loadings_of(const CommonCases& cases) {
 }  // namespace
 
 StudyInterpolator::StudyInterpolator(const std::string& study)
-    : StudyInterpolator(CommonCases(read_members(study))) {}
+    : StudyInterpolator(CommonCases::of_study(study)) {}
 
 StudyInterpolator::StudyInterpolator(CommonCases cases)
     : cases_(std::move(cases)),

@@ -40,8 +40,13 @@ MainWindow::MainWindow(Session& session) : session_(session) {
       text += QString("   |   mesh of %1 triangles, %2 cuts")
                   .arg(session_.scene()->surface().triangles.size())
                   .arg(session_.state().cuts.size());
+    if (device_->on()) text += "   |   " + device_->status();
     status_->setText(text);
   };
+  session_.hand_devices_to([this](const std::string& name, const std::string& file) {
+    device_->take(name, file);
+    follow_tools();
+  });
   session_.answer_to([this](const std::string& text) { message_->answer(QString::fromStdString(text)); });
   session_.listen([this](const Changes& changes) { follow(changes); });
   Changes all;
@@ -49,7 +54,7 @@ MainWindow::MainWindow(Session& session) : session_(session) {
   follow(all);
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() { device_.reset(); }
 
 void MainWindow::make_middle() {
   const Say say_line = [this](const std::string& line) { return say(line); };
@@ -76,7 +81,10 @@ void MainWindow::make_middle() {
   column->addWidget(time);
   column->addWidget(command_line_);
   setCentralWidget(middle);
-  panels_ = {scene_, time};
+  device_ = std::make_unique<DeviceControl>(session_, *scene_, say_line, [this](const std::string& text) {
+    message_->tell(QString::fromStdString(text));
+  });
+  panels_ = {scene_, time, device_.get()};
 }
 
 void MainWindow::make_docks() {

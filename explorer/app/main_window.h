@@ -10,6 +10,7 @@
 #include <QStackedWidget>
 #include <vector>
 
+#include "explorer/app/device_control.h"
 #include "explorer/app/message_bar.h"
 #include "explorer/app/panel.h"
 #include "explorer/app/scene_widget.h"
@@ -26,6 +27,7 @@ class MainWindow : public QMainWindow {
   bool say(const std::string& line);
 
   SceneWidget& scene() { return *scene_; }
+  const DeviceControl& device() const { return *device_; }
   QString message() const { return message_->message(); }
 
  protected:
@@ -37,6 +39,7 @@ class MainWindow : public QMainWindow {
   void make_docks();
   void make_actions();
   void make_tools();
+  void make_device_menu(QMenu* menu);
   QAction* add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
                       std::function<void()> run);
   void follow(const Changes& changes);
@@ -54,13 +57,14 @@ class MainWindow : public QMainWindow {
   QStackedWidget* stack_;
   WelcomePage* welcome_;
   SceneWidget* scene_;
+  std::unique_ptr<DeviceControl> device_;
   MessageBar* message_;
   QLineEdit* command_line_;
   QLabel* status_;
   QComboBox* coloring_;
   QAction *scalpel_, *undo_, *redo_, *dark_;
   QDoubleSpinBox *depth_, *tilt_;
-  QMenu* recent_;
+  QMenu *recent_, *device_menu_;
   std::vector<QAction*> layouts_;
 };
 

@@ -57,6 +57,7 @@ void MainWindow::make_actions() {
   scalpel_->setToolTip("Press and drag over the skin to cut it (C)");
   undo_ = add_action(edit, "undo", "&Undo", QKeySequence("Ctrl+Z"), line("undo"));
   redo_ = add_action(edit, "redo", "&Redo", QKeySequence("Ctrl+Shift+Z"), line("redo"));
+  make_device_menu(edit->addMenu("&Haptic device"));
   add_action(edit, "patch", "Back to the &patch", {}, line("patch"));
 
   QMenu* view = menuBar()->addMenu("&View");
@@ -81,6 +82,25 @@ void MainWindow::make_actions() {
 
   QMenu* help = menuBar()->addMenu("&Help");
   add_action(help, "help_sheet", "&Keys and commands", QKeySequence("F1"), [this] { show_help(); });
+}
+
+void MainWindow::make_device_menu(QMenu* menu) {
+  device_menu_ = menu;
+  const auto device = [this, menu](const char* name, const char* text, const char* filter) {
+    add_action(menu, (std::string("device_") + name).c_str(), text, {}, [this, name, text, filter] {
+      if (*filter)
+        choose(text, filter, std::string("device ") + name, false);
+      else
+        say(std::string("device ") + name);
+    })->setCheckable(true);
+  };
+  device("off", "&None", "");
+  device("mouse", "&Mouse: press to sink the blade", "");
+  device("hand", "Simulated &hand along a path ...", "Paths (*.csv)");
+  device("recorded", "&Recording ...", "Recordings (*.csv)");
+  device("spacemouse", "&SpaceMouse", "");
+  device("gamepad", "&Gamepad", "");
+  device("phantom", "&PHANToM or Touch", "");
 }
 
 void MainWindow::make_tools() {
@@ -140,6 +160,9 @@ void MainWindow::follow_tools() {
   undo_->setEnabled(!s.cuts.empty());
   redo_->setEnabled(!s.undone.empty());
   dark_->setChecked(s.dark);
+  device_menu_->setEnabled(can_cut);
+  const QString device = "device_" + QString::fromStdString(device_->on() ? device_->name() : "off");
+  for (QAction* action : device_menu_->actions()) action->setChecked(action->objectName() == device);
 }
 
 void MainWindow::fill_recent() {

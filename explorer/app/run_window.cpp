@@ -10,7 +10,7 @@
 
 namespace cleft {
 
-void run_window(Session& session, int width, int height) {
+void run_window(Session& session, int width, int height, const std::string& line) {
   if (!has_display())
     throw InputError(
         "no display to open a window on (DISPLAY is not set or no X server answers): use --screenshot F.png "
@@ -27,6 +27,7 @@ void run_window(Session& session, int width, int height) {
   MainWindow window(session);
   window.resize(width, height);
   window.show();
+  if (!line.empty()) window.say(line);
   QApplication::exec();
 }
 

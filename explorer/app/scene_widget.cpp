@@ -8,7 +8,6 @@
 #include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -17,18 +16,11 @@ namespace cleft {
 
 namespace {
 
-constexpr double coarsest = 4;          // pixels between the places of a cut, at least
-constexpr double steepest = 4;          // of skin that the blade goes along, against the picture's plane
-constexpr double spacing = 1;           // mm between the places of a cut
-constexpr int milliseconds_a_cut = 60;  // while dragging, at most so often
+constexpr double coarsest = 4;  // pixels between the places of a cut, at least
+constexpr double steepest = 4;  // of skin that the blade goes along, against the picture's plane
+constexpr double spacing = 1;   // mm between the places of a cut
 
 std::string text(const Vec3& x) { return shortest(x.x) + "," + shortest(x.y) + "," + shortest(x.z); }
-/// Short enough to be read in a recording.
-std::string rounded(const Vec3& x, int digits) {
-  char out[100];
-  std::snprintf(out, sizeof out, "%.*f,%.*f,%.*f", digits, x.x, digits, x.y, digits, x.z);
-  return out;
-}
 
 /// What a mouse has done to the camera becomes a line.
 void call_back(vtkObject*, unsigned long, void* data, void*) {
@@ -76,9 +68,16 @@ void SceneWidget::say_camera() {
 void SceneWidget::set_cutting(bool on) {
   cutting_ = on;
   setCursor(on ? Qt::CrossCursor : Qt::ArrowCursor);
+  if (!on)
+    live_.reset();
+  else if (session_.mesh())
+    live_cutting();
 }
 
-void SceneWidget::follow(const Changes&) { draw(); }
+void SceneWidget::follow(const Changes& changes) {
+  if (!own_ && (changes.cuts || changes.study || changes.shown)) live_.reset();
+  draw();
+}
 
 void SceneWidget::draw() {
   Stopwatch watch;
@@ -90,6 +89,7 @@ void SceneWidget::draw() {
 
 bool SceneWidget::event(QEvent* event) {
   const auto type = event->type();
+  if (pointed && session_.mesh() && points(event)) return true;
   if (cutting_ && session_.mesh() &&
       (type == QEvent::MouseButtonPress || type == QEvent::MouseMove || type == QEvent::MouseButtonRelease)) {
     auto* mouse = static_cast<QMouseEvent*>(event);
@@ -103,13 +103,31 @@ bool SceneWidget::event(QEvent* event) {
   return QVTKOpenGLNativeWidget::event(event);
 }
 
+/// A device that is the mouse: over the skin it is the scalpel's, else it turns the picture.
+bool SceneWidget::points(QEvent* event) {
+  const auto type = event->type();
+  if (type != QEvent::MouseMove && type != QEvent::MouseButtonPress && type != QEvent::MouseButtonRelease)
+    return false;
+  auto* mouse = static_cast<QMouseEvent*>(event);
+  if (type == QEvent::MouseButtonPress && mouse->button() != Qt::LeftButton) return false;
+  const double ratio = devicePixelRatioF();
+  const int x = static_cast<int>(mouse->x() * ratio),
+            y = static_cast<int>((height() - 1 - mouse->y()) * ratio);
+  const int view = stage_->view_at(x, y);
+  const auto place = view < 0 ? std::nullopt : stage_->view(view).skin_at(x, y);
+  if (type == QEvent::MouseButtonPress) pressed_ = place.has_value();
+  const bool mine = pressed_ || (mouse->buttons() == Qt::NoButton && type == QEvent::MouseMove);
+  if (type == QEvent::MouseButtonRelease) pressed_ = false;
+  if (mine) pointed(place, pressed_);
+  return mine;
+}
+
 bool SceneWidget::press(int x, int y) {
   view_ = stage_->view_at(x, y);
   blade_.clear();
-  begun_ = false;
   if (view_ < 0 || !add_point(x, y)) return false;  // beside the skin the picture is turned
-  if (!session_.state().camera.pose) say_camera();  // angles count from the first cut: the picture stays
-  since_cut_.start();
+  keep_camera();
+  since_drawn_.start();
   return pressed_ = true;
 }
 
@@ -130,22 +148,57 @@ bool SceneWidget::add_point(int x, int y) {
 
 void SceneWidget::drag(int x, int y) {
   if (!add_point(x, y) || blade_.size() < 3) return;
-  if (begun_ && since_cut_.elapsed() < std::max<qint64>(milliseconds_a_cut, qint64(2000 * frame_seconds_)))
-    return;
-  since_cut_.restart();
-  if (say_(cut_line(begun_ ? "recut" : "cut"))) begun_ = true;
+  // The place before the last: what smooths it comes from both sides.
+  const CutState cut = smoothed();
+  ScalpelPath::Point place = cut.points[cut.points.size() - 2];
+  if (place.depth <= 0) place.depth = session_.depth_of_case(session_.state().shown);
+  live_cutting().cut_at(place);
+  if (since_drawn_.elapsed() < static_cast<qint64>(2000 * frame_seconds_)) return;
+  since_drawn_.restart();
+  show_live(live_cutting());
 }
 
 void SceneWidget::release() {
   pressed_ = false;
-  if (blade_.size() >= 2) say_(cut_line(begun_ ? "recut" : "cut"));
+  if (live_) live_->end_cut();
+  show_live(nullptr, nullptr);
+  if (blade_.size() < 2) return;
+  own_ = true;
+  const bool cut = say_(cut_line("cut", smoothed()));
+  own_ = false;
+  if (!cut) live_.reset();
+}
+
+/// Made when the scalpel is taken up, so that the first cut need not wait for it.
+ScalpelCutting& SceneWidget::live_cutting() {
+  if (!live_) {
+    ScalpelCutting::Setup setup;
+    setup.made = session_.cut_paths();
+    setup.fields = session_.cut_fields(session_.state().shown);
+    live_ = std::make_unique<ScalpelCutting>(*session_.mesh(), std::move(setup));
+    moment_.reset();
+  }
+  return *live_;
+}
+
+void SceneWidget::show_live(const ScalpelCutting& cutting) {
+  const bool same = moment_ && moment_->cuts == cutting.figures().cuts;
+  moment_ = moment_of(cutting, moment_.get());
+  if (!same || !live_scene_) live_scene_ = std::make_shared<LiveScene>(moment_, session_.scene()->surface());
+  live_scene_->show(moment_);
+  show_live(live_scene_, nullptr);
+}
+
+void SceneWidget::show_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel) {
+  if (!scene) live_scene_.reset();
+  stage_->set_live(std::move(scene), scalpel);
+  draw();
 }
 
 /// Normals are those of single triangles under the mouse: the mean of a few makes the blade steady. The blade
 /// is in the surface at rest.
-std::string SceneWidget::cut_line(const char* command) const {
+CutState SceneWidget::smoothed() const {
   constexpr int reach = 3;
-  std::string line = command;
   const int count = static_cast<int>(blade_.size());
   std::vector<WoundView::Place> blade = blade_;
   const auto at = [&](int i) { return blade[static_cast<std::size_t>(std::clamp(i, 0, count - 1))]; };
@@ -156,6 +209,7 @@ std::string SceneWidget::cut_line(const char* command) const {
           0.25 * (at(i - 1).position + 2 * at(i).position + at(i + 1).position);
     blade.swap(smooth);
   }
+  CutState cut;
   for (int i = 0; i < count; ++i) {
     Vec3 outward;
     for (int k = -reach; k <= reach; ++k) outward += at(i + k).outward;
@@ -164,9 +218,9 @@ std::string SceneWidget::cut_line(const char* command) const {
     const Vec3 across = cross(outward, along);
     const double tilt = tilt_ * M_PI / 180;
     if (norm(across) > 0) outward = std::cos(tilt) * outward - std::sin(tilt) * normalized(across);
-    line += " " + rounded(at(i).position, 3) + "," + rounded(outward, 4);
+    cut.points.push_back({at(i).position, outward, depth_});
   }
-  return depth_ > 0 ? line + " depth " + shortest(depth_) : line;
+  return cut;
 }
 
 }  // namespace cleft

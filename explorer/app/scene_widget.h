@@ -6,9 +6,11 @@
 
 #include <QElapsedTimer>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "explorer/app/panel.h"
+#include "explorer/scene/live_scene.h"
 #include "explorer/view/stage.h"
 
 namespace cleft {
@@ -28,7 +30,16 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   void set_tilt(double tilt) { tilt_ = tilt; }
   /// Of the last picture, points and drawing.
   double frame_seconds() const { return frame_seconds_; }
+  /// Cuts do not turn the picture from now on: angles count from the first cut.
+  void keep_camera() {
+    if (!session_.state().camera.pose) say_camera();
+  }
   std::function<void()> drawn;  ///< called after every picture
+  /// Where there is one it is told which place of the skin the mouse is over, and whether it is pressed.
+  std::function<void(const std::optional<WoundView::Place>& place, bool pressed)> pointed;
+
+  /// Draws a scene in place of the shown case's, with a scalpel where there is one; null: no more.
+  void show_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel);
 
   Stage& stage() { return *stage_; }
 
@@ -40,19 +51,26 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   void drag(int x, int y);
   void release();
   bool add_point(int x, int y);
-  std::string cut_line(const char* command) const;
+  bool points(QEvent* event);
+  CutState smoothed() const;
+  ScalpelCutting& live_cutting();
+  void show_live(const ScalpelCutting& cutting);
   void draw();
   void say_camera();
 
   Session& session_;
   Say say_;
   std::unique_ptr<Stage> stage_;
-  bool cutting_ = false, pressed_ = false, begun_ = false;
+  bool cutting_ = false, pressed_ = false, own_ = false;
   double depth_ = 0, tilt_ = 0, frame_seconds_ = 0;
   int last_x_ = 0, last_y_ = 0;
   int view_ = -1;                        // that the blade is in
   std::vector<WoundView::Place> blade_;  // where it has been since the button was pressed
-  QElapsedTimer since_cut_;
+  QElapsedTimer since_drawn_;
+  // The cut while it is drawn; what comes of it is a cut of the session.
+  std::unique_ptr<ScalpelCutting> live_;
+  std::shared_ptr<const CuttingMoment> moment_;
+  std::shared_ptr<LiveScene> live_scene_;
 };
 
 }  // namespace cleft

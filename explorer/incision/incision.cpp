@@ -34,18 +34,22 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
       cut_(mesh_.begin_cut()),
       chord_tolerance_(options.chord_tolerance.value_or(path_.length() / 1000)),
       longest_step_(path_.length() / 4),  // even a cut inside one triangle has vertices that can open
+      max_edge_(options.max_edge.value_or(path_.length() / 30)),
       original_triangles_(static_cast<int>(mesh_.triangles().size())),
       worst_before_(smallest_radius_ratio(mesh_)),
       asked_(0.05 * std::min(0.1, smallest_given_radius_ratio(mesh_))) {
   if (!(path_.smallest_depth() > 0))
     throw InputError("the cut has no depth: give the path a column 'depth', or a depth for all of it");
-  const double max_edge = options_.max_edge.value_or(path_.length() / 30);
   mesh_.forget_changes();
   try {
     Step start = find_start();
-    if (max_edge > 0) {
+    if (max_edge_ > 0) {
       const double height = dot(start.place - path_.at(start.s).position, path_.at(start.s).outward);
-      refine_along(mesh_, path_, height, max_edge, path_.length() / 8);
+      if (options_.refined < path_.length())
+        refine_along(mesh_, path_, 0, options_.refined, triangles_at(start), height, max_edge_,
+                     4 * max_edge_);
+      else
+        refine_along(mesh_, path_, height, max_edge_, path_.length() / 8);
       start = find_start();
     }
     for (int k = 0; k < 60 && start.inside &&
@@ -57,7 +61,7 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
     const int first = realise(start);
     grow(first, start.s);
     mend(before_cut_);
-    rows_ = static_cast<int>(std::clamp(path_.largest_depth() / wall_spacing(first, max_edge), 3.0, 32.0));
+    rows_ = static_cast<int>(std::clamp(path_.largest_depth() / wall_spacing(first, max_edge_), 3.0, 32.0));
   } catch (...) {
     mesh_.roll_back(before_cut_);
     throw;
@@ -77,6 +81,27 @@ double Incision::wall_spacing(int start, double max_edge) const {
 void Incision::advance_to(double s) {
   CLEFT_CHECK(undone_.has_value(), ==, false);
   mesh_.forget_changes();
+  cut_on_to(s);
+}
+
+void Incision::lead_on(const ScalpelPath::Point& next, double ahead) {
+  CLEFT_CHECK(undone_.has_value(), ==, false);
+  mesh_.forget_changes();
+  const double from = led_;
+  led_ = path_.lead_on(from, next, path_.length() - from);
+  if (provisional_) roll_back(*provisional_);  // what comes now would be taken back with it
+  provisional_.reset();
+  next_.reset();
+  const std::vector<int> seeds = mesh_.skin_fan(tip_vertex());
+  const PathFrame here = path_.at(tip());
+  const double height = dot(mesh_.position(tip_vertex()) - here.position, here.outward);
+  if (max_edge_ > 0)
+    refine_along(mesh_, path_, tip(), led_ + 2 * max_edge_, seeds, height, max_edge_, 4 * max_edge_);
+  if (options_.reach > 0) surroundings_.lead_on(mesh_, path_, tip(), ahead, triangle_ahead());
+  cut_on_to(led_);
+}
+
+void Incision::cut_on_to(double s) {
   s = std::min(s, path_.length());
   if (s < tip() || (!provisional_ && (s == tip() || state_.left_mesh))) return;
   if (provisional_) roll_back(*provisional_);
@@ -163,7 +188,7 @@ void Incision::check_progress() const {
 
 void Incision::mend(const CutMesh::Checkpoint& since) {
   mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, 5 * asked_));
-  mend_slivers(mesh_, mesh_.changed_since(since), 2 * asked_, chord_tolerance_ / 10);
+  bent_ |= mend_slivers(mesh_, mesh_.changed_since(since), 2 * asked_, chord_tolerance_ / 10);
   const double least = 1e-4 * std::min(0.1, worst_before_);
   for (const int t : mesh_.changed_since(since))
     if (mesh_.triangle(t).region == Region::skin && radius_ratio(mesh_, t) < least)

@@ -30,6 +30,7 @@ struct IncisionOptions {
   /// How far over the skin beside the path, and beyond its ends, a field may move vertices: the less, the
   /// sooner the cut begins. 0: nothing will be moved.
   double reach = std::numeric_limits<double>::infinity();
+  double refined = std::numeric_limits<double>::infinity();  ///< how much of the path, from its start
 };
 
 class Incision {
@@ -44,6 +45,13 @@ class Incision {
   /// in many gives the same mesh. Throws InputError where the path cannot go on (a place that is not a
   /// manifold, a surface that turns away from N) and leaves the mesh as cut until there.
   void advance_to(double s);
+
+  /// For a blade whose way is found as it goes. The path leads to `next` from where it led to before, and
+  /// straight on; triangles there become small, what lies beside it is found again as far as `ahead` beyond,
+  /// and the blade cuts on to `next`. Errors as advance_to; where the direction is none the path stays.
+  void lead_on(const ScalpelPath::Point& next, double ahead);
+  /// Where the path leads by now, beyond which it goes straight on.
+  double led() const { return led_; }
 
   /// Takes the whole cut back, refinement included, and makes it again: both bit for bit.
   void undo();
@@ -60,6 +68,8 @@ class Incision {
   bool left_mesh() const { return state_.left_mesh; }
   int original_triangles() const { return original_triangles_; }
   int moved_vertices() const;
+  /// Whether slivers were mended across a bend, which moves the surface by up to chord_tolerance / 10.
+  bool bent() const { return bent_; }
 
   /// The triangles that the last advance_to, undo or redo has changed, added or taken away (the latter are
   /// out of range), in no order: what a structure over the mesh's triangles has to take in again.
@@ -111,6 +121,7 @@ class Incision {
   };
   Track entered(const std::vector<int>& fan, double size, double limit) const;
   Track follow(int vertex, double s) const;
+  int triangle_ahead() const;
   Step crossing(const Track& track) const;
   Step shorter(const Step& step, double to) const;
   Step step_at(const Track& track) const;
@@ -122,6 +133,7 @@ class Incision {
   int tip_vertex() const { return state_.from >= 0 ? state_.from : chain_.back().left; }
 
   // Changing the mesh: incision.cpp.
+  void cut_on_to(double s);
   void take(const Step& step);
   int realise(const Step& step);
   bool made_room(const Step& step);
@@ -137,11 +149,13 @@ class Incision {
   IncisionOptions options_;
   CutMesh::Checkpoint before_cut_;
   int cut_;
-  double chord_tolerance_, longest_step_;
+  double chord_tolerance_, longest_step_, max_edge_;
+  double led_ = 0;
   int original_triangles_;
   double worst_before_;  // radius ratio
   double asked_;         // radius ratio of triangles that the cut makes, at least
   int rows_ = 3;
+  bool bent_ = false;
   std::vector<ChainVertex> chain_;
   Surroundings surroundings_;
 

@@ -51,6 +51,12 @@ Incision::Track Incision::entered(const std::vector<int>& fan, double size, doub
   return {};
 }
 
+/// That the path enters from the tip; -1: none.
+int Incision::triangle_ahead() const {
+  const std::vector<int> fan = mesh_.skin_fan(tip_vertex());
+  return entered(fan, mean_spoke(mesh_, fan, tip_vertex()), path_.length()).triangle;
+}
+
 Incision::Track Incision::follow(int vertex, double limit) const {
   const std::vector<int> fan = mesh_.skin_fan(vertex);
   const double size = mean_spoke(mesh_, fan, vertex);

@@ -39,7 +39,16 @@ IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, dou
   find_room();
 }
 
+void IncisionVolume::follow_path() {
+  const auto& found = incision_.surroundings().labels();
+  labels_.resize(std::max(labels_.size(), found.size()));
+  for (const int v : incision_.surroundings().relabelled()) labels_[v] = found[v];
+  find_normals();
+  find_room();
+}
+
 void IncisionVolume::find_room() {
+  for (auto& side : room_) side.clear();
   constexpr int pieces = 128;
   for (int i = 0; i <= pieces; ++i)
     for (const bool right : {false, true})
@@ -63,16 +72,7 @@ void IncisionVolume::take_in(const std::vector<int>& vertices) {
   labels_.resize(std::max(mesh.vertices().size(), incision_.surroundings().labels().size()));
   for (const int v : vertices) {
     if (static_cast<std::size_t>(v) < incision_.surroundings().labels().size()) continue;
-    Surroundings::Label mean{0, Side::both, true};
-    int left = 0, right = 0;
-    for (const int parent : mesh.vertex(v).parents) {
-      const Surroundings::Label& label = labels_[parent];
-      mean.reached = mean.reached && label.reached;
-      mean.detour += label.detour / 3;
-      left += label.side == Side::left, right += label.side == Side::right;
-    }
-    mean.side = left > 0 && right == 0 ? Side::left : right > 0 && left == 0 ? Side::right : Side::both;
-    labels_[v] = mean;
+    labels_[v] = Surroundings::of_parents(mesh, v, labels_);
   }
 }
 
@@ -80,6 +80,7 @@ void IncisionVolume::take_in(const std::vector<int>& vertices) {
 /// under it, as far along as the cut is deep. The blade may be tilted against it; the field is not.
 void IncisionVolume::find_normals() {
   const auto& stations = incision_.surroundings().stations();
+  station_.clear(), normal_.clear();
   const double reach = std::max(field_.cut().depth / scale_, 1e-3 * incision_.path().length());
   for (const auto& at : stations) {
     Vec3 sum = 1e-9 * at.length * at.normal;

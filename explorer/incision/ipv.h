@@ -55,6 +55,9 @@ class IncisionVolume {
   /// To be told of the vertices of changed triangles, and of those that are new, sorted, after every change
   /// of the mesh.
   void take_in(const std::vector<int>& vertices);
+  /// To be told when the incision's path was led on, before take_in(): the surroundings' relabelled() lie
+  /// elsewhere.
+  void follow_path();
 
   /// Where a vertex lies, if the field reaches it.
   std::optional<ActiveVertex> locate(int vertex) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -44,42 +45,58 @@ bool split_on_the_way(CutMesh& mesh, int t, int parted[2]) {
   return true;
 }
 
-}  // namespace
-
-void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double max_edge, double band) {
-  std::vector<Vec3> line;
-  for (int i = 0; i <= 128; ++i) {
-    const PathFrame frame = path.at(path.length() * i / 128);
-    line.push_back(frame.position + height * frame.outward);
+/// How long edges may be near a piece of the path.
+class EdgeLimit {
+ public:
+  EdgeLimit(const CutMesh& mesh, const ScalpelPath& path, double from, double to, double height,
+            double max_edge, double band)
+      : mesh_(mesh), max_edge_(max_edge), band_(band) {
+    for (int i = 0; i <= 128; ++i) {
+      const PathFrame frame = path.at(from + (to - from) * i / 128);
+      line_.push_back(frame.position + height * frame.outward);
+    }
+    low_ = high_ = line_[0];
+    for (const Vec3& p : line_)
+      for (int k = 0; k < 3; ++k) low_[k] = std::min(low_[k], p[k]), high_[k] = std::max(high_[k], p[k]);
   }
-  Vec3 low = line[0], high = low;
-  for (const Vec3& p : line)
-    for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
-  const auto distance_to_line = [&](const Vec3& x) {
-    double least = squared_norm(x - line[0]);
-    for (const Vec3& p : line) least = std::min(least, squared_norm(x - p));
-    return std::sqrt(least);
-  };
-  const auto too_long = [&](int t) {
-    const auto& corners = mesh.triangle(t).vertex;
-    const double longest = edge_length(mesh, t, longest_edge(mesh, t));
-    if (longest <= max_edge) return false;
-    const Vec3 middle =
-        1. / 3 * (mesh.position(corners[0]) + mesh.position(corners[1]) + mesh.position(corners[2]));
+
+  bool too_long(int t) const {
+    const double longest = edge_length(mesh_, t, longest_edge(mesh_, t));
+    if (longest <= max_edge_) return false;
+    const Vec3 middle = middle_of(t);
     double outside = 0;  // of the path's box: a cheap lower bound of the distance
-    for (int k = 0; k < 3; ++k) outside = std::max({outside, low[k] - middle[k], middle[k] - high[k]});
+    for (int k = 0; k < 3; ++k) outside = std::max({outside, low_[k] - middle[k], middle[k] - high_[k]});
     const auto limit = [&](double distance) {
-      return max_edge * (1 + 3 * std::max(0.0, (distance - longest / 2) / band - 1));
+      return max_edge_ * (1 + 3 * std::max(0.0, (distance - longest / 2) / band_ - 1));
     };
     return longest > limit(outside) && longest > limit(distance_to_line(middle));
-  };
+  }
 
-  std::vector<int> work;
-  for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t)
-    if (mesh.is_skin(t) && too_long(t)) work.push_back(t);
+  bool near(int t) const {
+    return distance_to_line(middle_of(t)) < 2 * band_ + edge_length(mesh_, t, longest_edge(mesh_, t));
+  }
+
+ private:
+  Vec3 middle_of(int t) const {
+    const auto& corners = mesh_.triangle(t).vertex;
+    return 1. / 3 * (mesh_.position(corners[0]) + mesh_.position(corners[1]) + mesh_.position(corners[2]));
+  }
+  double distance_to_line(const Vec3& x) const {
+    double least = squared_norm(x - line_[0]);
+    for (const Vec3& p : line_) least = std::min(least, squared_norm(x - p));
+    return std::sqrt(least);
+  }
+
+  const CutMesh& mesh_;
+  double max_edge_, band_;
+  std::vector<Vec3> line_;
+  Vec3 low_, high_;
+};
+
+void bisect_all(CutMesh& mesh, const EdgeLimit& limit, std::vector<int> work) {
   while (!work.empty()) {
     const int t = work.back();
-    if (!too_long(t)) {
+    if (!limit.too_long(t)) {
       work.pop_back();
       continue;
     }
@@ -94,6 +111,32 @@ void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double 
     for (int n = first_new; n < static_cast<int>(mesh.triangles().size()); ++n)
       if (mesh.is_skin(n)) work.push_back(n);
   }
+}
+
+}  // namespace
+
+void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double max_edge, double band) {
+  const EdgeLimit limit(mesh, path, 0, path.length(), height, max_edge, band);
+  std::vector<int> work;
+  for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t)
+    if (mesh.is_skin(t) && limit.too_long(t)) work.push_back(t);
+  bisect_all(mesh, limit, std::move(work));
+}
+
+void refine_along(CutMesh& mesh, const ScalpelPath& path, double from, double to,
+                  const std::vector<int>& seeds, double height, double max_edge, double band) {
+  const EdgeLimit limit(mesh, path, from, to, height, max_edge, band);
+  std::vector<int> near, work;
+  std::set<int> known;
+  const auto take = [&](int t) {
+    if (mesh.is_skin(t) && limit.near(t) && known.insert(t).second) near.push_back(t);
+  };
+  for (const int t : seeds) take(t);
+  for (std::size_t k = 0; k < near.size(); ++k)
+    for (const int other : mesh.triangle(near[k]).neighbor) take(other);
+  for (const int t : near)
+    if (limit.too_long(t)) work.push_back(t);
+  bisect_all(mesh, limit, std::move(work));
 }
 
 double longest_edge_length(const CutMesh& mesh, int t) { return edge_length(mesh, t, longest_edge(mesh, t)); }

@@ -1,6 +1,8 @@
 // Smaller triangles near the path, before it is cut: a smooth wound needs triangles smaller than the wound.
 #pragma once
 
+#include <vector>
+
 #include "explorer/incision/cut_mesh.h"
 #include "explorer/incision/scalpel_path.h"
 
@@ -11,6 +13,10 @@ namespace cleft {
 /// `max_edge`. Beyond the band the limit grows with the distance. `height` is that of the skin over the path.
 /// The surface itself does not change.
 void refine_along(CutMesh& mesh, const ScalpelPath& path, double height, double max_edge, double band);
+/// The same along the path from one place to another, of what the skin joins to `seeds` there: the work does
+/// not grow with the mesh.
+void refine_along(CutMesh& mesh, const ScalpelPath& path, double from, double to,
+                  const std::vector<int>& seeds, double height, double max_edge, double band);
 
 /// Bisects triangle t, and first those across ever longer edges that stand in the way. False where an edge
 /// that is not manifold does.

@@ -137,20 +137,67 @@ std::size_t ScalpelPath::interval(double s) const {
   return static_cast<std::size_t>(next - samples_.begin()) - 1;
 }
 
-PathFrame ScalpelPath::at(double s) const {
+/// Within [0, length()]; its tangent is no unit vector.
+ScalpelPath::Sample ScalpelPath::sample_at(double s) const {
   const std::size_t i = interval(s);
   const Sample &p = samples_[i], &q = samples_[i + 1];
   const double h = q.s - p.s, a = std::clamp((s - p.s) / h, 0.0, 1.0), b = 1 - a;
+  return {std::clamp(s, 0.0, length()),
+          b * b * (1 + 2 * a) * p.position + a * a * (3 - 2 * a) * q.position +
+              a * b * h * (b * p.tangent - a * q.tangent),
+          (6 * a * b / h) * (q.position - p.position) + (b * (b - 2 * a)) * p.tangent +
+              (a * (a - 2 * b)) * q.tangent,
+          normalized(lerp(p.outward, q.outward, a)), b * p.depth + a * q.depth};
+}
+
+PathFrame ScalpelPath::at(double s) const {
+  const Sample here = sample_at(s);
   PathFrame frame;
-  frame.position = b * b * (1 + 2 * a) * p.position + a * a * (3 - 2 * a) * q.position +
-                   a * b * h * (b * p.tangent - a * q.tangent);
-  Vec3 tangent = (6 * a * b / h) * (q.position - p.position) + (b * (b - 2 * a)) * p.tangent +
-                 (a * (a - 2 * b)) * q.tangent;
-  frame.outward = normalized(lerp(p.outward, q.outward, a));
-  frame.along = normalized(tangent - dot(tangent, frame.outward) * frame.outward);
+  frame.position = here.position;
+  frame.outward = here.outward;
+  frame.along = normalized(here.tangent - dot(here.tangent, frame.outward) * frame.outward);
   frame.across = cross(frame.outward, frame.along);
   frame.position += (s - std::clamp(s, 0.0, length())) * frame.along;
   return frame;
+}
+
+double ScalpelPath::lead_on(double s, const Point& next, double beyond) {
+  constexpr int pieces = 4, parts = 8, pieces_beyond = 16;
+  Sample from = sample_at(s);
+  from.tangent = normalized(from.tangent);
+  const Vec3 way = next.position - from.position;
+  const double chord = norm(way);
+  if (!(chord > 1e-9 * length())) throw InputError("a scalpel path: the next place is the one before");
+  Sample to{0, next.position, {}, normalized(next.outward), next.depth};
+  // Half of what makes it a circle's arc: a hand's tremor then fades, where it would swing on.
+  to.tangent = normalized(1.5 / chord * way - 0.5 * from.tangent);
+  if (norm(cross(to.tangent, to.outward)) < 0.05)
+    throw InputError("a scalpel path: near arc length " + shortest(s) +
+                     " its direction runs along the path; it must point out of the surface");
+  std::vector<Sample> added{from};
+  const auto place = [&](double a) {
+    const double b = 1 - a;
+    return b * b * (1 + 2 * a) * from.position + a * a * (3 - 2 * a) * to.position +
+           a * b * chord * (b * from.tangent - a * to.tangent);
+  };
+  for (int k = 1; k <= pieces * parts; ++k) {
+    const double a = double(k) / (pieces * parts), b = 1 - a;
+    s += norm(place(a) - place(a - 1. / (pieces * parts)));
+    if (k % parts != 0) continue;
+    const Vec3 tangent =
+        6 * a * b * way + chord * (b * (b - 2 * a) * from.tangent + a * (a - 2 * b) * to.tangent);
+    added.push_back({s, place(a), normalized(tangent), normalized(lerp(from.outward, to.outward, a)),
+                     b * from.depth + a * to.depth});
+  }
+  for (int k = 1; k <= pieces_beyond; ++k) {
+    Sample ahead = added.back();
+    ahead.s += beyond / pieces_beyond;
+    ahead.position += beyond / pieces_beyond * ahead.tangent;
+    added.push_back(ahead);
+  }
+  while (!samples_.empty() && samples_.back().s >= from.s - 1e-9 * (1 + from.s)) samples_.pop_back();
+  samples_.insert(samples_.end(), added.begin(), added.end());
+  return s;
 }
 
 double ScalpelPath::room_beside(double s, bool right) const {

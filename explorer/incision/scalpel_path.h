@@ -37,6 +37,11 @@ class ScalpelPath {
 
   double length() const { return samples_.back().s; }
 
+  /// For a blade whose way is not known before: keeps the path up to s, goes from there smoothly to `next`,
+  /// and straight on for `beyond`. Returns the arc length of `next`. Throws InputError where the direction
+  /// runs along the path, and leaves it as it was.
+  double lead_on(double s, const Point& next, double beyond);
+
   /// The frame at arc length s; before 0 and beyond length() straight on along T.
   PathFrame at(double s) const;
 
@@ -62,6 +67,7 @@ class ScalpelPath {
     double depth;
   };
   std::size_t interval(double s) const;
+  Sample sample_at(double s) const;
 
   std::vector<Sample> samples_;  // cubic Hermite between them; several to each input segment
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <queue>
+#include <span>
 #include <tuple>
 
 namespace cleft {
@@ -32,8 +33,9 @@ struct Corner {
 /// The zero of v on the surface, from triangle to triangle.
 class Trace {
  public:
-  Trace(const CutMesh& mesh, const ScalpelPath& path, double reach)
-      : mesh_(mesh), path_(path), reach_(reach) {}
+  /// Between these places of the path.
+  Trace(const CutMesh& mesh, const ScalpelPath& path, double first, double last)
+      : mesh_(mesh), path_(path), first_(first), last_(last) {}
 
   /// From triangle t on, where the path passes it near s, ahead or back. False where it does not pass.
   bool follow(int t, double s, bool ahead) {
@@ -45,7 +47,7 @@ class Trace {
       const double now = ahead ? s : -s;
       stuck = now > farthest ? 0 : stuck + 1;
       farthest = std::max(farthest, now);
-      if (stuck > 20 || s < -reach_ || s > path_.length() + reach_) break;
+      if (stuck > 20 || s < first_ || s > last_) break;
       t = skin_across(mesh_, t, *out);
     }
     return true;
@@ -88,7 +90,7 @@ class Trace {
 
   const CutMesh& mesh_;
   const ScalpelPath& path_;
-  double reach_;
+  double first_, last_;
 };
 
 /// The skin triangles around every vertex, by index into one list.
@@ -120,10 +122,85 @@ std::vector<int> across_wound(const CutMesh& mesh, int v) {
 
 }  // namespace
 
+/// Nearest first over the skin (Dijkstra), by lengths across the path.
+class Surroundings::Front {
+ public:
+  /// Over vertices beside the path from one place to another.
+  Front(Surroundings& around, const CutMesh& mesh, const ScalpelPath& path, double first, double last)
+      : around_(around),
+        mesh_(mesh),
+        path_(path),
+        first_(first),
+        last_(last),
+        known_(mesh.vertices().size()) {}
+
+  void begin(const std::vector<Corner>& trace) {
+    const double tiny = 1e-9 * path_.length();
+    for (const Corner& c : trace)
+      front_.push({std::abs(c.at.v), c.vertex, side_of(std::abs(c.at.v) <= tiny ? 0 : c.at.v)});
+  }
+  /// A way on from a vertex, `distance` from the path, to one beside it.
+  void go_on(double distance, int from, int next, Side side) {
+    if (around_.labels_[next].reached || !inside(next)) return;
+    const Known &a = known(from), &b = known(next);
+    const double edge = norm(mesh_.position(next) - mesh_.position(from));
+    front_.push({distance + std::min(edge, std::hypot(a.v - b.v, a.w - b.w)), next, side});
+  }
+  /// `triangles_of(v)`: those of the skin around v.
+  template <class TrianglesOf>
+  void spread(const TrianglesOf& triangles_of) {
+    while (!front_.empty()) {
+      const auto [distance, v, side] = front_.top();
+      front_.pop();
+      Label& label = around_.labels_[v];
+      if (label.reached || distance > around_.reach_ || !inside(v)) continue;
+      const double detour = distance - std::abs(known(v).v);
+      label = {detour > 1e-9 * (distance + path_.length()) ? detour : 0, static_cast<float>(known(v).s), side,
+               true};
+      around_.reached_.push_back(v);
+      for (const int t : triangles_of(v))
+        for (const int next : mesh_.triangle(t).vertex) go_on(distance, v, next, side);
+      for (const int other : across_wound(mesh_, v))
+        if (!around_.labels_[other].reached) front_.push({distance, other, side});
+    }
+  }
+  double straight(int v) { return std::abs(known(v).v); }
+
+ private:
+  struct Known {
+    double s, v, w;
+  };
+  bool inside(int v) { return known(v).s >= first_ && known(v).s <= last_; }
+  const Known& known(int v) {
+    if (known_[v]) return *known_[v];
+    const auto& stations = around_.stations_;
+    const PathCoordinates at = path_.coordinates(mesh_.position(v));
+    const auto after = std::lower_bound(stations.begin(), stations.end(), at.s,
+                                        [](const Station& a, double s) { return a.s < s; });
+    double height = 0;
+    if (!stations.empty()) {
+      const auto next = std::min(after, stations.end() - 1),
+                 last = after == stations.begin() ? after : after - 1;
+      const double part = next->s > last->s ? std::clamp((at.s - last->s) / (next->s - last->s), 0., 1.) : 0;
+      height = (1 - part) * last->height + part * next->height;
+    }
+    known_[v] = Known{at.s, at.v, at.w - height};
+    return *known_[v];
+  }
+
+  Surroundings& around_;
+  const CutMesh& mesh_;
+  const ScalpelPath& path_;
+  double first_, last_;
+  std::vector<std::optional<Known>> known_;
+  using Entry = std::tuple<double, int, Side>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front_;
+};
+
 Surroundings::Surroundings(const CutMesh& mesh, const ScalpelPath& path, const std::vector<int>& seeds,
                            double reach)
     : reach_(reach) {
-  Trace trace(mesh, path, reach);
+  Trace trace(mesh, path, -reach, path.length() + reach);
   for (const int seed : seeds)
     if (trace.follow(seed, 0, true)) {
       trace.follow(seed, 0, false);
@@ -132,52 +209,70 @@ Surroundings::Surroundings(const CutMesh& mesh, const ScalpelPath& path, const s
   stations_ = std::move(trace.stations);
   std::sort(stations_.begin(), stations_.end(), [](const Station& a, const Station& b) { return a.s < b.s; });
   labels_.resize(mesh.vertices().size());
-
-  // Nearest first over the skin (Dijkstra), by lengths across the path.
-  struct Known {
-    double v, w;
-  };
-  std::vector<std::optional<Known>> known(labels_.size());
-  const auto across = [&](int i) {
-    if (!known[i]) {
-      const PathCoordinates at = path.coordinates(mesh.position(i));
-      const auto after = std::lower_bound(stations_.begin(), stations_.end(), at.s,
-                                          [](const Station& a, double s) { return a.s < s; });
-      double height = 0;
-      if (!stations_.empty()) {
-        const auto next = std::min(after, stations_.end() - 1),
-                   last = after == stations_.begin() ? after : after - 1;
-        const double part =
-            next->s > last->s ? std::clamp((at.s - last->s) / (next->s - last->s), 0., 1.) : 0;
-        height = (1 - part) * last->height + part * next->height;
-      }
-      const bool inside = at.s >= -reach_ && at.s <= path.length() + reach_;
-      known[i] = {inside ? at.v : std::numeric_limits<double>::infinity(), at.w - height};
-    }
-    return *known[i];
-  };
-  using Entry = std::tuple<double, int, Side>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  const double tiny = 1e-9 * path.length();
-  for (const Corner& c : trace.corners)
-    front.push({std::abs(c.at.v), c.vertex, side_of(std::abs(c.at.v) <= tiny ? 0 : c.at.v)});
+  Front front(*this, mesh, path, -reach, path.length() + reach);
+  front.begin(trace.corners);
   const Star star(mesh);
-  while (!front.empty()) {
-    const auto [distance, v, side] = front.top();
-    front.pop();
-    if (labels_[v].reached || distance > reach_ || std::isinf(across(v).v)) continue;
-    const double straight = std::abs(across(v).v), detour = distance - straight;
-    labels_[v] = {detour > 1e-9 * (distance + path.length()) ? detour : 0, side, true};
-    for (int k = star.first[v]; k < star.first[v + 1]; ++k)
-      for (const int next : mesh.triangle(star.triangles[k]).vertex) {
-        if (labels_[next].reached || std::isinf(across(next).v)) continue;
-        const Known &a = across(v), &b = across(next);
-        const double edge = norm(mesh.position(next) - mesh.position(v));
-        front.push({distance + std::min(edge, std::hypot(a.v - b.v, a.w - b.w)), next, side});
-      }
-    for (const int other : across_wound(mesh, v))
-      if (!labels_[other].reached) front.push({distance, other, side});
+  front.spread([&](int v) {
+    return std::span(star.triangles).subspan(star.first[v], star.first[v + 1] - star.first[v]);
+  });
+}
+
+Surroundings::Label Surroundings::of_parents(const CutMesh& mesh, int vertex,
+                                             const std::vector<Label>& labels) {
+  Label mean{0, 0, Side::both, true};
+  int left = 0, right = 0;
+  for (const int parent : mesh.vertex(vertex).parents) {
+    const Label& label = labels[parent];
+    mean.reached = mean.reached && label.reached;
+    mean.detour += label.detour / 3;
+    mean.s += label.s / 3;
+    left += label.side == Side::left, right += label.side == Side::right;
   }
+  mean.side = left > 0 && right == 0 ? Side::left : right > 0 && left == 0 ? Side::right : Side::both;
+  return mean;
+}
+
+/// Forgets what lay beside the path beyond.
+void Surroundings::keep_until(double from) {
+  std::erase_if(stations_, [&](const Station& s) { return s.s > from; });
+  relabelled_.clear();
+  for (const int v : reached_) {
+    if (labels_[v].s <= from) continue;
+    relabelled_.push_back(v);
+    labels_[v] = {};
+  }
+  reached_.clear();
+}
+
+void Surroundings::lead_on(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead,
+                           int seed) {
+  const auto before = static_cast<int>(labels_.size()), now = static_cast<int>(mesh.vertices().size());
+  keep_until(from);
+  labels_.resize(static_cast<std::size_t>(now));
+  Trace trace(mesh, path, from - reach_, from + ahead);
+  trace.follow(seed, from, true);
+  std::sort(trace.stations.begin(), trace.stations.end(),
+            [](const Station& a, const Station& b) { return a.s < b.s; });
+  for (const Station& s : trace.stations)
+    if (stations_.empty() || s.s > stations_.back().s) stations_.push_back(s);
+  Front front(*this, mesh, path, from, from + ahead);
+  front.begin(trace.corners);
+  const auto begin_from_neighbors = [&](int v) {
+    for (const int t : mesh.skin_fan(v))
+      for (const int u : mesh.triangle(t).vertex)
+        if (labels_[u].reached && labels_[u].side != Side::both)  // in the blade's way there is no side
+          front.go_on(front.straight(u) + labels_[u].detour, u, v, labels_[u].side);
+  };
+  for (const int v : relabelled_) begin_from_neighbors(v);
+  for (int v = before; v < now; ++v)
+    if (mesh.vertex(v).kind == VertexKind::skin) begin_from_neighbors(v);
+  front.spread([&](int v) { return mesh.skin_fan(v); });
+  for (int v = before; v < now; ++v)
+    if (!labels_[v].reached) labels_[v] = of_parents(mesh, v, labels_);
+  relabelled_.insert(relabelled_.end(), reached_.begin(), reached_.end());
+  for (int v = before; v < now; ++v) relabelled_.push_back(v);
+  std::sort(relabelled_.begin(), relabelled_.end());
+  relabelled_.erase(std::unique(relabelled_.begin(), relabelled_.end()), relabelled_.end());
 }
 
 }  // namespace cleft

@@ -35,7 +35,8 @@ double ratio_after_flip(const CutMesh& mesh, int t, int i, double bend) {
   return std::min(radius_ratio(a, d, c), radius_ratio(d, b, c));
 }
 
-bool flip_best(CutMesh& mesh, int t, double bend) {
+/// `bent` becomes true where the surface was not flat there.
+bool flip_best(CutMesh& mesh, int t, double bend, bool& bent) {
   int best = -1;
   double most = 0;
   for (int i = 0; i < 3; ++i) {
@@ -44,8 +45,10 @@ bool flip_best(CutMesh& mesh, int t, double bend) {
     const double before = std::min(radius_ratio(mesh, t), radius_ratio(mesh, mesh.triangle(t).neighbor[i]));
     if (after > 1.2 * before && after > most) most = after, best = i;
   }
-  if (best >= 0) mesh.flip_edge(t, best);
-  return best >= 0;
+  if (best < 0) return false;
+  if (bend > 0 && ratio_after_flip(mesh, t, best, 0) <= 0) bent = true;
+  mesh.flip_edge(t, best);
+  return true;
 }
 
 /// The longest edge of t that is no lip: a new vertex at the foot of its height, or in its middle.
@@ -111,21 +114,23 @@ double smallest_given_radius_ratio(const CutMesh& mesh) {
   return least;
 }
 
-void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend) {
+bool mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend) {
   std::vector<int> work = triangles;
+  bool bent = false;
   for (std::size_t changes = 0, most = 3 * triangles.size() + 12; !work.empty() && changes < most;) {
     const int t = work.back();
     work.pop_back();
     if (!mesh.is_skin(t) || radius_ratio(mesh, t) >= target) continue;
     const std::size_t first_new = mesh.triangles().size();
     const auto neighbors = mesh.triangle(t).neighbor;
-    if (!flip_best(mesh, t, bend) && !split_longest(mesh, t)) continue;
+    if (!flip_best(mesh, t, bend, bent) && !split_longest(mesh, t)) continue;
     ++changes;
     work.insert(work.begin(), neighbors.begin(), neighbors.end());
     work.insert(work.begin(), t);
     for (std::size_t n = first_new; n < mesh.triangles().size(); ++n)
       work.insert(work.begin(), static_cast<int>(n));
   }
+  return bent;
 }
 
 }  // namespace cleft

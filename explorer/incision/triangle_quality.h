@@ -16,7 +16,8 @@ double smallest_given_radius_ratio(const CutMesh& mesh);
 
 /// Mends the skin's triangles among `triangles`, and those made on the way, whose radius ratio is below
 /// `target`: by flipping an edge where that moves the surface by no more than `bend`, else by splitting the
-/// longest edge. Stops after a number of changes in proportion to the triangles given.
-void mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend = 0);
+/// longest edge. Stops after a number of changes in proportion to the triangles given. Returns whether the
+/// surface has moved at all.
+bool mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend = 0);
 
 }  // namespace cleft

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "explorer/incision/incision.h"
+#include "explorer/scene/wound_scene.h"
 
 namespace cleft {
 
@@ -24,5 +25,8 @@ class CutSurface {
   int original_points_;
   std::vector<std::unique_ptr<Incision>> cuts_;
 };
+
+/// The mesh as views draw it, with its cuts, at rest; where the camera looks is not said.
+WoundSurface wound_surface_of(const CutMesh& mesh, int original_points);
 
 }  // namespace cleft

@@ -1,6 +1,7 @@
 #include "explorer/scene/live_replay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace cleft {
@@ -50,6 +51,8 @@ void LiveReplay::follow() {
   }
   rest_.resize(count + 1), position_.resize(count + 1);
   slots_.resize(std::max(slots_.size(), count + 1));  // those of former vertices remember their versions
+  const bool led = incision_.led() > led_;
+  if (led) volume_.follow_path();
   volume_.take_in(changed);
   for (const int v : changed) {
     const auto at = static_cast<std::size_t>(v) + 1;
@@ -58,7 +61,28 @@ void LiveReplay::follow() {
     touched_.push_back(v);
     if (!undone_) place(v);
   }
+  if (led) follow_path(changed);
+  led_ = incision_.led();
   enter();
+}
+
+/// Those beside the path's new piece that have lain elsewhere.
+void LiveReplay::follow_path(const std::vector<int>& changed) {
+  placed_.resize(std::max(placed_.size(), slots_.size()));
+  for (const int v : incision_.surroundings().relabelled()) {
+    if (std::binary_search(changed.begin(), changed.end(), v)) continue;
+    const auto number = static_cast<std::size_t>(v) + 1;
+    const auto at = volume_.locate(v);
+    const Placed& was = placed_[number];
+    if (at.has_value() == was.anywhere &&
+        (!at || (at->side == was.side && std::hypot(at->s - was.s, at->uvw.y - was.across) < misplaced &&
+                 norm(at->along - was.along) < 0.1)))
+      continue;
+    leave(v);
+    position_[number] = rest_[number];
+    touched_.push_back(v);
+    take_place(v, at);
+  }
 }
 
 /// Vertices that a step took away are nobody's.
@@ -77,9 +101,15 @@ void LiveReplay::leave(int vertex) {
   --active_;
 }
 
-void LiveReplay::place(int vertex) {
-  if (const auto at = volume_.locate(vertex))
-    waiting_.push({-at->time_offset, vertex, slots_[static_cast<std::size_t>(vertex) + 1].version});
+void LiveReplay::place(int vertex) { take_place(vertex, volume_.locate(vertex)); }
+
+void LiveReplay::take_place(int vertex, const std::optional<ActiveVertex>& at) {
+  if (incision_.led() > 0) {
+    placed_.resize(std::max(placed_.size(), slots_.size()));
+    placed_[static_cast<std::size_t>(vertex) + 1] =
+        at ? Placed{true, at->side, at->s, at->uvw.y, at->along} : Placed{};
+  }
+  if (at) waiting_.push({-at->time_offset, vertex, slots_[static_cast<std::size_t>(vertex) + 1].version});
 }
 
 /// All whose own time has begun.
@@ -87,8 +117,8 @@ void LiveReplay::enter() {
   entering_.clear();
   for (; !waiting_.empty() && waiting_.top().enters <= blade_; waiting_.pop()) {
     const auto& [enters, vertex, version] = waiting_.top();
-    if (slots_[static_cast<std::size_t>(vertex) + 1].version == version)
-      entering_.push_back(*volume_.locate(vertex));
+    if (slots_[static_cast<std::size_t>(vertex) + 1].version != version) continue;
+    if (const auto at = volume_.locate(vertex)) entering_.push_back(*at);
   }
   if (entering_.empty()) return;
   Contractor::sort(entering_);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <queue>
 #include <vector>
 
@@ -19,7 +20,9 @@ class LiveReplay {
   /// `scale`: mm per mesh unit.
   LiveReplay(const VaryingField& field, const Incision& incision, double scale);
 
-  /// To be called after every advance_to, undo and redo of the incision.
+  /// To be called after every advance_to, lead_on, undo and redo of the incision, and of later ones in its
+  /// mesh. Where the path was led on, vertices stay where they were taken to lie until that was wrong by
+  /// `misplaced`.
   void follow();
   /// The blade is at s mm of the path.
   void move_to(double s);
@@ -46,6 +49,14 @@ class LiveReplay {
     int batch = -1, index = 0;
     std::uint32_t version = 0;  ///< of its place: what waits for an older one is forgotten
   };
+  /// Where a vertex was taken to lie.
+  struct Placed {
+    bool anywhere = false;
+    Side side = Side::both;
+    double s = 0, across = 0;  // mm
+    Vec3 along;
+  };
+  static constexpr double misplaced = 0.25;  // mm
   struct Waiting {
     double enters;  ///< mm of the path
     int vertex;
@@ -54,18 +65,21 @@ class LiveReplay {
   };
 
   std::vector<int> changed_vertices();
+  void follow_path(const std::vector<int>& changed);
   void leave(int vertex);
   void place(int vertex);
+  void take_place(int vertex, const std::optional<ActiveVertex>& at);
   void enter();
   void shrink(std::size_t vertices);
 
   const Incision& incision_;
-  double scale_, blade_ = 0;
+  double scale_, blade_ = 0, led_ = 0;
   bool undone_ = false;
   Contractor contractor_;
   IncisionVolume volume_;
   std::vector<Vec3> rest_, position_;  // number 0 is nobody's: it takes what is computed for those that left
   std::vector<Slot> slots_;
+  std::vector<Placed> placed_;  // of a path that is led on
   std::vector<Batch> batches_;
   std::priority_queue<Waiting> waiting_;
   std::vector<ActiveVertex> entering_;

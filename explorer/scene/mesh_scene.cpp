@@ -12,15 +12,7 @@ MeshScene::MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<
     duration_ += incision->path().length();
   }
   if (!cuts.empty()) wounds_ = std::make_unique<Wounds>(std::move(cuts), 1);
-  surface_.original_points = cut_->original_points();
-  for (const CutMesh::Vertex& v : cut_->mesh().vertices()) {
-    surface_.points.push_back(v.position);
-    surface_.depth_fraction.push_back(v.depth_fraction);
-  }
-  for (const CutMesh::Triangle& t : cut_->mesh().triangles()) {
-    surface_.triangles.push_back(t.vertex);
-    surface_.regions.push_back(t.region);
-  }
+  surface_ = wound_surface_of(cut_->mesh(), cut_->original_points());
   aim_at_cuts();
 }
 

@@ -16,6 +16,7 @@ Stage::~Stage() { make_views(0); }
 
 void Stage::make_views(std::size_t count) {
   if (count == views_.size()) return;
+  scalpel_view_.reset();
   for (View& v : views_) {
     v.furniture.reset();
     window_->RemoveRenderer(v.view->renderer());
@@ -43,17 +44,38 @@ void Stage::show(Session& session) {
   make_views(cases.size());
   bool fresh = relaid;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const auto scene = session.scene_of(cases[i]);
+    const auto scene = scene_of(session, cases[i]);
     if (scene == scenes_[i]) continue;
     scenes_[i] = scene;
     views_[i].view->show(scene);
     fresh = true;
   }
   color(session, fresh);
-  for (View& v : views_)
-    if (fresh || v.view->time() != session.state().time) v.view->set_time(session.state().time);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    WoundView& view = *views_[i].view;
+    const double time = scenes_[i] == live_ ? scenes_[i]->duration() : session.state().time;
+    if (fresh || scenes_[i] == live_ || view.time() != time) view.set_time(time);
+    if (scenes_[i] == live_) draw_scalpel(view);
+  }
+  if (!scalpel_) scalpel_view_.reset();
   aim(session.state().camera, relaid);
   label(session);
+}
+
+void Stage::set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel) {
+  live_ = std::move(scene);
+  scalpel_.reset();
+  if (live_ && scalpel) scalpel_ = *scalpel;
+}
+
+std::shared_ptr<const WoundScene> Stage::scene_of(Session& session, int i) const {
+  return live_ && i == session.state().shown ? live_ : session.scene_of(i);
+}
+
+void Stage::draw_scalpel(const WoundView& view) {
+  if (!scalpel_) return;
+  if (!scalpel_view_) scalpel_view_ = std::make_unique<ScalpelView>(view.renderer());
+  scalpel_view_->move(scalpel_->pose, scalpel_->pose.tip);
 }
 
 void Stage::color(Session& session, bool fresh) {

@@ -9,7 +9,9 @@
 
 #include "explorer/scene/session/session.h"
 #include "explorer/view/furniture.h"
+#include "explorer/view/scalpel_view.h"
 #include "explorer/view/wound_view.h"
+#include "haptic/loop.h"
 
 namespace cleft {
 
@@ -20,6 +22,9 @@ class Stage {
 
   /// Makes everything as the session has it; what is so already is left alone.
   void show(Session& session);
+
+  /// Draws a scene in place of the shown case's, with a scalpel in it where there is one; null: no more.
+  void set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel);
 
   int views() const { return static_cast<int>(views_.size()); }
   WoundView& view(int i) { return *views_.at(static_cast<std::size_t>(i)).view; }
@@ -43,14 +48,19 @@ class Stage {
     Vec3 middle;
     bool dark = false;
   };
+  std::shared_ptr<const WoundScene> scene_of(Session& session, int shown) const;
   void make_views(std::size_t count);
   void color(Session& session, bool fresh);
   void aim(const CameraState& camera, bool fresh);
   void label(Session& session);
+  void draw_scalpel(const WoundView& view);
 
   vtkSmartPointer<vtkRenderWindow> window_;
   std::vector<View> views_;
   std::vector<std::shared_ptr<const WoundScene>> scenes_;
+  std::shared_ptr<const WoundScene> live_;
+  std::optional<HapticState> scalpel_;
+  std::unique_ptr<ScalpelView> scalpel_view_;
   Shown shown_;
 };
 

@@ -4,10 +4,21 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 
-#include <map>
-#include <tuple>
+#include <functional>
+#include <unordered_map>
 
 namespace cleft {
+
+namespace {
+
+struct HashOfPlace {
+  std::size_t operator()(const Vec3& x) const {
+    const std::hash<double> hash;
+    return (hash(x.x) * 1000003 ^ hash(x.y)) * 1000003 ^ hash(x.z);
+  }
+};
+
+}  // namespace
 
 SurfacePart::SurfacePart(const WoundSurface& surface, const std::function<bool(Region)>& belongs) {
   std::vector<int> number(surface.points.size(), -1);
@@ -30,10 +41,11 @@ SurfacePart::SurfacePart(const WoundSurface& surface, const std::function<bool(R
     triangles_.push_back(triangle);
   }
 
-  std::map<std::tuple<double, double, double>, int> at_rest;
+  std::unordered_map<Vec3, int, HashOfPlace> at_rest;
+  at_rest.reserve(source_.size());
   for (std::size_t v = 0; v < source_.size(); ++v) {
     const Vec3& x = surface.points[source_[v]];
-    const auto [first, fresh] = at_rest.try_emplace({x.x, x.y, x.z}, static_cast<int>(v));
+    const auto [first, fresh] = at_rest.try_emplace(x, static_cast<int>(v));
     if (!fresh) twins_.emplace_back(first->second, static_cast<int>(v));
   }
 

@@ -52,26 +52,26 @@ struct Trial {
   Phase last = Phase::cutting;
 };
 
-std::optional<CutFields> fields_of(const std::optional<Field>& field) {
+std::optional<CutFields> fields_of(const std::shared_ptr<const Field>& field) {
   if (!field) return std::nullopt;
-  return CutFields(std::make_shared<const Field>(*field));
+  return CutFields(field);
 }
 
-Trial cut(int rings, const std::optional<Field>& field, double depth) {
+Trial cut(int rings, const std::shared_ptr<const Field>& field, double depth) {
   // Poles beside the path.
   testing::Surface ball = testing::ball(rings, radius);
   SurfaceMesh mesh{ball.points, ball.triangles};
   for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
   const ScalpelPath path = path_over_the_ball(depth);
   const double speed = 40;
-  ScalpelCutting cutting(mesh, path, fields_of(field), 1);
+  ScalpelCutting cutting(mesh, {path, {}, fields_of(field), 1, 0});
   Hand hand({}, script(path, depth, speed));
   HapticLoop loop(hand, cutting.surface(), {});
   Trial trial;
   const double end = 1 + path.length() / speed;
   for (int tick = 0; loop.state().time < hand.duration(); ++tick) {
     loop.update(1e-3);
-    if (tick % 16 == 0) cutting.step(loop.for_cutting().read());
+    if (tick % 16 == 0) cutting.step(loop.for_cutting());
     const double t = loop.state().time;
     trial.left_early += t > 1 && t < end && loop.state().phase != Phase::cutting;
   }
@@ -87,7 +87,7 @@ Trial cut(int rings, const std::optional<Field>& field, double depth) {
 
 TEST(Cutting, TheWholePathIsCutOnMeshesOfAllSizes) {
   for (const int rings : {20, 54, 158}) {
-    const Trial trial = cut(rings, std::nullopt, 5);
+    const Trial trial = cut(rings, nullptr, 5);
     EXPECT_EQ(trial.punctures, 1) << rings;
     EXPECT_EQ(trial.left_early, 0) << rings;
     EXPECT_GT(trial.cut, 0.97 * path_over_the_ball(5).length()) << rings;
@@ -97,12 +97,12 @@ TEST(Cutting, TheWholePathIsCutOnMeshesOfAllSizes) {
 
 TEST(Cutting, TheWoundThatIsFeltIsTheOneThatIsSeen) {
   // What pictures are drawn from, histories over time, against the field evaluated as the scalpel goes.
-  const Field field = testing::opening_field({-20, 40, 5}, 80, 60, 10, 4);
+  const auto field = std::make_shared<Field>(testing::opening_field({-20, 40, 5}, 80, 60, 10, 4));
   testing::Surface ball = testing::ball(30, radius);
   SurfaceMesh mesh{ball.points, ball.triangles};
   for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
   const ScalpelPath path = path_over_the_ball(5);
-  ScalpelCutting cutting(mesh, path, fields_of(field), 1);
+  ScalpelCutting cutting(mesh, {path, {}, fields_of(field), 1, 0});
   HapticState scalpel;
   scalpel.phase = Phase::cutting;
   for (double s = 0; s < 25; s += 0.7) {
@@ -112,7 +112,7 @@ TEST(Cutting, TheWoundThatIsFeltIsTheOneThatIsSeen) {
   while (cutting.figures().waiting > 0) cutting.step(scalpel);
   const Incision& incision = *cutting.incision();
   ASSERT_GT(incision.tip(), 20);
-  const Replay replay(field, incision, 1);
+  const Replay replay(*field, incision, 1);
   std::vector<Vec3> seen(replay.vertex_count());
   replay.positions(incision.tip(), seen);
   double moved = 0;
@@ -120,14 +120,15 @@ TEST(Cutting, TheWoundThatIsFeltIsTheOneThatIsSeen) {
     moved = std::max(moved, norm(seen[v] - replay.rest()[v]));
     // Motions of 2 micrometres are not told; histories are as exact as the field says.
     ASSERT_LT(norm(seen[v] - cutting.surface().position(static_cast<int>(v))),
-              2.1e-3 + field.contraction_tolerance())
+              2.1e-3 + field->contraction_tolerance())
         << v;
   }
   EXPECT_GT(moved, 0.5);
 }
 
 TEST(Cutting, TheFieldOpensItBehindTheBlade) {
-  const Trial trial = cut(54, testing::opening_field({-20, 40, 5}, 80, 60, 10, 4), 5);
+  const Trial trial =
+      cut(54, std::make_shared<Field>(testing::opening_field({-20, 40, 5}, 80, 60, 10, 4)), 5);
   EXPECT_EQ(trial.punctures, 1);
   EXPECT_GT(trial.cut, 0.97 * path_over_the_ball(5).length());
   EXPECT_GT(trial.figures.open.count(), 50u);

@@ -155,6 +155,43 @@ TEST(Force, PunctureThresholdRampAndExit) {
   EXPECT_EQ(led.loop.state().phase, Phase::contact);
 }
 
+TEST(Force, OneLeapOutOfTheTissueIsOut) {
+  const auto s = testing::flat(20, 1);
+  const ContactSurface surface(s.points, s.triangles);
+  Led led(surface);
+  led.to({0.3, 0.2, 1});
+  led.go({0.3, 0.2, -5}, 20);
+  led.rest(100);
+  ASSERT_EQ(led.loop.state().phase, Phase::cutting);
+  led.to({0.3, 0.2, 4});  // from far under the skin to far above it
+  EXPECT_EQ(led.rest(50).phase, Phase::free);
+  led.go({0.3, 0.2, -1}, 10);
+  EXPECT_EQ(led.loop.state().phase, Phase::contact) << "and it can be felt again";
+}
+
+TEST(Force, ALeapThroughAClosedWoundStaysInTheTissue) {
+  // Two walls on each other across the way, from the skin down to -8.
+  auto s = testing::flat(20, 1);
+  const int first = static_cast<int>(s.points.size()), skin = static_cast<int>(s.triangles.size());
+  for (const Vec3& p : {Vec3{0.1, -9, 0}, Vec3{0.1, 9, 0}, Vec3{0.1, 0, -16}}) s.points.push_back(p);
+  s.triangles.push_back({first, first + 1, first + 2});
+  s.triangles.push_back({first, first + 2, first + 1});
+  ContactSurface surface(s.points, s.triangles);
+  const ContactSurface::Changed walls[] = {
+      {skin, {s.triangles[static_cast<std::size_t>(skin)], true}},
+      {skin + 1, {s.triangles[static_cast<std::size_t>(skin) + 1], true}}};
+  surface.update({}, walls);
+  Led led(surface);
+  led.to({-3.3, 0.2, 1});
+  led.go({-3.3, 0.2, -5}, 20);
+  led.rest(100);
+  ASSERT_EQ(led.loop.state().phase, Phase::cutting);
+  led.to({3.4, 0.2, -5});
+  EXPECT_EQ(led.rest(50).phase, Phase::cutting);
+  led.to({-3.4, 0.2, 4});  // back through it and out of the skin at once
+  EXPECT_EQ(led.rest(50).phase, Phase::free);
+}
+
 TEST(Force, WithoutTheButtonNothingIsPunctured) {
   const auto s = testing::flat(20, 1);
   const ContactSurface surface(s.points, s.triangles);

@@ -125,6 +125,33 @@ TEST(Loop, SnapshotsAreWhole) {
   EXPECT_EQ(buffer.read().a[39], 100000u);
 }
 
+TEST(TickQueue, TellsEveryValueInOrderAndLeavesOutWhatHasNoRoom) {
+  TickQueue<int> queue(4);
+  int value = -1;
+  EXPECT_FALSE(queue.pop(value));
+  for (int n = 0; n < 6; ++n) queue.push(n);  // 4 and 5 have no room
+  for (int n = 0; n < 4; ++n) {
+    ASSERT_TRUE(queue.pop(value));
+    EXPECT_EQ(value, n);
+  }
+  EXPECT_FALSE(queue.pop(value));
+  std::atomic<bool> written{false};
+  std::thread writer([&] {
+    for (int n = 0; n < 100000; ++n) queue.push(n);
+    written = true;
+  });
+  int last = -1;
+  for (bool more = true; more;) {
+    more = !written;
+    while (queue.pop(value)) {
+      ASSERT_GT(value, last);
+      last = value;
+    }
+  }
+  writer.join();
+  EXPECT_GE(last, 3);
+}
+
 TEST(Loop, RunsWhileAnotherThreadCutsAndAThirdLooks) {
   // The surface is torn open and closed under the hand; ThreadSanitizer watches.
   auto s = testing::flat(20, 2);
@@ -136,7 +163,8 @@ TEST(Loop, RunsWhileAnotherThreadCutsAndAThirdLooks) {
   std::thread cutting([&] {
     std::mt19937 random(1);
     while (!stop) {
-      loop.for_cutting().read();
+      for (HapticState state; loop.for_cutting().pop(state);) {
+      }
       std::vector<ContactSurface::Moved> moved;
       std::vector<ContactSurface::Changed> changed;
       for (int n = 0; n < 10; ++n) {

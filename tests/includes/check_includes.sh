@@ -28,8 +28,8 @@ haptic:base|encoder/field
 explorer/incision:base|encoder/field|haptic
 explorer/io:base|explorer/incision|solver/snapshot
 explorer/scene:base|encoder/field|haptic|explorer/incision|solver/snapshot|params
-explorer/view:base|encoder/field|explorer/incision|explorer/scene|explorer/io
-explorer/app:base|params|encoder/field|explorer/incision|explorer/scene|explorer/view
+explorer/view:base|encoder/field|haptic|explorer/incision|explorer/scene|explorer/io
+explorer/app:base|params|encoder/field|haptic|explorer/incision|explorer/scene|explorer/view
 tradeoff:base|params|solver/snapshot|encoder|haptic|explorer/incision|explorer/scene
 cli:base|params|solver/snapshot|encoder/field
 examples:base

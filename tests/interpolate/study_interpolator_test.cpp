@@ -172,7 +172,9 @@ TEST(StudyInterpolator, WithDerivativesThreeCasesDoForMore) {
     for (int i = 0; i < 5; ++i) five.push_back(least * std::pow(2., i));
     const double with = error_of_cases(name, three, true), without = error_of_cases(name, three, false);
     EXPECT_LE(with, name == std::string("skin.prestress_v") ? 1e-4 : without / 4) << name;
-    if (name == std::string("tissue.young_modulus")) EXPECT_LE(with, error_of_cases(name, five, false));
+    if (name == std::string("tissue.young_modulus")) {
+      EXPECT_LE(with, error_of_cases(name, five, false));
+    }
   }
 }
 

@@ -160,6 +160,28 @@ TEST(Case, EncodingAgainIsNotSolvingAgain) {
   EXPECT_EQ(hashes.size(), 4u);
 }
 
+TEST(Case, ItsSensitivitiesBelongToTheSnapshot) {
+  const TemporaryFolder folder;
+  Case one;
+  EXPECT_EQ(one.snapshot_hash(), solve_hash(one.parameters));
+  one.sensitivities = {"tissue.young_modulus", "skin.prestress_v"};
+  EXPECT_NE(one.snapshot_hash(), solve_hash(one.parameters));
+  EXPECT_NE(one.hash(), Case().hash());
+  const Case again = read_case(folder.write("case.toml", case_file_text(one)), {});
+  EXPECT_EQ(again.sensitivities, one.sensitivities);
+  EXPECT_EQ(again.hash(), one.hash());
+  const std::string vary = "[vary]\n'skin.thickness' = [1, 2]\n";
+  EXPECT_EQ(message_of("sensitivities = ['tissue.young_modulus']\n" + vary), "");
+  EXPECT_NE(message_of("sensitivities = ['tissue.yung_modulus']\n" + vary).find("tissue.young_modulus"),
+            std::string::npos);
+  EXPECT_NE(message_of("sensitivities = ['cut.length']\n" + vary).find("must be a number of skin"),
+            std::string::npos);
+  EXPECT_NE(message_of("sensitivities = 'cut.length'\n" + vary).find("must be a list of texts"),
+            std::string::npos);
+  EXPECT_NE(message_of("sensitivities = ['skin.thickness']\n[case]\ncut.contact = 'true'\n").find("contact"),
+            std::string::npos);
+}
+
 TEST(Case, ItsSettingsAreArgumentsOfTheEncoder) {
   EncodeSettings settings;
   EXPECT_EQ(settings.arguments(),

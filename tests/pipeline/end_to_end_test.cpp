@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "encoder/field/field_file.h"
@@ -50,6 +51,21 @@ std::string canonical_path(const Snapshot& s) {
 }
 
 }  // namespace
+
+TEST_F(EndToEnd, AFieldFeelsAsStiffAsItsSimulation) {
+  // A force that differs by less than 7 % feels the same (haptic/force_parameters.h).
+  folder->write("still.csv", "time,x,y,z,ax,ay,az,ex,ey,ez,cutting,present\n0.01,0,0,9,0,0,1,1,0,0,0,1\n");
+  write_mesh(*folder / "sheet.stl", {{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}});
+  double stiffness[2];
+  for (const bool field : {false, true}) {
+    const Outcome felt = expect_success(run_cleft(
+        "haptic",
+        {"--mesh", *folder / "sheet.stl", "--device", "recorded", "--trajectory", *folder / "still.csv",
+         "--json", field ? "--field" : "--snapshot", *folder / (field ? "case.dffd" : "case.h5")}));
+    stiffness[field] = nlohmann::json::parse(felt.output)["stiffness_N_per_mm"];
+  }
+  EXPECT_NEAR(stiffness[1] / stiffness[0], 1, 0.07) << stiffness[0] << " N/mm in the simulation";
+}
 
 TEST_F(EndToEnd, ACutFlatSkinFollowsTheFiniteElementsAtEveryFrame) {
   const SnapshotReader reader(*folder / "case.h5");

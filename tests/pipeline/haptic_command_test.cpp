@@ -63,6 +63,38 @@ TEST_F(HapticCommand, TheHandCutsAndItsRecordingPlays) {
   EXPECT_GT(again["cut_mm"], 15);
 }
 
+TEST_F(HapticCommand, WithoutAPathItCutsWhereTheBladeGoes) {
+  // Two straight cuts, 12 mm and 8 mm long, 5 mm deep; between them the blade is out.
+  std::string poses = "time,x,y,z,ax,ay,az,ex,ey,ez,cutting,present\n";
+  double time = 0;
+  const auto go = [&](double x0, double z0, double x1, double z1, double y, int ticks) {
+    for (int k = 1; k <= ticks; ++k) {
+      time += 1e-3;
+      const double part = double(k) / ticks;
+      for (const double value : {time, x0 + part * (x1 - x0), y, z0 + part * (z1 - z0)})
+        poses += shortest(value) + ",";
+      poses += "0,0,1,1,0,0,1,1\n";
+    }
+  };
+  for (const double y : {-5.3, 6.7}) {
+    const double length = y < 0 ? 12 : 8;
+    go(-6, 3, -6, -5, y, 300);
+    go(-6, -5, -6 + length, -5, y, 600);
+    go(-6 + length, -5, -6 + length, 4, y, 300);
+  }
+  Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
+  field.parameters = {{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}};
+  write_field(in / "case.dffd", field);
+  const auto cut = figures(
+      {"--device", "recorded", "--trajectory", in.write("poses.csv", poses), "--field", in / "case.dffd"});
+  ASSERT_TRUE(cut.is_object());
+  EXPECT_EQ(cut["punctures"], 2);
+  EXPECT_EQ(cut["cuts"], 2);
+  EXPECT_EQ(cut["stopped"], "");
+  EXPECT_LE(cut["cut_mm"], 20);
+  EXPECT_GE(cut["cut_mm"], 16.5) << "at each end a piece of 0.7 mm and what the scalpel goes in a frame";
+}
+
 TEST_F(HapticCommand, AFieldOpensTheWound) {
   Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
   field.parameters = {{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}};

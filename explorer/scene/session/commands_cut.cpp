@@ -55,6 +55,18 @@ void cut_file(Session& session, CommandWords& words) {
   session.cut(cut);
 }
 
+void device(Session& session, CommandWords& words) {
+  const std::string name = words.text("a device, or off");
+  const std::string file = words.empty() ? "" : words.text("a file");
+  words.expect_end();
+  if (!session.services().device)
+    throw InputError(
+        "a haptic device is felt in the window: begin cleft explore without --script and --screenshot; "
+        "without a window there is cleft haptic");
+  if (name != "off" && !session.mesh()) throw InputError("there is no mesh to cut (say: mesh FILE)");
+  session.services().device(name, file);
+}
+
 void tension(Session& session, CommandWords& words) {
   const std::string first = words.text("a direction, or none");
   if (first == "none") return session.pull(std::nullopt);
@@ -91,6 +103,9 @@ std::span<const Command> cut_commands() {
        Command::latest},
       {"cut-file", "PATH.csv", "cut along a path file: x,y,z,nx,ny,nz[,depth], in the mesh's units",
        cut_file},
+      {"device", "NAME [FILE] | off",
+       "cut with a haptic device: mouse, hand PATH.csv, recorded POSES.csv, spacemouse, gamepad, phantom",
+       device, Command::none},
       {"tension", "X,Y,Z LARGER,SMALLER | none",
        "the skin's larger tension and its direction, prestresses in MPa: cuts turn against it", tension},
       {"undo", "", "take the last cut back", undo},

@@ -88,16 +88,25 @@ std::shared_ptr<const Field> Session::reference() {
   return study_ && state_.reference >= 0 ? study_->field(state_.reference) : nullptr;
 }
 
-std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {
-  auto& found = cut_surfaces_[depth];
-  if (found) return found;
+double Session::depth_of_case(int i) {
+  constexpr double depth_without_study = 3;
+  return study_ ? study_->field(i)->cut().depth : depth_without_study;
+}
+
+std::vector<ScalpelPath> Session::cut_paths(double depth) const {
   std::vector<ScalpelPath> paths;
   for (CutState cut : state_.cuts) {
     for (ScalpelPath::Point& p : cut.points)
       if (p.depth <= 0) p.depth = depth;
     paths.emplace_back(cut.points);
   }
-  return found = std::make_shared<CutSurface>(*mesh_, paths);
+  return paths;
+}
+
+std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {
+  auto& found = cut_surfaces_[depth];
+  if (found) return found;
+  return found = std::make_shared<CutSurface>(*mesh_, cut_paths(depth));
 }
 
 std::shared_ptr<const WoundScene> Session::scene_of(int i) {
@@ -107,14 +116,10 @@ std::shared_ptr<const WoundScene> Session::scene_of(int i) {
                 [&](const auto& s) { return std::find(shown.begin(), shown.end(), s.first) == shown.end(); });
   auto& found = scenes_[i];
   if (found) return found;
-  constexpr double depth_without_study = 3;
-  if (mesh_) {
-    const std::optional<CutFields> fields = cut_fields(i);
-    found = std::make_shared<MeshScene>(
-        cut_surface(fields ? fields->shape().cut().depth : depth_without_study), fields);
-  } else {
+  if (mesh_)
+    found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), cut_fields(i));
+  else
     found = std::make_shared<PatchScene>(study_->field(i));
-  }
   return found;
 }
 

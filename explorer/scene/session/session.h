@@ -29,6 +29,8 @@ struct SessionServices {
   /// The saved session in a picture, as JSON.
   std::function<std::string(const std::string& file)> state_in_picture;
   std::function<void(const std::string& text)> answer;  ///< to what was asked: a line or several
+  /// Takes a haptic device in hand, with the file it needs; "off": puts it away. None without a window.
+  std::function<void(const std::string& name, const std::string& file)> device = nullptr;
 };
 
 /// What a line has changed, for those who listen.
@@ -58,6 +60,11 @@ class Session {
   PublishedStudy& open_study() const;
   const SurfaceMesh* mesh() const { return mesh_.get(); }  ///< mm
   const SessionServices& services() const { return services_; }
+
+  /// The cuts' paths, as deep as the shown case where they say nothing else.
+  std::vector<ScalpelPath> cut_paths() { return cut_paths(depth_of_case(state_.shown)); }
+  std::optional<CutFields> cut_fields(int i);  ///< what opens cuts in case i; none without a study
+  double depth_of_case(int i);                 ///< mm, of cuts that say nothing else
 
   /// Whether there is anything to draw.
   bool has_scene() const { return study_ || mesh_; }
@@ -108,6 +115,9 @@ class Session {
   SessionState& edit() { return state_; }
   Changes& changes() { return changes_; }
   void answer(const std::string& text) const;
+  void hand_devices_to(std::function<void(const std::string&, const std::string&)> device) {
+    services_.device = std::move(device);
+  }
   void answer_to(std::function<void(const std::string&)> answer) { services_.answer = std::move(answer); }
 
  private:
@@ -116,8 +126,8 @@ class Session {
   int nearest_case() const;
   void take_parameters();
   void cuts_changed();
+  std::vector<ScalpelPath> cut_paths(double depth) const;
   std::shared_ptr<const CutSurface> cut_surface(double depth);
-  std::optional<CutFields> cut_fields(int i);
   void notify();
 
   SessionServices services_;

@@ -1,5 +1,7 @@
 #include "explorer/scene/session/session_state.h"
 
+#include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -89,6 +91,18 @@ SessionState to_state(const Json& j) {
 }
 
 }  // namespace
+
+std::string cut_line(const std::string& command, const CutState& cut) {
+  std::string line = command;
+  for (const ScalpelPath::Point& p : cut.points) {
+    char text[160];
+    std::snprintf(text, sizeof text, " %.3f,%.3f,%.3f,%.4f,%.4f,%.4f", p.position.x, p.position.y,
+                  p.position.z, p.outward.x, p.outward.y, p.outward.z);
+    line += text;
+    if (p.depth > 0) line += "," + shortest(std::round(1e3 * p.depth) / 1e3);
+  }
+  return line;
+}
 
 std::string state_to_json(const SessionState& s) {
   Json compared = Json::array();

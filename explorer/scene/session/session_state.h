@@ -54,6 +54,9 @@ struct SessionState {
   bool dark = false;
 };
 
+/// The line that makes a cut, as `cut` or `recut`: places to a micrometre, short enough to be read.
+std::string cut_line(const std::string& command, const CutState& cut);
+
 /// As JSON, and back. Throws InputError naming what is missing or wrong.
 std::string state_to_json(const SessionState& state);
 SessionState state_from_json(const std::string& json);

@@ -153,7 +153,7 @@ class Stress {
     if (poor && !squeezed && plan_.good)
       violation("a triangle of " + std::to_string(worst / asked) + " of what is asked");
     tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
-    bool moved = false;
+    bool moved = cut.bent();
     for (const auto& c : chain) moved |= !(mesh_.vertex(c.left).original == mesh_.position(c.left));
     if (!moved) {
       const double change = std::abs(soundness_.skin_area() / area - 1);

@@ -1,0 +1,62 @@
+// A haptic device in the user's hand: what it does to the mesh is drawn as it happens, and every cut becomes
+// one of the session when the blade is out.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QString>
+#include <QTimer>
+#include <memory>
+
+#include "explorer/app/panel.h"
+#include "explorer/app/scene_widget.h"
+#include "explorer/scene/live_scalpel.h"
+#include "haptic/devices/mouse.h"
+
+namespace cleft {
+
+class DeviceControl : public Panel {
+ public:
+  /// `tell`: what goes wrong while nobody has said a line.
+  DeviceControl(Session& session, SceneWidget& scene, Say say, std::function<void(const std::string&)> tell);
+  ~DeviceControl() override;
+
+  /// The device by its name, with its file, or "off". Throws InputError where there is none, and then the one
+  /// before stays.
+  void take(const std::string& name, const std::string& file);
+  void follow(const Changes& changes) override;
+
+  bool on() const { return scalpel_ != nullptr; }
+  const std::string& name() const { return name_; }
+  QString status() const;  ///< rate of the loop and force
+  const HapticState& state() const { return state_; }
+
+ private:
+  std::unique_ptr<Device> make(const std::string& name, const std::string& file);
+  void begin();
+  void put_away();
+  void tick();
+  void say_cuts(const std::vector<LiveScalpel::Places>& cuts);
+  void watch_presence(bool again);
+  void move_mouse(double seconds);
+
+  Session& session_;
+  SceneWidget& widget_;
+  Say say_;
+  std::function<void(const std::string&)> tell_;
+  std::string name_;
+  std::unique_ptr<Device> device_;
+  std::unique_ptr<LiveScalpel> scalpel_;  // before its device
+  std::shared_ptr<LiveScene> scene_;
+  QTimer timer_;
+  QElapsedTimer since_tick_, since_rate_;
+  HapticState state_;
+  std::uint64_t ticks_ = 0;
+  double rate_ = 0;  // Hz
+  bool own_ = false, present_ = true;
+  // Where the mouse is, and how high its blade.
+  std::optional<WoundView::Place> place_;
+  bool pressed_ = false;
+  double height_ = 0;  // mm
+};
+
+}  // namespace cleft

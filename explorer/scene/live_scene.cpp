@@ -1,0 +1,61 @@
+#include "explorer/scene/live_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "explorer/scene/cut_surface.h"
+#include "haptic/surface_stiffness.h"
+
+namespace cleft {
+
+std::shared_ptr<const CuttingMoment> moment_of(const ScalpelCutting& cutting, const CuttingMoment* before) {
+  auto moment = std::make_shared<CuttingMoment>();
+  moment->cuts = cutting.figures().cuts;
+  moment->cut_length = cutting.cut_length();
+  if (before && before->cuts == moment->cuts)
+    moment->surface = before->surface;
+  else
+    moment->surface =
+        std::make_shared<const WoundSurface>(wound_surface_of(cutting.mesh(), cutting.original_points()));
+  moment->points.resize(moment->surface->points.size());
+  for (std::size_t v = 0; v < moment->points.size(); ++v)
+    moment->points[v] = cutting.position(static_cast<int>(v));
+  return moment;
+}
+
+double dent_profile(double distance) {
+  const double x = distance / stiffness_radius;
+  if (distance >= dent_reach) return 0;
+  double sunk = 0;
+  if (x <= 1)
+    sunk = std::comp_ellint_2(x);
+  else
+    sunk = x * (std::comp_ellint_2(1 / x) - (1 - 1 / (x * x)) * std::comp_ellint_1(1 / x));
+  const double rest = 1 - std::pow(distance / dent_reach, 2);
+  return 2 / std::numbers::pi * sunk * rest * rest;
+}
+
+LiveScene::LiveScene(std::shared_ptr<const CuttingMoment> moment, const WoundSurface& like)
+    : moment_(std::move(moment)), surface_(*moment_->surface) {
+  surface_.middle = like.middle, surface_.outward = like.outward, surface_.along = like.along;
+}
+
+void LiveScene::positions(double, std::vector<Vec3>& out) const {
+  out = moment_->points;
+  if (dent_by_ == Vec3{}) return;
+  for (Vec3& x : out)
+    if (const double square = squared_norm(x - dent_at_); square < dent_reach * dent_reach)
+      x += dent_profile(std::sqrt(square)) * dent_by_;
+}
+
+void LiveScene::values(Coloring, const Field*, double, std::vector<double>& out) const {
+  out.assign(surface_.points.size(), 0);
+}
+
+void LiveScene::dent(const HapticState& scalpel) {
+  dent_at_ = scalpel.proxy;
+  dent_by_ = scalpel.phase == Phase::contact ? -scalpel.depth * scalpel.normal : Vec3{};
+}
+
+}  // namespace cleft

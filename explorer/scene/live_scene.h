@@ -1,0 +1,51 @@
+// What is drawn while a scalpel cuts: the mesh as it is at this moment, and the skin dented under the blade.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "explorer/scene/scalpel_cutting.h"
+#include "explorer/scene/wound_scene.h"
+
+namespace cleft {
+
+/// The cutting at a moment, in mesh units; the surface is shared by those between which nothing was cut.
+struct CuttingMoment {
+  std::shared_ptr<const WoundSurface> surface;
+  std::vector<Vec3> points;
+  double cut_length = 0;  ///< mm
+  int cuts = 0;           ///< CuttingFigures::cuts as of the surface
+};
+/// `before`: the moment before, or null.
+std::shared_ptr<const CuttingMoment> moment_of(const ScalpelCutting& cutting, const CuttingMoment* before);
+
+/// How far skin sinks beside the tip of a blade that has sunk it by 1: as a half space under even pressure on
+/// the disc of surface_stiffness.h (Johnson, Contact Mechanics, 3.4), and nothing from `reach` on. `distance`
+/// in mm.
+double dent_profile(double distance);
+constexpr double dent_reach = 30;  ///< mm
+
+class LiveScene : public WoundScene {
+ public:
+  /// Looked at as `like`, a scene of the same mesh. Lengths in mm.
+  LiveScene(std::shared_ptr<const CuttingMoment> moment, const WoundSurface& like);
+
+  const WoundSurface& surface() const override { return surface_; }
+  double duration() const override { return moment_->cut_length; }
+  /// Of the moment, whatever t.
+  void positions(double t, std::vector<Vec3>& out) const override;
+  void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
+
+  /// Whether a moment can be drawn without another scene.
+  bool has_surface_of(const CuttingMoment& moment) const { return moment.surface == moment_->surface; }
+  void show(std::shared_ptr<const CuttingMoment> moment) { moment_ = std::move(moment); }
+  /// While the skin holds it sinks with the tip: by as much as the force over its stiffness.
+  void dent(const HapticState& scalpel);
+
+ private:
+  std::shared_ptr<const CuttingMoment> moment_;
+  WoundSurface surface_;
+  Vec3 dent_at_, dent_by_;  // mm
+};
+
+}  // namespace cleft

@@ -1,0 +1,38 @@
+// Values from one thread to another, every one of them in order: neither waits. Where the reader is so late
+// that it is full, the writer leaves values out.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+namespace cleft {
+
+/// One writer, one reader. T is copied; all memory is taken, and touched, at the beginning.
+template <class T>
+class TickQueue {
+ public:
+  explicit TickQueue(std::size_t capacity) : values_(capacity) {}
+
+  void push(const T& value) {
+    const std::size_t at = written_.load(std::memory_order_relaxed);
+    if (at - read_.load(std::memory_order_acquire) == values_.size()) return;
+    values_[at % values_.size()] = value;
+    written_.store(at + 1, std::memory_order_release);
+  }
+  /// False where there is none.
+  bool pop(T& value) {
+    const std::size_t at = read_.load(std::memory_order_relaxed);
+    if (at == written_.load(std::memory_order_acquire)) return false;
+    value = values_[at % values_.size()];
+    read_.store(at + 1, std::memory_order_release);
+    return true;
+  }
+
+ private:
+  std::vector<T> values_;
+  alignas(64) std::atomic<std::size_t> written_{0};
+  alignas(64) std::atomic<std::size_t> read_{0};
+};
+
+}  // namespace cleft

@@ -1,0 +1,146 @@
+// Cuts that nobody has drawn before: the scalpel goes where it likes, and its places, pulled back to the skin
+// at rest, are the path.
+#include <gtest/gtest.h>
+
+#include "explorer/scene/replay.h"
+#include "explorer/scene/scalpel_cutting.h"
+#include "tests/haptic/surfaces.h"
+#include "tests/incision/fields.h"
+#include "tests/incision/stress/soundness.h"
+
+namespace cleft {
+namespace {
+
+constexpr double radius = 100, depth = 4;
+
+SurfaceMesh ball_on_its_side(int rings) {
+  testing::Surface ball = testing::ball(rings, radius);
+  SurfaceMesh mesh{ball.points, ball.triangles};
+  for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};  // poles beside the cuts
+  return mesh;
+}
+
+/// Over the top of the ball from x0 to x1 mm, bent, `aside` mm off the middle.
+ScalpelPath over_the_ball(double x0, double x1, double aside, double bend) {
+  std::vector<ScalpelPath::Point> points;
+  for (int k = 0; k <= 40; ++k) {
+    const double x = (x0 + (x1 - x0) * k / 40) / radius, y = aside / radius + bend * x * x;
+    const Vec3 on{std::sin(x) * std::cos(y), std::sin(y), std::cos(x) * std::cos(y)};
+    points.push_back({radius * on, on, depth});
+  }
+  return ScalpelPath(points);
+}
+
+/// The blade as the loop tells of it, as deep as it is under the skin that is felt.
+HapticState blade(const ScalpelPath& path, double s) {
+  const PathFrame frame = path.at(s);
+  HapticState state;
+  state.phase = Phase::cutting;
+  state.pose.tip = frame.position - depth * frame.outward;
+  state.pose.axis = frame.outward, state.pose.edge = frame.along;
+  state.normal = frame.outward;
+  state.depth = depth;
+  return state;
+}
+
+void cut_along(ScalpelCutting& cutting, const ScalpelPath& path, double to) {
+  for (double s = 0; s <= to; s += 0.45) cutting.step(blade(path, s));
+}
+void take_out(ScalpelCutting& cutting) {
+  cutting.step({});
+  while (cutting.figures().waiting > 0) cutting.step({});
+}
+
+/// Farthest that the incision's vertices lie from the path.
+double astray(const Incision& incision, const ScalpelPath& path) {
+  double farthest = 0;
+  for (const auto& v : incision.chain())
+    farthest = std::max(farthest, std::abs(path.coordinates(incision.mesh().position(v.left)).v));
+  return farthest;
+}
+
+TEST(FreeCutting, TheCutIsWhereTheBladeHasBeen) {
+  for (const int rings : {20, 54, 110}) {
+    const SurfaceMesh mesh = ball_on_its_side(rings);
+    ScalpelCutting cutting(mesh, {{}, {}, {}, 1, 0});
+    const ScalpelPath path = over_the_ball(-20, 20, 0, 1.2);
+    cut_along(cutting, path, path.length());
+    EXPECT_EQ(cutting.figures().stopped, "") << rings;
+    ASSERT_EQ(cutting.led().size(), 1u) << rings;
+    EXPECT_GT(cutting.cut_length(), path.length() - 1.2) << "a piece and the scalpel's last step may be left";
+    EXPECT_LT(cutting.cut_length(), path.length() + 0.01) << rings;
+    // The ball's faces lie under the path: across it no blade that stands upright is drawn aside. What is
+    // left are straight pieces, and places that lie 0.9 mm apart on a curve of 0.024 / mm: 0.0024 mm.
+    EXPECT_LT(astray(*cutting.incision(), path), 0.06) << rings;
+    EXPECT_EQ(stress::Soundness(cutting.mesh()).whole(), "") << rings;
+    EXPECT_EQ(stress::Soundness(cutting.mesh()).euler(), 2) << rings;
+  }
+}
+
+TEST(FreeCutting, SeveralCutsAndWhatStopsThem) {
+  const SurfaceMesh mesh = ball_on_its_side(54);
+  const auto field = std::make_shared<Field>(testing::opening_field({-10, 20, depth}, 40, 30, 8, 2));
+  ScalpelCutting cutting(mesh, {{}, {}, CutFields(field), 1, 0});
+  cut_along(cutting, over_the_ball(-20, 20, 0, 0), 30);
+  const double first = cutting.cut_length();
+  EXPECT_GT(first, 28.5);
+  HapticState back = blade(over_the_ball(-20, 20, 0, 0), 10);
+  for (int k = 0; k < 20; ++k) cutting.step(back);
+  EXPECT_EQ(cutting.cut_length(), first) << "in the wound nothing is cut";
+  back.pose.cutting = false;
+  take_out(cutting);
+  cut_along(cutting, over_the_ball(-15, 15, 25, 0), 25);
+  EXPECT_EQ(cutting.led().size(), 2u);
+  EXPECT_NEAR(cutting.cut_length() - first, 25, 1.2);
+  take_out(cutting);
+  // Across the first one: a wound is no end.
+  std::vector<ScalpelPath::Point> across;
+  for (int k = -20; k <= 20; ++k) {
+    const double y = 0.5 * k / radius, x = 0.03;
+    const Vec3 on{std::sin(x) * std::cos(y), std::sin(y), std::cos(x) * std::cos(y)};
+    across.push_back({radius * on, on, depth});
+  }
+  const double before = cutting.cut_length();
+  cut_along(cutting, ScalpelPath(across), 20);
+  EXPECT_EQ(cutting.led().size(), 3u);
+  EXPECT_NEAR(cutting.cut_length() - before, 20, 2.2) << cutting.figures().stopped;
+  EXPECT_EQ(stress::Soundness(cutting.mesh()).whole(), "");
+  for (std::size_t v = 0; v < cutting.mesh().vertices().size(); ++v)
+    ASSERT_TRUE(std::isfinite(cutting.position(static_cast<int>(v)).x));
+}
+
+TEST(FreeCutting, ItOpensAsTheCutWouldHaveThatWasDrawnBefore) {
+  for (const double bend : {0., 0.6}) {
+    const SurfaceMesh mesh = ball_on_its_side(54);
+    const auto field = std::make_shared<Field>(testing::opening_field({-15, 30, depth}, 60, 50, 8, 4));
+    ScalpelCutting cutting(mesh, {{}, {}, CutFields(field), 1, 0});
+    const ScalpelPath path = over_the_ball(-20, 20, 0, bend);
+    cut_along(cutting, path, 32);
+    take_out(cutting);
+    const double tip = cutting.incision()->tip();
+    ASSERT_GT(tip, 30);
+    Incision incision(mesh, cutting.incision()->path());  // all of it known before
+    incision.advance_to(tip);
+    const Replay replay(*field, incision, 1);
+    std::vector<Vec3> seen(replay.vertex_count());
+    replay.positions(tip, seen);
+    double farthest = 0, moved = 0;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      if (incision.mesh().vertex(static_cast<int>(v)).kind != VertexKind::skin ||
+          cutting.mesh().vertex(static_cast<int>(v)).kind != VertexKind::skin)
+        continue;
+      // Inside a bend displacements end where the path's room does, which nobody knew before.
+      if (bend > 0 && std::abs(incision.path().coordinates(mesh.points[v]).v) > 12) continue;
+      const Vec3 felt = cutting.position(static_cast<int>(v)) - cutting.mesh().position(static_cast<int>(v));
+      farthest = std::max(farthest, norm(seen[v] - replay.rest()[v] - felt));
+      moved = std::max(moved, norm(felt));
+    }
+    EXPECT_GT(moved, 0.8);
+    // Vertices stay where they were taken to lie to within 0.25 mm and a turn by 0.1, and the field's
+    // gradient is at most 0.15 there: 0.04 and 0.18 mm.
+    EXPECT_LT(farthest, 0.22) << bend;
+  }
+}
+
+}  // namespace
+}  // namespace cleft
