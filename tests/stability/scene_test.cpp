@@ -106,7 +106,7 @@ TEST(SceneLimits, TightBends) {
        .then = "inside the bend displacements fall to nothing before the nearest place jumps"});
 }
 
-TEST(SceneLimits, Splinters) {
+TEST(SceneLimits, Slivers) {
   SurfaceMesh plane = grid(20, 20, -10, -10, 1);
   for (Vec3& p : plane.points)
     if (p.y == 0) p.y = 1 - 1e-10;
