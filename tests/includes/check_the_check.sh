@@ -3,7 +3,7 @@
 set -eu
 root=$1; here=$(cd "$(dirname "$0")" && pwd)
 copy=$(mktemp -d); trap 'rm -rf "$copy"' EXIT
-(cd "$root" && find base params solver encoder haptic explorer cli examples \( -name '*.h' -o -name '*.cpp' \) -print0 |
+(cd "$root" && find base params solver encoder haptic explorer tradeoff cli examples \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 cp --parents -t "$copy"); mkdir -p "$copy/haptic"
 "$here/check_includes.sh" "$copy" || { echo "the copy itself fails"; exit 1; }
 while IFS='|' read -r folder include; do
@@ -26,6 +26,8 @@ explorer/view|<QWidget>
 explorer/view|"explorer/app/panel.h"
 explorer/scene|"explorer/view/stage.h"
 explorer/app|"solver/snapshot/snapshot.h"
+explorer/scene|"tradeoff/chart.h"
+tradeoff|"explorer/view/stage.h"
 explorer/view|<deal.II/grid/tria.h>
 encoder/field|<Eigen/Core>
 explorer/scene|<hdf5.h>
