@@ -27,6 +27,7 @@ struct Options {
   bool rest = false, json = false;
   double scale = 1;                 // mm per mesh unit
   double depth = 0, progress = -1;  // mm; 0 and -1: not given
+  double detail = 0;                // micrometres
   std::optional<double> max_edge;   // mm
   TensionOptions tension;
 };
@@ -121,7 +122,7 @@ std::unique_ptr<Wounds> open(const Options& options, const CutFields& fields, co
       throw FileError(options.paths[k], e.what());
     }
   }
-  return std::make_unique<Wounds>(std::move(opened), options.scale);
+  return std::make_unique<Wounds>(std::move(opened), options.scale, 1e-3 * options.detail);
 }
 
 /// Moves the mesh as the wounds say, and tells of that.
@@ -135,6 +136,7 @@ void move(const Wounds& wounds, const CutFields& fields, const Options& options,
   for (std::size_t i = 0; i < positions.size(); ++i)
     largest = std::max(largest, norm(positions[i] - wounds.rest()[i]));
   figures["active_vertices"] = wounds.active();
+  figures["left_out_vertices"] = wounds.left_out();
   figures["largest_displacement_mm"] = largest * options.scale;
   figures["warnings"] = Json::array();
   const std::vector<Validity> validity = wounds.validity(fields.turning());
@@ -201,6 +203,10 @@ int main(int argc, char** argv) {
   app.add_option("--max-edge", o.max_edge,
                  "split longer edges near the path, mm; 0 leaves them [1/30 of the path]")
       ->check(at_least(0));
+  app.add_option("--detail", o.detail,
+                 "vertices that a cut never moves by more than this many micrometres stay where they are")
+      ->check(at_least(0))
+      ->capture_default_str();
   app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
   app.add_flag("--json", o.json, "figures as JSON");
   return run_command(app, argc, argv, [&] {

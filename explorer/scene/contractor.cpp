@@ -22,6 +22,18 @@ void Contractor::history(const ActiveVertex& a, Side side, History& out) const {
     for (Vec3& d : piece) d = 1 / scale_ * a.in_mesh(d);
 }
 
+std::size_t Contractor::leave_out(std::vector<ActiveVertex>& active, double detail) const {
+  if (detail <= 0) return 0;
+  History path;
+  return std::erase_if(active, [&](const ActiveVertex& a) {
+    history(a, a.side, path);
+    for (const auto& piece : path.controls)
+      for (const Vec3& d : piece)
+        if (scale_ * norm(d) > detail) return false;
+    return true;
+  });
+}
+
 ReplayPieces Contractor::contract(const std::vector<ActiveVertex>& sorted, int shift) const {
   std::vector<double> offsets;
   std::vector<int> vertices;

@@ -22,6 +22,10 @@ class Contractor {
   /// it. The displacement of vertex v goes to number v + `shift`.
   ReplayPieces contract(const std::vector<ActiveVertex>& sorted, int shift = 0) const;
 
+  /// Removes the vertices whose displacement is at most `detail` mm all the time, and returns their number.
+  /// Control points bound it.
+  std::size_t leave_out(std::vector<ActiveVertex>& active, double detail) const;
+
  private:
   void history(const ActiveVertex& vertex, Side side, History& out) const;
 

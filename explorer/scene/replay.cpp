@@ -16,10 +16,15 @@ std::vector<ActiveVertex> sorted(std::vector<ActiveVertex> active) {
 
 }  // namespace
 
-Replay::Replay(const VaryingField& field, const Incision& incision, double scale)
+Replay::Replay(const VaryingField& field, const Incision& incision, double scale, double detail)
+    : Replay(Contractor(field, scale), incision, field.shape(), scale, detail) {}
+
+Replay::Replay(const Contractor& contractor, const Incision& incision, const Field& shape, double scale,
+               double detail)
     : path_length_(incision.path().length() * scale),
-      active_(sorted(active_vertices(incision, field.shape(), scale))),
-      pieces_(Contractor(field, scale).contract(active_)) {
+      active_(sorted(active_vertices(incision, shape, scale))),
+      left_out_(contractor.leave_out(active_, detail)),
+      pieces_(contractor.contract(active_)) {
   rest_.reserve(incision.mesh().vertices().size());
   for (const CutMesh::Vertex& v : incision.mesh().vertices()) rest_.push_back(v.position);
 }

@@ -12,11 +12,13 @@
 
 namespace cleft {
 
+class Contractor;
+
 class Replay {
  public:
   /// Contracts the field once for each active vertex, to within its contraction_tolerance(). `scale` is mm
-  /// per mesh unit.
-  Replay(const VaryingField& field, const Incision& incision, double scale);
+  /// per mesh unit. Vertices that never move by more than `detail` mm stay where they are, and cost nothing.
+  Replay(const VaryingField& field, const Incision& incision, double scale, double detail = 0);
 
   /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
   /// for each vertex of the incision's mesh. Allocates nothing.
@@ -25,12 +27,17 @@ class Replay {
   double path_length() const { return path_length_; }  ///< mm
   std::size_t vertex_count() const { return rest_.size(); }
   const std::vector<ActiveVertex>& active() const { return active_; }
+  std::size_t left_out() const { return left_out_; }  ///< vertices that move too little
   const std::vector<Vec3>& rest() const { return rest_; }
 
  private:
+  Replay(const Contractor& contractor, const Incision& incision, const Field& shape, double scale,
+         double detail);
+
   double path_length_;
   std::vector<Vec3> rest_;
   std::vector<ActiveVertex> active_;  // in the order of their time offsets
+  std::size_t left_out_;
   ReplayPieces pieces_;
 };
 

@@ -10,9 +10,10 @@ namespace {
 constexpr int relief_pieces = 48;  // of a cut's way, between which the relief is linear
 }
 
-Wounds::Wounds(std::vector<Cut> cuts, double scale) : cuts_(std::move(cuts)), scale_(scale), begins_{0} {
+Wounds::Wounds(std::vector<Cut> cuts, double scale, double detail)
+    : cuts_(std::move(cuts)), scale_(scale), begins_{0} {
   for (const Cut& cut : cuts_) {
-    replays_.emplace_back(cut.field, *cut.incision, scale);
+    replays_.emplace_back(cut.field, *cut.incision, scale, detail);
     volumes_.push_back(std::make_unique<IncisionVolume>(*cut.incision, cut.field.shape(), scale));
     in_tension_.push_back({cut.incision, &cut.field, volumes_.back().get()});
     begins_.push_back(begins_.back() + replays_.back().path_length());
@@ -36,6 +37,12 @@ Wounds::Wounds(std::vector<Cut> cuts, double scale) : cuts_(std::move(cuts)), sc
 std::size_t Wounds::active() const {
   std::size_t count = 0;
   for (const Replay& replay : replays_) count += replay.active().size();
+  return count;
+}
+
+std::size_t Wounds::left_out() const {
+  std::size_t count = 0;
+  for (const Replay& replay : replays_) count += replay.left_out();
   return count;
 }
 

@@ -21,8 +21,8 @@ class Wounds {
   };
 
   /// The incisions, all of one mesh and in the order in which they were made, must outlive it, and so must
-  /// the fields' own. `scale`: mm per mesh unit.
-  Wounds(std::vector<Cut> cuts, double scale);
+  /// the fields' own. `scale`: mm per mesh unit; `detail`: mm, as of a Replay.
+  Wounds(std::vector<Cut> cuts, double scale, double detail = 0);
   Wounds(const Wounds&) = delete;
   Wounds& operator=(const Wounds&) = delete;
 
@@ -45,7 +45,8 @@ class Wounds {
 
   const std::vector<Vec3>& rest() const { return replays_.front().rest(); }
   std::size_t vertex_count() const { return rest().size(); }
-  std::size_t active() const;  ///< vertices that a field moves, counted for every cut
+  std::size_t active() const;    ///< vertices that a field moves, counted for every cut
+  std::size_t left_out() const;  ///< those that move too little, likewise
   const std::vector<ActiveVertex>& active(std::size_t cut) const { return replays_[cut].active(); }
   const VaryingField& field(std::size_t cut) const { return cuts_[cut].field; }
   /// How far each cut is like those that replays were compared with. `turned`: whether the fields follow the

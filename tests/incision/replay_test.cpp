@@ -114,6 +114,31 @@ TEST(Replay, AllocatesNothing) {
   }
 }
 
+TEST(Replay, WhatMovesLessThanTheDetailStaysAndAllElseIsAsItWas) {
+  const Straight cut;
+  const Field field = opening_field(canonical, 20, 16, 6, 2);
+  const Replay whole(field, cut.incision, 1);
+  std::vector<Vec3> moved(whole.vertex_count()), less(moved.size());
+  EXPECT_EQ(whole.left_out(), 0u);
+  std::size_t before = 0;
+  for (const double detail : {1e-3, 0.05, 0.3}) {
+    const Replay replay(field, cut.incision, 1, detail);
+    EXPECT_GT(replay.left_out(), before);
+    EXPECT_EQ(replay.left_out() + replay.active().size(), whole.active().size());
+    before = replay.left_out();
+    std::vector<bool> kept(moved.size());
+    for (const ActiveVertex& a : replay.active()) kept[static_cast<std::size_t>(a.vertex)] = true;
+    for (double t = 0; t <= 10; t += 0.5) {
+      whole.positions(t, moved), replay.positions(t, less);
+      for (std::size_t i = 0; i < moved.size(); ++i)
+        if (kept[i])
+          ASSERT_EQ(less[i], moved[i]);
+        else
+          ASSERT_LE(norm(less[i] - moved[i]), detail);
+    }
+  }
+}
+
 TEST(Replay, TheChainAheadOfTheTipIsClosedAndBehindItOpen) {
   const Straight cut;
   const Replay replay(opening_field(canonical, 20, 16, 6, 2), cut.incision, 1);
