@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::map<std::string, std::string> bytes_of(const std::string& folder) {
-  std::map<std::string, std::string> files = published_bytes(folder, Logs::compared);
+  std::map<std::string, std::string> files = published_bytes(folder);
   files["study.dffd"] = read_text_file(folder + "/study.dffd");
   return files;
 }

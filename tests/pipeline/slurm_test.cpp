@@ -53,7 +53,7 @@ TEST(Slurm, PublishesWhatALocalRunDoesAndFindsItsJobsAgain) {
 
   expect_success(run_cleft("run", {file, "--out", folder, "--launcher", "slurm"}));
   EXPECT_EQ(arrays_of(folder), 1) << "the jobs of the killed run were not found";
-  EXPECT_TRUE(published_bytes(folder, Logs::left_out) == published_bytes(place / "local", Logs::left_out));
+  EXPECT_TRUE(published_bytes(folder) == published_bytes(place / "local"));
   expect_success(run_cleft("check", {folder}));
 
   const Outcome refused = run_cleft(

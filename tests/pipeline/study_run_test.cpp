@@ -133,7 +133,7 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
 /// Of all published files but the manifests, which tell times, and logs, where libraries may tell of the
 /// machine.
 std::map<std::string, std::string> study_bytes(const std::string& folder) {
-  std::map<std::string, std::string> files = published_bytes(folder, Logs::left_out);
+  std::map<std::string, std::string> files = published_bytes(folder);
   files["study.dffd"] = read_text_file(folder + "/study.dffd");
   return files;
 }

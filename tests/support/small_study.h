@@ -24,16 +24,14 @@ mesh.element_size = 2
 tolerance = 0.1
 )";
 
-enum class Logs { compared, left_out };  ///< libraries may tell of the machine in them
-
-/// Of the files of all published cases but the manifests, which tell times; by their names in the study's
-/// folder.
-inline std::map<std::string, std::string> published_bytes(const std::string& folder, Logs logs) {
+/// Of the files of all published cases by their names in the study's folder; but the manifests, which tell
+/// times, and logs, in which libraries may tell of the machine.
+inline std::map<std::string, std::string> published_bytes(const std::string& folder) {
   namespace fs = std::filesystem;
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder + "/cases"))
     if (entry.is_regular_file() && entry.path().filename() != "manifest.json" &&
-        (logs == Logs::compared || entry.path().extension() != ".log"))
+        entry.path().extension() != ".log")
       files[fs::relative(entry.path(), folder).string()] = read_text_file(entry.path().string());
   return files;
 }
