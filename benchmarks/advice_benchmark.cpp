@@ -34,7 +34,7 @@ struct Outcome {
   double error, seconds;
 };
 
-/// Settings are run once each and kept.
+/// A case in a much finer mesh and a wider patch, and settings beside it.
 class Truth {
  public:
   Truth(const Parameters& parameters, const Setting& finest, const std::string& work)

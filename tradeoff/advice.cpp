@@ -93,13 +93,14 @@ void CaseModel::measure_meshes() {
           difference(sampled(length, [&](double s, double t) { return cleft::opening(field, s, t); }),
                      sampled(length, at)));
     };
-    const Chain::Encoded tight = chain.encoded(tolerances[std::size(tolerances) - 1]);
+    const double tightest = tolerances[std::size(tolerances) - 1];
+    const Chain::Encoded tight = chain.encoded(tightest);
     tips_.emplace_back(length / elements, apart(tight.field));
     costs_.emplace_back(chain.nodes(), chain.solve_seconds() + tight.seconds);
     if (elements != elements_along_cut[std::size(elements_along_cut) - 1]) continue;
     frame_ms_ = 1e3 * frame_seconds(tight.field);
     for (const double tolerance : tolerances) {
-      const Chain::Encoded encoded = chain.encoded(tolerance);
+      const Chain::Encoded encoded = tolerance == tightest ? tight : chain.encoded(tolerance);
       codes_.push_back({tolerance, std::max(0., apart(encoded.field) - tips_.back().second), encoded.bytes});
     }
   }

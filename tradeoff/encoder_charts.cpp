@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/output_folder.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "encoder/encode.h"

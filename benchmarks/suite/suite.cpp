@@ -1,12 +1,10 @@
 #include "benchmarks/suite/suite.h"
 
 #include <linux/perf_event.h>
-#include <sys/ioctl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "base/output_file.h"
 #include "encoder/field/field_file.h"
