@@ -90,6 +90,7 @@ void run(const Options& o) {
     plan.good = subject.good;
     const stress::Tally tally = stress::stress(subject.name, subject.mesh, plan);
     report(subject.name, tally, o.json);
+    for (const std::string& line : tally.listed) std::printf("  %s\n", line.c_str());
     all.add(tally);
   }
   report("all", all, o.json);
@@ -114,6 +115,7 @@ int main(int argc, char** argv) {
   app.add_option("--paths", o.plan.paths, "paths in all")->capture_default_str();
   app.add_option("--meshes", o.meshes, "folder of .obj and .stl files, besides the generated ones");
   app.add_option("--only", o.only, "meshes whose name contains this");
+  app.add_flag("--list", o.plan.list, "each path that was refused, or left poor triangles or lips of another length");
   app.add_flag("--large", o.large, "a mesh of a million triangles too");
   app.add_flag("--json", o.json, "figures as JSON");
   return run_command(app, argc, argv, [&] { run(o); });

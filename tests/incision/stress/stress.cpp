@@ -105,6 +105,7 @@ class Stress {
       ++tally_.refused;
       ++tally_.refused_of[static_cast<std::size_t>(kind)];
       ++tally_.reasons[kind_of(error.what())];
+      list(std::string("refused: ") + error.what());
       check();
     } catch (const std::exception& error) {
       violation(error.what());
@@ -139,6 +140,7 @@ class Stress {
       const double error = length ? std::abs(lip / *length - 1) : 0;
       tally_.worst_lip_length = std::max(tally_.worst_lip_length, error);
       tally_.long_lips += error > 0.01;
+      if (error > 0.01) list("lips " + std::to_string(lip / *length) + " of the blade's way");
       if (error > 0.01 && plan_.good)
         violation("lips " + std::to_string(lip / *length) + " of the blade's way");
     }
@@ -150,6 +152,9 @@ class Stress {
     tally_.poor += poor;
     const bool squeezed = poor && between_edges(worst_triangle, cut.cut());
     tally_.squeezed += squeezed;
+    if (poor)
+      list("a triangle of " + std::to_string(worst / asked) + " of what is asked near " +
+           place_of(mesh_.position(mesh_.triangle(worst_triangle).vertex[0])) + (squeezed ? ", squeezed" : ""));
     if (poor && !squeezed && plan_.good)
       violation("a triangle of " + std::to_string(worst / asked) + " of what is asked");
     tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
@@ -189,6 +194,10 @@ class Stress {
     }
     cut.undo();
     if (const std::string wrong = soundness_.step(); !wrong.empty()) violation("undo: " + wrong);
+  }
+
+  void list(const std::string& what) {
+    if (plan_.list) tally_.listed.push_back(label_ + ": " + what);
   }
 
   void violation(const std::string& what) {

@@ -22,6 +22,7 @@ struct Tally {
   long jumping = 0;  ///< whose blade's way over the surface jumps: lips without a length to compare
   std::map<std::string, long> reasons;        ///< of refusals, without their numbers
   std::vector<std::string> first_violations;  ///< with what makes them again
+  std::vector<std::string> listed;            ///< what came of paths that were refused or left poor triangles
   std::array<long, path_kinds> paths_of{}, refused_of{}, poor_of{};
   void add(const Tally& other);
 };
@@ -31,6 +32,7 @@ struct Plan {
   long paths = 100;
   bool good = true;      ///< the mesh: poor triangles and lips of another length are violations
   int cuts_at_once = 3;  ///< up to so many cuts lie in the mesh before all are undone
+  bool list = false;     ///< every path that was refused, or left poor triangles or lips of another length
 };
 
 /// `sound`: whether the mesh came as an oriented manifold.
