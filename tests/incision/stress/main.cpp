@@ -47,6 +47,7 @@ void report(const std::string& name, const stress::Tally& t, bool json) {
                        {"steps", t.steps},
                        {"crossings", t.crossings},
                        {"refused", t.refused},
+                       {"refused_impossible", t.due},
                        {"violations", t.violations},
                        {"poor_triangles", t.poor},
                        {"poor_triangles_squeezed", t.squeezed},
@@ -58,11 +59,12 @@ void report(const std::string& name, const stress::Tally& t, bool json) {
                   true);
   } else {
     std::printf(
-        "%-34s %7ld paths %8ld steps %6ld crossings %5ld refused %4ld violations  quality %.2g (%ld poor, "
+        "%-34s %7ld paths %8ld steps %6ld crossings %5ld refused (%ld impossible) %4ld violations  quality "
+        "%.2g (%ld poor, "
         "%ld squeezed)  "
         "lip %.2g "
         "(%ld, %ld jump)  area %.1g\n",
-        name.c_str(), t.paths, t.steps, t.crossings, t.refused, t.violations, t.worst_quality, t.poor,
+        name.c_str(), t.paths, t.steps, t.crossings, t.refused, t.due, t.violations, t.worst_quality, t.poor,
         t.squeezed, t.worst_lip_length, t.long_lips, t.jumping, t.worst_area);
   }
   std::fflush(stdout);
@@ -99,6 +101,8 @@ void run(const Options& o) {
                 stress::name_of(static_cast<stress::PathKind>(i)).c_str(),
                 all.paths_of[static_cast<std::size_t>(i)], all.refused_of[static_cast<std::size_t>(i)],
                 all.poor_of[static_cast<std::size_t>(i)]);
+  for (const auto& [reason, count] : all.due_reasons)
+    std::printf("  %5ld impossible: %s\n", count, reason.c_str());
   for (const auto& [reason, count] : all.reasons) std::printf("  %5ld refused: %s\n", count, reason.c_str());
   for (const std::string& violation : all.first_violations)
     std::printf("  violation: %s\n", violation.c_str());
@@ -115,7 +119,8 @@ int main(int argc, char** argv) {
   app.add_option("--paths", o.plan.paths, "paths in all")->capture_default_str();
   app.add_option("--meshes", o.meshes, "folder of .obj and .stl files, besides the generated ones");
   app.add_option("--only", o.only, "meshes whose name contains this");
-  app.add_flag("--list", o.plan.list, "each path that was refused, or left poor triangles or lips of another length");
+  app.add_flag("--list", o.plan.list,
+               "each path that was refused, or left poor triangles or lips of another length");
   app.add_flag("--large", o.large, "a mesh of a million triangles too");
   app.add_flag("--json", o.json, "figures as JSON");
   return run_command(app, argc, argv, [&] { run(o); });

@@ -10,6 +10,7 @@
 #include "explorer/incision/incision.h"
 #include "explorer/incision/triangle_quality.h"
 #include "tests/incision/stress/blade_trace.h"
+#include "tests/incision/stress/refusals.h"
 #include "tests/incision/stress/soundness.h"
 
 namespace cleft::stress {
@@ -104,8 +105,7 @@ class Stress {
     } catch (const InputError& error) {
       ++tally_.refused;
       ++tally_.refused_of[static_cast<std::size_t>(kind)];
-      ++tally_.reasons[kind_of(error.what())];
-      list(std::string("refused: ") + error.what());
+      refused(path, cut.get(), error.what());
       check();
     } catch (const std::exception& error) {
       violation(error.what());
@@ -116,6 +116,15 @@ class Stress {
     if (!cut) return nullptr;
     after(*cut, kind, area, boundary);
     return cut;
+  }
+
+  void refused(const ScalpelPath& path, const Incision* cut, const std::string& why) {
+    const std::string due =
+        cut ? reason_to_refuse(ground_, path, mesh_.position(cut->chain().back().left), cut->tip(), mesh_)
+            : reason_never_to_begin(ground_, path, mesh_);
+    tally_.due += !due.empty();
+    ++(due.empty() ? tally_.reasons[kind_of(why)] : tally_.due_reasons[due]);
+    list("refused" + (due.empty() ? "" : " (" + due + ")") + ": " + why);
   }
 
   void after(const Incision& cut, PathKind kind, double area, long boundary) {
@@ -154,7 +163,8 @@ class Stress {
     tally_.squeezed += squeezed;
     if (poor)
       list("a triangle of " + std::to_string(worst / asked) + " of what is asked near " +
-           place_of(mesh_.position(mesh_.triangle(worst_triangle).vertex[0])) + (squeezed ? ", squeezed" : ""));
+           place_of(mesh_.position(mesh_.triangle(worst_triangle).vertex[0])) +
+           (squeezed ? ", squeezed" : ""));
     if (poor && !squeezed && plan_.good)
       violation("a triangle of " + std::to_string(worst / asked) + " of what is asked");
     tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
@@ -225,7 +235,9 @@ void Tally::add(const Tally& o) {
   worst_quality = std::min(worst_quality, o.worst_quality);
   worst_lip_length = std::max(worst_lip_length, o.worst_lip_length);
   worst_area = std::max(worst_area, o.worst_area);
+  due += o.due;
   for (const auto& [reason, count] : o.reasons) reasons[reason] += count;
+  for (const auto& [reason, count] : o.due_reasons) due_reasons[reason] += count;
   first_violations.insert(first_violations.end(), o.first_violations.begin(), o.first_violations.end());
   for (std::size_t i = 0; i < paths_of.size(); ++i)
     paths_of[i] += o.paths_of[i], refused_of[i] += o.refused_of[i], poor_of[i] += o.poor_of[i];
