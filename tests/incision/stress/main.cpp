@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 struct Options {
   stress::Plan plan;
   std::string meshes, only;
+  double minutes = 0;
   bool large = false, json = false;
 };
 
@@ -27,7 +28,7 @@ struct Subject {
 
 double hills(double x, double y) { return 0.8 * std::sin(0.9 * x) * std::cos(0.7 * y); }
 
-std::vector<Subject> generated(bool large) {
+std::vector<Subject> generated() {
   using namespace testing;
   SurfaceMesh stretched = grid(40, 40, -10, -10, 0.5);
   for (Vec3& p : stretched.points) p.y *= 0.1;
@@ -36,7 +37,6 @@ std::vector<Subject> generated(bool large) {
       {"stretched plane", stretched},          {"sphere", sphere(4, 10)},
       {"octahedron", sphere(1, 10), false},    {"torus", ring(60, 24, 10, 4, true)},
       {"cylinder", ring(40, 20, 10, 3, false)}};
-  if (large) subjects.push_back({"plane of a million", grid(708, 708, -10, -10, 20. / 708, hills)});
   return subjects;
 }
 
@@ -71,7 +71,7 @@ void report(const std::string& name, const stress::Tally& t, bool json) {
 }
 
 void run(const Options& o) {
-  std::vector<Subject> subjects = generated(o.large);
+  std::vector<Subject> subjects = generated();
   if (!o.meshes.empty()) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(o.meshes))
@@ -82,11 +82,15 @@ void run(const Options& o) {
       subjects.push_back(
           {file.stem().string(), read_mesh(file.string()), file.parent_path().filename() != "defective"});
   }
+  if (o.large)
+    subjects.push_back({"plane of a million", testing::grid(708, 708, -10, -10, 20. / 708, hills)});
   if (!o.only.empty())
     std::erase_if(subjects, [&](const Subject& s) { return s.name.find(o.only) == s.name.npos; });
   if (subjects.empty()) throw InputError("no mesh to cut: --only " + o.only + " names none");
   stress::Tally all;
   stress::Plan plan = o.plan;
+  if (o.minutes > 0)
+    plan.until = stress::Clock::now() + std::chrono::seconds(static_cast<long>(60 * o.minutes));
   plan.paths = std::max(1L, plan.paths / static_cast<long>(subjects.size()));
   for (const Subject& subject : subjects) {
     plan.good = subject.good;
@@ -117,6 +121,8 @@ int main(int argc, char** argv) {
   Options o;
   app.add_option("--seed", o.plan.seed, "seed of the paths")->capture_default_str();
   app.add_option("--paths", o.plan.paths, "paths in all")->capture_default_str();
+  app.add_option("--minutes", o.minutes, "stop after so long, with the report of what was cut; 0: never")
+      ->capture_default_str();
   app.add_option("--meshes", o.meshes, "folder of .obj and .stl files, besides the generated ones");
   app.add_option("--only", o.only, "meshes whose name contains this");
   app.add_flag("--list", o.plan.list,

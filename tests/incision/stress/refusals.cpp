@@ -14,7 +14,7 @@ namespace {
 constexpr double beside = 0.05;  ///< of the mean edge: so near to the path's place a triangle is met by it
 constexpr double upright = 0.1;  ///< sine of the angle between blade and triangle, at least
 constexpr double rounding = 1e-9;
-constexpr double along = 0.1;    ///< sine of the angle between path and lip: below it runs along the lip
+constexpr double along = 0.1;  ///< sine of the angle between path and lip: below it runs along the lip
 
 double distance_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;

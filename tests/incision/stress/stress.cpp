@@ -47,7 +47,7 @@ class Stress {
   }
 
   Tally run() {
-    while (tally_.paths < plan_.paths) group();
+    while (tally_.paths < plan_.paths && Clock::now() < plan_.until) group();
     return tally_;
   }
 

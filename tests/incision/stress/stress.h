@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -29,9 +30,12 @@ struct Tally {
   void add(const Tally& other);
 };
 
+using Clock = std::chrono::steady_clock;
+
 struct Plan {
   std::uint64_t seed = 1;
   long paths = 100;
+  Clock::time_point until = Clock::time_point::max();
   bool good = true;      ///< the mesh: poor triangles and lips of another length are violations
   int cuts_at_once = 3;  ///< up to so many cuts lie in the mesh before all are undone
   bool list = false;     ///< every path that was refused, or left poor triangles or lips of another length
