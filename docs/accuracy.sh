@@ -22,10 +22,13 @@ Of the default case (\`cleft solve --help\`), on $(nproc) threads of a machine w
   values between nodes.
 - Simulation: the largest error of the opening, over the cut and over time, against the finest mesh, and of a slit in a
   sheet against its closed form, the middle's opening 4 a tension / E.
+- Replay: cuts that are curved, tilted, longer or beside another one, replayed with the case's field, against the solver's
+  own simulations of them: the largest error of the opening (over frame time, of any vertex of the skin) over the largest
+  opening. "tension turned": three fields of other prestress, superposed as the tension turns against the path. Frame time
+  is that of all vertices of the patch's skin.
 - Force: a blade that presses, slides, trembling at 5 Hz, and leaves, against 8,000 ticks a second. Below the default 1,000
   the energy observer takes force away to stay passive.
 
-The numbers are in [accuracy/chart.csv](accuracy/chart.csv). How far replayed cuts are from simulated ones over
-curvature, length, tilt and spacing: [tests/truth](../tests/truth/README.md). Where methods fail:
-[stability.md](stability.md).
+The numbers are in [accuracy/chart.csv](accuracy/chart.csv). More on replayed and simulated cuts:
+[tests/truth](../tests/truth/README.md). Where methods fail: [stability.md](stability.md).
 PAGE

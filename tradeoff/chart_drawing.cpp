@@ -78,36 +78,57 @@ class PanelScript {
       return out + "set label 1 'nothing measured' at graph 0.5,0.5 center\nplot [0:1][0:1] NaN notitle\n";
     if (chart_.log_x) out += "set logscale x\n";
     if (chart_.log_y) out += "set logscale y\n";
-    out += ranges() + series() + front() + standard();
+    out += ranges();  // names of series are placed within them
+    out += series();
+    out += front();
+    out += standard();
     return out + "plot " + plots_ + "\n";
   }
 
  private:
-  std::string ranges() const {
-    Range1D x{drawn_[0].x, drawn_[0].x}, y{drawn_[0].y, drawn_[0].y};
+  std::string ranges() {
+    x_ = {drawn_[0].x, drawn_[0].x}, y_ = {drawn_[0].y, drawn_[0].y};
     for (const ChartPoint& p : drawn_) {
-      x = {std::min(x.least, p.x), std::max(x.most, p.x)};
-      y = {std::min(y.least, p.y), std::max(y.most, p.y)};
+      x_ = {std::min(x_.least, p.x), std::max(x_.most, p.x)};
+      y_ = {std::min(y_.least, p.y), std::max(y_.most, p.y)};
     }
-    x = padded(x.least, x.most, chart_.log_x, 0.06, 0.3),
-    y = padded(y.least, y.most, chart_.log_y, 0.08, 0.12);
-    return tics("x", chart_.log_x, x) + tics("y", chart_.log_y, y) + "set xrange [" + shortest(x.least) +
-           ":" + shortest(x.most) + "]\nset yrange [" + shortest(y.least) + ":" + shortest(y.most) + "]\n";
+    x_ = padded(x_.least, x_.most, chart_.log_x, 0.06, 0.3),
+    y_ = padded(y_.least, y_.most, chart_.log_y, 0.08, 0.12);
+    return tics("x", chart_.log_x, x_) + tics("y", chart_.log_y, y_) + "set xrange [" + shortest(x_.least) +
+           ":" + shortest(x_.most) + "]\nset yrange [" + shortest(y_.least) + ":" + shortest(y_.most) + "]\n";
   }
 
-  /// On a logarithmic axis of few decades 1, 2 and 5 of each; gnuplot would label the powers of ten alone.
+  /// Above a series' first point, or below where another's name stands there.
+  double label_offset(const std::array<double, 2>& at) {
+    const auto part = [](double value, const Range1D& range, bool logarithmic) {
+      return logarithmic ? std::log(value / range.least) / std::log(range.most / range.least)
+                         : (value - range.least) / (range.most - range.least);
+    };
+    const std::array<double, 2> place{part(at[0], x_, chart_.log_x), part(at[1], y_, chart_.log_y)};
+    const bool taken = std::any_of(labels_.begin(), labels_.end(), [&](const std::array<double, 2>& other) {
+      return std::abs(other[0] - place[0]) < 0.3 && std::abs(other[1] - place[1]) < 0.06;
+    });
+    labels_.push_back(place);
+    return taken ? -0.8 : 0.7;
+  }
+
+  /// On a logarithmic axis of few decades 1, 2 and 5 of each, of less than one more; gnuplot would label the
+  /// powers of ten alone.
   static std::string tics(const std::string& axis, bool logarithmic, const Range1D& range) {
     if (!logarithmic || range.most / range.least > 300) return "set " + axis + "tics autofreq\n";
+    const std::vector<int> tenths =
+        range.most / range.least > 8 ? std::vector{10, 20, 50} : std::vector{10, 15, 20, 30, 40, 50, 70};
     std::string list;
     for (int power = static_cast<int>(std::floor(std::log10(range.least))); std::pow(10, power) < range.most;
          ++power)
-      for (const int digit : {1, 2, 5})
-        list +=
-            (list.empty() ? "" : ", ") + ("'" + shortest_of(digit, power) + "' " + shortest_of(digit, power));
+      for (const int digits : tenths) {
+        const std::string number = shortest_of(digits, power - 1);
+        list += (list.empty() ? "'" : ", '") + number + "' " + number;
+      }
     return "set " + axis + "tics (" + list + ")\n";
   }
-  static std::string shortest_of(int digit, int power) {
-    return shortest(power < 0 ? digit / std::pow(10, -power) : digit * std::pow(10, power));
+  static std::string shortest_of(int digits, int power) {
+    return shortest(power < 0 ? digits / std::pow(10, -power) : digits * std::pow(10, power));
   }
 
   void plot(const std::string& what) { plots_ += (plots_.empty() ? "" : ", ") + what; }
@@ -125,7 +146,8 @@ class PanelScript {
       plot(data + " with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '" + color + "' notitle");
       const auto first = *std::min_element(rows.begin(), rows.end());
       out += "set label " + std::to_string(n + 1) + " " + quoted(names[n]) + " at " + shortest(first[0]) +
-             "," + shortest(first[1]) + " left offset 0.6,0.7 tc rgb '" + color + "' noenhanced\n";
+             "," + shortest(first[1]) + " left offset 0.6," + shortest(label_offset(first)) + " tc rgb '" +
+             color + "' noenhanced\n";
     }
     return out;
   }
@@ -152,6 +174,8 @@ class PanelScript {
   const Chart& chart_;
   std::string prefix_, plots_;
   std::vector<ChartPoint> drawn_;
+  Range1D x_{}, y_{};
+  std::vector<std::array<double, 2>> labels_;  // where they stand, in parts of the panel
 };
 
 std::string script_of(const std::vector<Chart>& charts, const std::string& heading,

@@ -87,6 +87,8 @@ TEST(ChartCommand, DrawsAStudysOwnCase) {
   EXPECT_TRUE(decreases(slit));
   EXPECT_LT(slit.back(), slit[slit.size() - 2] * 0.7);  // of first order in the element's size
   EXPECT_TRUE(decreases(errors["haptic.rate/model alone"]));
+  EXPECT_TRUE(decreases(errors["replay.radius/the case's field"]));  // with the radius
+  EXPECT_TRUE(decreases(errors["replay.frame/tolerance"]));
   for (const char* series : {"encoder.size/tip", "encoder.size/fixed"}) {
     const std::vector<double>& all = errors[series];
     ASSERT_GE(all.size(), 7u);
