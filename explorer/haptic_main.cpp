@@ -151,6 +151,7 @@ void haptic(const Options& o) {
       sleep_until(due += frame);
     }
   }
+  cutting.step(loop.for_cutting());  // what the blade did while the last step was made
   if (!o.record.empty()) {
     probe.reset();
     write_recording(o.record, loop.recorded());

@@ -6,6 +6,11 @@
 
 namespace cleft {
 
+namespace {
+constexpr double folded = 0.25;   // of the sum of normals: walls that meet at less than 29 degrees
+constexpr double overlap = 0.02;  // mm, of walls that lie through each other
+}  // namespace
+
 ContactReader::ContactReader(const ContactSurface& surface) : surface_(surface), cells_(surface.cells()) {
   for (auto& says : surface.readers_) {
     std::uint64_t expected = ContactSurface::unused;
@@ -105,10 +110,23 @@ void ContactReader::walk(const Vec3& from, const Vec3& to, Facing facing, Surfac
   }
 }
 
+/// Whether a wall that x is before is met together with the back of another: a field that hardly opens a cut
+/// may move its walls through each other by micrometres, and no tissue is as thin as that.
+bool ContactReader::through_each_other(const Vec3& x, const Vec3& on_wall) const {
+  const Vec3 way = on_wall - x;
+  const double distance = norm(way);
+  if (!(distance > overlap)) return false;
+  const Vec3 from = on_wall - overlap / distance * way, to = on_wall + overlap / distance * way;
+  const SurfaceHit back = first_contact(from, to, Facing::back);
+  return back && back.wall;
+}
+
 NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
   NearestPoint best;
   double least = radius * radius;
   Vec3 normal, into;  // summed over the triangles that share the nearest point; of one that x is behind
+  double weights = 0;
+  bool only_walls = true;
   int sharing[24], shared = 0;
   const double tie = 1e-9 * cells_.cell();
   visit_voxels(x, radius, [&](const CellList& list) {
@@ -123,7 +141,10 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       const double square = squared_norm(x - p.position);
       if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) continue;
       if (square > radius * radius) continue;
-      if (!best || squared_norm(p.position - best.position) > tie * tie) shared = 0, normal = into = {};
+      if (!best || squared_norm(p.position - best.position) > tie * tie) {
+        shared = 0, normal = into = {};
+        weights = 0, only_walls = true;
+      }
       if (square <= least || !best) {
         least = std::min(least, square);
         best.triangle = id, best.position = p.position, best.wall = t.wall;
@@ -139,16 +160,21 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       }
       const Vec3 own = normalized(scaled_normal(c));
       normal += weight * own;
+      weights += weight;
+      only_walls = only_walls && t.wall;
       if (into == Vec3{} || dot(own, x - p.position) < 0) into = own;
     }
     return std::sqrt(least);
   });
   if (!best) return best;
-  // The walls of a closed cut lie on each other, and their normals cancel: beside them and before them is
-  // tissue.
-  const bool closed = norm(normal) < 1e-6;
-  best.normal = normalized(closed ? into : normal);
-  best.distance = closed || dot(x - best.position, normal) < 0 ? -std::sqrt(least) : std::sqrt(least);
+  // The walls of a cut that is closed, or hardly open, lie on each other, and what is left of their normals
+  // may point anywhere: beside them, below them and ahead of them is tissue. In a gap so narrow a point is
+  // nearest to a wall, never to where walls meet.
+  const bool along_fold = norm(normal) < (only_walls && shared > 1 ? folded : 1e-6) * weights;
+  const bool before = dot(x - best.position, normal) >= 0;
+  const bool tissue = along_fold || !before || (only_walls && through_each_other(x, best.position));
+  best.normal = normalized(along_fold ? into : normal);
+  best.distance = tissue ? -std::sqrt(least) : std::sqrt(least);
   return best;
 }
 

@@ -58,6 +58,7 @@ class ContactReader {
   bool corners_of(int triangle, Corners& corners, ContactTriangle& t) const;
   void meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
   void walk(const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
+  bool through_each_other(const Vec3& x, const Vec3& on_wall) const;
   bool project(int triangle, const Vec3& x, const SurfaceProxy& before, SurfaceProxy& out) const;
   template <class Visit>
   void visit_voxels(const Vec3& x, double radius, const Visit& visit) const;

@@ -107,6 +107,21 @@ TEST(Wound, BesideAClosedCutThereIsTissue) {
     }
 }
 
+TEST(Wound, BesideWallsThatLieThroughEachOtherThereIsTissue) {
+  // As far as a field's fit may move them, and as far as a wound is just opening.
+  for (const double gape : {-5e-3, -1e-6, 1e-6, 5e-3}) {
+    const Wound wound(20);
+    ContactSurface surface(wound.points, wound.triangles);
+    surface.update(wound.opened(gape), wound.walls);
+    ContactReader reader(surface);
+    const ContactLook look(reader);
+    for (const double y : {-1.5, -0.3, 0.3, 1.5})
+      for (const double z : {-5.9, -3., -2., -7.})
+        EXPECT_LT(reader.nearest({0.3, y, z}, 8).distance, 0) << gape << ' ' << y << ' ' << z;
+    EXPECT_GT(reader.nearest({0.3, 0.5, 0.1}, 8).distance, 0) << "over the skin";
+  }
+}
+
 TEST(Wound, OpensAroundABladeThatCuts) {
   const Wound wound(20);
   ContactSurface surface(wound.points, wound.triangles);
