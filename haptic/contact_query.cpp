@@ -32,8 +32,9 @@ void ContactReader::begin() {
 }
 
 bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& t) const {
-  t = surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
-  if (t.vertex[0] < 0) return false;
+  const FeltTriangle& felt = surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
+  if (!felt.exists()) return false;
+  t = felt.triangle();
   for (int i = 0; i < 3; ++i)
     corners[i] = surface_.positions_[static_cast<std::size_t>(t.vertex[i])].at(version_);
   return true;
@@ -41,12 +42,16 @@ bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& 
 
 void ContactReader::meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing,
                          SurfaceHit& best) const {
-  const int count = list.count.load(std::memory_order_acquire);
+  const double rounding = FeltTriangle::of_rounding(from, to);
+  const int count = list.count();
   for (int n = 0; n < count; ++n) {
-    const int id = list.ids[n].load(std::memory_order_acquire);
+    const int id = list[n];
+    if (id < 0) continue;
+    const FeltTriangle& felt = surface_.triangles_[static_cast<std::size_t>(id)].at(version_);
+    if (!felt.exists() || felt.on_one_side(from, to, rounding)) continue;
     Corners corners;
     ContactTriangle t;
-    if (id < 0 || !corners_of(id, corners, t)) continue;
+    corners_of(id, corners, t);
     const Passage passage = pass_through(from, to, corners);
     if (!passage.passes || (best && passage.fraction >= best.fraction)) continue;
     if (facing != Facing::any && passage.inward != (facing == Facing::front)) continue;
@@ -64,8 +69,8 @@ SurfaceHit ContactReader::first_contact(const Vec3& from, const Vec3& to, Facing
   }
   if (!within)
     walk(from, to, facing, best);
-  else if (const CellList* list = cells_.at(i[0], i[1], i[2]))
-    meet(*list, from, to, facing, best);
+  else if (const CellList list = cells_.at(i[0], i[1], i[2]))
+    meet(list, from, to, facing, best);
   if (best) {
     best.position = lerp(from, to, best.fraction);
     best.normal = normalized(best.normal);
@@ -101,7 +106,7 @@ void ContactReader::walk(const Vec3& from, const Vec3& to, Facing facing, Surfac
   }
   for (;;) {
     const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : next[1] < next[2] ? 1 : 2;
-    if (const CellList* list = cells_.at(at[0], at[1], at[2])) meet(*list, from, to, facing, best);
+    if (const CellList list = cells_.at(at[0], at[1], at[2])) meet(list, from, to, facing, best);
     if ((best && best.fraction <= next[axis]) || next[axis] > end) break;
     if (at[0] == last[0] && at[1] == last[1] && at[2] == last[2]) break;
     at[axis] += step[axis];
@@ -130,9 +135,9 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
   int sharing[24], shared = 0;
   const double tie = 1e-9 * cells_.cell();
   visit_voxels(x, radius, [&](const CellList& list) {
-    const int count = list.count.load(std::memory_order_acquire);
+    const int count = list.count();
     for (int n = 0; n < count; ++n) {
-      const int id = list.ids[n].load(std::memory_order_acquire);
+      const int id = list[n];
       Corners c;
       ContactTriangle t;
       if (id < 0 || !corners_of(id, c, t)) continue;
