@@ -32,12 +32,21 @@ void ContactReader::begin() {
 }
 
 bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& t) const {
-  const FeltTriangle& felt = surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
-  if (!felt.exists()) return false;
-  t = felt.triangle();
+  const FeltTriangle& now = felt(triangle);
+  if (!now.exists()) return false;
+  t = now.triangle();
   for (int i = 0; i < 3; ++i)
     corners[i] = surface_.positions_[static_cast<std::size_t>(t.vertex[i])].at(version_);
   return true;
+}
+
+/// The thread that cuts has written over what the last tick looked at: all of a voxel's triangles are asked
+/// for at once, not one after the other.
+void ContactReader::fetch(const CellList& list) const {
+  const int count = list.count();
+  for (int n = 0; n < count; ++n)
+    if (const int id = list[n]; id >= 0)
+      __builtin_prefetch(&surface_.triangles_[static_cast<std::size_t>(id)]);
 }
 
 void ContactReader::meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing,
@@ -47,8 +56,7 @@ void ContactReader::meet(const CellList& list, const Vec3& from, const Vec3& to,
   for (int n = 0; n < count; ++n) {
     const int id = list[n];
     if (id < 0) continue;
-    const FeltTriangle& felt = surface_.triangles_[static_cast<std::size_t>(id)].at(version_);
-    if (!felt.exists() || felt.on_one_side(from, to, rounding)) continue;
+    if (const FeltTriangle& t = felt(id); !t.exists() || t.on_one_side(from, to, rounding)) continue;
     Corners corners;
     ContactTriangle t;
     corners_of(id, corners, t);
@@ -135,13 +143,14 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
   int sharing[24], shared = 0;
   const double tie = 1e-9 * cells_.cell();
   visit_voxels(x, radius, [&](const CellList& list) {
+    fetch(list);
     const int count = list.count();
     for (int n = 0; n < count; ++n) {
       const int id = list[n];
       Corners c;
       ContactTriangle t;
-      if (id < 0 || !corners_of(id, c, t)) continue;
-      if (least_squared_distance(x, c) > least * (1 + 1e-9)) continue;
+      if (id < 0 || felt(id).least_squared_distance(x) > least * (1 + 1e-9)) continue;
+      if (!corners_of(id, c, t) || least_squared_distance(x, c) > least * (1 + 1e-9)) continue;
       const ClosestPoint p = closest_point(x, c);
       const double square = squared_norm(x - p.position);
       if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) continue;

@@ -55,6 +55,10 @@ class ContactReader {
   SurfaceProxy proxy(const Vec3& x, const SurfaceProxy& before) const;
 
  private:
+  const FeltTriangle& felt(int triangle) const {
+    return surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
+  }
+  void fetch(const CellList& list) const;
   bool corners_of(int triangle, Corners& corners, ContactTriangle& t) const;
   void meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
   void walk(const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;

@@ -36,7 +36,7 @@ ContactCells make_cells(std::span<const Vec3> points, std::span<const std::array
                         const ContactSurfaceOptions& options) {
   if (triangles.empty()) throw InputError("a mesh without triangles cannot be felt");
   const Box box = box_of(points, options.margin);
-  return {box.low, box.high, options.cell > 0 ? options.cell : mean_edge(points, triangles) / 2};
+  return {box.low, box.high, options.cell > 0 ? options.cell : 0.75 * mean_edge(points, triangles)};
 }
 
 }  // namespace

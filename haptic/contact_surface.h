@@ -69,16 +69,21 @@ class FeltTriangle {
   void set_plane(const Corners& c) {
     const Vec3 normal = scaled_normal(c);
     const double size = norm(normal);
-    const Vec3 n = size > 0 ? 1 / size * normal : Vec3{};
+    // A sliver's normal is mostly rounding: it has no plane, and nothing is ruled out by it.
+    const bool sliver = size <= 1e-6 * (squared_norm(c[1] - c[0]) + squared_norm(c[2] - c[0]));
+    const Vec3 n = sliver ? Vec3{} : 1 / size * normal;
     for (int k = 0; k < 3; ++k) plane_[k] = static_cast<float>(n[k]);
     plane_[3] = static_cast<float>(dot(n, c[0]));
   }
   /// Whether both ends are surely on the same side; `rounding`: of_rounding() of them.
   bool on_one_side(const Vec3& from, const Vec3& to, double rounding) const {
-    const Vec3 n{plane_[0], plane_[1], plane_[2]};
-    const double d = plane_[3], a = dot(n, from) - d, b = dot(n, to) - d;
-    const double margin = rounding + unit * std::abs(d);
+    const double a = height(from), b = height(to), margin = rounding + unit * std::abs(plane_[3]);
     return (a > margin && b > margin) || (a < -margin && b < -margin);
+  }
+  /// Less than the squared distance of x, surely.
+  double least_squared_distance(const Vec3& x) const {
+    const double away = std::abs(height(x)) - of_rounding(x, x) - unit * std::abs(plane_[3]);
+    return away > 0 ? away * away : 0;
   }
   /// At most what n . x is off by through the rounding of n.
   static double of_rounding(const Vec3& from, const Vec3& to) {
@@ -87,6 +92,8 @@ class FeltTriangle {
   }
 
  private:
+  double height(const Vec3& x) const { return dot({plane_[0], plane_[1], plane_[2]}, x) - plane_[3]; }
+
   static constexpr int wall_bit = 1 << 30;
   static constexpr double unit = 1.2e-7;  // twice the relative rounding to 24 bits
   std::array<int, 3> vertex_{-1, -1, -1};
@@ -96,7 +103,7 @@ static_assert(sizeof(TwoStates<FeltTriangle>) == 64);
 
 /// Lengths are mm.
 struct ContactSurfaceOptions {
-  double cell = 0;     ///< voxel's edge; 0: half the mean edge of the triangles
+  double cell = 0;     ///< voxel's edge; 0: three quarters of the triangles' mean edge
   double margin = -1;  ///< how far the surface may move or grow beyond its box; -1: a quarter of its diagonal
   std::size_t spare = 1 << 20;  ///< vertices and triangles that may be added
 };
