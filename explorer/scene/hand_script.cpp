@@ -32,7 +32,8 @@ std::vector<HandTarget> hand_along(const ScalpelPath& path, double scale, double
     script.push_back({time, pose_over(path, scale, s, height), press});
   };
   // The grip and the skin yield until the skin holds no longer; then the hand has pressed enough.
-  const double through = 1.2 * force.puncture_force * (1 / hand.stiffness + 1 / force.stiffness) + 1;
+  const double felt = std::min(force.stiffness, hand.limits.max_stiffness);
+  const double through = 1.2 * force.puncture_force * (1 / hand.stiffness + 1 / felt) + 1;
   go(0, 0, 10);
   go(10 / 40., 0, 1);
   go(through / 40, 0, -through, true);
