@@ -8,22 +8,21 @@
 namespace cleft {
 
 namespace {
-constexpr std::size_t words_a_chunk = 1 << 16, spare_blocks = 64;
-constexpr int first_words = 8;  // of a list: half a cache line
+constexpr std::size_t words_together = 1 << 19, blocks_together = 500;  // 2 MB each
+constexpr int first_words = 8;                                          // of a list: half a cache line
 constexpr double most_blocks = 1 << 23;
 constexpr std::size_t few = 4096;  // lists that a step replaces without taking memory
 }  // namespace
 
 ContactCells::ContactCells(const Vec3& low, const Vec3& high, double cell)
-    : low_(low), cell_(cell), chunk_used_(words_a_chunk) {
+    : low_(low), cell_(cell), blocks_used_(blocks_together), words_used_(words_together) {
   const auto blocks = [&](int axis) { return std::floor((high[axis] - low[axis]) / (cell_ * side)) + 1; };
   while (blocks(0) * blocks(1) * blocks(2) > most_blocks) cell_ *= 1.25;
   for (int axis = 0; axis < 3; ++axis) blocks_[axis] = static_cast<int>(blocks(axis));
   per_cell_ = 1 / cell_;
   // Rounding where a query passes from voxel to voxel: triangles reach that much further.
   reach_ = cell_ / 2 + 1e-12 * (norm(low) + norm(high) + cell_);
-  top_ =
-      std::make_unique<std::atomic<Block*>[]>(static_cast<std::size_t>(blocks_[0]) * blocks_[1] * blocks_[2]);
+  top_ = LargeArray<std::atomic<Block*>>(static_cast<std::size_t>(blocks_[0]) * blocks_[1] * blocks_[2]);
   replaced_.reserve(few);
   for (auto& free : free_) free.reserve(few);
 }
@@ -49,25 +48,26 @@ void ContactCells::voxels_of(const Corners& c, std::vector<std::uint64_t>& out) 
       }
 }
 
+void ContactCells::prepare() {
+  if (!spare_blocks_) spare_blocks_ = LargeArray<Block>(blocks_together);
+  if (!spare_lists_) spare_lists_ = LargeArray<Word>(words_together);
+  blocks_taken_.reserve(blocks_taken_.size() + 1), lists_taken_.reserve(lists_taken_.size() + 1);
+}
+
+ContactCells::Block* ContactCells::make_block() {
+  if (blocks_used_ == blocks_together) {
+    if (!spare_blocks_) prepare();
+    blocks_taken_.push_back(std::move(spare_blocks_));
+    blocks_used_ = 0;
+  }
+  return &blocks_taken_.back()[blocks_used_++];
+}
+
 ContactCells::Block& ContactCells::block_of(std::uint64_t voxel) {
   std::atomic<Block*>& block = top_[voxel >> (3 * bits)];
-  if (Block* there = block.load(std::memory_order_relaxed)) return *there;
-  if (spare_.empty()) spare_.push_back(std::make_unique<Block>());
-  owned_.push_back(std::move(spare_.back()));
-  spare_.pop_back();
-  block.store(owned_.back().get(), std::memory_order_release);
-  return *owned_.back();
-}
-
-void ContactCells::prepare() {
-  while (spare_.size() < spare_blocks) spare_.push_back(std::make_unique<Block>());
-  if (owned_.capacity() - owned_.size() < spare_blocks) owned_.reserve(2 * owned_.size() + spare_blocks);
-  if (!spare_chunk_) next_chunk();
-}
-
-void ContactCells::next_chunk() {
-  spare_chunk_.reset(new (std::align_val_t(line)) Word[words_a_chunk]);
-  chunks_.reserve(chunks_.size() + 1);
+  Block* there = block.load(std::memory_order_relaxed);
+  if (!there) block.store(there = make_block(), std::memory_order_release);
+  return *there;
 }
 
 ContactCells::Word* ContactCells::make_list(int words) {
@@ -77,17 +77,17 @@ ContactCells::Word* ContactCells::make_list(int words) {
     list = free.back();
     free.pop_back();
   } else {
-    constexpr std::size_t words_a_line = line / sizeof(Word);
+    constexpr std::size_t words_a_line = 64 / sizeof(Word);
     const auto size = static_cast<std::size_t>(words), whole = std::min(size, words_a_line);
-    chunk_used_ = (chunk_used_ + whole - 1) / whole * whole;
-    if (chunk_used_ + size > words_a_chunk) {
-      CLEFT_CHECK(size, <=, words_a_chunk);
-      if (!spare_chunk_) next_chunk();
-      chunks_.push_back(std::move(spare_chunk_));
-      chunk_used_ = 0;
+    words_used_ = (words_used_ + whole - 1) / whole * whole;
+    if (words_used_ + size > words_together) {
+      CLEFT_CHECK(size, <=, words_together);
+      if (!spare_lists_) prepare();
+      lists_taken_.push_back(std::move(spare_lists_));
+      words_used_ = 0;
     }
-    list = chunks_.back().get() + chunk_used_;
-    chunk_used_ += size;
+    list = lists_taken_.back().get() + words_used_;
+    words_used_ += size;
   }
   list[0].store(0, std::memory_order_relaxed);
   list[1].store(words, std::memory_order_relaxed);

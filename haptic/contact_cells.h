@@ -4,11 +4,10 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <vector>
 
 #include "base/vec3.h"
+#include "haptic/large_pages.h"
 #include "haptic/triangle_geometry.h"
 
 namespace cleft {
@@ -80,12 +79,6 @@ class ContactCells {
 
  private:
   using Word = std::atomic<std::int32_t>;
-  struct Release {
-    void operator()(Word* words) const { ::operator delete[](words, std::align_val_t(line)); }
-  };
-  using Chunk = std::unique_ptr<Word[], Release>;
-  static constexpr std::size_t line = 64;
-
   static std::size_t inner_index(int i, int j, int k) {
     constexpr int mask = side - 1;
     return static_cast<std::size_t>(((i & mask) << (2 * bits)) | ((j & mask) << bits) | (k & mask));
@@ -93,18 +86,19 @@ class ContactCells {
   std::size_t block_index(int i, int j, int k) const {
     return (static_cast<std::size_t>(i >> bits) * blocks_[1] + (j >> bits)) * blocks_[2] + (k >> bits);
   }
+  Block* make_block();
   Block& block_of(std::uint64_t voxel);
   Word* make_list(int words);
-  void next_chunk();
 
   Vec3 low_;
   double cell_, per_cell_, reach_;
   int blocks_[3];
-  std::unique_ptr<std::atomic<Block*>[]> top_;
-  std::vector<std::unique_ptr<Block>> owned_, spare_;
-  std::vector<Chunk> chunks_;
-  Chunk spare_chunk_;
-  std::size_t chunk_used_;
+  LargeArray<std::atomic<Block*>> top_;
+  std::vector<LargeArray<Block>> blocks_taken_;
+  std::vector<LargeArray<Word>> lists_taken_;
+  LargeArray<Block> spare_blocks_;
+  LargeArray<Word> spare_lists_;
+  std::size_t blocks_used_, words_used_;    // of the last ones taken
   std::vector<Word*> free_[32], replaced_;  // free ones by the logarithm of their size
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "haptic/large_pages.h"
 
 namespace cleft {
 
@@ -16,10 +17,10 @@ template <class T>
 class SlotArray {
  public:
   explicit SlotArray(std::size_t capacity)
-      : capacity_(capacity), memory_(std::allocator<T>().allocate(capacity)) {}
+      : capacity_(capacity), memory_(static_cast<T*>(take_large_pages(capacity * sizeof(T)))) {}
   ~SlotArray() {
     std::destroy_n(memory_, size_);
-    std::allocator<T>().deallocate(memory_, capacity_);
+    release_large_pages(memory_);
   }
   SlotArray(const SlotArray&) = delete;
   SlotArray& operator=(const SlotArray&) = delete;
