@@ -40,31 +40,16 @@ bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& 
   return true;
 }
 
-/// The thread that cuts has written over what the last tick looked at: all of a voxel's triangles are asked
-/// for at once, not one after the other.
-void ContactReader::fetch(const CellList& list) const {
-  const int count = list.count();
-  for (int n = 0; n < count; ++n)
-    if (const int id = list[n]; id >= 0)
-      __builtin_prefetch(&surface_.triangles_[static_cast<std::size_t>(id)]);
-}
-
 void ContactReader::meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing,
                          SurfaceHit& best) const {
   const double rounding = FeltTriangle::of_rounding(from, to);
-  const int count = list.count();
-  for (int n = 0; n < count; ++n) {
-    const int id = list[n];
-    if (id < 0) continue;
-    if (const FeltTriangle& t = felt(id); !t.exists() || t.on_one_side(from, to, rounding)) continue;
-    Corners corners;
-    ContactTriangle t;
-    corners_of(id, corners, t);
+  const auto may_meet = [&](const FeltTriangle& t) { return !t.on_one_side(from, to, rounding); };
+  each_of(list, may_meet, [&](int id, const ContactTriangle& t, const Corners& corners) {
     const Passage passage = pass_through(from, to, corners);
-    if (!passage.passes || (best && passage.fraction >= best.fraction)) continue;
-    if (facing != Facing::any && passage.inward != (facing == Facing::front)) continue;
+    if (!passage.passes || (best && passage.fraction >= best.fraction)) return;
+    if (facing != Facing::any && passage.inward != (facing == Facing::front)) return;
     best = {id, passage.fraction, {}, passage.normal, t.wall};
-  }
+  });
 }
 
 SurfaceHit ContactReader::first_contact(const Vec3& from, const Vec3& to, Facing facing) const {
@@ -142,19 +127,14 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
   bool only_walls = true;
   int sharing[24], shared = 0;
   const double tie = 1e-9 * cells_.cell();
+  const auto near = [&](const FeltTriangle& t) { return t.least_squared_distance(x) <= least * (1 + 1e-9); };
   visit_voxels(x, radius, [&](const CellList& list) {
-    fetch(list);
-    const int count = list.count();
-    for (int n = 0; n < count; ++n) {
-      const int id = list[n];
-      Corners c;
-      ContactTriangle t;
-      if (id < 0 || felt(id).least_squared_distance(x) > least * (1 + 1e-9)) continue;
-      if (!corners_of(id, c, t) || least_squared_distance(x, c) > least * (1 + 1e-9)) continue;
+    each_of(list, near, [&](int id, const ContactTriangle& t, const Corners& c) {
+      if (least_squared_distance(x, c) > least * (1 + 1e-9)) return;
       const ClosestPoint p = closest_point(x, c);
       const double square = squared_norm(x - p.position);
-      if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) continue;
-      if (square > radius * radius) continue;
+      if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) return;
+      if (square > radius * radius) return;
       if (!best || squared_norm(p.position - best.position) > tie * tie) {
         shared = 0, normal = into = {};
         weights = 0, only_walls = true;
@@ -165,7 +145,7 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       }
       bool known = false;
       for (int k = 0; k < shared; ++k) known = known || sharing[k] == id;
-      if (known) continue;
+      if (known) return;
       if (shared < 24) sharing[shared++] = id;
       double weight = 1;
       if (p.feature == ClosestPoint::vertex) {
@@ -177,7 +157,7 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       weights += weight;
       only_walls = only_walls && t.wall;
       if (into == Vec3{} || dot(own, x - p.position) < 0) into = own;
-    }
+    });
     return std::sqrt(least);
   });
   if (!best) return best;

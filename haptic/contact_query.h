@@ -58,7 +58,8 @@ class ContactReader {
   const FeltTriangle& felt(int triangle) const {
     return surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
   }
-  void fetch(const CellList& list) const;
+  template <class May, class Look>
+  void each_of(const CellList& list, const May& may, const Look& look) const;
   bool corners_of(int triangle, Corners& corners, ContactTriangle& t) const;
   void meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
   void walk(const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;

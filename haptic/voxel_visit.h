@@ -1,4 +1,5 @@
-// Voxels about a point, nearest first: for contact_query.cpp and surface_proxy.cpp alone.
+// Triangles of a voxel, and voxels about a point, nearest first: for contact_query.cpp and surface_proxy.cpp
+// alone.
 #pragma once
 
 #include <bit>
@@ -57,6 +58,32 @@ void visit_block(const ContactCells& cells, const ContactCells::Block& block, co
   each([&](int i, int j, int k, double square) {
     if (square <= (wanted + slack) * (wanted + slack) && (i * side + j) * side + k != first) meet(i, j, k);
   });
+}
+
+/// Those triangles of a list of which `may` says that they matter. The thread that cuts has just written over
+/// what the last tick looked at: the corners of all are asked for before any is waited for.
+template <class May, class Look>
+void ContactReader::each_of(const CellList& list, const May& may, const Look& look) const {
+  constexpr int most = 16;
+  int ids[most];
+  for (int n = 0, count = list.count(); n < count;) {
+    int kept = 0;
+    for (; n < count && kept < most; ++n) {
+      const int id = list[n];
+      if (id < 0) continue;
+      const FeltTriangle& t = felt(id);
+      if (!t.exists() || !may(t)) continue;
+      for (const int v : t.triangle().vertex)
+        __builtin_prefetch(&surface_.positions_[static_cast<std::size_t>(v)]);
+      ids[kept++] = id;
+    }
+    for (int k = 0; k < kept; ++k) {
+      Corners corners;
+      ContactTriangle t;
+      corners_of(ids[k], corners, t);
+      look(ids[k], t, corners);
+    }
+  }
 }
 
 /// Voxels about x, block after block in shells of growing distance. `visit` takes a list and returns the
