@@ -54,6 +54,7 @@ void info(Session& session, CommandWords&) {
   }
   if (!s.mesh.empty()) session.answer("mesh: " + s.mesh + ", cuts: " + std::to_string(s.cuts.size()));
   session.answer("length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");
+  for (const std::string& warning : session.warnings()) session.answer("warning: " + warning);
 }
 
 void help(Session& session, CommandWords& words) {

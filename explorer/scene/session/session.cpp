@@ -12,13 +12,9 @@
 
 namespace cleft {
 
-namespace {
-
-std::string absolute(const std::string& path) {
+std::string Session::absolute_path(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
-
-}  // namespace
 
 Session::Session(SessionServices services) : services_(std::move(services)) {}
 
@@ -47,6 +43,7 @@ void Session::say(const std::string& line) {
     if (again && command.recorded == Command::latest) said_.pop_back();
     said_.push_back(line);
   }
+  warn();
   notify();
 }
 
@@ -135,9 +132,17 @@ double Session::duration() {
   return longest;
 }
 
+void Session::warn() {
+  if (!changes_.cuts && !changes_.shown && !changes_.study) return;
+  const auto before = std::move(warnings_);
+  warnings_ = has_scene() ? scene()->warnings() : std::vector<std::string>{};
+  for (const std::string& warning : warnings_)
+    if (std::find(before.begin(), before.end(), warning) == before.end()) answer("warning: " + warning);
+}
+
 void Session::load_study(const std::string& path) {
   study_ = std::make_shared<PublishedStudy>(path);
-  state_.study = absolute(path);
+  state_.study = absolute_path(path);
   scenes_.clear();
   cut_surfaces_.clear();
   known_ = std::make_shared<Known>();
@@ -260,77 +265,6 @@ bool Session::brushed(int i) {
     const double value = column_value(i, brush.first);
     return value >= brush.second.first && value <= brush.second.second;
   });
-}
-
-void Session::read_mesh_in_mm() {
-  SurfaceMesh mesh = services_.read_mesh(state_.mesh);
-  for (Vec3& x : mesh.points) x *= state_.scale;
-  mesh_ = std::make_shared<const SurfaceMesh>(std::move(mesh));
-}
-
-void Session::load_mesh(const std::string& file, double scale) {
-  state_.mesh = absolute(file);
-  state_.scale = scale;
-  state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
-  read_mesh_in_mm();
-  state_.coloring = Coloring::tissue;
-  state_.camera = {};
-  cuts_changed();
-  changes_.all();
-}
-
-void Session::show_patch() {
-  open_study();
-  state_.mesh.clear(), state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
-  mesh_.reset();
-  state_.coloring = Coloring::displacement;
-  state_.camera = {};
-  cuts_changed();
-  changes_.all();
-}
-
-void Session::cuts_changed() {
-  cut_surfaces_.clear(), scenes_.clear();
-  state_.time = duration();  // makes the cuts, and throws where they cannot be made
-  changes_.cuts = changes_.time = true;
-}
-
-void Session::cut(const CutState& cut) {
-  if (!mesh_) throw InputError("there is no mesh to cut (say: mesh FILE)");
-  const bool first = state_.cuts.empty();
-  state_.cuts.push_back(cut);
-  state_.undone.clear();
-  cuts_changed();
-  if (first && !state_.camera.pose) changes_.camera = true;  // angles count from the first cut
-}
-
-void Session::recut(const CutState& cut) {
-  if (state_.cuts.empty()) throw InputError("there is no cut yet (say: cut ...)");
-  state_.cuts.back() = cut;
-  cuts_changed();
-}
-
-void Session::pull(const std::optional<SkinTension>& tension) {
-  if (tension) open_study();
-  if (tension && !mesh_) throw InputError("there is no skin to pull (say: mesh FILE)");
-  state_.tension = tension;
-  scenes_.clear();
-  set_time(state_.time);  // makes the scenes, and throws where they cannot be made
-  changes_.cuts = true;
-}
-
-void Session::undo() {
-  if (state_.cuts.empty()) throw InputError("there is no cut to undo");
-  state_.undone.push_back(state_.cuts.back());
-  state_.cuts.pop_back();
-  cuts_changed();
-}
-
-void Session::redo() {
-  if (state_.undone.empty()) throw InputError("there is no undone cut to make again");
-  state_.cuts.push_back(state_.undone.back());
-  state_.undone.pop_back();
-  cuts_changed();
 }
 
 void Session::set_time(double t) {

@@ -76,6 +76,9 @@ class Session {
   std::shared_ptr<const Field> field();      ///< of the shown case; null without a study
   std::shared_ptr<const Field> reference();  ///< null where none is chosen
   double duration();                         ///< t of the end, of the longest view
+  /// Where openings of the shown case's cuts may be off, and by how much (validity.h). A line that brings a
+  /// new one about is answered with it.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// Whether the shown case has exactly the parameters asked for.
   bool shows_exactly() const;
 
@@ -122,12 +125,17 @@ class Session {
 
  private:
   void load_study(const std::string& path);
+  static std::string absolute_path(const std::string& path);
   void read_mesh_in_mm();
   int nearest_case() const;
   void take_parameters();
   void cuts_changed();
+  void forget_cuts();
+  void tension_changed();
+  bool swap_tension(std::vector<TensionChange>& from, std::vector<TensionChange>& to);
   std::vector<ScalpelPath> cut_paths(double depth) const;
   std::shared_ptr<const CutSurface> cut_surface(double depth);
+  void warn();
   void notify();
 
   SessionServices services_;
@@ -142,7 +150,7 @@ class Session {
     std::map<std::string, std::map<int, std::optional<Finding>>> findings;  // by condition
   };
   std::shared_ptr<Known> known_ = std::make_shared<Known>();
-  std::vector<std::string> said_;
+  std::vector<std::string> said_, warnings_;
   std::vector<Listener> listeners_;
   Changes changes_;
 };
