@@ -113,6 +113,7 @@ void updates(Surface s, ContactSurface& surface) {
     const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
     times.push_back(time.count());
     touched += changed.size();
+    surface.prepare();
   }
   char what[80];
   std::snprintf(what, sizeof what, "update after a cut step (%.0f triangles)",

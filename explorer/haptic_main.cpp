@@ -62,7 +62,7 @@ Json quantiles_us(const TimeHistogram& h) {
           {"max", 1e6 * h.largest()}};
 }
 
-Json figures_of(const HapticLoop& loop, const TimeHistogram& bare, const ScalpelCutting& cutting) {
+Json figures_of(const HapticLoop& loop, const BareTimer& bare, const ScalpelCutting& cutting) {
   const LoopStatistics& s = loop.statistics();
   const CuttingFigures& c = cutting.figures();
   const auto named = std::min<std::uint64_t>(s.overruns, s.overrun_ticks.size());
@@ -71,7 +71,9 @@ Json figures_of(const HapticLoop& loop, const TimeHistogram& bare, const Scalpel
       {"ticks", s.ticks},
       {"compute_us", quantiles_us(s.compute)},
       {"lateness_us", quantiles_us(s.lateness)},
-      {"bare_timer_lateness_us", quantiles_us(bare)},
+      {"bare_timer_compute_us", quantiles_us(bare.compute)},
+      {"bare_timer_lateness_us", quantiles_us(bare.lateness)},
+      {"page_faults", s.page_faults},
       {"overruns", s.overruns},
       {"overrun_ticks", std::vector<std::uint64_t>(s.overrun_ticks.begin(), s.overrun_ticks.begin() + named)},
       {"real_time_refused", loop.refused()},
@@ -134,7 +136,7 @@ void haptic(const Options& o) {
   options.real_time = o.real_time;
   if (!o.record.empty()) options.record = static_cast<std::size_t>(seconds * o.rate) + 1;
   HapticLoop loop(*device, cutting.surface(), force, options);
-  TimeHistogram bare;
+  BareTimer bare;
   std::atomic<bool> stop{false}, over{false};
   {
     Progress progress("haptic");
@@ -151,6 +153,7 @@ void haptic(const Options& o) {
       sleep_until(due += frame);
     }
   }
+  cutting.step(loop.for_cutting());  // what the blade did while the last step was made
   if (!o.record.empty()) {
     probe.reset();
     write_recording(o.record, loop.recorded());

@@ -1,4 +1,5 @@
-// A loop that does nothing but wake up: what lateness of the haptic loop is compared with.
+// A loop that wakes up and does the same few microseconds' work in registers: what lateness and compute time
+// of the haptic loop are compared with. What it shows is the machine's.
 #pragma once
 
 #include <atomic>
@@ -7,7 +8,12 @@
 
 namespace cleft {
 
+struct BareTimer {
+  TimeHistogram lateness;  ///< of waking up
+  TimeHistogram compute;   ///< of the same 1,500 additions each time, by the thread's own CPU clock
+};
+
 /// Wakes at the rate (Hz) until `stop`, in the thread that calls it; with `real_time` it asks for SCHED_FIFO.
-TimeHistogram bare_timer(double rate, bool real_time, const std::atomic<bool>& stop);
+BareTimer bare_timer(double rate, bool real_time, const std::atomic<bool>& stop);
 
 }  // namespace cleft

@@ -1,5 +1,6 @@
 #include "haptic/contact_cells.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "base/error.h"
@@ -7,19 +8,23 @@
 namespace cleft {
 
 namespace {
-constexpr std::size_t lists_a_chunk = 4096, ids_a_chunk = 65536;
+constexpr std::size_t words_together = 1 << 19, blocks_together = 500;  // 2 MB each
+constexpr int first_words = 8;                                          // of a list: half a cache line
 constexpr double most_blocks = 1 << 23;
+constexpr std::size_t few = 4096;  // lists that a step replaces without taking memory
 }  // namespace
 
-ContactCells::ContactCells(const Vec3& low, const Vec3& high, double cell) : low_(low), cell_(cell) {
+ContactCells::ContactCells(const Vec3& low, const Vec3& high, double cell)
+    : low_(low), cell_(cell), blocks_used_(blocks_together), words_used_(words_together) {
   const auto blocks = [&](int axis) { return std::floor((high[axis] - low[axis]) / (cell_ * side)) + 1; };
   while (blocks(0) * blocks(1) * blocks(2) > most_blocks) cell_ *= 1.25;
   for (int axis = 0; axis < 3; ++axis) blocks_[axis] = static_cast<int>(blocks(axis));
   per_cell_ = 1 / cell_;
   // Rounding where a query passes from voxel to voxel: triangles reach that much further.
   reach_ = cell_ / 2 + 1e-12 * (norm(low) + norm(high) + cell_);
-  top_ =
-      std::make_unique<std::atomic<Block*>[]>(static_cast<std::size_t>(blocks_[0]) * blocks_[1] * blocks_[2]);
+  top_ = LargeArray<std::atomic<Block*>>(static_cast<std::size_t>(blocks_[0]) * blocks_[1] * blocks_[2]);
+  replaced_.reserve(few);
+  for (auto& free : free_) free.reserve(few);
 }
 
 ContactCells::~ContactCells() = default;
@@ -43,72 +48,103 @@ void ContactCells::voxels_of(const Corners& c, std::vector<std::uint64_t>& out) 
       }
 }
 
-std::atomic<CellList*>& ContactCells::cell_at(std::uint64_t voxel) {
-  std::atomic<Block*>& block = top_[voxel >> (3 * bits)];
-  if (!block.load(std::memory_order_relaxed)) {
-    owned_.push_back(std::make_unique<Block>());
-    block.store(owned_.back().get(), std::memory_order_release);
-  }
-  return block.load(std::memory_order_relaxed)->cell[voxel & ((1u << (3 * bits)) - 1)];
+void ContactCells::prepare() {
+  if (!spare_blocks_) spare_blocks_ = LargeArray<Block>(blocks_together);
+  if (!spare_lists_) spare_lists_ = LargeArray<Word>(words_together);
+  blocks_taken_.reserve(blocks_taken_.size() + 1), lists_taken_.reserve(lists_taken_.size() + 1);
 }
 
-CellList* ContactCells::make_list(int capacity) {
-  auto& free = free_[std::bit_width(static_cast<unsigned>(capacity))];
+ContactCells::Block* ContactCells::make_block() {
+  if (blocks_used_ == blocks_together) {
+    if (!spare_blocks_) prepare();
+    blocks_taken_.push_back(std::move(spare_blocks_));
+    blocks_used_ = 0;
+  }
+  return &blocks_taken_.back()[blocks_used_++];
+}
+
+ContactCells::Block& ContactCells::block_of(std::uint64_t voxel) {
+  std::atomic<Block*>& block = top_[voxel >> (3 * bits)];
+  Block* there = block.load(std::memory_order_relaxed);
+  if (!there) block.store(there = make_block(), std::memory_order_release);
+  return *there;
+}
+
+ContactCells::Word* ContactCells::make_list(int words) {
+  auto& free = free_[std::bit_width(static_cast<unsigned>(words))];
+  Word* list = nullptr;
   if (!free.empty()) {
-    CellList* list = free.back();
+    list = free.back();
     free.pop_back();
-    list->count.store(0, std::memory_order_relaxed);
-    return list;
+  } else {
+    constexpr std::size_t words_a_line = 64 / sizeof(Word);
+    const auto size = static_cast<std::size_t>(words), whole = std::min(size, words_a_line);
+    words_used_ = (words_used_ + whole - 1) / whole * whole;
+    if (words_used_ + size > words_together) {
+      CLEFT_CHECK(size, <=, words_together);
+      if (!spare_lists_) prepare();
+      lists_taken_.push_back(std::move(spare_lists_));
+      words_used_ = 0;
+    }
+    list = lists_taken_.back().get() + words_used_;
+    words_used_ += size;
   }
-  if (lists_.empty() || lists_used_ == lists_a_chunk) {
-    lists_.push_back(std::make_unique<CellList[]>(lists_a_chunk));
-    lists_used_ = 0;
-  }
-  if (chunk_used_ + static_cast<std::size_t>(capacity) > chunk_size_) {
-    chunk_size_ = std::max(ids_a_chunk, static_cast<std::size_t>(capacity));
-    chunks_.push_back(std::make_unique<std::atomic<std::int32_t>[]>(chunk_size_));
-    chunk_used_ = 0;
-  }
-  CellList* list = &lists_.back()[lists_used_++];
-  list->capacity = capacity;
-  list->ids = chunks_.back().get() + chunk_used_;
-  chunk_used_ += static_cast<std::size_t>(capacity);
+  list[0].store(0, std::memory_order_relaxed);
+  list[1].store(words, std::memory_order_relaxed);
   return list;
 }
 
 void ContactCells::add(std::uint64_t voxel, std::int32_t id) {
-  std::atomic<CellList*>& cell = cell_at(voxel);
-  CellList* list = cell.load(std::memory_order_relaxed);
-  const int count = list ? list->count.load(std::memory_order_relaxed) : 0;
-  for (int n = 0; n < count; ++n)
-    if (list->ids[n].load(std::memory_order_relaxed) < 0)
-      return list->ids[n].store(id, std::memory_order_release);
-  if (!list || count == list->capacity) {
-    CellList* larger = make_list(list ? 2 * list->capacity : 8);
-    for (int n = 0; n < count; ++n)
-      larger->ids[n].store(list->ids[n].load(std::memory_order_relaxed), std::memory_order_relaxed);
-    larger->ids[count].store(id, std::memory_order_relaxed);
-    larger->count.store(count + 1, std::memory_order_relaxed);
-    cell.store(larger, std::memory_order_release);
+  constexpr std::uint64_t inner_mask = (1u << (3 * bits)) - 1;
+  constexpr int header = CellList::header;
+  const std::uint64_t inner = voxel & inner_mask;
+  Block& block = block_of(voxel);
+  Word* list = block.cell[inner].load(std::memory_order_relaxed);
+  const int count = list ? list[0].load(std::memory_order_relaxed) : 0;
+  for (int n = header; n < header + count; ++n)
+    if (list[n].load(std::memory_order_relaxed) < 0) return list[n].store(id, std::memory_order_release);
+  const int words = list ? list[1].load(std::memory_order_relaxed) : 0;
+  if (header + count < words) {
+    list[header + count].store(id, std::memory_order_relaxed);
+    list[0].store(count + 1, std::memory_order_release);
+  } else {
+    Word* larger = make_list(list ? 2 * words : first_words);
+    for (int n = header; n < header + count; ++n)
+      larger[n].store(list[n].load(std::memory_order_relaxed), std::memory_order_relaxed);
+    larger[header + count].store(id, std::memory_order_relaxed);
+    larger[0].store(count + 1, std::memory_order_relaxed);
+    block.cell[inner].store(larger, std::memory_order_release);
     if (list) replaced_.push_back(list);
-    return;
   }
-  list->ids[count].store(id, std::memory_order_relaxed);
-  list->count.store(count + 1, std::memory_order_release);
+  if (count > 0) return;
+  std::atomic<std::uint64_t>& occupied = block.occupied[inner >> (2 * bits)];
+  occupied.store(occupied.load(std::memory_order_relaxed) | std::uint64_t{1} << (inner & (side * side - 1)),
+                 std::memory_order_release);
 }
 
 void ContactCells::remove(std::uint64_t voxel, std::int32_t id) {
-  CellList* list = cell_at(voxel).load(std::memory_order_relaxed);
-  const int count = list ? list->count.load(std::memory_order_relaxed) : 0;
-  for (int n = 0; n < count; ++n)
-    if (list->ids[n].load(std::memory_order_relaxed) == id)
-      return list->ids[n].store(-1, std::memory_order_relaxed);
-  CLEFT_CHECK(id, ==, -1);  // it was not there
+  constexpr std::uint64_t inner_mask = (1u << (3 * bits)) - 1;
+  const std::uint64_t inner = voxel & inner_mask;
+  Block& block = block_of(voxel);
+  Word* list = block.cell[inner].load(std::memory_order_relaxed);
+  int count = list ? list[0].load(std::memory_order_relaxed) : 0;
+  Word* ids = list + CellList::header;
+  int n = 0;
+  while (n < count && ids[n].load(std::memory_order_relaxed) != id) ++n;
+  CLEFT_CHECK(n, <, count);
+  ids[n].store(-1, std::memory_order_relaxed);
+  while (count > 0 && ids[count - 1].load(std::memory_order_relaxed) < 0) --count;
+  list[0].store(count, std::memory_order_release);
+  if (count > 0) return;
+  std::atomic<std::uint64_t>& occupied = block.occupied[inner >> (2 * bits)];
+  occupied.store(
+      occupied.load(std::memory_order_relaxed) & ~(std::uint64_t{1} << (inner & (side * side - 1))),
+      std::memory_order_relaxed);
 }
 
 void ContactCells::recycle() {
-  for (CellList* list : replaced_)
-    free_[std::bit_width(static_cast<unsigned>(list->capacity))].push_back(list);
+  for (Word* list : replaced_)
+    free_[std::bit_width(static_cast<unsigned>(list[1].load(std::memory_order_relaxed)))].push_back(list);
   replaced_.clear();
 }
 

@@ -4,20 +4,29 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "base/vec3.h"
+#include "haptic/large_pages.h"
 #include "haptic/triangle_geometry.h"
 
 namespace cleft {
 
-/// Numbers of triangles in one voxel. The writer changes it in place: a removed number becomes -1, a further
-/// one takes such a place or the end.
-struct CellList {
-  std::atomic<std::int32_t> count{0};
-  std::int32_t capacity = 0;
-  std::atomic<std::int32_t>* ids = nullptr;
+/// Numbers of triangles in one voxel, for readers: a cache line, half of one, or several. The writer changes
+/// it in place: a removed number becomes -1, a further one takes such a place or the end.
+class CellList {
+ public:
+  static constexpr int header = 2;  ///< words before the numbers: their count, and how many words there are
+
+  CellList() = default;
+  explicit CellList(const std::atomic<std::int32_t>* words) : words_(words) {}
+  explicit operator bool() const { return words_; }
+  int count() const { return words_[0].load(std::memory_order_acquire); }
+  int operator[](int n) const { return words_[header + n].load(std::memory_order_acquire); }
+  friend bool operator==(const CellList&, const CellList&) = default;
+
+ private:
+  const std::atomic<std::int32_t>* words_ = nullptr;
 };
 
 class ContactCells {
@@ -37,14 +46,24 @@ class ContactCells {
     return i <= 0 ? 0 : i >= size(axis) ? size(axis) - 1 : static_cast<int>(i);
   }
 
+  /// 8 x 8 x 8 voxels. Bit 8 j + k of occupied[i] says whether there is anything in voxel (i, j, k).
+  struct alignas(64) Block {
+    std::atomic<std::uint64_t> occupied[side]{};
+    std::atomic<std::atomic<std::int32_t>*> cell[side * side * side]{};
+    CellList at(int i, int j, int k) const {
+      return CellList(cell[inner_index(i, j, k)].load(std::memory_order_acquire));
+    }
+  };
+
   /// For readers: the triangles of a voxel, or none.
-  const CellList* at(int i, int j, int k) const {
-    const auto* block = top_[block_index(i, j, k)].load(std::memory_order_acquire);
-    return block ? block->cell[inner_index(i, j, k)].load(std::memory_order_acquire) : nullptr;
+  CellList at(int i, int j, int k) const {
+    const Block* block = block_at(i >> bits, j >> bits, k >> bits);
+    return block ? block->at(i, j, k) : CellList();
   }
-  /// Whether there is nothing in all of the voxel's block.
-  bool empty_block(int i, int j, int k) const {
-    return !top_[block_index(i, j, k)].load(std::memory_order_acquire);
+  /// By blocks: null where there is nothing in all of one.
+  const Block* block_at(int i, int j, int k) const {
+    return top_[(static_cast<std::size_t>(i) * blocks_[1] + j) * blocks_[2] + k].load(
+        std::memory_order_acquire);
   }
 
   /// Numbers, from 0, of the voxels that the triangle meets: appended to `out`.
@@ -55,11 +74,11 @@ class ContactCells {
   void remove(std::uint64_t voxel, std::int32_t id);
   /// Lists replaced since the last call are used again: no reader may still see them.
   void recycle();
+  /// Takes from the system, and touches, what the next steps will need, so that they need not.
+  void prepare();
 
  private:
-  struct Block {
-    std::atomic<CellList*> cell[side * side * side]{};
-  };
+  using Word = std::atomic<std::int32_t>;
   static std::size_t inner_index(int i, int j, int k) {
     constexpr int mask = side - 1;
     return static_cast<std::size_t>(((i & mask) << (2 * bits)) | ((j & mask) << bits) | (k & mask));
@@ -67,18 +86,20 @@ class ContactCells {
   std::size_t block_index(int i, int j, int k) const {
     return (static_cast<std::size_t>(i >> bits) * blocks_[1] + (j >> bits)) * blocks_[2] + (k >> bits);
   }
-  std::atomic<CellList*>& cell_at(std::uint64_t voxel);
-  CellList* make_list(int capacity);
+  Block* make_block();
+  Block& block_of(std::uint64_t voxel);
+  Word* make_list(int words);
 
   Vec3 low_;
   double cell_, per_cell_, reach_;
   int blocks_[3];
-  std::unique_ptr<std::atomic<Block*>[]> top_;
-  std::vector<std::unique_ptr<Block>> owned_;
-  std::vector<std::unique_ptr<CellList[]>> lists_;
-  std::vector<std::unique_ptr<std::atomic<std::int32_t>[]>> chunks_;
-  std::size_t lists_used_ = 0, chunk_used_ = 0, chunk_size_ = 0;
-  std::vector<CellList*> free_[32], replaced_;  // by the logarithm of their capacity
+  LargeArray<std::atomic<Block*>> top_;
+  std::vector<LargeArray<Block>> blocks_taken_;
+  std::vector<LargeArray<Word>> lists_taken_;
+  LargeArray<Block> spare_blocks_;
+  LargeArray<Word> spare_lists_;
+  std::size_t blocks_used_, words_used_;    // of the last ones taken
+  std::vector<Word*> free_[32], replaced_;  // free ones by the logarithm of their size
 };
 
 }  // namespace cleft

@@ -6,6 +6,11 @@
 
 namespace cleft {
 
+namespace {
+constexpr double folded = 0.25;   // of the sum of normals: walls that meet at less than 29 degrees
+constexpr double overlap = 0.02;  // mm, of walls that lie through each other
+}  // namespace
+
 ContactReader::ContactReader(const ContactSurface& surface) : surface_(surface), cells_(surface.cells()) {
   for (auto& says : surface.readers_) {
     std::uint64_t expected = ContactSurface::unused;
@@ -27,8 +32,9 @@ void ContactReader::begin() {
 }
 
 bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& t) const {
-  t = surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
-  if (t.vertex[0] < 0) return false;
+  const FeltTriangle& now = felt(triangle);
+  if (!now.exists()) return false;
+  t = now.triangle();
   for (int i = 0; i < 3; ++i)
     corners[i] = surface_.positions_[static_cast<std::size_t>(t.vertex[i])].at(version_);
   return true;
@@ -36,17 +42,14 @@ bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& 
 
 void ContactReader::meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing,
                          SurfaceHit& best) const {
-  const int count = list.count.load(std::memory_order_acquire);
-  for (int n = 0; n < count; ++n) {
-    const int id = list.ids[n].load(std::memory_order_acquire);
-    Corners corners;
-    ContactTriangle t;
-    if (id < 0 || !corners_of(id, corners, t)) continue;
+  const double rounding = FeltTriangle::of_rounding(from, to);
+  const auto may_meet = [&](const FeltTriangle& t) { return !t.on_one_side(from, to, rounding); };
+  each_of(list, may_meet, [&](int id, const ContactTriangle& t, const Corners& corners) {
     const Passage passage = pass_through(from, to, corners);
-    if (!passage.passes || (best && passage.fraction >= best.fraction)) continue;
-    if (facing != Facing::any && passage.inward != (facing == Facing::front)) continue;
+    if (!passage.passes || (best && passage.fraction >= best.fraction)) return;
+    if (facing != Facing::any && passage.inward != (facing == Facing::front)) return;
     best = {id, passage.fraction, {}, passage.normal, t.wall};
-  }
+  });
 }
 
 SurfaceHit ContactReader::first_contact(const Vec3& from, const Vec3& to, Facing facing) const {
@@ -59,8 +62,8 @@ SurfaceHit ContactReader::first_contact(const Vec3& from, const Vec3& to, Facing
   }
   if (!within)
     walk(from, to, facing, best);
-  else if (const CellList* list = cells_.at(i[0], i[1], i[2]))
-    meet(*list, from, to, facing, best);
+  else if (const CellList list = cells_.at(i[0], i[1], i[2]))
+    meet(list, from, to, facing, best);
   if (best) {
     best.position = lerp(from, to, best.fraction);
     best.normal = normalized(best.normal);
@@ -96,7 +99,7 @@ void ContactReader::walk(const Vec3& from, const Vec3& to, Facing facing, Surfac
   }
   for (;;) {
     const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : next[1] < next[2] ? 1 : 2;
-    if (const CellList* list = cells_.at(at[0], at[1], at[2])) meet(*list, from, to, facing, best);
+    if (const CellList list = cells_.at(at[0], at[1], at[2])) meet(list, from, to, facing, best);
     if ((best && best.fraction <= next[axis]) || next[axis] > end) break;
     if (at[0] == last[0] && at[1] == last[1] && at[2] == last[2]) break;
     at[axis] += step[axis];
@@ -105,32 +108,44 @@ void ContactReader::walk(const Vec3& from, const Vec3& to, Facing facing, Surfac
   }
 }
 
+/// Whether a wall that x is before is met together with the back of another: a field that hardly opens a cut
+/// may move its walls through each other by micrometres, and no tissue is as thin as that.
+bool ContactReader::through_each_other(const Vec3& x, const Vec3& on_wall) const {
+  const Vec3 way = on_wall - x;
+  const double distance = norm(way);
+  if (!(distance > overlap)) return false;
+  const Vec3 from = on_wall - overlap / distance * way, to = on_wall + overlap / distance * way;
+  const SurfaceHit back = first_contact(from, to, Facing::back);
+  return back && back.wall;
+}
+
 NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
   NearestPoint best;
   double least = radius * radius;
   Vec3 normal, into;  // summed over the triangles that share the nearest point; of one that x is behind
+  double weights = 0;
+  bool only_walls = true;
   int sharing[24], shared = 0;
   const double tie = 1e-9 * cells_.cell();
+  const auto near = [&](const FeltTriangle& t) { return t.least_squared_distance(x) <= least * (1 + 1e-9); };
   visit_voxels(x, radius, [&](const CellList& list) {
-    const int count = list.count.load(std::memory_order_acquire);
-    for (int n = 0; n < count; ++n) {
-      const int id = list.ids[n].load(std::memory_order_acquire);
-      Corners c;
-      ContactTriangle t;
-      if (id < 0 || !corners_of(id, c, t)) continue;
-      if (least_squared_distance(x, c) > least * (1 + 1e-9)) continue;
+    each_of(list, near, [&](int id, const ContactTriangle& t, const Corners& c) {
+      if (least_squared_distance(x, c) > least * (1 + 1e-9)) return;
       const ClosestPoint p = closest_point(x, c);
       const double square = squared_norm(x - p.position);
-      if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) continue;
-      if (square > radius * radius) continue;
-      if (!best || squared_norm(p.position - best.position) > tie * tie) shared = 0, normal = into = {};
+      if (square > least && !(best && squared_norm(p.position - best.position) <= tie * tie)) return;
+      if (square > radius * radius) return;
+      if (!best || squared_norm(p.position - best.position) > tie * tie) {
+        shared = 0, normal = into = {};
+        weights = 0, only_walls = true;
+      }
       if (square <= least || !best) {
         least = std::min(least, square);
         best.triangle = id, best.position = p.position, best.wall = t.wall;
       }
       bool known = false;
       for (int k = 0; k < shared; ++k) known = known || sharing[k] == id;
-      if (known) continue;
+      if (known) return;
       if (shared < 24) sharing[shared++] = id;
       double weight = 1;
       if (p.feature == ClosestPoint::vertex) {
@@ -139,16 +154,21 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
       }
       const Vec3 own = normalized(scaled_normal(c));
       normal += weight * own;
+      weights += weight;
+      only_walls = only_walls && t.wall;
       if (into == Vec3{} || dot(own, x - p.position) < 0) into = own;
-    }
+    });
     return std::sqrt(least);
   });
   if (!best) return best;
-  // The walls of a closed cut lie on each other, and their normals cancel: beside them and before them is
-  // tissue.
-  const bool closed = norm(normal) < 1e-6;
-  best.normal = normalized(closed ? into : normal);
-  best.distance = closed || dot(x - best.position, normal) < 0 ? -std::sqrt(least) : std::sqrt(least);
+  // The walls of a cut that is closed, or hardly open, lie on each other, and what is left of their normals
+  // may point anywhere: beside them, below them and ahead of them is tissue. In a gap so narrow a point is
+  // nearest to a wall, never to where walls meet.
+  const bool along_fold = norm(normal) < (only_walls && shared > 1 ? folded : 1e-6) * weights;
+  const bool before = dot(x - best.position, normal) >= 0;
+  const bool tissue = along_fold || !before || (only_walls && through_each_other(x, best.position));
+  best.normal = normalized(along_fold ? into : normal);
+  best.distance = tissue ? -std::sqrt(least) : std::sqrt(least);
   return best;
 }
 

@@ -55,9 +55,15 @@ class ContactReader {
   SurfaceProxy proxy(const Vec3& x, const SurfaceProxy& before) const;
 
  private:
+  const FeltTriangle& felt(int triangle) const {
+    return surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
+  }
+  template <class May, class Look>
+  void each_of(const CellList& list, const May& may, const Look& look) const;
   bool corners_of(int triangle, Corners& corners, ContactTriangle& t) const;
   void meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
   void walk(const Vec3& from, const Vec3& to, Facing facing, SurfaceHit& best) const;
+  bool through_each_other(const Vec3& x, const Vec3& on_wall) const;
   bool project(int triangle, const Vec3& x, const SurfaceProxy& before, SurfaceProxy& out) const;
   template <class Visit>
   void visit_voxels(const Vec3& x, double radius, const Visit& visit) const;

@@ -7,6 +7,8 @@ namespace cleft {
 
 namespace {
 
+constexpr std::size_t ahead = 8192;  // vertices and triangles that memory is ready for
+
 struct Box {
   Vec3 low, high;
 };
@@ -34,7 +36,7 @@ ContactCells make_cells(std::span<const Vec3> points, std::span<const std::array
                         const ContactSurfaceOptions& options) {
   if (triangles.empty()) throw InputError("a mesh without triangles cannot be felt");
   const Box box = box_of(points, options.margin);
-  return {box.low, box.high, options.cell > 0 ? options.cell : mean_edge(points, triangles) / 2};
+  return {box.low, box.high, options.cell > 0 ? options.cell : 0.75 * mean_edge(points, triangles)};
 }
 
 }  // namespace
@@ -44,7 +46,11 @@ ContactSurface::ContactSurface(std::span<const Vec3> points, std::span<const std
     : cells_(make_cells(points, triangles, options)),
       positions_(points.size() + options.spare),
       normals_(points.size() + options.spare),
-      triangles_(triangles.size() + options.spare) {
+      triangles_(triangles.size() + options.spare),
+      first_corner_(points.size() + options.spare),
+      next_corner_(triangles.size() + options.spare),
+      triangle_touched_(triangles.size() + options.spare),
+      vertex_touched_(points.size() + options.spare) {
   std::vector<Moved> moved;
   moved.reserve(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) moved.push_back({static_cast<int>(v), points[v]});
@@ -52,6 +58,16 @@ ContactSurface::ContactSurface(std::span<const Vec3> points, std::span<const std
   changed.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) changed.push_back({static_cast<int>(t), {triangles[t]}});
   update(moved, changed);
+  for (auto* numbers : {&touched_, &renewed_}) numbers->reserve(ahead);
+  left_.reserve(ahead);
+  prepare();
+}
+
+void ContactSurface::prepare() {
+  positions_.prepare(ahead), normals_.prepare(ahead), triangles_.prepare(ahead);
+  first_corner_.prepare(ahead), next_corner_.prepare(ahead);
+  triangle_touched_.prepare(ahead), vertex_touched_.prepare(ahead);
+  cells_.prepare();
 }
 
 Corners ContactSurface::corners_at(const ContactTriangle& t, std::uint64_t version) const {
@@ -84,11 +100,16 @@ void ContactSurface::update(std::span<const Moved> moved, std::span<const Change
 
 /// Into the voxels it has come to, at once; out of those it has left in the next step.
 void ContactSurface::rebin(int id, std::uint64_t next) {
-  const TwoStates<ContactTriangle>& triangle = triangles_[static_cast<std::size_t>(id)];
+  TwoStates<FeltTriangle>& triangle = triangles_[static_cast<std::size_t>(id)];
   old_voxels_.clear(), new_voxels_.clear();
-  if (const ContactTriangle& old = triangle.at(next - 1); old.vertex[0] != none)
-    cells_.voxels_of(corners_at(old, next - 1), old_voxels_);
-  if (triangle.last().vertex[0] != none) cells_.voxels_of(corners_at(triangle.last(), next), new_voxels_);
+  if (const FeltTriangle& old = triangle.at(next - 1); old.exists())
+    cells_.voxels_of(corners_at(old.triangle(), next - 1), old_voxels_);
+  if (FeltTriangle now = triangle.last(); now.exists()) {
+    const Corners corners = corners_at(now.triangle(), next);
+    now.set_plane(corners);
+    triangle.set(now, next);
+    cells_.voxels_of(corners, new_voxels_);
+  }
   const auto among = [](const std::vector<std::uint64_t>& voxels, std::uint64_t voxel) {
     return std::find(voxels.begin(), voxels.end(), voxel) != voxels.end();
   };
@@ -118,24 +139,23 @@ void ContactSurface::set_vertex(int id, const Vec3& position, std::uint64_t vers
   if (v >= positions_.size()) {
     positions_.grow_to(v + 1);
     normals_.grow_to(v + 1);
-    first_corner_.resize(v + 1, none);
-    vertex_touched_.resize(v + 1);
+    first_corner_.grow_to(v + 1, none);
+    vertex_touched_.grow_to(v + 1);
   }
   if (position == positions_[v].last()) return;
   positions_[v].set(position, version);
-  for (int corner = first_corner_[v]; corner != none; corner = next_corner_[static_cast<std::size_t>(corner)])
-    touch(corner / 3);
+  for (int corner = first_corner_[v]; corner != none; corner = next_corner(corner)) touch(corner / 3);
 }
 
 void ContactSurface::set_triangle(int id, const ContactTriangle& now, std::uint64_t version) {
   const auto t = static_cast<std::size_t>(id);
   if (t >= triangles_.size()) {
     triangles_.grow_to(t + 1);
-    next_corner_.resize(3 * (t + 1), none);
-    triangle_touched_.resize(t + 1);
+    next_corner_.grow_to(t + 1, std::array{none, none, none});
+    triangle_touched_.grow_to(t + 1);
   }
   touch(id);
-  const ContactTriangle old = triangles_[t].last();
+  const ContactTriangle old = triangles_[t].last().triangle();
   for (int i = 0; i < 3; ++i) {
     if (old.vertex[i] == now.vertex[i]) continue;
     if (old.vertex[0] != none) {
@@ -145,24 +165,24 @@ void ContactSurface::set_triangle(int id, const ContactTriangle& now, std::uint6
     if (now.vertex[0] == none) continue;
     CLEFT_CHECK(static_cast<std::size_t>(now.vertex[i]), <, positions_.size());
     int& first = first_corner_[static_cast<std::size_t>(now.vertex[i])];
-    next_corner_[3 * t + static_cast<std::size_t>(i)] = first;
+    next_corner(3 * id + i) = first;
     first = 3 * id + i;
   }
-  triangles_[t].set(now, version);
+  triangles_[t].set(FeltTriangle(now), version);
 }
 
 void ContactSurface::unlink(int triangle, int corner, int vertex) {
   int* link = &first_corner_[static_cast<std::size_t>(vertex)];
   while (*link != 3 * triangle + corner) {
     CLEFT_CHECK(*link, !=, none);
-    link = &next_corner_[static_cast<std::size_t>(*link)];
+    link = &next_corner(*link);
   }
-  *link = next_corner_[static_cast<std::size_t>(*link)];
+  *link = next_corner(*link);
 }
 
 void ContactSurface::renew_normals(std::uint64_t version) {
   for (const int t : touched_) {
-    const ContactTriangle& now = triangles_[static_cast<std::size_t>(t)].last();
+    const ContactTriangle now = triangles_[static_cast<std::size_t>(t)].last().triangle();
     if (now.vertex[0] == none) continue;
     for (const int v : now.vertex) renewed_.push_back(v);
   }
@@ -178,9 +198,8 @@ void ContactSurface::renew_normals(std::uint64_t version) {
 void ContactSurface::renew_normal(int vertex, std::uint64_t version) {
   const auto v = static_cast<std::size_t>(vertex);
   Vec3 skin, wall;
-  for (int corner = first_corner_[v]; corner != none;
-       corner = next_corner_[static_cast<std::size_t>(corner)]) {
-    const ContactTriangle& t = triangles_[static_cast<std::size_t>(corner / 3)].last();
+  for (int corner = first_corner_[v]; corner != none; corner = next_corner(corner)) {
+    const ContactTriangle t = triangles_[static_cast<std::size_t>(corner / 3)].last().triangle();
     (t.wall ? wall : skin) += scaled_normal(corners_at(t, version));
   }
   const Vec3& sum = skin == Vec3{} ? wall : skin;

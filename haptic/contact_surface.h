@@ -12,6 +12,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -51,9 +52,58 @@ struct ContactTriangle {
   bool wall = false;                      ///< of a wound, not skin
 };
 
+/// A triangle as it is kept: with its plane n . x = d, rounded, which most triangles near a segment are ruled
+/// out by. Both states fit into a cache line.
+class FeltTriangle {
+ public:
+  FeltTriangle() = default;
+  explicit FeltTriangle(const ContactTriangle& t) : vertex_(t.vertex) {
+    if (t.wall) vertex_[2] |= wall_bit;
+  }
+  ContactTriangle triangle() const {
+    return {{vertex_[0], vertex_[1], vertex_[0] < 0 ? vertex_[2] : vertex_[2] & ~wall_bit}, wall()};
+  }
+  bool exists() const { return vertex_[0] >= 0; }
+  bool wall() const { return exists() && (vertex_[2] & wall_bit); }
+
+  void set_plane(const Corners& c) {
+    const Vec3 normal = scaled_normal(c);
+    const double size = norm(normal);
+    // A sliver's normal is mostly rounding: it has no plane, and nothing is ruled out by it.
+    const bool sliver = size <= 1e-6 * (squared_norm(c[1] - c[0]) + squared_norm(c[2] - c[0]));
+    const Vec3 n = sliver ? Vec3{} : 1 / size * normal;
+    for (int k = 0; k < 3; ++k) plane_[k] = static_cast<float>(n[k]);
+    plane_[3] = static_cast<float>(dot(n, c[0]));
+  }
+  /// Whether both ends are surely on the same side; `rounding`: of_rounding() of them.
+  bool on_one_side(const Vec3& from, const Vec3& to, double rounding) const {
+    const double a = height(from), b = height(to), margin = rounding + unit * std::abs(plane_[3]);
+    return (a > margin && b > margin) || (a < -margin && b < -margin);
+  }
+  /// Less than the squared distance of x, surely.
+  double least_squared_distance(const Vec3& x) const {
+    const double away = std::abs(height(x)) - of_rounding(x, x) - unit * std::abs(plane_[3]);
+    return away > 0 ? away * away : 0;
+  }
+  /// At most what n . x is off by through the rounding of n.
+  static double of_rounding(const Vec3& from, const Vec3& to) {
+    const auto size = [](const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); };
+    return unit * std::max(size(from), size(to));
+  }
+
+ private:
+  double height(const Vec3& x) const { return dot({plane_[0], plane_[1], plane_[2]}, x) - plane_[3]; }
+
+  static constexpr int wall_bit = 1 << 30;
+  static constexpr double unit = 1.2e-7;  // twice the relative rounding to 24 bits
+  std::array<int, 3> vertex_{-1, -1, -1};
+  float plane_[4]{};
+};
+static_assert(sizeof(TwoStates<FeltTriangle>) == 64);
+
 /// Lengths are mm.
 struct ContactSurfaceOptions {
-  double cell = 0;     ///< voxel's edge; 0: half the mean edge of the triangles
+  double cell = 0;     ///< voxel's edge; 0: three quarters of the triangles' mean edge
   double margin = -1;  ///< how far the surface may move or grow beyond its box; -1: a quarter of its diagonal
   std::size_t spare = 1 << 20;  ///< vertices and triangles that may be added
 };
@@ -75,6 +125,8 @@ class ContactSurface {
   /// One step: vertices (also new ones) and triangles that are different from now on. Work and memory are
   /// those of what changed and its neighbours. Throws InputError where it outgrows `spare`.
   void update(std::span<const Moved> moved, std::span<const Changed> changed);
+  /// Takes from the system what the next steps may need: when there is time for it.
+  void prepare();
 
   std::uint64_t version() const { return version_.load(std::memory_order_relaxed); }
   std::size_t vertex_count() const { return positions_.size(); }
@@ -89,6 +141,7 @@ class ContactSurface {
   static constexpr std::uint64_t unused = 0, idle = 1, entering = 2, reading = 3;
 
   Corners corners_at(const ContactTriangle& t, std::uint64_t version) const;
+  int& next_corner(int corner) { return next_corner_[static_cast<std::size_t>(corner / 3)][corner % 3]; }
   void wait_for_readers() const;
   void rebin(int id, std::uint64_t next);
   void leave_old_voxels();
@@ -102,13 +155,14 @@ class ContactSurface {
   ContactCells cells_;
   SlotArray<TwoStates<Vec3>> positions_;
   SlotArray<TwoStates<Vec3>> normals_;  // of the triangles around a vertex, weighted by area; unit, or 0
-  SlotArray<TwoStates<ContactTriangle>> triangles_;
+  SlotArray<TwoStates<FeltTriangle>> triangles_;
   std::atomic<std::uint64_t> version_{1};
   mutable std::array<std::atomic<std::uint64_t>, most_readers> readers_{};
 
   // The writer's own: corners around a vertex as lists through corner numbers 3 * triangle + i.
-  std::vector<int> first_corner_, next_corner_;
-  std::vector<std::uint64_t> triangle_touched_, vertex_touched_;  // the step of the last touch
+  SlotArray<int> first_corner_;
+  SlotArray<std::array<int, 3>> next_corner_;
+  SlotArray<std::uint64_t> triangle_touched_, vertex_touched_;  // the step of the last touch
   std::vector<int> touched_, renewed_;
   std::vector<std::uint64_t> old_voxels_, new_voxels_;
   std::vector<std::pair<std::uint64_t, int>> left_;  // voxels and triangles that have left them

@@ -100,9 +100,11 @@ Vec3 ForceModel::side_contact(const ScalpelPose& pose) {
 
 Vec3 ForceModel::in_contact(const ScalpelPose& pose) {
   SurfaceProxy proxy = reader_.proxy(pose.tip, proxy_);
-  if (!proxy) {
-    const NearestPoint p = reader_.nearest(pose.tip, proxy_.depth + most_side_depth);
-    if (p) proxy = {p.triangle, -p.distance, p.position, p.normal, p.wall};
+  if (!proxy) {  // the triangle is gone, and none of those about it leads to the tip
+    const Vec3 moved = pose.tip - last_tip_;
+    const Vec3 beside = proxy_.position + moved - dot(moved, proxy_.normal) * proxy_.normal;
+    if (const NearestPoint p = reader_.nearest(beside, most_side_depth))
+      proxy = {p.triangle, dot(p.position - pose.tip, p.normal), p.position, p.normal, p.wall};
   }
   if (!proxy || proxy.depth < -touching) {
     phase_ = Phase::free;

@@ -80,6 +80,7 @@ void HapticLoop::run(const std::atomic<bool>& stop, double seconds) {
   std::int64_t due = clock_time(CLOCK_MONOTONIC);
   const std::int64_t end = due + static_cast<std::int64_t>(seconds * static_cast<double>(clock_second));
   std::int64_t missed = 0;
+  const std::int64_t faults_before = page_faults();
   while (due < end && !stop.load(std::memory_order_relaxed)) {
     due += period * (1 + missed);
     sleep_until(due);
@@ -95,6 +96,7 @@ void HapticLoop::run(const std::atomic<bool>& stop, double seconds) {
       statistics_.overrun_ticks[statistics_.overruns] = state_.tick;
     ++statistics_.overruns;
   }
+  statistics_.page_faults = page_faults() - faults_before;
   state_.force = {};
   device_.command({});
 }

@@ -1,12 +1,15 @@
 #include "haptic/real_time.h"
 
+#include <link.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 
 #include <cerrno>
 #include <cstring>
 
+#include "base/error.h"
 #include "haptic/bare_timer.h"
 
 namespace cleft {
@@ -23,8 +26,38 @@ void sleep_until(std::int64_t time) {
   }
 }
 
+std::int64_t page_faults() {
+  rusage usage;
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_minflt + usage.ru_majflt;
+}
+
+namespace {
+
+/// Reads a byte of every page of code, of the program and of the libraries beside it that are not large.
+int touch_code(dl_phdr_info* object, std::size_t, void*) {
+  constexpr std::size_t page = 4096, large = 8 << 20;
+  for (int k = 0; k < object->dlpi_phnum; ++k) {
+    const auto& part = object->dlpi_phdr[k];
+    if (part.p_type != PT_LOAD || !(part.p_flags & PF_R) || (part.p_flags & PF_W) || part.p_memsz > large)
+      continue;
+    const auto* bytes = reinterpret_cast<const volatile char*>(object->dlpi_addr + part.p_vaddr);
+    for (std::size_t at = 0; at < part.p_memsz; at += page) static_cast<void>(bytes[at]);
+  }
+  return 0;
+}
+
+void touch_stack() {
+  volatile char stack[64 << 10];
+  for (std::size_t at = 0; at < sizeof stack; at += 1024) stack[at] = 0;
+}
+
+}  // namespace
+
 std::string prepare_thread(bool real_time) {
   prctl(PR_SET_TIMERSLACK, 1UL);  // else a sleep may end 50 us late by design
+  touch_stack();
+  dl_iterate_phdr(touch_code, nullptr);
   if (!real_time) return "";
   std::string refused;
   const sched_param priority{sched_get_priority_max(SCHED_FIFO) / 2};
@@ -35,18 +68,23 @@ std::string prepare_thread(bool real_time) {
   return refused;
 }
 
-TimeHistogram bare_timer(double rate, bool real_time, const std::atomic<bool>& stop) {
+BareTimer bare_timer(double rate, bool real_time, const std::atomic<bool>& stop) {
   prepare_thread(real_time);
-  TimeHistogram lateness;
+  BareTimer bare;
   const auto period = static_cast<std::int64_t>(static_cast<double>(clock_second) / rate);
+  double x = 1;
   for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !stop;) {
     due += period;
     sleep_until(due);
     const std::int64_t late = clock_time(CLOCK_MONOTONIC) - due;
-    lateness.add(1e-9 * static_cast<double>(late > 0 ? late : 0));
+    bare.lateness.add(1e-9 * static_cast<double>(late > 0 ? late : 0));
+    const std::int64_t before = clock_time(CLOCK_THREAD_CPUTIME_ID);
+    for (int k = 0; k < 1500; ++k) x = 0.5 * x + 1;  // some 3 us: each waits for the one before
+    bare.compute.add(1e-9 * static_cast<double>(clock_time(CLOCK_THREAD_CPUTIME_ID) - before));
+    CLEFT_CHECK(x, <, 3);
     due += late / period * period;  // missed times are skipped
   }
-  return lateness;
+  return bare;
 }
 
 }  // namespace cleft

@@ -16,8 +16,12 @@ std::int64_t clock_time(clockid_t clock);
 /// Until CLOCK_MONOTONIC's `time`, ns.
 void sleep_until(std::int64_t time);
 
+/// Page faults of this thread so far.
+std::int64_t page_faults();
+
 /// Sleeps of this thread end as exactly as the system can; with `real_time` it asks for SCHED_FIFO and locks
-/// the program's memory. Returns what was refused, "" where nothing was.
+/// the program's memory. Its stack and the program's code are touched, so that no tick waits for them.
+/// Returns what was refused, "" where nothing was.
 std::string prepare_thread(bool real_time);
 
 }  // namespace cleft

@@ -61,9 +61,9 @@ SurfaceProxy ContactReader::proxy(const Vec3& x, const SurfaceProxy& before) con
   double least = radius, least_clamped = radius;
   SurfaceProxy clamped;  // where no normal leads to x: beside a boundary or a sharp edge
   visit_voxels(guess, radius, [&](const CellList& list) {
-    const int count = list.count.load(std::memory_order_acquire);
+    const int count = list.count();
     for (int k = 0; k < count; ++k) {
-      const int id = list.ids[k].load(std::memory_order_acquire);
+      const int id = list[k];
       Corners c;
       ContactTriangle t;
       if (id < 0 || !corners_of(id, c, t) || t.wall != before.wall) continue;

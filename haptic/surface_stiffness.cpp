@@ -76,18 +76,36 @@ double parameter(const Field& field, const char* name) {
 
 }  // namespace
 
-double layer_compliance(const SkinLayer& layer) {
+double half_space_profile(double distance) {
+  const double x = distance / radius;
+  const double sunk = x <= 1
+                          ? std::comp_ellint_2(x)
+                          : x * (std::comp_ellint_2(1 / x) - (1 - 1 / (x * x)) * std::comp_ellint_1(1 / x));
+  return 2 / std::numbers::pi * sunk;
+}
+
+std::vector<double> layer_compliances(const SkinLayer& layer, std::span<const double> distances) {
   // The pressure of the disc is a J1(a x) / x. Short waves only feel what is near, and sink as 1 / x: theirs
   // is the closed form, and the rest falls as x^-2.5 or faster.
   constexpr int pieces = 2000;
   constexpr double farthest = 120;  // over a
   const double near = sinking(layer, 1e3 * farthest / radius);
-  double sum = near;
+  std::vector<double> sums;
+  for (const double distance : distances) sums.push_back(near * half_space_profile(distance));
   for (int i = 0; i < pieces; ++i) {
     const double part = (i + 0.5) / pieces, x = farthest * part * part;
-    sum += (sinking(layer, x / radius) - near) * std::cyl_bessel_j(1., x) / x * 2 * farthest * part / pieces;
+    const double wave =
+        (sinking(layer, x / radius) - near) * std::cyl_bessel_j(1., x) / x * 2 * farthest * part / pieces;
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      sums[k] += wave * (distances[k] > 0 ? std::cyl_bessel_j(0., x * distances[k] / radius) : 1);
   }
-  return radius * sum;
+  for (double& sum : sums) sum *= radius;
+  return sums;
+}
+
+double layer_compliance(const SkinLayer& layer) {
+  const double middle = 0;
+  return layer_compliances(layer, std::span(&middle, 1)).front();
 }
 
 double stiffness_from_compliance(double compliance) {
@@ -108,13 +126,19 @@ double surface_stiffness(const Field& field) {
                nu = parameter(field, "tissue.poisson_ratio");
   if (std::isnan(modulus) || std::isnan(nu))
     throw InputError("the field knows neither a compliance nor its tissue's modulus: give --stiffness");
+  const auto layer = skin_layer(field);
+  return stiffness_from_compliance(layer ? layer_compliance(*layer) : 2 * radius * (1 - nu * nu) / modulus);
+}
+
+std::optional<SkinLayer> skin_layer(const Field& field) {
   const double skin_nu = parameter(field, "skin.poisson_ratio"),
                thickness = parameter(field, "skin.thickness");
-  const SkinLayer layer{modulus, nu, parameter(field, "patch.height"),
-                        parameter(field, "foundation.stiffness"),
+  const SkinLayer layer{parameter(field, "tissue.young_modulus"), parameter(field, "tissue.poisson_ratio"),
+                        parameter(field, "patch.height"), parameter(field, "foundation.stiffness"),
                         parameter(field, "skin.young_modulus") * thickness / (1 - skin_nu * skin_nu)};
-  const bool known = layer.height > 0 && layer.foundation > 0 && !std::isnan(layer.membrane);
-  return stiffness_from_compliance(known ? layer_compliance(layer) : 2 * radius * (1 - nu * nu) / modulus);
+  const bool known = layer.young_modulus > 0 && !std::isnan(layer.poisson_ratio) && layer.height > 0 &&
+                     layer.foundation > 0 && !std::isnan(layer.membrane);
+  return known ? std::optional(layer) : std::nullopt;
 }
 
 }  // namespace cleft

@@ -82,6 +82,8 @@ void DeviceControl::begin() {
   scalpel_.reset();
   scalpel_ =
       std::make_unique<LiveScalpel>(*session_.mesh(), std::move(setup), *device_, forces(session_.field()));
+  const auto field = session_.field();
+  dent_ = field ? std::make_shared<const SurfaceDent>(*field) : std::make_shared<const SurfaceDent>();
   scene_.reset();
   ticks_ = 0;
   height_ = hover;
@@ -120,7 +122,7 @@ void DeviceControl::tick() {
   if (scene_ && scene_->has_surface_of(*moment))
     scene_->show(moment);
   else
-    scene_ = std::make_shared<LiveScene>(moment, session_.scene()->surface());
+    scene_ = std::make_shared<LiveScene>(moment, session_.scene()->surface(), dent_);
   scene_->dent(state_);
   widget_.show_live(scene_, &state_);
   const auto ended = scalpel_->ended_cuts();

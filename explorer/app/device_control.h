@@ -47,6 +47,7 @@ class DeviceControl : public Panel {
   std::unique_ptr<Device> device_;
   std::unique_ptr<LiveScalpel> scalpel_;  // before its device
   std::shared_ptr<LiveScene> scene_;
+  std::shared_ptr<const SurfaceDent> dent_;
   QTimer timer_;
   QElapsedTimer since_tick_, since_rate_;
   HapticState state_;

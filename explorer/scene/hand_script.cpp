@@ -27,16 +27,17 @@ std::vector<HandTarget> hand_along(const ScalpelPath& path, double scale, double
                                    const HandParameters& hand, const ForceParameters& force) {
   std::vector<HandTarget> script;
   double time = 0;
-  const auto go = [&](double seconds, double s, double height) {
+  const auto go = [&](double seconds, double s, double height, bool press = false) {
     time += seconds;
-    script.push_back({time, pose_over(path, scale, s, height)});
+    script.push_back({time, pose_over(path, scale, s, height), press});
   };
-  // The grip and the skin give way until the skin holds no longer.
-  const double through = 1.2 * force.puncture_force * (1 / hand.stiffness + 1 / force.stiffness) + 1;
+  // The grip and the skin yield until the skin holds no longer; then the hand has pressed enough.
+  const double felt = std::min(force.stiffness, hand.limits.max_stiffness);
+  const double through = 1.2 * force.puncture_force * (1 / hand.stiffness + 1 / felt) + 1;
   go(0, 0, 10);
   go(10 / 40., 0, 1);
-  go(through / 40, 0, -through);
-  go(0.2, 0, -through);
+  go(through / 40, 0, -through, true);
+  go(0.2, 0, -through, true);
   go(0.2, 0, -scale * path.depth(0));
   const int pieces = std::max(1, static_cast<int>(std::ceil(path.length() * scale)));
   for (int k = 1; k <= pieces; ++k) {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "explorer/scene/cut_surface.h"
-#include "haptic/surface_stiffness.h"
 
 namespace cleft {
 
@@ -24,29 +22,18 @@ std::shared_ptr<const CuttingMoment> moment_of(const ScalpelCutting& cutting, co
   return moment;
 }
 
-double dent_profile(double distance) {
-  const double x = distance / stiffness_radius;
-  if (distance >= dent_reach) return 0;
-  double sunk = 0;
-  if (x <= 1)
-    sunk = std::comp_ellint_2(x);
-  else
-    sunk = x * (std::comp_ellint_2(1 / x) - (1 - 1 / (x * x)) * std::comp_ellint_1(1 / x));
-  const double rest = 1 - std::pow(distance / dent_reach, 2);
-  return 2 / std::numbers::pi * sunk * rest * rest;
-}
-
-LiveScene::LiveScene(std::shared_ptr<const CuttingMoment> moment, const WoundSurface& like)
-    : moment_(std::move(moment)), surface_(*moment_->surface) {
+LiveScene::LiveScene(std::shared_ptr<const CuttingMoment> moment, const WoundSurface& like,
+                     std::shared_ptr<const SurfaceDent> dent)
+    : moment_(std::move(moment)), surface_(*moment_->surface), dent_(std::move(dent)) {
   surface_.middle = like.middle, surface_.outward = like.outward, surface_.along = like.along;
 }
 
 void LiveScene::positions(double, std::vector<Vec3>& out) const {
   out = moment_->points;
-  if (dent_by_ == Vec3{}) return;
+  if (!dent_ || dent_by_ == Vec3{}) return;
   for (Vec3& x : out)
     if (const double square = squared_norm(x - dent_at_); square < dent_reach * dent_reach)
-      x += dent_profile(std::sqrt(square)) * dent_by_;
+      x += dent_->at(std::sqrt(square)) * dent_by_;
 }
 
 void LiveScene::values(Coloring, const Field*, double, std::vector<double>& out) const {

@@ -6,6 +6,7 @@
 
 #include "explorer/scene/scalpel_cutting.h"
 #include "explorer/scene/wound_scene.h"
+#include "haptic/surface_dent.h"
 
 namespace cleft {
 
@@ -19,16 +20,11 @@ struct CuttingMoment {
 /// `before`: the moment before, or null.
 std::shared_ptr<const CuttingMoment> moment_of(const ScalpelCutting& cutting, const CuttingMoment* before);
 
-/// How far skin sinks beside the tip of a blade that has sunk it by 1: as a half space under even pressure on
-/// the disc of surface_stiffness.h (Johnson, Contact Mechanics, 3.4), and nothing from `reach` on. `distance`
-/// in mm.
-double dent_profile(double distance);
-constexpr double dent_reach = 30;  ///< mm
-
 class LiveScene : public WoundScene {
  public:
-  /// Looked at as `like`, a scene of the same mesh. Lengths in mm.
-  LiveScene(std::shared_ptr<const CuttingMoment> moment, const WoundSurface& like);
+  /// Looked at as `like`, a scene of the same mesh; without a `dent` the skin does not sink. Lengths in mm.
+  LiveScene(std::shared_ptr<const CuttingMoment> moment, const WoundSurface& like,
+            std::shared_ptr<const SurfaceDent> dent = nullptr);
 
   const WoundSurface& surface() const override { return surface_; }
   double duration() const override { return moment_->cut_length; }
@@ -45,6 +41,7 @@ class LiveScene : public WoundScene {
  private:
   std::shared_ptr<const CuttingMoment> moment_;
   WoundSurface surface_;
+  std::shared_ptr<const SurfaceDent> dent_;
   Vec3 dent_at_, dent_by_;  // mm
 };
 

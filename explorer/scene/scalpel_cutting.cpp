@@ -229,6 +229,7 @@ void ScalpelCutting::take_in_changes() {
 
 void ScalpelCutting::open() {
   ++figures_.steps;
+  surface_->prepare();
   if (!setup_.fields || wounds_.empty()) return;
   Stopwatch watch;
   for (Wound& wound : wounds_)

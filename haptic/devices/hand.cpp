@@ -30,6 +30,7 @@ DeviceLimits Hand::limits() const {
 }
 
 ScalpelPose Hand::target(double time) {
+  time += saved_;
   while (at_ + 2 < script_.size() && script_[at_ + 1].time <= time) ++at_;
   const HandTarget &a = script_[at_], &b = script_[std::min(at_ + 1, script_.size() - 1)];
   const double part = b.time > a.time ? std::clamp((time - a.time) / (b.time - a.time), 0., 1.) : 0;
@@ -40,12 +41,27 @@ ScalpelPose Hand::target(double time) {
   return pose;
 }
 
+/// A press ends where what was pressed gives way.
+void Hand::feel(double force) {
+  constexpr double least = 0.1;  // N: less is noise of a contact
+  const double now = time_ + saved_;
+  std::size_t to = std::min(at_ + 1, script_.size() - 1);
+  if (!script_[to].press || script_[to].time <= now) return;
+  pressed_ = std::max(pressed_, force);
+  if (pressed_ < least || force > pressed_ / 2) return;
+  while (to + 1 < script_.size() && script_[to + 1].press) ++to;
+  script_[to].pose.tip = position_;
+  saved_ += script_[to].time - now;
+  pressed_ = 0;
+}
+
 ScalpelPose Hand::read(double time) {
   // One tick with the force that acts now; a loop that missed ticks leaves it acting on.
   constexpr double newton_per_kg = 1e3;  // mm/s^2
   const int ticks = std::max(0, static_cast<int>(std::lround((time - time_) / p_.period)));
   for (int tick = 0; tick < ticks; ++tick) {
     const Vec3 force = under_way_[0], before = position_;
+    feel(norm(force));
     const double dt = p_.period / substeps;
     for (int k = 1; k <= substeps; ++k) {
       const Vec3 to = target(time_ + k * dt).tip - position_;

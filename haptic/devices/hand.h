@@ -22,6 +22,9 @@ struct HandParameters {
 struct HandTarget {
   double time;  ///< s
   ScalpelPose pose;
+  /// The way to it is a press: where the force falls to half of what it was, something gave way, and the hand
+  /// goes on to the next target from where it is.
+  bool press = false;
 };
 
 class Hand : public Device {
@@ -33,19 +36,21 @@ class Hand : public Device {
   void command(const Vec3& force) override;
   DeviceLimits limits() const override;
 
-  double duration() const { return script_.back().time; }
-  const Vec3& velocity() const { return velocity_; }  ///< mm/s
+  double duration() const { return script_.back().time; }  ///< at most: a press may end early
+  const Vec3& velocity() const { return velocity_; }       ///< mm/s
   /// N mm the force has done on the hand, with the motion as it was: the truth an observer is compared with.
   double work() const { return work_; }
 
  private:
   static constexpr int most_late = 32, substeps = 4;
   ScalpelPose target(double time);
+  void feel(double force);
 
   HandParameters p_;
   std::vector<HandTarget> script_;
   std::size_t at_ = 0;
-  double time_ = 0;
+  double time_ = 0, saved_ = 0;  // s, by which presses ended early
+  double pressed_ = 0;           // N, the largest force of a press
   int late_;
   std::array<Vec3, most_late> under_way_{};
   Vec3 position_, velocity_;

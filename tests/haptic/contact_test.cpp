@@ -89,6 +89,21 @@ TEST(Contact, NothingSlipsThroughSeams) {
       }
 }
 
+TEST(Contact, ShortWaysAreMetFarFromTheOrigin) {
+  // 0.2 micrometres through the middle of every triangle, metres away: less than numbers of 24 bits can tell.
+  Surface s = ball(12, 10, 0.05);
+  for (Vec3& p : s.points) p += Vec3{5000, -3000, 2000};
+  const ContactSurface surface(s.points, s.triangles);
+  ContactReader reader(surface);
+  const ContactLook look(reader);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    const Corners c = testing::corners(s, t);
+    const Vec3 middle = 1 / 3. * (c[0] + c[1] + c[2]), out = 1e-4 * normalized(scaled_normal(c));
+    ASSERT_EQ(reader.first_contact(middle + out, middle - out, Facing::front).triangle, static_cast<int>(t));
+    ASSERT_NEAR(reader.nearest(middle + out, 1).distance, 1e-4, 1e-9);
+  }
+}
+
 TEST(Contact, FollowsEveryChange) {
   // Vertices move, triangles are divided, go and come, twenty steps one after the other.
   Surface s = ball(12, 10, 0.1);

@@ -1,9 +1,11 @@
 // The scalpel cuts a mesh as the loop drives it, in simulated time: every sixteen ticks the mesh follows.
 #include <gtest/gtest.h>
 
+#include "explorer/scene/hand_script.h"
 #include "explorer/scene/replay.h"
 #include "explorer/scene/scalpel_cutting.h"
 #include "haptic/devices/hand.h"
+#include "haptic/surface_stiffness.h"
 #include "tests/haptic/surfaces.h"
 #include "tests/incision/fields.h"
 
@@ -133,6 +135,39 @@ TEST(Cutting, TheFieldOpensItBehindTheBlade) {
   EXPECT_GT(trial.cut, 0.97 * path_over_the_ball(5).length());
   EXPECT_GT(trial.figures.open.count(), 50u);
   EXPECT_EQ(trial.last, Phase::free);
+}
+
+TEST(Cutting, TheHandCutsTheWholePathOfSoftAndStiffTissue) {
+  testing::Surface ball = testing::ball(54, radius);
+  SurfaceMesh mesh{ball.points, ball.triangles};
+  for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
+  const ScalpelPath path = path_over_the_ball(3);
+  // Lips that gape, hardly part, and pass through each other by micrometres as those of a fit may.
+  for (const double gape : {4., 1e-3, -4e-3})
+    for (const double modulus : {0.004, 0.01, 1.}) {
+      auto field = std::make_shared<Field>(testing::opening_field({-20, 40, 5}, 80, 60, 10, gape));
+      field->parameters = {{"tissue.young_modulus", modulus}, {"tissue.poisson_ratio", 0.45}};
+      ForceParameters force;
+      force.stiffness = surface_stiffness(*field);
+      const HandParameters of_the_hand;
+      ScalpelCutting cutting(mesh, {path, {}, fields_of(field), 1, 0});
+      Hand hand(of_the_hand, hand_along(path, 1, 40, of_the_hand, force));
+      HapticLoop loop(hand, cutting.surface(), force);
+      double deepest = 0;
+      for (int tick = 0; loop.state().time < hand.duration(); ++tick) {
+        loop.update(1e-3);
+        if (tick % 16 == 0) cutting.step(loop.for_cutting());
+        deepest = std::max(deepest, loop.state().depth);
+      }
+      const std::string what = std::to_string(gape) + " mm, " + std::to_string(modulus) + " MPa";
+      EXPECT_EQ(loop.state().punctures, 1) << what;
+      EXPECT_GT(cutting.cut_length(), 0.97 * path.length()) << what;
+      EXPECT_EQ(cutting.figures().stopped, "") << what;
+      EXPECT_EQ(loop.state().phase, Phase::free) << what;
+      // Once the skin gives way the hand stops: it is carried on by what its grip was wound up by.
+      const double dent = force.puncture_force / std::min(force.stiffness, DeviceLimits{}.max_stiffness);
+      EXPECT_LT(deepest, dent + force.puncture_force / of_the_hand.stiffness + 2) << what;
+    }
 }
 
 }  // namespace

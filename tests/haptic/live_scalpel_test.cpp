@@ -4,37 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <numbers>
 
 #include "haptic/devices/mouse.h"
 #include "tests/haptic/surfaces.h"
 
 namespace cleft {
 namespace {
-
-/// Of even pressure on a disc of radius a, by sums over rings and sectors of 1 / distance, over that in its
-/// middle: (1 / 2 pi a) times the integral of dA / distance.
-double sunk_by_sums(double a, double distance) {
-  constexpr int rings = 2000, sectors = 2001;
-  double sum = 0;
-  for (int i = 0; i < rings; ++i)
-    for (int j = 0; j < sectors; ++j) {
-      const double r = a * (i + 0.5) / rings, angle = 2 * std::numbers::pi * j / sectors;
-      sum += r * a / rings * 2 * std::numbers::pi / sectors /
-             std::hypot(r * std::cos(angle) - distance, r * std::sin(angle));
-    }
-  return sum / (2 * std::numbers::pi * a);
-}
-
-TEST(Dent, IsThatOfAHalfSpaceUnderADisc) {
-  EXPECT_NEAR(dent_profile(0), 1, 1e-12);
-  EXPECT_NEAR(dent_profile(2), 2 / std::numbers::pi * (1 - 2 * 4. / 900), 1e-4) << "on the rim: 2 / pi";
-  for (const double r : {0.7, 3.1, 6.3}) {
-    const double to_nothing = std::pow(1 - r * r / 900, 2);
-    EXPECT_NEAR(dent_profile(r) / to_nothing, sunk_by_sums(2, r), 2e-3) << r;
-  }
-  EXPECT_EQ(dent_profile(30), 0);
-}
 
 TEST(LiveScalpel, TellsMomentsAndEndedCuts) {
   const testing::Surface sheet = testing::flat(30, 2);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "haptic/surface_dent.h"
 #include "haptic/surface_stiffness.h"
 #include "tests/incision/fields.h"
 
@@ -51,6 +52,54 @@ TEST(Stiffness, OfAFieldGrowsWithTheSkinAndTheBed) {
   EXPECT_GT(layer, half_space);
   field.parameters["foundation.stiffness"] = 0.5;
   EXPECT_GT(surface_stiffness(field), layer);
+}
+
+/// Of even pressure on a disc of radius a, by sums over rings and sectors of 1 / distance, over that in its
+/// middle: (1 / 2 pi a) times the integral of dA / distance.
+double sunk_by_sums(double disc, double distance) {
+  constexpr int rings = 2000, sectors = 2001;
+  double sum = 0;
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < sectors; ++j) {
+      const double r = disc * (i + 0.5) / rings, angle = 2 * std::numbers::pi * j / sectors;
+      sum += r * disc / rings * 2 * std::numbers::pi / sectors /
+             std::hypot(r * std::cos(angle) - distance, r * std::sin(angle));
+    }
+  return sum / (2 * std::numbers::pi * disc);
+}
+
+TEST(Dent, IsThatOfAHalfSpaceUnderADisc) {
+  const SurfaceDent dent;
+  EXPECT_NEAR(dent.at(0), 1, 1e-12);
+  EXPECT_NEAR(dent.at(2), 2 / std::numbers::pi * (1 - 2 * 4. / 900), 1e-4) << "on the rim: 2 / pi";
+  for (const double r : {0.7, 3.1, 6.3}) {
+    const double to_nothing = std::pow(1 - r * r / 900, 2);
+    EXPECT_NEAR(dent.at(r) / to_nothing, sunk_by_sums(2, r), 2e-3) << r;
+  }
+  EXPECT_EQ(dent.at(30), 0);
+}
+
+TEST(Dent, OfAStiffLayerOnASoftBedIsThatOfAPlate) {
+  // Kirchhoff's plate on Winkler's bed under the disc: p a times the integral of J1(a x) J0(r x) / (D x^4 +
+  // k). The layer's shear adds about (h / l)^2 = 0.4 %, l = (D / k)^(1/4) = 16 mm; the press under the disc
+  // 0.1 %.
+  const double e = 10, nu = 0.3, h = 1, k = 1.4e-5, d = e * h * h * h / (12 * (1 - nu * nu));
+  const std::vector<double> distances{0, 5, 12, 25};
+  const auto sunk = layer_compliances({e, nu, h, k, 0}, distances);
+  for (std::size_t n = 0; n < distances.size(); ++n) {
+    double plate = 0;
+    constexpr int pieces = 20000;
+    constexpr double farthest = 3;  // 1/mm
+    for (int i = 0; i < pieces; ++i) {
+      const double x = farthest * (i + 0.5) / pieces;
+      plate += a * std::cyl_bessel_j(1., a * x) * std::cyl_bessel_j(0., distances[n] * x) /
+               (d * x * x * x * x + k) * farthest / pieces;
+    }
+    EXPECT_NEAR(sunk[n] / plate, 1, 0.01) << distances[n];
+  }
+  // So wide a dent is what a picture of it shows: nearly all of it at the disc's rim, where a half space has
+  // 2 / pi.
+  EXPECT_GT(SurfaceDent(SkinLayer{e, nu, h, k, 0}).at(2), 0.95);
 }
 
 }  // namespace
