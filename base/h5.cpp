@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace cleft::h5 {
 
@@ -472,7 +473,7 @@ void require_format(const h5::File& file, const FileFormat& format) {
                                      writer + " writes one");
   const double found = file.read_number("/", "version");
   if (found != format.version)
-    throw FileError(file.path(), noun + " format version " + std::to_string(static_cast<int>(found)) +
+    throw FileError(file.path(), noun + " format version " + shortest(found) +
                                      "; this program reads version " + std::to_string(format.version) +
                                      ": run " + writer + " again");
 }

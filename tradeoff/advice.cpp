@@ -77,7 +77,7 @@ void CaseModel::measure_meshes() {
   for (const double elements : elements_along_cut) {
     progress_("solving with " + shortest(elements) + " elements along the cut");
     const Chain chain(coarse(elements, cheap_margin), work_);
-    const Opening& opening = chain.opening();
+    const Opening opening = chain.opening();
     const auto at = [&](double s, double t) { return opening.at(s, t); };
     if (before) {
       const double coarser = size_of(mesh_);
@@ -122,7 +122,8 @@ void CaseModel::measure_patches() {
   const auto samples = [&](double margin) {
     progress_("solving in a patch of " + shortest(margin) + " cut lengths around the cut");
     const Chain chain(coarse(elements_along_cut[0], margin), work_);
-    return sampled(length, [&](double s, double t) { return chain.opening().at(s, t); });
+    const Opening opening = chain.opening();
+    return sampled(length, [&](double s, double t) { return opening.at(s, t); });
   };
   const Samples wide = samples(widest);
   const double grown = size_of(wide) / largest_;

@@ -4,8 +4,9 @@
 // An error is a difference of openings, right lip less left lip, over the cut and over time; its size is its
 // largest length over the largest opening. What a link does is measured where it is cheap:
 //
-//   mesh     nodes of coarse meshes of three sizes against each other; they give the order in the element's size
-//   tip      the field against its own mesh between nodes and frames, where the lips close as the square root
+//   mesh     nodes of coarse meshes of three sizes against each other; they give the order in the element's
+//   size tip      the field against its own mesh between nodes and frames, where the lips close as the square
+//   root
 //            of the distance from the tip, at the same sizes; finer ones go on with the order of the last two
 //   patch    against one that is far wider, in a coarse mesh
 //   code     what a looser tolerance adds, at the finest of those meshes

@@ -22,25 +22,24 @@ double children_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-Opening solved(const Parameters& parameters, const std::string& folder, double& nodes, double& seconds) {
-  const std::string toml = folder + "/case.toml", out = folder + "/case.h5";
-  write_text_file(toml, case_file_text({parameters, {}}));
-  const double before = children_seconds();
-  const nlohmann::json figures = run_tool("solve", {toml, "--out", out}, folder);
-  nodes = figures.at("nodes").get<double>(), seconds = children_seconds() - before;
-  return Opening(SnapshotReader(out));
-}
-
 }  // namespace
 
-Chain::Chain(const Parameters& parameters, std::string folder)
-    : folder_(std::move(folder)), opening_(solved(parameters, folder_, nodes_, solve_seconds_)) {}
+Chain::Chain(const Parameters& parameters, std::string folder) : folder_(std::move(folder)) {
+  const std::string toml = folder_ + "/case.toml";
+  write_text_file(toml, case_file_text({parameters, {}}));
+  const double before = children_seconds();
+  const nlohmann::json figures = run_tool("solve", {toml, "--out", snapshot()}, folder_);
+  nodes_ = figures.at("nodes").get<double>(), unknowns_ = figures.at("unknowns").get<double>();
+  solve_seconds_ = children_seconds() - before, wall_seconds_ = total_seconds(figures);
+}
+
+Opening Chain::opening() const { return Opening(SnapshotReader(snapshot())); }
 
 Chain::Encoded Chain::encoded(double tolerance) const {
   const std::string out = folder_ + "/case.dffd";
   const double before = children_seconds();
   const nlohmann::json figures =
-      run_tool("encode", {folder_ + "/case.h5", "--out", out, "--tolerance", shortest(tolerance)}, folder_);
+      run_tool("encode", {snapshot(), "--out", out, "--tolerance", shortest(tolerance)}, folder_);
   return {read_field(out), figures.at("bytes").get<double>(), children_seconds() - before};
 }
 

@@ -12,12 +12,16 @@ namespace cleft {
 /// A simulation and its field, made by `cleft solve` and `cleft encode`.
 class Chain {
  public:
-  /// Solves in `folder`, which must outlive it. Throws std::runtime_error where a command fails.
+  /// Solves in `folder`, which must outlive it; the next one there takes its place. Throws std::runtime_error
+  /// where a command fails.
   Chain(const Parameters& parameters, std::string folder);
 
-  const Opening& opening() const { return opening_; }
+  std::string snapshot() const { return folder_ + "/case.h5"; }
+  Opening opening() const;
   double nodes() const { return nodes_; }
+  double unknowns() const { return unknowns_; }
   double solve_seconds() const { return solve_seconds_; }  ///< of all processors together
+  double wall_seconds() const { return wall_seconds_; }    ///< to solve, by the solver's own clock
 
   struct Encoded {
     Field field;
@@ -27,8 +31,7 @@ class Chain {
 
  private:
   std::string folder_;
-  double nodes_ = 0, solve_seconds_ = 0;
-  Opening opening_;
+  double nodes_, unknowns_, solve_seconds_, wall_seconds_;
 };
 
 }  // namespace cleft

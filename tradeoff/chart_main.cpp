@@ -17,7 +17,7 @@ using namespace cleft;
 
 namespace {
 
-const std::vector<std::string> links = {"encoder", "solver", "haptic"};
+const std::vector<std::string> links = {"encoder", "solver", "replay", "haptic"};
 
 /// The case of the hash or, where none is given, the first published one that has kept its snapshot.
 ChartedCase charted_case(const StudyFolder& folder, const std::string& wanted) {
@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "chart.svg; the picture as .png and the numbers as .csv go beside it")
       ->capture_default_str();
   app.add_option("--case", wanted, "hash of the case [the first that has kept its snapshot]");
-  app.add_option("--only", only, "links of the chain: encoder, solver, haptic")
+  app.add_option("--only", only, "links of the chain: encoder, solver, replay, haptic")
       ->delimiter(',')
       ->check(CLI::IsMember(links));
   app.add_option("--most-nodes", options.most_nodes, "of the finest mesh, which the others are compared with")
@@ -90,6 +90,7 @@ int main(int argc, char** argv) {
     };
     add("encoder", [&] { return encoder_charts(charted, options); });
     add("solver", [&] { return solver_charts(charted, options, work.path()); });
+    add("replay", [&] { return replay_charts(charted, options, work.path()); });
     add("haptic", [&] { return haptic_charts(options); });
     draw_charts(charts, stem, "Speed and size against accuracy", producer() + ", " + machine());
     write_text_file(stem + ".csv", csv_of(charts));

@@ -8,6 +8,12 @@
 
 namespace cleft {
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 double frame_seconds(const Field& field) {
   constexpr int count = 10000, frames = 101;
   std::mt19937 random(1);
@@ -31,8 +37,7 @@ double frame_seconds(const Field& field) {
     pieces.positions(field.duration() * frame / (frames - 1), rest.data(), out.data());
     seconds.push_back(watch.lap());
   }
-  std::nth_element(seconds.begin(), seconds.begin() + frames / 2, seconds.end());
-  return seconds[frames / 2];
+  return median(seconds);
 }
 
 }  // namespace cleft

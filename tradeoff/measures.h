@@ -35,6 +35,12 @@ std::vector<Chart> encoder_charts(const ChartedCase& charted, const ChartOptions
 std::vector<Chart> solver_charts(const ChartedCase& charted, const ChartOptions& options,
                                  const WorkFolder& work);
 
+/// Error of replayed cuts against the solver's own simulations of them: over the time of a frame, and over
+/// curvature, tilt and length of the cut and the distance of parallel ones; by the case's own field, and by
+/// three of other prestress superposed as the tension turns. A cut that the solver refuses is left out.
+std::vector<Chart> replay_charts(const ChartedCase& charted, const ChartOptions& options,
+                                 const WorkFolder& work);
+
 /// Error of the force over the rate at which it is updated: a blade that presses, slides, cuts and leaves.
 std::vector<Chart> haptic_charts(const ChartOptions& options);
 

@@ -1,29 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "base/output_file.h"
 #include "base/text.h"
-#include "params/study.h"
+#include "tradeoff/chain.h"
 #include "tradeoff/measures.h"
 #include "tradeoff/opening.h"
-#include "tradeoff/tool.h"
 
 namespace cleft {
 
 namespace {
-
-struct Solved {
-  Opening opening;
-  double unknowns, seconds;
-};
-
-Solved solve(const Parameters& parameters, const WorkFolder& work) {
-  const std::string toml = work + "/case.toml", out = work + "/case.h5";
-  write_text_file(toml, case_file_text({parameters, {}}));
-  const nlohmann::json figures = run_tool("solve", {toml, "--out", out}, work);
-  return {Opening(SnapshotReader(out)), figures.at("unknowns").get<double>(), total_seconds(figures)};
-}
 
 Parameters with_elements(Parameters p, double size) {
   p.mesh.element_size = size;
@@ -43,10 +28,10 @@ struct Panels {
   Chart seconds{"solver.seconds", "Simulation: error over time", "time to solve all frames, s",
                 "largest error of the opening / largest opening"};
 
-  void add(const std::string& series, double size, const Solved& solved, double error, bool standard) {
+  void add(const std::string& series, double size, const Chain& solved, double error, bool standard) {
     const std::string setting = "elements " + shortest(std::round(size * 1e4) / 1e4) + " mm";
-    unknowns.points.push_back({series, setting, solved.unknowns, error, standard});
-    seconds.points.push_back({series, setting, solved.seconds, error, standard});
+    unknowns.points.push_back({series, setting, solved.unknowns(), error, standard});
+    seconds.points.push_back({series, setting, solved.wall_seconds(), error, standard});
   }
 };
 
@@ -68,10 +53,10 @@ void add_slit(Panels& panels, const ChartOptions& options, const WorkFolder& wor
   for (const double parts : {2, 4, 8, 16}) {
     options.progress("solving a slit with elements of " + shortest(a / parts) + " mm");
     const Parameters p = slit(a, a / parts);
-    const Solved solved = solve(p, work);
+    const Chain solved(p, work);
     const double expected = 4 * a * p.skin.prestress_v / p.skin.young_modulus;
     panels.add("slit, closed form", a / parts, solved,
-               std::abs(norm(solved.opening.at(a, 2 * a)) / expected - 1), false);
+               std::abs(norm(solved.opening().at(a, 2 * a)) / expected - 1), false);
   }
 }
 
@@ -88,13 +73,13 @@ std::vector<Chart> solver_charts(const ChartedCase& charted, const ChartOptions&
   std::erase_if(sizes,
                 [&](double size) { return size > charted.parameters.cut.length / 2; });  // no node to open
   options.progress("solving with elements of " + shortest(least) + " mm");
-  const Solved truth = solve(with_elements(charted.parameters, least), work);
+  const Opening truth = Chain(with_elements(charted.parameters, least), work).opening();
   Panels panels;
   for (const double size : sizes) {
     options.progress("solving with elements of " + shortest(size) + " mm");
-    const Solved solved = solve(with_elements(charted.parameters, size), work);
+    const Chain solved(with_elements(charted.parameters, size), work);
     panels.add("against elements of " + shortest(std::round(least * 100) / 100) + " mm", size, solved,
-               opening_error(solved.opening, truth.opening), size == own);
+               opening_error(solved.opening(), truth), size == own);
   }
   add_slit(panels, options, work);
   return {panels.unknowns, panels.seconds};

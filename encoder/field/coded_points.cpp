@@ -32,8 +32,8 @@ std::size_t control_points_of(const std::array<BSplineBasis, 4>& bases) {
 }
 
 /// The entry's lengths of bytes, one for every three components.
-std::vector<std::size_t> lengths_of(const Json& entry, std::size_t components) {
-  const auto lengths = entry.at("bytes").get<std::vector<std::size_t>>();
+std::vector<int> lengths_of(const Json& entry, std::size_t components) {
+  const auto lengths = counts_from(entry.at("bytes"));
   if (lengths.size() != (components + at_once - 1) / at_once)
     throw InputError("bytes are not told for every three components");
   return lengths;
@@ -85,7 +85,7 @@ void append_quantity(Json& list, std::vector<std::uint8_t>& bytes, const Quantit
 Quantity take_quantity(const Json& entry, std::span<const std::uint8_t>& bytes, const ControlTies& ties,
                        const std::array<BSplineBasis, 4>& bases) {
   Quantity quantity{entry.at("name").get<std::string>(),
-                    entry.at("components").get<int>(),
+                    count_from(entry.at("components")),
                     {},
                     finite(entry, "largest"),
                     finite(entry, "error")};
@@ -100,15 +100,15 @@ Quantity take_quantity(const Json& entry, std::span<const std::uint8_t>& bytes, 
     return quantity;
   }
   quantity.quantum = positive(entry, "quantum");
-  const std::vector<std::size_t> lengths = lengths_of(entry, components);
-  const auto slices = entry.at("slices").get<std::vector<int>>();
+  const std::vector<int> lengths = lengths_of(entry, components);
+  const auto slices = counts_from(entry.at("slices"));
   if (slices.size() != lengths.size()) throw InputError("slices are not told for every three components");
   if (static_cast<double>(count) > most_values_of(bytes.size()))
     throw InputError("there are fewer bytes of coefficients than control points take");
   quantity.coefficients.resize(count);
   for (std::size_t group = lengths.size(); group-- > 0;) {
-    const auto points =
-        decoded(take_bytes(bytes, lengths[group]), slices[group], quantity.quantum, bases, ties);
+    const auto points = decoded(take_bytes(bytes, static_cast<std::size_t>(lengths[group])), slices[group],
+                                quantity.quantum, bases, ties);
     for (std::size_t n = 0; n < points.size(); ++n)
       for (std::size_t c = at_once * group; c < std::min(components, at_once * (group + 1)); ++c)
         quantity.coefficients[n * components + c] = points[n][static_cast<int>(c - at_once * group)];
@@ -196,8 +196,8 @@ Beside take_beside(const Json& header, std::span<const std::uint8_t>& bytes,
     ParameterDerivative& one = beside.by_parameter.emplace_back();
     one.parameter = entry.at("parameter").get<std::string>(), one.quantum = positive(entry, "quantum");
     one.largest = finite(entry, "largest"), one.error = finite(entry, "error");
-    one.control_points = decoded(take_bytes(bytes, entry.at("bytes").get<std::size_t>()),
-                                 entry.at("slices").get<int>(), one.quantum, bases, ties);
+    one.control_points = decoded(take_bytes(bytes, static_cast<std::size_t>(count_from(entry.at("bytes")))),
+                                 count_from(entry.at("slices")), one.quantum, bases, ties);
   });
   reversed("quantities",
            [&](const Json& entry) { beside.quantities.push_back(take_quantity(entry, bytes, ties, bases)); });

@@ -120,11 +120,10 @@ std::optional<NodeResidual> read_quantity_residual(const std::string& path, std:
     const std::string name = residual_of_quantity(index);
     if (!file.has(name)) return std::nullopt;
     const Json list = header_from(file.read<std::uint8_t>("/header", {0})).value("quantities", Json::array());
-    if (index >= list.size() || !list[index].contains("components") ||
-        !list[index]["components"].is_number_integer())
+    if (index >= list.size() || !list[index].contains("components"))
       throw FileError(path, name + " is of no quantity");
     NodeResidual kind;
-    kind.components = std::clamp(list[index]["components"].get<int>(), 1, 100), kind.first_frame = 0;
+    kind.components = std::clamp(count_from(list[index]["components"]), 1, 100), kind.first_frame = 0;
     return residual_in(file, name, kind, residual_order);
   });
 }

@@ -1,6 +1,7 @@
 #include "encoder/field/field_record.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <limits>
 
@@ -106,7 +107,7 @@ std::array<BSplineBasis, 4> bases_of(const Json& header) {
   const auto basis = [&](int axis) {
     const Json& entry = header.at("bases").at(axis_names[axis]);
     try {
-      return BSplineBasis(entry.at("degree").get<int>(), entry.at("knots").get<std::vector<double>>());
+      return BSplineBasis(count_from(entry.at("degree")), entry.at("knots").get<std::vector<double>>());
     } catch (const InputError& e) {
       throw InputError(std::string("the basis ") + axis_names[axis] + ": " + e.what());
     }
@@ -197,7 +198,7 @@ UnknownPlaces unknown_places(const Json& header, std::size_t bytes) {
   return reading([&] {
     const std::array<BSplineBasis, 4> bases = bases_of(header);
     count_of(bases, bytes);
-    const int slices = header.at("slices").get<int>(), T = bases[3].size();
+    const int slices = count_from(header.at("slices")), T = bases[3].size();
     if (slices != T && slices != T - 1) throw InputError("slices is neither that of the basis nor one less");
     const std::string name = header.at("parametrization").get<std::string>();
     return UnknownPlaces{places_of(ties_of(name, bases), bases), slices};
@@ -288,6 +289,19 @@ std::vector<std::uint8_t> header_bytes(const Json& header) {
 
 Json header_from(std::span<const std::uint8_t> bytes) {
   return reading([&] { return Json::parse(bytes.begin(), bytes.end()); });
+}
+
+int count_from(const Json& value) {
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > INT_MAX)
+    throw InputError("the header has " + value.dump() + " in the place of a count");
+  return value.get<int>();
+}
+
+std::vector<int> counts_from(const Json& list) {
+  if (!list.is_array()) throw InputError("the header has " + list.dump() + " in the place of counts");
+  std::vector<int> counts;
+  for (const Json& value : list) counts.push_back(count_from(value));
+  return counts;
 }
 
 }  // namespace cleft

@@ -44,6 +44,10 @@ Json shown(const FitReport& report);
 /// A header's bytes: text. Reading throws InputError where they are none.
 std::vector<std::uint8_t> header_bytes(const Json& header);
 Json header_from(std::span<const std::uint8_t> bytes);
+/// A count in a header. Throws InputError where it is none, or one of 2^31 or more: other numbers have no
+/// value as a count.
+int count_from(const Json& value);
+std::vector<int> counts_from(const Json& list);
 
 /// Values that so many coded bytes can stand for at most: each costs a decision or more, of which the most
 /// likely takes 4/65536 of itself, so a byte stands for fewer than 90,909. Asked before memory is taken.

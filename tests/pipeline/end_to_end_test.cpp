@@ -12,7 +12,7 @@
 #include "tests/pipeline/commands.h"
 #include "tests/pipeline/cut_file.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/truth/uncut_skin.h"
+#include "tradeoff/uncut_skin.h"
 
 namespace cleft {
 

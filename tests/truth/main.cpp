@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "tests/truth/replay_error.h"
+#include "tradeoff/replay_error.h"
 #include "tests/truth/truth_cases.h"
 
 using namespace cleft;

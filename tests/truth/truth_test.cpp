@@ -5,7 +5,7 @@
 #include "explorer/scene/replay.h"
 #include "tests/incision/meshes.h"
 #include "tests/incision/self_intersections.h"
-#include "tests/truth/replay_error.h"
+#include "tradeoff/replay_error.h"
 #include "tests/truth/truth_cases.h"
 
 namespace cleft {

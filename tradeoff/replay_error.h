@@ -14,13 +14,16 @@ ScalpelPath path_of(const Snapshot& snapshot, int cut = 0);
 
 /// Over all frames; lengths in mm.
 struct ReplayError {
-  double gape = 0;        ///< largest distance between the lips, of the truth
-  double gape_error = 0;  ///< of the vector from lip to lip
-  double skin_error = 0;  ///< of the displacement of any vertex of the skin from the closed frame
+  double gape = 0;           ///< largest distance between the lips, of the truth
+  double gape_error = 0;     ///< of the vector from lip to lip
+  double skin_error = 0;     ///< of the displacement of any vertex of the skin from the closed frame
+  double frame_seconds = 0;  ///< median time for the positions of all vertices
+  std::size_t vertices = 0;
 };
 
-/// Cuts the truth's own skin along its own cut, moves it by the field, and compares each frame.
-ReplayError replay_error(const SnapshotReader& truth, const Field& field);
+/// Cuts the truth's own skin along its own cut, moves it by the field, and compares each frame. Vertices that
+/// never move by more than `detail` mm stay where they are.
+ReplayError replay_error(const SnapshotReader& truth, const Field& field, double detail = 0);
 
 /// Two parallel cuts, the field replayed along both, while the second is made.
 ReplayError parallel_error(const SnapshotReader& truth, const Field& field);

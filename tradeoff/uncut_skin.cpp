@@ -1,4 +1,4 @@
-#include "tests/truth/uncut_skin.h"
+#include "tradeoff/uncut_skin.h"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "tests/truth/replay_error.h"
+#include "tradeoff/replay_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,11 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "explorer/scene/replay.h"
 #include "explorer/scene/wounds.h"
-#include "tests/truth/uncut_skin.h"
+#include "tradeoff/frame_time.h"
+#include "tradeoff/uncut_skin.h"
 
 namespace cleft {
 
@@ -118,22 +120,29 @@ class Comparison {
 };
 
 ReplayError compare(const SnapshotReader& truth, const UncutSkin& skin, const Incision& incision,
-                    const VaryingField& field) {
-  const Replay replay(field, incision, 1);
+                    const VaryingField& field, double detail = 0) {
+  const Replay replay(field, incision, 1, detail);
   Comparison comparison(truth, skin);
   std::vector<Vec3> moved(replay.vertex_count());
+  std::vector<double> seconds;
+  constexpr int repeats = 5;
   for (std::size_t j = 1; j < truth.snapshot().frames(); ++j) {
-    replay.positions(truth.snapshot().times[j], moved);
+    Stopwatch watch;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+      replay.positions(truth.snapshot().times[j], moved);
+      seconds.push_back(watch.lap());
+    }
     comparison.add(j, incision.mesh(), {{&incision}}, moved);
   }
+  comparison.result.frame_seconds = median(seconds), comparison.result.vertices = moved.size();
   return comparison.result;
 }
 
 }  // namespace
 
-ReplayError replay_error(const SnapshotReader& truth, const Field& field) {
+ReplayError replay_error(const SnapshotReader& truth, const Field& field, double detail) {
   const UncutSkin skin = uncut_skin(truth.snapshot());
-  return compare(truth, skin, cut_as(truth.snapshot(), skin), field);
+  return compare(truth, skin, cut_as(truth.snapshot(), skin), field, detail);
 }
 
 ReplayError replay_error(const SnapshotReader& truth, const PrestressFields& fields) {
