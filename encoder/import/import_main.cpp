@@ -59,6 +59,12 @@ int main(int argc, char** argv) {
                  "those where they save a fifth (smaller)")
       ->check(CLI::IsMember(boxes))
       ->capture_default_str();
+  app.add_option("--set", o.parameters,
+                 "NAME=VALUE, as often as needed: what the series does not tell of skin, tissue and load, "
+                 "named and in units as cleft solve --help says; where several cuts are made in one mesh, "
+                 "skin.thickness, skin.young_modulus, skin.poisson_ratio, skin.prestress_v, "
+                 "tissue.young_modulus and tissue.poisson_ratio are asked for")
+      ->allow_extra_args(false);
   app.add_option("--out", o.out, "snapshot to write, case.h5")->required();
   app.add_flag("--json", json, "print the figures as JSON");
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <variant>
 
 #include "base/error.h"
 #include "base/output_file.h"
@@ -26,6 +28,20 @@ std::vector<Vec3> placed_points(const SourceMesh& mesh, const Placement& placeme
     points.push_back(x);
   }
   return points;
+}
+
+std::map<std::string, std::variant<double, std::string>> parse_parameters(
+    const std::vector<std::string>& list) {
+  std::map<std::string, std::variant<double, std::string>> parameters;
+  for (const std::string& text : list) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == text.npos)
+      throw InputError("--set " + text + ": is not NAME=VALUE, such as skin.thickness=1.5");
+    const std::string name = text.substr(0, equals);
+    if (!parameters.emplace(name, parse_number(text.substr(equals + 1), "--set " + name)).second)
+      throw InputError("--set " + name + " is given twice");
+  }
+  return parameters;
 }
 
 Snapshot snapshot_of(const Series& series, const Break& found, const Placement& placement, bool is_flat) {
@@ -89,7 +105,9 @@ void write_frames(const Series& series, const Placement& placement, const std::s
 }  // namespace
 
 ImportReport import_series(const ImportOptions& o, const std::function<void(const std::string&)>& progress) {
-  if (o.break_plane && *o.break_plane != "none") parse_plane(*o.break_plane);  // told before the long part
+  // Told before the long part.
+  if (o.break_plane && *o.break_plane != "none") parse_plane(*o.break_plane);
+  auto parameters = parse_parameters(o.parameters);
   Series series(o.series, parse_fields(o.fields));
   refuse_to_overwrite(o.out, series.files());
   { const OutputFile probe(o.out); }
@@ -104,6 +122,7 @@ ImportReport import_series(const ImportOptions& o, const std::function<void(cons
 
   ImportReport report;
   report.snapshot = snapshot_of(series, found, placement, flat.has_value());
+  report.snapshot.parameters = std::move(parameters);
   for (const SeriesField& field : series.fields())
     if (field.name == "displacement")
       report.has_displacement = true;

@@ -16,6 +16,8 @@ struct ImportOptions {
   std::vector<std::string> fields;         ///< SOURCE[:NAME]
   std::optional<std::string> break_plane;  ///< nx,ny,nz,offset, or "none"; nothing: found
   Box box = Box::smaller;
+  std::vector<std::string> parameters =
+      {};  ///< NAME=VALUE: what the series does not tell of skin, tissue and load
 };
 
 struct ImportReport {

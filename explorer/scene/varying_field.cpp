@@ -25,8 +25,9 @@ double parameter_of(const Field& field, const std::string& name) {
   if (found == field.parameters.end())
     throw InputError(
         "the field does not tell " + name +
-        ", from which it follows how cuts relieve each other; take the field of a simulated case, "
-        "or make one cut");
+        ", from which it follows how cuts relieve each other; take the field of a simulated case, give it "
+        "to cleft import as --set " +
+        name + "=VALUE and encode again, or make one cut");
   return found->second;
 }
 

@@ -82,9 +82,11 @@ Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, st
   const Blade now = blade(t);
   Vec3 sum;
   for (std::size_t k = 0; k <= now.cut; ++k) {
-    const auto at = volumes_[k]->locate_below(place, depth, nearest, sides[k]);
-    if (!at) continue;
     const double s = k == now.cut ? now.s : replays_[k].path_length();
+    auto at = volumes_[k]->locate_below(place, depth, nearest, sides[k]);
+    // Ahead of the blade nothing has two sides yet, though the cell may have been split.
+    if (at && at->s >= s) at = volumes_[k]->locate_below(place, depth, nearest, Side::both);
+    if (!at) continue;
     const VaryingField& field = cuts_[k].field;
     const double own_time = std::clamp(s + at->time_offset, 0., field.shape().cut().length);
     sum += amplitude(k, at->s, now) / scale_ *

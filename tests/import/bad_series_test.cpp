@@ -42,6 +42,17 @@ class BadSeries : public testing::Test {
 
 }  // namespace
 
+TEST_F(BadSeries, ParametersThatAreNone) {
+  const auto refused = [&](const std::vector<std::string>& settings, const std::string& why) {
+    std::vector<std::string> arguments{good.write(in), "--field", "displacement"};
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    expect_refused(arguments, {settings.back().substr(0, settings.back().find('=')), why});
+  };
+  refused({"skin.thickness"}, "is not NAME=VALUE");
+  refused({"skin.thickness=thick"}, "'thick' is not a number");
+  refused({"skin.thickness=1.5", "skin.thickness=2"}, "is given twice");
+}
+
 TEST_F(BadSeries, FieldsThatAreNotThere) {
   const std::string series = good.write(in);
   expect_refused({series, "--field", "displacment"},

@@ -54,6 +54,19 @@ TEST_P(ImportPlate, PlacesAreThoseOfTheCut) {
   }
 }
 
+TEST_P(ImportPlate, WhatItDoesNotTellMayBeGiven) {
+  ImportOptions options;
+  options.series = Plate(GetParam(), Pose::random(1)).series().write(folder);
+  options.out = folder / "case.h5";
+  options.fields = all_fields;
+  options.parameters = {"skin.thickness=1.5", "skin.prestress_v=0.03"};
+  import_series(options, [](const std::string&) {});
+  const auto parameters = SnapshotReader(options.out).snapshot().parameters;
+  ASSERT_EQ(parameters.size(), 2u);
+  EXPECT_EQ(std::get<double>(parameters.at("skin.thickness")), 1.5);
+  EXPECT_EQ(std::get<double>(parameters.at("skin.prestress_v")), 0.03);
+}
+
 TEST_P(ImportPlate, TheSourceIsTold) {
   const Pose pose = Pose::random(3);
   const Plate plate(GetParam(), pose);

@@ -1,7 +1,9 @@
 // A mesh of volume is cut where its surface is, and its points move with it.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <map>
 
 #include "explorer/cut_volume.h"
 #include "explorer/scene/wounds.h"
@@ -97,6 +99,36 @@ TEST(Volume, MovesAsItsSurfaceDoesAndGapesAsWide) {
   }
   EXPECT_GT(left, 5);
   EXPECT_EQ(left, right);
+}
+
+TEST(Volume, WhatIsSplitBeyondTheTipStaysTogether) {
+  // The blade ends within cells, some of which are split whole: there the parts lie on each other.
+  const TemporaryFolder folder;
+  VolumeMesh volume(box(folder, 20, 16, 6));
+  const SurfaceMesh surface = volume.surface();
+  const Field field = opening_field({-5, 10, 3}, 20, 16, 6, 2);
+  const double tip = 3.4;
+  Incision cut(surface, path_through({{-5, 0, 0}, {tip, 0, 0}}, up, 3));
+  cut.advance_to(5 + tip);
+  const Wounds wounds({{&cut, field}}, 1);
+  write_cut_volume(volume, surface, {&cut}, &wounds, 1, 5 + tip, folder / "open.vtu");
+  const std::vector<Vec3> rest = volume.points(), moved = VolumeMesh(folder / "open.vtu").points();
+  std::map<std::array<double, 3>, std::vector<std::size_t>> copies;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    if (std::abs(rest[i].y) < 1e-9) copies[{rest[i].x, 0, rest[i].z}].push_back(i);
+  int beyond = 0, open = 0;
+  for (const auto& [place, points] : copies) {
+    if (points.size() < 2) continue;
+    const double gap = norm(moved[points[0]] - moved[points[1]]);
+    if (place[0] > tip) {
+      ++beyond;
+      EXPECT_EQ(gap, 0) << place[0] << ' ' << place[2];
+    } else {
+      open += gap > 0.1;
+    }
+  }
+  EXPECT_GT(beyond, 0) << "cells must be split beyond the tip for this to mean anything";
+  EXPECT_GT(open, 10);
 }
 
 }  // namespace

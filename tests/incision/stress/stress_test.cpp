@@ -33,6 +33,16 @@ TEST(Stress, GeneratedMeshes) {
   expect_sound("cylinder", ring(40, 20, 10, 3, false), 200, 0.01);
 }
 
+TEST(Stress, LargeTrianglesWoundRoundByTheirOwnCuts) {
+  Plan plan;
+  plan.good = false;  // folds as sharp as a box's
+  plan.paths = 60;
+  const Tally tally = stress("octahedron", testing::sphere(1, 10), plan);
+  EXPECT_EQ(tally.violations, 0);
+  EXPECT_EQ(tally.poor - tally.squeezed, 0) << "3 where needles are left as they are";
+  EXPECT_LE(tally.refused, 1);
+}
+
 TEST(Stress, FacesOrgansAndDefectiveMeshes) {
   namespace fs = std::filesystem;
   if (!fs::exists(CLEFT_SHARED_MESHES)) GTEST_SKIP() << CLEFT_SHARED_MESHES << " is absent";
