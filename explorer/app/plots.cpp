@@ -95,7 +95,7 @@ void Plots::draw() {
     const std::vector<int> views = session_.views();
     double highest = 0;
     for (std::size_t k = 0; k < views.size(); ++k) {
-      const auto field = session_.study()->field(views[k]);
+      const auto field = session_.field_of(views[k]);
       const auto known = gapes_.find(field.get());
       const Curve& gape = gapes[field.get()] = known != gapes_.end() ? known->second : gape_over_time(*field);
       const std::string name = "case " + std::to_string(views[k] + 1);

@@ -132,12 +132,8 @@ void Stage::label(Session& session) {
   const bool dark = session.state().dark;
   const std::vector<int> cases = session.views();
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    std::string title;
-    if (session.study()) {
-      const std::string name = session.study()->name(cases[i]);
-      title =
-          "case " + std::to_string(cases[i] + 1) + ": " + (views_.size() > 1 ? without_groups(name) : name);
-    }
+    const std::string whole = session.title_of(cases[i]);
+    const std::string title = views_.size() > 1 ? without_groups(whole) : whole;
     char time[80];
     std::snprintf(time, sizeof time, "%.1f of %.1f mm cut", views_[i].view->time(),
                   views_[i].view->duration());

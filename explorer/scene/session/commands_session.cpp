@@ -16,6 +16,7 @@ void screenshot(Session& session, CommandWords& words) {
   const int height = words.empty() ? width * 9 / 16 : words.whole("the height", 16, 8192);
   words.expect_end();
   session.scene();  // says what is missing
+  session.finish_preparing();
   session.services().draw(session, file, width, height);
 }
 
@@ -45,9 +46,13 @@ void info(Session& session, CommandWords&) {
   const SessionState& s = session.state();
   const auto scene = session.scene();
   if (const auto field = session.field()) {
-    session.answer("case " + std::to_string(s.shown + 1) + " of " + std::to_string(session.study()->size()) +
-                   ": " + session.study()->name(s.shown));
-    session.answer("largest error of the field: " + shortest(100 * field->report.node_error) +
+    session.answer(session.between()
+                       ? session.title_of(s.shown)
+                       : "case " + std::to_string(s.shown + 1) + " of " +
+                             std::to_string(session.study()->size()) + ": " + session.study()->name(s.shown));
+    if (!session.why_nearest().empty()) session.answer("the nearest case: " + session.why_nearest());
+    session.answer((session.between() ? std::string("estimated") : std::string("largest")) +
+                   " error of the field: " + shortest(100 * field->report.node_error) +
                    " % of the largest displacement, " + shortest(field->report.largest_displacement) + " mm");
     session.answer("widest gape at " + shortest(s.time) +
                    " mm cut: " + shortest(widest_gape(*field, std::min(s.time, field->duration()))) + " mm");

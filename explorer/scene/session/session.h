@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "explorer/incision/surface_mesh.h"
+#include "explorer/scene/between_cases.h"
 #include "explorer/scene/case_figures.h"
 #include "explorer/scene/cut_fields.h"
 #include "explorer/scene/cut_surface.h"
@@ -73,11 +74,26 @@ class Session {
   std::shared_ptr<const WoundScene> scene_of(int i);
   /// The cases side by side: at least one.
   std::vector<int> views() const;
-  std::shared_ptr<const Field> field();      ///< of the shown case; null without a study
+  std::shared_ptr<const Field> field();  ///< that is shown; null without a study
+  /// Of case i, or what lies between cases where that is shown in its place.
+  std::shared_ptr<const Field> field_of(int i);
   std::shared_ptr<const Field> reference();  ///< null where none is chosen
   double duration();                         ///< t of the end, of the longest view
   /// Whether the shown case has exactly the parameters asked for.
   bool shows_exactly() const;
+  /// The interpolated field that is shown in place of the shown case; null where there is none.
+  const std::shared_ptr<const Field>& between() const { return between_; }
+  /// Why the nearest case is shown where nothing is interpolated; empty where it has the parameters.
+  const std::string& why_nearest() const { return why_nearest_; }
+  /// What is shown in the view of case i, as titles say it.
+  std::string title_of(int i);
+  /// Lets cases be read on another thread while the nearest one is shown; take_prepared() then shows what
+  /// lies between, once that is known, and tells whether there is still something to wait for.
+  void prepare_beside(bool on) { beside_ = on; }
+  bool take_prepared();
+  bool preparing() const { return preparing_; }
+  /// Waits for what is being prepared, so that pictures show it.
+  void finish_preparing();
 
   /// Of case i, read where they are not known yet.
   const CaseFigures& figures(int i);
@@ -99,6 +115,7 @@ class Session {
   void show_case(int i);
   void find(const std::string& condition);  ///< empty: no condition
   void ask_for(const std::string& parameter, double value);
+  void interpolate(bool on);
   void load_mesh(const std::string& file, double scale);
   void show_patch();
   void cut(const CutState& cut);
@@ -124,7 +141,12 @@ class Session {
   void load_study(const std::string& path);
   void read_mesh_in_mm();
   int nearest_case() const;
+  /// Of the parameters that vary, over all cases.
+  std::map<std::string, std::pair<double, double>> parameter_ranges() const;
   void take_parameters();
+  /// Makes what is shown that of the parameters asked for.
+  void follow_parameters();
+  std::string make_between();
   void cuts_changed();
   std::vector<ScalpelPath> cut_paths(double depth) const;
   std::shared_ptr<const CutSurface> cut_surface(double depth);
@@ -142,9 +164,16 @@ class Session {
     std::map<std::string, std::map<int, std::optional<Finding>>> findings;  // by condition
   };
   std::shared_ptr<Known> known_ = std::make_shared<Known>();
+  std::shared_ptr<BetweenCases> between_cases_;  // made when they are first asked for
+  std::shared_ptr<const Field> between_;
+  std::string why_nearest_;
+  bool beside_ = false, preparing_ = false;
   std::vector<std::string> said_;
   std::vector<Listener> listeners_;
   Changes changes_;
 };
+
+/// Of an interpolated field, in words: "estimated error 2.1 %".
+std::string error_of_interpolation(const Field& field);
 
 }  // namespace cleft

@@ -69,6 +69,7 @@ SessionState to_state(const Json& j) {
   s.study = j.at("study");
   s.shown = j.at("case").get<int>() - 1;
   s.parameters = j.at("parameters").get<std::map<std::string, double>>();
+  s.between = j.value("between", false);  // sessions saved before there was one show the nearest case
   s.mesh = j.at("mesh");
   s.scale = j.at("scale");
   s.cuts = to_cuts(j.at("cuts"));
@@ -113,6 +114,7 @@ std::string state_to_json(const SessionState& s) {
          {"study", s.study},
          {"case", s.shown + 1},
          {"parameters", s.parameters},
+         {"between", s.between},
          {"mesh", s.mesh},
          {"scale", s.scale},
          {"cuts", to_json(s.cuts)},

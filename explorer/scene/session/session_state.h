@@ -32,7 +32,8 @@ struct CutState {
 struct SessionState {
   std::string study;  ///< study folder, study.dffd or case.dffd; empty: nothing is open
   int shown = 0;      ///< case, from 0
-  std::map<std::string, double> parameters;  ///< asked for with `set`; the nearest case is shown
+  std::map<std::string, double> parameters;  ///< asked for with `set`
+  bool between = true;  ///< what has these parameters is interpolated; else the nearest case is shown
 
   std::string mesh;  ///< file of the surface mesh to cut; empty: the canonical patch
   double scale = 1;  ///< mm in a unit of the mesh
