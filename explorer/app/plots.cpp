@@ -126,10 +126,10 @@ void Plots::showEvent(QShowEvent* event) {
 
 void Plots::follow(const Changes& changes) {
   if (!isVisible()) return;
-  if (changes.study || changes.shown || changes.layout || changes.look)
+  if (changes.study || changes.layout || changes.look)
     draw();
-  else if (changes.time && !soon_.isActive())
-    soon_.start(milliseconds_a_plot);
+  else if (changes.shown || (changes.time && !soon_.isActive()))
+    soon_.start(milliseconds_a_plot);  // once a slider rests
 }
 
 }  // namespace cleft

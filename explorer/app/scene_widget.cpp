@@ -76,7 +76,9 @@ void SceneWidget::set_cutting(bool on) {
 
 void SceneWidget::follow(const Changes& changes) {
   if (!own_ && (changes.cuts || changes.study || changes.shown)) live_.reset();
-  draw();
+  const bool seen = changes.study || changes.shown || changes.cuts || changes.time || changes.coloring ||
+                    changes.camera || changes.layout || changes.look;
+  if (seen) draw();
 }
 
 void SceneWidget::draw() {

@@ -109,15 +109,25 @@ Place PatchScene::place(std::size_t point, double t) const {
 }
 
 void PatchScene::positions(double t, std::vector<Vec3>& out) const {
-  out.resize(surface_.points.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const Place at = place(i, t);
-    out[i] = at.uvw + field_.displacement(at.uvw, at.side, t);
-  }
+  displacements(t, out);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = surface_.points[i] + out[i];
+}
+
+void PatchScene::displacements(double t, std::vector<Vec3>& out) const {
+  std::vector<Place> places(surface_.points.size());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = place(i, t);
+  out.resize(places.size());
+  field_.displacements(places, out);
 }
 
 void PatchScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
   out.resize(surface_.points.size());
+  if (coloring == Coloring::displacement) {  // by far the quickest of all at once
+    std::vector<Vec3> displacement;
+    displacements(t, displacement);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = norm(displacement[i]);
+    return;
+  }
   const VaryingField field(field_);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = color_value(coloring, field, reference, place(i, t));
 }

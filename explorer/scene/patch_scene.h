@@ -26,6 +26,7 @@ class PatchScene : public WoundScene {
   void add_quad(int a, int b, int c, int d, Region region);
   bool inside_cut(double u) const;
   Place place(std::size_t point, double t) const;
+  void displacements(double t, std::vector<Vec3>& out) const;
 
   std::shared_ptr<const Field> shared_;
   const Field& field_;

@@ -47,14 +47,14 @@ void Stage::show(Session& session) {
     const auto scene = scene_of(session, cases[i]);
     if (scene == scenes_[i]) continue;
     scenes_[i] = scene;
-    views_[i].view->show(scene);
+    views_[i].view->show(scene, session.state().time);
     fresh = true;
   }
   color(session, fresh);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     WoundView& view = *views_[i].view;
     const double time = scenes_[i] == live_ ? scenes_[i]->duration() : session.state().time;
-    if (fresh || scenes_[i] == live_ || view.time() != time) view.set_time(time);
+    if (scenes_[i] == live_ || view.time() != time) view.set_time(time);
     if (scenes_[i] == live_) draw_scalpel(view);
   }
   if (!scalpel_) scalpel_view_.reset();

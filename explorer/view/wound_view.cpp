@@ -89,7 +89,7 @@ void WoundView::add_lights() {
   add(0.2, 1.0, -0.8, 0.25, 1.0, 1.0);    // rim, from behind
 }
 
-void WoundView::show(std::shared_ptr<const WoundScene> scene) {
+void WoundView::show(std::shared_ptr<const WoundScene> scene, std::optional<double> t) {
   const bool first = !scene_;
   scene_ = std::move(scene);
   largest_.reset();
@@ -99,7 +99,7 @@ void WoundView::show(std::shared_ptr<const WoundScene> scene) {
   skin_.emplace(surface, [](Region r) { return r == Region::skin; });
   walls_.emplace(surface, [](Region r) { return r != Region::skin; });
   add_actors();
-  set_time(scene_->duration());
+  set_time(t.value_or(scene_->duration()));
   if (first) aim({});
 }
 

@@ -24,8 +24,9 @@ class WoundView {
   WoundView();
   ~WoundView();
 
-  /// Replaces the scene and draws its end; the camera stays unless this is the first one.
-  void show(std::shared_ptr<const WoundScene> scene);
+  /// Replaces the scene and draws it at t, its end where none is given; the camera stays unless this is the
+  /// first one.
+  void show(std::shared_ptr<const WoundScene> scene, std::optional<double> t = {});
 
   /// Moves the points to the length cut t, mm (clamped). Nothing else is rewritten.
   void set_time(double t);
