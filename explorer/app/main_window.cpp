@@ -52,6 +52,8 @@ MainWindow::MainWindow(Session& session) : session_(session) {
   Changes all;
   all.all();
   follow(all);
+  for (const std::string& notice : session_.notices())  // of what was open before there was a window
+    message_->answer(QString::fromStdString(notice));
 }
 
 MainWindow::~MainWindow() { device_.reset(); }

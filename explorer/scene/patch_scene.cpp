@@ -1,6 +1,7 @@
 #include "explorer/scene/patch_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cleft {
 namespace {
@@ -18,7 +19,8 @@ std::vector<double> graded(double from, double to, double first, double growth) 
 
 }  // namespace
 
-PatchScene::PatchScene(std::shared_ptr<const Field> shared) : shared_(std::move(shared)), field_(*shared_) {
+PatchScene::PatchScene(std::shared_ptr<const Field> shared, std::shared_ptr<const RawCase> raw)
+    : shared_(std::move(shared)), raw_(std::move(raw)), field_(*shared_) {
   const Field& field = field_;
   const CanonicalCut& cut = field.cut();
   const double end = cut.start + cut.length, step = cut.length / 120;
@@ -128,8 +130,28 @@ void PatchScene::values(Coloring coloring, const Field* reference, double t, std
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = norm(displacement[i]);
     return;
   }
+  if (coloring == Coloring::error) return errors(t, out);
   const VaryingField field(field_);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = color_value(coloring, field, reference, place(i, t));
+}
+
+void PatchScene::errors(double t, std::vector<double>& out) const {
+  if (!raw_) return out.assign(surface_.points.size(), std::nan(""));
+  if (nearest_.empty())
+    for (std::size_t i = 0; i < surface_.points.size(); ++i)
+      nearest_.push_back(raw_->nearest_node(surface_.points[i], sides_[i]));
+  const std::size_t frame = raw_->nearest_frame(t);
+  auto& known = errors_[frame];
+  if (known.empty()) {
+    std::vector<int> nodes = nearest_;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    const std::vector<double> of_nodes = raw_->errors(frame, nodes);
+    for (const int node : nearest_)
+      known.push_back(of_nodes[static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
+                                                        nodes.begin())]);
+  }
+  out = known;
 }
 
 }  // namespace cleft

@@ -18,6 +18,7 @@ void Stage::make_views(std::size_t count) {
   if (count == views_.size()) return;
   scalpel_view_.reset();
   for (View& v : views_) {
+    v.overlay.reset();
     v.furniture.reset();
     window_->RemoveRenderer(v.view->renderer());
   }
@@ -58,8 +59,26 @@ void Stage::show(Session& session) {
     if (scenes_[i] == live_) draw_scalpel(view);
   }
   if (!scalpel_) scalpel_view_.reset();
+  lay_over(session);
   aim(session.state().camera, relaid);
   label(session);
+}
+
+/// In the view of the shown case.
+void Stage::lay_over(Session& session) {
+  const Overlay overlay = live_ ? Overlay{} : session.overlay();
+  caption_ = overlay.caption;
+  const std::vector<int> cases = session.views();
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const bool here = cases[i] == session.state().shown && !overlay.empty();
+    views_[i].view->set_opacity(here ? overlay.surface_opacity : 1);
+    if (!here) {
+      views_[i].overlay.reset();
+      continue;
+    }
+    if (!views_[i].overlay) views_[i].overlay = std::make_unique<OverlayView>(views_[i].view->renderer());
+    views_[i].overlay->show(overlay);
+  }
 }
 
 void Stage::set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel) {
@@ -137,7 +156,9 @@ void Stage::label(Session& session) {
     char time[80];
     std::snprintf(time, sizeof time, "%.1f of %.1f mm cut", views_[i].view->time(),
                   views_[i].view->duration());
-    views_[i].furniture->set_text(title, time, views_.size() > 1);
+    const std::string below =
+        cases[i] == session.state().shown && !caption_.empty() ? std::string(time) + "\n" + caption_ : time;
+    views_[i].furniture->set_text(title, below, views_.size() > 1);
     if (session.mesh())
       views_[i].furniture->set_axes({"x", "y", "z"});
     else

@@ -10,6 +10,7 @@
 #include <vtkTextProperty.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "explorer/view/wound_colors.h"
@@ -120,6 +121,7 @@ double WoundView::largest_value(Coloring coloring, const Field* reference) {
   double largest = 0;
   for (int i = 1; i <= samples; ++i) {
     scene_->values(coloring, reference, scene_->duration() * i / samples, values);
+    std::erase_if(values, [](double v) { return !std::isfinite(v); });  // errors that nobody knows
     if (values.empty()) continue;
     // Strain has no bound at the ends of the cut: the highest values there would leave no colour for the
     // rest.
@@ -156,8 +158,16 @@ void WoundView::add_actors() {
   walls->GetProperty()->SetSpecular(0.3);  // moist
   walls->GetProperty()->SetSpecularPower(40);
   add_prop(walls);
+  wall_actor_ = walls;
+  for (vtkActor* actor : {skin_actor_.Get(), wall_actor_.Get()}) actor->GetProperty()->SetOpacity(opacity_);
   walls_->color([this](int p) { return scene_->surface().depth_fraction[p]; });
   set_background();
+}
+
+void WoundView::set_opacity(double opacity) {
+  if (opacity == opacity_) return;
+  opacity_ = opacity;
+  for (vtkActor* actor : {skin_actor_.Get(), wall_actor_.Get()}) actor->GetProperty()->SetOpacity(opacity);
 }
 
 void WoundView::set_dark(bool dark) {

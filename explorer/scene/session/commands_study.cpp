@@ -101,6 +101,7 @@ void find(Session& session, CommandWords& words) {
   if (condition == "clear") return;
   int count = 0;
   for (int i = 0; i < session.study()->size(); ++i) {
+    session.progress("looking through the cases", double(i) / session.study()->size());
     const std::optional<Finding>& f = session.finding(i);
     if (!f) continue;
     ++count;

@@ -9,6 +9,7 @@
 #include "explorer/scene/mesh_scene.h"
 #include "explorer/scene/patch_scene.h"
 #include "explorer/scene/session/command_table.h"
+#include "params/study_index.h"
 
 namespace cleft {
 
@@ -39,9 +40,12 @@ void Session::say(const std::string& line) {
   changes_ = {};
   try {
     CommandWords rest(command.name, command.arguments, {words.begin() + 1, words.end()});
+    busy_ = true;
     command.run(*this, rest);
     rest.expect_end();
+    busy_ = false;
   } catch (...) {  // as it was
+    busy_ = false;
     state_ = state, study_ = study, mesh_ = mesh, known_ = known;
     cut_surfaces_ = cut_surfaces, scenes_ = scenes;
     between_cases_ = between_cases, between_ = between;
@@ -108,7 +112,8 @@ std::shared_ptr<const WoundScene> Session::scene_of(int i) {
   if (mesh_)
     found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), cut_fields(i));
   else
-    found = std::make_shared<PatchScene>(field_of(i));
+    found = std::make_shared<PatchScene>(
+        field_of(i), state_.coloring == Coloring::error && why_no_raw(i).empty() ? raw_of(i) : nullptr);
   return found;
 }
 
@@ -125,6 +130,7 @@ void Session::load_study(const std::string& path) {
   cut_surfaces_.clear();
   known_ = std::make_shared<Known>();
   between_cases_.reset(), between_.reset();
+  raws_.clear();
   why_nearest_.clear();
   preparing_ = false;
 }
@@ -135,12 +141,29 @@ void Session::open(const std::string& path) {
   state_.brushes.clear();
   state_.where.clear();
   state_.reference = -1;
-  if (state_.coloring == Coloring::difference) state_.coloring = Coloring::displacement;
+  state_.probe.reset(), state_.zoom.reset(), state_.figure.clear();
+  if (state_.coloring == Coloring::difference || state_.coloring == Coloring::error)
+    state_.coloring = Coloring::displacement;
   state_.shown = 0;
   take_parameters();
   state_.playing = false;
   state_.time = duration();
   changes_.all();
+  for (const std::string& notice : notices()) answer(notice);
+}
+
+std::vector<std::string> Session::notices() const {
+  std::vector<std::string> notices;
+  if (!study_) return notices;
+  if (!study_->older().empty())
+    notices.push_back(study_->path() + ": " + note_of_older(study_->path(), study_->older()));
+  int gone = 0;
+  if (study_->is_folder())
+    for (const auto& [hash, one] : study_index(study_->path())) gone += !one.snapshot;
+  if (gone > 0)
+    notices.push_back(study_->path() + ": the raw data of " + std::to_string(gone) +
+                      " cases are gone (keep_snapshots = \"none\"): their fields are all there");
+  return notices;
 }
 
 void Session::close() {
@@ -157,7 +180,7 @@ void Session::set_time(double t) {
 }
 
 void Session::tick(double seconds) {
-  if (!state_.playing) return;
+  if (!state_.playing || busy_) return;
   changes_ = {};
   advance(seconds);
   notify();

@@ -14,31 +14,46 @@
 #include "explorer/scene/cut_fields.h"
 #include "explorer/scene/cut_surface.h"
 #include "explorer/scene/find/find.h"
+#include "explorer/scene/overlay.h"
+#include "explorer/scene/probe.h"
 #include "explorer/scene/session/session_state.h"
 #include "explorer/scene/study.h"
+#include "explorer/scene/tornado.h"
 #include "explorer/scene/wound_scene.h"
 
 namespace cleft {
 
 class Session;
 
+struct MovieFormat {
+  int width = 1280, height = 720;  ///< pixels
+  double rate = 25;                ///< pictures a second
+};
+
 /// What a session asks of others, as it knows neither mesh files nor pictures.
 struct SessionServices {
   std::function<SurfaceMesh(const std::string& file)> read_mesh;
   std::function<void(const std::string& file, const SurfaceMesh& mesh)> write_mesh;
-  std::function<void(Session& session, const std::string& file, int width, int height)> draw;
+  std::function<void(Session& session, const std::string& file, int width, int height, bool transparent)>
+      draw;
   /// The saved session in a picture, as JSON.
   std::function<std::string(const std::string& file)> state_in_picture;
   std::function<void(const std::string& text)> answer;  ///< to what was asked: a line or several
   /// Takes a haptic device in hand, with the file it needs; "off": puts it away. None without a window.
   std::function<void(const std::string& name, const std::string& file)> device = nullptr;
+  /// A movie of the growing cut: .ogv, or a folder of PNG files.
+  std::function<void(Session& session, const std::string& file, const MovieFormat& format)> film = nullptr;
+  /// Is told what takes long and which part of it is done; false: the user wants no more of it.
+  std::function<bool(const std::string& what, double part)> progress = nullptr;
 };
 
 /// What a line has changed, for those who listen.
 struct Changes {
   bool study = false, shown = false, cuts = false, time = false, playing = false, coloring = false,
-       camera = false, layout = false, look = false, brushes = false;
-  void all() { study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = true; }
+       camera = false, layout = false, look = false, brushes = false, closer = false;
+  void all() {
+    study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = closer = true;
+  }
 };
 
 class Session {
@@ -95,6 +110,18 @@ class Session {
   /// Waits for what is being prepared, so that pictures show it.
   void finish_preparing();
 
+  /// Why the simulation of case i cannot be looked at; empty where it can.
+  std::string why_no_raw(int i);
+  /// Throws InputError with that reason.
+  std::shared_ptr<const RawCase> raw_of(int i);
+  Motion probed_motion();  ///< throws InputError where nothing is probed
+  /// What is drawn over the shown case; where it cannot be drawn, the caption says why.
+  Overlay overlay();
+  /// Of the gape, over all cases.
+  Tornado tornado();
+  /// What there is to know of the study beside its cases: those left out, raw data that are gone.
+  std::vector<std::string> notices() const;
+
   /// Of case i, read where they are not known yet.
   const CaseFigures& figures(int i);
   bool knows_figures(int i) const { return known_->figures.count(i) > 0; }
@@ -118,6 +145,7 @@ class Session {
   void interpolate(bool on);
   void load_mesh(const std::string& file, double scale);
   void show_patch();
+  void color_by(Coloring coloring);
   void cut(const CutState& cut);
   void recut(const CutState& cut);
   /// The skin's tension, against which cuts turn; none: as in the shown case, whichever way a cut goes.
@@ -132,6 +160,11 @@ class Session {
   SessionState& edit() { return state_; }
   Changes& changes() { return changes_; }
   void answer(const std::string& text) const;
+  /// Throws InputError where the user wants no more of it.
+  void progress(const std::string& what, double part) const;
+  void tell_progress_to(std::function<bool(const std::string&, double)> told) {
+    services_.progress = std::move(told);
+  }
   void hand_devices_to(std::function<void(const std::string&, const std::string&)> device) {
     services_.device = std::move(device);
   }
@@ -147,6 +180,7 @@ class Session {
   /// Makes what is shown that of the parameters asked for.
   void follow_parameters();
   std::string make_between();
+  Overlay make_overlay();
   void cuts_changed();
   std::vector<ScalpelPath> cut_paths(double depth) const;
   std::shared_ptr<const CutSurface> cut_surface(double depth);
@@ -167,11 +201,15 @@ class Session {
   std::shared_ptr<BetweenCases> between_cases_;  // made when they are first asked for
   std::shared_ptr<const Field> between_;
   std::string why_nearest_;
-  bool beside_ = false, preparing_ = false;
+  std::map<int, std::shared_ptr<const RawCase>> raws_;
+  bool beside_ = false, preparing_ = false, busy_ = false;
   std::vector<std::string> said_;
   std::vector<Listener> listeners_;
   Changes changes_;
 };
+
+/// Names of the figures of how the method works, "off" the first.
+const std::vector<std::string>& overlay_figures();
 
 /// Of an interpolated field, in words: "estimated error 2.1 %".
 std::string error_of_interpolation(const Field& field);

@@ -117,7 +117,7 @@ std::string Session::make_between() {
 }
 
 bool Session::take_prepared() {
-  if (!preparing_ || !between_cases_->ready()) return preparing_;
+  if (!preparing_ || busy_ || !between_cases_->ready()) return preparing_;
   changes_ = {};
   finish_preparing();
   notify();
@@ -135,12 +135,15 @@ void Session::finish_preparing() {
 
 std::string Session::title_of(int i) {
   if (!study_) return "";
-  if (!between_ || i != state_.shown) return "case " + std::to_string(i + 1) + ": " + study_->name(i);
+  const std::string raw = state_.coloring == Coloring::error && !why_no_raw(i).empty()
+                              ? " - without raw frames: no error is known"
+                              : "";
+  if (!between_ || i != state_.shown) return "case " + std::to_string(i + 1) + ": " + study_->name(i) + raw;
   std::string title = "between cases:";
   for (const std::string& name : study_->varying())
     if (const auto found = state_.parameters.find(name); found != state_.parameters.end())
       title += " " + name + "=" + shortest_of(found->second, 4);
-  return title + " - interpolated, " + error_of_interpolation(*between_);
+  return title + " - interpolated, " + error_of_interpolation(*between_) + raw;
 }
 
 bool Session::shows_exactly() const {

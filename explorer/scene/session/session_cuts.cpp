@@ -49,6 +49,7 @@ void Session::load_mesh(const std::string& file, double scale) {
   state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
   read_mesh_in_mm();
   state_.coloring = Coloring::tissue;
+  state_.zoom.reset(), state_.figure.clear();
   state_.camera = {};
   cuts_changed();
   changes_.all();
@@ -59,6 +60,7 @@ void Session::show_patch() {
   state_.mesh.clear(), state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
   mesh_.reset();
   state_.coloring = Coloring::displacement;
+  state_.figure.clear();
   state_.camera = {};
   cuts_changed();
   changes_.all();

@@ -88,6 +88,11 @@ SessionState to_state(const Json& j) {
   for (const Json& c : j.at("compared")) s.compared.push_back(c.get<int>() - 1);
   s.camera = to_camera(j.at("camera"));
   s.dark = j.at("dark");
+  if (j.contains("probe"))  // these too are younger
+    s.probe =
+        ProbeState{to_vec3(j["probe"].at("place")), static_cast<Side>(j["probe"].at("side").get<int>())};
+  if (j.contains("zoom")) s.zoom = ZoomState{to_vec3(j["zoom"].at("place")), j["zoom"].at("radius")};
+  s.figure = j.value("figure", "");
   return s;
 }
 
@@ -134,6 +139,9 @@ std::string state_to_json(const SessionState& s) {
     j["tension"] = {{"direction", to_json(s.tension->direction)},
                     {"larger", s.tension->larger},
                     {"smaller", s.tension->smaller}};
+  if (s.probe) j["probe"] = {{"place", to_json(s.probe->uvw)}, {"side", static_cast<int>(s.probe->side)}};
+  if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
+  if (!s.figure.empty()) j["figure"] = s.figure;
   return j.dump(1) + "\n";
 }
 
