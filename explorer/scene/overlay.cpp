@@ -48,7 +48,7 @@ Overlay nodes_around(const RawCase& raw, const Vec3& place, double radius, doubl
   for (std::size_t i = 0; i < nodes.size(); ++i)
     overlay.dots.push_back({raw.snapshot().points[static_cast<std::size_t>(nodes[i])] + moves[i],
                             between(little, much, largest > 0 ? errors[i] / largest : 0)});
-  overlay.surface_opacity = 0.55;
+  overlay.in_front = true;
   overlay.caption =
       text_of("%zu nodes of the simulation, frame %zu at %.1f mm: the field is off by up to %.2g mm",
               nodes.size(), frame, raw.snapshot().times[frame], largest);
@@ -158,7 +158,7 @@ Overlay volume_along(const ScalpelPath& path, const Field& field, double s) {
   overlay.lines.push_back({{place(s, 0, -depth), place(s, 0, 2 * above)}, green});
   overlay.dots.push_back({place(s, 0, -depth), green});
   overlay.dots.push_back({place(s, 0, 2 * above), green});
-  overlay.surface_opacity = 0.6;
+  overlay.in_front = true;
   overlay.caption = text_of(
       "the parametrisation volume along the path (blue), the blade's ruled surface (orange), the blade "
       "at s = %.1f mm (green)",

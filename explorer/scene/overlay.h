@@ -25,6 +25,7 @@ struct Overlay {
   std::vector<Dot> dots;
   std::vector<Line> lines;
   double surface_opacity = 1;
+  bool in_front = false;  ///< drawn over all of the surface, also what lies below it
   std::string caption;
 
   bool empty() const { return dots.empty() && lines.empty() && caption.empty(); }

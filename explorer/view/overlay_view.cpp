@@ -16,8 +16,6 @@ void set_up(vtkActor* actor, vtkPolyData* data) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, -4);
-  mapper->SetRelativeCoincidentTopologyPointOffsetParameter(-8);
   actor->SetMapper(mapper);
   actor->PickableOff();
   actor->GetProperty()->LightingOff();
@@ -31,6 +29,14 @@ vtkNew<vtkUnsignedCharArray> colors() {
 
 void add(vtkUnsignedCharArray* array, const Ink& ink) {
   array->InsertNextTuple3(255 * ink[0], 255 * ink[1], 255 * ink[2]);
+}
+
+/// Towards the eye, in units of the depth buffer: over what they lie on, or over everything.
+void lift(vtkActor* actor, bool in_front) {
+  constexpr double a_little = -4, all_of_it = -1e5;
+  auto* mapper = static_cast<vtkPolyDataMapper*>(actor->GetMapper());
+  mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, in_front ? all_of_it : a_little);
+  mapper->SetRelativeCoincidentTopologyPointOffsetParameter(in_front ? all_of_it : 2 * a_little);
 }
 
 }  // namespace
@@ -52,6 +58,7 @@ void OverlayView::show(const Overlay& overlay) {
   const double scale = renderer_->GetRenderWindow() ? renderer_->GetRenderWindow()->GetDPI() / 72. : 1;
   dots_->GetProperty()->SetPointSize(static_cast<float>(6 * scale));
   lines_->GetProperty()->SetLineWidth(static_cast<float>(1.4 * scale));
+  for (vtkActor* actor : {dots_.Get(), lines_.Get()}) lift(actor, overlay.in_front);
   vtkNew<vtkPoints> places, corners;
   vtkNew<vtkCellArray> dots, lines;
   const auto dot_colors = colors(), line_colors = colors();
