@@ -45,8 +45,7 @@ std::vector<Vec3> decoded(std::span<const std::uint8_t> bytes, int slices, doubl
   if (slices != T && slices != T - 1) throw InputError("slices is neither that of the basis nor one less");
   if (static_cast<double>(control_points_of(bases)) > most_values_of(bytes.size()))
     throw InputError("there are fewer bytes of coefficients than control points take");
-  return control_points(ties, bases,
-                        multiples(decode_coefficients(places_of(ties, bases), slices, bytes), quantum));
+  return control_points(ties, bases, decode_coefficients(places_of(ties, bases), slices, bytes), quantum);
 }
 
 /// Three components of a quantity, from `first` on; 0 beyond its last.
@@ -160,7 +159,7 @@ CodedPoints coded_points(std::span<const Vec3> points, const ControlTies& ties,
     values.push_back(std::llround(x));
     CLEFT_CHECK(std::abs(x - static_cast<double>(values.back())), <=, 1e-3);
   }
-  const auto again = control_points(ties, bases, multiples(values, quantum));
+  const auto again = control_points(ties, bases, values, quantum);
   for (std::size_t n = 0; n < again.size(); ++n) CLEFT_CHECK(norm(again[n] - points[n]), <=, 0.01 * quantum);
   return {unknowns.slices, encode_coefficients(places, unknowns.slices, values)};
 }

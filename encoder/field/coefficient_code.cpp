@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "encoder/field/coefficient_prediction.h"
+#include "encoder/field/coefficient_state.h"
 #include "encoder/field/range_coder.h"
 
 namespace cleft {
@@ -13,10 +14,6 @@ namespace cleft {
 namespace {
 
 using namespace code;
-
-constexpr int components = 3;
-constexpr std::array<int, components> component_order = {1, 2, 0};  // across the cut first: it moves most
-constexpr std::int32_t unknown_error = 77;                          // 0.3, where nothing is known
 
 /// Where the values come from: a decoder has none, an encoder knows them, and a rounder chooses among some.
 struct Known {
@@ -31,23 +28,14 @@ template <class Coder, class Source>
 class Model {
  public:
   Model(Coder& coder, const CoefficientGrid& grid, int slices, const Source& source)
-      : coder_(coder),
-        grid_(grid),
-        slices_(slices),
-        source_(source),
-        values_(static_cast<std::size_t>(components) * slices * grid.unknowns),
-        width_{grid.across / 2, grid.across - grid.across / 2} {
-    for (int half = 0; half < 2; ++half)
-      for (int c = 0; c < components; ++c) channels_[half].emplace_back(grid, width_[half]);
+      : coder_(coder), source_(source), slices_(slices), state_(grid, slices) {
     for (auto& half : predictors_)
       for (int first = 0; first < 2; ++first) {
         LinearPredictor start;
-        for (int n = 0; n < 3; ++n) {
-          start.weight[n] = first ? 11469 : 5734;       // 0.7, 0.35
-          start.weight[3 + n] = first ? -6554 : -1638;  // -0.4, -0.1
-        }
-        if (first) start.weight[6] = 3277;  // 0.2
-        half[first].assign(static_cast<std::size_t>(width_[1]) + 1, start);
+        for (const int direct : {3, 5, 7}) start.weight[direct] = first ? 11469 : 5734;       // 0.7, 0.35
+        for (const int diagonal : {1, 2, 4}) start.weight[diagonal] = first ? -6554 : -1638;  // -0.4, -0.1
+        if (first) start.weight[0] = 3277;                                                    // 0.2
+        half[first].assign(static_cast<std::size_t>(state_.width(1)) + 1, start);
       }
     for (auto& mixer : mixers_) mixer.weight = {13107, 13107, 39322};
   }
@@ -62,153 +50,100 @@ class Model {
           else
             code_half(step, c, half);
     }
-    return std::move(values_);
+    return std::move(state_.values);
   }
 
  private:
-  struct Channel {
-    Padded<std::int32_t> innovation;  // from the interpolation in t, of this slice
-    Padded<std::int32_t> error;       // of the prediction, of this slice: its size
-    Padded<std::int32_t> earlier;     // the same, of slices before
-    Padded<std::int8_t> residual;     // -2 .. 2
-    Channel(const CoefficientGrid& g, int width)
-        : innovation(g.along, width, g.height, 0),
-          error(g.along, width, g.height, unknown_error),
-          earlier(g.along, width, g.height, unknown_error),
-          residual(g.along, width, g.height, 0) {}
-  };
-
-  std::int64_t& value(int c, int slice, int unknown) {
-    return values_[(static_cast<std::size_t>(c) * slices_ + slice) * grid_.unknowns + unknown];
-  }
-  int column(int half, int j) const { return half == 0 ? j : grid_.across - 1 - j; }
-  int unknown_at(int i, int column, int k) const {
-    return grid_.unknown[(static_cast<std::size_t>(i) * grid_.across + column) * grid_.height + k];
-  }
+  using Place = CoefficientState::Place;
+  using Past = CoefficientState::Past;
 
   void code_half(const SliceStep& step, int c, int half) {
-    Channel& own = channels_[half][c];
-    const int rank = c == 1 ? 0 : c == 2 ? 1 : 2;
+    const Past* known = state_.past(step, c, half).data();
+    CoefficientState::Channel& own = state_.channel(half, c);
     const bool between = step.after >= 0;
-    const std::int64_t toward_after =
-        between ? ((2 * 65536LL * (step.slice - step.before)) / (step.after - step.before) + 1) / 2 : 0;
-    const std::int64_t per_step = between ? 65536 / (step.after - step.before) : 0,
-                       per_step_before =
-                           step.before_that != -2 ? 65536 / (step.before - step.before_that) : 0,
-                       per_step_after = step.after_that != -2 ? 65536 / (step.after_that - step.after) : 0;
-    const int A = own.innovation.step_along(), B = own.innovation.step_across();
-    // The components coded before this one in this slice, the later first; and the other half's.
-    const Channel* before[2] = {rank > 0 ? &channels_[half][component_order[rank - 1]] : nullptr,
-                                rank > 1 ? &channels_[half][component_order[0]] : nullptr};
-    const Padded<std::int32_t>& near_error =
-        rank > 0 ? before[0]->error : channels_[half][component_order[2]].earlier;
-    const Padded<std::int32_t>& far_error =
-        rank > 1 ? before[1]->error : channels_[half][component_order[2]].earlier;
-    const int other_width = width_[0];
-    std::array<std::int32_t, inputs> x{};
-    for (int i = 0; i < grid_.along; ++i)
-      for (int j = 0; j < width_[half]; ++j)
-        for (int k = 0; k < grid_.height; ++k) {
-          const int unknown = unknown_at(i, column(half, j), k);
-          if (unknown < 0) continue;
-          const int at = own.innovation.index(i, j, k);
-          const auto of = [&](int slice) { return slice < 0 ? 0 : value(c, slice, unknown); };
-          const std::int64_t from = of(step.before), to = between ? of(step.after) : 0;
-          const std::int64_t base = between ? (from * (65536 - toward_after) + to * toward_after) >> 8 : 0;
+    const std::ptrdiff_t A = own.innovation.step_along(), B = own.innovation.step_across();
+    const std::size_t first = state_.first(c, step.slice);
+    auto& predictors = predictors_[half][between ? 0 : 1];
+    LinearPredictor& overall = predictors.back();
+    std::int32_t* const innovation = own.innovation.data();
+    std::int64_t *const error = own.error.data(), *const earlier = own.earlier.data();
+    std::int8_t* const residual = own.residual.data();
+    for (const Place& place : state_.places(half)) {
+      // Neighbours, as they lie in memory
+      std::int32_t* const d = innovation + place.at;
+      std::array<FourInputs, 4> x;
+      x[0] = code::four_inputs(d - A - B - 1, d - A - 1);
+      x[1] = code::four_inputs(d - B - 1, d[-2], d[-1]);
+      x[2] = FourInputs{d[-B + 1], d[-2 * A], known->near_innovation, known->far_innovation};
+      x[3] = known->inputs;
+      const Inputs in(x);
+      LinearPredictor& local = predictors[place.across];
+      const auto [one, two] = code::predict(in, overall, local);
+      const std::int64_t prediction = known->base + ((one + two) >> 1);
 
-          const std::int32_t* d = own.innovation.at(at);
-          x[0] = d[-A], x[1] = d[-B], x[2] = d[-1];
-          x[3] = d[-A - B], x[4] = d[-A - 1], x[5] = d[-B - 1], x[6] = d[-A - B - 1];
-          x[7] = d[-2 * A], x[8] = d[-2], x[9] = d[-B + 1];
-          x[10] = before[0] ? *before[0]->innovation.at(at) : 0;
-          x[11] = before[1] ? *before[1]->innovation.at(at) : 0;
-          // Differences of the slices' slopes in t
-          if (between) {
-            const std::int64_t slope = (to - from) * per_step;
-            x[12] = limited((to - from) * 64);
-            if (step.before_that != -2)
-              x[13] = limited(((from - of(step.before_that)) * per_step_before - slope) >> 8);
-            if (step.after_that != -2)
-              x[14] = limited(((of(step.after_that) - to) * per_step_after - slope) >> 8);
-          }
-          x[15] = half == 1 && j < other_width
-                      ? (c == 1 ? -1 : 1) *
-                            *channels_[0][c].innovation.at(channels_[0][c].innovation.index(i, j, k))
-                      : 0;
+      std::int64_t* const e = error + place.at;
+      std::int64_t* const p = earlier + place.at;
+      const std::int64_t direct = e[-A] + e[-B] + e[-1];
+      const std::int64_t diagonal = e[-A - B] + e[-A - 1] + e[-B - 1] + e[-A + B] + e[-A + 1] + e[-B + 1];
+      const std::int64_t behind = p[-A] + p[-B] + p[-1];
+      std::int8_t* const r = residual + place.at;
+      const std::int64_t found = code_value(
+          {prediction, (4 * direct + diagonal + behind + known->spread) >> 5, direct * 85 >> 8,
+           (known->here + ((known->ahead + behind) * 43 >> 8)) >> 1, (r[-A] * 5 + r[-B]) * 5 + r[-1]},
+          first + place.unknown);
 
-          const Inputs in(x);
-          LinearPredictor& overall = predictors_[half][between ? 0 : 1].back();
-          LinearPredictor& local = predictors_[half][between ? 0 : 1][j];
-          const std::int64_t one = overall(in), two = local(in);
-          const std::int64_t prediction = base + ((one + two) >> 1);
-
-          const std::int32_t* e = own.error.at(at);
-          const std::int32_t* p = own.earlier.at(at);
-          const std::int64_t direct = static_cast<std::int64_t>(e[-A]) + e[-B] + e[-1];
-          const std::int64_t diagonal = static_cast<std::int64_t>(e[-A - B]) + e[-A - 1] + e[-B - 1] +
-                                        e[-A + B] + e[-A + 1] + e[-B + 1];
-          const std::int64_t around = static_cast<std::int64_t>(p[A]) + p[B] + p[1] + p[-A] + p[-B] + p[-1];
-          const std::int64_t scale = (4 * direct + diagonal + 3LL * p[0] + 3LL * *near_error.at(at) +
-                                      2LL * *far_error.at(at) + around) >>
-                                     5;
-          const std::int8_t* r = own.residual.at(at);
-          const std::int64_t found = code_value(
-              {prediction, scale, direct * 85 >> 8, (p[0] + (around * 43 >> 8)) >> 1, {r[-A], r[-B], r[-1]}},
-              c, step.slice, unknown);
-
-          const std::int64_t target = 256 * found;
-          overall.learn(in, limited(target - base - one), 160);
-          local.learn(in, limited(target - base - two), 70);
-          own.innovation[at] = limited(target - base);
-          const std::int32_t size = std::abs(limited(target - prediction));
-          own.error[at] = size;
-          own.earlier[at] = between ? (size + own.earlier[at]) >> 1 : size >> 1;
-          own.residual[at] =
-              static_cast<std::int8_t>(std::clamp<std::int64_t>(found - ((prediction + 128) >> 8), -2, 2));
-        }
+      const std::int64_t target = 256 * found;
+      learn(in, limited(target - known->base - one), 160, overall);
+      learn(in, limited(target - known->base - two), 70, local);
+      *d = limited(target - known->base);
+      const std::int32_t size = std::abs(limited(target - prediction));
+      *e = size;
+      *p = between ? (size + *p) >> 1 : size >> 1;
+      *r = static_cast<std::int8_t>(2 + std::clamp<std::int64_t>(found - ((prediction + 128) >> 8), -2, 2));
+      ++known;
+    }
   }
 
   struct Expectation {
     std::int64_t prediction, scale, near, earlier;
-    std::array<std::int8_t, 3> residuals;
+    int residuals;  // of three neighbours, 5 values each
   };
 
   /// The value itself: its distance from the prediction, decision after decision.
-  std::int64_t code_value(const Expectation& expected, int c, int slice, int unknown) {
+  std::int64_t code_value(const Expectation& expected, std::size_t at) {
     const std::int64_t nearest = (expected.prediction + 128) >> 8;
     std::int64_t offset = expected.prediction - 256 * nearest;  // -128 .. 127
     const bool flipped = offset < 0;
     if (flipped) offset = -offset;
     // Where the scale is large, bins of 2^coarse integers, and plain bits for the place in the bin.
     const int coarse =
-        std::max(0, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(expected.scale))) - 10);
+        static_cast<int>(std::bit_width(static_cast<std::uint64_t>(expected.scale) | 512)) - 10;
     const int level = scale_level(expected.scale >> coarse);
     offset >>= coarse;
 
     std::int64_t distance = 0;
     if constexpr (!Coder::decodes) {
-      distance = wanted(c, slice, unknown, nearest);
+      distance = wanted(at, nearest);
       if (flipped) distance = -distance;
     }
-    const std::int64_t half_bin = coarse > 0 ? std::int64_t{1} << (coarse - 1) : 0;
+    const std::int64_t half_bin = (std::int64_t{1} << coarse) >> 1;
     const std::int64_t bin = (distance + half_bin) >> coarse;
 
     const int quarter = static_cast<int>(offset) >> 5;  // 0 .. 4
-    const auto part = [](std::int64_t x) { return std::clamp(scale_level(x) * 3 / 8, 0, 11); };
-    const auto code_of = [&](int r) { return (flipped ? -r : r) + 2; };
+    const auto part = [](std::int64_t x) { return std::min(scale_level(x) * 3 >> 3, 11); };
     const int first = ((part(expected.near) * 12 + part(expected.earlier)) * 5 + quarter) * 16;
-    const int second = (((code_of(expected.residuals[0]) * 5 + code_of(expected.residuals[1])) * 5 +
-                         code_of(expected.residuals[2])) *
-                            8 +
-                        std::clamp(level / 4, 0, 7)) *
-                       16;
-    const int selected = std::clamp(level * 3 / 8, 0, 15);
+    const int second =
+        ((flipped ? 124 - expected.residuals : expected.residuals) * 8 + std::min(level >> 2, 7)) * 16;
+    const int selected = std::min(level * 3 >> 3, 15);
     const std::int16_t* opinion =
         logistic.at(log_level((expected.scale >> coarse) + 13) - 12, static_cast<int>(offset) >> 3);
+    Chance* const firsts = &first_[first];
+    Chance* const seconds = &second_[second];
+    Mixer<3>* const mixers = &mixers_[selected];
     const auto decide = [&](int decision, int kind, int wanted_bit) {
-      Chance& a = first_[first + decision];
-      Chance& b = second_[second + decision];
-      const int bit = mixers_[decision * 16 + selected].code(
+      Chance& a = firsts[decision];
+      Chance& b = seconds[decision];
+      const int bit = mixers[decision * 16].code(
           coder_, std::array<int, 3>{code::stretch(a.p), code::stretch(b.p), opinion[kind]}, wanted_bit);
       a.learn(bit, 255), b.learn(bit, 255);
       return bit;
@@ -222,29 +157,29 @@ class Model {
              decide((negative ? 9 : 2) + std::min<int>(static_cast<int>(more), 6),
                     (negative ? 5 : 2) + std::min<int>(static_cast<int>(more), 2), beyond > more))
         ++more;
-      if (more == 20)
+      if (more == 20) [[unlikely]]
         more += static_cast<std::int64_t>(code::code_plain(coder_, static_cast<std::uint64_t>(beyond - 20)));
       if (more > 4 * largest_value) throw InputError("a coded number is too large");
       found_bin = negative ? -more - 1 : more + 1;
     }
     std::int64_t found = found_bin << coarse;
-    if (coarse > 0) {
+    if (coarse > 0) [[unlikely]] {
       std::int64_t low = distance + half_bin - found, read = 0;
       for (int bit = coarse - 1; bit >= 0; --bit)
         read = read << 1 | coder_.bit(32768, static_cast<int>(low >> bit & 1));
       found += read - half_bin;
     }
-    return keep(c, slice, unknown, nearest + (flipped ? -found : found));
+    return keep(at, nearest + (flipped ? -found : found));
   }
 
-  std::int64_t keep(int c, int slice, int unknown, std::int64_t found) {
-    if (found > largest_value || found < -largest_value) throw InputError("a coded number is too large");
-    return value(c, slice, unknown) = found;
+  std::int64_t keep(std::size_t at, std::int64_t found) {
+    if (static_cast<std::uint64_t>(found + largest_value) > 2 * largest_value)
+      throw InputError("a coded number is too large");
+    return state_.values[at] = found;
   }
 
   /// The distance of the value to be coded from `nearest`.
-  std::int64_t wanted(int c, int slice, int unknown, std::int64_t nearest) const {
-    const std::size_t at = (static_cast<std::size_t>(c) * slices_ + slice) * grid_.unknowns + unknown;
+  std::int64_t wanted(std::size_t at, std::int64_t nearest) const {
     if constexpr (std::is_same_v<Source, Choice>) {
       // Away from the nearest integer toward the prediction, where that costs little.
       const double exact = source_.values[at] - static_cast<double>(nearest);
@@ -268,44 +203,36 @@ class Model {
 
   /// The second half where it mirrors the first: one decision a value says that it does.
   void copy_half(int slice, int c) {
-    for (int i = 0; i < grid_.along; ++i)
-      for (int j = 0; j < width_[1]; ++j)
-        for (int k = 0; k < grid_.height; ++k) {
-          const int unknown = unknown_at(i, column(1, j), k);
-          if (unknown < 0) continue;
-          const int twin = j < width_[0] ? unknown_at(i, j, k) : -1;
-          const std::int64_t mirror = twin < 0 ? 0 : (c == 1 ? -1 : 1) * value(c, slice, twin);
-          std::int64_t distance = 0;
-          if constexpr (!Coder::decodes) distance = copied(c, slice, unknown, mirror);
-          if (code::code_bit(coder_, differs_[c], distance != 0, 1023)) {
-            const bool negative = coder_.bit(32768, distance < 0);
-            const auto beyond = static_cast<std::int64_t>(
-                code::code_plain(coder_, static_cast<std::uint64_t>(std::abs(distance) - 1)));
-            distance = negative ? -beyond - 1 : beyond + 1;
-          } else
-            distance = 0;
-          keep(c, slice, unknown, mirror + distance);
-        }
+    const std::size_t first = state_.first(c, slice);
+    for (const Place& place : state_.places(1)) {
+      const std::int64_t mirror = place.twin < 0 ? 0 : (c == 1 ? -1 : 1) * state_.values[first + place.twin];
+      std::int64_t distance = 0;
+      if constexpr (!Coder::decodes) distance = copied(first + place.unknown, mirror);
+      if (code::code_bit(coder_, differs_[c], distance != 0, 1023)) {
+        const bool negative = coder_.bit(32768, distance < 0);
+        const auto beyond = static_cast<std::int64_t>(
+            code::code_plain(coder_, static_cast<std::uint64_t>(std::abs(distance) - 1)));
+        distance = negative ? -beyond - 1 : beyond + 1;
+      } else
+        distance = 0;
+      keep(first + place.unknown, mirror + distance);
+    }
   }
 
-  std::int64_t copied(int c, int slice, int unknown, std::int64_t mirror) const {
+  std::int64_t copied(std::size_t at, std::int64_t mirror) const {
     if constexpr (std::is_same_v<Source, Choice>) {
-      const std::size_t at = (static_cast<std::size_t>(c) * slices_ + slice) * grid_.unknowns + unknown;
       if (std::abs(source_.values[at] - static_cast<double>(mirror)) <= source_.farthest + 1e-6) return 0;
       return static_cast<std::int64_t>(std::llround(source_.values[at])) - mirror;
     } else {
-      return wanted(c, slice, unknown, mirror);
+      return wanted(at, mirror);
     }
   }
 
   Coder& coder_;
-  const CoefficientGrid& grid_;
-  int slices_;
   Source source_;
-  std::vector<std::int64_t> values_;
-  std::array<int, 2> width_;
+  int slices_;
+  CoefficientState state_;
   std::array<bool, components> mirrored_{};
-  std::array<std::vector<Channel>, 2> channels_;
   std::array<std::array<std::vector<LinearPredictor>, 2>, 2> predictors_;  // by half; between slices or not
   std::vector<Chance> first_ = std::vector<Chance>(12 * 12 * 5 * 16);
   std::vector<Chance> second_ = std::vector<Chance>(125 * 8 * 16);

@@ -7,32 +7,34 @@ namespace cleft::code {
 // What follows stands here, not in the header: within the coder's one long loop compilers no longer see that
 // these are loops over a vector.
 
-Inputs::Inputs(const std::array<std::int32_t, inputs>& full) {
+Inputs::Inputs(const std::array<FourInputs, inputs / 4>& fours) {
+  const auto full = std::bit_cast<std::array<std::int32_t, inputs>>(fours);
   std::int32_t most = 0;
   for (const std::int32_t value : full) most |= value ^ (value >> 31);
-  shift = std::max(0, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(most))) - 12);
+  shift = static_cast<int>(std::bit_width(static_cast<std::uint32_t>(most) | 2048)) - 12;
   for (int n = 0; n < inputs; ++n) x[n] = static_cast<std::int16_t>(full[n] >> shift);
-  std::int32_t size = (10 << 16) >> std::min(30, 2 * shift);
+  auto size = static_cast<std::int32_t>(std::int64_t{10 << 16} >> (2 * shift));
   for (int n = 0; n < inputs; ++n) size += x[n] * x[n];
   // In doubles, several times quicker, and exact: the quotient is off from a whole number by 1 / size or
   // more, if it is none, and size is less than 2^31.
   inverse = static_cast<std::int64_t>(0x1p36 / size);
 }
 
-std::int64_t LinearPredictor::operator()(const Inputs& in) const {
-  std::int32_t sum = 0;
-  for (int n = 0; n < inputs; ++n) sum += weight[n] * in.x[n];
-  return (std::int64_t{sum} << in.shift) >> 14;
+TwoPredictions predict(const Inputs& in, const LinearPredictor& first, const LinearPredictor& second) {
+  std::int32_t one = 0, two = 0;
+  for (int n = 0; n < inputs; ++n) one += first.weight[n] * in.x[n];
+  for (int n = 0; n < inputs; ++n) two += second.weight[n] * in.x[n];
+  return {(std::int64_t{one} << in.shift) >> 14, (std::int64_t{two} << in.shift) >> 14};
 }
 
-void LinearPredictor::learn(const Inputs& in, std::int64_t error, int rate) {
+void learn(const Inputs& in, std::int64_t error, int rate, LinearPredictor& predictor) {
   const std::int64_t gain = ((error >> in.shift) * rate * in.inverse) >> 22;
   const auto factor = static_cast<std::int16_t>(std::clamp<std::int64_t>(gain, -511, 511) * 64);
   for (int n = 0; n < inputs; ++n) {
     const auto input = static_cast<std::int16_t>(in.x[n] * 4);
     const auto step = static_cast<std::int16_t>((factor * input) >> 16);
-    const auto next = static_cast<std::int16_t>(weight[n] + step);
-    weight[n] = std::clamp<std::int16_t>(next, -24576, 24576);
+    const auto next = static_cast<std::int16_t>(predictor.weight[n] + step);
+    predictor.weight[n] = std::clamp<std::int16_t>(next, -24576, 24576);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace cleft::code {
@@ -16,15 +17,19 @@ inline constexpr std::int64_t largest_input = std::int64_t{1} << 28;
 inline constexpr int inputs = 16;
 
 inline std::int32_t limited(std::int64_t x) {
-  return static_cast<std::int32_t>(std::clamp(x, -largest_input, largest_input));
+  return static_cast<std::int32_t>(x < -largest_input  ? -largest_input
+                                   : x > largest_input ? largest_input
+                                                       : x);
 }
 
-/// Four levels an octave.
+/// Four levels an octave; x: 4 or more.
 inline int log_level(std::int64_t x) {
-  const int bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(x))) - 1;
-  return 4 * bits + static_cast<int>((bits >= 2 ? x >> (bits - 2) : x << (2 - bits)) & 3);
+  const int below =
+      61 - std::countl_zero(static_cast<std::uint64_t>(x) | 1);  // binary digits after the first three
+  return 4 * below + 4 + static_cast<int>(x >> below);
 }
 
+/// From 0 on; scale: 0 or more.
 inline int scale_level(std::int64_t scale) { return log_level(scale + 5) - 9; }
 
 /// A slice of one component in one half, with a margin so that every neighbour exists.
@@ -38,13 +43,30 @@ class Padded {
   int step_along() const { return plane_; }
   int step_across() const { return row_; }
   int index(int i, int j, int k) const { return (i + 2) * plane_ + (j + 2) * row_ + k + 2; }
-  T& operator[](int at) { return data_[static_cast<std::size_t>(at)]; }
-  const T* at(int index) const { return &data_[static_cast<std::size_t>(index)]; }
+  std::size_t size() const { return data_.size(); }
+  T* data() { return data_.data(); }
 
  private:
   int row_, plane_;
   std::vector<T> data_;
 };
+
+/// Four inputs, in one register from the start: those stored one by one and then loaded together would wait
+/// for each other.
+using FourInputs = std::int32_t __attribute__((vector_size(16)));
+/// Two that lie together, and two more.
+inline FourInputs four_inputs(const std::int32_t* pair, const std::int32_t* another) {
+  std::int64_t low, high;
+  std::memcpy(&low, pair, sizeof(low)), std::memcpy(&high, another, sizeof(high));
+  return std::bit_cast<FourInputs>(std::array{low, high});
+}
+/// The last may have been stored just now: a load of more than it would wait.
+inline FourInputs four_inputs(const std::int32_t* pair, std::int32_t third, std::int32_t last) {
+  std::int64_t low;
+  std::memcpy(&low, pair, sizeof(low));
+  return std::bit_cast<FourInputs>(
+      std::array{low, std::int64_t{static_cast<std::uint32_t>(third)} | std::int64_t{last} << 32});
+}
 
 /// What a prediction is made from, all divided by 2^shift so that none needs more than 12 bits and sums of
 /// products stay below 2^31.
@@ -53,18 +75,21 @@ struct Inputs {
   int shift;
   std::int64_t inverse;  // 2^36 over the sum of squares and 10 quanta's
 
-  explicit Inputs(const std::array<std::int32_t, inputs>& full);
+  explicit Inputs(const std::array<FourInputs, inputs / 4>& full);
 };
 
 /// Least mean squares, normalised by the inputs' size: forgets quickly, and so follows what changes from
 /// place to place.
 struct LinearPredictor {
   alignas(16) std::array<std::int16_t, inputs> weight{};  // units of 2^-14, at most 1.5
-
-  std::int64_t operator()(const Inputs& in) const;
-  /// rate / 256: the part of the error that is mended at once.
-  void learn(const Inputs& in, std::int64_t error, int rate);
 };
+/// What two of them say.
+struct TwoPredictions {
+  std::int64_t first, second;
+};
+TwoPredictions predict(const Inputs& in, const LinearPredictor& first, const LinearPredictor& second);
+/// rate / 256: the part of the error that is mended at once.
+void learn(const Inputs& in, std::int64_t error, int rate, LinearPredictor& predictor);
 
 /// Which slices are known when one is coded: halfway between two known ones, the last first.
 struct SliceStep {
@@ -82,9 +107,8 @@ struct LogisticTable {
   std::array<std::int16_t, levels * offsets * decisions> opinion;
 
   LogisticTable();
-  const std::int16_t* at(int level, int offset) const {
-    return &opinion[static_cast<std::size_t>((std::clamp(level, 0, levels - 1) * offsets + offset) *
-                                             decisions)];
+  const std::int16_t* at(int level, int offset) const {  // level: 0 or more
+    return &opinion[static_cast<std::size_t>((std::min(level, levels - 1) * offsets + offset) * decisions)];
   }
 };
 extern const LogisticTable logistic;

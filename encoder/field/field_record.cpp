@@ -238,7 +238,7 @@ Field field_of(const FieldRecord& record) {
     beside = take_beside(header, bytes, bases);
     if (quantum > 0) {
       const auto [places, slices] = unknown_places(header, record.coefficients.size());
-      return control_points(ties, bases, multiples(decode_coefficients(places, slices, bytes), quantum));
+      return control_points(ties, bases, decode_coefficients(places, slices, bytes), quantum);
     }
     std::vector<Vec3> points = as_points(take_planes(bytes, 3 * size));
     if (!bytes.empty()) throw InputError("there are more bytes of coefficients than control points");

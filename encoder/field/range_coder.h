@@ -113,10 +113,10 @@ struct Mixer {
     for (int n = 0; n < N; ++n) sum += static_cast<std::int64_t>(weight[n]) * opinion[n];
     const int p = squash(static_cast<int>(sum >> 16));
     const int bit = coder.bit(p, value);
-    const int error = (bit << 16) - p;
+    const int error = 5 * ((bit << 16) - p);
     for (int n = 0; n < N; ++n) {
-      const std::int64_t step = (static_cast<std::int64_t>(error) * opinion[n] * 5 + 32768) >> 16;
-      weight[n] = static_cast<std::int32_t>(std::clamp<std::int64_t>(weight[n] + step, -(1 << 20), 1 << 20));
+      const std::int32_t next = weight[n] + ((error * opinion[n] + 32768) >> 16);  // 5 2^16 farthest < 2^31
+      weight[n] = std::min(std::max(next, -(1 << 20)), 1 << 20);
     }
     return bit;
   }

@@ -25,24 +25,39 @@ CoefficientGrid places_of(const ControlTies& ties, const std::array<BSplineBasis
   return places;
 }
 
-std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
-                                 std::span<const double> values) {
+namespace {
+
+/// `value_of` a number among `values`.
+template <class Number, class ValueOf>
+std::vector<Vec3> tied(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
+                       std::span<const Number> values, const ValueOf& value_of) {
   const std::size_t n = static_cast<std::size_t>(ties.size()), T = bases[3].size();
   const std::size_t slices = n == 0 ? T : values.size() / (3 * n), skipped = T - slices;
-  std::vector<Vec3> points;
-  points.reserve(static_cast<std::size_t>(bases[1].size()) * bases[2].size() * bases[0].size() * T);
+  std::vector<Vec3> points(static_cast<std::size_t>(bases[0].size()) * bases[1].size() * bases[2].size() * T);
+  Vec3* point = points.data();
   for (int i = 0; i < ties.rows(); ++i)
-    for (const ControlTies::Control& control : ties.row(i))
-      for (std::size_t l = 0; l < T; ++l) {
-        Vec3 point;
-        for (int c = 0; c < 3 && l >= skipped; ++c)
-          for (int term = 0; term < control.terms; ++term) {
-            const std::size_t unknown = static_cast<std::size_t>(ties.first(i) + control.term[term].unknown);
-            point[c] += control.term[term].weight * values[(c * slices + l - skipped) * n + unknown];
-          }
-        points.push_back(point);
+    for (const ControlTies::Control& control : ties.row(i)) {
+      for (int term = 0; term < control.terms; ++term) {
+        const Number* value = values.data() + ties.first(i) + control.term[term].unknown;
+        for (int c = 0; c < 3; ++c)
+          for (std::size_t l = skipped; l < T; ++l, value += n)
+            point[l][c] += control.term[term].weight * value_of(*value);
       }
+      point += T;
+    }
   return points;
+}
+
+}  // namespace
+
+std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
+                                 std::span<const double> values) {
+  return tied(ties, bases, values, [](double value) { return value; });
+}
+
+std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
+                                 std::span<const std::int64_t> values, double quantum) {
+  return tied(ties, bases, values, [&](std::int64_t value) { return static_cast<double>(value) * quantum; });
 }
 
 std::vector<double> multiples(std::span<const std::int64_t> values, double quantum) {
@@ -77,7 +92,7 @@ std::vector<Vec3> quantised(std::span<const Vec3> points, const ControlTies& tie
   const CoefficientGrid places = places_of(ties, bases);
   const Unknowns unknowns = unknowns_of(points, bases[3], places, quantum);
   const auto values = round_coefficients(places, unknowns.slices, unknowns.values, farthest);
-  return control_points(ties, bases, multiples(values, quantum));
+  return control_points(ties, bases, values, quantum);
 }
 
 Field quantised(const Field& field, double quantum, double farthest) {

@@ -22,6 +22,9 @@ CoefficientGrid places_of(const ControlTies& ties, const std::array<BSplineBasis
 /// encode_coefficients(). Where there is one slice less than control points in t, the first are 0.
 std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
                                  std::span<const double> values);
+/// The same of values that are integers times the quantum, mm.
+std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
+                                 std::span<const std::int64_t> values, double quantum);
 
 /// Integers times the quantum.
 std::vector<double> multiples(std::span<const std::int64_t> values, double quantum);

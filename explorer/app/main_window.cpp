@@ -41,6 +41,7 @@ MainWindow::MainWindow(Session& session) : session_(session) {
       text += QString("   |   mesh of %1 triangles, %2 cuts")
                   .arg(session_.scene()->surface().triangles.size())
                   .arg(session_.state().cuts.size());
+    if (!session_.warnings().empty()) text += "   |   " + QString::fromStdString(session_.warnings().front());
     if (device_->on()) text += "   |   " + device_->status();
     status_->setText(text);
   };

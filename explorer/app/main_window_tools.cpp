@@ -185,6 +185,10 @@ void MainWindow::make_tools() {
   bar->addAction(undo_);
   bar->addAction(redo_);
   bar->addSeparator();
+  const std::pair<const char*, const char*> short_texts[] = {
+      {"probe", "Probe"}, {"zoom", "Zoom"},          {"compare", "Four cases"},
+      {"front", "Front"}, {"screenshot", "Picture"}, {"help_sheet", "Help"}};
+  for (const auto& [name, text] : short_texts) findChild<QAction*>(name)->setIconText(text);
   for (const char* name : {"probe", "zoom", "single", "compare", "front", "screenshot", "help_sheet"})
     bar->addAction(findChild<QAction*>(name));
 }

@@ -141,6 +141,7 @@ void Plots::draw_probe() {
   }
   probe_note_->setText(note);
   probe_.chart->SetShowLegend(probed);
+  probe_.chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);  // where motion begins
   probe_.chart->RecalculateBounds();
   probe_.widget->renderWindow()->Render();
 }

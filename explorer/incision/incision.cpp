@@ -175,6 +175,10 @@ bool Incision::made_room(const Step& step) {
   bool made = longest_edge_length(mesh_, step.triangle) > most && bisect(mesh_, step.triangle);
   if (!made && across >= 0 && mesh_.triangle(across).region == Region::skin)
     made = longest_edge_length(mesh_, across) > most && bisect(mesh_, across);
+  if (const auto kept = pending_edge(); made && kept[0] >= 0 && mesh_.triangle_with(kept[0], kept[1]) < 0) {
+    mesh_.roll_back(since);
+    return false;
+  }
   if (made) mend(since);
   return made;
 }
@@ -186,9 +190,18 @@ void Incision::check_progress() const {
                    ", at arc length " + shortest(tip()) + "; lead it across, or away from it");
 }
 
+/// The edge that the next segment will part: not sewn in yet, it looks like any other.
+std::array<int, 2> Incision::pending_edge() const {
+  if (!state_.pending) return {-1, -1};
+  return {chain_[state_.piece].left, chain_.back().left};
+}
+
 void Incision::mend(const CutMesh::Checkpoint& since) {
-  mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, 5 * asked_));
-  bent_ |= mend_slivers(mesh_, mesh_.changed_since(since), 2 * asked_, chord_tolerance_ / 10);
+  const KeptEdge kept = pending_edge();
+  const double bend = chord_tolerance_ / 10;
+  mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, 5 * asked_), 0, kept);
+  bent_ |= mend_slivers(mesh_, mesh_.changed_since(since), 2 * asked_, bend, kept);
+  bent_ |= mend_needles(mesh_, mesh_.changed_since(since), 1.2 * asked_, bend, kept);
   const double least = 1e-4 * std::min(0.1, worst_before_);
   for (const int t : mesh_.changed_since(since))
     if (mesh_.triangle(t).region == Region::skin && radius_ratio(mesh_, t) < least)

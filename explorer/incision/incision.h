@@ -9,6 +9,7 @@
 // (of an earlier cut in the same mesh, or its own) it ends in its wall, and goes on from the opposite lip.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -127,7 +128,7 @@ class Incision {
   Step step_at(const Track& track) const;
   bool too_soon_at_wound(const Step& step) const;
   double chord_error(const Vec3& from, const Vec3& to, double s_from, double s_to) const;
-  void go_on_from_wound();
+  bool go_on_from_wound();
   [[noreturn]] void report_end() const;
   double wall_spacing(int start, double max_edge) const;
   int tip_vertex() const { return state_.from >= 0 ? state_.from : chain_.back().left; }
@@ -140,6 +141,7 @@ class Incision {
   void check_progress() const;
   void grow(int next, double s);
   void mend(const CutMesh::Checkpoint& since);
+  std::array<int, 2> pending_edge() const;
   Column start_column();
   Vec3 down(double s) const { return -path_.depth(s) * path_.at(s).outward; }
 

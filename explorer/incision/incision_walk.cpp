@@ -99,14 +99,17 @@ Incision::Track Incision::follow(int vertex, double limit) const {
 
 const Incision::Step& Incision::next_step() {
   if (next_) return *next_;
-  if (state_.arrived && state_.from < 0) go_on_from_wound();
+  const double s = chain_.back().s, too_short = 0.003 * path_.length();  // a rest not worth a vertex
+  if (state_.arrived && state_.from < 0 && !go_on_from_wound()) {
+    if (path_.length() - s >= too_short) report_end();
+    next_ = Step{Step::vertex, -1, -1, {}, std::numeric_limits<double>::infinity()};
+    return *next_;
+  }
   const int tip = tip_vertex();
-  const double s = chain_.back().s;
   const Track track = follow(tip, path_.length());
   if (track.triangle < 0) report_end();
   Step step = step_at(track);
-  // A rest too short to be worth a vertex.
-  const bool rest = track.edge < 0 && path_.length() - s < 0.003 * path_.length();
+  const bool rest = track.edge < 0 && path_.length() - s < too_short;
   if (rest) step.s = std::numeric_limits<double>::infinity();
   double within =
       step.s - s;  // the piece's length, halved as often as a vertex ahead draws it to itself again
@@ -150,7 +153,7 @@ bool Incision::too_soon_at_wound(const Step& step) const {
   return step.kind == Step::edge && mesh_.is_wall(mesh_.triangle(step.triangle).neighbor[step.index]);
 }
 
-void Incision::go_on_from_wound() {
+bool Incision::go_on_from_wound() {
   const std::vector<int> places = on_the_same_place(mesh_, chain_.back().left);
   for (const double part : {0.1, 0.03, 0.3, 0.01, 0.003, 0.001})
     for (const int v : places) {
@@ -159,9 +162,9 @@ void Incision::go_on_from_wound() {
       const double s = chain_.back().s + part * mean_spoke(mesh_, fan, v);
       if (s > path_.length() || pierced(mesh_, fan, path_.at(s)) < 0) continue;
       state_.from = v;
-      return;
+      return true;
     }
-  report_end();
+  return false;
 }
 
 Incision::Step Incision::crossing(const Track& track) const {

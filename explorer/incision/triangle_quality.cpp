@@ -7,7 +7,8 @@ namespace cleft {
 
 namespace {
 
-constexpr double flat = 1e-9;  ///< height over edge length: the same plane, but for rounding
+constexpr double better = 1.2;  ///< by how much a radius ratio must grow to be worth a change
+constexpr double flat = 1e-9;   ///< height over edge length: the same plane, but for rounding
 
 struct Quad {
   int a, b, c, d;  // triangles (a, b, c) and (b, a, d)
@@ -19,65 +20,163 @@ Quad quad_at(const CutMesh& mesh, int t, int i) {
   return {x.vertex[i], b, x.vertex[(i + 2) % 3], y.vertex[(y.corner(b) + 2) % 3]};
 }
 
-/// The smaller radius ratio of the two triangles after flipping edge i of t; 0 where it must not be flipped.
-double ratio_after_flip(const CutMesh& mesh, int t, int i, double bend) {
-  const int other = mesh.triangle(t).neighbor[i];
-  if (!mesh.is_skin(other)) return 0;
-  const Quad q = quad_at(mesh, t, i);
-  const Vec3 &a = mesh.position(q.a), &b = mesh.position(q.b), &c = mesh.position(q.c),
-             &d = mesh.position(q.d);
-  const Vec3 n = cross(d - c, b - a);  // of the quadrilateral, by its diagonals
-  const double size = norm(n);
-  const double plane = std::max(bend, flat * std::max(norm(b - a), norm(d - c)));
-  if (size == 0 || std::abs(dot(n, a - c)) > plane * size) return 0;  // between the diagonals
-  if (dot(cross(d - a, c - a), n) <= 0 || dot(cross(b - d, c - d), n) <= 0) return 0;  // not convex
-  if (mesh.any_triangle_with(q.c, q.d) >= 0 || mesh.any_triangle_with(q.d, q.c) >= 0) return 0;
-  return std::min(radius_ratio(a, d, c), radius_ratio(d, b, c));
-}
+/// Changes triangles one by one for better shapes.
+class Mender {
+ public:
+  Mender(CutMesh& mesh, double target, double bend, const KeptEdge& kept)
+      : mesh_(mesh), target_(target), bend_(bend), kept_(kept) {}
 
-/// `bent` becomes true where the surface was not flat there.
-bool flip_best(CutMesh& mesh, int t, double bend, bool& bent) {
-  int best = -1;
-  double most = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double after = ratio_after_flip(mesh, t, i, bend);
-    if (after <= 0) continue;
-    const double before = std::min(radius_ratio(mesh, t), radius_ratio(mesh, mesh.triangle(t).neighbor[i]));
-    if (after > 1.2 * before && after > most) most = after, best = i;
+  /// By changes each of which is itself for the better.
+  void mend(const std::vector<int>& triangles) {
+    std::vector<int> work = triangles;
+    for (std::size_t changes = 0, most = 3 * triangles.size() + 12; !work.empty() && changes < most;) {
+      const int t = work.back();
+      work.pop_back();
+      if (!is_sliver(t)) continue;
+      const std::size_t first_new = mesh_.triangles().size();
+      const auto neighbors = mesh_.triangle(t).neighbor;
+      if (!flip_best(t) && !split_longest(t)) continue;
+      ++changes;
+      work.insert(work.begin(), neighbors.begin(), neighbors.end());
+      work.insert(work.begin(), t);
+      for (std::size_t n = first_new; n < mesh_.triangles().size(); ++n)
+        work.insert(work.begin(), static_cast<int>(n));
+    }
   }
-  if (best < 0) return false;
-  if (bend > 0 && ratio_after_flip(mesh, t, best, 0) <= 0) bent = true;
-  mesh.flip_edge(t, best);
-  return true;
-}
 
-/// The longest edge of t that is no lip: a new vertex at the foot of its height, or in its middle.
-bool split_longest(CutMesh& mesh, int t) {
-  const CutMesh::Triangle x = mesh.triangle(t);
-  int longest = -1;
-  double most = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double length = norm(mesh.position(x.vertex[(i + 1) % 3]) - mesh.position(x.vertex[i]));
-    if (length > most) most = length, longest = i;
+  /// By splits that are for the better only with the changes that follow.
+  void mend_by_trials(const std::vector<int>& triangles) {
+    std::vector<int> work = triangles;
+    for (int changes = 0; !work.empty() && changes < 24;) {
+      const int t = work.back();
+      work.pop_back();
+      if (!is_sliver(t)) continue;
+      const CutMesh::Checkpoint since = mesh_.checkpoint();
+      if (!split_best(t)) continue;
+      ++changes;
+      const std::vector<int> changed = mesh_.changed_since(since);
+      work.insert(work.end(), changed.begin(), changed.end());
+    }
   }
-  const int across = longest < 0 ? CutMesh::non_manifold : x.neighbor[longest];
-  if (across == CutMesh::non_manifold) return false;
-  const Vec3 &a = mesh.position(x.vertex[longest]), &b = mesh.position(x.vertex[(longest + 1) % 3]),
-             &c = mesh.position(x.vertex[(longest + 2) % 3]);
-  double part = dot(c - a, b - a) / squared_norm(b - a);
-  if (part < 0.2 || part > 0.8) part = 0.5;
-  const Vec3 place = lerp(a, b, part);
-  double before = radius_ratio(a, b, c),
-         after = std::min(radius_ratio(a, place, c), radius_ratio(place, b, c));
-  if (across >= 0 && mesh.is_skin(across)) {
-    const Vec3& d = mesh.position(quad_at(mesh, t, longest).d);
-    before = std::min(before, radius_ratio(b, a, d));
-    after = std::min({after, radius_ratio(b, place, d), radius_ratio(place, a, d)});
+
+  bool bent() const { return bent_; }
+
+ private:
+  bool is_sliver(int t) const { return mesh_.is_skin(t) && radius_ratio(mesh_, t) < target_; }
+  bool is_kept(int a, int b) const {
+    return (a == kept_[0] && b == kept_[1]) || (a == kept_[1] && b == kept_[0]);
   }
-  if (after < 1.2 * before) return false;
-  mesh.split_edge(t, longest, place);
-  return true;
-}
+
+  /// The smaller radius ratio of the two triangles after flipping edge i of t; 0 where it must not be
+  /// flipped.
+  double ratio_after_flip(int t, int i, double bend) const {
+    const int other = mesh_.triangle(t).neighbor[i];
+    if (!mesh_.is_skin(other)) return 0;
+    const Quad q = quad_at(mesh_, t, i);
+    if (is_kept(q.a, q.b)) return 0;
+    const Vec3 &a = mesh_.position(q.a), &b = mesh_.position(q.b), &c = mesh_.position(q.c),
+               &d = mesh_.position(q.d);
+    const Vec3 n = cross(d - c, b - a);  // of the quadrilateral, by its diagonals
+    const double size = norm(n);
+    const double plane = std::max(bend, flat * std::max(norm(b - a), norm(d - c)));
+    if (size == 0 || std::abs(dot(n, a - c)) > plane * size) return 0;  // between the diagonals
+    if (dot(cross(d - a, c - a), n) <= 0 || dot(cross(b - d, c - d), n) <= 0) return 0;  // not convex
+    if (mesh_.any_triangle_with(q.c, q.d) >= 0 || mesh_.any_triangle_with(q.d, q.c) >= 0) return 0;
+    return std::min(radius_ratio(a, d, c), radius_ratio(d, b, c));
+  }
+
+  bool flip_best(int t) {
+    int best = -1;
+    double most = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double after = ratio_after_flip(t, i, bend_);
+      if (after <= 0) continue;
+      const double before =
+          std::min(radius_ratio(mesh_, t), radius_ratio(mesh_, mesh_.triangle(t).neighbor[i]));
+      if (after > better * before && after > most) most = after, best = i;
+    }
+    if (best < 0) return false;
+    if (bend_ > 0 && ratio_after_flip(t, best, 0) <= 0) bent_ = true;
+    mesh_.flip_edge(t, best);
+    return true;
+  }
+
+  /// The longest edge of t: a new vertex at the foot of its height, or in its middle.
+  bool split_longest(int t) {
+    const CutMesh::Triangle x = mesh_.triangle(t);
+    int longest = 0;
+    for (int i = 1; i < 3; ++i)
+      if (length(x, i) > length(x, longest)) longest = i;
+    const int across = x.neighbor[longest];
+    if (!may_split(x, longest)) return false;
+    const Vec3 &a = mesh_.position(x.vertex[longest]), &b = mesh_.position(x.vertex[(longest + 1) % 3]),
+               &c = mesh_.position(x.vertex[(longest + 2) % 3]);
+    double part = dot(c - a, b - a) / squared_norm(b - a);
+    if (part < 0.2 || part > 0.8) part = 0.5;
+    const Vec3 place = lerp(a, b, part);
+    double before = radius_ratio(a, b, c),
+           after = std::min(radius_ratio(a, place, c), radius_ratio(place, b, c));
+    if (across >= 0 && mesh_.is_skin(across)) {
+      const Vec3& d = mesh_.position(quad_at(mesh_, t, longest).d);
+      before = std::min(before, radius_ratio(b, a, d));
+      after = std::min({after, radius_ratio(b, place, d), radius_ratio(place, a, d)});
+    }
+    if (after < better * before) return false;
+    mesh_.split_edge(t, longest, place);
+    return true;
+  }
+
+  /// The split, with what it makes possible, that leaves the best triangles; none where that is no better.
+  bool split_best(int t) {
+    const CutMesh::Triangle x = mesh_.triangle(t);
+    const double before = radius_ratio(mesh_, t),
+                 shortest = std::min({length(x, 0), length(x, 1), length(x, 2)});
+    double most = better * before, part_of_best = 0;
+    int best = -1;
+    for (int i = 0; i < 3; ++i) {
+      if (!may_split(x, i)) continue;
+      const double rung = 16 * shortest / length(x, i);  // beside the short edge of a needle
+      for (const double part : {0.5, foot(x, i), rung, 1 - rung, rung / 4, 1 - rung / 4}) {
+        if (!(part > 0.01 && part < 0.99)) continue;
+        const CutMesh::Checkpoint since = mesh_.checkpoint();
+        const bool bent = bent_;
+        const double after = ratio_after_split(t, i, part);
+        mesh_.roll_back(since);
+        bent_ = bent;
+        if (after > most) most = after, best = i, part_of_best = part;
+      }
+    }
+    return best >= 0 && ratio_after_split(t, best, part_of_best) > 0;
+  }
+
+  double ratio_after_split(int t, int i, double part) {
+    const CutMesh::Checkpoint since = mesh_.checkpoint();
+    const CutMesh::Triangle& x = mesh_.triangle(t);
+    mesh_.split_edge(t, i, lerp(mesh_.position(x.vertex[i]), mesh_.position(x.vertex[(i + 1) % 3]), part));
+    mend(mesh_.changed_since(since));
+    double least = 1;
+    for (const int changed : mesh_.changed_since(since))
+      if (mesh_.is_skin(changed)) least = std::min(least, radius_ratio(mesh_, changed));
+    return least;
+  }
+
+  bool may_split(const CutMesh::Triangle& x, int i) const {
+    return x.neighbor[i] != CutMesh::non_manifold && !is_kept(x.vertex[i], x.vertex[(i + 1) % 3]);
+  }
+  double length(const CutMesh::Triangle& x, int i) const {
+    return norm(mesh_.position(x.vertex[(i + 1) % 3]) - mesh_.position(x.vertex[i]));
+  }
+  /// Where on edge i the height stands, from 0 to 1.
+  double foot(const CutMesh::Triangle& x, int i) const {
+    const Vec3 &a = mesh_.position(x.vertex[i]), &b = mesh_.position(x.vertex[(i + 1) % 3]);
+    return dot(mesh_.position(x.vertex[(i + 2) % 3]) - a, b - a) / squared_norm(b - a);
+  }
+
+  CutMesh& mesh_;
+  double target_, bend_;
+  KeptEdge kept_;
+  bool bent_ = false;
+};
 
 }  // namespace
 
@@ -114,23 +213,18 @@ double smallest_given_radius_ratio(const CutMesh& mesh) {
   return least;
 }
 
-bool mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend) {
-  std::vector<int> work = triangles;
-  bool bent = false;
-  for (std::size_t changes = 0, most = 3 * triangles.size() + 12; !work.empty() && changes < most;) {
-    const int t = work.back();
-    work.pop_back();
-    if (!mesh.is_skin(t) || radius_ratio(mesh, t) >= target) continue;
-    const std::size_t first_new = mesh.triangles().size();
-    const auto neighbors = mesh.triangle(t).neighbor;
-    if (!flip_best(mesh, t, bend, bent) && !split_longest(mesh, t)) continue;
-    ++changes;
-    work.insert(work.begin(), neighbors.begin(), neighbors.end());
-    work.insert(work.begin(), t);
-    for (std::size_t n = first_new; n < mesh.triangles().size(); ++n)
-      work.insert(work.begin(), static_cast<int>(n));
-  }
-  return bent;
+bool mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend,
+                  const KeptEdge& kept) {
+  Mender mender(mesh, target, bend, kept);
+  mender.mend(triangles);
+  return mender.bent();
+}
+
+bool mend_needles(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend,
+                  const KeptEdge& kept) {
+  Mender mender(mesh, target, bend, kept);
+  mender.mend_by_trials(triangles);
+  return mender.bent();
 }
 
 }  // namespace cleft

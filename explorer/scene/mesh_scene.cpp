@@ -39,6 +39,14 @@ void MeshScene::positions(double t, std::vector<Vec3>& out) const {
   if (wounds_) wounds_->positions(t, out);
 }
 
+std::vector<std::string> MeshScene::warnings() const {
+  std::vector<std::string> all;
+  if (wounds_)
+    for (const Validity& v : wounds_->validity(fields_->turning()))
+      all.insert(all.end(), v.warnings.begin(), v.warnings.end());
+  return all;
+}
+
 void MeshScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
   out.assign(surface_.points.size(), 0);
   if (coloring == Coloring::tissue || !wounds_) return;

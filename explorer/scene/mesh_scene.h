@@ -22,6 +22,7 @@ class MeshScene : public WoundScene {
   double duration() const override { return duration_; }
   void positions(double t, std::vector<Vec3>& out) const override;
   void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
+  std::vector<std::string> warnings() const override;
 
  private:
   void aim_at_cuts();

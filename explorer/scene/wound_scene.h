@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "base/vec3.h"
@@ -33,6 +34,9 @@ class WoundScene {
   /// The value of every point at t by which it is coloured; of `difference`, against `reference`.
   virtual void values(Coloring coloring, const Field* reference, double t,
                       std::vector<double>& out) const = 0;
+
+  /// Where the opening of a cut may be off by more than a tenth, and why: a sentence each.
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 }  // namespace cleft

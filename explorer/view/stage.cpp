@@ -147,6 +147,20 @@ std::string without_groups(const std::string& name) {
   return out;
 }
 
+/// In lines of what fits `width` pixels.
+std::string wrapped(const std::string& text, double width) {
+  const auto most = static_cast<std::size_t>(std::max(20., width / 7.5));
+  std::string out;
+  std::size_t length = 0;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const bool next = length > 0 && length + 1 + word.size() > most;
+    out += (length == 0 ? "" : next ? "\n" : " ") + word;
+    length = next || length == 0 ? word.size() : length + 1 + word.size();
+  }
+  return out;
+}
+
 void Stage::label(Session& session) {
   const bool dark = session.state().dark;
   const std::vector<int> cases = session.views();
@@ -156,8 +170,11 @@ void Stage::label(Session& session) {
     char time[80];
     std::snprintf(time, sizeof time, "%.1f of %.1f mm cut", views_[i].view->time(),
                   views_[i].view->duration());
-    const std::string below =
-        cases[i] == session.state().shown && !caption_.empty() ? std::string(time) + "\n" + caption_ : time;
+    std::string below = time;
+    const double width = views_[i].view->renderer()->GetSize()[0] * 72. / window_->GetDPI();
+    for (const std::string& text :
+         {session.note_of(cases[i]), cases[i] == session.state().shown ? caption_ : std::string()})
+      if (!text.empty()) below += "\n" + wrapped(text, width);
     views_[i].furniture->set_text(title, below, views_.size() > 1);
     if (session.mesh())
       views_[i].furniture->set_axes({"x", "y", "z"});

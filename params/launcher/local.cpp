@@ -16,6 +16,7 @@
 #include "params/launcher/estimates.h"
 #include "params/launcher/packing.h"
 #include "params/launcher/run_table.h"
+#include "params/launcher/signal_handler.h"
 #include "params/launcher/solve_groups.h"
 
 namespace cleft {
@@ -355,12 +356,10 @@ class LocalRun {
 
 RunReport run_local(const StudyFolder& folder, const Study& study, const std::vector<Case>& cases,
                     const LocalOptions& options) {
-  struct sigaction action = {};
-  action.sa_handler = [](int number) {
+  const SignalHandler handler({SIGINT, SIGTERM, SIGUSR1}, [](int number) {
     stop_count = stop_count + 1;
     stop_signal = number;
-  };
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+  });
   folder.remove_abandoned();
   return LocalRun(folder, study, cases, options).run();
 }

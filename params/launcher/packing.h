@@ -13,7 +13,7 @@ namespace cleft {
 
 /// Packs the published fields of a study into its study.dffd (cleft pack), after any other run of the study
 /// that does so just now. What is to be said of it goes to stderr. Throws std::runtime_error where it fails;
-/// the earlier file is then as it was.
+/// the earlier file is then as it was, as it is where a signal ends this process.
 void pack_study(const std::string& study);
 
 /// Keeps study.dffd up to date while a run goes on: each time the whole file anew, and only where the last

@@ -19,6 +19,7 @@
 #include "base/sealed_json.h"
 #include "base/text.h"
 #include "params/launcher/packing.h"
+#include "params/launcher/signal_handler.h"
 #include "params/launcher/solve_groups.h"
 
 namespace cleft {
@@ -277,9 +278,7 @@ class SlurmRun {
 
 RunReport run_slurm(const StudyFolder& folder, const Study&, const std::vector<Case>& cases,
                     const LocalOptions& options, const SlurmSettings& settings) {
-  struct sigaction action = {};
-  action.sa_handler = [](int) { leave = 1; };
-  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  const SignalHandler handler({SIGINT, SIGTERM}, [](int) { leave = 1; });
   return SlurmRun(folder, cases, options, settings).run();
 }
 

@@ -87,7 +87,10 @@ TEST(Stability, HoleInTheCloud) {
     EXPECT_LT(inside, 2 * beside);
   };
   const Series series = data.series();
+  // Of knots that are given, too. With fewer in time what follows the tip errs by up to 3 times as much in
+  // the hole as beside it, by 3 % and less: there the knots' own limit is met, not the data's.
   expect_no_worse_inside(encoded_on(series, "fixed", {2, 8, 2, 5, 2, 1, 2}));
+  expect_no_worse_inside(encoded_on(series, "tip", {2, 12, 2, 7, 2, 2, 4}));
   for (const char* parametrization : {"fixed", "tip"})
     for (const double tolerance : {0.05, 0.005}) {
       SCOPED_TRACE(std::string(parametrization) + ", " + std::to_string(tolerance));

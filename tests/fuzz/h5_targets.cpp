@@ -14,6 +14,8 @@
 #include "base/error.h"
 #include "base/h5.h"
 #include "encoder/field/field_file.h"
+#include "encoder/field/study_file.h"
+#include "encoder/field/unknowns.h"
 #include "solver/snapshot/snapshot.h"
 #include "tests/io/wedge_row.h"
 
@@ -164,17 +166,64 @@ void edit_json(Json& header, Choices& choices) {
   header[Json::json_pointer(member.key())] = others[choices.of(others.size())];
 }
 
-/// Its path.
-std::string write_sound_field() {
+Field sound_field() {
   const auto u = BSplineBasis::uniform(3, 6, -6, 6), w = BSplineBasis::uniform(3, 5, -4, 0),
              t = BSplineBasis::uniform(3, 5, 0, 6);
   const auto v = BSplineBasis::broken(3, 8, -5, 0, 5);
   std::vector<Vec3> points(static_cast<std::size_t>(u.size() * v.size() * w.size() * t.size()));
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {0, 1e-2 * static_cast<double>(i % 7), 0};
-  const Field field{u, v, w, t, points, CanonicalCut{-3, 6, 2}};
+  Field field{u, v, w, t, points, CanonicalCut{-3, 6, 2}};
+  field.report.largest_displacement = 0.06;
+  return field;
+}
+
+/// Its path.
+std::string write_sound_field() {
   const std::string path = place() + ".seed.dffd";
-  write_field(path, field);
+  write_field(path, sound_field());
   return path;
+}
+
+/// Its path.
+std::string write_sound_study() {
+  const std::string path = place() + ".seed.study.dffd";
+  const Field field = quantised(sound_field(), 1e-3, 0.5);
+  const FieldRecord own = record_of(field);
+  const int slices = field.basis(3).size();
+  const FieldRecord sum = record_of_sum(field, slices);
+  const CodedModes modes{{1e-3}, {own.coefficients}};
+  write_study(
+      path, {{"a", own, {{"cut.contact", "false"}}}, {"b", sum, {}, {0.5}, 0.01}, {"c", sum, {}, {2}, 0.01}},
+      modes);
+  return path;
+}
+
+/// The file at `seed` with edits of its JSON header, and other bytes in the datasets named, in `path`.
+void copy_edited(const std::string& seed, const std::string& path, const std::vector<std::string>& coded,
+                 Choices& choices) {
+  h5::File sound = h5::File::open(seed);
+  const auto text = sound.read<std::uint8_t>("/header");
+  std::vector<std::vector<std::uint8_t>> bytes;
+  for (const std::string& name : coded) bytes.push_back(sound.read<std::uint8_t>(name));
+  const std::string kind = sound.read_text("/", "format");
+  const FileFormat format{kind.c_str(), static_cast<int>(sound.read_number("/", "version")), "", ""};
+  sound.close();
+  Json header = Json::parse(text.begin(), text.end());
+  for (int edits = 0; choices.left() && edits < 3; ++edits)
+    if (choices.next() % 4 > 0)
+      edit_json(header, choices);
+    else {
+      auto& some = bytes[choices.of(bytes.size())];
+      some.resize(choices.of(2 * some.size() + 1));
+    }
+  const std::string edited = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+  h5::File file = h5::File::create(path);
+  write_format(file, format);
+  file.write<std::uint8_t>("/header", {reinterpret_cast<const std::uint8_t*>(edited.data()), edited.size()},
+                           {edited.size()}, h5::Packing::deflate);
+  for (std::size_t n = 0; n < coded.size(); ++n)
+    file.write<std::uint8_t>(coded[n], bytes[n], {bytes[n].size()}, h5::Packing::deflate);
+  file.close();
 }
 
 template <class Reader>
@@ -217,30 +266,30 @@ void read_edited_field(const std::uint8_t* data, std::size_t size) {
   if (choices.next() % 4 == 0) {
     fs::copy_file(seed.path, path, fs::copy_options::overwrite_existing);
     edit(path, choices);
-  } else {
-    h5::File sound = h5::File::open(seed.path);
-    const auto text = sound.read<std::uint8_t>("/header");
-    auto coefficients = sound.read<std::uint8_t>("/coefficients");
-    const FileFormat format{"cleft-field", static_cast<int>(sound.read_number("/", "version")), "", ""};
-    sound.close();
-    Json header = Json::parse(text.begin(), text.end());
-    for (int edits = 0; choices.left() && edits < 3; ++edits)
-      if (choices.next() % 4 > 0)
-        edit_json(header, choices);
-      else
-        coefficients.resize(choices.of(2 * coefficients.size() + 1));
-    const std::string edited = header.dump(-1, ' ', false, Json::error_handler_t::replace);
-    h5::File file = h5::File::create(path);
-    write_format(file, format);
-    file.write<std::uint8_t>("/header", {reinterpret_cast<const std::uint8_t*>(edited.data()), edited.size()},
-                             {edited.size()}, h5::Packing::deflate);
-    file.write<std::uint8_t>("/coefficients", coefficients, {coefficients.size()}, h5::Packing::deflate);
-    file.close();
-  }
+  } else
+    copy_edited(seed.path, path, {"/coefficients"}, choices);
   read_or_refuse(path, [](const std::string& file) {
     read_field_parameters(file);
     read_residual(file);
     read_field(file);
+  });
+}
+
+void read_edited_study(const std::uint8_t* data, std::size_t size) {
+  static const Seed seed{write_sound_study()};
+  const std::string path = place() + ".study.dffd";
+  Choices choices(data, size);
+  if (choices.next() % 4 == 0) {
+    fs::copy_file(seed.path, path, fs::copy_options::overwrite_existing);
+    edit(path, choices);
+  } else
+    copy_edited(seed.path, path, {"/coefficients", "/modes"}, choices);
+  read_or_refuse(path, [](const std::string& file) {
+    const StudyFile study(file);
+    for (int i = 0; i < study.size(); ++i) {
+      study.case_hash(i), study.parameters(i), study.choices(i), study.report(i);
+      study.field(i);
+    }
   });
 }
 

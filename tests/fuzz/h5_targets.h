@@ -14,4 +14,7 @@ void read_edited_snapshot(const std::uint8_t* data, std::size_t size);
 /// The same of a field, with edits of its JSON header and its coded bytes too.
 void read_edited_field(const std::uint8_t* data, std::size_t size);
 
+/// The same of a study of three cases, two of them sums of modes.
+void read_edited_study(const std::uint8_t* data, std::size_t size);
+
 }  // namespace cleft::fuzz

@@ -24,6 +24,7 @@ void feed(void (*reader)(const std::uint8_t*, std::size_t), int count) {
 
 TEST(EditedFiles, SnapshotsAreReadOrRefused) { feed(read_edited_snapshot, 400); }
 TEST(EditedFiles, FieldsAreReadOrRefused) { feed(read_edited_field, 400); }
+TEST(EditedFiles, StudiesAreReadOrRefused) { feed(read_edited_study, 400); }
 
 }  // namespace
 }  // namespace cleft::fuzz

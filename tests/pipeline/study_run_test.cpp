@@ -286,6 +286,36 @@ TEST(StudyRun, ATerminatedRunGivesUpAtOnceAndSaysSo) {
   EXPECT_EQ(now["missing"], 3) << now.dump(2);
 }
 
+TEST(StudyRun, ASecondInterruptKillsWhatIgnoresTheFirst) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", "[vary]\n'skin.thickness' = [1, 2]\n");
+  // Sister commands stand beside cleft-run: here a solver that cannot be asked to stop.
+  const std::string bin = place / "bin", started = place / "started";
+  fs::create_directory(bin);
+  fs::copy_file(CLEFT_BIN "/cleft-run", bin + "/cleft-run");
+  place.write("bin/cleft-solve",
+              "#!/bin/sh\ntrap '' TERM INT\ntouch " + started + "\nwhile :; do sleep 0.2; done\n");
+  fs::permissions(bin + "/cleft-solve", fs::perms::owner_all);
+  const pid_t child = fork();
+  if (child == 0) {
+    execl((bin + "/cleft-run").c_str(), "cleft-run", file.c_str(), "--out", (place / "out").c_str(), "--jobs",
+          "1", nullptr);
+    _exit(127);
+  }
+  for (int i = 0; i < 300 && !fs::exists(started); ++i) usleep(100'000);
+  ASSERT_TRUE(fs::exists(started));
+  int result = 0;
+  kill(child, SIGINT);
+  usleep(1'500'000);
+  EXPECT_EQ(waitpid(child, &result, WNOHANG), 0) << "it waits for the solver, which goes on";
+  kill(child, SIGINT);
+  for (int i = 0; i < 200 && waitpid(child, &result, WNOHANG) == 0; ++i) usleep(100'000);
+  ASSERT_TRUE(WIFEXITED(result)) << "it did not end within 20 s";
+  EXPECT_EQ(WEXITSTATUS(result), 1);
+  EXPECT_EQ(status(place / "out")["missing"], 2);
+  EXPECT_NE(in_shell("pgrep -f " + bin + "/cleft-solve").exit_code, 0) << "the solver was killed";
+}
+
 TEST(StudyRun, ARankThatDiesEndsTheSolve) {
   const TemporaryFolder place;
   const std::string file = place.write("case.toml", "[case]\nmesh.element_size = 0.4\n");  // minutes

@@ -70,7 +70,7 @@ TEST_F(Between, TheFieldIsInterpolatedAndMarkedAsSuch) {
     const bool superposed = modulus == 0.01 || modulus == 0.02;
     EXPECT_NEAR(shown_gape(), expected, (superposed ? 1e-4 : 0.015) * expected)
         << prestress << " " << modulus;
-    EXPECT_NE(session_.title_of(state().shown).find("interpolated, estimated error"), std::string::npos);
+    EXPECT_NE(session_.note_of(state().shown).find("interpolated, estimated error"), std::string::npos);
     EXPECT_EQ(session_.between()->parameters.at("tissue.young_modulus"), modulus);
   }
   say("case 2");

@@ -34,7 +34,7 @@ TEST_F(Closer, AMissingSimulationIsSaidAndNotFatal) {
   std::vector<double> values;
   session_.scene()->values(Coloring::error, nullptr, 20, values);
   for (const double v : values) EXPECT_TRUE(std::isnan(v));
-  EXPECT_NE(session_.title_of(1).find("without raw frames"), std::string::npos);
+  EXPECT_NE(session_.note_of(1).find("without raw frames"), std::string::npos);
   say("color displacement");
   for (const char* line : {"color error", "zoom 0,0,0", "figure constraints"})
     EXPECT_NE(refused(line).find("case1/case.h5"), std::string::npos) << line << ": " << refused(line);
@@ -242,7 +242,7 @@ TEST_F(Closer, StudiesSayWhatIsLeftOutOrGone) {
   say("open " + copy);
   EXPECT_EQ(session_.study()->size(), 4);
   EXPECT_NE(answers_.find("of an older format: case 0123456789abcdef"), std::string::npos) << answers_;
-  EXPECT_NE(answers_.find("the raw data of 4 cases are gone"), std::string::npos) << answers_;
+  EXPECT_NE(answers_.find("the raw data of 5 cases are gone"), std::string::npos) << answers_;
   EXPECT_EQ(session_.notices().size(), 2u) << "a window that is opened later asks for them";
 }
 

@@ -149,7 +149,10 @@ TEST_F(SessionTest, CutsTurnAgainstATension) {
     const std::string place = folder / ("study/cases/case" + std::to_string(number));
     std::filesystem::create_directories(place);
     Field field = synthetic_field(5 - number);
-    field.parameters = {{"skin.prestress_u", p.x}, {"skin.prestress_v", p.y}, {"skin.prestress_uv", p.z}};
+    field.parameters = {{"skin.prestress_u", p.x},      {"skin.prestress_v", p.y},
+                        {"skin.prestress_uv", p.z},     {"skin.thickness", 1.5},
+                        {"skin.young_modulus", 0.5},    {"skin.poisson_ratio", 0.4},
+                        {"tissue.young_modulus", 0.01}, {"tissue.poisson_ratio", 0.45}};
     field.case_hash = "case" + std::to_string(number++);
     write_field(place + "/case.dffd", field);
     write_text_file(place + "/manifest.json", "{}");
@@ -173,8 +176,49 @@ TEST_F(SessionTest, CutsTurnAgainstATension) {
   EXPECT_NE(refused("tension 0,0,1 0.03,0.01").find("upright"), std::string::npos);
   EXPECT_EQ(state().tension->direction, (Vec3{1, 1, 0})) << "as it was";
   EXPECT_NE(refused("tension 0,1,0 0.03,-0.01").find("below 0"), std::string::npos);
+  const std::vector<Vec3> turned = points();
+  say("cut -10,12,0,0,0,1 10,12,0,0,0,1 depth 2");
   say("tension none");
+  // Back in the order in which cuts and tensions were made, and on again, from a saved session too.
+  say("undo");
+  EXPECT_TRUE(state().tension);
+  say("undo");
+  EXPECT_EQ(points(), turned);
+  say("undo");
+  EXPECT_EQ(points(), across);
+  session_.restore(state_from_json(state_to_json(state())));
+  say("undo");
   EXPECT_EQ(points(), as_simulated);
+  EXPECT_FALSE(state().tension);
+  for (int i = 0; i < 2; ++i) say("redo");
+  EXPECT_EQ(points(), turned);
+  for (int i = 0; i < 2; ++i) say("redo");
+  EXPECT_FALSE(state().tension);
+  EXPECT_EQ(state().cuts.size(), 2u);
+  EXPECT_NE(refused("redo").find("no undone cut or tension"), std::string::npos);
+}
+
+TEST_F(SessionTest, WhereOpeningsMayBeOffIsSaid) {
+  cut_plate();
+  EXPECT_EQ(answers_.find("warning"), std::string::npos) << answers_;
+  EXPECT_TRUE(session_.warnings().empty());
+  // An arc of 20 mm radius where the tension does not turn.
+  std::string arc = "recut";
+  for (int i = -8; i <= 8; ++i) {
+    const double a = 0.05 * i;
+    arc += " " + std::to_string(20 * std::sin(a)) + "," + std::to_string(20 * (1 - std::cos(a)) + 0.7) +
+           ",0,0,0,1";
+  }
+  say(arc);
+  ASSERT_EQ(session_.warnings().size(), 1u);
+  EXPECT_NE(answers_.find("warning: the path bends with a radius of"), std::string::npos) << answers_;
+  answers_.clear();
+  say("set tissue.young_modulus 0.04");
+  EXPECT_EQ(answers_, "") << "said already";
+  say("info");
+  EXPECT_NE(answers_.find("warning: the path bends"), std::string::npos);
+  say("undo");
+  EXPECT_TRUE(session_.warnings().empty());
 }
 
 TEST_F(SessionTest, ATensionNeedsThreeCasesOfOtherPrestress) {

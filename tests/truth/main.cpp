@@ -50,11 +50,28 @@ void parallel_cuts(const std::string& common) {
   }
 }
 
+/// A cut that begins on the lip of another, in its middle. Where skin is pulled less along the first cut than
+/// across, the branch's lips press on each other beside it.
+void branches(const std::string& common) {
+  const TruthCases cases(common + "\npatch.width = 70\nmesh.grading = 1.15");
+  const PrestressFields fields = cases.prestresses();
+  for (const auto& [name, lines] :
+       {std::pair{"cut.branch", "cut.contact = true"},
+        {"cut.branch, pulled alike", "skin.prestress_u = 0.02\nskin.prestress_v = 0.02"}})
+    for (const std::string length : {"5", "10", "15", "20"}) {
+      print(std::string("\"") + name + "\"", length,
+            branch_error(cases.truth(std::string(lines) + "\ncut.branch = " + length), fields));
+      std::printf(",,\n");
+      std::fflush(stdout);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string common = argc > 1 ? argv[1] : "", only = argc > 2 ? argv[2] : "";
   std::printf("parameter,value,gape_mm,gape_error,skin_error,turned_gape_error,turned_skin_error\n");
-  if (only != "cut.spacing") single_cuts(common, only);
+  if (only != "cut.spacing" && only != "cut.branch") single_cuts(common, only);
   if (only.empty() || only == "cut.spacing") parallel_cuts(common);
+  if (only.empty() || only == "cut.branch") branches(common);
 }

@@ -25,6 +25,9 @@ ReplayError replay_error(const SnapshotReader& truth, const Field& field);
 /// Two parallel cuts, the field replayed along both, while the second is made.
 ReplayError parallel_error(const SnapshotReader& truth, const Field& field);
 
+/// A cut and a branch that leaves its middle (a T), while the branch is made. The fields follow the tension.
+ReplayError branch_error(const SnapshotReader& truth, const PrestressFields& fields);
+
 /// One cut with the fields superposed for the truth's prestress, turned into the path's own frame.
 ReplayError replay_error(const SnapshotReader& truth, const PrestressFields& fields);
 

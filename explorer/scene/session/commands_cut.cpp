@@ -108,7 +108,7 @@ std::span<const Command> cut_commands() {
        device, Command::none},
       {"tension", "X,Y,Z LARGER,SMALLER | none",
        "the skin's larger tension and its direction, prestresses in MPa: cuts turn against it", tension},
-      {"undo", "", "take the last cut back", undo},
+      {"undo", "", "take the last cut or tension back", undo},
       {"redo", "", "make it again", redo},
       {"export", "FILE", "write the surface as it is shown: .vtp .stl .obj, in the mesh's units", export_mesh,
        Command::none},

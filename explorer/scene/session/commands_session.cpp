@@ -64,7 +64,7 @@ void info(Session& session, CommandWords&) {
   const auto scene = session.scene();
   if (const auto field = session.field()) {
     session.answer(session.between()
-                       ? session.title_of(s.shown)
+                       ? session.title_of(s.shown) + ", " + session.note_of(s.shown)
                        : "case " + std::to_string(s.shown + 1) + " of " +
                              std::to_string(session.study()->size()) + ": " + session.study()->name(s.shown));
     if (!session.why_nearest().empty()) session.answer("the nearest case: " + session.why_nearest());
@@ -76,6 +76,7 @@ void info(Session& session, CommandWords&) {
   }
   if (!s.mesh.empty()) session.answer("mesh: " + s.mesh + ", cuts: " + std::to_string(s.cuts.size()));
   session.answer("length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");
+  for (const std::string& warning : session.warnings()) session.answer("warning: " + warning);
 }
 
 void help(Session& session, CommandWords& words) {

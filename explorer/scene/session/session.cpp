@@ -13,13 +13,9 @@
 
 namespace cleft {
 
-namespace {
-
-std::string absolute(const std::string& path) {
+std::string Session::absolute_path(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
-
-}  // namespace
 
 Session::Session(SessionServices services) : services_(std::move(services)) {}
 
@@ -57,6 +53,7 @@ void Session::say(const std::string& line) {
     if (again && command.recorded == Command::latest) said_.pop_back();
     said_.push_back(line);
   }
+  warn();
   notify();
 }
 
@@ -123,9 +120,17 @@ double Session::duration() {
   return longest;
 }
 
+void Session::warn() {
+  if (!changes_.cuts && !changes_.shown && !changes_.study) return;
+  const auto before = std::move(warnings_);
+  warnings_ = has_scene() ? scene()->warnings() : std::vector<std::string>{};
+  for (const std::string& warning : warnings_)
+    if (std::find(before.begin(), before.end(), warning) == before.end()) answer("warning: " + warning);
+}
+
 void Session::load_study(const std::string& path) {
   study_ = std::make_shared<PublishedStudy>(path);
-  state_.study = absolute(path);
+  state_.study = absolute_path(path);
   scenes_.clear();
   cut_surfaces_.clear();
   known_ = std::make_shared<Known>();

@@ -94,6 +94,9 @@ class Session {
   std::shared_ptr<const Field> field_of(int i);
   std::shared_ptr<const Field> reference();  ///< null where none is chosen
   double duration();                         ///< t of the end, of the longest view
+  /// Where openings of the shown case's cuts may be off, and by how much (validity.h). A line that brings a
+  /// new one about is answered with it.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// Whether the shown case has exactly the parameters asked for.
   bool shows_exactly() const;
   /// The interpolated field that is shown in place of the shown case; null where there is none.
@@ -101,7 +104,9 @@ class Session {
   /// Why the nearest case is shown where nothing is interpolated; empty where it has the parameters.
   const std::string& why_nearest() const { return why_nearest_; }
   /// What is shown in the view of case i, as titles say it.
-  std::string title_of(int i);
+  std::string title_of(int i) const;
+  /// What must be known of it: that and how well it is interpolated, that no error is known; mostly empty.
+  std::string note_of(int i) const;
   /// Lets cases be read on another thread while the nearest one is shown; take_prepared() then shows what
   /// lies between, once that is known, and tells whether there is still something to wait for.
   void prepare_beside(bool on) { beside_ = on; }
@@ -111,7 +116,7 @@ class Session {
   void finish_preparing();
 
   /// Why the simulation of case i cannot be looked at; empty where it can.
-  std::string why_no_raw(int i);
+  std::string why_no_raw(int i) const;
   /// Throws InputError with that reason.
   std::shared_ptr<const RawCase> raw_of(int i);
   Motion probed_motion();  ///< throws InputError where nothing is probed
@@ -172,6 +177,7 @@ class Session {
 
  private:
   void load_study(const std::string& path);
+  static std::string absolute_path(const std::string& path);
   void read_mesh_in_mm();
   int nearest_case() const;
   /// Of the parameters that vary, over all cases.
@@ -182,8 +188,12 @@ class Session {
   std::string make_between();
   Overlay make_overlay();
   void cuts_changed();
+  void forget_cuts();
+  void tension_changed();
+  bool swap_tension(std::vector<TensionChange>& from, std::vector<TensionChange>& to);
   std::vector<ScalpelPath> cut_paths(double depth) const;
   std::shared_ptr<const CutSurface> cut_surface(double depth);
+  void warn();
   void notify();
 
   SessionServices services_;
@@ -203,7 +213,7 @@ class Session {
   std::string why_nearest_;
   std::map<int, std::shared_ptr<const RawCase>> raws_;
   bool beside_ = false, preparing_ = false, busy_ = false;
-  std::vector<std::string> said_;
+  std::vector<std::string> said_, warnings_;
   std::vector<Listener> listeners_;
   Changes changes_;
 };

@@ -133,17 +133,22 @@ void Session::finish_preparing() {
   changes_.shown = true;
 }
 
-std::string Session::title_of(int i) {
+std::string Session::title_of(int i) const {
   if (!study_) return "";
-  const std::string raw = state_.coloring == Coloring::error && !why_no_raw(i).empty()
-                              ? " - without raw frames: no error is known"
-                              : "";
-  if (!between_ || i != state_.shown) return "case " + std::to_string(i + 1) + ": " + study_->name(i) + raw;
+  if (!between_ || i != state_.shown) return "case " + std::to_string(i + 1) + ": " + study_->name(i);
   std::string title = "between cases:";
   for (const std::string& name : study_->varying())
     if (const auto found = state_.parameters.find(name); found != state_.parameters.end())
       title += " " + name + "=" + shortest_of(found->second, 4);
-  return title + " - interpolated, " + error_of_interpolation(*between_) + raw;
+  return title;
+}
+
+std::string Session::note_of(int i) const {
+  std::string note;
+  if (between_ && i == state_.shown) note = "interpolated, " + error_of_interpolation(*between_);
+  if (state_.coloring == Coloring::error && !why_no_raw(i).empty())
+    note += (note.empty() ? "" : "; ") + std::string("without raw frames: no error is known");
+  return note;
 }
 
 bool Session::shows_exactly() const {

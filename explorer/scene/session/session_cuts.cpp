@@ -1,4 +1,4 @@
-// A session's mesh and the cuts in it.
+// The mesh, the cuts in it and the tension of its skin: what they are, undone and redone.
 #include <algorithm>
 #include <filesystem>
 
@@ -44,9 +44,9 @@ void Session::read_mesh_in_mm() {
 }
 
 void Session::load_mesh(const std::string& file, double scale) {
-  state_.mesh = std::filesystem::absolute(file).lexically_normal().string();
+  state_.mesh = absolute_path(file);
   state_.scale = scale;
-  state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
+  forget_cuts();
   read_mesh_in_mm();
   state_.coloring = Coloring::tissue;
   state_.zoom.reset(), state_.figure.clear();
@@ -57,13 +57,20 @@ void Session::load_mesh(const std::string& file, double scale) {
 
 void Session::show_patch() {
   open_study();
-  state_.mesh.clear(), state_.cuts.clear(), state_.undone.clear(), state_.tension.reset();
+  state_.mesh.clear();
+  forget_cuts();
   mesh_.reset();
+  follow_parameters();  // no tension keeps it from what lies between cases
   state_.coloring = Coloring::displacement;
   state_.figure.clear();
   state_.camera = {};
   cuts_changed();
   changes_.all();
+}
+
+void Session::forget_cuts() {
+  state_.cuts.clear(), state_.undone.clear();
+  state_.tension.reset(), state_.tensions.clear(), state_.tensions_undone.clear();
 }
 
 void Session::cuts_changed() {
@@ -76,7 +83,7 @@ void Session::cut(const CutState& cut) {
   if (!mesh_) throw InputError("there is no mesh to cut (say: mesh FILE)");
   const bool first = state_.cuts.empty();
   state_.cuts.push_back(cut);
-  state_.undone.clear();
+  state_.undone.clear(), state_.tensions_undone.clear();
   cuts_changed();
   if (first && !state_.camera.pose) changes_.camera = true;  // angles count from the first cut
 }
@@ -90,22 +97,41 @@ void Session::recut(const CutState& cut) {
 void Session::pull(const std::optional<SkinTension>& tension) {
   if (tension) open_study();
   if (tension && !mesh_) throw InputError("there is no skin to pull (say: mesh FILE)");
+  state_.tensions.push_back({state_.cuts.size(), state_.tension});
+  state_.undone.clear(), state_.tensions_undone.clear();
   state_.tension = tension;
+  tension_changed();
+}
+
+void Session::tension_changed() {
   follow_parameters();
   scenes_.clear();
   set_time(state_.time);  // makes the scenes, and throws where they cannot be made
   changes_.cuts = true;
 }
 
+/// The last change, taken from one list and put on the other, whose kind tells the number of cuts it was made
+/// at.
+bool Session::swap_tension(std::vector<TensionChange>& from, std::vector<TensionChange>& to) {
+  if (from.empty() || from.back().cuts != state_.cuts.size()) return false;
+  to.push_back({from.back().cuts, state_.tension});
+  state_.tension = from.back().tension;
+  from.pop_back();
+  tension_changed();
+  return true;
+}
+
 void Session::undo() {
-  if (state_.cuts.empty()) throw InputError("there is no cut to undo");
+  if (swap_tension(state_.tensions, state_.tensions_undone)) return;
+  if (state_.cuts.empty()) throw InputError("there is no cut and no tension to undo");
   state_.undone.push_back(state_.cuts.back());
   state_.cuts.pop_back();
   cuts_changed();
 }
 
 void Session::redo() {
-  if (state_.undone.empty()) throw InputError("there is no undone cut to make again");
+  if (swap_tension(state_.tensions_undone, state_.tensions)) return;
+  if (state_.undone.empty()) throw InputError("there is no undone cut or tension to make again");
   state_.cuts.push_back(state_.undone.back());
   state_.undone.pop_back();
   cuts_changed();

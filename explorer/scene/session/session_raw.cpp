@@ -14,7 +14,7 @@ const std::vector<std::string> figure_names{"off", "constraints", "lattice", "vo
 
 const std::vector<std::string>& overlay_figures() { return figure_names; }
 
-std::string Session::why_no_raw(int i) {
+std::string Session::why_no_raw(int i) const {
   if (!study_) return "no study is open (say: open DIR)";
   if (between_ && i == state_.shown)
     return "what lies between cases was never simulated: there are no raw frames (say: case " +

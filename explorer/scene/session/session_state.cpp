@@ -54,6 +54,29 @@ Json to_json(const CameraState& camera) {
   return j;
 }
 
+Json to_json(const std::optional<SkinTension>& tension) {
+  if (!tension) return nullptr;
+  return {
+      {"direction", to_json(tension->direction)}, {"larger", tension->larger}, {"smaller", tension->smaller}};
+}
+
+std::optional<SkinTension> to_tension(const Json& j) {
+  if (j.is_null()) return std::nullopt;
+  return SkinTension{to_vec3(j.at("direction")), j.at("larger"), j.at("smaller")};
+}
+
+Json to_json(const std::vector<TensionChange>& changes) {
+  Json list = Json::array();
+  for (const TensionChange& c : changes) list.push_back({{"cuts", c.cuts}, {"tension", to_json(c.tension)}});
+  return list;
+}
+
+std::vector<TensionChange> to_changes(const Json& list) {
+  std::vector<TensionChange> changes;
+  for (const Json& c : list) changes.push_back({c.at("cuts"), to_tension(c.at("tension"))});
+  return changes;
+}
+
 CameraState to_camera(const Json& j) {
   CameraState camera{j.at("azimuth"), j.at("elevation"), j.at("zoom"), std::nullopt};
   if (j.contains("pose")) {
@@ -74,9 +97,10 @@ SessionState to_state(const Json& j) {
   s.scale = j.at("scale");
   s.cuts = to_cuts(j.at("cuts"));
   s.undone = to_cuts(j.at("undone"));
-  if (j.contains("tension"))  // sessions saved before there was one have none
-    s.tension = SkinTension{to_vec3(j["tension"].at("direction")), j["tension"].at("larger"),
-                            j["tension"].at("smaller")};
+  // Sessions saved before there were tensions have none.
+  s.tension = to_tension(j.value("tension", Json()));
+  s.tensions = to_changes(j.value("tensions", Json::array()));
+  s.tensions_undone = to_changes(j.value("tensions_undone", Json::array()));
   s.time = j.at("time");
   s.loop = j.at("loop");
   s.speed = j.at("speed");
@@ -135,10 +159,9 @@ std::string state_to_json(const SessionState& s) {
          {"compared", compared},
          {"camera", to_json(s.camera)},
          {"dark", s.dark}};
-  if (s.tension)
-    j["tension"] = {{"direction", to_json(s.tension->direction)},
-                    {"larger", s.tension->larger},
-                    {"smaller", s.tension->smaller}};
+  if (s.tension) j["tension"] = to_json(s.tension);
+  if (!s.tensions.empty()) j["tensions"] = to_json(s.tensions);
+  if (!s.tensions_undone.empty()) j["tensions_undone"] = to_json(s.tensions_undone);
   if (s.probe) j["probe"] = {{"place", to_json(s.probe->uvw)}, {"side", static_cast<int>(s.probe->side)}};
   if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
   if (!s.figure.empty()) j["figure"] = s.figure;

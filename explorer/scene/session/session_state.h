@@ -41,6 +41,12 @@ struct ZoomState {
   double radius = 5;
 };
 
+/// Another tension, given when there were so many cuts.
+struct TensionChange {
+  std::size_t cuts;
+  std::optional<SkinTension> tension;  ///< before it; of one that is undone, after it
+};
+
 struct SessionState {
   std::string study;  ///< study folder, study.dffd or case.dffd; empty: nothing is open
   int shown = 0;      ///< case, from 0
@@ -51,6 +57,7 @@ struct SessionState {
   double scale = 1;  ///< mm in a unit of the mesh
   std::vector<CutState> cuts, undone;
   std::optional<SkinTension> tension;  ///< of the mesh; none: that of the shown case, along every cut
+  std::vector<TensionChange> tensions, tensions_undone;  ///< oldest first; last undone last
 
   double time = 0;  ///< length cut
   bool playing = false, loop = false;

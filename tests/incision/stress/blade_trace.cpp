@@ -14,6 +14,10 @@ namespace {
 struct Hit {
   int triangle = -1;
   Vec3 place;
+  /// Whether the blade stands so upright that what moves it a little moves the place but a little.
+  bool sound(const Ground& ground, const PathFrame& frame) const {
+    return triangle >= 0 && dot(ground.face_normal(triangle), frame.outward) > 0.3;
+  }
   void look(const CutMesh& mesh, int t, const PathFrame& frame, const Vec3& near) {
     if (!pierces(mesh, t, frame)) return;
     const Vec3 p = piercing_point(mesh, t, frame);
@@ -52,11 +56,12 @@ std::optional<double> blade_trace(const Ground& ground, const ScalpelPath& path,
   Hit at;
   for (int t = 0; t < static_cast<int>(ground.mesh.triangles().size()); ++t)
     at.look(ground.mesh, t, path.at(from + step / 2), start);
-  if (at.triangle < 0) return std::nullopt;
+  if (!at.sound(ground, path.at(from + step / 2))) return std::nullopt;
   double length = aside(at.place - start, path.at(from).outward);
   for (int k = 1; k < pieces; ++k) {
-    const Hit next = beside(ground.mesh, at.triangle, path.at(from + (k + 0.5) * step), at.place);
-    if (next.triangle < 0) return std::nullopt;
+    const PathFrame frame = path.at(from + (k + 0.5) * step);
+    const Hit next = beside(ground.mesh, at.triangle, frame, at.place);
+    if (!next.sound(ground, frame)) return std::nullopt;
     length += norm(next.place - at.place);
     at = next;
   }

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 struct Options {
   stress::Plan plan;
   std::string meshes, only;
+  double minutes = 0;
   bool large = false, json = false;
 };
 
@@ -27,7 +28,7 @@ struct Subject {
 
 double hills(double x, double y) { return 0.8 * std::sin(0.9 * x) * std::cos(0.7 * y); }
 
-std::vector<Subject> generated(bool large) {
+std::vector<Subject> generated() {
   using namespace testing;
   SurfaceMesh stretched = grid(40, 40, -10, -10, 0.5);
   for (Vec3& p : stretched.points) p.y *= 0.1;
@@ -36,7 +37,6 @@ std::vector<Subject> generated(bool large) {
       {"stretched plane", stretched},          {"sphere", sphere(4, 10)},
       {"octahedron", sphere(1, 10), false},    {"torus", ring(60, 24, 10, 4, true)},
       {"cylinder", ring(40, 20, 10, 3, false)}};
-  if (large) subjects.push_back({"plane of a million", grid(708, 708, -10, -10, 20. / 708, hills)});
   return subjects;
 }
 
@@ -47,6 +47,7 @@ void report(const std::string& name, const stress::Tally& t, bool json) {
                        {"steps", t.steps},
                        {"crossings", t.crossings},
                        {"refused", t.refused},
+                       {"refused_impossible", t.due},
                        {"violations", t.violations},
                        {"poor_triangles", t.poor},
                        {"poor_triangles_squeezed", t.squeezed},
@@ -58,18 +59,19 @@ void report(const std::string& name, const stress::Tally& t, bool json) {
                   true);
   } else {
     std::printf(
-        "%-34s %7ld paths %8ld steps %6ld crossings %5ld refused %4ld violations  quality %.2g (%ld poor, "
+        "%-34s %7ld paths %8ld steps %6ld crossings %5ld refused (%ld impossible) %4ld violations  quality "
+        "%.2g (%ld poor, "
         "%ld squeezed)  "
         "lip %.2g "
         "(%ld, %ld jump)  area %.1g\n",
-        name.c_str(), t.paths, t.steps, t.crossings, t.refused, t.violations, t.worst_quality, t.poor,
+        name.c_str(), t.paths, t.steps, t.crossings, t.refused, t.due, t.violations, t.worst_quality, t.poor,
         t.squeezed, t.worst_lip_length, t.long_lips, t.jumping, t.worst_area);
   }
   std::fflush(stdout);
 }
 
 void run(const Options& o) {
-  std::vector<Subject> subjects = generated(o.large);
+  std::vector<Subject> subjects = generated();
   if (!o.meshes.empty()) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(o.meshes))
@@ -80,16 +82,21 @@ void run(const Options& o) {
       subjects.push_back(
           {file.stem().string(), read_mesh(file.string()), file.parent_path().filename() != "defective"});
   }
+  if (o.large)
+    subjects.push_back({"plane of a million", testing::grid(708, 708, -10, -10, 20. / 708, hills)});
   if (!o.only.empty())
     std::erase_if(subjects, [&](const Subject& s) { return s.name.find(o.only) == s.name.npos; });
   if (subjects.empty()) throw InputError("no mesh to cut: --only " + o.only + " names none");
   stress::Tally all;
   stress::Plan plan = o.plan;
+  if (o.minutes > 0)
+    plan.until = stress::Clock::now() + std::chrono::seconds(static_cast<long>(60 * o.minutes));
   plan.paths = std::max(1L, plan.paths / static_cast<long>(subjects.size()));
   for (const Subject& subject : subjects) {
     plan.good = subject.good;
     const stress::Tally tally = stress::stress(subject.name, subject.mesh, plan);
     report(subject.name, tally, o.json);
+    for (const std::string& line : tally.listed) std::printf("  %s\n", line.c_str());
     all.add(tally);
   }
   report("all", all, o.json);
@@ -98,6 +105,8 @@ void run(const Options& o) {
                 stress::name_of(static_cast<stress::PathKind>(i)).c_str(),
                 all.paths_of[static_cast<std::size_t>(i)], all.refused_of[static_cast<std::size_t>(i)],
                 all.poor_of[static_cast<std::size_t>(i)]);
+  for (const auto& [reason, count] : all.due_reasons)
+    std::printf("  %5ld impossible: %s\n", count, reason.c_str());
   for (const auto& [reason, count] : all.reasons) std::printf("  %5ld refused: %s\n", count, reason.c_str());
   for (const std::string& violation : all.first_violations)
     std::printf("  violation: %s\n", violation.c_str());
@@ -112,8 +121,12 @@ int main(int argc, char** argv) {
   Options o;
   app.add_option("--seed", o.plan.seed, "seed of the paths")->capture_default_str();
   app.add_option("--paths", o.plan.paths, "paths in all")->capture_default_str();
+  app.add_option("--minutes", o.minutes, "stop after so long, with the report of what was cut; 0: never")
+      ->capture_default_str();
   app.add_option("--meshes", o.meshes, "folder of .obj and .stl files, besides the generated ones");
   app.add_option("--only", o.only, "meshes whose name contains this");
+  app.add_flag("--list", o.plan.list,
+               "each path that was refused, or left poor triangles or lips of another length");
   app.add_flag("--large", o.large, "a mesh of a million triangles too");
   app.add_flag("--json", o.json, "figures as JSON");
   return run_command(app, argc, argv, [&] { run(o); });

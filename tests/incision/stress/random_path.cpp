@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "base/error.h"
 
@@ -98,9 +99,11 @@ Points along_edges(const Ground& ground, PathKind kind, std::mt19937_64& random)
   Vec3 heading = start.heading;
   Points points;
   const int count = 2 + static_cast<int>(random() % 12);
+  std::set<int> visited;
   for (int i = 0; i <= count; ++i) {
     const Vec3 p = ground.mesh.position(v), n = ground.vertex_normals[v];
     points.push_back({p + off * cross(n, heading), n, depth});
+    if (!visited.insert(v).second) break;  // on along its own lips there is nothing left to cut
     int best = -1;
     double straightest = -2;
     std::vector<int> fan;
@@ -166,7 +169,10 @@ std::optional<ScalpelPath> random_path(const Ground& ground, PathKind kind,
   }
   if (points.size() < 3) return std::nullopt;
   try {
-    return ScalpelPath(points);
+    const ScalpelPath path(points);
+    // Begun at a fold that it cannot pass: no cut.
+    const double edge = ground.edge_length(0);
+    return path.length() < 1e-4 * edge ? std::nullopt : std::optional(path);
   } catch (const InputError&) {
     return std::nullopt;
   }

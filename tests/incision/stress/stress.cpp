@@ -10,6 +10,7 @@
 #include "explorer/incision/incision.h"
 #include "explorer/incision/triangle_quality.h"
 #include "tests/incision/stress/blade_trace.h"
+#include "tests/incision/stress/refusals.h"
 #include "tests/incision/stress/soundness.h"
 
 namespace cleft::stress {
@@ -46,7 +47,7 @@ class Stress {
   }
 
   Tally run() {
-    while (tally_.paths < plan_.paths) group();
+    while (tally_.paths < plan_.paths && Clock::now() < plan_.until) group();
     return tally_;
   }
 
@@ -104,7 +105,7 @@ class Stress {
     } catch (const InputError& error) {
       ++tally_.refused;
       ++tally_.refused_of[static_cast<std::size_t>(kind)];
-      ++tally_.reasons[kind_of(error.what())];
+      refused(path, cut.get(), error.what());
       check();
     } catch (const std::exception& error) {
       violation(error.what());
@@ -115,6 +116,15 @@ class Stress {
     if (!cut) return nullptr;
     after(*cut, kind, area, boundary);
     return cut;
+  }
+
+  void refused(const ScalpelPath& path, const Incision* cut, const std::string& why) {
+    const std::string due =
+        cut ? reason_to_refuse(ground_, path, mesh_.position(cut->chain().back().left), cut->tip(), mesh_)
+            : reason_never_to_begin(ground_, path, mesh_);
+    tally_.due += !due.empty();
+    ++(due.empty() ? tally_.reasons[kind_of(why)] : tally_.due_reasons[due]);
+    list("refused" + (due.empty() ? "" : " (" + due + ")") + ": " + why);
   }
 
   void after(const Incision& cut, PathKind kind, double area, long boundary) {
@@ -139,6 +149,7 @@ class Stress {
       const double error = length ? std::abs(lip / *length - 1) : 0;
       tally_.worst_lip_length = std::max(tally_.worst_lip_length, error);
       tally_.long_lips += error > 0.01;
+      if (error > 0.01) list("lips " + std::to_string(lip / *length) + " of the blade's way");
       if (error > 0.01 && plan_.good)
         violation("lips " + std::to_string(lip / *length) + " of the blade's way");
     }
@@ -150,6 +161,10 @@ class Stress {
     tally_.poor += poor;
     const bool squeezed = poor && between_edges(worst_triangle, cut.cut());
     tally_.squeezed += squeezed;
+    if (poor)
+      list("a triangle of " + std::to_string(worst / asked) + " of what is asked near " +
+           place_of(mesh_.position(mesh_.triangle(worst_triangle).vertex[0])) +
+           (squeezed ? ", squeezed" : ""));
     if (poor && !squeezed && plan_.good)
       violation("a triangle of " + std::to_string(worst / asked) + " of what is asked");
     tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
@@ -191,6 +206,10 @@ class Stress {
     if (const std::string wrong = soundness_.step(); !wrong.empty()) violation("undo: " + wrong);
   }
 
+  void list(const std::string& what) {
+    if (plan_.list) tally_.listed.push_back(label_ + ": " + what);
+  }
+
   void violation(const std::string& what) {
     ++tally_.violations;
     if (tally_.first_violations.size() < 8) tally_.first_violations.push_back(label_ + ": " + what);
@@ -216,7 +235,9 @@ void Tally::add(const Tally& o) {
   worst_quality = std::min(worst_quality, o.worst_quality);
   worst_lip_length = std::max(worst_lip_length, o.worst_lip_length);
   worst_area = std::max(worst_area, o.worst_area);
+  due += o.due;
   for (const auto& [reason, count] : o.reasons) reasons[reason] += count;
+  for (const auto& [reason, count] : o.due_reasons) due_reasons[reason] += count;
   first_violations.insert(first_violations.end(), o.first_violations.begin(), o.first_violations.end());
   for (std::size_t i = 0; i < paths_of.size(); ++i)
     paths_of[i] += o.paths_of[i], refused_of[i] += o.refused_of[i], poor_of[i] += o.poor_of[i];
