@@ -8,7 +8,6 @@
 #include "explorer/scene/session/command_table.h"
 #include "explorer/scene/session/session.h"
 #include "explorer/view/picture.h"
-#include "params/study_index.h"
 
 using namespace cleft;
 
@@ -69,18 +68,9 @@ void begin(Session& session, const CLI::App& app, const Options& o) {
     session.say("camera " + shortest(o.view[0]) + " " + shortest(o.view[1]) + " " + shortest(o.zoom));
 }
 
-/// The fields are there: only comparing them with the simulation is not possible any more.
-void tell_of_dropped_snapshots(const std::string& study) {
-  int dropped = 0;
-  for (const auto& [hash, one] : study_index(study)) dropped += !one.snapshot;
-  if (dropped > 0)
-    std::cerr << study << ": the raw data of " << dropped << " cases are gone (keep_snapshots = \"none\")\n";
-}
-
 void explore(const CLI::App& app, const Options& o) {
   Session session(session_services([](const std::string& text) { std::cout << text << '\n'; }));
   begin(session, app, o);
-  if (!o.study.empty()) tell_of_dropped_snapshots(o.study);
   if (!o.script.empty()) session.run_script(o.script);
   if (!o.screenshot.empty())
     session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +

@@ -73,9 +73,6 @@ QVariant CaseModel::headerData(int section, Qt::Orientation orientation, int rol
 }
 
 void CaseModel::row_changed(int i) { emit dataChanged(index(i, 0), index(i, columnCount() - 1)); }
-void CaseModel::rows_changed() {
-  if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
-}
 
 CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_known)
     : session_(session), say_(std::move(say)), figures_known_(std::move(figures_known)), model_(session) {
@@ -157,7 +154,7 @@ void CaseTable::follow(const Changes& changes) {
     if (session_.study()) idle_.start(0);
   }
   if (changes.brushes) {
-    model_.rows_changed();
+    table_->viewport()->update();  // only their colours: nothing is sorted anew
     condition_->setText(QString::fromStdString(session_.state().where));
   }
   if ((changes.study || changes.shown) && session_.study()) {

@@ -22,7 +22,6 @@ class CaseModel : public QAbstractTableModel {
 
   void new_study();
   void row_changed(int i);
-  void rows_changed();
 
  private:
   bool known(int row, int column) const;

@@ -17,6 +17,7 @@ const char* const keys = R"(<h2>Mouse and keys</h2><table cellpadding=3>
 <tr><td><b>Space</b></td><td>play or pause</td></tr>
 <tr><td><b>Left, Right</b></td><td>back or on by 1 mm of cut</td></tr>
 <tr><td><b>Page Up, Page Down</b></td><td>case before, next case</td></tr>
+<tr><td><b>P, Z</b></td><td>click a point: plot its motion, or read the simulation's nodes there; Esc: no more</td></tr>
 <tr><td><b>C</b></td><td>scalpel on or off</td></tr>
 <tr><td><b>Ctrl+Z, Ctrl+Shift+Z</b></td><td>take the last cut or tension back, make it again</td></tr>
 <tr><td><b>Home</b></td><td>camera back to where it was at first</td></tr>

@@ -1,5 +1,6 @@
 #include "explorer/app/main_window.h"
 
+#include <QApplication>
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QFileDialog>
@@ -49,10 +50,14 @@ MainWindow::MainWindow(Session& session) : session_(session) {
     follow_tools();
   });
   session_.answer_to([this](const std::string& text) { message_->answer(QString::fromStdString(text)); });
+  session_.tell_progress_to(
+      [this](const std::string& what, double part) { return show_progress(what, part); });
   session_.listen([this](const Changes& changes) { follow(changes); });
   Changes all;
   all.all();
   follow(all);
+  for (const std::string& notice : session_.notices())  // of what was open before there was a window
+    message_->answer(QString::fromStdString(notice));
 }
 
 MainWindow::~MainWindow() { device_.reset(); }
@@ -115,17 +120,41 @@ void MainWindow::make_docks() {
 }
 
 bool MainWindow::say(const std::string& line) {
+  if (saying_) return false;  // events while a line is being done
+  saying_ = true;
   message_->tell("");
+  since_said_.start();
   try {
     session_.say(line);
+    saying_ = false;
+    progress_.reset();
     return true;
   } catch (const std::exception& e) {
+    saying_ = false;
+    progress_.reset();
     message_->tell(QString::fromStdString(e.what()));
     Changes all;  // widgets that were ahead of the session come back to it
     all.time = all.shown = all.coloring = all.playing = true;
     follow(all);
     return false;
   }
+}
+
+/// What takes longer than a moment is shown, and can be cancelled.
+bool MainWindow::show_progress(const std::string& what, double part) {
+  constexpr int moment = 300, steps = 1000;  // ms
+  if (!saying_ || (!progress_ && since_said_.elapsed() < moment)) return true;
+  if (!progress_) {
+    progress_ = std::make_unique<QProgressDialog>("", "Cancel", 0, steps, this);
+    progress_->setObjectName("progress");
+    progress_->setWindowModality(Qt::WindowModal);
+    progress_->setMinimumDuration(0);
+    progress_->setAutoReset(false);
+  }
+  progress_->setLabelText(QString::fromStdString(what) + " ...");
+  progress_->setValue(static_cast<int>(part * steps));
+  QApplication::processEvents();
+  return !progress_->wasCanceled();
 }
 
 void MainWindow::take_command_line() {

@@ -3,10 +3,12 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMainWindow>
 #include <QMenu>
+#include <QProgressDialog>
 #include <QStackedWidget>
 #include <vector>
 
@@ -40,6 +42,9 @@ class MainWindow : public QMainWindow {
   void make_actions();
   void make_tools();
   void make_device_menu(QMenu* menu);
+  void make_closer_actions(QMenu* menu);
+  void pick(const std::string& command);
+  bool show_progress(const std::string& what, double part);
   QAction* add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
                       std::function<void()> run);
   void follow(const Changes& changes);
@@ -64,7 +69,11 @@ class MainWindow : public QMainWindow {
   QComboBox* coloring_;
   QAction *scalpel_, *undo_, *redo_, *dark_;
   QDoubleSpinBox *depth_, *tilt_;
-  QMenu *recent_, *device_menu_;
+  QMenu *recent_, *device_menu_, *figure_menu_;
+  QAction *probe_, *zoom_, *between_;
+  std::unique_ptr<QProgressDialog> progress_;
+  QElapsedTimer since_said_;
+  bool saying_ = false;
   std::vector<QAction*> layouts_;
 };
 

@@ -1,6 +1,7 @@
 // Menus, tool bar and theme of the window.
 #include <QAction>
 #include <QApplication>
+#include <QFileDialog>
 #include <QMenuBar>
 #include <QPalette>
 #include <QSignalBlocker>
@@ -43,6 +44,15 @@ void MainWindow::make_actions() {
              [this] { choose("Load a session", "Sessions and pictures (*.json *.png)", "load", false); });
   add_action(file, "screenshot", "S&creenshot ...", QKeySequence("Ctrl+P"),
              [this] { choose("Save a picture", "Pictures (*.png)", "screenshot", true); });
+  add_action(file, "screenshot_transparent", "Screenshot &without background ...", {}, [this] {
+    const QString path = QFileDialog::getSaveFileName(this, "Save a picture", {}, "Pictures (*.png)");
+    const QSize size = scene_->size();
+    if (!path.isEmpty())
+      say("screenshot " + quoted(path.toStdString()) + " " + std::to_string(size.width()) + " " +
+          std::to_string(size.height()) + " transparent");
+  });
+  add_action(file, "movie", "M&ovie ...", {},
+             [this] { choose("Save a movie", "Movies (*.ogv)", "movie", true); });
   add_action(file, "export", "&Export the cut mesh ...", {},
              [this] { choose("Export the mesh", "Surface meshes (*.vtp *.stl *.obj)", "export", true); });
   add_action(file, "record", "&Write the commands so far ...", {},
@@ -76,12 +86,43 @@ void MainWindow::make_actions() {
              [this] { say(session_.state().playing ? "pause" : "play"); });
   add_action(view, "back", "&Back by 1 mm", QKeySequence("Left"), line("step -1"));
   add_action(view, "on", "On by 1 &mm", QKeySequence("Right"), line("step 1"));
+  make_closer_actions(view);
   dark_ = add_action(view, "dark", "&Dark", QKeySequence("Ctrl+D"),
                      [this] { say(session_.state().dark ? "theme light" : "theme dark"); });
   dark_->setCheckable(true);
 
   QMenu* help = menuBar()->addMenu("&Help");
   add_action(help, "help_sheet", "&Keys and commands", QKeySequence("F1"), [this] { show_help(); });
+}
+
+/// Looking closer: between cases, at single points, at how it works.
+void MainWindow::make_closer_actions(QMenu* menu) {
+  between_ = add_action(menu, "between", "&Interpolate between cases", {},
+                        [this] { say(session_.state().between ? "between off" : "between on"); });
+  between_->setCheckable(true);
+  probe_ = add_action(menu, "probe", "Pro&be a point", QKeySequence("P"), [this] { pick("probe"); });
+  probe_->setCheckable(true);
+  probe_->setToolTip("Click a point of the patch: its motion is plotted (P)");
+  zoom_ = add_action(menu, "zoom", "&Zoom to the simulation's nodes", QKeySequence("Z"),
+                     [this] { pick("zoom"); });
+  zoom_->setCheckable(true);
+  zoom_->setToolTip("Click a point of the patch: the simulation's nodes there are read and drawn (Z)");
+  add_action(menu, "closer_off", "&No probe, no zoom", QKeySequence("Esc"), [this] {
+    pick("");
+    if (session_.state().probe) say("probe clear");
+    if (session_.state().zoom) say("zoom off");
+  });
+  figure_menu_ = menu->addMenu("&How it works");
+  for (const std::string& name : overlay_figures())
+    add_action(figure_menu_, ("figure_" + name).c_str(), QString::fromStdString(name), {}, [this, name] {
+      say("figure " + name);
+    })->setCheckable(true);
+}
+
+/// Another time the same: no more.
+void MainWindow::pick(const std::string& command) {
+  scene_->set_picking(command == scene_->picking() ? "" : command);
+  follow_tools();
 }
 
 void MainWindow::make_device_menu(QMenu* menu) {
@@ -144,7 +185,11 @@ void MainWindow::make_tools() {
   bar->addAction(undo_);
   bar->addAction(redo_);
   bar->addSeparator();
-  for (const char* name : {"single", "compare", "front", "screenshot", "help_sheet"})
+  const std::pair<const char*, const char*> short_texts[] = {
+      {"probe", "Probe"}, {"zoom", "Zoom"},          {"compare", "Four cases"},
+      {"front", "Front"}, {"screenshot", "Picture"}, {"help_sheet", "Help"}};
+  for (const auto& [name, text] : short_texts) findChild<QAction*>(name)->setIconText(text);
+  for (const char* name : {"probe", "zoom", "single", "compare", "front", "screenshot", "help_sheet"})
     bar->addAction(findChild<QAction*>(name));
 }
 
@@ -161,6 +206,17 @@ void MainWindow::follow_tools() {
   redo_->setEnabled(!s.undone.empty());
   dark_->setChecked(s.dark);
   device_menu_->setEnabled(can_cut);
+  const bool patch = session_.study() && !can_cut;
+  if (!patch) scene_->set_picking("");
+  for (QAction* action : {probe_, zoom_}) {
+    action->setEnabled(patch);
+    action->setChecked(action->objectName().toStdString() == scene_->picking());
+  }
+  between_->setEnabled(session_.study() != nullptr);
+  between_->setChecked(s.between);
+  figure_menu_->setEnabled(session_.has_scene());
+  const QString figure = "figure_" + QString::fromStdString(s.figure.empty() ? "off" : s.figure);
+  for (QAction* action : figure_menu_->actions()) action->setChecked(action->objectName() == figure);
   const QString device = "device_" + QString::fromStdString(device_->on() ? device_->name() : "off");
   for (QAction* action : device_menu_->actions()) action->setChecked(action->objectName() == device);
 }

@@ -38,8 +38,9 @@ MessageBar::MessageBar() {
 
 void MessageBar::tell(const QString& message) {
   text_->setText(message);
-  show_as("#fbe3df", "#b3261e", "#410e0b");
   setVisible(!message.isEmpty());
+  if (message.isEmpty()) return;
+  show_as("#fbe3df", "#b3261e", "#410e0b");
 }
 
 void MessageBar::answer(const QString& line) {
@@ -49,6 +50,8 @@ void MessageBar::answer(const QString& line) {
 }
 
 void MessageBar::show_as(const char* paper, const char* edge, const char* ink) {
+  if (paper_ == paper) return;
+  paper_ = paper;
   setStyleSheet(QString("#message_bar { background: %1; border-top: 2px solid %2; } #message_bar "
                         "QScrollArea, #message { background: transparent; color: %3; }")
                     .arg(paper, edge, ink));

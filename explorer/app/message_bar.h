@@ -19,6 +19,7 @@ class MessageBar : public QFrame {
   void show_as(const char* paper, const char* edge, const char* ink);
 
   QLabel* text_;
+  QString paper_;  ///< as it was styled last
 };
 
 }  // namespace cleft

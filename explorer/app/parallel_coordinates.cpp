@@ -11,7 +11,8 @@ namespace cleft {
 
 namespace {
 constexpr double side = 34, above = 56, below = 22;  // margins, pixels
-}
+constexpr std::size_t most_smooth = 300;             // cases: more lines are drawn without antialiasing
+}  // namespace
 
 ParallelCoordinates::ParallelCoordinates(Session& session, Say say)
     : session_(session), say_(std::move(say)) {
@@ -41,6 +42,7 @@ void ParallelCoordinates::take_figures() {
       axes_.push_back(axis);
     }
   }
+  lines_ = QPixmap();
   update();
 }
 
@@ -69,24 +71,38 @@ void ParallelCoordinates::paint_line(QPainter& painter, std::size_t row) const {
   painter.drawPolyline(line);
 }
 
+/// The lines of all cases: drawn anew where they or the brushes change, not where another case is shown.
+void ParallelCoordinates::paint_lines() {
+  const double ratio = devicePixelRatioF();
+  lines_ = QPixmap(size() * ratio);
+  lines_.setDevicePixelRatio(ratio);
+  lines_.fill(palette().base().color());
+  QPainter painter(&lines_);
+  painter.setRenderHint(QPainter::Antialiasing, rows_.size() <= most_smooth);
+  QColor faded = palette().text().color(), kept(0, 114, 178);
+  faded.setAlpha(28), kept.setAlpha(rows_.size() > 100 ? 90 : 200);
+  std::vector<bool> inside(rows_.size());
+  for (std::size_t row = 0; row < rows_.size(); ++row) inside[row] = session_.brushed(cases_[row]);
+  for (const bool in : {false, true}) {
+    painter.setPen(QPen(in ? kept : faded, rows_.size() <= most_smooth ? 1.3 : 0));
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (inside[row] == in) paint_line(painter, row);
+  }
+}
+
 void ParallelCoordinates::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.fillRect(rect(), palette().base());
   const QColor ink = palette().text().color();
   if (rows_.empty()) {
+    painter.fillRect(rect(), palette().base());
     painter.drawText(rect(), Qt::AlignCenter,
                      session_.study() ? "Reading the cases ..." : "No study is open.");
     return;
   }
-  QColor faded = ink, kept(0, 114, 178), shown(213, 94, 0);
-  faded.setAlpha(28), kept.setAlpha(rows_.size() > 100 ? 90 : 200);
-  const auto brushed = [&](std::size_t row) { return session_.brushed(cases_[row]); };
-  for (const bool inside : {false, true}) {
-    painter.setPen(QPen(inside ? kept : faded, 1.3));
-    for (std::size_t row = 0; row < rows_.size(); ++row)
-      if (brushed(row) == inside) paint_line(painter, row);
-  }
+  if (lines_.size() != size() * devicePixelRatioF()) paint_lines();
+  painter.drawPixmap(0, 0, lines_);
+  const QColor shown(213, 94, 0);
   painter.setPen(QPen(shown, 2.6));
   for (std::size_t row = 0; row < rows_.size(); ++row)
     if (cases_[row] == session_.state().shown) paint_line(painter, row);
@@ -138,6 +154,7 @@ void ParallelCoordinates::mouseReleaseEvent(QMouseEvent*) { dragged_.reset(); }
 
 void ParallelCoordinates::follow(const Changes& changes) {
   if (changes.study) take_figures();
+  if (changes.brushes || changes.look) lines_ = QPixmap();
   if (changes.shown || changes.brushes || changes.look) update();
 }
 

@@ -2,6 +2,7 @@
 // along an axis keeps the cases in that range and fades the others; a click on an axis' name lifts it.
 #pragma once
 
+#include <QPixmap>
 #include <QWidget>
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ class ParallelCoordinates : public QWidget, public Panel {
   double value_at(const Axis& axis, double y) const;
   std::optional<std::size_t> axis_at(double x) const;
   void say_brush(double y);
+  void paint_lines();
   void paint_line(QPainter& painter, std::size_t row) const;
 
   Session& session_;
@@ -42,6 +44,7 @@ class ParallelCoordinates : public QWidget, public Panel {
   std::vector<Axis> axes_;
   std::vector<std::vector<double>> rows_;  // of cases whose values are known
   std::vector<int> cases_;                 // their numbers
+  QPixmap lines_;                          // none: to be drawn
   std::optional<std::size_t> dragged_;
   double pressed_y_ = 0;
 };

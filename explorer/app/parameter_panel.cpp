@@ -11,7 +11,8 @@ namespace cleft {
 
 namespace {
 constexpr int steps = 1000;
-}
+constexpr int milliseconds_between_looks = 50;
+}  // namespace
 
 ParameterPanel::ParameterPanel(Session& session, Say say) : session_(session), say_(std::move(say)) {
   column_ = new QVBoxLayout(this);
@@ -20,6 +21,10 @@ ParameterPanel::ParameterPanel(Session& session, Say say) : session_(session), s
   note_->setWordWrap(true);
   note_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   column_->addWidget(note_);
+  session_.prepare_beside(true);  // sliders need not wait for the cases to be read
+  connect(&waiting_, &QTimer::timeout, this, [this] {
+    if (!session_.take_prepared()) waiting_.stop();
+  });
   column_->addStretch(1);
 }
 
@@ -76,27 +81,44 @@ void ParameterPanel::show_values() {
         static_cast<int>(std::lround(steps * (asked->second - row.least) / (row.greatest - row.least))));
     QString text = QString("%1: <b>%2</b> %3")
                        .arg(QString::fromStdString(row.name))
-                       .arg(value->second, 0, 'g', 4)
+                       .arg(session_.between() ? asked->second : value->second, 0, 'g', 4)
                        .arg(QString::fromStdString(row.unit));
-    if (asked->second != value->second) text += QString(" (asked: %1)").arg(asked->second, 0, 'g', 4);
+    if (!session_.between() && asked->second != value->second)
+      text += QString(" (asked: %1)").arg(asked->second, 0, 'g', 4);
     row.text->setText(text);
   }
+  note_->setText(session_.between() ? note_between() : note_of_case());
+}
+
+QString ParameterPanel::note_between() const {
+  return QString(
+             "<b>Between the cases: interpolated, not simulated.</b><br>Largest displacement %1 mm; %2.<br>"
+             "Nearest case: %3.")
+      .arg(session_.between()->report.largest_displacement, 0, 'g', 3)
+      .arg(QString::fromStdString(error_of_interpolation(*session_.between())))
+      .arg(session_.state().shown + 1);
+}
+
+QString ParameterPanel::note_of_case() {
   const auto field = session_.field();
   QString note =
       QString(
           "Case %1 of %2, simulated.<br>Largest displacement %3 mm; no node of the field is off by more "
           "than %4 % of it.")
-          .arg(s.shown + 1)
+          .arg(session_.state().shown + 1)
           .arg(session_.study()->size())
           .arg(field->report.largest_displacement, 0, 'g', 3)
           .arg(100 * field->report.node_error, 0, 'g', 2);
-  if (!session_.shows_exactly()) note += "<br><b>No case has exactly these values: the nearest is shown.</b>";
-  note_->setText(note);
+  if (!session_.shows_exactly())
+    note += QString("<br><b>No case has exactly these values: the nearest is shown</b> (%1).")
+                .arg(QString::fromStdString(session_.why_nearest()));
+  return note;
 }
 
 void ParameterPanel::follow(const Changes& changes) {
   if (changes.study) make_rows();
-  if (changes.study || changes.shown) show_values();
+  if (changes.study || changes.shown || changes.layout || changes.cuts) show_values();
+  if (session_.preparing() && !waiting_.isActive()) waiting_.start(milliseconds_between_looks);
 }
 
 }  // namespace cleft

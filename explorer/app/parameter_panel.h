@@ -3,6 +3,7 @@
 
 #include <QLabel>
 #include <QSlider>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <QWidget>
 #include <vector>
@@ -19,6 +20,8 @@ class ParameterPanel : public QWidget, public Panel {
  private:
   void make_rows();
   void show_values();
+  QString note_between() const;
+  QString note_of_case();
 
   struct Row {
     std::string name, unit;
@@ -31,6 +34,7 @@ class ParameterPanel : public QWidget, public Panel {
   QVBoxLayout* column_;
   QWidget* rows_widget_ = nullptr;
   QLabel* note_;
+  QTimer waiting_;  ///< for what lies between the cases
   std::vector<Row> rows_;
 };
 

@@ -8,11 +8,14 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
+#include <vtkPlotPoints.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 
 #include <QVBoxLayout>
 #include <algorithm>
+
+#include "explorer/app/tornado_plot.h"
 
 namespace cleft {
 
@@ -27,10 +30,29 @@ Plots::Plots(Session& session) : session_(session) {
   column->setContentsMargins(0, 0, 0, 0);
   set_up(over_time_, "gape_over_time", "length cut, mm", "widest gape, mm");
   set_up(along_cut_, "opening_profile", "place along the cut, mm", "opening, mm");
-  column->addWidget(over_time_.widget, 1);
-  column->addWidget(along_cut_.widget, 1);
+  set_up(probe_, "probe_plot", "length cut, mm", "displacement, mm");
+  pages_ = new QTabWidget(this);
+  pages_->setObjectName("plot_pages");
+  pages_->addTab(make_page({&over_time_, &along_cut_}), "Opening");
+  QWidget* probe = make_page({&probe_});
+  probe_note_ = new QLabel(probe);
+  probe_note_->setObjectName("probe_note");
+  probe_note_->setWordWrap(true);
+  static_cast<QVBoxLayout*>(probe->layout())->insertWidget(0, probe_note_);
+  pages_->addTab(probe, "Probe");
+  pages_->addTab(new TornadoPlot(session), "Tornado");
+  connect(pages_, &QTabWidget::currentChanged, this, [this] { draw(); });
+  column->addWidget(pages_);
   soon_.setSingleShot(true);
   connect(&soon_, &QTimer::timeout, this, [this] { draw(); });
+}
+
+QWidget* Plots::make_page(std::initializer_list<Plot*> plots) {
+  auto* page = new QWidget(this);
+  auto* column = new QVBoxLayout(page);
+  column->setContentsMargins(0, 0, 0, 0);
+  for (Plot* plot : plots) column->addWidget(plot->widget, 1);
+  return page;
 }
 
 void Plots::set_up(Plot& plot, const char* name, const char* x, const char* y) {
@@ -69,7 +91,7 @@ void Plots::dress(Plot& plot) {
 }
 
 void Plots::add_curve(vtkChartXY* chart, const Curve& curve, const std::string& name, int color,
-                      bool dashed) {
+                      Style style) {
   vtkNew<vtkTable> table;
   vtkNew<vtkFloatArray> x, y;
   x->SetName("x"), y->SetName(name.c_str());
@@ -79,7 +101,10 @@ void Plots::add_curve(vtkChartXY* chart, const Curve& curve, const std::string& 
     table->SetValue(static_cast<vtkIdType>(i), 0, curve.x[i]);
     table->SetValue(static_cast<vtkIdType>(i), 1, curve.y[i]);
   }
-  vtkPlot* line = chart->AddPlot(vtkChart::LINE);
+  vtkPlot* line = chart->AddPlot(style == Style::dots ? vtkChart::POINTS : vtkChart::LINE);
+  const bool dashed = style == Style::dashed;
+  if (style == Style::dots)
+    static_cast<vtkPlotPoints*>(line)->SetMarkerSize(5), line->SetLegendVisibility(false);
   line->SetInputData(table, 0, 1);
   line->SetColor(colors[color][0], colors[color][1], colors[color][2], dashed ? 150 : 255);
   line->SetWidth(dashed ? 1.2F : 2.2F);
@@ -87,6 +112,41 @@ void Plots::add_curve(vtkChartXY* chart, const Curve& curve, const std::string& 
 }
 
 void Plots::draw() {
+  if (pages_->currentIndex() == 0) draw_opening();
+  if (pages_->currentIndex() == 1) draw_probe();
+  if (pages_->currentIndex() == 2) pages_->currentWidget()->update();
+}
+
+void Plots::draw_probe() {
+  probe_.chart->ClearPlots();
+  dress(probe_);
+  const bool probed = session_.study() && session_.state().probe;
+  QString note = "Probe (key P): click a point of the patch, or say: probe U,V,W";
+  if (probed) {
+    const Motion motion = session_.probed_motion();
+    constexpr const char* names[] = {"along u", "across v", "height w"};
+    for (int k = 0; k < 3; ++k) {
+      add_curve(probe_.chart, motion.field[static_cast<std::size_t>(k)], names[k], k, Style::line);
+      if (motion.node)
+        add_curve(probe_.chart, motion.raw[static_cast<std::size_t>(k)], std::string(names[k]) + ", node", k,
+                  Style::dots);
+    }
+    const Vec3& x = session_.state().probe->uvw;
+    note = QString("Motion of %1, %2, %3 mm; ").arg(x.x).arg(x.y).arg(x.z) +
+           (motion.node ? QString("dots: the simulation's node %1, %2, %3")
+                              .arg(motion.node->x, 0, 'g', 3)
+                              .arg(motion.node->y, 0, 'g', 3)
+                              .arg(motion.node->z, 0, 'g', 3)
+                        : QString::fromStdString(session_.why_no_raw(session_.state().shown)));
+  }
+  probe_note_->setText(note);
+  probe_.chart->SetShowLegend(probed);
+  probe_.chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);  // where motion begins
+  probe_.chart->RecalculateBounds();
+  probe_.widget->renderWindow()->Render();
+}
+
+void Plots::draw_opening() {
   over_time_.chart->ClearPlots();
   along_cut_.chart->ClearPlots();
   dress(over_time_), dress(along_cut_);
@@ -95,18 +155,18 @@ void Plots::draw() {
     const std::vector<int> views = session_.views();
     double highest = 0;
     for (std::size_t k = 0; k < views.size(); ++k) {
-      const auto field = session_.study()->field(views[k]);
+      const auto field = session_.field_of(views[k]);
       const auto known = gapes_.find(field.get());
       const Curve& gape = gapes[field.get()] = known != gapes_.end() ? known->second : gape_over_time(*field);
       const std::string name = "case " + std::to_string(views[k] + 1);
-      add_curve(over_time_.chart, gape, name, static_cast<int>(k), false);
+      add_curve(over_time_.chart, gape, name, static_cast<int>(k), Style::line);
       const Curve profile = opening_profile(*field, std::min(session_.state().time, field->duration()));
       if (k == 0) profile_ = profile;
-      add_curve(along_cut_.chart, profile, name, static_cast<int>(k), false);
+      add_curve(along_cut_.chart, profile, name, static_cast<int>(k), Style::line);
       highest = std::max(highest, *std::max_element(gape.y.begin(), gape.y.end()));
     }
     const double t = std::min(session_.state().time, session_.field()->duration());
-    add_curve(over_time_.chart, {{t, t}, {0, highest}}, "now", 1, true);
+    add_curve(over_time_.chart, {{t, t}, {0, highest}}, "now", 1, Style::dashed);
     along_cut_.chart->GetAxis(vtkAxis::LEFT)->SetBehavior(vtkAxis::FIXED);
     along_cut_.chart->GetAxis(vtkAxis::LEFT)
         ->SetRange(0, (highest > 0 ? highest : 1) * (views.size() > 1 ? 1.5 : 1.05));
@@ -126,10 +186,12 @@ void Plots::showEvent(QShowEvent* event) {
 
 void Plots::follow(const Changes& changes) {
   if (!isVisible()) return;
-  if (changes.study || changes.shown || changes.layout || changes.look)
+  if (changes.closer && session_.state().probe) pages_->setCurrentIndex(1);
+  if (changes.closer) draw();
+  if (changes.study || changes.layout || changes.look)
     draw();
-  else if (changes.time && !soon_.isActive())
-    soon_.start(milliseconds_a_plot);
+  else if (changes.shown || (changes.time && !soon_.isActive()))
+    soon_.start(milliseconds_a_plot);  // once a slider rests
 }
 
 }  // namespace cleft

@@ -7,6 +7,8 @@
 #include <vtkNew.h>
 #include <vtkTable.h>
 
+#include <QLabel>
+#include <QTabWidget>
 #include <QTimer>
 #include <QWidget>
 #include <map>
@@ -33,14 +35,20 @@ class Plots : public QWidget, public Panel {
     vtkNew<vtkChartXY> chart;
   };
   void set_up(Plot& plot, const char* name, const char* x, const char* y);
+  QWidget* make_page(std::initializer_list<Plot*> plots);
   void draw();
+  void draw_opening();
+  void draw_probe();
   void dress(Plot& plot);
+  enum class Style { line, dashed, dots };
   static void add_curve(vtkChartXY* chart, const Curve& curve, const std::string& name, int color,
-                        bool dashed);
+                        Style style);
 
   Session& session_;
   QTimer soon_;  ///< while time runs, plots are drawn less often than the picture
-  Plot over_time_, along_cut_;
+  Plot over_time_, along_cut_, probe_;
+  QTabWidget* pages_;
+  QLabel* probe_note_;
   std::map<const Field*, Curve> gapes_;  // of the fields shown
   Curve profile_;
 };

@@ -22,9 +22,8 @@ constexpr double spacing = 1;   // mm between the places of a cut
 
 std::string text(const Vec3& x) { return shortest(x.x) + "," + shortest(x.y) + "," + shortest(x.z); }
 
-/// What a mouse has done to the camera becomes a line.
-void call_back(vtkObject*, unsigned long, void* data, void*) {
-  (*static_cast<std::function<void()>*>(data))();
+void call_back(vtkObject*, unsigned long what, void* data, void*) {
+  (*static_cast<std::function<void(unsigned long)>*>(data))(what);
 }
 
 }  // namespace
@@ -40,19 +39,60 @@ SceneWidget::SceneWidget(Session& session, Say say) : session_(session), say_(st
 
   vtkNew<vtkInteractorStyleTrackballCamera> style;
   static_cast<vtkRenderWindowInteractor*>(interactor())->SetInteractorStyle(style);
-  auto* turned = new std::function<void()>([this] { say_camera(); });
-  for (const unsigned long what : {vtkCommand::EndInteractionEvent, vtkCommand::MouseWheelForwardEvent,
-                                   vtkCommand::MouseWheelBackwardEvent}) {
+  auto* turned = new std::function<void(unsigned long)>([this](unsigned long what) { turn(what); });
+  for (const unsigned long what :
+       {vtkCommand::StartInteractionEvent, vtkCommand::InteractionEvent, vtkCommand::EndInteractionEvent,
+        vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent}) {
     vtkNew<vtkCallbackCommand> after;
     after->SetCallback(call_back);
     after->SetClientData(turned);
-    if (what == vtkCommand::EndInteractionEvent) {
-      after->SetClientDataDeleteCallback([](void* f) { delete static_cast<std::function<void()>*>(f); });
-      style->AddObserver(what, after);
-    } else {
-      style->AddObserver(what, after, -1);  // after the style itself
-    }
+    if (what == vtkCommand::EndInteractionEvent)
+      after->SetClientDataDeleteCallback(
+          [](void* f) { delete static_cast<std::function<void(unsigned long)>*>(f); });
+    const bool wheel =
+        what == vtkCommand::MouseWheelForwardEvent || what == vtkCommand::MouseWheelBackwardEvent;
+    style->AddObserver(what, after, wheel ? -1 : 0);  // after the style itself
   }
+}
+
+/// What a mouse has done to the camera becomes a line when it is done.
+void SceneWidget::turn(unsigned long what) {
+  if (stage_->views() == 0) return;
+  const double last = stage_->view(0).renderer()->GetLastRenderTimeInSeconds() * stage_->views();
+  if (what == vtkCommand::StartInteractionEvent) {
+    set_coarse(std::max(last, frame_seconds_) > slowest_);
+  } else if (what == vtkCommand::InteractionEvent) {
+    if (!coarse_ && last > slowest_) set_coarse(true);
+  } else {
+    set_coarse(false);
+    say_camera();
+  }
+}
+
+void SceneWidget::set_coarse(bool coarse) {
+  if (coarse == coarse_) return;
+  coarse_ = coarse;
+  setCustomDevicePixelRatio(coarse ? 0.5 * devicePixelRatioF() : 0);  // 0: the screen's
+  const double ratio = (coarse ? 0.5 : 1) * devicePixelRatioF();  // VTK takes it at the next resizing only
+  const int size[] = {static_cast<int>(ratio * width()), static_cast<int>(ratio * height())};
+  renderWindow()->SetSize(size[0], size[1]);
+  interactor()->UpdateSize(size[0], size[1]);
+  if (!coarse) draw();
+}
+
+void SceneWidget::set_picking(const std::string& command) {
+  picking_ = command;
+  setCursor(command.empty() ? Qt::ArrowCursor : Qt::PointingHandCursor);
+}
+
+bool SceneWidget::pick(int x, int y) {
+  const int view = stage_->view_at(x, y);
+  const auto place = view < 0 ? std::nullopt : stage_->view(view).skin_at(x, y);
+  if (!place) return false;
+  const auto rounded = [](double mm) { return shortest(std::round(100 * mm) / 100); };
+  say_(picking_ + " " + rounded(place->position.x) + "," + rounded(place->position.y) + "," +
+       rounded(std::min(place->position.z, 0.)));
+  return true;
 }
 
 SceneWidget::~SceneWidget() { stage_.reset(); }
@@ -76,7 +116,9 @@ void SceneWidget::set_cutting(bool on) {
 
 void SceneWidget::follow(const Changes& changes) {
   if (!own_ && (changes.cuts || changes.study || changes.shown)) live_.reset();
-  draw();
+  const bool seen = changes.study || changes.shown || changes.cuts || changes.time || changes.coloring ||
+                    changes.camera || changes.layout || changes.look || changes.closer;
+  if (seen) draw();
 }
 
 void SceneWidget::draw() {
@@ -90,6 +132,13 @@ void SceneWidget::draw() {
 bool SceneWidget::event(QEvent* event) {
   const auto type = event->type();
   if (pointed && session_.mesh() && points(event)) return true;
+  if (!picking_.empty() && session_.study() && !session_.mesh() && type == QEvent::MouseButtonPress) {
+    auto* mouse = static_cast<QMouseEvent*>(event);
+    const double ratio = devicePixelRatioF();
+    if (mouse->button() == Qt::LeftButton &&
+        pick(static_cast<int>(mouse->x() * ratio), static_cast<int>((height() - 1 - mouse->y()) * ratio)))
+      return true;
+  }
   if (cutting_ && session_.mesh() &&
       (type == QEvent::MouseButtonPress || type == QEvent::MouseMove || type == QEvent::MouseButtonRelease)) {
     auto* mouse = static_cast<QMouseEvent*>(event);

@@ -24,6 +24,12 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   /// Whether pressing and dragging cuts rather than turns the picture.
   void set_cutting(bool on);
   bool cutting() const { return cutting_; }
+  /// What a click on the skin of the patch says: "probe" or "zoom", with the place; empty: nothing.
+  void set_picking(const std::string& command);
+  const std::string& picking() const { return picking_; }
+  /// While the picture is turned, one that takes longer than this is drawn at half the resolution.
+  void set_slowest(double seconds) { slowest_ = seconds; }
+  bool coarse() const { return coarse_; }
   /// mm; 0: as deep as the shown case. Of the cuts to come.
   void set_depth(double depth) { depth_ = depth; }
   /// Degrees that the blade leans to its left.
@@ -47,6 +53,9 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   bool event(QEvent* event) override;
 
  private:
+  bool pick(int x, int y);
+  void turn(unsigned long what);
+  void set_coarse(bool coarse);
   bool press(int x, int y);
   void drag(int x, int y);
   void release();
@@ -63,6 +72,9 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   std::unique_ptr<Stage> stage_;
   bool cutting_ = false, pressed_ = false, own_ = false;
   double depth_ = 0, tilt_ = 0, frame_seconds_ = 0;
+  std::string picking_;
+  double slowest_ = 0.066;
+  bool coarse_ = false;
   int last_x_ = 0, last_y_ = 0;
   int view_ = -1;                        // that the blade is in
   std::vector<WoundView::Place> blade_;  // where it has been since the button was pressed

@@ -112,11 +112,11 @@ std::string xml(const std::string& text) {
   return escaped;
 }
 
-std::string collection(const Snapshot& s, const std::string& name) {
+std::string collection(const std::vector<double>& times, const std::string& name) {
   std::string text = "<?xml version=\"1.0\"?>\n" + our_mark + " (" + producer() +
                      ") -->\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
-  for (std::size_t j = 0; j < s.frames(); ++j)
-    text += "    <DataSet timestep=\"" + shortest(s.times[j]) + "\" group=\"\" part=\"0\" file=\"" +
+  for (std::size_t j = 0; j < times.size(); ++j)
+    text += "    <DataSet timestep=\"" + shortest(times[j]) + "\" group=\"\" part=\"0\" file=\"" +
             xml(name + "/" + frame_file(j)) + "\"/>\n";
   return text + "  </Collection>\n</VTKFile>\n";
 }
@@ -174,8 +174,48 @@ ExportFigures write_paraview_series(const SnapshotReader& reader, const std::str
     ++figures.frames;
   }
   const std::string pvd = frames.string() + ".pvd";
-  write_text_file(pvd, collection(s, name));
+  write_text_file(pvd, collection(s.times, name));
   count(pvd);
+  return figures;
+}
+
+namespace {
+
+vtkNew<vtkUnstructuredGrid> mesh_of(const SurfaceSeries& series) {
+  Snapshot s;
+  s.points = series.points;
+  s.cell_types.assign(series.triangles.size(), Snapshot::triangle);
+  s.cell_offsets.push_back(0);
+  for (const auto& triangle : series.triangles) {
+    s.connectivity.insert(s.connectivity.end(), triangle.begin(), triangle.end());
+    s.cell_offsets.push_back(static_cast<std::int64_t>(s.connectivity.size()));
+  }
+  vtkNew<vtkUnstructuredGrid> grid = mesh_of(s);
+  const auto part = array_of<vtkUnsignedCharArray>(series.parts);
+  part->SetName("part");
+  grid->GetCellData()->AddArray(part);
+  return grid;
+}
+
+}  // namespace
+
+ExportFigures write_paraview_series(const SurfaceSeries& series, const std::string& folder,
+                                    const std::string& name) {
+  const fs::path frames = fs::path(folder) / name;
+  fs::create_directory(frames);
+  const auto grid = mesh_of(series);
+  ExportFigures figures;
+  const auto write = [&](const std::string& path, const std::string& text) {
+    write_text_file(path, text);
+    ++figures.files, figures.bytes += fs::file_size(path);
+  };
+  for (std::size_t j = 0; j < series.times.size(); ++j, ++figures.frames) {
+    grid->GetPointData()->AddArray(numbers("displacement", 3, flat(series.displacement(series.times[j]))));
+    grid->GetPointData()->SetActiveVectors("displacement");
+    grid->GetFieldData()->AddArray(numbers("TimeValue", 1, {series.times[j]}));
+    write((frames / frame_file(j)).string(), vtu(grid));
+  }
+  write(frames.string() + ".pvd", collection(series.times, name));
   return figures;
 }
 

@@ -2,10 +2,13 @@
 // NAME/.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "base/vec3.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft {
@@ -25,6 +28,19 @@ struct ExportFigures {
 ExportFigures write_paraview_series(const SnapshotReader& reader, const std::string& folder,
                                     const std::string& name,
                                     const std::function<void(std::size_t)>& progress = {});
+
+/// A surface that moves, of which no snapshot is needed: T triangles of N points at rest.
+struct SurfaceSeries {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> parts;                                   ///< T: 0 skin, 1 left wall, 2 right wall
+  std::vector<double> times;                                ///< F
+  std::function<std::vector<Vec3>(double t)> displacement;  ///< N, from the points at rest
+};
+
+/// The same files of a surface, with the displacement alone.
+ExportFigures write_paraview_series(const SurfaceSeries& series, const std::string& folder,
+                                    const std::string& name);
 
 /// Throws InputError where folder/NAME.pvd or folder/NAME is there and is not what write_paraview_series
 /// wrote.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -16,6 +17,8 @@ const std::vector<ColoringText>& colorings() {
        "opening between a point and its mirror image across the cut; on the lips, the gape"},
       {Coloring::strain, "strain", "strain, mm/mm", "largest principal Green-Lagrange strain of the field"},
       {Coloring::difference, "difference", "difference, mm", "from the displacement of another case"},
+      {Coloring::error, "error", "error of the field, mm",
+       "from the displacement of the simulation's nearest node, at the nearest frame"},
   };
   return all;
 }
@@ -75,6 +78,8 @@ double color_value(Coloring coloring, const VaryingField& field, const Field* re
       return reference ? norm(field.displacement(place.uvw, place.side, place.t, s) -
                               reference->displacement(place.uvw, place.side, place.t))
                        : 0;
+    case Coloring::error:
+      return std::nan("");
     case Coloring::tissue:
       break;
   }

@@ -8,7 +8,7 @@
 
 namespace cleft {
 
-enum class Coloring { tissue, displacement, gape, strain, difference };
+enum class Coloring { tissue, displacement, gape, strain, difference, error };
 
 struct ColoringText {
   Coloring coloring;
@@ -26,7 +26,7 @@ double gape(const Field& field, double u, double t);
 
 /// The value at a point: displacement and difference (from `reference`) in mm, gape in mm, on both sides
 /// of the cut that between a point and its mirror image, the largest principal Green-Lagrange strain as a
-/// number. `tissue` has none: 0.
+/// number. `tissue` has none: 0. Of `error` a field knows nothing: not a number.
 /// `field` is taken at s mm of the path.
 double color_value(Coloring coloring, const VaryingField& field, const Field* reference, const Place& place,
                    double s = 0);

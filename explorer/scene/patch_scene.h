@@ -1,9 +1,11 @@
 // The canonical patch of a case: its skin and the walls of its cut, sampled from the field.
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "encoder/field/field.h"
+#include "explorer/scene/raw_case.h"
 #include "explorer/scene/wound_scene.h"
 
 namespace cleft {
@@ -11,8 +13,8 @@ namespace cleft {
 class PatchScene : public WoundScene {
  public:
   /// The skin is a grid over the field's (u, v), finest at the cut, parted along it; the walls go down to the
-  /// cut's depth.
-  explicit PatchScene(std::shared_ptr<const Field> field);
+  /// cut's depth. `raw`: the simulation it is coloured by the error from; null: none is known.
+  explicit PatchScene(std::shared_ptr<const Field> field, std::shared_ptr<const RawCase> raw = nullptr);
 
   const WoundSurface& surface() const override { return surface_; }
   double duration() const override { return field_.duration(); }
@@ -26,8 +28,15 @@ class PatchScene : public WoundScene {
   void add_quad(int a, int b, int c, int d, Region region);
   bool inside_cut(double u) const;
   Place place(std::size_t point, double t) const;
+  void displacements(double t, std::vector<Vec3>& out) const;
+
+  /// Of the node nearest to each point; not a number without a simulation.
+  void errors(double t, std::vector<double>& out) const;
 
   std::shared_ptr<const Field> shared_;
+  std::shared_ptr<const RawCase> raw_;
+  mutable std::vector<int> nearest_;                           // node of every point, once it is asked for
+  mutable std::map<std::size_t, std::vector<double>> errors_;  // of every point, by frame
   const Field& field_;
   WoundSurface surface_;
   std::vector<Side> sides_;        ///< of every point

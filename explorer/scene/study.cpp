@@ -23,8 +23,9 @@ PublishedStudy::PublishedStudy(const std::string& path) : path_(path) {
     name_and_sort();
     return;
   }
-  const bool folder = fs::is_directory(path);
-  for (const StudyCase& one : folder ? published_study_cases(path) : std::vector<StudyCase>{{"", path}})
+  folder_ = fs::is_directory(path);
+  for (const StudyCase& one :
+       folder_ ? published_study_cases(path, &older_) : std::vector<StudyCase>{{"", path}})
     cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), one.choices, -1});
   name_and_sort();
 }
@@ -55,6 +56,11 @@ void PublishedStudy::name_and_sort() {
     if (c.name.empty())
       c.name = (cases_.size() > 1 && !packed_ ? file.parent_path() : file).filename().string();
   }
+}
+
+std::string PublishedStudy::snapshot(int i) const {
+  const fs::path beside(path_);
+  return (packed_ ? beside.parent_path() / "cases" / file(i) : fs::path(file(i)).parent_path()) / "case.h5";
 }
 
 Field PublishedStudy::read(int i) const {

@@ -31,6 +31,11 @@ class PublishedStudy {
   /// Those that are text, where the study tells them.
   const std::map<std::string, std::string>& choices(int i) const { return cases_.at(i).choices; }
   const std::string& file(int i) const { return cases_.at(i).file; }
+  /// Where its simulation is, if it was kept.
+  std::string snapshot(int i) const;
+  /// Cases left out since their fields are of an older format.
+  const std::vector<std::string>& older() const { return older_; }
+  bool is_folder() const { return folder_; }
 
   /// Read from its file when it is asked for; the cases looked at last are kept.
   std::shared_ptr<const Field> field(int i);
@@ -52,7 +57,8 @@ class PublishedStudy {
 
   std::string path_;
   std::vector<Case> cases_;
-  std::vector<std::string> varying_;
+  std::vector<std::string> varying_, older_;
+  bool folder_ = false;
   std::list<std::pair<int, std::shared_ptr<const Field>>> recent_;  // the last one first
   std::optional<StudyFile> packed_;
 };

@@ -36,6 +36,7 @@ double round_length(double most) {
 
 Furniture::Furniture(vtkRenderWindow* window, vtkRenderer* renderer) : window_(window), renderer_(renderer) {
   set_up(title_, 13), set_up(time_, 13), set_up(length_, 12);
+  time_->GetTextProperty()->SetLineSpacing(1.5);
   title_->GetTextProperty()->SetVerticalJustificationToTop();
   time_->GetTextProperty()->SetVerticalJustificationToTop();
   length_->GetTextProperty()->SetJustificationToCentered();

@@ -12,8 +12,11 @@ namespace cleft {
 /// InputError where nothing can be drawn on this machine or the file cannot be written.
 void write_picture(WoundView& view, int width, int height, const std::string& path);
 
-/// The same of all that a session shows. The PNG holds the session's state as text.
-void write_picture(Session& session, int width, int height, const std::string& path);
+/// The same of all that a session shows, `transparent`: without the background. The PNG holds the session's
+/// state as text, by this key.
+void write_picture(Session& session, int width, int height, const std::string& path,
+                   bool transparent = false);
+inline constexpr const char* picture_state_key = "cleft-session";
 
 /// The state in a picture, as JSON; throws FileError where there is none.
 std::string state_in_picture(const std::string& path);

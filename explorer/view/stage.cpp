@@ -18,6 +18,7 @@ void Stage::make_views(std::size_t count) {
   if (count == views_.size()) return;
   scalpel_view_.reset();
   for (View& v : views_) {
+    v.overlay.reset();
     v.furniture.reset();
     window_->RemoveRenderer(v.view->renderer());
   }
@@ -47,19 +48,37 @@ void Stage::show(Session& session) {
     const auto scene = scene_of(session, cases[i]);
     if (scene == scenes_[i]) continue;
     scenes_[i] = scene;
-    views_[i].view->show(scene);
+    views_[i].view->show(scene, session.state().time);
     fresh = true;
   }
   color(session, fresh);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     WoundView& view = *views_[i].view;
     const double time = scenes_[i] == live_ ? scenes_[i]->duration() : session.state().time;
-    if (fresh || scenes_[i] == live_ || view.time() != time) view.set_time(time);
+    if (scenes_[i] == live_ || view.time() != time) view.set_time(time);
     if (scenes_[i] == live_) draw_scalpel(view);
   }
   if (!scalpel_) scalpel_view_.reset();
+  lay_over(session);
   aim(session.state().camera, relaid);
   label(session);
+}
+
+/// In the view of the shown case.
+void Stage::lay_over(Session& session) {
+  const Overlay overlay = live_ ? Overlay{} : session.overlay();
+  caption_ = overlay.caption;
+  const std::vector<int> cases = session.views();
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const bool here = cases[i] == session.state().shown && !overlay.empty();
+    views_[i].view->set_opacity(here ? overlay.surface_opacity : 1);
+    if (!here) {
+      views_[i].overlay.reset();
+      continue;
+    }
+    if (!views_[i].overlay) views_[i].overlay = std::make_unique<OverlayView>(views_[i].view->renderer());
+    views_[i].overlay->show(overlay);
+  }
 }
 
 void Stage::set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel) {
@@ -128,20 +147,35 @@ std::string without_groups(const std::string& name) {
   return out;
 }
 
+/// In lines of what fits `width` pixels.
+std::string wrapped(const std::string& text, double width) {
+  const auto most = static_cast<std::size_t>(std::max(20., width / 7.5));
+  std::string out;
+  std::size_t length = 0;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const bool next = length > 0 && length + 1 + word.size() > most;
+    out += (length == 0 ? "" : next ? "\n" : " ") + word;
+    length = next || length == 0 ? word.size() : length + 1 + word.size();
+  }
+  return out;
+}
+
 void Stage::label(Session& session) {
   const bool dark = session.state().dark;
   const std::vector<int> cases = session.views();
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    std::string title;
-    if (session.study()) {
-      const std::string name = session.study()->name(cases[i]);
-      title =
-          "case " + std::to_string(cases[i] + 1) + ": " + (views_.size() > 1 ? without_groups(name) : name);
-    }
+    const std::string whole = session.title_of(cases[i]);
+    const std::string title = views_.size() > 1 ? without_groups(whole) : whole;
     char time[80];
     std::snprintf(time, sizeof time, "%.1f of %.1f mm cut", views_[i].view->time(),
                   views_[i].view->duration());
-    views_[i].furniture->set_text(title, time, views_.size() > 1);
+    std::string below = time;
+    const double width = views_[i].view->renderer()->GetSize()[0] * 72. / window_->GetDPI();
+    for (const std::string& text :
+         {session.note_of(cases[i]), cases[i] == session.state().shown ? caption_ : std::string()})
+      if (!text.empty()) below += "\n" + wrapped(text, width);
+    views_[i].furniture->set_text(title, below, views_.size() > 1);
     if (session.mesh())
       views_[i].furniture->set_axes({"x", "y", "z"});
     else

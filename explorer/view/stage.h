@@ -9,6 +9,7 @@
 
 #include "explorer/scene/session/session.h"
 #include "explorer/view/furniture.h"
+#include "explorer/view/overlay_view.h"
 #include "explorer/view/scalpel_view.h"
 #include "explorer/view/wound_view.h"
 #include "haptic/loop.h"
@@ -38,6 +39,7 @@ class Stage {
   struct View {
     std::unique_ptr<WoundView> view;
     std::unique_ptr<Furniture> furniture;
+    std::unique_ptr<OverlayView> overlay = nullptr;
   };
   /// What the views were last made for.
   struct Shown {
@@ -52,6 +54,7 @@ class Stage {
   void make_views(std::size_t count);
   void color(Session& session, bool fresh);
   void aim(const CameraState& camera, bool fresh);
+  void lay_over(Session& session);
   void label(Session& session);
   void draw_scalpel(const WoundView& view);
 
@@ -61,6 +64,7 @@ class Stage {
   std::shared_ptr<const WoundScene> live_;
   std::optional<HapticState> scalpel_;
   std::unique_ptr<ScalpelView> scalpel_view_;
+  std::string caption_;  // of what lies over the scene
   Shown shown_;
 };
 

@@ -25,6 +25,7 @@ vtkSmartPointer<vtkLookupTable> table(const std::vector<Stop>& stops, double lea
     between->GetColor(i / (count - 1.), rgb);
     colors->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
   }
+  colors->SetNanColor(0.62, 0.62, 0.62, 1);
   return colors;
 }
 

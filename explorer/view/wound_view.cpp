@@ -10,6 +10,7 @@
 #include <vtkTextProperty.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "explorer/view/wound_colors.h"
@@ -89,7 +90,7 @@ void WoundView::add_lights() {
   add(0.2, 1.0, -0.8, 0.25, 1.0, 1.0);    // rim, from behind
 }
 
-void WoundView::show(std::shared_ptr<const WoundScene> scene) {
+void WoundView::show(std::shared_ptr<const WoundScene> scene, std::optional<double> t) {
   const bool first = !scene_;
   scene_ = std::move(scene);
   largest_.reset();
@@ -99,7 +100,7 @@ void WoundView::show(std::shared_ptr<const WoundScene> scene) {
   skin_.emplace(surface, [](Region r) { return r == Region::skin; });
   walls_.emplace(surface, [](Region r) { return r != Region::skin; });
   add_actors();
-  set_time(scene_->duration());
+  set_time(t.value_or(scene_->duration()));
   if (first) aim({});
 }
 
@@ -120,6 +121,7 @@ double WoundView::largest_value(Coloring coloring, const Field* reference) {
   double largest = 0;
   for (int i = 1; i <= samples; ++i) {
     scene_->values(coloring, reference, scene_->duration() * i / samples, values);
+    std::erase_if(values, [](double v) { return !std::isfinite(v); });  // errors that nobody knows
     if (values.empty()) continue;
     // Strain has no bound at the ends of the cut: the highest values there would leave no colour for the
     // rest.
@@ -156,8 +158,16 @@ void WoundView::add_actors() {
   walls->GetProperty()->SetSpecular(0.3);  // moist
   walls->GetProperty()->SetSpecularPower(40);
   add_prop(walls);
+  wall_actor_ = walls;
+  for (vtkActor* actor : {skin_actor_.Get(), wall_actor_.Get()}) actor->GetProperty()->SetOpacity(opacity_);
   walls_->color([this](int p) { return scene_->surface().depth_fraction[p]; });
   set_background();
+}
+
+void WoundView::set_opacity(double opacity) {
+  if (opacity == opacity_) return;
+  opacity_ = opacity;
+  for (vtkActor* actor : {skin_actor_.Get(), wall_actor_.Get()}) actor->GetProperty()->SetOpacity(opacity);
 }
 
 void WoundView::set_dark(bool dark) {

@@ -24,8 +24,9 @@ class WoundView {
   WoundView();
   ~WoundView();
 
-  /// Replaces the scene and draws its end; the camera stays unless this is the first one.
-  void show(std::shared_ptr<const WoundScene> scene);
+  /// Replaces the scene and draws it at t, its end where none is given; the camera stays unless this is the
+  /// first one.
+  void show(std::shared_ptr<const WoundScene> scene, std::optional<double> t = {});
 
   /// Moves the points to the length cut t, mm (clamped). Nothing else is rewritten.
   void set_time(double t);
@@ -36,6 +37,9 @@ class WoundView {
   /// the largest value of all times.
   void color_by(Coloring coloring, std::shared_ptr<const Field> reference = nullptr,
                 std::optional<std::pair<double, double>> range = std::nullopt);
+
+  /// 0 to 1: what is drawn over it must be seen through the skin.
+  void set_opacity(double opacity);
 
   void aim(const CameraState& camera);
   void set_dark(bool dark);
@@ -63,7 +67,7 @@ class WoundView {
 
   vtkNew<vtkRenderer> renderer_;
   std::vector<vtkSmartPointer<vtkProp>> props_;  // what the scene put into the renderer
-  vtkSmartPointer<vtkActor> skin_actor_;
+  vtkSmartPointer<vtkActor> skin_actor_, wall_actor_;
   std::shared_ptr<const WoundScene> scene_;
   std::optional<SurfacePart> skin_, walls_;
   std::vector<Vec3> points_;
@@ -73,6 +77,7 @@ class WoundView {
   std::optional<std::tuple<Coloring, const Field*, double>> largest_;  // as last asked for
   vtkSmartPointer<vtkScalarBarActor> legend_;
   bool dark_ = false, has_legend_ = true;
+  double opacity_ = 1;
   std::vector<double> values_;
   double time_ = 0;
 };

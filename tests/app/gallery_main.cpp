@@ -7,6 +7,7 @@
 #include <QDialog>
 #include <QStyleFactory>
 #include <QSurfaceFormat>
+#include <QTabWidget>
 #include <QThread>
 #include <fstream>
 #include <iostream>
@@ -64,6 +65,8 @@ int main(int argc, char** argv) {
       for (QDialog* dialog : window.findChildren<QDialog*>()) dialog->close();
     } else if (words[0] == "click") {
       if (!click(window, words[1])) std::cerr << "nothing is named " << words[1] << '\n', ++failures;
+    } else if (words[0] == "page") {
+      window.findChild<QTabWidget*>("plot_pages")->setCurrentIndex(std::stoi(words[1]));
     } else if (words[0] == "drag") {  // over the picture, in parts of its width and height
       drag_over(window.scene(), std::stod(words[1]), std::stod(words[2]), std::stod(words[3]),
                 std::stod(words[4]));
@@ -71,6 +74,7 @@ int main(int argc, char** argv) {
       window.say(line);
     }
     settle();
+    while (session.preparing()) settle();
   }
   return failures > 0;
 }

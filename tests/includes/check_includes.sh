@@ -27,7 +27,7 @@ encoder/interpolate:base|encoder/field|params
 haptic:base|encoder/field
 explorer/incision:base|encoder/field|haptic
 explorer/io:base|explorer/incision|solver/snapshot
-explorer/scene:base|encoder/field|haptic|explorer/incision|solver/snapshot|params
+explorer/scene:base|encoder/field|encoder/interpolate|haptic|explorer/incision|solver/snapshot|params
 explorer/view:base|encoder/field|haptic|explorer/incision|explorer/scene|explorer/io
 explorer/app:base|params|encoder/field|haptic|explorer/incision|explorer/scene|explorer/view
 tradeoff:base|params|solver/snapshot|encoder|haptic|explorer/incision|explorer/scene

@@ -73,7 +73,7 @@ class SessionTest : public testing::Test {
                       return flat_plate();
                     },
                     [this](const std::string&, const SurfaceMesh& mesh) { exported_ = mesh; },
-                    [this](Session& s, const std::string& file, int width, int height) {
+                    [this](Session& s, const std::string& file, int width, int height, bool) {
                       written_ = file + " " + std::to_string(width) + "x" + std::to_string(height);
                       picture_state_ = state_to_json(s.state());
                     },

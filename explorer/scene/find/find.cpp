@@ -82,8 +82,7 @@ std::optional<Finding> Condition::find(const Field& field, const std::string& fi
 
 std::optional<Finding> find_in_case(const Condition& condition, const PublishedStudy& study, int i) {
   const Field field = study.read(i);
-  const std::string& file = study.file(i);
-  return condition.find(field, (std::filesystem::path(file).parent_path() / "case.h5").string());
+  return condition.find(field, study.snapshot(i));
 }
 
 }  // namespace cleft

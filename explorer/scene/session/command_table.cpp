@@ -86,6 +86,7 @@ const std::vector<CommandGroup>& command_groups() {
                                                 {"Time", time_commands()},
                                                 {"View", view_commands()},
                                                 {"Cuts", cut_commands()},
+                                                {"Looking closer", closer_commands()},
                                                 {"Session and output", session_commands()}};
   return groups;
 }

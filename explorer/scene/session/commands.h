@@ -9,6 +9,7 @@ std::span<const Command> study_commands();
 std::span<const Command> time_commands();
 std::span<const Command> view_commands();
 std::span<const Command> cut_commands();
+std::span<const Command> closer_commands();
 std::span<const Command> session_commands();
 
 }  // namespace cleft

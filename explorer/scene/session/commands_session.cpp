@@ -14,9 +14,27 @@ void screenshot(Session& session, CommandWords& words) {
   const std::string file = words.text("a file .png");
   const int width = words.empty() ? 1280 : words.whole("the width", 16, 8192);
   const int height = words.empty() ? width * 9 / 16 : words.whole("the height", 16, 8192);
+  const bool transparent = !words.empty();
+  if (transparent && words.text("transparent") != "transparent") words.wrong("only 'transparent' can follow");
   words.expect_end();
   session.scene();  // says what is missing
-  session.services().draw(session, file, width, height);
+  session.finish_preparing();
+  session.services().draw(session, file, width, height, transparent);
+}
+
+void movie(Session& session, CommandWords& words) {
+  const std::string file = words.text("a file .ogv or a folder");
+  MovieFormat format;
+  if (!words.empty()) {
+    format.width = words.whole("the width", 16, 8192);
+    format.height = words.empty() ? format.width * 9 / 16 : words.whole("the height", 16, 8192);
+  }
+  if (!words.empty()) format.rate = words.number_in("the pictures a second", 1, 120);
+  words.expect_end();
+  session.scene();  // says what is missing
+  session.finish_preparing();
+  if (!session.services().film) throw InputError("there is nobody to make a movie");
+  session.services().film(session, file, format);
 }
 
 void save(Session& session, CommandWords& words) {
@@ -45,9 +63,13 @@ void info(Session& session, CommandWords&) {
   const SessionState& s = session.state();
   const auto scene = session.scene();
   if (const auto field = session.field()) {
-    session.answer("case " + std::to_string(s.shown + 1) + " of " + std::to_string(session.study()->size()) +
-                   ": " + session.study()->name(s.shown));
-    session.answer("largest error of the field: " + shortest(100 * field->report.node_error) +
+    session.answer(session.between()
+                       ? session.title_of(s.shown) + ", " + session.note_of(s.shown)
+                       : "case " + std::to_string(s.shown + 1) + " of " +
+                             std::to_string(session.study()->size()) + ": " + session.study()->name(s.shown));
+    if (!session.why_nearest().empty()) session.answer("the nearest case: " + session.why_nearest());
+    session.answer((session.between() ? std::string("estimated") : std::string("largest")) +
+                   " error of the field: " + shortest(100 * field->report.node_error) +
                    " % of the largest displacement, " + shortest(field->report.largest_displacement) + " mm");
     session.answer("widest gape at " + shortest(s.time) +
                    " mm cut: " + shortest(widest_gape(*field, std::min(s.time, field->duration()))) + " mm");
@@ -67,8 +89,11 @@ void help(Session& session, CommandWords& words) {
 
 std::span<const Command> session_commands() {
   static const std::vector<Command> commands{
-      {"screenshot", "FILE [WIDTH [HEIGHT]]", "write a PNG, which holds the saved session too", screenshot,
+      {"screenshot", "FILE [WIDTH [HEIGHT [transparent]]]",
+       "write a PNG, which holds the saved session too; transparent: without background", screenshot,
        Command::none},
+      {"movie", "FILE.ogv|FOLDER [WIDTH [HEIGHT [RATE]]]",
+       "of the growing cut at the playing speed: Ogg Theora, or a folder of PNG files", movie, Command::none},
       {"save", "FILE.json", "save the session", save, Command::none},
       {"load", "FILE.json|FILE.png", "go on with a saved session", load},
       {"record", "FILE", "write the commands said so far, as a script", record, Command::none},

@@ -45,6 +45,11 @@ void set(Session& session, CommandWords& words) {
   session.ask_for(name, words.number(name));
 }
 
+void between(Session& session, CommandWords& words) {
+  session.open_study();
+  session.interpolate(words.on_or_off());
+}
+
 void list_cases(Session& session, CommandWords&) {
   const PublishedStudy& study = session.open_study();
   for (int i = 0; i < study.size(); ++i)
@@ -56,13 +61,13 @@ void compare(Session& session, CommandWords& words) {
   while (!words.empty()) cases.push_back(read_case(session, words));
   if (cases.size() < 2 || cases.size() > 4) words.wrong("give two to four cases");
   session.edit().compared = cases;
-  session.set_time(session.state().time);
+  session.interpolate(session.state().between);  // cases are compared as they are
   session.changes().layout = true;
 }
 
 void single(Session& session, CommandWords&) {
   session.edit().compared.clear();
-  if (session.has_scene()) session.set_time(session.state().time);
+  session.interpolate(session.state().between);
   session.changes().layout = true;
 }
 
@@ -96,6 +101,7 @@ void find(Session& session, CommandWords& words) {
   if (condition == "clear") return;
   int count = 0;
   for (int i = 0; i < session.study()->size(); ++i) {
+    session.progress("looking through the cases", double(i) / session.study()->size());
     const std::optional<Finding>& f = session.finding(i);
     if (!f) continue;
     ++count;
@@ -116,7 +122,9 @@ std::span<const Command> study_commands() {
       {"case", "N", "show case N, from 1, in the order of `cases`", show},
       {"next", "", "show the next case", next},
       {"previous", "", "show the case before", previous},
-      {"set", "PARAMETER VALUE", "show the case nearest to this value, the others kept", set},
+      {"set", "PARAMETER VALUE", "show the wound of this value, the others kept: between cases interpolated",
+       set},
+      {"between", "on|off", "interpolate between cases; off: show the nearest one", between},
       {"cases", "", "list the cases by the parameters in which they differ", list_cases, Command::none},
       {"brush", "NAME LOW HIGH | clear", "fade cases whose parameter or figure is outside", brush,
        Command::latest},

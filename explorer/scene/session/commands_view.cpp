@@ -10,9 +10,7 @@ void color(Session& session, CommandWords& words) {
   const Coloring coloring = coloring_of(words.text("a colouring"));
   if (coloring == Coloring::difference && session.state().reference < 0)
     words.wrong("from which case is not known (say: difference N)");
-  session.edit().coloring = coloring;
-  session.edit().range.reset();
-  session.changes().coloring = true;
+  session.color_by(coloring);
 }
 
 void range(Session& session, CommandWords& words) {

@@ -9,6 +9,7 @@
 #include "explorer/scene/mesh_scene.h"
 #include "explorer/scene/patch_scene.h"
 #include "explorer/scene/session/command_table.h"
+#include "params/study_index.h"
 
 namespace cleft {
 
@@ -28,14 +29,23 @@ void Session::say(const std::string& line) {
   const auto known = known_;
   const auto cut_surfaces = cut_surfaces_;
   const auto scenes = scenes_;
+  const auto between_cases = between_cases_;
+  const auto between = between_;
+  const std::string why_nearest = why_nearest_;
+  const bool preparing = preparing_;
   changes_ = {};
   try {
     CommandWords rest(command.name, command.arguments, {words.begin() + 1, words.end()});
+    busy_ = true;
     command.run(*this, rest);
     rest.expect_end();
+    busy_ = false;
   } catch (...) {  // as it was
+    busy_ = false;
     state_ = state, study_ = study, mesh_ = mesh, known_ = known;
     cut_surfaces_ = cut_surfaces, scenes_ = scenes;
+    between_cases_ = between_cases, between_ = between;
+    why_nearest_ = why_nearest, preparing_ = preparing;
     throw;
   }
   if (command.recorded != Command::none) {
@@ -79,31 +89,14 @@ std::vector<int> Session::views() const {
   return state_.compared.empty() ? std::vector<int>{state_.shown} : state_.compared;
 }
 
-std::shared_ptr<const Field> Session::field() { return study_ ? study_->field(state_.shown) : nullptr; }
+std::shared_ptr<const Field> Session::field() { return study_ ? field_of(state_.shown) : nullptr; }
+
+std::shared_ptr<const Field> Session::field_of(int i) {
+  return between_ && i == state_.shown ? between_ : open_study().field(i);
+}
 
 std::shared_ptr<const Field> Session::reference() {
   return study_ && state_.reference >= 0 ? study_->field(state_.reference) : nullptr;
-}
-
-double Session::depth_of_case(int i) {
-  constexpr double depth_without_study = 3;
-  return study_ ? study_->field(i)->cut().depth : depth_without_study;
-}
-
-std::vector<ScalpelPath> Session::cut_paths(double depth) const {
-  std::vector<ScalpelPath> paths;
-  for (CutState cut : state_.cuts) {
-    for (ScalpelPath::Point& p : cut.points)
-      if (p.depth <= 0) p.depth = depth;
-    paths.emplace_back(cut.points);
-  }
-  return paths;
-}
-
-std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {
-  auto& found = cut_surfaces_[depth];
-  if (found) return found;
-  return found = std::make_shared<CutSurface>(*mesh_, cut_paths(depth));
 }
 
 std::shared_ptr<const WoundScene> Session::scene_of(int i) {
@@ -116,14 +109,9 @@ std::shared_ptr<const WoundScene> Session::scene_of(int i) {
   if (mesh_)
     found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), cut_fields(i));
   else
-    found = std::make_shared<PatchScene>(study_->field(i));
+    found = std::make_shared<PatchScene>(
+        field_of(i), state_.coloring == Coloring::error && why_no_raw(i).empty() ? raw_of(i) : nullptr);
   return found;
-}
-
-std::optional<CutFields> Session::cut_fields(int i) {
-  if (!study_) return std::nullopt;
-  if (!state_.tension) return CutFields(study_->field(i));
-  return CutFields(std::make_shared<const PrestressFields>(*study_, i), state_.tension);
 }
 
 double Session::duration() {
@@ -146,6 +134,10 @@ void Session::load_study(const std::string& path) {
   scenes_.clear();
   cut_surfaces_.clear();
   known_ = std::make_shared<Known>();
+  between_cases_.reset(), between_.reset();
+  raws_.clear();
+  why_nearest_.clear();
+  preparing_ = false;
 }
 
 void Session::open(const std::string& path) {
@@ -154,117 +146,37 @@ void Session::open(const std::string& path) {
   state_.brushes.clear();
   state_.where.clear();
   state_.reference = -1;
-  if (state_.coloring == Coloring::difference) state_.coloring = Coloring::displacement;
+  state_.probe.reset(), state_.zoom.reset(), state_.figure.clear();
+  if (state_.coloring == Coloring::difference || state_.coloring == Coloring::error)
+    state_.coloring = Coloring::displacement;
   state_.shown = 0;
   take_parameters();
   state_.playing = false;
   state_.time = duration();
   changes_.all();
+  for (const std::string& notice : notices()) answer(notice);
+}
+
+std::vector<std::string> Session::notices() const {
+  std::vector<std::string> notices;
+  if (!study_) return notices;
+  if (!study_->older().empty())
+    notices.push_back(study_->path() + ": " + note_of_older(study_->path(), study_->older()));
+  int gone = 0;
+  if (study_->is_folder())
+    for (const auto& [hash, one] : study_index(study_->path())) gone += !one.snapshot;
+  if (gone > 0)
+    notices.push_back(study_->path() + ": the raw data of " + std::to_string(gone) +
+                      " cases are gone (keep_snapshots = \"none\"): their fields are all there");
+  return notices;
 }
 
 void Session::close() {
   study_.reset(), mesh_.reset();
+  between_cases_.reset(), between_.reset();
   state_ = {};
   scenes_.clear(), cut_surfaces_.clear();
   changes_.all();
-}
-
-void Session::take_parameters() {
-  state_.parameters.clear();
-  for (const std::string& name : study_->varying()) {
-    const auto& values = study_->parameters(state_.shown);
-    if (const auto found = values.find(name); found != values.end()) state_.parameters[name] = found->second;
-  }
-}
-
-void Session::show_case(int i) {
-  open_study();
-  state_.shown = i;
-  take_parameters();
-  set_time(state_.time);
-  changes_.shown = true;
-}
-
-void Session::ask_for(const std::string& parameter, double value) {
-  state_.parameters[parameter] = value;
-  state_.shown = nearest_case();
-  set_time(state_.time);
-  changes_.shown = true;
-}
-
-int Session::nearest_case() const {
-  int nearest = 0;
-  double least = HUGE_VAL;
-  std::map<std::string, std::pair<double, double>> ranges;
-  for (int i = 0; i < study_->size(); ++i)
-    for (const std::string& name : study_->varying())
-      if (const auto found = study_->parameters(i).find(name); found != study_->parameters(i).end()) {
-        auto& range = ranges.try_emplace(name, found->second, found->second).first->second;
-        range = {std::min(range.first, found->second), std::max(range.second, found->second)};
-      }
-  for (int i = 0; i < study_->size(); ++i) {
-    double distance = 0;
-    for (const auto& [name, value] : state_.parameters) {
-      const auto found = study_->parameters(i).find(name);
-      const double spread = ranges[name].second - ranges[name].first;
-      if (found != study_->parameters(i).end() && spread > 0)
-        distance += std::pow((found->second - value) / spread, 2);
-    }
-    if (distance < least) least = distance, nearest = i;
-  }
-  return nearest;
-}
-
-bool Session::shows_exactly() const {
-  if (!study_) return true;
-  const auto& values = study_->parameters(state_.shown);
-  return std::all_of(state_.parameters.begin(), state_.parameters.end(), [&](const auto& asked) {
-    const auto found = values.find(asked.first);
-    return found == values.end() || found->second == asked.second;
-  });
-}
-
-const CaseFigures& Session::figures(int i) {
-  auto& figures = known_->figures;
-  const auto found = figures.find(i);
-  return found != figures.end() ? found->second
-                                : figures.emplace(i, case_figures(open_study().read(i))).first->second;
-}
-
-std::vector<std::string> Session::column_names() const {
-  std::vector<std::string> names = open_study().varying();
-  for (const FigureText& f : figure_texts()) names.push_back(f.name);
-  return names;
-}
-
-double Session::column_value(int i, const std::string& name) {
-  for (const FigureText& f : figure_texts())
-    if (f.name == name) return f.value(figures(i));
-  const auto& values = open_study().parameters(i);
-  const auto found = values.find(name);
-  return found == values.end() ? std::nan("") : found->second;
-}
-
-void Session::find(const std::string& condition) {
-  open_study();
-  if (!condition.empty()) Condition{condition};  // says what is wrong with it
-  state_.where = condition;
-  changes_.brushes = true;
-}
-
-const std::optional<Finding>& Session::finding(int i) {
-  auto& findings = known_->findings[state_.where];
-  const auto found = findings.find(i);
-  if (found != findings.end()) return found->second;
-  return findings.emplace(i, Condition(state_.where).find(open_study().read(i))).first->second;
-}
-
-bool Session::brushed(int i) {
-  if (!state_.where.empty() && !finding(i)) return false;
-  return std::all_of(state_.brushes.begin(), state_.brushes.end(), [&](const auto& brush) {
-    const double value = column_value(i, brush.first);
-    return value >= brush.second.first && value <= brush.second.second;
-  });
 }
 
 void Session::set_time(double t) {
@@ -273,7 +185,7 @@ void Session::set_time(double t) {
 }
 
 void Session::tick(double seconds) {
-  if (!state_.playing) return;
+  if (!state_.playing || busy_) return;
   changes_ = {};
   advance(seconds);
   notify();
@@ -297,6 +209,7 @@ void Session::restore(const SessionState& state) {
   state_ = state;
   state_.playing = false;
   study_.reset(), mesh_.reset();
+  between_cases_.reset(), between_.reset();
   scenes_.clear(), cut_surfaces_.clear();
   if (!state.study.empty()) load_study(state.study);
   const int cases = study_ ? study_->size() : 1;
@@ -309,6 +222,7 @@ void Session::restore(const SessionState& state) {
   for (const int i : state.compared) check(i, "compared case");
   if (state.reference >= 0) check(state.reference, "reference case");
   if (!state.mesh.empty()) read_mesh_in_mm();
+  follow_parameters();
   if (has_scene()) set_time(state.time);
   changes_.all();
 }

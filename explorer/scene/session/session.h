@@ -9,35 +9,51 @@
 #include <vector>
 
 #include "explorer/incision/surface_mesh.h"
+#include "explorer/scene/between_cases.h"
 #include "explorer/scene/case_figures.h"
 #include "explorer/scene/cut_fields.h"
 #include "explorer/scene/cut_surface.h"
 #include "explorer/scene/find/find.h"
+#include "explorer/scene/overlay.h"
+#include "explorer/scene/probe.h"
 #include "explorer/scene/session/session_state.h"
 #include "explorer/scene/study.h"
+#include "explorer/scene/tornado.h"
 #include "explorer/scene/wound_scene.h"
 
 namespace cleft {
 
 class Session;
 
+struct MovieFormat {
+  int width = 1280, height = 720;  ///< pixels
+  double rate = 25;                ///< pictures a second
+};
+
 /// What a session asks of others, as it knows neither mesh files nor pictures.
 struct SessionServices {
   std::function<SurfaceMesh(const std::string& file)> read_mesh;
   std::function<void(const std::string& file, const SurfaceMesh& mesh)> write_mesh;
-  std::function<void(Session& session, const std::string& file, int width, int height)> draw;
+  std::function<void(Session& session, const std::string& file, int width, int height, bool transparent)>
+      draw;
   /// The saved session in a picture, as JSON.
   std::function<std::string(const std::string& file)> state_in_picture;
   std::function<void(const std::string& text)> answer;  ///< to what was asked: a line or several
   /// Takes a haptic device in hand, with the file it needs; "off": puts it away. None without a window.
   std::function<void(const std::string& name, const std::string& file)> device = nullptr;
+  /// A movie of the growing cut: .ogv, or a folder of PNG files.
+  std::function<void(Session& session, const std::string& file, const MovieFormat& format)> film = nullptr;
+  /// Is told what takes long and which part of it is done; false: the user wants no more of it.
+  std::function<bool(const std::string& what, double part)> progress = nullptr;
 };
 
 /// What a line has changed, for those who listen.
 struct Changes {
   bool study = false, shown = false, cuts = false, time = false, playing = false, coloring = false,
-       camera = false, layout = false, look = false, brushes = false;
-  void all() { study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = true; }
+       camera = false, layout = false, look = false, brushes = false, closer = false;
+  void all() {
+    study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = closer = true;
+  }
 };
 
 class Session {
@@ -73,7 +89,9 @@ class Session {
   std::shared_ptr<const WoundScene> scene_of(int i);
   /// The cases side by side: at least one.
   std::vector<int> views() const;
-  std::shared_ptr<const Field> field();      ///< of the shown case; null without a study
+  std::shared_ptr<const Field> field();  ///< that is shown; null without a study
+  /// Of case i, or what lies between cases where that is shown in its place.
+  std::shared_ptr<const Field> field_of(int i);
   std::shared_ptr<const Field> reference();  ///< null where none is chosen
   double duration();                         ///< t of the end, of the longest view
   /// Where openings of the shown case's cuts may be off, and by how much (validity.h). A line that brings a
@@ -81,6 +99,33 @@ class Session {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Whether the shown case has exactly the parameters asked for.
   bool shows_exactly() const;
+  /// The interpolated field that is shown in place of the shown case; null where there is none.
+  const std::shared_ptr<const Field>& between() const { return between_; }
+  /// Why the nearest case is shown where nothing is interpolated; empty where it has the parameters.
+  const std::string& why_nearest() const { return why_nearest_; }
+  /// What is shown in the view of case i, as titles say it.
+  std::string title_of(int i) const;
+  /// What must be known of it: that and how well it is interpolated, that no error is known; mostly empty.
+  std::string note_of(int i) const;
+  /// Lets cases be read on another thread while the nearest one is shown; take_prepared() then shows what
+  /// lies between, once that is known, and tells whether there is still something to wait for.
+  void prepare_beside(bool on) { beside_ = on; }
+  bool take_prepared();
+  bool preparing() const { return preparing_; }
+  /// Waits for what is being prepared, so that pictures show it.
+  void finish_preparing();
+
+  /// Why the simulation of case i cannot be looked at; empty where it can.
+  std::string why_no_raw(int i) const;
+  /// Throws InputError with that reason.
+  std::shared_ptr<const RawCase> raw_of(int i);
+  Motion probed_motion();  ///< throws InputError where nothing is probed
+  /// What is drawn over the shown case; where it cannot be drawn, the caption says why.
+  Overlay overlay();
+  /// Of the gape, over all cases.
+  Tornado tornado();
+  /// What there is to know of the study beside its cases: those left out, raw data that are gone.
+  std::vector<std::string> notices() const;
 
   /// Of case i, read where they are not known yet.
   const CaseFigures& figures(int i);
@@ -102,8 +147,10 @@ class Session {
   void show_case(int i);
   void find(const std::string& condition);  ///< empty: no condition
   void ask_for(const std::string& parameter, double value);
+  void interpolate(bool on);
   void load_mesh(const std::string& file, double scale);
   void show_patch();
+  void color_by(Coloring coloring);
   void cut(const CutState& cut);
   void recut(const CutState& cut);
   /// The skin's tension, against which cuts turn; none: as in the shown case, whichever way a cut goes.
@@ -118,6 +165,11 @@ class Session {
   SessionState& edit() { return state_; }
   Changes& changes() { return changes_; }
   void answer(const std::string& text) const;
+  /// Throws InputError where the user wants no more of it.
+  void progress(const std::string& what, double part) const;
+  void tell_progress_to(std::function<bool(const std::string&, double)> told) {
+    services_.progress = std::move(told);
+  }
   void hand_devices_to(std::function<void(const std::string&, const std::string&)> device) {
     services_.device = std::move(device);
   }
@@ -128,7 +180,13 @@ class Session {
   static std::string absolute_path(const std::string& path);
   void read_mesh_in_mm();
   int nearest_case() const;
+  /// Of the parameters that vary, over all cases.
+  std::map<std::string, std::pair<double, double>> parameter_ranges() const;
   void take_parameters();
+  /// Makes what is shown that of the parameters asked for.
+  void follow_parameters();
+  std::string make_between();
+  Overlay make_overlay();
   void cuts_changed();
   void forget_cuts();
   void tension_changed();
@@ -150,9 +208,20 @@ class Session {
     std::map<std::string, std::map<int, std::optional<Finding>>> findings;  // by condition
   };
   std::shared_ptr<Known> known_ = std::make_shared<Known>();
+  std::shared_ptr<BetweenCases> between_cases_;  // made when they are first asked for
+  std::shared_ptr<const Field> between_;
+  std::string why_nearest_;
+  std::map<int, std::shared_ptr<const RawCase>> raws_;
+  bool beside_ = false, preparing_ = false, busy_ = false;
   std::vector<std::string> said_, warnings_;
   std::vector<Listener> listeners_;
   Changes changes_;
 };
+
+/// Names of the figures of how the method works, "off" the first.
+const std::vector<std::string>& overlay_figures();
+
+/// Of an interpolated field, in words: "estimated error 2.1 %".
+std::string error_of_interpolation(const Field& field);
 
 }  // namespace cleft

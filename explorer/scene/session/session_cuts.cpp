@@ -1,10 +1,41 @@
 // The mesh, the cuts in it and the tension of its skin: what they are, undone and redone.
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
 #include "explorer/scene/session/session.h"
 
 namespace cleft {
+
+double Session::depth_of_case(int i) {
+  constexpr double depth_without_study = 3;
+  return study_ ? field_of(i)->cut().depth : depth_without_study;
+}
+
+std::vector<ScalpelPath> Session::cut_paths(double depth) const {
+  std::vector<ScalpelPath> paths;
+  for (CutState cut : state_.cuts) {
+    for (ScalpelPath::Point& p : cut.points)
+      if (p.depth <= 0) p.depth = depth;
+    paths.emplace_back(cut.points);
+  }
+  return paths;
+}
+
+std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {
+  auto& found = cut_surfaces_[depth];
+  if (found) return found;
+  constexpr std::size_t most_kept = 8;  // a slider of the depth makes ever new ones
+  if (cut_surfaces_.size() > most_kept)
+    std::erase_if(cut_surfaces_, [depth](const auto& s) { return s.first != depth; });
+  return cut_surfaces_[depth] = std::make_shared<CutSurface>(*mesh_, cut_paths(depth));
+}
+
+std::optional<CutFields> Session::cut_fields(int i) {
+  if (!study_) return std::nullopt;
+  if (!state_.tension) return CutFields(field_of(i));
+  return CutFields(std::make_shared<const PrestressFields>(*study_, i), state_.tension);
+}
 
 void Session::read_mesh_in_mm() {
   SurfaceMesh mesh = services_.read_mesh(state_.mesh);
@@ -18,6 +49,7 @@ void Session::load_mesh(const std::string& file, double scale) {
   forget_cuts();
   read_mesh_in_mm();
   state_.coloring = Coloring::tissue;
+  state_.zoom.reset(), state_.figure.clear();
   state_.camera = {};
   cuts_changed();
   changes_.all();
@@ -28,7 +60,9 @@ void Session::show_patch() {
   state_.mesh.clear();
   forget_cuts();
   mesh_.reset();
+  follow_parameters();  // no tension keeps it from what lies between cases
   state_.coloring = Coloring::displacement;
+  state_.figure.clear();
   state_.camera = {};
   cuts_changed();
   changes_.all();
@@ -70,6 +104,7 @@ void Session::pull(const std::optional<SkinTension>& tension) {
 }
 
 void Session::tension_changed() {
+  follow_parameters();
   scenes_.clear();
   set_time(state_.time);  // makes the scenes, and throws where they cannot be made
   changes_.cuts = true;

@@ -92,6 +92,7 @@ SessionState to_state(const Json& j) {
   s.study = j.at("study");
   s.shown = j.at("case").get<int>() - 1;
   s.parameters = j.at("parameters").get<std::map<std::string, double>>();
+  s.between = j.value("between", false);  // sessions saved before there was one show the nearest case
   s.mesh = j.at("mesh");
   s.scale = j.at("scale");
   s.cuts = to_cuts(j.at("cuts"));
@@ -111,6 +112,11 @@ SessionState to_state(const Json& j) {
   for (const Json& c : j.at("compared")) s.compared.push_back(c.get<int>() - 1);
   s.camera = to_camera(j.at("camera"));
   s.dark = j.at("dark");
+  if (j.contains("probe"))  // these too are younger
+    s.probe =
+        ProbeState{to_vec3(j["probe"].at("place")), static_cast<Side>(j["probe"].at("side").get<int>())};
+  if (j.contains("zoom")) s.zoom = ZoomState{to_vec3(j["zoom"].at("place")), j["zoom"].at("radius")};
+  s.figure = j.value("figure", "");
   return s;
 }
 
@@ -137,6 +143,7 @@ std::string state_to_json(const SessionState& s) {
          {"study", s.study},
          {"case", s.shown + 1},
          {"parameters", s.parameters},
+         {"between", s.between},
          {"mesh", s.mesh},
          {"scale", s.scale},
          {"cuts", to_json(s.cuts)},
@@ -155,6 +162,9 @@ std::string state_to_json(const SessionState& s) {
   if (s.tension) j["tension"] = to_json(s.tension);
   if (!s.tensions.empty()) j["tensions"] = to_json(s.tensions);
   if (!s.tensions_undone.empty()) j["tensions_undone"] = to_json(s.tensions_undone);
+  if (s.probe) j["probe"] = {{"place", to_json(s.probe->uvw)}, {"side", static_cast<int>(s.probe->side)}};
+  if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
+  if (!s.figure.empty()) j["figure"] = s.figure;
   return j.dump(1) + "\n";
 }
 

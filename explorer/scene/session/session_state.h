@@ -29,6 +29,18 @@ struct CutState {
   std::vector<ScalpelPath::Point> points;  ///< depth 0: as deep as the shown case
 };
 
+/// A point of the patch whose motion is plotted; on the cut, on one side of it.
+struct ProbeState {
+  Vec3 uvw;
+  Side side = Side::both;
+};
+
+/// Where the simulation's nodes are drawn: those within `radius` mm.
+struct ZoomState {
+  Vec3 place;
+  double radius = 5;
+};
+
 /// Another tension, given when there were so many cuts.
 struct TensionChange {
   std::size_t cuts;
@@ -38,7 +50,8 @@ struct TensionChange {
 struct SessionState {
   std::string study;  ///< study folder, study.dffd or case.dffd; empty: nothing is open
   int shown = 0;      ///< case, from 0
-  std::map<std::string, double> parameters;  ///< asked for with `set`; the nearest case is shown
+  std::map<std::string, double> parameters;  ///< asked for with `set`
+  bool between = true;  ///< what has these parameters is interpolated; else the nearest case is shown
 
   std::string mesh;  ///< file of the surface mesh to cut; empty: the canonical patch
   double scale = 1;  ///< mm in a unit of the mesh
@@ -58,6 +71,9 @@ struct SessionState {
   std::string where;          ///< and those in which this condition holds nowhere; empty: none
   std::vector<int> compared;  ///< two to four cases side by side; empty: one view
   CameraState camera;
+  std::optional<ProbeState> probe;
+  std::optional<ZoomState> zoom;
+  std::string figure;  ///< of how the method works, over the scene; empty: none
   bool dark = false;
 };
 

@@ -1,0 +1,49 @@
+// What is drawn over a scene: dots and lines with colours, beside the surface itself. Knows nothing of VTK.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/vec3.h"
+#include "explorer/incision/scalpel_path.h"
+#include "explorer/scene/raw_case.h"
+
+namespace cleft {
+
+using Ink = std::array<double, 3>;  ///< red, green, blue, 0 to 1
+
+struct Overlay {
+  struct Dot {
+    Vec3 place;
+    Ink ink;
+  };
+  struct Line {
+    std::vector<Vec3> places;
+    Ink ink;
+  };
+  std::vector<Dot> dots;
+  std::vector<Line> lines;
+  double surface_opacity = 1;
+  bool in_front = false;  ///< drawn over all of the surface, also what lies below it
+  std::string caption;
+
+  bool empty() const { return dots.empty() && lines.empty() && caption.empty(); }
+};
+
+/// The simulation's nodes within `radius` mm of a place, where they are in the frame nearest to t, by the
+/// local error of the field: from pale to dark over the largest.
+Overlay nodes_around(const RawCase& raw, const Vec3& place, double radius, double t);
+
+/// The mesh's skin, and the pairs of nodes on the cut: held together by a constraint, or released.
+Overlay constraints_at(const RawCase& raw, double t);
+
+/// The lattice of the four-variate spline at t: its knots' lines on the skin and on both walls of the plane
+/// of the cut, where the field has moved them to.
+Overlay lattice_at(const Field& field, double t);
+
+/// The incision parametrisation volume along a path, as wide and deep as the field's patch, and the blade in
+/// it when s mm are cut. Lengths in mm.
+Overlay volume_along(const ScalpelPath& path, const Field& field, double s);
+
+}  // namespace cleft

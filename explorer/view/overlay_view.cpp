@@ -1,0 +1,81 @@
+#include "explorer/view/overlay_view.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkUnsignedCharArray.h>
+
+namespace cleft {
+
+namespace {
+
+void set_up(vtkActor* actor, vtkPolyData* data) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  actor->SetMapper(mapper);
+  actor->PickableOff();
+  actor->GetProperty()->LightingOff();
+}
+
+vtkNew<vtkUnsignedCharArray> colors() {
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetNumberOfComponents(3);
+  return array;
+}
+
+void add(vtkUnsignedCharArray* array, const Ink& ink) {
+  array->InsertNextTuple3(255 * ink[0], 255 * ink[1], 255 * ink[2]);
+}
+
+/// Towards the eye, in units of the depth buffer: over what they lie on, or over everything.
+void lift(vtkActor* actor, bool in_front) {
+  constexpr double a_little = -4, all_of_it = -1e5;
+  auto* mapper = static_cast<vtkPolyDataMapper*>(actor->GetMapper());
+  mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, in_front ? all_of_it : a_little);
+  mapper->SetRelativeCoincidentTopologyPointOffsetParameter(in_front ? all_of_it : 2 * a_little);
+}
+
+}  // namespace
+
+OverlayView::OverlayView(vtkRenderer* renderer) : renderer_(renderer) {
+  set_up(dots_, dot_data_), set_up(lines_, line_data_);
+  dots_->GetProperty()->SetPointSize(6);
+  lines_->GetProperty()->SetLineWidth(1.4F);
+  renderer_->AddActor(lines_);
+  renderer_->AddActor(dots_);
+}
+
+OverlayView::~OverlayView() {
+  renderer_->RemoveActor(dots_);
+  renderer_->RemoveActor(lines_);
+}
+
+void OverlayView::show(const Overlay& overlay) {
+  const double scale = renderer_->GetRenderWindow() ? renderer_->GetRenderWindow()->GetDPI() / 72. : 1;
+  dots_->GetProperty()->SetPointSize(static_cast<float>(6 * scale));
+  lines_->GetProperty()->SetLineWidth(static_cast<float>(1.4 * scale));
+  for (vtkActor* actor : {dots_.Get(), lines_.Get()}) lift(actor, overlay.in_front);
+  vtkNew<vtkPoints> places, corners;
+  vtkNew<vtkCellArray> dots, lines;
+  const auto dot_colors = colors(), line_colors = colors();
+  for (const Overlay::Dot& dot : overlay.dots) {
+    const vtkIdType id = places->InsertNextPoint(dot.place.x, dot.place.y, dot.place.z);
+    dots->InsertNextCell(1, &id);
+    add(dot_colors, dot.ink);
+  }
+  for (const Overlay::Line& line : overlay.lines) {
+    lines->InsertNextCell(static_cast<int>(line.places.size()));
+    for (const Vec3& x : line.places) lines->InsertCellPoint(corners->InsertNextPoint(x.x, x.y, x.z));
+    add(line_colors, line.ink);
+  }
+  dot_data_->SetPoints(places), dot_data_->SetVerts(dots);
+  dot_data_->GetCellData()->SetScalars(dot_colors);
+  line_data_->SetPoints(corners), line_data_->SetLines(lines);
+  line_data_->GetCellData()->SetScalars(line_colors);
+}
+
+}  // namespace cleft

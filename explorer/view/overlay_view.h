@@ -1,0 +1,29 @@
+// Draws an overlay: dots and lines, in front of what they touch.
+#pragma once
+
+#include <vtkActor.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+
+#include "explorer/scene/overlay.h"
+
+namespace cleft {
+
+class OverlayView {
+ public:
+  /// Into a renderer that outlives it, and out of it at the end.
+  explicit OverlayView(vtkRenderer* renderer);
+  ~OverlayView();
+  OverlayView(const OverlayView&) = delete;
+  OverlayView& operator=(const OverlayView&) = delete;
+
+  void show(const Overlay& overlay);
+
+ private:
+  vtkRenderer* renderer_;
+  vtkNew<vtkActor> dots_, lines_;
+  vtkNew<vtkPolyData> dot_data_, line_data_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,121 @@
+// Looking closer in the window: picking points, plots, progress, what is said of a study.
+#include <QAction>
+#include <QLabel>
+#include <QProgressDialog>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTest>
+#include <QTimer>
+
+#include "explorer/app/tornado_plot.h"
+#include "tests/app/window_fixture.h"
+#include "tests/session/raw_study.h"
+
+namespace cleft {
+namespace {
+
+class CloserWindow : public WindowTest {
+ protected:
+  void press(double x, double y) {
+    QWidget& scene = window_.scene();
+    const QPointF at(scene.width() * x, scene.height() * y);
+    mouse(scene, QEvent::MouseButtonPress, at);
+    mouse(scene, QEvent::MouseButtonRelease, at);
+    QApplication::processEvents();
+  }
+};
+
+TEST_F(CloserWindow, PointsArePickedToBeProbedAndZoomedTo) {
+  tell("open " + raw_study());
+  tell("time 0");
+  settle(20);
+  QTest::keyClick(&window_, Qt::Key_P);
+  EXPECT_TRUE(widget<QAction>("probe").isChecked());
+  press(0.5, 0.35);
+  ASSERT_TRUE(now().probe) << window_.message().toStdString();
+  EXPECT_NEAR(now().probe->uvw.x, 0, 0.6) << "the middle of the picture";
+  EXPECT_GT(now().probe->uvw.y, 1) << "above it";
+  EXPECT_EQ(widget<QTabWidget>("plot_pages").currentIndex(), 1);
+  EXPECT_NE(widget<QLabel>("probe_note").text().indexOf("simulation's node"), -1);
+  widget<QAction>("zoom").trigger();
+  EXPECT_FALSE(widget<QAction>("probe").isChecked());
+  press(0.6, 0.5);
+  ASSERT_TRUE(now().zoom) << window_.message().toStdString();
+  EXPECT_NE(window_.message().indexOf("nodes of the simulation"), -1);
+  QTest::keyClick(&window_, Qt::Key_Escape);
+  EXPECT_FALSE(now().probe || now().zoom);
+  tell("case 2");
+  widget<QAction>("zoom").trigger();
+  press(0.5, 0.5);
+  EXPECT_NE(window_.message().indexOf("case1/case.h5"), -1) << "said in the window";
+}
+
+TEST_F(CloserWindow, TheTornadoIsThatOfTheSession) {
+  tell("open " + study());
+  wait_for_figures();
+  widget<QTabWidget>("plot_pages").setCurrentIndex(2);
+  settle(50);
+  auto* plot = static_cast<TornadoPlot*>(window_.findChild<QWidget*>("tornado"));
+  ASSERT_TRUE(plot->tornado());
+  EXPECT_EQ(plot->tornado()->bars.size(), 2u);
+  EXPECT_EQ(plot->tornado()->bars[0].parameter, "skin.prestress_v") << "2 to 5 mm";
+}
+
+TEST_F(CloserWindow, FiguresAndInterpolationAreChosen) {
+  tell("open " + study());
+  widget<QAction>("figure_lattice").trigger();
+  EXPECT_EQ(now().figure, "lattice");
+  EXPECT_TRUE(widget<QAction>("figure_lattice").isChecked());
+  widget<QAction>("figure_volume").trigger();
+  EXPECT_EQ(now().figure, "lattice") << "there is no mesh";
+  widget<QAction>("figure_off").trigger();
+  EXPECT_EQ(now().figure, "");
+  EXPECT_TRUE(widget<QAction>("between").isChecked());
+  widget<QAction>("between").trigger();
+  EXPECT_FALSE(now().between);
+}
+
+TEST_F(CloserWindow, WhatTakesLongShowsProgressAndIsCancelled) {
+  tell("open " + study());
+  tell("speed 0.5");
+  bool shown = false;
+  QTimer watch;
+  QObject::connect(&watch, &QTimer::timeout, [&] {
+    if (auto* dialog = window_.findChild<QProgressDialog*>("progress"))
+      shown = shown || dialog->isVisible(), dialog->findChild<QPushButton*>()->click();
+  });
+  watch.start(20);
+  const std::string before = state_to_json(now());
+  EXPECT_FALSE(window_.say("movie " + folder_ / "long.ogv 64 36 100"));
+  EXPECT_TRUE(shown);
+  EXPECT_NE(window_.message().indexOf("cancelled"), -1) << window_.message().toStdString();
+  EXPECT_EQ(state_to_json(now()), before);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "long.ogv"));
+  EXPECT_EQ(window_.findChild<QProgressDialog*>("progress"), nullptr);
+}
+
+TEST_F(CloserWindow, ASlowPictureIsCoarseWhileItIsTurned) {
+  tell("open " + study());
+  settle(20);
+  SceneWidget& scene = window_.scene();
+  const auto press_and_move = [&] {
+    mouse(scene, QEvent::MouseButtonPress, {100, 100});
+    mouse(scene, QEvent::MouseMove, {120, 110});
+  };
+  scene.set_slowest(1000);
+  press_and_move();
+  EXPECT_FALSE(scene.coarse());
+  mouse(scene, QEvent::MouseButtonRelease, {120, 110});
+  scene.set_slowest(0);
+  const int width = scene.renderWindow()->GetSize()[0];
+  press_and_move();
+  EXPECT_TRUE(scene.coarse());
+  EXPECT_NEAR(scene.renderWindow()->GetSize()[0], width / 2, 1);
+  if (const char* file = std::getenv("COARSE_PICTURE")) window_.grab().save(file);
+  mouse(scene, QEvent::MouseButtonRelease, {120, 110});
+  EXPECT_FALSE(scene.coarse());
+  EXPECT_EQ(scene.renderWindow()->GetSize()[0], width);
+}
+
+}  // namespace
+}  // namespace cleft
