@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "base/command.h"
 #include "base/error.h"
@@ -21,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string input, paraview, cinema, color = "displacement";
+  std::string input, color = "displacement";
+  std::optional<std::string> paraview, cinema;  // one of them
   bool decoded = false, json = false;
   int frames = 61;
   CinemaGrid grid;
@@ -44,7 +46,7 @@ Place place_of(const std::string& out, bool is_series) {
 }
 
 void export_case(const Options& o, Progress& progress, Json& figures) {
-  const Place place = place_of(o.paraview, true);
+  const Place place = place_of(*o.paraview, true);
   refuse_to_replace_series(place.folder, place.name);
   OutputFolder out(place.folder, place.name);
   const SnapshotReader reader(o.input);
@@ -61,10 +63,10 @@ void export_study(const Options& o, Progress& progress, Json& figures) {
   const std::vector<std::string> cases = study.published_cases();
   if (cases.empty())
     throw InputError(o.input + ": no case is published yet; cleft status " + o.input + " tells more");
-  if (fs::path(o.paraview).extension() == ".pvd")
-    throw InputError("--paraview " + o.paraview + ": " + o.input +
+  if (fs::path(*o.paraview).extension() == ".pvd")
+    throw InputError("--paraview " + *o.paraview + ": " + o.input +
                      " is a study, with a .pvd for each case; give a folder");
-  const Place place = place_of(o.paraview, false);
+  const Place place = place_of(*o.paraview, false);
   refuse_to_replace_folder_of_series((fs::path(place.folder) / place.name).string());
   OutputFolder out(place.folder, place.name);
   const std::string folder = out.path() + "/" + place.name;
@@ -109,10 +111,10 @@ SurfaceSeries series_of(const std::shared_ptr<const Field>& field, int frames) {
 
 void export_decoded(const Options& o, Progress& progress, Json& figures) {
   PublishedStudy study(o.input);
-  if (study.size() > 1 && fs::path(o.paraview).extension() == ".pvd")
-    throw InputError("--paraview " + o.paraview + ": " + o.input +
+  if (study.size() > 1 && fs::path(*o.paraview).extension() == ".pvd")
+    throw InputError("--paraview " + *o.paraview + ": " + o.input +
                      " is a study, with a .pvd for each case; give a folder");
-  const Place place = place_of(o.paraview, study.size() == 1);
+  const Place place = place_of(*o.paraview, study.size() == 1);
   ExportFigures done;
   OutputFolder out(place.folder, place.name);
   if (study.size() == 1) {
@@ -134,10 +136,10 @@ void export_decoded(const Options& o, Progress& progress, Json& figures) {
 }
 
 void export_cinema(const Options& o, Progress& progress, Json& figures) {
-  const Place place = place_of(o.cinema, false);
+  const Place place = place_of(*o.cinema, false);
   if (!place.name.ends_with(".cdb"))
-    throw InputError("--cinema " + o.cinema + ": a Cinema database is a folder that ends in .cdb");
-  if (fs::exists(o.cinema)) throw InputError(o.cinema + ": exists; give another name, or remove it");
+    throw InputError("--cinema " + *o.cinema + ": a Cinema database is a folder that ends in .cdb");
+  if (fs::exists(*o.cinema)) throw InputError(*o.cinema + ": exists; give another name, or remove it");
   Session session(
       session_services([](const std::string& text) { std::cerr << "cleft export: " << text << '\n'; }));
   session.say("open " + quoted(o.input));
@@ -155,26 +157,27 @@ void export_cinema(const Options& o, Progress& progress, Json& figures) {
 }
 
 void export_paraview(const Options& o, Progress& progress, Json& figures) {
-  const bool snapshot = !fs::is_directory(o.input) && format_of(o.input) == snapshot_format.name;
+  const bool folder = fs::is_directory(o.input),
+             snapshot = !folder && format_of(o.input) == snapshot_format.name,
+             fields = !folder && fs::path(o.input).extension() == ".dffd";
   if (snapshot && o.decoded)
     throw InputError(o.input + " is a simulation: --decoded takes a field (case.dffd) or a study");
-  if (o.decoded || (!fs::is_directory(o.input) && !snapshot)) return export_decoded(o, progress, figures);
-  (snapshot ? export_case : export_study)(o, progress, figures);
+  if (o.decoded || fields) return export_decoded(o, progress, figures);
+  (folder ? export_study : export_case)(o, progress, figures);
 }
 
 void export_files(const Options& o) {
-  if (o.paraview.empty() == o.cinema.empty())
+  if (o.paraview.has_value() == o.cinema.has_value())
     throw InputError("give either --paraview OUT or --cinema OUT.cdb");
-  const std::string& out = o.paraview.empty() ? o.cinema : o.paraview;
+  const std::string& out = o.paraview ? *o.paraview : *o.cinema;
   std::error_code absent;
   if (fs::equivalent(out, o.input, absent))
-    throw InputError((o.paraview.empty() ? "--cinema " : "--paraview ") + out +
-                     ": is the input; give another name");
+    throw InputError((o.paraview ? "--paraview " : "--cinema ") + out + ": is the input; give another name");
   if (!fs::exists(o.input)) throw InputError(o.input + ": no such file or folder");
   Json figures;
   {
     Progress progress("exporting");
-    (o.cinema.empty() ? export_paraview : export_cinema)(o, progress, figures);
+    (o.paraview ? export_paraview : export_cinema)(o, progress, figures);
   }
   print_figures(figures, o.json);
 }
