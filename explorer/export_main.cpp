@@ -109,15 +109,17 @@ SurfaceSeries series_of(const std::shared_ptr<const Field>& field, int frames) {
   return series;
 }
 
+/// Of one field a .pvd with its folder, of a study a folder with those of all cases.
 void export_decoded(const Options& o, Progress& progress, Json& figures) {
   PublishedStudy study(o.input);
-  if (study.size() > 1 && fs::path(*o.paraview).extension() == ".pvd")
+  const bool single = !fs::is_directory(o.input) && format_of(o.input) == "cleft-field";
+  if (!single && fs::path(*o.paraview).extension() == ".pvd")
     throw InputError("--paraview " + *o.paraview + ": " + o.input +
                      " is a study, with a .pvd for each case; give a folder");
-  const Place place = place_of(*o.paraview, study.size() == 1);
-  ExportFigures done;
+  const Place place = place_of(*o.paraview, single);
   OutputFolder out(place.folder, place.name);
-  if (study.size() == 1) {
+  ExportFigures done;
+  if (single) {
     refuse_to_replace_series(place.folder, place.name);
     done = write_paraview_series(series_of(study.field(0), o.frames), out.path(), place.name);
     out.commit({place.name, place.name + ".pvd"});
