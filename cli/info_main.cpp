@@ -61,10 +61,10 @@ Json list_of(const Interpolation& made) {
           {"outside", made.outside}};
 }
 
-/// Of a study's published case: whether its snapshot was kept. Empty elsewhere.
-std::string raw_data_beside(const std::string& field) {
+/// Of a study's published case: what its manifest says. Empty elsewhere.
+Json manifest_beside(const std::string& field) {
   const std::string manifest = (std::filesystem::path(field).parent_path() / "manifest.json").string();
-  return std::filesystem::exists(manifest) ? read_sealed(manifest).value("snapshot", "kept") : "";
+  return std::filesystem::exists(manifest) ? read_sealed(manifest) : Json::object();
 }
 
 Json info_of_field(const std::string& file) {
@@ -94,7 +94,15 @@ Json info_of_field(const std::string& file) {
   for (const ParameterDerivative& one : field.by_parameter)
     info["by_parameter"].push_back(
         {{"parameter", one.parameter}, {"largest", one.largest}, {"error", one.error}});
-  if (const std::string raw = raw_data_beside(file); !raw.empty()) info["raw_data"] = raw;
+  if (field.report.raw_bytes() > 0)
+    info["ratio_to_32_bit"] =
+        field.report.raw_bytes() / static_cast<double>(std::filesystem::file_size(file));
+  if (const Json manifest = manifest_beside(file); !manifest.empty()) {
+    info["raw_data"] = manifest.value("snapshot", "kept");
+    for (const char* figure : {"fit_seconds", "measure_seconds"})
+      if (manifest.contains("encoder") && manifest["encoder"].contains(figure))
+        info[figure] = manifest["encoder"][figure];
+  }
   if (field.interpolation) info["interpolation"] = list_of(*field.interpolation);
   return info;
 }

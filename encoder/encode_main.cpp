@@ -16,8 +16,7 @@ using namespace cleft;
 
 namespace {
 
-Json figures_of(const Field& field, const Snapshot& snapshot, const std::string& out) {
-  const double raw = 3.0 * sizeof(float) * static_cast<double>(snapshot.points.size() * snapshot.frames());
+Json figures_of(const Field& field, const std::string& out) {
   const double bytes = static_cast<double>(std::filesystem::file_size(out));
   Json figures = shown(field.report);
   figures.update(
@@ -28,7 +27,7 @@ Json figures_of(const Field& field, const Snapshot& snapshot, const std::string&
        {"quantum_mm", field.quantum},
        {"parametrization", field.parametrization().name()},
        {"bytes", bytes},
-       {"ratio_to_32_bit", raw / bytes}});
+       {"ratio_to_32_bit", field.report.raw_bytes() / bytes}});
   figures["versions"] = {
       {"cleft", producer()},
       {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
@@ -125,6 +124,6 @@ int main(int argc, char** argv) {
     progress("writing");
     write_field(out, field, encoded.residual ? &*encoded.residual : nullptr, {}, encoded.of_quantities);
     verify_written(out, encoded);
-    print_figures(figures_of(field, reader.snapshot(), out), json);
+    print_figures(figures_of(field, out), json);
   });
 }

@@ -94,6 +94,8 @@ FitReport measure(const Field& field, const Series& series) {
                [&](int j) { frames[j] = measure_frame(field, series, static_cast<std::size_t>(j)); });
   FitReport report;
   report.condition = field.report.condition, report.fit_seconds = field.report.fit_seconds;
+  report.nodes = static_cast<double>(series.samples.size());
+  report.frames = static_cast<double>(series.times.size());
   const double scale = report.largest_displacement = series.largest_displacement;
   if (scale == 0) return report;  // nothing moves: every figure is 0
   double squared_error = 0, squared_data = 0, spline = 0;

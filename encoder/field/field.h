@@ -40,6 +40,10 @@ struct FitReport {
   double overlap = 0;               ///< mm: how much further than the data's lips pass through each other
   double least_volume = 1;          ///< least det(I + grad d) at the nodes: of a small volume, over its rest
   double fit_seconds = 0, measure_seconds = 0;  ///< what the fit and the evaluation for this report took
+  double nodes = 0, frames = 0;                 ///< of the data; 0: not known
+
+  /// Of the data's displacements as 32-bit numbers.
+  double raw_bytes() const { return 3 * sizeof(float) * nodes * frames; }
 };
 
 /// Of a field that was not fitted to a simulation but made from the fields of others.

@@ -21,6 +21,7 @@ constexpr double most_control_points = 1e8;
 struct Figure {
   const char *name, *unit;
   double FitReport::*value;
+  bool always = true;  // earlier files lack the others
 };
 constexpr Figure figures[] = {
     {"relative_l2", "", &FitReport::relative_l2},
@@ -35,7 +36,9 @@ constexpr Figure figures[] = {
     {"condition", "", &FitReport::condition},
     {"crease", "_degrees", &FitReport::crease},
     {"overlap", "_mm", &FitReport::overlap},
-    {"least_volume", "", &FitReport::least_volume}};  // no times: equal fields, equal files
+    {"least_volume", "", &FitReport::least_volume},
+    {"nodes", "", &FitReport::nodes, false},
+    {"frames", "", &FitReport::frames, false}};  // no times: equal fields, equal files
 
 /// The same of an interpolation.
 struct InterpolationFigure {
@@ -271,7 +274,9 @@ std::map<std::string, double> parameters_of(const Json& header) {
 FitReport report_of(const Json& header) {
   return reading([&] {
     FitReport report;
-    for (const Figure& figure : figures) report.*figure.value = number(header.at("report").at(figure.name));
+    for (const Figure& figure : figures)
+      if (figure.always || header.at("report").contains(figure.name))
+        report.*figure.value = number(header.at("report").at(figure.name));
     return report;
   });
 }

@@ -183,6 +183,12 @@ TEST_F(EndToEnd, OneAndTwoRanksGiveTheSameSnapshot) {
 TEST_F(EndToEnd, InfoAndCheckSpeakOfTheFiles) {
   const std::string text = expect_success(run_cleft("info", {*folder / "case.dffd", "--json"})).output;
   EXPECT_NE(text.find("\"tissue.young_modulus\": 0.02"), std::string::npos) << text;
+  const auto field = nlohmann::json::parse(text),
+             snapshot = nlohmann::json::parse(
+                 expect_success(run_cleft("info", {*folder / "case.h5", "--json"})).output);
+  EXPECT_DOUBLE_EQ(field["ratio_to_32_bit"].get<double>(), 12. * snapshot["nodes"].get<double>() *
+                                                               snapshot["frames"].get<double>() /
+                                                               field["bytes"].get<double>());
   expect_success(run_cleft("info", {*folder / "case.h5"}));
   expect_success(run_cleft("check", {*folder / "case.h5", *folder / "case.dffd"}));
 }

@@ -112,6 +112,8 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   const auto [finer, finer_links] = encoded_as("tolerance = 0.02");
   EXPECT_EQ(finer_links, 2u);
   EXPECT_EQ(finer["parametrization"], "tip");
+  EXPECT_GT(finer["fit_seconds"], 0);
+  EXPECT_GT(finer["measure_seconds"], 0);
   EXPECT_LE(finer["report"]["node_error"], 0.02);
   const auto [fixed, fixed_links] = encoded_as("parametrization = 'fixed'\ncontrol_points = [12, 10, 6, 6]");
   EXPECT_EQ(fixed_links, 3u);
