@@ -32,7 +32,7 @@ class Model {
     for (auto& half : predictors_)
       for (int first = 0; first < 2; ++first) {
         LinearPredictor start;
-        for (const int direct : {3, 5, 7}) start.weight[direct] = first ? 11469 : 5734;       // 0.7, 0.35
+        for (const int direct : {3, 6, 7}) start.weight[direct] = first ? 11469 : 5734;       // 0.7, 0.35
         for (const int diagonal : {1, 2, 4}) start.weight[diagonal] = first ? -6554 : -1638;  // -0.4, -0.1
         if (first) start.weight[0] = 3277;                                                    // 0.2
         half[first].assign(static_cast<std::size_t>(state_.width(1)) + 1, start);
@@ -71,12 +71,9 @@ class Model {
     for (const Place& place : state_.places(half)) {
       // Neighbours, as they lie in memory
       std::int32_t* const d = innovation + place.at;
-      std::array<FourInputs, 4> x;
-      x[0] = code::four_inputs(d - A - B - 1, d - A - 1);
-      x[1] = code::four_inputs(d - B - 1, d[-2], d[-1]);
-      x[2] = FourInputs{d[-B + 1], d[-2 * A], known->near_innovation, known->far_innovation};
-      x[3] = known->inputs;
-      const Inputs in(x);
+      const Inputs in(code::four_inputs(d - A - B - 1, d - A - 1), code::four_inputs(d - B - 1, d[-2], d[-1]),
+                      FourInputs{d[-B + 1], d[-2 * A], known->near_innovation, known->far_innovation},
+                      known->inputs);
       LinearPredictor& local = predictors[place.across];
       const auto [one, two] = code::predict(in, overall, local);
       const std::int64_t prediction = known->base + ((one + two) >> 1);
@@ -204,11 +201,13 @@ class Model {
   /// The second half where it mirrors the first: one decision a value says that it does.
   void copy_half(int slice, int c) {
     const std::size_t first = state_.first(c, slice);
+    const std::int64_t sign = c == 1 ? -1 : 1;
+    Chance differs = differs_[c];  // in a register
     for (const Place& place : state_.places(1)) {
-      const std::int64_t mirror = place.twin < 0 ? 0 : (c == 1 ? -1 : 1) * state_.values[first + place.twin];
+      const std::int64_t mirror = place.twin < 0 ? 0 : sign * state_.values[first + place.twin];
       std::int64_t distance = 0;
       if constexpr (!Coder::decodes) distance = copied(first + place.unknown, mirror);
-      if (code::code_bit(coder_, differs_[c], distance != 0, 1023)) {
+      if (code::code_bit(coder_, differs, distance != 0, 1023)) [[unlikely]] {
         const bool negative = coder_.bit(32768, distance < 0);
         const auto beyond = static_cast<std::int64_t>(
             code::code_plain(coder_, static_cast<std::uint64_t>(std::abs(distance) - 1)));
@@ -217,6 +216,7 @@ class Model {
         distance = 0;
       keep(first + place.unknown, mirror + distance);
     }
+    differs_[c] = differs;
   }
 
   std::int64_t copied(std::size_t at, std::int64_t mirror) const {

@@ -7,17 +7,12 @@ namespace cleft::code {
 // What follows stands here, not in the header: within the coder's one long loop compilers no longer see that
 // these are loops over a vector.
 
-Inputs::Inputs(const std::array<FourInputs, inputs / 4>& fours) {
-  const auto full = std::bit_cast<std::array<std::int32_t, inputs>>(fours);
-  std::int32_t most = 0;
-  for (const std::int32_t value : full) most |= value ^ (value >> 31);
-  shift = static_cast<int>(std::bit_width(static_cast<std::uint32_t>(most) | 2048)) - 12;
-  for (int n = 0; n < inputs; ++n) x[n] = static_cast<std::int16_t>(full[n] >> shift);
+std::int64_t Inputs::inverse_size() const {
   auto size = static_cast<std::int32_t>(std::int64_t{10 << 16} >> (2 * shift));
   for (int n = 0; n < inputs; ++n) size += x[n] * x[n];
   // In doubles, several times quicker, and exact: the quotient is off from a whole number by 1 / size or
   // more, if it is none, and size is less than 2^31.
-  inverse = static_cast<std::int64_t>(0x1p36 / size);
+  return static_cast<std::int64_t>(0x1p36 / size);
 }
 
 TwoPredictions predict(const Inputs& in, const LinearPredictor& first, const LinearPredictor& second) {

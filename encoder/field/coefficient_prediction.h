@@ -75,7 +75,19 @@ struct Inputs {
   int shift;
   std::int64_t inverse;  // 2^36 over the sum of squares and 10 quanta's
 
-  explicit Inputs(const std::array<FourInputs, inputs / 4>& full);
+  /// The order of the inputs is that of a[0], b[0], a[1], b[1], ..., c[0], d[0], ...
+  Inputs(FourInputs a, FourInputs b, FourInputs c, FourInputs d) {
+    const FourInputs all = (a ^ (a >> 31)) | (b ^ (b >> 31)) | (c ^ (c >> 31)) | (d ^ (d >> 31));
+    const FourInputs two = all | __builtin_shufflevector(all, all, 2, 3, 0, 1);
+    shift = static_cast<int>(std::bit_width(static_cast<std::uint32_t>(two[0] | two[1]) | 2048)) - 12;
+    const FourInputs pairs[] = {((a >> shift) & 0xFFFF) | (b >> shift) << 16,
+                                ((c >> shift) & 0xFFFF) | (d >> shift) << 16};
+    std::memcpy(x.data(), pairs, sizeof(pairs));
+    inverse = inverse_size();
+  }
+
+ private:
+  std::int64_t inverse_size() const;
 };
 
 /// Least mean squares, normalised by the inputs' size: forgets quickly, and so follows what changes from
