@@ -58,16 +58,22 @@ void export_case(const Options& o, Progress& progress, Json& figures) {
   figures = {{"frames", done.frames}, {"files", done.files}, {"bytes", done.bytes}};
 }
 
-void export_study(const Options& o, Progress& progress, Json& figures) {
-  const StudyFolder study(o.input);
-  const std::vector<std::string> cases = study.published_cases();
-  if (cases.empty())
-    throw InputError(o.input + ": no case is published yet; cleft status " + o.input + " tells more");
+/// Of a study: the folder for the series of all its cases.
+Place place_of_study(const Options& o) {
   if (fs::path(*o.paraview).extension() == ".pvd")
     throw InputError("--paraview " + *o.paraview + ": " + o.input +
                      " is a study, with a .pvd for each case; give a folder");
   const Place place = place_of(*o.paraview, false);
   refuse_to_replace_folder_of_series((fs::path(place.folder) / place.name).string());
+  return place;
+}
+
+void export_study(const Options& o, Progress& progress, Json& figures) {
+  const StudyFolder study(o.input);
+  const std::vector<std::string> cases = study.published_cases();
+  if (cases.empty())
+    throw InputError(o.input + ": no case is published yet; cleft status " + o.input + " tells more");
+  const Place place = place_of_study(o);
   OutputFolder out(place.folder, place.name);
   const std::string folder = out.path() + "/" + place.name;
   fs::create_directory(folder);
@@ -113,10 +119,7 @@ SurfaceSeries series_of(const std::shared_ptr<const Field>& field, int frames) {
 void export_decoded(const Options& o, Progress& progress, Json& figures) {
   PublishedStudy study(o.input);
   const bool single = !fs::is_directory(o.input) && format_of(o.input) == "cleft-field";
-  if (!single && fs::path(*o.paraview).extension() == ".pvd")
-    throw InputError("--paraview " + *o.paraview + ": " + o.input +
-                     " is a study, with a .pvd for each case; give a folder");
-  const Place place = place_of(*o.paraview, single);
+  const Place place = single ? place_of(*o.paraview, true) : place_of_study(o);
   OutputFolder out(place.folder, place.name);
   ExportFigures done;
   if (single) {
@@ -124,7 +127,6 @@ void export_decoded(const Options& o, Progress& progress, Json& figures) {
     done = write_paraview_series(series_of(study.field(0), o.frames), out.path(), place.name);
     out.commit({place.name, place.name + ".pvd"});
   } else {
-    refuse_to_replace_folder_of_series((fs::path(place.folder) / place.name).string());
     const std::string folder = out.path() + "/" + place.name;
     fs::create_directory(folder);
     for (int i = 0; i < study.size(); ++i) {
