@@ -138,6 +138,27 @@ bool holds_only_frames(const fs::path& folder) {
                    "; give another name, or remove it");
 }
 
+/// A file a frame and the .pvd of all. `take(j)` puts frame j's arrays into the grid.
+ExportFigures write_frames(vtkUnstructuredGrid* grid, const std::vector<double>& times,
+                           const std::string& folder, const std::string& name,
+                           const std::function<void(std::size_t)>& take) {
+  const fs::path frames = fs::path(folder) / name;
+  fs::create_directory(frames);
+  ExportFigures figures;
+  const auto write = [&](const std::string& path, const std::string& text) {
+    write_text_file(path, text);
+    ++figures.files, figures.bytes += fs::file_size(path);
+  };
+  for (std::size_t j = 0; j < times.size(); ++j, ++figures.frames) {
+    take(j);
+    grid->GetPointData()->SetActiveVectors("displacement");
+    grid->GetFieldData()->AddArray(numbers("TimeValue", 1, {times[j]}));
+    write((frames / frame_file(j)).string(), vtu(grid));
+  }
+  write(frames.string() + ".pvd", collection(times, name));
+  return figures;
+}
+
 }  // namespace
 
 ExportFigures& ExportFigures::operator+=(const ExportFigures& other) {
@@ -154,29 +175,12 @@ ExportFigures write_paraview_series(const SnapshotReader& reader, const std::str
   const auto add = [&grid](const SnapshotArray& array, const std::vector<double>& values) {
     grid->GetPointData()->AddArray(numbers(array.name, static_cast<int>(array.components), values));
   };
-  ExportFigures figures;
-  const auto count = [&figures](const fs::path& file) {
-    ++figures.files, figures.bytes += fs::file_size(file);
-  };
-
-  const fs::path frames = fs::path(folder) / name;
-  fs::create_directory(frames);
-  for (std::size_t j = 0; j < s.frames(); ++j) {
+  return write_frames(grid, s.times, folder, name, [&](std::size_t j) {
     if (progress) progress(j);
     add({"displacement", 3, true}, flat(reader.displacement(j)));
-    grid->GetPointData()->SetActiveVectors("displacement");
     for (const SnapshotArray& array : arrays)
       if (array.varies || j == 0) add(array, reader.point_array(array, j));
-    grid->GetFieldData()->AddArray(numbers("TimeValue", 1, {s.times[j]}));
-    const fs::path file = frames / frame_file(j);
-    write_text_file(file.string(), vtu(grid));
-    count(file);
-    ++figures.frames;
-  }
-  const std::string pvd = frames.string() + ".pvd";
-  write_text_file(pvd, collection(s.times, name));
-  count(pvd);
-  return figures;
+  });
 }
 
 namespace {
@@ -201,22 +205,10 @@ vtkNew<vtkUnstructuredGrid> mesh_of(const SurfaceSeries& series) {
 
 ExportFigures write_paraview_series(const SurfaceSeries& series, const std::string& folder,
                                     const std::string& name) {
-  const fs::path frames = fs::path(folder) / name;
-  fs::create_directory(frames);
   const auto grid = mesh_of(series);
-  ExportFigures figures;
-  const auto write = [&](const std::string& path, const std::string& text) {
-    write_text_file(path, text);
-    ++figures.files, figures.bytes += fs::file_size(path);
-  };
-  for (std::size_t j = 0; j < series.times.size(); ++j, ++figures.frames) {
+  return write_frames(grid, series.times, folder, name, [&](std::size_t j) {
     grid->GetPointData()->AddArray(numbers("displacement", 3, flat(series.displacement(series.times[j]))));
-    grid->GetPointData()->SetActiveVectors("displacement");
-    grid->GetFieldData()->AddArray(numbers("TimeValue", 1, {series.times[j]}));
-    write((frames / frame_file(j)).string(), vtu(grid));
-  }
-  write(frames.string() + ".pvd", collection(series.times, name));
-  return figures;
+  });
 }
 
 void refuse_to_replace_series(const std::string& folder, const std::string& name) {

@@ -41,6 +41,7 @@ CinemaFigures write_cinema(Session& session, const std::string& out, const Cinem
     for (int j = 0; j < grid.times; ++j) {
       const double t = session.duration() * j / std::max(1, grid.times - 1);
       session.say("time " + shortest(t));
+      const std::string gape = shortest(widest_gape(*field, t));
       for (std::size_t k = 0; k < grid.cameras.size(); ++k) {
         progress(done.pictures, all);
         const auto [azimuth, elevation] = grid.cameras[k];
@@ -49,8 +50,8 @@ CinemaFigures write_cinema(Session& session, const std::string& out, const Cinem
         std::snprintf(name, sizeof name, "images/case%04d_t%03d_camera%zu.png", done.cases + 1, j, k);
         write_png(shot.take(session), out + "/" + name, state_to_json(session.state()));
         table += values(session, done.cases) + "," + shortest(t) + "," + shortest(azimuth) + "," +
-                 shortest(elevation) + "," + shortest(widest_gape(*field, t)) + "," +
-                 shortest(field->report.largest_displacement) + "," + name + "\n";
+                 shortest(elevation) + "," + gape + "," + shortest(field->report.largest_displacement) + "," +
+                 name + "\n";
         ++done.pictures;
       }
     }
