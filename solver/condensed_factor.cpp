@@ -18,7 +18,7 @@ namespace cleft {
 
 namespace {
 
-constexpr int most_with_same_sums = 1000000;  // unknowns, on two ranks
+constexpr int most_with_same_sums = 1000000;  // unknowns, on several ranks
 
 struct NotEnoughWorkspace : SolveError {
   using SolveError::SolveError;
@@ -135,9 +135,10 @@ CondensedFactor::CondensedFactor(const PatchSystem& system, PatchSystem::Entries
   // unknowns the factor is 6 % smaller so, and no slower.
   m.id.keep[0] = 2;
   // A front of as many rows as this is spread over ranks (KEEP(9), not in the manual either), and its sums
-  // are other ones in every run. The fronts of this many unknowns one rank can do.
-  m.same_sums = ranks == 2 && system.size() <= most_with_same_sums;
-  if (m.same_sums) m.id.keep[8] = std::numeric_limits<MUMPS_INT>::max() / 2;
+  // are other ones in every run. The fronts of this many unknowns one rank can do. What came last of a
+  // front's children is added first, to save memory (KEEP(234)): here they keep one order.
+  m.same_sums = ranks > 1 && system.size() <= most_with_same_sums;
+  if (m.same_sums) m.id.keep[8] = std::numeric_limits<MUMPS_INT>::max() / 2, m.id.keep[233] = 0;
 
   m.entries = std::move(entries);
   for (int& row : m.entries.row) ++row;

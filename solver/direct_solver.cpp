@@ -25,6 +25,21 @@ std::vector<Triplet> gather(const PatchSystem& system, const std::vector<Triplet
   return all;
 }
 
+/// One triplet for those of the same place, which are added in the order in which they stand.
+std::vector<Triplet> summed(std::vector<Triplet> all) {
+  std::stable_sort(all.begin(), all.end(), [](const Triplet& a, const Triplet& b) {
+    return std::pair(a.row(), a.col()) < std::pair(b.row(), b.col());
+  });
+  std::size_t count = 0;
+  for (const Triplet& one : all)
+    if (count > 0 && all[count - 1].row() == one.row() && all[count - 1].col() == one.col())
+      all[count - 1] = {one.row(), one.col(), all[count - 1].value() + one.value()};
+    else
+      all[count++] = one;
+  all.resize(count);
+  return all;
+}
+
 std::vector<int> right_unknowns(const PatchMesh& mesh, const PatchSystem& system) {
   std::vector<int> unknowns;
   for (const NodePair& pair : mesh.pairs)
@@ -50,8 +65,9 @@ PatchSystem::Entries DirectSolver::stiffness_with_jumps() {
     for (int axis = 0; axis < 3; ++axis)
       left_of[cut_.unknowns[3 * right + axis]] = cut_.unknowns[3 * left + axis];
   for (std::size_t i = 0; i < jump_unknowns_.size(); ++i) number[jump_unknowns_[i]] = static_cast<int>(i);
-  std::vector<bool> is_jump(static_cast<std::size_t>(system_.size()), false);
+  std::vector<bool> is_jump(static_cast<std::size_t>(system_.size()), false), at_cut = is_jump;
   for (const int unknown : jump_unknowns_) is_jump[unknown] = true;
+  for (const int unknown : cut_.unknowns) at_cut[unknown] = true;
   // A displacement is the sum of these: itself, or its jump, that of its left node, ...
   const auto terms = [&](int unknown) {
     std::vector<int> list = {unknown};
@@ -60,21 +76,29 @@ PatchSystem::Entries DirectSolver::stiffness_with_jumps() {
   };
 
   PatchSystem::Entries entries = system_.lower_triangle();
-  const std::size_t count = entries.value.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  std::size_t others = 0;  // that stay
+  std::vector<Triplet> at_the_cut;
+  for (std::size_t i = 0; i < entries.value.size(); ++i) {
     const int row = entries.row[i], column = entries.column[i];
-    if (!is_jump[row] && !is_jump[column]) continue;
     const double value = entries.value[i];
+    if (!at_cut[row] && !at_cut[column]) {
+      entries.row[others] = row, entries.column[others] = column, entries.value[others++] = value;
+      continue;
+    }
     const bool diagonal = row == column;  // any other entry stands for its mirror image too
     for (const int a : terms(row))
-      for (const int b : terms(column)) {
-        if (diagonal && a > b) continue;
-        const double part = !diagonal && a == b ? 2 * value : value;
-        if (is_jump[a] != is_jump[b])
-          coupling_entries_.emplace_back(is_jump[a] ? b : a, number[is_jump[a] ? a : b], part);
-        if (a == row && b == column) continue;  // the entry itself
-        entries.row.push_back(a), entries.column.push_back(b), entries.value.push_back(part);
-      }
+      for (const int b : terms(column))
+        if (!diagonal || a <= b)
+          at_the_cut.emplace_back(std::max(a, b), std::min(a, b), !diagonal && a == b ? 2 * value : value);
+  }
+  entries.row.resize(others), entries.column.resize(others), entries.value.resize(others);
+  // Summed here: MUMPS would add what ranks give of the same entry in the order in which it arrives.
+  for (const Triplet& entry : summed(gather(system_, at_the_cut))) {
+    const int row = entry.row(), column = entry.col();
+    entries.row.push_back(row), entries.column.push_back(column), entries.value.push_back(entry.value());
+    if (is_jump[row] != is_jump[column])
+      coupling_entries_.emplace_back(is_jump[row] ? column : row, number[is_jump[row] ? row : column],
+                                     entry.value());
   }
   return entries;
 }
@@ -88,8 +112,7 @@ double DirectSolver::bytes_needed() const {
 
 void DirectSolver::factorize() {
   factor_.factorize();
-  std::vector<Triplet> entries = gather(system_, coupling_entries_);
-  coupling_entries_ = {};
+  std::vector<Triplet> entries = std::move(coupling_entries_);
   for (const Triplet& entry : entries) neighbors_.push_back(entry.row());
   std::sort(neighbors_.begin(), neighbors_.end());
   neighbors_.erase(std::unique(neighbors_.begin(), neighbors_.end()), neighbors_.end());

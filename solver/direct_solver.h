@@ -35,7 +35,7 @@ class DirectSolver : public FrameSolver {
   CutNodes cut_;
   std::vector<Vec3> normals_;                                  // by pair
   std::vector<int> jump_unknowns_;                             // those of the right nodes, by pair
-  std::vector<Eigen::Triplet<double, int>> coupling_entries_;  // until they are gathered
+  std::vector<Eigen::Triplet<double, int>> coupling_entries_;  // rank 0, until the factorisation
   CondensedFactor factor_;
   std::vector<int> neighbors_;            // unknowns that jumps act on
   Eigen::SparseMatrix<double> coupling_;  // between neighbors_ and jumps; rank 0, as all below

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "tests/pipeline/commands.h"
 #include "tests/solver/solved_snapshot.h"
 
@@ -95,6 +96,19 @@ TEST_F(SolveCommand, ContactIsTheSameOnSeveralRanks) {
   const std::vector<double> gaps = SnapshotReader(reference).snapshot().smallest_gap;
   EXPECT_GT(*std::min_element(gaps.begin(), gaps.end()), -1e-12);
   expect_same(solve({2, "direct", "zorder"}, contact), reference, 1e-10, {"displacement"});
+}
+
+TEST_F(SolveCommand, EveryRunOnAsManyRanksWritesTheSameBytes) {
+  const std::string file = folder.write("coarse.toml", "case.mesh.element_size = 2\n");
+  for (const int ranks : {2, 3, 4}) {
+    std::string first;
+    for (int again = 0; again < 2; ++again) {
+      expect_success(solve_on_ranks(ranks, {file, "--out", folder / "again.h5"}));
+      const std::string bytes = read_text_file(folder / "again.h5");
+      if (again == 0) first = bytes;
+      EXPECT_TRUE(bytes == first) << "on " << ranks << " ranks";
+    }
+  }
 }
 
 TEST_F(SolveCommand, SeveralCasesGoIntoAFolderAndAListOfFigures) {
