@@ -60,7 +60,7 @@ int opened(const std::string& path) {
 /// In the child: what may be called between fork and exec in a process with threads, and no more.
 [[noreturn]] void become(char** argv, char** variables, int out, int log, pid_t parent, int failure) {
   setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);     // mpirun, asked to end while it starts up, may lock up instead
   if (getppid() != parent) _exit(127);  // it has died already
   sigset_t none;
   sigemptyset(&none);

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/sealed_json.h"
@@ -23,17 +24,29 @@ namespace {
 
 constexpr int most_kills = 3;  // of a case's process, in one run, before it is given up
 
-std::string last_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
-
 /// The line of a log that names something; empty where none does.
 std::string line_with(const std::string& text, const std::string& what) {
   const std::size_t at = text.find(what);
   if (at == std::string::npos) return "";
   const std::size_t begin = text.rfind('\n', at) + 1;
   return text.substr(begin, text.find('\n', at) - begin);
+}
+
+/// The last line that says anything: mpirun frames its words by dashes.
+std::string last_words(const std::string& text) {
+  std::istringstream lines(text);
+  std::string last;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find_first_not_of("- \t\r") != std::string::npos) last = line;
+  return last;
+}
+
+/// What a command has said of its own failure, "cleft solve: error: ..." (base/command.h): empty where it
+/// came to none, and something else has failed, as mpirun.
+std::string own_words(const std::string& log, const std::string& command) {
+  for (const char* kind : {": error: ", ": failed: "})
+    if (const std::string said = line_with(log, "cleft " + command + kind); !said.empty()) return said;
+  return "";
 }
 
 std::string text_of(const std::string& file) { return fs::exists(file) ? read_text_file(file) : ""; }
@@ -113,9 +126,9 @@ ProcessResult CaseWork::child(const std::string& command, const std::vector<std:
 
 Failure CaseWork::failure_of(const std::string& command, const ProcessResult& result,
                              const std::string& log) const {
-  const std::string said = last_line(log);
   if (result.signal) return {command + " was ended by signal " + std::to_string(result.signal), true};
-  const bool of_machine = was_killed(result) || said.find("disk") != std::string::npos ||
+  const std::string own = own_words(log, command), said = own.empty() ? last_words(log) : own;
+  const bool of_machine = was_killed(result) || own.empty() || said.find("disk") != std::string::npos ||
                           said.find("could not be") != std::string::npos || disk_is_full(folder_.path());
   return {command + " ended with exit code " + std::to_string(result.exit_code) + ": " + said, of_machine};
 }

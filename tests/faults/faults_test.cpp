@@ -42,6 +42,20 @@ TEST(FaultsOnTwoRanks, AFullDiskDelaysAStudy) {
   EXPECT_EQ(report->runs, 1);
 }
 
+TEST(FaultsOnThreeRanks, KillsLoseNothing) {
+  const TemporaryFolder place;
+  const StudyUnderFault study(place.path(), 3);
+  std::mt19937 random(5);
+  EXPECT_EQ(kill_at_random(study, 2, random).kills, 2);
+}
+
+TEST(FaultsOnTwoRanks, AFailingWriteDelaysAStudy) {
+  const TemporaryFolder place;
+  const StudyUnderFault study(place.path(), 2);
+  std::mt19937 random(6);
+  EXPECT_EQ(fail_writes(study, 1, random).runs, 1);
+}
+
 TEST_F(Faults, AFailingWriteDelaysAStudy) { EXPECT_EQ(fail_writes(study_, 1, random_).runs, 1); }
 
 }  // namespace

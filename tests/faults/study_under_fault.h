@@ -20,8 +20,7 @@ inline void promise(bool kept, const std::string& what) {
 
 class StudyUnderFault {
  public:
-  /// Runs the study undisturbed in `place`/reference. On more than two ranks numbers are rounded in the order
-  /// in which they arrive: the files are sound then, and not compared byte by byte.
+  /// Runs the study undisturbed in `place`/reference.
   StudyUnderFault(std::string place, int ranks);
 
   const std::string& place() const { return place_; }
@@ -40,7 +39,6 @@ class StudyUnderFault {
   void expect_as_undisturbed(const std::string& folder) const;
 
  private:
-  static constexpr int most_with_same_bytes = 2;  // ranks
   std::string place_;
   int ranks_;
   std::map<std::string, std::string> undisturbed_;  // bytes of all published files by their place
