@@ -25,6 +25,11 @@ cases_per_task = 1
 
 bool slurm_is_here() { return in_shell("sinfo -h | grep -q idle").exit_code == 0; }
 
+/// Largest number of tasks in an array of this cluster.
+int most_tasks() {
+  return std::stoi(in_shell("scontrol show config | sed -n 's/^MaxArraySize *= *//p'").output);
+}
+
 int arrays_of(const std::string& folder) {
   int count = 0;
   if (fs::exists(folder + "/slurm"))
@@ -40,19 +45,21 @@ TEST(Slurm, PublishesWhatALocalRunDoesAndFindsItsJobsAgain) {
   const std::string file = place.write("study.toml", study), folder = place / "slurm";
   expect_success(run_cleft("run", {file, "--out", place / "local"}));
 
+  constexpr int cases = 4;  // of the small study, each a task
+  const int arrays = (cases + most_tasks() - 1) / most_tasks();
   const pid_t child = fork();
   if (child == 0) {
     execl(CLEFT_BIN "/cleft", "cleft", "run", file.c_str(), "--out", folder.c_str(), "--launcher", "slurm",
           nullptr);
     _exit(127);
   }
-  for (int i = 0; i < 200 && arrays_of(folder) == 0; ++i) usleep(50'000);
+  for (int i = 0; i < 200 && arrays_of(folder) < arrays; ++i) usleep(50'000);
   usleep(500'000);
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
 
   expect_success(run_cleft("run", {file, "--out", folder, "--launcher", "slurm"}));
-  EXPECT_EQ(arrays_of(folder), 1) << "the jobs of the killed run were not found";
+  EXPECT_EQ(arrays_of(folder), arrays) << "the jobs of the killed run were not found";
   EXPECT_TRUE(published_bytes(folder) == published_bytes(place / "local"));
   expect_success(run_cleft("check", {folder}));
 
