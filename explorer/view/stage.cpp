@@ -78,7 +78,7 @@ void Stage::lay_over(Session& session) {
       continue;
     }
     if (!views_[i].overlay) views_[i].overlay = std::make_unique<OverlayView>(views_[i].view->renderer());
-    views_[i].overlay->show(overlay);
+    views_[i].overlay->show(overlay, session.state().dark);
   }
 }
 

@@ -6,13 +6,12 @@
 #include <vtkLight.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkScalarBarActor.h>
-#include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "explorer/view/legend.h"
 #include "explorer/view/wound_colors.h"
 
 namespace cleft {
@@ -37,29 +36,6 @@ vtkSmartPointer<vtkActor> make_actor(vtkPolyData* data, vtkLookupTable* colors) 
   look->SetSpecular(0.12);
   look->SetSpecularPower(18);
   return actor;
-}
-
-vtkSmartPointer<vtkScalarBarActor> make_legend(vtkLookupTable* colors, const std::string& title) {
-  vtkNew<vtkScalarBarActor> legend;
-  legend->SetLookupTable(colors);
-  legend->SetTitle(title.c_str());
-  legend->SetNumberOfLabels(2);  // the ends: the middle is the title's
-  legend->SetLabelFormat("%.2g");
-  legend->SetOrientationToHorizontal();
-  legend->SetPosition(0.33, 0.015);
-  legend->SetWidth(0.34);
-  legend->SetHeight(0.11);
-  legend->SetBarRatio(0.22);
-  legend->SetVerticalTitleSeparation(6);
-  legend->UnconstrainedFontSizeOn();
-  for (vtkTextProperty* text : {legend->GetTitleTextProperty(), legend->GetLabelTextProperty()}) {
-    text->SetFontSize(14);
-    text->ItalicOff();
-    text->BoldOff();
-    text->ShadowOff();
-    text->SetColor(0.1, 0.1, 0.12);
-  }
-  return legend;
 }
 
 }  // namespace
@@ -190,10 +166,7 @@ void WoundView::set_background() {
     renderer_->SetBackground(0.80, 0.83, 0.86);
     renderer_->SetBackground2(0.96, 0.97, 0.98);
   }
-  if (!legend_) return;
-  const double ink = dark_ ? 0.9 : 0.1;
-  for (vtkTextProperty* text : {legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty()})
-    text->SetColor(ink, ink, ink);
+  if (legend_) set_dark_background(legend_, dark_);
 }
 
 void WoundView::add_prop(vtkProp* prop) {
