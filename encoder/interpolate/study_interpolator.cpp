@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "encoder/interpolate/field_samples.h"
 #include "params/parameters.h"
@@ -51,9 +52,10 @@ struct Summand {
 /// In the same order for every value: control points that are one in all cases stay one, bit for bit. By
 /// pieces that stay in the nearest cache.
 std::vector<double> sum_of(const std::vector<Summand>& summands) {
-  constexpr std::size_t piece = 1024;
+  constexpr std::size_t piece = 2048;
   std::vector<double> sum(summands.front().values.size(), 0);
-  for (std::size_t begin = 0; begin < sum.size(); begin += piece) {
+  parallel_for(static_cast<int>((sum.size() + piece - 1) / piece), [&](int number) {
+    const std::size_t begin = static_cast<std::size_t>(number) * piece;
     const std::size_t count = std::min(piece, sum.size() - begin);
     double* to = sum.data() + begin;
     for (const auto& [weight, values] : summands) {
@@ -61,7 +63,7 @@ std::vector<double> sum_of(const std::vector<Summand>& summands) {
       const float* from = values.data() + begin;
       for (std::size_t n = 0; n < count; ++n) to[n] += weight * static_cast<double>(from[n]);
     }
-  }
+  });
   return sum;
 }
 
