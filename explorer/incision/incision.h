@@ -134,7 +134,9 @@ class Incision {
   int tip_vertex() const { return state_.from >= 0 ? state_.from : chain_.back().left; }
 
   // Changing the mesh: incision.cpp.
+  void rehearse();
   void cut_on_to(double s);
+  void step_on();
   void take(const Step& step);
   int realise(const Step& step);
   bool made_room(const Step& step);
