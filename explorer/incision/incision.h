@@ -109,6 +109,7 @@ class Incision {
   Step placed(int triangle, const Vec3& place, double s) const;
   bool may_move(int v, const Vec3& place) const;
   bool may_reach(int v) const;
+  bool begins_ahead(const Vec3& start, const Vec3& drawn_to) const;
   bool keeps_fold(int v, const Vec3& place, int triangle) const;
   double room_of(int v) const;
   std::optional<Step> exit_at(int v, double s) const;

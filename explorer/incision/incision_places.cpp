@@ -195,6 +195,13 @@ bool Incision::may_move(int v, const Vec3& place) const {
   return norm(step) <= same_place * norm(out) || (parallel(in, out) && parallel(step, out));
 }
 
+/// Whether the path, drawn from its start to another place, would have to turn back at once.
+bool Incision::begins_ahead(const Vec3& start, const Vec3& drawn_to) const {
+  const Vec3 way = drawn_to - start;
+  return chain_.empty() && dot(way, path_.at(0).along) > 0.1 * norm(way) &&
+         norm(way) > same_place * path_.length();
+}
+
 std::vector<int> Incision::triangles_at(const Step& start) const {
   if (start.kind == Step::vertex) return mesh_.skin_fan(start.index);
   if (start.kind == Step::face) return {start.triangle};
@@ -211,7 +218,7 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
     if (away <= (own ? 1.5 : 1) * options_.snap * room && may_move(v, place) &&
         keeps_fold(v, place, triangle))
       return {Step::vertex, -1, v, place, s};
-    if (end && away <= options_.snap / 2 * room && may_reach(v))
+    if (end && away <= options_.snap / 2 * room && may_reach(v) && !begins_ahead(place, mesh_.position(v)))
       return {Step::vertex, -1, v, mesh_.position(v), s};
   }
   // A new vertex inside the triangle, or where it is close to an edge, one of that edge, bent to go through
@@ -238,6 +245,7 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
     if (!(may_bend && away <= options_.snap / 2) && !touches) continue;
     Vec3 on_edge = place;
     if (border) on_edge = lerp(a, b, std::clamp(dot(place - a, b - a) / squared_norm(b - a), 0.0, 1.0));
+    if (border && begins_ahead(place, on_edge)) continue;
     double worst = std::min(quality(a, on_edge, c, n), quality(on_edge, b, c, n));
     if (may_bend) {
       const CutMesh::Triangle& other = mesh_.triangle(across);
