@@ -12,6 +12,7 @@
 #include "tests/incision/stress/blade_trace.h"
 #include "tests/incision/stress/refusals.h"
 #include "tests/incision/stress/soundness.h"
+#include "tests/incision/stress/wedge.h"
 
 namespace cleft::stress {
 
@@ -171,7 +172,8 @@ class Stress {
     tally_.worst_quality = std::min(tally_.worst_quality, worst / asked);
     const bool poor = worst < asked;
     tally_.poor += poor;
-    const bool squeezed = poor && between_edges(worst_triangle, cut.cut());
+    const bool squeezed = poor && (between_edges(worst_triangle, cut.cut()) ||
+                                   best_between_lips(mesh_, worst_triangle, cut) < asked);
     tally_.squeezed += squeezed;
     if (poor)
       list("a triangle of " + std::to_string(worst / asked) + " of what is asked near " +
