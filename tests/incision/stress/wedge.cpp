@@ -11,7 +11,8 @@ namespace {
 
 double angle(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
-/// The path's direction along the lip over edge i of a triangle of the skin; none where that is no lip of it.
+/// The direction of the path's way over a triangle of the skin, along the lip on its edge i; none where that
+/// is no lip of it.
 std::optional<Vec3> direction(const CutMesh& mesh, int t, int i, const Incision& cut) {
   const CutMesh::Triangle& skin = mesh.triangle(t);
   const int wall = skin.neighbor[i];
@@ -20,7 +21,10 @@ std::optional<Vec3> direction(const CutMesh& mesh, int t, int i, const Incision&
   const double s =
       (mesh.wall_s(wall, w.corner(skin.vertex[i])) + mesh.wall_s(wall, w.corner(skin.vertex[(i + 1) % 3]))) /
       2;
-  return cut.path().at(s).along;
+  const PathFrame frame = cut.path().at(s);
+  const Vec3 n = cross(mesh.position(skin.vertex[1]) - mesh.position(skin.vertex[0]),
+                       mesh.position(skin.vertex[2]) - mesh.position(skin.vertex[0]));
+  return frame.along - (dot(frame.along, n) / dot(frame.outward, n)) * frame.outward;
 }
 
 /// 4 sin(a/2) (1 - sin(a/2)): 8 sin(A/2) sin(B/2) sin(C/2) is largest where B = C.
