@@ -52,13 +52,21 @@ void settle(Session& session) {
   for (int i = 0; i < 20; ++i) QApplication::processEvents(QEventLoop::AllEvents, 20);
 }
 
+/// Says a line, and ends the program where it cannot be done.
+void say(MainWindow& window, const std::string& line) {
+  if (window.say(line)) return;
+  std::fprintf(stderr, "%s: %s\n", line.c_str(), window.message().toUtf8().constData());
+  std::exit(1);
+}
+
 void study(MainWindow& window, Session& session, const std::string& path) {
   Stopwatch watch;
-  window.say("open " + quoted(path));
+  say(window, "open " + quoted(path));
   QApplication::processEvents();
   std::printf("%d cases: first picture after %.0f ms", session.study()->size(), 1e3 * watch.seconds());
   settle(session);
   std::printf(", all figures after %.1f s\n", watch.seconds());
+  if (session.study()->varying().empty()) return;
   for (const std::string& name : session.study()->varying()) {
     auto* slider = window.findChild<QSlider*>(QString::fromStdString(name));
     if (!slider) continue;
@@ -76,20 +84,24 @@ void study(MainWindow& window, Session& session, const std::string& path) {
     greatest = std::max(greatest, session.column_value(i, name));
   }
   time_calls("brushing", 60, [&](int i) {
-    window.say("brush " + name + " " + shortest(least) + " " +
-               shortest(least + (greatest - least) * (i + 1) / 60));
+    say(window,
+        "brush " + name + " " + shortest(least) + " " + shortest(least + (greatest - least) * (i + 1) / 60));
   });
-  window.say("brush clear");
+  say(window, "brush clear");
 }
 
 void mesh(MainWindow& window, Session& session, const std::string& file, const std::string& path) {
-  window.say("mesh " + quoted(file));
-  window.say("cut-file " + quoted(path));
+  say(window, "mesh " + quoted(file));
+  say(window, "cut-file " + quoted(path));
   settle(session);
   const double end = session.duration();
   std::printf("mesh of %zu triangles, a cut of %.0f mm\n", session.scene()->surface().triangles.size(), end);
-  time_calls("the wound opens, a picture", 100,
-             [&](int i) { window.say("time " + shortest(end * (i + 1) / 100)); });
+  const auto open_it = [&](int i) { say(window, "time " + shortest(end * (i + 1) / 100)); };
+  window.scene().set_slowest(HUGE_VAL);
+  time_calls("the wound opens: whole pictures", 100, open_it);
+  window.scene().set_slowest(0.066);
+  time_calls(" as they are while time runs", 100, open_it);
+  std::printf("%36s%s\n", "", window.scene().coarse() ? "at half the resolution" : "at the whole resolution");
 }
 
 }  // namespace

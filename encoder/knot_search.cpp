@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "encoder/parallel.h"
+#include "base/parallel.h"
 #include "encoder/series_fit.h"
 
 namespace cleft {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "encoder/parallel.h"
 
 namespace cleft {
 

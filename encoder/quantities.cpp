@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "encoder/field/unknowns.h"
-#include "encoder/parallel.h"
 #include "encoder/series_fit.h"
 
 namespace cleft {

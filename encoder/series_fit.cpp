@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "base/error.h"
-#include "encoder/parallel.h"
+#include "base/parallel.h"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));  // absent in other BLAS libraries
 

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "encoder/parallel.h"
+#include "base/parallel.h"
 
 namespace cleft {
 

@@ -78,7 +78,8 @@ Json figures_of(const Validity& v) {
   return {{"smallest_radius_mm", finite(v.smallest_radius)},
           {"largest_tilt_degrees", v.largest_tilt},
           {"length_defect", finite(v.length_defect)},
-          {"nearest_cut_mm", finite(v.nearest_cut)}};
+          {"nearest_cut_mm", finite(v.nearest_cut)},
+          {"junction_tension", v.junction_tension ? finite(*v.junction_tension) : Json()}};
 }
 
 }  // namespace cleft

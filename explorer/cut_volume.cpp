@@ -7,39 +7,105 @@ namespace cleft {
 
 namespace {
 
-void split(VolumeMesh& volume, const SurfaceMesh& surface, const Incision& cut) {
-  const std::vector<Vec3> points = volume.points();
-  const std::vector<VolumeMesh::Nearest> nearest = volume.nearest(surface);
-  const auto& labels = cut.surroundings().labels();
+/// How the points of a volume lie beside a cut's path.
+struct Beside {
+  std::vector<Vec3> points;
+  std::vector<VolumeMesh::Nearest> nearest;
   std::vector<PathCoordinates> at;
-  std::vector<double> beside;
-  for (const Vec3& p : points) {
-    at.push_back(cut.path().coordinates(p));
-    // The blade's surface goes exactly through points that are on it but for rounding.
-    beside.push_back(std::abs(at.back().v) <= 1e-9 * cut.path().length() ? 0 : at.back().v);
+  std::vector<double> v;
+
+  Beside(const VolumeMesh& volume, const SurfaceMesh& surface, const Incision& cut)
+      : points(volume.points()), nearest(volume.nearest(surface)) {
+    for (const Vec3& p : points) {
+      at.push_back(cut.path().coordinates(p));
+      // The blade's surface goes exactly through points that are on it but for rounding.
+      v.push_back(std::abs(at.back().v) <= 1e-9 * cut.path().length() ? 0 : at.back().v);
+    }
   }
-  volume.split(beside, [&](const std::vector<int>& corners) {
-    // Where the blade's surface passes the cell, on average over the edges that it cuts.
-    double s = 0, depth = 0, weight = 0, size = 0;
+
+  /// Whether the blade's surface, or what goes on from it, passes a cell: not only one far beside the path,
+  /// or below another side of the mesh.
+  bool passes(const std::vector<int>& corners, const Incision& cut) const {
+    const auto& labels = cut.surroundings().labels();
+    double size = 0, low = 0, high = 0;
+    bool reached = labels.empty();
+    for (const int i : corners) {
+      const auto a = static_cast<std::size_t>(i);
+      const double below = height(cut, at[a].s) - at[a].w;
+      if (below > 1.5 * std::max(cut.path().depth(at[a].s), nearest[a].distance)) return false;
+      for (const int j : corners)
+        size = std::max(size, norm(points[a] - points[static_cast<std::size_t>(j)]));
+      low = std::min(low, v[a]), high = std::max(high, v[a]);
+      reached = reached || labels[static_cast<std::size_t>(nearest[a].vertex)].reached;
+    }
+    return reached && low < 0 && high > 0 && std::max(-low, high) <= size;
+  }
+
+  /// Of the skin over C(s).
+  static double height(const Incision& cut, double s) {
+    const auto& stations = cut.surroundings().stations();
+    if (stations.empty()) return 0;
+    const auto next = std::lower_bound(stations.begin(), stations.end(), s,
+                                       [](const auto& station, double x) { return station.s < x; });
+    return next == stations.end() ? stations.back().height : next->height;
+  }
+
+  /// Where the blade's surface passes a cell that it parts, on average over the edges that it cuts.
+  struct Middle {
+    double s = 0, depth = 0;
+  };
+  Middle middle(const std::vector<int>& corners) const {
+    Middle sum;
+    double weight = 0;
     for (const int i : corners)
       for (const int j : corners) {
         const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-        size = std::max(size, norm(points[a] - points[b]));
-        if (!(beside[a] < 0 && beside[b] > 0)) continue;
-        const double part = beside[a] / (beside[a] - beside[b]);
-        s += (1 - part) * at[a].s + part * at[b].s;
-        depth += (1 - part) * nearest[a].distance + part * nearest[b].distance;
+        if (!(v[a] < 0 && v[b] > 0)) continue;
+        const double part = v[a] / (v[a] - v[b]);
+        sum.s += (1 - part) * at[a].s + part * at[b].s;
+        sum.depth += (1 - part) * nearest[a].distance + part * nearest[b].distance;
         weight += 1;
       }
-    s /= weight, depth /= weight;
-    const bool near = std::all_of(corners.begin(), corners.end(), [&](int i) {
-      return std::abs(beside[static_cast<std::size_t>(i)]) <= size;
+    return {sum.s / weight, sum.depth / weight};
+  }
+};
+
+/// Parts the cells in which the cut begins or ends, along the path or in depth, so that none is half cut.
+void slice_at_ends(VolumeMesh& volume, const SurfaceMesh& surface, const Incision& cut) {
+  const auto slice = [&](const auto& value, const auto& where) {
+    const Beside beside(volume, surface, cut);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < beside.points.size(); ++i) {
+      const double x = value(beside, i);
+      values.push_back(std::abs(x) <= 1e-6 * cut.path().length() ? 0 : x);
+    }
+    volume.slice(values, [&](const std::vector<int>& corners) {
+      return beside.passes(corners, cut) && where(beside, corners);
     });
-    const bool reached = std::any_of(corners.begin(), corners.end(), [&](int i) {
-      const auto v = static_cast<std::size_t>(nearest[static_cast<std::size_t>(i)].vertex);
-      return labels.empty() || labels[v].reached;
-    });
-    return near && reached && s > cut.start() && s < cut.tip() && depth < cut.path().depth(s);
+  };
+  slice([&](const Beside& b, std::size_t i) { return b.nearest[i].distance - cut.path().depth(b.at[i].s); },
+        [&](const Beside& b, const std::vector<int>& corners) {
+          double low = b.at[static_cast<std::size_t>(corners[0])].s, high = low;
+          for (const int i : corners) {
+            low = std::min(low, b.at[static_cast<std::size_t>(i)].s);
+            high = std::max(high, b.at[static_cast<std::size_t>(i)].s);
+          }
+          return low < cut.tip() && high > cut.start();
+        });
+  for (const double end : {cut.start(), cut.tip()})
+    slice([&](const Beside& b, std::size_t i) { return b.at[i].s - end; },
+          [&](const Beside& b, const std::vector<int>& corners) {
+            const auto [s, depth] = b.middle(corners);
+            return depth < cut.path().depth(s);
+          });
+}
+
+void split(VolumeMesh& volume, const SurfaceMesh& surface, const Incision& cut) {
+  slice_at_ends(volume, surface, cut);
+  const Beside beside(volume, surface, cut);
+  volume.split(beside.v, [&](const std::vector<int>& corners) {
+    const auto [s, depth] = beside.middle(corners);
+    return beside.passes(corners, cut) && s > cut.start() && s < cut.tip() && depth < cut.path().depth(s);
   });
 }
 

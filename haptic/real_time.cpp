@@ -21,8 +21,12 @@ std::int64_t clock_time(clockid_t clock) {
 }
 
 void sleep_until(std::int64_t time) {
-  const timespec t{time / clock_second, time % clock_second};
+  constexpr std::int64_t awake = 60000;  // ns
+  const std::int64_t wake = time - awake;
+  const timespec t{wake / clock_second, wake % clock_second};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+  }
+  while (clock_time(CLOCK_MONOTONIC) < time) {
   }
 }
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "benchmarks/encoder/unseen.h"
 #include "encoder/encode.h"
 #include "encoder/field/field_file.h"
 #include "encoder/field/field_record.h"
-#include "encoder/parallel.h"
 
 namespace cleft {
 

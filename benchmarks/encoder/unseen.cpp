@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "encoder/parallel.h"
+#include "base/parallel.h"
 
 namespace cleft {
 

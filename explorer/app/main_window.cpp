@@ -41,9 +41,11 @@ MainWindow::MainWindow(Session& session) : session_(session) {
       text += QString("   |   mesh of %1 triangles, %2 cuts")
                   .arg(session_.scene()->surface().triangles.size())
                   .arg(session_.state().cuts.size());
-    if (!session_.warnings().empty()) text += "   |   " + QString::fromStdString(session_.warnings().front());
     if (device_->on()) text += "   |   " + device_->status();
-    status_->setText(text);
+    if (!session_.warnings().empty()) text += "   |   " + QString::fromStdString(session_.warnings().front());
+    const QString fits = status_->fontMetrics().elidedText(text, Qt::ElideRight, status_->width());
+    status_->setText(fits);
+    status_->setToolTip(fits == text ? QString() : text);
   };
   session_.hand_devices_to([this](const std::string& name, const std::string& file) {
     device_->take(name, file);

@@ -19,6 +19,7 @@ namespace {
 constexpr double coarsest = 4;  // pixels between the places of a cut, at least
 constexpr double steepest = 4;  // of skin that the blade goes along, against the picture's plane
 constexpr double spacing = 1;   // mm between the places of a cut
+constexpr int rest_ms = 250;    // pictures that follow each other within this are a motion
 
 std::string text(const Vec3& x) { return shortest(x.x) + "," + shortest(x.y) + "," + shortest(x.z); }
 
@@ -37,6 +38,8 @@ SceneWidget::SceneWidget(Session& session, Say say) : session_(session), say_(st
   setFocusPolicy(Qt::StrongFocus);
   setToolTip("Left: turn, middle or Shift+left: move, wheel or right: zoom");
 
+  resting_.setSingleShot(true);
+  connect(&resting_, &QTimer::timeout, this, [this] { rest(); });
   vtkNew<vtkInteractorStyleTrackballCamera> style;
   static_cast<vtkRenderWindowInteractor*>(interactor())->SetInteractorStyle(style);
   auto* turned = new std::function<void(unsigned long)>([this](unsigned long what) { turn(what); });
@@ -60,24 +63,42 @@ void SceneWidget::turn(unsigned long what) {
   if (stage_->views() == 0) return;
   const double last = stage_->view(0).renderer()->GetLastRenderTimeInSeconds() * stage_->views();
   if (what == vtkCommand::StartInteractionEvent) {
-    set_coarse(std::max(last, frame_seconds_) > slowest_);
+    hurry(std::max(last, frame_seconds_));
   } else if (what == vtkCommand::InteractionEvent) {
-    if (!coarse_ && last > slowest_) set_coarse(true);
+    hurry(last);
   } else {
-    set_coarse(false);
     say_camera();
+    if (what == vtkCommand::EndInteractionEvent) rest();
   }
+}
+
+/// The picture of a motion is drawn with less where the last one took long.
+void SceneWidget::hurry(double last_seconds) {
+  if (smooth_ && last_seconds > slowest_ / 2)
+    stage_->set_smooth(smooth_ = false);
+  else if (!coarse_ && last_seconds > slowest_)
+    set_coarse(true);
+}
+
+void SceneWidget::rest() {
+  resting_.stop();
+  if (smooth_ && !coarse_) return;
+  stage_->set_smooth(smooth_ = true);
+  set_coarse(false);
+  since_picture_.invalidate();
+  draw();
 }
 
 void SceneWidget::set_coarse(bool coarse) {
   if (coarse == coarse_) return;
   coarse_ = coarse;
   setCustomDevicePixelRatio(coarse ? 0.5 * devicePixelRatioF() : 0);  // 0: the screen's
-  const double ratio = (coarse ? 0.5 : 1) * devicePixelRatioF();  // VTK takes it at the next resizing only
-  const int size[] = {static_cast<int>(ratio * width()), static_cast<int>(ratio * height())};
+  const int size[] = {static_cast<int>(pixel_ratio() * width()),  // VTK takes it at the next resizing only
+                      static_cast<int>(pixel_ratio() * height())};
   renderWindow()->SetSize(size[0], size[1]);
   interactor()->UpdateSize(size[0], size[1]);
-  if (!coarse) draw();
+  last_x_ = static_cast<int>(coarse ? 0.5 * last_x_ : 2 * last_x_);
+  last_y_ = static_cast<int>(coarse ? 0.5 * last_y_ : 2 * last_y_);
 }
 
 void SceneWidget::set_picking(const std::string& command) {
@@ -122,10 +143,13 @@ void SceneWidget::follow(const Changes& changes) {
 }
 
 void SceneWidget::draw() {
+  if (since_picture_.isValid() && since_picture_.elapsed() < rest_ms) hurry(frame_seconds_);
   Stopwatch watch;
   stage_->show(session_);
   renderWindow()->Render();
   frame_seconds_ = watch.seconds();
+  since_picture_.start();
+  if (!smooth_ || coarse_) resting_.start(rest_ms);
   if (drawn) drawn();
 }
 
@@ -134,7 +158,7 @@ bool SceneWidget::event(QEvent* event) {
   if (pointed && session_.mesh() && points(event)) return true;
   if (!picking_.empty() && session_.study() && !session_.mesh() && type == QEvent::MouseButtonPress) {
     auto* mouse = static_cast<QMouseEvent*>(event);
-    const double ratio = devicePixelRatioF();
+    const double ratio = pixel_ratio();
     if (mouse->button() == Qt::LeftButton &&
         pick(static_cast<int>(mouse->x() * ratio), static_cast<int>((height() - 1 - mouse->y()) * ratio)))
       return true;
@@ -142,7 +166,7 @@ bool SceneWidget::event(QEvent* event) {
   if (cutting_ && session_.mesh() &&
       (type == QEvent::MouseButtonPress || type == QEvent::MouseMove || type == QEvent::MouseButtonRelease)) {
     auto* mouse = static_cast<QMouseEvent*>(event);
-    const double ratio = devicePixelRatioF();
+    const double ratio = pixel_ratio();
     const int x = static_cast<int>(mouse->x() * ratio),
               y = static_cast<int>((height() - 1 - mouse->y()) * ratio);
     if (type == QEvent::MouseButtonPress && mouse->button() == Qt::LeftButton && press(x, y)) return true;
@@ -159,7 +183,7 @@ bool SceneWidget::points(QEvent* event) {
     return false;
   auto* mouse = static_cast<QMouseEvent*>(event);
   if (type == QEvent::MouseButtonPress && mouse->button() != Qt::LeftButton) return false;
-  const double ratio = devicePixelRatioF();
+  const double ratio = pixel_ratio();
   const int x = static_cast<int>(mouse->x() * ratio),
             y = static_cast<int>((height() - 1 - mouse->y()) * ratio);
   const int view = stage_->view_at(x, y);

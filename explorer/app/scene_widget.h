@@ -5,6 +5,7 @@
 #include <QVTKOpenGLNativeWidget.h>
 
 #include <QElapsedTimer>
+#include <QTimer>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,9 +28,13 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   /// What a click on the skin of the patch says: "probe" or "zoom", with the place; empty: nothing.
   void set_picking(const std::string& command);
   const std::string& picking() const { return picking_; }
-  /// While the picture is turned, one that takes longer than this is drawn at half the resolution.
+  /// In a motion (turning, scrubbing, sliders, a cut) pictures that take longer than half of this are drawn
+  /// without smoothed edges, and at half the resolution where that does not bring them below it. Once all
+  /// rests the picture is whole again.
   void set_slowest(double seconds) { slowest_ = seconds; }
   bool coarse() const { return coarse_; }
+  /// Draws the whole picture now, if the last one was not.
+  void rest();
   /// mm; 0: as deep as the shown case. Of the cuts to come.
   void set_depth(double depth) { depth_ = depth; }
   /// Degrees that the blade leans to its left.
@@ -55,7 +60,9 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
  private:
   bool pick(int x, int y);
   void turn(unsigned long what);
+  void hurry(double last_seconds);
   void set_coarse(bool coarse);
+  double pixel_ratio() const { return (coarse_ ? 0.5 : 1) * devicePixelRatioF(); }
   bool press(int x, int y);
   void drag(int x, int y);
   void release();
@@ -74,7 +81,9 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   double depth_ = 0, tilt_ = 0, frame_seconds_ = 0;
   std::string picking_;
   double slowest_ = 0.066;
-  bool coarse_ = false;
+  bool coarse_ = false, smooth_ = true;
+  QElapsedTimer since_picture_;
+  QTimer resting_;
   int last_x_ = 0, last_y_ = 0;
   int view_ = -1;                        // that the blade is in
   std::vector<WoundView::Place> blade_;  // where it has been since the button was pressed

@@ -74,6 +74,17 @@ std::string place_of(const Vec3& p) {
   return "(" + shortest(p.x) + ", " + shortest(p.y) + ", " + shortest(p.z) + ")";
 }
 
+int CutMesh::begin_cut() {
+  const auto make_room = [](auto& items) {
+    constexpr std::size_t least = 1 << 15;
+    const std::size_t ahead = std::max(least, items.size() / 4);
+    if (items.capacity() - items.size() < ahead) items.reserve(items.size() + 2 * ahead);
+  };
+  make_room(triangles_), make_room(vertices_), make_room(sheets_), make_room(noted_);
+  make_room(triangle_log_), make_room(vertex_log_), make_room(sheet_log_), make_room(changed_);
+  return cuts_++;
+}
+
 SurfaceMesh CutMesh::surface() const {
   SurfaceMesh result;
   for (const Vertex& v : vertices_) result.points.push_back(v.position);

@@ -125,8 +125,9 @@ class CutMesh {
   void unlink(int t, int from, int to);
   void set_neighbor(int t, int from, int to, int neighbor);
 
-  /// A new cut's number, counted from 0.
-  int begin_cut() { return cuts_++; }
+  /// A new cut's number, counted from 0. Takes memory for what the cut will add, so that no step of it has to
+  /// carry the mesh to another place.
+  int begin_cut();
 
   struct Checkpoint {
     std::size_t triangles, vertices, sheets, triangle_log, vertex_log, sheet_log;

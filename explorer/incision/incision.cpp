@@ -62,10 +62,26 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
     grow(first, start.s);
     mend(before_cut_);
     rows_ = static_cast<int>(std::clamp(path_.largest_depth() / wall_spacing(first, max_edge_), 3.0, 32.0));
+    rehearse();
   } catch (...) {
     mesh_.roll_back(before_cut_);
     throw;
   }
+}
+
+/// Cuts the first segment and takes it back. What was looked through for the start has driven all else out of
+/// the caches: so the blade finds there what its first steps read and write, instead of waiting for it.
+void Incision::rehearse() {
+  const Before untouched = before();
+  const bool bent = bent_;
+  try {
+    for (int k = 0; k < 6 && chain_.size() < 3 && !state_.left_mesh && next_step().s <= path_.length(); ++k)
+      step_on();
+  } catch (const InputError&) {  // for the blade to meet, if it gets there
+  }
+  roll_back(untouched);
+  next_.reset();
+  bent_ = bent;
 }
 
 double Incision::wall_spacing(int start, double max_edge) const {
@@ -108,11 +124,9 @@ void Incision::cut_on_to(double s) {
   provisional_.reset();
   const double same = 1e-12 * path_.length();
   while (!state_.left_mesh && s - tip() > same && next_step().s <= s + same) {
-    const Step step = *next_;
-    next_.reset();
     const Before state = before();
     try {
-      if (!made_room(step)) take(step);
+      step_on();
     } catch (...) {
       roll_back(state);
       throw;
@@ -153,6 +167,12 @@ int Incision::moved_vertices() const {
   return static_cast<int>(
       std::count_if(mesh_.vertices().begin(), mesh_.vertices().end(),
                     [](const CutMesh::Vertex& v) { return !(v.original == v.position); }));
+}
+
+void Incision::step_on() {
+  const Step step = next_step();
+  next_.reset();
+  if (!made_room(step)) take(step);
 }
 
 void Incision::take(const Step& step) {

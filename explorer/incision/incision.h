@@ -109,6 +109,8 @@ class Incision {
   Step placed(int triangle, const Vec3& place, double s) const;
   bool may_move(int v, const Vec3& place) const;
   bool may_reach(int v) const;
+  bool begins_ahead(const Vec3& start, const Vec3& drawn_to) const;
+  bool keeps_fold(int v, const Vec3& place, int triangle) const;
   double room_of(int v) const;
   std::optional<Step> exit_at(int v, double s) const;
 
@@ -134,7 +136,9 @@ class Incision {
   int tip_vertex() const { return state_.from >= 0 ? state_.from : chain_.back().left; }
 
   // Changing the mesh: incision.cpp.
+  void rehearse();
   void cut_on_to(double s);
+  void step_on();
   void take(const Step& step);
   int realise(const Step& step);
   bool made_room(const Step& step);

@@ -21,6 +21,12 @@ double quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) 
   return dot(cross(b - a, c - a), normal) / longest;
 }
 
+Vec3 unit_normal(const CutMesh& mesh, int t) {
+  const auto& v = mesh.triangle(t).vertex;
+  return normalized(
+      cross(mesh.position(v[1]) - mesh.position(v[0]), mesh.position(v[2]) - mesh.position(v[0])));
+}
+
 /// The worst quality of the skin's triangles around v, were it at `place`.
 double quality_around(const CutMesh& mesh, int v, const Vec3& place) {
   double worst = 1;
@@ -120,7 +126,8 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
       const int triangle = pierced(mesh_, mesh_.skin_fan(v), frame);
       if (triangle < 0) continue;
       step.place = piercing_point(mesh_, triangle, frame);
-      if (norm(step.place - position) > 1.5 * options_.snap * room) continue;
+      if (norm(step.place - position) > 1.5 * options_.snap * room || !keeps_fold(v, step.place, triangle))
+        continue;
     }
     step.s = std::min(step.s, path_.length());
     least = away;
@@ -131,6 +138,15 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
 
 /// How far a vertex may move, or draw the path to itself: not so far that a short path would lose its shape.
 double Incision::room_of(int v) const { return std::min(mesh_.room(v), longest_step_); }
+
+/// Whether a vertex may move to a place in one of its triangles: what that cuts off the folds around it
+/// shortens lips over them by less than they may stray.
+bool Incision::keeps_fold(int v, const Vec3& place, int triangle) const {
+  const Vec3 n = unit_normal(mesh_, triangle);
+  double sharpest = 1;
+  for (const int t : mesh_.skin_fan(v)) sharpest = std::min(sharpest, dot(n, unit_normal(mesh_, t)));
+  return (1 - sharpest) * norm(place - mesh_.position(v)) <= chord_tolerance_;
+}
 
 /// Where the path is about to leave the surface beside a vertex of its boundary, which may go there.
 std::optional<Incision::Step> Incision::exit_at(int v, double s) const {
@@ -179,6 +195,13 @@ bool Incision::may_move(int v, const Vec3& place) const {
   return norm(step) <= same_place * norm(out) || (parallel(in, out) && parallel(step, out));
 }
 
+/// Whether the path, drawn from its start to another place, would have to turn back at once.
+bool Incision::begins_ahead(const Vec3& start, const Vec3& drawn_to) const {
+  const Vec3 way = drawn_to - start;
+  return chain_.empty() && dot(way, path_.at(0).along) > 0.1 * norm(way) &&
+         norm(way) > same_place * path_.length();
+}
+
 std::vector<int> Incision::triangles_at(const Step& start) const {
   if (start.kind == Step::vertex) return mesh_.skin_fan(start.index);
   if (start.kind == Step::face) return {start.triangle};
@@ -191,10 +214,11 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
   for (const int v : t.vertex) {
     const double room = room_of(v), away = norm(place - mesh_.position(v));
     if (away <= same_place * room && may_reach(v)) return {Step::vertex, -1, v, mesh_.position(v), s};
-    const bool own = mesh_.vertex(v).parents[0] >= 0;  // made by cutting: nothing of the surface's shape
-    if (away <= (own ? 1.5 : 1) * options_.snap * room && may_move(v, place))
+    const bool own = mesh_.vertex(v).parents[0] >= 0;  // made by cutting
+    if (away <= (own ? 1.5 : 1) * options_.snap * room && may_move(v, place) &&
+        keeps_fold(v, place, triangle))
       return {Step::vertex, -1, v, place, s};
-    if (end && away <= options_.snap / 2 * room && may_reach(v))
+    if (end && away <= options_.snap / 2 * room && may_reach(v) && !begins_ahead(place, mesh_.position(v)))
       return {Step::vertex, -1, v, mesh_.position(v), s};
   }
   // A new vertex inside the triangle, or where it is close to an edge, one of that edge, bent to go through
@@ -209,7 +233,9 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
     const Vec3 &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];
     const double away = norm(cross(place - a, b - a)) / squared_norm(b - a);
     const int across = t.neighbor[i];
-    const bool may_bend = across >= 0 && !mesh_.is_wall(across);
+    const double fold = across >= 0 ? 1 - dot(n, unit_normal(mesh_, across)) : 0;
+    const bool may_bend =
+        across >= 0 && !mesh_.is_wall(across) && fold * away * norm(b - a) <= chord_tolerance_;
     const bool border = across == CutMesh::boundary || mesh_.is_wall(across);
     const bool touches = border &&
                          away <= (end                           ? near_lip
@@ -219,6 +245,7 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
     if (!(may_bend && away <= options_.snap / 2) && !touches) continue;
     Vec3 on_edge = place;
     if (border) on_edge = lerp(a, b, std::clamp(dot(place - a, b - a) / squared_norm(b - a), 0.0, 1.0));
+    if (border && begins_ahead(place, on_edge)) continue;
     double worst = std::min(quality(a, on_edge, c, n), quality(on_edge, b, c, n));
     if (may_bend) {
       const CutMesh::Triangle& other = mesh_.triangle(across);

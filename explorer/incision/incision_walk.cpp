@@ -125,7 +125,7 @@ const Incision::Step& Incision::next_step() {
       break;
     const double before = step.s;
     step = shorter(step, s + within);
-    within = step.s < before ? step.s - s : within / 2;
+    within = step.s < before ? std::min(within, step.s - s) : within / 2;
   }
   next_ = step;
   return *next_;
@@ -134,7 +134,11 @@ const Incision::Step& Incision::next_step() {
 Incision::Step Incision::shorter(const Step& step, double to) const {
   const Track track = follow(tip_vertex(), to);
   if (track.triangle < 0) return step;
-  return step_at(track);
+  const Step next = step_at(track);
+  if (track.edge < 0 || next.kind != Step::vertex || next.s <= to) return next;
+  // Behind the edge the path bends before it comes to the vertex: no straight piece leads there.
+  const Step plain = crossing(track);
+  return norm(plain.place - next.place) > options_.snap * room_of(next.index) ? plain : next;
 }
 
 Incision::Step Incision::step_at(const Track& track) const {

@@ -4,6 +4,7 @@
 #include <vtkCellData.h>
 #include <vtkCellSizeFilter.h>
 #include <vtkDataSetSurfaceFilter.h>
+#include <vtkDataSetTriangleFilter.h>
 #include <vtkDoubleArray.h>
 #include <vtkExtractCells.h>
 #include <vtkGenericCell.h>
@@ -68,13 +69,22 @@ void append_cells(vtkUnstructuredGrid* grid, vtkIdList* cells, int part, const s
     clip->SetValue(0);
     clip->SetInsideOut(part < 0);
     clip->Update();
-    taken->DeepCopy(clip->GetOutput());
+    if (name.empty()) {  // to be clipped again: of wedges and pyramids VTK's clip loses a little
+      vtkNew<vtkDataSetTriangleFilter> tetrahedra;
+      tetrahedra->SetInputData(clip->GetOutput());
+      tetrahedra->Update();
+      taken->DeepCopy(tetrahedra->GetOutput());
+    } else {
+      taken->DeepCopy(clip->GetOutput());
+    }
   }
-  vtkNew<vtkIntArray> parts;
-  parts->SetName(name.c_str());
-  parts->SetNumberOfTuples(taken->GetNumberOfPoints());
-  parts->FillValue(part);
-  taken->GetPointData()->AddArray(parts);
+  if (!name.empty()) {
+    vtkNew<vtkIntArray> parts;
+    parts->SetName(name.c_str());
+    parts->SetNumberOfTuples(taken->GetNumberOfPoints());
+    parts->FillValue(part);
+    taken->GetPointData()->AddArray(parts);
+  }
   all->AddInputData(taken);
 }
 
@@ -177,6 +187,17 @@ std::vector<VolumeMesh::Nearest> VolumeMesh::nearest(const SurfaceMesh& surface)
 
 void VolumeMesh::split(const std::vector<double>& beside,
                        const std::function<bool(const std::vector<int>&)>& is_cut) {
+  clip(beside, is_cut, part_name(splits_));
+  ++splits_;
+}
+
+void VolumeMesh::slice(const std::vector<double>& beside,
+                       const std::function<bool(const std::vector<int>&)>& is_cut) {
+  clip(beside, is_cut, "");
+}
+
+void VolumeMesh::clip(const std::vector<double>& beside,
+                      const std::function<bool(const std::vector<int>&)>& is_cut, const std::string& sides) {
   CLEFT_CHECK(beside.size(), ==, static_cast<std::size_t>(grid_->cells->GetNumberOfPoints()));
   vtkNew<vtkDoubleArray> values;
   values->SetName(beside_name);
@@ -193,13 +214,12 @@ void VolumeMesh::split(const std::vector<double>& beside,
     (crossed && is_cut(corners) ? parted : whole)->InsertNextId(c);
   }
   vtkNew<vtkAppendFilter> all;
-  append_cells(grid_->cells, whole, 0, part_name(splits_), all);
-  append_cells(grid_->cells, parted, -1, part_name(splits_), all);
-  append_cells(grid_->cells, parted, 1, part_name(splits_), all);
+  append_cells(grid_->cells, whole, 0, sides, all);
+  append_cells(grid_->cells, parted, -1, sides, all);
+  append_cells(grid_->cells, parted, 1, sides, all);
   all->Update();
   grid_->cells = all->GetOutput();
   grid_->cells->GetPointData()->RemoveArray(beside_name);
-  ++splits_;
 }
 
 std::vector<int> VolumeMesh::parts(int number) const {

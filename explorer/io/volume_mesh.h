@@ -34,6 +34,8 @@ class VolumeMesh {
   /// Splits cells where `beside`, a number for each point, changes its sign: those that `is_cut` says so of,
   /// told by the cell's points. Parts have points of their own. Others stay as they are, whole.
   void split(const std::vector<double>& beside, const std::function<bool(const std::vector<int>&)>& is_cut);
+  /// The same without opening anything: no side is told of the parts, and no split counted.
+  void slice(const std::vector<double>& beside, const std::function<bool(const std::vector<int>&)>& is_cut);
   /// For each point, of the number-th split -1 or 1, in a part where `beside` was so, or 0.
   std::vector<int> parts(int number) const;
 
@@ -43,6 +45,8 @@ class VolumeMesh {
 
  private:
   struct Grid;
+  void clip(const std::vector<double>& beside, const std::function<bool(const std::vector<int>&)>& is_cut,
+            const std::string& sides);
   std::string path_;
   std::unique_ptr<Grid> grid_;
   int splits_ = 0;

@@ -6,9 +6,11 @@
 
 namespace cleft {
 
-LiveReplay::LiveReplay(const VaryingField& field, const Incision& incision, double scale)
+LiveReplay::LiveReplay(const VaryingField& field, const Incision& incision, double scale,
+                       std::size_t most_entering)
     : incision_(incision),
       scale_(scale),
+      most_entering_(most_entering),
       undone_(true),
       contractor_(field, scale),
       volume_(incision, field.shape(), scale),
@@ -112,14 +114,19 @@ void LiveReplay::take_place(int vertex, const std::optional<ActiveVertex>& at) {
   if (at) waiting_.push({-at->time_offset, vertex, slots_[static_cast<std::size_t>(vertex) + 1].version});
 }
 
-/// All whose own time has begun.
+/// Those whose own time has begun; what a step has just changed before those that are late.
 void LiveReplay::enter() {
   entering_.clear();
-  for (; !waiting_.empty() && waiting_.top().enters <= blade_; waiting_.pop()) {
-    const auto& [enters, vertex, version] = waiting_.top();
-    if (slots_[static_cast<std::size_t>(vertex) + 1].version != version) continue;
-    if (const auto at = volume_.locate(vertex)) entering_.push_back(*at);
-  }
+  const auto take = [this](const Waiting& next) {
+    if (slots_[static_cast<std::size_t>(next.vertex) + 1].version != next.version) return;
+    if (const auto at = volume_.locate(next.vertex)) entering_.push_back(*at);
+  };
+  for (; !waiting_.empty() && waiting_.top().enters <= blade_; waiting_.pop())
+    if (entering_.size() < most_entering_)
+      take(waiting_.top());
+    else
+      late_.push_back(waiting_.top());
+  for (; !late_.empty() && entering_.size() < most_entering_; late_.pop_front()) take(late_.front());
   if (entering_.empty()) return;
   Contractor::sort(entering_);
   for (std::size_t i = 0; i < entering_.size(); ++i) {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <vector>
@@ -17,8 +19,10 @@ namespace cleft {
 class LiveReplay {
  public:
   /// The field's own fields, whose displacements at t = 0 must be 0, and the incision must outlive it.
-  /// `scale`: mm per mesh unit.
-  LiveReplay(const VaryingField& field, const Incision& incision, double scale);
+  /// `scale`: mm per mesh unit. Of vertices that enter together no more than `most_entering` do so at once,
+  /// the others at the next calls: so long they stay at rest.
+  LiveReplay(const VaryingField& field, const Incision& incision, double scale,
+             std::size_t most_entering = std::numeric_limits<std::size_t>::max());
 
   /// To be called after every advance_to, lead_on, undo and redo of the incision, and of later ones in its
   /// mesh. Where the path was led on, vertices stay where they were taken to lie until that was wrong by
@@ -37,6 +41,7 @@ class LiveReplay {
   /// The vertices whose positions the last follow() or move_to() has computed, some perhaps twice.
   const std::vector<int>& touched() const { return touched_; }
   std::size_t active() const { return active_; }          ///< vertices that have entered
+  std::size_t late() const { return late_.size(); }       ///< that should have
   std::size_t contracted() const { return contracted_; }  ///< in the last follow()
 
  private:
@@ -74,6 +79,7 @@ class LiveReplay {
 
   const Incision& incision_;
   double scale_, blade_ = 0, led_ = 0;
+  std::size_t most_entering_;
   bool undone_ = false;
   Contractor contractor_;
   IncisionVolume volume_;
@@ -82,6 +88,7 @@ class LiveReplay {
   std::vector<Placed> placed_;  // of a path that is led on
   std::vector<Batch> batches_;
   std::priority_queue<Waiting> waiting_;
+  std::deque<Waiting> late_;
   std::vector<ActiveVertex> entering_;
   std::vector<int> chain_end_;  // vertices of the chain's end as of the last follow()
   std::vector<int> touched_;

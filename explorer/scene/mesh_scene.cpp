@@ -39,6 +39,13 @@ void MeshScene::positions(double t, std::vector<Vec3>& out) const {
   if (wounds_) wounds_->positions(t, out);
 }
 
+std::vector<bool> MeshScene::moving() const {
+  std::vector<bool> any(surface_.points.size(), false);
+  for (std::size_t k = 0; wounds_ && k < cut_->cuts().size(); ++k)
+    for (const ActiveVertex& a : wounds_->active(k)) any[static_cast<std::size_t>(a.vertex)] = true;
+  return any;
+}
+
 std::vector<std::string> MeshScene::warnings() const {
   std::vector<std::string> all;
   if (wounds_)

@@ -21,6 +21,7 @@ class MeshScene : public WoundScene {
   const WoundSurface& surface() const override { return surface_; }
   double duration() const override { return duration_; }
   void positions(double t, std::vector<Vec3>& out) const override;
+  std::vector<bool> moving() const override;
   void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
   std::vector<std::string> warnings() const override;
 

@@ -49,6 +49,7 @@ Overlay nodes_around(const RawCase& raw, const Vec3& place, double radius, doubl
     overlay.dots.push_back({raw.snapshot().points[static_cast<std::size_t>(nodes[i])] + moves[i],
                             between(little, much, largest > 0 ? errors[i] / largest : 0)});
   overlay.in_front = true;
+  if (largest > 0) overlay.scale = {"error of the field at the nodes, mm", largest, little, much};
   overlay.caption =
       text_of("%zu nodes of the simulation, frame %zu at %.1f mm: the field is off by up to %.2g mm",
               nodes.size(), frame, raw.snapshot().times[frame], largest);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,13 @@ struct Overlay {
   double surface_opacity = 1;
   bool in_front = false;  ///< drawn over all of the surface, also what lies below it
   std::string caption;
+  /// What the dots' colours mean, from 0 to `largest`.
+  struct Scale {
+    std::string title;
+    double largest;
+    Ink none, most;
+  };
+  std::optional<Scale> scale;
 
   bool empty() const { return dots.empty() && lines.empty() && caption.empty(); }
 };

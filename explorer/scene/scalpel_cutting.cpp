@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/stopwatch.h"
@@ -15,20 +16,22 @@ constexpr double told = 2e-3;        // mm: smaller motions of the skin are not 
 constexpr double piece = 0.7;        // mm, of a way that is found as the scalpel goes
 constexpr double sharpest = 0.5;     // cosine of the turn from one piece to the next: an edge cuts ahead
 constexpr double least_depth = 0.5;  // mm, of a cut as deep as the scalpel is
-constexpr double far = 30;           // mm, how far ahead a cut without a field is taken to go
+constexpr std::size_t most_entering = 2000;  // vertices that a cut begins to move in a step
+constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+constexpr double far = 30;  // mm, how far ahead a cut without a field is taken to go
 }  // namespace
 
 ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
     : setup_(std::move(setup)), mesh_(mesh), original_points_(static_cast<int>(mesh.points.size())) {
   for (const ScalpelPath& path : setup_.made) {
-    add_wound(path, {});
+    add_wound(path, {}, all);
     wounds_.back().incision->advance_to(path.length());
     for (Wound& wound : wounds_)
       if (wound.opening) wound.opening->follow();
     if (wounds_.back().opening) wounds_.back().opening->move_to(setup_.scale * path.length());
   }
   made_ = wounds_.size();
-  if (setup_.path) add_wound(*setup_.path, {});
+  if (setup_.path) add_wound(*setup_.path, {}, most_entering);
   SurfaceMesh felt = mesh_.surface();
   for (std::size_t v = 0; v < felt.points.size(); ++v) {
     displacements_.push_back(displacement(static_cast<int>(v)));
@@ -42,13 +45,14 @@ ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
   reader_.emplace(*surface_);
 }
 
-void ScalpelCutting::add_wound(const ScalpelPath& path, const IncisionOptions& options) {
+void ScalpelCutting::add_wound(const ScalpelPath& path, const IncisionOptions& options,
+                               std::size_t entering) {
   Wound& wound = wounds_.emplace_back();
   try {
     wound.incision = std::make_unique<Incision>(mesh_, path, options);
     if (setup_.fields)
       wound.opening = std::make_unique<LiveReplay>(setup_.fields->along(*wound.incision, setup_.scale),
-                                                   *wound.incision, setup_.scale);
+                                                   *wound.incision, setup_.scale, entering);
   } catch (...) {
     wounds_.pop_back();
     throw;
@@ -173,7 +177,7 @@ void ScalpelCutting::begin_cut(const ScalpelPath::Point& first, const ScalpelPat
   IncisionOptions options;
   options.reach = setup_.fields ? reach_of(setup_.fields->shape(), setup_.scale) : 0;
   options.refined = norm(next.position - first.position);
-  add_wound(ScalpelPath({first, end}), options);
+  add_wound(ScalpelPath({first, end}), options, most_entering);
   led_.push_back({first});
   cutting_ = true;
 }

@@ -72,7 +72,7 @@ class ScalpelCutting {
     std::unique_ptr<LiveReplay> opening;  // null without a field
   };
 
-  void add_wound(const ScalpelPath& path, const IncisionOptions& options);
+  void add_wound(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering);
   double reached(const HapticState& scalpel) const;
   std::optional<ScalpelPath::Point> contact(const HapticState& scalpel);
   void follow_path(const HapticState& scalpel, double least);

@@ -15,6 +15,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // In lengths of the canonical cut, of the figures in tests/truth/README.md.
 constexpr double least_radius = 2. / 3, least_radius_not_turned = 2.7, least_spacing = 0.4;
 constexpr double greatest_tilt = 45, greatest_defect = 0.1;
+// A branch was compared at a right angle, pulled 1 : 3 and alike along the cut that it leaves and across it.
+constexpr double greatest_junction_tension = 1.01 / 3, least_junction_sine = 0.87;
 
 std::string rounded(double x) { return shortest(std::round(10 * x) / 10); }
 
@@ -56,16 +58,43 @@ double length_defect(const Field& field) {
   return bend > 0 ? (c - b) * (c - b) / bend / c : infinity;
 }
 
-double nearest_cut(const std::vector<CutInTension>& cuts, std::size_t i) {
-  double least = infinity;
-  for (std::size_t j = 0; j < cuts.size(); ++j) {
-    if (j == i) continue;
-    for (const auto& a : cuts[i].incision->chain())
-      for (const auto& b : cuts[j].incision->chain())
-        least = std::min(least, norm(cuts[i].incision->mesh().position(a.left) -
-                                     cuts[j].incision->mesh().position(b.left)));
+/// A place of a cut's path on the wound of another.
+struct Junction {
+  std::size_t other;
+  double tension;  ///< along the other over across it
+  double sine;     ///< of the angle between the two
+};
+
+std::vector<Junction> junctions_of(const std::vector<CutInTension>& cuts, std::size_t i) {
+  const Incision& own = *cuts[i].incision;
+  std::vector<Junction> found;
+  for (const auto& c : own.chain()) {
+    const CutMesh::Vertex& vertex = own.mesh().vertex(c.left);
+    for (std::size_t j = 0; j < cuts.size(); ++j) {
+      if (j == i || vertex.cut != cuts[j].incision->cut()) continue;
+      const double s = vertex.s * cuts[j].volume->scale();
+      const double across = cuts[j].field->load("skin.prestress_v", s);
+      const Vec3 along = cuts[j].incision->path().at(vertex.s).along;
+      found.push_back({j, across > 0 ? cuts[j].field->load("skin.prestress_u", s) / across : infinity,
+                       norm(cross(along, own.path().at(c.s).along))});
+    }
   }
-  return least;
+  return found;
+}
+
+bool crosses_squarely(const std::vector<Junction>& junctions, std::size_t other) {
+  return std::any_of(junctions.begin(), junctions.end(), [other](const Junction& x) {
+    return x.other == other && x.sine >= least_junction_sine;
+  });
+}
+
+double distance(const CutInTension& a, const CutInTension& b) {
+  double least = infinity;
+  for (const auto& p : a.incision->chain())
+    for (const auto& q : b.incision->chain())
+      least =
+          std::min(least, norm(a.incision->mesh().position(p.left) - b.incision->mesh().position(q.left)));
+  return least * a.volume->scale();
 }
 
 bool pulled_alike(const Field& field) {
@@ -81,6 +110,8 @@ bool pulled_alike(const Field& field) {
 
 std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool turned) {
   std::vector<Validity> result;
+  std::vector<std::vector<Junction>> junctions;
+  for (std::size_t i = 0; i < cuts.size(); ++i) junctions.push_back(junctions_of(cuts, i));
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const Field& field = cuts[i].field->shape();
     const double scale = cuts[i].volume->scale(), canonical = field.cut().length,
@@ -89,7 +120,17 @@ std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool tu
     v.smallest_radius = smallest_radius(cuts[i].incision->path()) * scale;
     v.largest_tilt = largest_tilt(cuts[i]);
     v.length_defect = length_defect(field);
-    v.nearest_cut = nearest_cut(cuts, i) * scale;
+    v.nearest_cut = infinity;
+    double nearest_beside = infinity;  // cuts that meet squarely are none beside each other
+    for (std::size_t j = 0; j < cuts.size(); ++j) {
+      if (j == i) continue;
+      const double way = distance(cuts[i], cuts[j]);
+      v.nearest_cut = std::min(v.nearest_cut, way);
+      if (!crosses_squarely(junctions[i], j) && !crosses_squarely(junctions[j], i))
+        nearest_beside = std::min(nearest_beside, way);
+    }
+    for (const Junction& x : junctions[i])
+      v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
     const std::string which = cuts.size() > 1 ? "cut " + std::to_string(i + 1) + ": " : "";
     const auto warn = [&](const std::string& what) {
       v.warnings.push_back(which + what + ": its opening may be off by more than a tenth");
@@ -104,9 +145,15 @@ std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool tu
     if (length > canonical * (1 + 1e-9) && v.length_defect > greatest_defect)
       warn("the path is " + rounded(length) + " mm long, and the field's cut of " + rounded(canonical) +
            " mm is too short for its opening to have come to its width");
-    if (v.nearest_cut < least_spacing * canonical)
-      warn("another cut comes as near as " + rounded(v.nearest_cut) + " mm, below " +
+    if (nearest_beside < least_spacing * canonical)
+      warn("another cut comes as near as " + rounded(nearest_beside) + " mm, below " +
            rounded(least_spacing * canonical));
+    if (const auto pulled = v.junction_tension; pulled && (!known || *pulled > greatest_junction_tension))
+      warn("it meets another cut where the skin is pulled " + shortest(std::round(100 * *pulled) / 100) +
+           " times as hard along that one as across it" +
+           (*pulled > greatest_junction_tension
+                ? ", above 0.33"
+                : ", and the tension does not turn with it (give --tension)"));
   }
   return result;
 }

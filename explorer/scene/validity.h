@@ -2,6 +2,7 @@
 // tenth of the solver's; outside, nobody knows.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Validity {
   double largest_tilt = 0;   ///< degrees: of the blade against the skin's normal
   double length_defect = 0;  ///< how much wider than the field's an endless cut would be, over its opening
   double nearest_cut = 0;    ///< least distance from another cut's path; infinite: there is none
+  /// Where it meets another cut: the tension along that one over the tension across it, at most; none: it
+  /// meets none.
+  std::optional<double> junction_tension;
   std::vector<std::string> warnings;
 };
 

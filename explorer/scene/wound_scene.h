@@ -31,6 +31,9 @@ class WoundScene {
   /// The points when the length t is cut; always from the rest positions, so that nothing accumulates.
   virtual void positions(double t, std::vector<Vec3>& out) const = 0;
 
+  /// Which points can ever be elsewhere than at rest; empty: any may.
+  virtual std::vector<bool> moving() const { return {}; }
+
   /// The value of every point at t by which it is coloured; of `difference`, against `reference`.
   virtual void values(Coloring coloring, const Field* reference, double t,
                       std::vector<double>& out) const = 0;

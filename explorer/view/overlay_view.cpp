@@ -8,6 +8,8 @@
 #include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "explorer/view/legend.h"
+
 namespace cleft {
 
 namespace {
@@ -31,6 +33,21 @@ void add(vtkUnsignedCharArray* array, const Ink& ink) {
   array->InsertNextTuple3(255 * ink[0], 255 * ink[1], 255 * ink[2]);
 }
 
+constexpr double above_the_surface_legend = 0.13;  // of a view's height
+
+vtkSmartPointer<vtkLookupTable> colors_between(const Ink& none, const Ink& most, double largest) {
+  constexpr int colors = 256;
+  auto table = vtkSmartPointer<vtkLookupTable>::New();
+  table->SetNumberOfTableValues(colors);
+  table->SetTableRange(0, largest);
+  for (int i = 0; i < colors; ++i) {
+    const double part = double(i) / (colors - 1);
+    table->SetTableValue(i, none[0] + part * (most[0] - none[0]), none[1] + part * (most[1] - none[1]),
+                         none[2] + part * (most[2] - none[2]));
+  }
+  return table;
+}
+
 /// Towards the eye, in units of the depth buffer: over what they lie on, or over everything.
 void lift(vtkActor* actor, bool in_front) {
   constexpr double a_little = -4, all_of_it = -1e5;
@@ -52,9 +69,10 @@ OverlayView::OverlayView(vtkRenderer* renderer) : renderer_(renderer) {
 OverlayView::~OverlayView() {
   renderer_->RemoveActor(dots_);
   renderer_->RemoveActor(lines_);
+  if (legend_) renderer_->RemoveViewProp(legend_);
 }
 
-void OverlayView::show(const Overlay& overlay) {
+void OverlayView::show(const Overlay& overlay, bool dark) {
   const double scale = renderer_->GetRenderWindow() ? renderer_->GetRenderWindow()->GetDPI() / 72. : 1;
   dots_->GetProperty()->SetPointSize(static_cast<float>(6 * scale));
   lines_->GetProperty()->SetLineWidth(static_cast<float>(1.4 * scale));
@@ -76,6 +94,17 @@ void OverlayView::show(const Overlay& overlay) {
   dot_data_->GetCellData()->SetScalars(dot_colors);
   line_data_->SetPoints(corners), line_data_->SetLines(lines);
   line_data_->GetCellData()->SetScalars(line_colors);
+  explain(overlay.scale, dark);
+}
+
+void OverlayView::explain(const std::optional<Overlay::Scale>& scale, bool dark) {
+  if (legend_) renderer_->RemoveViewProp(legend_);
+  legend_ = nullptr;
+  if (!scale) return;
+  legend_ = make_legend(colors_between(scale->none, scale->most, scale->largest), scale->title,
+                        above_the_surface_legend);
+  set_dark_background(legend_, dark);
+  renderer_->AddViewProp(legend_);
 }
 
 }  // namespace cleft

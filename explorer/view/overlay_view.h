@@ -5,6 +5,8 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
+#include <vtkSmartPointer.h>
 
 #include "explorer/scene/overlay.h"
 
@@ -18,12 +20,16 @@ class OverlayView {
   OverlayView(const OverlayView&) = delete;
   OverlayView& operator=(const OverlayView&) = delete;
 
-  void show(const Overlay& overlay);
+  /// `dark`: the background, which the legend is read on.
+  void show(const Overlay& overlay, bool dark);
 
  private:
+  void explain(const std::optional<Overlay::Scale>& scale, bool dark);
+
   vtkRenderer* renderer_;
   vtkNew<vtkActor> dots_, lines_;
   vtkNew<vtkPolyData> dot_data_, line_data_;
+  vtkSmartPointer<vtkScalarBarActor> legend_;
 };
 
 }  // namespace cleft

@@ -27,6 +27,7 @@ void Stage::make_views(std::size_t count) {
   const int columns = count > 1 ? 2 : 1, rows = count > 2 ? 2 : 1;
   for (std::size_t i = 0; i < count; ++i) {
     views_.push_back({std::make_unique<WoundView>(), nullptr});
+    views_.back().view->set_smooth(smooth_);
     vtkRenderer* renderer = views_.back().view->renderer();
     const int column = static_cast<int>(i) % columns, row = rows - 1 - static_cast<int>(i) / columns;
     renderer->SetViewport(double(column) / columns, double(row) / rows, double(column + 1) / columns,
@@ -77,8 +78,13 @@ void Stage::lay_over(Session& session) {
       continue;
     }
     if (!views_[i].overlay) views_[i].overlay = std::make_unique<OverlayView>(views_[i].view->renderer());
-    views_[i].overlay->show(overlay);
+    views_[i].overlay->show(overlay, session.state().dark);
   }
+}
+
+void Stage::set_smooth(bool smooth) {
+  smooth_ = smooth;
+  for (View& v : views_) v.view->set_smooth(smooth);
 }
 
 void Stage::set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel) {

@@ -27,6 +27,9 @@ class Stage {
   /// Draws a scene in place of the shown case's, with a scalpel in it where there is one; null: no more.
   void set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel);
 
+  /// Whether edges are smoothed; off while something moves and pictures take long.
+  void set_smooth(bool smooth);
+
   int views() const { return static_cast<int>(views_.size()); }
   WoundView& view(int i) { return *views_.at(static_cast<std::size_t>(i)).view; }
   int view_at(int x, int y) const;  ///< pixels from the lower left; -1: none
@@ -66,6 +69,7 @@ class Stage {
   std::unique_ptr<ScalpelView> scalpel_view_;
   std::string caption_;  // of what lies over the scene
   Shown shown_;
+  bool smooth_ = true;
 };
 
 }  // namespace cleft

@@ -6,9 +6,10 @@
 #include <vtkPolyData.h>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
-#include "explorer/scene/wound_scene.h"
+#include "explorer/view/smooth_normals.h"
 
 namespace cleft {
 
@@ -16,8 +17,10 @@ namespace cleft {
 /// two lips lie on each other; there they share their normal, and the cut to come stays unseen.
 class SurfacePart {
  public:
-  /// The triangles whose region `belongs`.
-  SurfacePart(const WoundSurface& surface, const std::function<bool(Region)>& belongs);
+  /// The triangles whose region `belongs`. Those that no point that is `moving` (WoundScene::moving) reaches
+  /// are drawn apart, so that a moment costs what moves, however large the rest.
+  SurfacePart(const WoundSurface& surface, const std::function<bool(Region)>& belongs,
+              const std::vector<bool>& moving = {});
 
   /// Rewrites points and normals in place.
   void move(const std::vector<Vec3>& points);
@@ -25,28 +28,24 @@ class SurfacePart {
   /// Rewrites the colour scalar of every vertex from that of its point.
   void color(const std::function<double(int point)>& scalar);
 
-  /// The surface's points at the corners of a cell.
-  std::array<int, 3> corners(std::size_t cell) const {
-    const auto& t = triangles_.at(cell);
-    return {source_[static_cast<std::size_t>(t[0])], source_[static_cast<std::size_t>(t[1])],
-            source_[static_cast<std::size_t>(t[2])]};
-  }
+  vtkPolyData* data() const { return moving_->data; }
+  vtkPolyData* still() const { return still_->data; }  ///< without triangles where all moves
 
-  vtkPolyData* data() const { return data_; }
+  /// The surface's points at the corners of a cell of data() or still().
+  std::array<int, 3> corners(const vtkPolyData* of, std::size_t cell) const;
 
  private:
-  void share_with_twins(std::vector<Vec3>& normals, const std::vector<Vec3>& points) const;
-  /// Makes normals unit vectors, and those of added points the mean of their neighbours': where a cut has
-  /// refined large flat triangles, their facets would show.
-  void soften(std::vector<Vec3>& normals) const;
+  struct Sheet {
+    Sheet(const WoundSurface& surface, const std::vector<std::array<int, 3>>& triangles_of_points);
+    void take(const std::vector<Vec3>& points);
+    void take_colors(const std::function<double(int)>& scalar);
 
-  std::vector<int> source_;                    ///< the surface's point of every vertex
-  std::vector<std::array<int, 3>> triangles_;  ///< of vertices
-  std::vector<bool> added_;                    ///< by the cut, for every vertex
-  bool any_added_ = false;
-  std::vector<std::pair<int, int>> twins_;  ///< vertices at the same place at rest
-  vtkNew<vtkPolyData> data_;
-  vtkNew<vtkFloatArray> points_, normals_, scalars_;
+    SmoothNormals shape;
+    std::vector<Vec3> normal;  // of every vertex, as drawn
+    vtkNew<vtkPolyData> data;
+    vtkNew<vtkFloatArray> points, normals, scalars;
+  };
+  std::optional<Sheet> moving_, still_;
 };
 
 }  // namespace cleft

@@ -6,21 +6,20 @@
 #include <vtkLight.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkScalarBarActor.h>
-#include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "explorer/view/legend.h"
 #include "explorer/view/wound_colors.h"
 
 namespace cleft {
 namespace {
 
-vtkSmartPointer<vtkActor> make_actor(const SurfacePart& part, vtkLookupTable* colors) {
+vtkSmartPointer<vtkActor> make_actor(vtkPolyData* data, vtkLookupTable* colors) {
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(part.data());
+  mapper->SetInputData(data);
   mapper->SetScalarVisibility(colors != nullptr);
   if (colors) {
     mapper->SetLookupTable(colors);
@@ -39,36 +38,13 @@ vtkSmartPointer<vtkActor> make_actor(const SurfacePart& part, vtkLookupTable* co
   return actor;
 }
 
-vtkSmartPointer<vtkScalarBarActor> make_legend(vtkLookupTable* colors, const std::string& title) {
-  vtkNew<vtkScalarBarActor> legend;
-  legend->SetLookupTable(colors);
-  legend->SetTitle(title.c_str());
-  legend->SetNumberOfLabels(2);  // the ends: the middle is the title's
-  legend->SetLabelFormat("%.2g");
-  legend->SetOrientationToHorizontal();
-  legend->SetPosition(0.33, 0.015);
-  legend->SetWidth(0.34);
-  legend->SetHeight(0.11);
-  legend->SetBarRatio(0.22);
-  legend->SetVerticalTitleSeparation(6);
-  legend->UnconstrainedFontSizeOn();
-  for (vtkTextProperty* text : {legend->GetTitleTextProperty(), legend->GetLabelTextProperty()}) {
-    text->SetFontSize(14);
-    text->ItalicOff();
-    text->BoldOff();
-    text->ShadowOff();
-    text->SetColor(0.1, 0.1, 0.12);
-  }
-  return legend;
-}
-
 }  // namespace
 
 WoundView::WoundView() {
   renderer_->GradientBackgroundOn();
   renderer_->SetBackground(0.62, 0.65, 0.69);
   renderer_->SetBackground2(0.90, 0.92, 0.94);
-  renderer_->SetUseFXAA(true);
+  set_smooth(true);
   add_lights();
 }
 
@@ -97,7 +73,8 @@ void WoundView::show(std::shared_ptr<const WoundScene> scene, std::optional<doub
   const WoundSurface& surface = scene_->surface();
   CLEFT_CHECK(surface.regions.size(), ==, surface.triangles.size());
   CLEFT_CHECK(surface.depth_fraction.size(), ==, surface.points.size());
-  skin_.emplace(surface, [](Region r) { return r == Region::skin; });
+  skin_.emplace(
+      surface, [](Region r) { return r == Region::skin; }, scene_->moving());
   walls_.emplace(surface, [](Region r) { return r != Region::skin; });
   add_actors();
   set_time(t.value_or(scene_->duration()));
@@ -147,19 +124,19 @@ void WoundView::add_actors() {
     legend_->SetVisibility(has_legend_);
     add_prop(legend_);
   }
-  const vtkSmartPointer<vtkActor> skin_actor = make_actor(*skin_, skin);
-  if (skin) {  // colours must be read against the legend
-    skin_actor->GetProperty()->SetAmbient(0.35);
-    skin_actor->GetProperty()->SetDiffuse(0.62);
+  skin_actor_ = make_actor(skin_->data(), skin);
+  still_actor_ = make_actor(skin_->still(), skin);
+  for (vtkActor* actor : {skin_actor_.Get(), still_actor_.Get()}) {
+    add_prop(actor);
+    if (!skin) continue;
+    actor->GetProperty()->SetAmbient(0.35);  // colours must be read against the legend
+    actor->GetProperty()->SetDiffuse(0.62);
   }
-  add_prop(skin_actor);
-  skin_actor_ = skin_actor;
-  vtkSmartPointer<vtkActor> walls = make_actor(*walls_, tissue_colors());
-  walls->GetProperty()->SetSpecular(0.3);  // moist
-  walls->GetProperty()->SetSpecularPower(40);
-  add_prop(walls);
-  wall_actor_ = walls;
-  for (vtkActor* actor : {skin_actor_.Get(), wall_actor_.Get()}) actor->GetProperty()->SetOpacity(opacity_);
+  wall_actor_ = make_actor(walls_->data(), tissue_colors());
+  wall_actor_->GetProperty()->SetSpecular(0.3);  // moist
+  wall_actor_->GetProperty()->SetSpecularPower(40);
+  add_prop(wall_actor_);
+  show_opacity();
   walls_->color([this](int p) { return scene_->surface().depth_fraction[p]; });
   set_background();
 }
@@ -167,7 +144,12 @@ void WoundView::add_actors() {
 void WoundView::set_opacity(double opacity) {
   if (opacity == opacity_) return;
   opacity_ = opacity;
-  for (vtkActor* actor : {skin_actor_.Get(), wall_actor_.Get()}) actor->GetProperty()->SetOpacity(opacity);
+  show_opacity();
+}
+
+void WoundView::show_opacity() {
+  for (vtkActor* actor : {skin_actor_.Get(), still_actor_.Get(), wall_actor_.Get()})
+    actor->GetProperty()->SetOpacity(opacity_);
 }
 
 void WoundView::set_dark(bool dark) {
@@ -184,10 +166,7 @@ void WoundView::set_background() {
     renderer_->SetBackground(0.80, 0.83, 0.86);
     renderer_->SetBackground2(0.96, 0.97, 0.98);
   }
-  if (!legend_) return;
-  const double ink = dark_ ? 0.9 : 0.1;
-  for (vtkTextProperty* text : {legend_->GetTitleTextProperty(), legend_->GetLabelTextProperty()})
-    text->SetColor(ink, ink, ink);
+  if (legend_) set_dark_background(legend_, dark_);
 }
 
 void WoundView::add_prop(vtkProp* prop) {
@@ -209,9 +188,11 @@ void WoundView::set_time(double t) {
 std::optional<WoundView::Place> WoundView::skin_at(int x, int y) {
   vtkNew<vtkCellPicker> picker;
   picker->SetTolerance(0);
-  if (!picker->Pick(x, y, 0, renderer_) || picker->GetActor() != skin_actor_ || picker->GetCellId() < 0)
-    return {};
-  const auto corners = skin_->corners(static_cast<std::size_t>(picker->GetCellId()));
+  if (!picker->Pick(x, y, 0, renderer_) || picker->GetCellId() < 0) return {};
+  const bool still = picker->GetActor() == still_actor_;
+  if (!still && picker->GetActor() != skin_actor_) return {};
+  const vtkPolyData* hit = still ? skin_->still() : skin_->data();
+  const auto corners = skin_->corners(hit, static_cast<std::size_t>(picker->GetCellId()));
   const double* p = picker->GetPCoords();
   const std::vector<Vec3>& rest = scene_->surface().points;
   const auto corner = [&](int i) {

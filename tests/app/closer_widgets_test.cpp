@@ -117,5 +117,28 @@ TEST_F(CloserWindow, ASlowPictureIsCoarseWhileItIsTurned) {
   EXPECT_EQ(scene.renderWindow()->GetSize()[0], width);
 }
 
+TEST_F(CloserWindow, ASlowPictureIsCoarseWhileTimeIsDraggedAndWholeWhenItRests) {
+  tell("open " + study());
+  settle(400);
+  SceneWidget& scene = window_.scene();
+  vtkRenderer* renderer = scene.stage().view(0).renderer();
+  const auto drag = [&] {
+    for (const int value : {1000, 1500, 2000}) widget<QSlider>("time").setValue(value);
+  };
+  scene.set_slowest(1000);
+  drag();
+  EXPECT_FALSE(scene.coarse());
+  EXPECT_TRUE(renderer->GetUseFXAA());
+  scene.set_slowest(0);
+  drag();
+  EXPECT_TRUE(scene.coarse());
+  EXPECT_FALSE(renderer->GetUseFXAA());
+  settle(600);
+  EXPECT_FALSE(scene.coarse());
+  EXPECT_TRUE(renderer->GetUseFXAA());
+  tell("time 3");
+  EXPECT_FALSE(scene.coarse()) << "a picture alone is no motion";
+}
+
 }  // namespace
 }  // namespace cleft

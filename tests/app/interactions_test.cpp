@@ -113,6 +113,7 @@ class Interactions : public WindowTest {
   QImage picture(const Interaction& interaction) {
     begin();
     for (const std::string& line : interaction.lines) act(line);
+    window_.scene().rest();
     EXPECT_FALSE(window_.scene().coarse()) << interaction.name << ": the last picture is a whole one";
     window_.scene().renderWindow()->Render();
     return window_.scene().grabFramebuffer().convertToFormat(QImage::Format_RGB888);

@@ -85,6 +85,20 @@ TEST_P(Depths, CrossingAnotherCut) {
   EXPECT_EQ(there.size(), 4u);
 }
 
+TEST(Crossing, APathThatBeginsBeforeALipOrTheOutlineDoesNotTurnBack) {
+  for (const double start : {-9.97, 0.46}) {  // from there on along -y: over the outline, or into the wound
+    CutMesh mesh(grid(20, 20, -10, -10, 1));
+    Incision first(mesh, path_through({{-4, 0.43, 0}, {4, 0.44, 0}}, up, 2), unrefined());
+    first.advance_to(100);
+    Incision second(mesh, path_through({{0.3, start, 0}, {0.28, start - 3, 0}}, up, 2), unrefined());
+    second.advance_to(100);
+    EXPECT_GE(second.chain().size(), 2u);
+    for (std::size_t i = 1; i < second.chain().size(); ++i)
+      EXPECT_LE(mesh.position(second.chain()[i].left).y, mesh.position(second.chain()[i - 1].left).y)
+          << start << ' ' << i;
+  }
+}
+
 TEST_P(Depths, EndingInAnotherCut) {
   CutMesh mesh(sphere(4, 10));
   Incision first(mesh, on_top({{-4, 0.1}, {0, 0.3}, {4, 0.2}}, 2), unrefined());

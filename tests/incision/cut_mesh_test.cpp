@@ -42,6 +42,23 @@ TEST(CutMesh, RollsBackToTheMark) {
   EXPECT_TRUE(adjacency_holds(mesh));
 }
 
+TEST(CutMesh, NoStepCarriesTheMeshToAnotherPlace) {
+  CutMesh mesh(grid(20, 20, -10, -10, 1));
+  const auto places = [&mesh] {
+    return std::array<const void*, 3>{mesh.triangles().data(), mesh.vertices().data(), mesh.sheets().data()};
+  };
+  for (int k = 0; k < 3; ++k) {
+    IncisionOptions options;
+    options.max_edge = 0.3, options.reach = 0;
+    const std::size_t before = mesh.triangles().size();
+    Incision cut(mesh, path_through({{-8, 2 * k - 3.3, 0}, {8, 2 * k - 2.8, 0}}, up, 3), options);
+    const auto begun = places();
+    cut.advance_to(cut.path().length());
+    EXPECT_EQ(places(), begun);
+    EXPECT_GT(mesh.triangles().size(), before + 800);
+  }
+}
+
 TEST(CutMesh, FansOfBowTiesAndThreefoldEdgesAreReported) {
   SurfaceMesh bow_tie{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}};
   EXPECT_THROW(CutMesh(bow_tie).skin_fan(0), InputError);

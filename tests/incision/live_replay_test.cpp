@@ -86,6 +86,26 @@ TEST(LiveReplay, FollowsAPathFromVertexToVertex) {
   }
 }
 
+TEST(LiveReplay, EntersAFewAtATimeAndIsAReplayOnceAllHave) {
+  const Field field = opening_field({-5, 10, 3}, 20, 16, 6, 2);
+  Incision incision(grid(60, 40, -30, -20, 1, hills), winding(-8, 8), {});
+  constexpr std::size_t most = 40;
+  LiveReplay live(field, incision, 1, most);
+  for (double s = 1; s <= 10; s += 1.5) {
+    incision.advance_to(s);
+    live.follow();
+    EXPECT_LE(live.contracted(), most);
+    live.move_to(s);
+  }
+  ASSERT_GT(live.late(), 2 * most);
+  const double tip = incision.tip();
+  for (std::size_t left = live.late(); left > 0; left = live.late()) {
+    live.move_to(tip);
+    ASSERT_LT(live.late(), left);
+  }
+  expect_same(live, field, incision, tip);
+}
+
 TEST(LiveReplay, StepsCostWhatIsNewAndFramesWhatMoves) {
   const Field field = opening_field({-5, 10, 3}, 20, 16, 6, 2);
   IncisionOptions options;

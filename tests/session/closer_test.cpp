@@ -91,6 +91,8 @@ TEST_F(Closer, ZoomReadsTheNodesOfThePlaceAndNoOthers) {
     EXPECT_NEAR(norm(overlay.dots[i].place - expected[i]), 0, 1e-9);
   EXPECT_NE(overlay.caption.find("frame 2 at 20.0 mm: the field is off by up to 0.064 mm"), std::string::npos)
       << overlay.caption;
+  ASSERT_TRUE(overlay.scale) << "what the nodes' colours mean";
+  EXPECT_NEAR(overlay.scale->largest, 0.064, 0.0005);
   EXPECT_TRUE(state().camera.pose);
   EXPECT_NE(refused("zoom 1,1,-1 0.5").find("no node"), std::string::npos);
   say("zoom off");

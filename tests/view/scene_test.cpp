@@ -16,12 +16,12 @@ namespace cleft {
 namespace {
 
 /// A flat skin of 60 x 40 mm with a straight path through its middle, as long as the field's cut.
-std::shared_ptr<const CutSurface> cut_plate(const Field& field) {
+std::shared_ptr<const CutSurface> cut_plate(const Field& field, const SurfaceMesh& plate = flat_plate()) {
   const CanonicalCut& cut = field.cut();
   std::vector<ScalpelPath::Point> path;
   for (int i = 0; i <= 10; ++i)
     path.push_back({{cut.start + cut.length * i / 10 + 0.3, 0.7, 0}, {0, 0, 1}, cut.depth});
-  return std::make_shared<CutSurface>(flat_plate(), std::vector{ScalpelPath(path)});
+  return std::make_shared<CutSurface>(plate, std::vector{ScalpelPath(path)});
 }
 
 /// Both kinds of scenes, from one field.
@@ -180,6 +180,44 @@ TEST_P(AnyScene, ClosedLipsShareTheirNormal) {
     ++pairs_found;
   }
   EXPECT_GT(pairs_found, 10);
+}
+
+TEST(SurfacePart, DrawsWhatNeverMovesApartAndAlike) {
+  const auto field = std::make_shared<Field>(synthetic_field(5));
+  const MeshScene scene(cut_plate(*field, flat_plate(81, 61)), CutFields(field));
+  const WoundSurface& surface = scene.surface();
+  const auto is_skin = [](Region r) { return r == Region::skin; };
+  SurfacePart whole(surface, is_skin), parted(surface, is_skin, scene.moving());
+  const vtkIdType still = parted.still()->GetNumberOfCells(), moving = parted.data()->GetNumberOfCells();
+  EXPECT_EQ(still + moving, whole.data()->GetNumberOfCells());
+  EXPECT_GT(still, moving / 10);
+  const vtkMTimeType before = parted.still()->GetMTime();
+  for (const double t : {3., scene.duration()}) {
+    std::vector<Vec3> points;
+    scene.positions(t, points);
+    for (std::size_t i = 0; i < points.size(); ++i)  // not in its plane only, so that normals turn
+      points[i].z += 3 * (points[i] - surface.points[i]).y;
+    whole.move(points), parted.move(points);
+    std::map<std::array<double, 3>, std::set<std::array<double, 3>>> normals;
+    const auto each = [](vtkPolyData* data, const auto& use) {
+      std::array<double, 3> place, normal;
+      for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        data->GetPoint(i, place.data());
+        data->GetPointData()->GetNormals()->GetTuple(i, normal.data());
+        use(place, normal);
+      }
+    };
+    double steepest = 0;
+    each(whole.data(), [&](const auto& place, const auto& normal) {
+      normals[place].insert(normal), steepest = std::max(steepest, 1 - normal[2]);
+    });
+    EXPECT_GT(steepest, 0.01);
+    for (vtkPolyData* part : {parted.still(), parted.data()})
+      each(part, [&](const auto& place, const auto& normal) {
+        EXPECT_TRUE(normals[place].contains(normal)) << place[0] << ' ' << place[1] << ' ' << normal[2];
+      });
+  }
+  EXPECT_EQ(parted.still()->GetMTime(), before) << "nothing of it is sent to be drawn again";
 }
 
 }  // namespace

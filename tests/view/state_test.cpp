@@ -1,5 +1,9 @@
 // Pictures of a session, without a window: the state in a picture gives the picture again.
 #include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkPNGReader.h>
+
+#include <cmath>
 
 #include "base/text.h"
 #include "explorer/io/mesh_file.h"
@@ -45,6 +49,37 @@ TEST_P(AnyView, AStateGivesItsPictureAgainByteForByte) {
   again.say("load " + folder_ / "a.png");
   again.say("screenshot " + folder_ / "b.png 240 160");
   EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+}
+
+TEST_F(Pictures, ATransparentOneHasTheSceneAndNothingBehindIt) {
+  drawn_.say("open " + study());
+  const auto read = [&](const std::string& how) {
+    const std::string file = folder_ / "t.png";
+    drawn_.say("screenshot " + file + " 240 160" + how);
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    return vtkSmartPointer<vtkImageData>(reader->GetOutput());
+  };
+  const auto plain = read(""), clear = read(" transparent");
+  ASSERT_EQ(plain->GetNumberOfScalarComponents(), 3);
+  ASSERT_EQ(clear->GetNumberOfScalarComponents(), 4);
+  const auto at = [](vtkImageData* image, int x, int y, int i) {
+    return image->GetScalarComponentAsDouble(x, y, 0, i);
+  };
+  EXPECT_EQ(at(clear, 235, 155, 3), 0) << "the upper right corner is background";
+  int same = 0, solid = 0;
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 240; ++x) {
+      if (at(clear, x, y, 3) < 255) continue;
+      ++solid;
+      double difference = 0;
+      for (int i = 0; i < 3; ++i) difference += std::abs(at(clear, x, y, i) - at(plain, x, y, i));
+      same += difference <= 6;
+    }
+  EXPECT_GT(solid, 240 * 160 / 10) << "the skin";
+  EXPECT_LT(solid, 240 * 160 * 9 / 10);
+  EXPECT_GT(same, 0.95 * solid) << "what is not clear is as in a picture with background";
 }
 
 TEST_F(Pictures, AStageThatWasElsewhereShowsTheSame) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "encoder/parallel.h"
+#include "base/parallel.h"
 
 namespace cleft {
 

@@ -125,6 +125,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--meshes", o.meshes, "folder of .obj and .stl files, besides the generated ones");
   app.add_option("--only", o.only, "meshes whose name contains this");
+  app.add_option("--path", o.plan.only,
+                 "these paths alone, by their numbers, with those cut in the mesh at once");
   app.add_flag("--list", o.plan.list,
                "each path that was refused, or left poor triangles or lips of another length");
   app.add_flag("--large", o.large, "a mesh of a million triangles too");

@@ -87,7 +87,7 @@ std::string reason_to_refuse(const Ground& ground, const ScalpelPath& path, cons
         return "the mesh is no manifold";
     if (distance > beside * edge) continue;
     shortest_edge = std::min(shortest_edge, edge);
-    if (dot(ground.face_normal(t), frame.outward) < upright) return "the blade lies along the surface";
+    if (dot(ground.face_normal(t), frame.outward) < upright) return lies_along;
   }
   return runs_along_wound(cut, place, frame, beside * shortest_edge) ? "along a wound" : "";
 }

@@ -8,6 +8,8 @@
 
 namespace cleft::stress {
 
+constexpr const char* lies_along = "the blade lies along the surface";
+
 /// Why a path cannot be cut beyond `place`, which it reached at arc length s: the mesh is no manifold there,
 /// the blade does not point out of a triangle there, it is nowhere near the mesh, or it runs along a wound of
 /// `cut`. Nothing where it can.

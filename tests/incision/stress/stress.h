@@ -36,9 +36,10 @@ struct Plan {
   std::uint64_t seed = 1;
   long paths = 100;
   Clock::time_point until = Clock::time_point::max();
-  bool good = true;      ///< the mesh: poor triangles and lips of another length are violations
-  int cuts_at_once = 3;  ///< up to so many cuts lie in the mesh before all are undone
-  bool list = false;     ///< every path that was refused, or left poor triangles or lips of another length
+  bool good = true;        ///< the mesh: poor triangles and lips of another length are violations
+  int cuts_at_once = 3;    ///< up to so many cuts lie in the mesh before all are undone
+  std::vector<long> only;  ///< paths to cut, with those that are in the mesh at once; none: all
+  bool list = false;       ///< every path that was refused, or left poor triangles or lips of another length
 };
 
 /// `sound`: whether the mesh came as an oriented manifold.

@@ -1,0 +1,46 @@
+// Normals of a wound's surface: smooth within a part of it, and none of the cut to come ahead of the tip.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "explorer/scene/wound_scene.h"
+
+namespace cleft {
+
+/// Of the vertices of some triangles of a surface. A vertex is a point of the surface.
+class SmoothNormals {
+ public:
+  SmoothNormals(const WoundSurface& surface, const std::vector<std::array<int, 3>>& triangles_of_points);
+
+  /// Unit vectors, one for each vertex, with the surface's points there. Where lips lie on each other they
+  /// share theirs.
+  void of(const std::vector<Vec3>& points, std::vector<Vec3>& normals) const;
+
+  /// From now on the normals of the vertices where `known` has one (for each point of the surface; zero:
+  /// none) are these.
+  void fix(const std::vector<Vec3>& known);
+
+  const std::vector<int>& source() const { return source_; }  ///< the surface's point of every vertex
+  const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }  ///< of vertices
+  /// Vertices at the same place at rest.
+  const std::vector<std::pair<int, int>>& twins() const { return twins_; }
+
+ private:
+  void share_with_twins(const std::vector<Vec3>& points, std::vector<Vec3>& normals) const;
+  void keep_fixed(std::vector<Vec3>& normals) const;
+  /// Makes normals unit vectors, and those of added points the mean of their neighbours': where a cut has
+  /// refined large flat triangles, their facets would show.
+  void soften(std::vector<Vec3>& normals) const;
+
+  std::vector<int> source_;
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<std::pair<int, int>> twins_;
+  std::vector<int> added_;  // vertices, by the cut
+  std::vector<std::pair<int, Vec3>> fixed_;
+};
+
+constexpr int softening_passes = 4;  ///< so many rings of neighbours a normal depends on, beside the next
+
+}  // namespace cleft

@@ -1,0 +1,13 @@
+// How good a triangle can be between two lips that meet.
+#pragma once
+
+#include "explorer/incision/incision.h"
+
+namespace cleft::stress {
+
+/// The largest radius ratio possible in a corner of `triangle`: 1, or where the skin there is a wedge between
+/// two lips of `cut`, what the wedge's angle permits, or that between the path's directions along the two
+/// where it is more.
+double best_between_lips(const CutMesh& mesh, int triangle, const Incision& cut);
+
+}  // namespace cleft::stress
