@@ -33,16 +33,19 @@ if [ -n "${DISPLAY:-}" ]; then
   echo "The explorer opens; F1 shows its keys and commands. Close its window to end."
   exec $bin/cleft explore $out/study --mesh $out/head.stl --path $out/path.csv
 fi
-look="$bin/cleft explore $out/study --case 3 --mesh $out/head.stl --path $out/path.csv"
-for side in front:-38,12 back:32,8; do
-  for millimetres in 12 34 68; do
-    picture=$out/wound-${side%%:*}-$millimetres.png
-    $look --time $millimetres --view="${side#*:}" --zoom 2 --size 900,900 --screenshot $picture
-    echo "picture: $picture"
+{
+  echo "screenshot $out/head.png"
+  for side in "front -38 12" "back 32 8"; do
+    read -r name azimuth elevation <<< "$side"
+    echo "camera $azimuth $elevation 2"
+    for millimetres in 12 34 68; do
+      echo "time $millimetres"
+      echo "screenshot $out/wound-$name-$millimetres.png 900 900"
+    done
   done
-done
-$look --screenshot $out/head.png
-echo "picture: $out/head.png"
+} > $out/pictures.txt
+$bin/cleft explore $out/study --case 3 --mesh $out/head.stl --path $out/path.csv --script $out/pictures.txt
+sed -n 's/^screenshot \([^ ]*\).*/picture: \1/p' $out/pictures.txt
 $bin/cleft explore $out/study --case 3 --screenshot $out/patch.png
 echo "picture: $out/patch.png"
 echo "There is no display, so pictures were written. With one, this opens the explorer:"
