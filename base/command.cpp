@@ -11,6 +11,15 @@
 
 namespace cleft {
 
+namespace {
+
+/// In one piece, so that a log has all of it or, where it cannot be written, nothing.
+void complain(const CLI::App& app, const char* kind, const std::string& what) {
+  std::cerr << app.get_name() + ": " + kind + ": " + what + '\n';
+}
+
+}  // namespace
+
 int run_command(CLI::App& app, int argc, char** argv, const std::function<void()>& body) {
   app.set_version_flag("--version", producer());
   app.get_formatter()->column_width(34);
@@ -18,7 +27,7 @@ int run_command(CLI::App& app, int argc, char** argv, const std::function<void()
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
-    std::cerr << app.get_name() << ": error: " << e.what() << " (see " << app.get_name() << " --help)\n";
+    complain(app, "error", e.what() + (" (see " + app.get_name() + " --help)"));
     return 2;
   }
   try {
@@ -26,13 +35,13 @@ int run_command(CLI::App& app, int argc, char** argv, const std::function<void()
     if (!std::cout.flush()) throw std::runtime_error("standard output could not be written");
     return 0;
   } catch (const InputError& e) {
-    std::cerr << app.get_name() << ": error: " << e.what() << '\n';
+    complain(app, "error", e.what());
     return 2;
   } catch (const std::exception& e) {
-    std::cerr << app.get_name() << ": failed: " << e.what() << '\n';
+    complain(app, "failed", e.what());
     return 1;
   } catch (...) {  // Trilinos throws numbers
-    std::cerr << app.get_name() << ": failed: an error without a message\n";
+    complain(app, "failed", "an error without a message");
     return 1;
   }
 }

@@ -31,7 +31,7 @@ void written(MPI_Comm communicator, const std::string& unfinished, const Work& w
   } catch (const std::exception& e) {
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);
-    std::cerr << "cleft solve: failed: " << e.what() << std::endl;
+    std::cerr << std::string("cleft solve: failed: ") + e.what() + '\n' << std::flush;
     MPI_Abort(communicator, 1);
   }
 }

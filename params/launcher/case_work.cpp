@@ -42,10 +42,12 @@ std::string last_words(const std::string& text) {
 }
 
 /// What a command has said of its own failure, "cleft solve: error: ..." (base/command.h): empty where it
-/// came to none, and something else has failed, as mpirun.
+/// came to none, and something else has failed, as mpirun or the log.
 std::string own_words(const std::string& log, const std::string& command) {
-  for (const char* kind : {": error: ", ": failed: "})
-    if (const std::string said = line_with(log, "cleft " + command + kind); !said.empty()) return said;
+  for (const char* kind : {": error: ", ": failed: "}) {
+    const std::string begin = "cleft " + command + kind, said = line_with(log, begin);
+    if (!said.empty() && said.find(begin) + begin.size() < said.size()) return said;
+  }
   return "";
 }
 
