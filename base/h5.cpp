@@ -440,8 +440,8 @@ void File::write_text(const std::string& object, const std::string& attribute, c
 
 void File::close() {
   const bool flushed = file_ < 0 || H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
-  if (collective_) check_write(flushed ? 0 : -1, "the last part");  // the other ranks still wait in their flush
-  const bool closed = file_.close();
+  // Where it failed on one of several ranks the others still wait in theirs, and none may begin to close.
+  const bool closed = (flushed || !collective_) && file_.close();
   check_write(flushed && closed ? 0 : -1, "the last part");
 }
 

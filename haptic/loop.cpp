@@ -83,7 +83,7 @@ void HapticLoop::run(const std::atomic<bool>& stop, double seconds) {
   const std::int64_t faults_before = page_faults();
   while (due < end && !stop.load(std::memory_order_relaxed)) {
     due += period * (1 + missed);
-    sleep_until(due);
+    be_awake_at(due);
     const std::int64_t woken = clock_time(CLOCK_MONOTONIC);
     statistics_.lateness.add(1e-9 * static_cast<double>(std::max<std::int64_t>(woken - due, 0)));
     const std::int64_t before = options_.measure ? clock_time(CLOCK_THREAD_CPUTIME_ID) : 0;

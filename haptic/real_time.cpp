@@ -21,11 +21,14 @@ std::int64_t clock_time(clockid_t clock) {
 }
 
 void sleep_until(std::int64_t time) {
-  constexpr std::int64_t awake = 60000;  // ns
-  const std::int64_t wake = time - awake;
-  const timespec t{wake / clock_second, wake % clock_second};
+  const timespec t{time / clock_second, time % clock_second};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
   }
+}
+
+void be_awake_at(std::int64_t time) {
+  constexpr std::int64_t awake = 60000;  // ns
+  sleep_until(time - awake);
   while (clock_time(CLOCK_MONOTONIC) < time) {
   }
 }
@@ -79,7 +82,7 @@ BareTimer bare_timer(double rate, bool real_time, const std::atomic<bool>& stop)
   double x = 1;
   for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !stop;) {
     due += period;
-    sleep_until(due);
+    be_awake_at(due);
     const std::int64_t late = clock_time(CLOCK_MONOTONIC) - due;
     bare.lateness.add(1e-9 * static_cast<double>(late > 0 ? late : 0));
     const std::int64_t before = clock_time(CLOCK_THREAD_CPUTIME_ID);

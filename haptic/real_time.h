@@ -13,9 +13,11 @@ inline constexpr std::int64_t clock_second = 1000000000;
 /// ns; of CLOCK_MONOTONIC without a system call.
 std::int64_t clock_time(clockid_t clock);
 
-/// Until CLOCK_MONOTONIC's `time`, ns. The last 60 us are waited through awake: what waking up brings with it
-/// (the scheduler's and timers' own work, a slow clock of the processor) is over when the time comes.
+/// Until CLOCK_MONOTONIC's `time`, ns.
 void sleep_until(std::int64_t time);
+/// The same, for ticks: the last 60 us are waited through awake, so that what waking up brings with it (the
+/// scheduler's and timers' own work, a slow clock of the processor) is over when the time comes.
+void be_awake_at(std::int64_t time);
 
 /// Page faults of this thread so far.
 std::int64_t page_faults();

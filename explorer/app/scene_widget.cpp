@@ -158,22 +158,24 @@ bool SceneWidget::event(QEvent* event) {
   if (pointed && session_.mesh() && points(event)) return true;
   if (!picking_.empty() && session_.study() && !session_.mesh() && type == QEvent::MouseButtonPress) {
     auto* mouse = static_cast<QMouseEvent*>(event);
-    const double ratio = pixel_ratio();
-    if (mouse->button() == Qt::LeftButton &&
-        pick(static_cast<int>(mouse->x() * ratio), static_cast<int>((height() - 1 - mouse->y()) * ratio)))
-      return true;
+    const auto [x, y] = pixel(*mouse);
+    if (mouse->button() == Qt::LeftButton && pick(x, y)) return true;
   }
   if (cutting_ && session_.mesh() &&
       (type == QEvent::MouseButtonPress || type == QEvent::MouseMove || type == QEvent::MouseButtonRelease)) {
     auto* mouse = static_cast<QMouseEvent*>(event);
-    const double ratio = pixel_ratio();
-    const int x = static_cast<int>(mouse->x() * ratio),
-              y = static_cast<int>((height() - 1 - mouse->y()) * ratio);
+    const auto [x, y] = pixel(*mouse);
     if (type == QEvent::MouseButtonPress && mouse->button() == Qt::LeftButton && press(x, y)) return true;
     if (type == QEvent::MouseMove && pressed_) return drag(x, y), true;
     if (type == QEvent::MouseButtonRelease && pressed_) return release(), true;
   }
   return QVTKOpenGLNativeWidget::event(event);
+}
+
+/// Where a mouse is in the picture as it is drawn now, from its lower left corner.
+std::pair<int, int> SceneWidget::pixel(const QMouseEvent& mouse) const {
+  return {static_cast<int>(mouse.x() * pixel_ratio()),
+          static_cast<int>((height() - 1 - mouse.y()) * pixel_ratio())};
 }
 
 /// A device that is the mouse: over the skin it is the scalpel's, else it turns the picture.
@@ -183,9 +185,7 @@ bool SceneWidget::points(QEvent* event) {
     return false;
   auto* mouse = static_cast<QMouseEvent*>(event);
   if (type == QEvent::MouseButtonPress && mouse->button() != Qt::LeftButton) return false;
-  const double ratio = pixel_ratio();
-  const int x = static_cast<int>(mouse->x() * ratio),
-            y = static_cast<int>((height() - 1 - mouse->y()) * ratio);
+  const auto [x, y] = pixel(*mouse);
   const int view = stage_->view_at(x, y);
   const auto place = view < 0 ? std::nullopt : stage_->view(view).skin_at(x, y);
   if (type == QEvent::MouseButtonPress) pressed_ = place.has_value();

@@ -8,6 +8,7 @@
 #include <QTimer>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "explorer/app/panel.h"
@@ -62,6 +63,7 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   void turn(unsigned long what);
   void hurry(double last_seconds);
   void set_coarse(bool coarse);
+  std::pair<int, int> pixel(const QMouseEvent& mouse) const;
   double pixel_ratio() const { return (coarse_ ? 0.5 : 1) * devicePixelRatioF(); }
   bool press(int x, int y);
   void drag(int x, int y);

@@ -18,12 +18,6 @@ std::string text_of(const char* format, auto... values) {
   return text;
 }
 
-Ink between(const Ink& a, const Ink& b, double part) {
-  Ink ink;
-  for (std::size_t i = 0; i < 3; ++i) ink[i] = a[i] + part * (b[i] - a[i]);
-  return ink;
-}
-
 Vec3 moved(const Field& field, const Vec3& uvw, Side side, double t) {
   return uvw + field.displacement(uvw, side, t);
 }

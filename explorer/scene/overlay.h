@@ -13,6 +13,11 @@
 namespace cleft {
 
 using Ink = std::array<double, 3>;  ///< red, green, blue, 0 to 1
+inline Ink between(const Ink& a, const Ink& b, double part) {
+  Ink ink;
+  for (std::size_t i = 0; i < 3; ++i) ink[i] = a[i] + part * (b[i] - a[i]);
+  return ink;
+}
 
 struct Overlay {
   struct Dot {

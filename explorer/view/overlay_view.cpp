@@ -41,9 +41,8 @@ vtkSmartPointer<vtkLookupTable> colors_between(const Ink& none, const Ink& most,
   table->SetNumberOfTableValues(colors);
   table->SetTableRange(0, largest);
   for (int i = 0; i < colors; ++i) {
-    const double part = double(i) / (colors - 1);
-    table->SetTableValue(i, none[0] + part * (most[0] - none[0]), none[1] + part * (most[1] - none[1]),
-                         none[2] + part * (most[2] - none[2]));
+    const Ink ink = between(none, most, double(i) / (colors - 1));
+    table->SetTableValue(i, ink[0], ink[1], ink[2]);
   }
   return table;
 }

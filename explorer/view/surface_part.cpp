@@ -46,6 +46,10 @@ SurfacePart::Sheet::Sheet(const WoundSurface& surface, const Triangles& triangle
 
 void SurfacePart::Sheet::take(const std::vector<Vec3>& places) {
   shape.of(places, normal);
+  put(places);
+}
+
+void SurfacePart::Sheet::put(const std::vector<Vec3>& places) {
   float* x = points->GetPointer(0);
   float* n = normals->GetPointer(0);
   for (std::size_t v = 0; v < normal.size(); ++v) {
@@ -92,10 +96,10 @@ SurfacePart::SurfacePart(const WoundSurface& surface, const std::function<bool(R
   Triangles parts[2];
   for (const std::array<int, 3>& t : all) parts[changes[t[0]] || changes[t[1]] || changes[t[2]]].push_back(t);
   moving_.emplace(surface, parts[1]), still_.emplace(surface, parts[0]);
-  for (Sheet* sheet : {&*moving_, &*still_}) {
-    sheet->shape.fix(still_normals);
-    sheet->take(surface.points);
-  }
+  moving_->shape.fix(still_normals);
+  moving_->take(surface.points);
+  for (const int point : still_->shape.source()) still_->normal.push_back(still_normals[point]);
+  still_->put(surface.points);
 }
 
 void SurfacePart::move(const std::vector<Vec3>& points) { moving_->take(points); }

@@ -38,6 +38,7 @@ class SurfacePart {
   struct Sheet {
     Sheet(const WoundSurface& surface, const std::vector<std::array<int, 3>>& triangles_of_points);
     void take(const std::vector<Vec3>& points);
+    void put(const std::vector<Vec3>& points);  ///< with the normals there are
     void take_colors(const std::function<double(int)>& scalar);
 
     SmoothNormals shape;
