@@ -117,12 +117,37 @@ File File::open_to_write(const std::string& path) {
 }
 
 #ifdef H5_HAVE_PARALLEL
+namespace {
+
+std::function<void(const std::string&)> end_all_ranks;
+std::string written_by_all;  // the file
+
+void share_failed(MPI_File*, int* error, ...) {
+  char reason[MPI_MAX_ERROR_STRING] = "";
+  int length = 0;
+  MPI_Error_string(*error, reason, &length);
+  if (end_all_ranks)
+    end_all_ranks(written_by_all + " could not be written: is the disk full? (" + reason + ")");
+}
+
+}  // namespace
+
+void on_failed_share(std::function<void(const std::string&)> end) { end_all_ranks = std::move(end); }
+
 File File::open_to_write(const std::string& path, MPI_Comm communicator) {
   begin_hdf5();
   const Handle access = file_access();
   H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL);
   Handle handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access), H5Fclose);
   if (handle < 0) throw std::runtime_error(path + ": could not be opened to write by all ranks");
+  written_by_all = path;
+  void* within = nullptr;
+  if (H5Fget_vfd_handle(handle, access, &within) >= 0 && within) {
+    MPI_Errhandler failed = MPI_ERRHANDLER_NULL;
+    MPI_File_create_errhandler(share_failed, &failed);
+    MPI_File_set_errhandler(*static_cast<MPI_File*>(within), failed);
+    MPI_Errhandler_free(&failed);
+  }
   File file{path, std::move(handle)};
   file.collective_ = true;
   return file;

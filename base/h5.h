@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,12 @@ enum class Packing { plain, deflate };
 /// not.
 enum class Growth { usual, none };
 
+#ifdef H5_HAVE_PARALLEL
+/// What a rank does where its share of a collective write fails; it must end all ranks, and not return. HDF5
+/// would go on to the next of its calls here, while the others wait in the failed one for ever.
+void on_failed_share(std::function<void(const std::string& message)> end_all_ranks);
+#endif
+
 /// Supported element types: double, float, std::int32_t, std::int64_t, std::uint8_t.
 /// Reading throws FileError (what is missing or damaged); writing throws std::runtime_error (disk full, ...).
 class File {
@@ -49,7 +56,8 @@ class File {
   static File open(const std::string& path);
   static File open_to_write(const std::string& path);
 #ifdef H5_HAVE_PARALLEL
-  /// An existing file, by all ranks together: write_rows() and close() are collective then.
+  /// An existing file, by all ranks together: write_rows() and close() are collective then. See
+  /// on_failed_share().
   static File open_to_write(const std::string& path, MPI_Comm communicator);
 #endif
 
