@@ -135,14 +135,18 @@ class Incision {
   double wall_spacing(int start, double max_edge) const;
   int tip_vertex() const { return state_.from >= 0 ? state_.from : chain_.back().left; }
 
-  // Changing the mesh: incision.cpp.
+  // How far to cut: incision.cpp.
   void rehearse();
   void cut_on_to(double s);
   void step_on();
+  void check_progress() const;
+
+  // What a step changes in the mesh: incision_change.cpp.
+  /// The longest edge of a triangle that a straight piece ends in, in pieces.
+  static constexpr double room_for_piece = 6;
   void take(const Step& step);
   int realise(const Step& step);
   bool made_room(const Step& step);
-  void check_progress() const;
   void grow(int next, double s);
   void mend(const CutMesh::Checkpoint& since);
   std::array<int, 2> pending_edge() const;
