@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "explorer/incision/cut_mesh.h"
@@ -178,6 +179,9 @@ class Incision {
     int from = -1;                 // where the path goes on from that wound
     std::optional<Column> column;  // below the tip
     std::vector<int> below;        // below the wound where the path came to it
+    // Triangles that were left worse than asked, and how often they were tried: a step beside them may make
+    // it possible to mend them.
+    std::vector<std::pair<int, int>> poor;
     bool left_mesh = false;
   };
   State state_;

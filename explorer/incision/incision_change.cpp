@@ -45,18 +45,32 @@ std::array<int, 2> Incision::pending_edge() const {
 }
 
 void Incision::mend(const CutMesh::Checkpoint& since) {
+  constexpr int tries = 6;  // of a sliver that was left, while the blade is near
   const KeptEdge kept = pending_edge();
   const double bend = chord_tolerance_ / 10;
-  mend_slivers(mesh_, mesh_.changed_since(since), std::min(0.03, 5 * asked_), 0, kept);
-  bent_ |= mend_slivers(mesh_, mesh_.changed_since(since), 2 * asked_, bend, kept);
+  const auto slivers = [&] {
+    std::vector<int> list = mesh_.changed_since(since);
+    for (const auto& [t, tried] : state_.poor) list.push_back(t);
+    return list;
+  };
+  std::erase_if(state_.poor, [&](const auto& left) {
+    return left.second == tries || left.first >= static_cast<int>(mesh_.triangles().size());
+  });
+  mend_slivers(mesh_, slivers(), std::min(0.03, 5 * asked_), 0, kept);
+  bent_ |= mend_slivers(mesh_, slivers(), 2 * asked_, bend, kept);
   bent_ |= mend_needles(mesh_, mesh_.changed_since(since), 1.2 * asked_, bend, kept);
+  for (auto& [t, tried] : state_.poor) ++tried;
   const double least = 1e-4 * std::min(0.1, worst_before_);
-  for (const int t : mesh_.changed_since(since))
-    if (mesh_.triangle(t).region == Region::skin && radius_ratio(mesh_, t) < least)
+  for (const int t : mesh_.changed_since(since)) {
+    if (!mesh_.is_skin(t)) continue;
+    const double ratio = radius_ratio(mesh_, t);
+    if (ratio < asked_) state_.poor.emplace_back(t, 0);
+    if (ratio < least)
       throw InputError("the path comes too close to a wound or an edge of the surface near " +
                        place_of(mesh_.position(mesh_.triangle(t).vertex[0])) + ", at arc length " +
                        shortest(tip()) +
                        ", and would leave triangles without area; lead it across, or farther away");
+  }
 }
 
 int Incision::realise(const Step& step) {
