@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "explorer/incision/triangle_quality.h"
 
@@ -80,6 +81,16 @@ Json figures_of(const Validity& v) {
           {"length_defect", finite(v.length_defect)},
           {"nearest_cut_mm", finite(v.nearest_cut)},
           {"junction_tension", v.junction_tension ? finite(*v.junction_tension) : Json()}};
+}
+
+Json warnings_of(const std::vector<Validity>& validity, const char* command) {
+  Json warnings = Json::array();
+  for (const Validity& v : validity)
+    for (const std::string& warning : v.warnings) {
+      std::fprintf(stderr, "%s: warning: %s\n", command, warning.c_str());
+      warnings.push_back(warning);
+    }
+  return warnings;
 }
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// What `cleft cut` reports.
+// What `cleft cut` reports, and of it `cleft haptic`.
 #pragma once
 
 #include <vector>
@@ -18,5 +18,8 @@ Json figures_of(const std::vector<const Incision*>& cuts, const SurfaceMesh& bef
 /// Of one cut.
 Json figures_of(const Incision& cut, double scale);
 Json figures_of(const Validity& validity);
+
+/// All warnings, said on stderr too, as those of `command`.
+Json warnings_of(const std::vector<Validity>& validity, const char* command);
 
 }  // namespace cleft

@@ -1,6 +1,5 @@
 // cleft cut: cuts through one mesh, one after the other, without a window.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -138,15 +137,9 @@ void move(const Wounds& wounds, const CutFields& fields, const Options& options,
   figures["active_vertices"] = wounds.active();
   figures["left_out_vertices"] = wounds.left_out();
   figures["largest_displacement_mm"] = largest * options.scale;
-  figures["warnings"] = Json::array();
   const std::vector<Validity> validity = wounds.validity(fields.turning());
-  for (std::size_t k = 0; k < validity.size(); ++k) {
-    figures["cuts"][k].update(figures_of(validity[k]));
-    for (const std::string& warning : validity[k].warnings) {
-      std::fprintf(stderr, "cleft cut: warning: %s\n", warning.c_str());
-      figures["warnings"].push_back(warning);
-    }
-  }
+  for (std::size_t k = 0; k < validity.size(); ++k) figures["cuts"][k].update(figures_of(validity[k]));
+  figures["warnings"] = warnings_of(validity, "cleft cut");
 }
 
 void cut(const Options& options) {

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "explorer/cut_figures.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/scene/cut_fields.h"
 #include "explorer/scene/hand_script.h"
@@ -158,7 +159,9 @@ void haptic(const Options& o) {
     probe.reset();
     write_recording(o.record, loop.recorded());
   }
-  print_figures(figures_of(loop, bare, cutting), o.json);
+  Json figures = figures_of(loop, bare, cutting);
+  figures["warnings"] = warnings_of(cutting.validity(), "cleft haptic");
+  print_figures(figures, o.json);
 }
 
 }  // namespace

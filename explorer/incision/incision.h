@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "explorer/incision/cut_mesh.h"
@@ -135,14 +136,18 @@ class Incision {
   double wall_spacing(int start, double max_edge) const;
   int tip_vertex() const { return state_.from >= 0 ? state_.from : chain_.back().left; }
 
-  // Changing the mesh: incision.cpp.
+  // How far to cut: incision.cpp.
   void rehearse();
   void cut_on_to(double s);
   void step_on();
+  void check_progress() const;
+
+  // What a step changes in the mesh: incision_change.cpp.
+  /// The longest edge of a triangle that a straight piece ends in, in pieces.
+  static constexpr double room_for_piece = 6;
   void take(const Step& step);
   int realise(const Step& step);
   bool made_room(const Step& step);
-  void check_progress() const;
   void grow(int next, double s);
   void mend(const CutMesh::Checkpoint& since);
   std::array<int, 2> pending_edge() const;
@@ -174,6 +179,9 @@ class Incision {
     int from = -1;                 // where the path goes on from that wound
     std::optional<Column> column;  // below the tip
     std::vector<int> below;        // below the wound where the path came to it
+    // Triangles that were left worse than asked, and how often they were tried: a step beside them may make
+    // it possible to mend them.
+    std::vector<std::pair<int, int>> poor;
     bool left_mesh = false;
   };
   State state_;

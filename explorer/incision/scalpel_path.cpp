@@ -161,6 +161,15 @@ PathFrame ScalpelPath::at(double s) const {
   return frame;
 }
 
+ScalpelPath ScalpelPath::until(double s) const {
+  ScalpelPath part = *this;
+  Sample end = sample_at(s);
+  end.tangent = normalized(end.tangent);
+  std::erase_if(part.samples_, [s](const Sample& sample) { return sample.s >= s; });
+  part.samples_.push_back(end);
+  return part;
+}
+
 double ScalpelPath::lead_on(double s, const Point& next, double beyond) {
   constexpr int pieces = 4, parts = 8, pieces_beyond = 16;
   Sample from = sample_at(s);

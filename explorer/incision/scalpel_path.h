@@ -42,6 +42,9 @@ class ScalpelPath {
   /// runs along the path, and leaves it as it was.
   double lead_on(double s, const Point& next, double beyond);
 
+  /// Its part up to s, within it.
+  ScalpelPath until(double s) const;
+
   /// The frame at arc length s; before 0 and beyond length() straight on along T.
   PathFrame at(double s) const;
 

@@ -14,6 +14,8 @@ class Contractor {
   /// The field's own fields must outlive it. `scale` is mm per mesh unit.
   Contractor(VaryingField field, double scale);
 
+  const VaryingField& field() const { return field_; }
+
   /// In the order that contract() asks for: of time offsets, and of memory.
   static void sort(std::vector<ActiveVertex>& active);
 

@@ -13,6 +13,7 @@
 #include "explorer/incision/incision.h"
 #include "explorer/incision/ipv.h"
 #include "explorer/scene/contractor.h"
+#include "explorer/scene/mutual_relief.h"
 
 namespace cleft {
 
@@ -36,6 +37,8 @@ class LiveReplay {
   Vec3 displacement(int vertex) const {
     return position(vertex) - rest_[static_cast<std::size_t>(vertex) + 1];
   }
+  /// Valid as long as this is.
+  CutInTension in_tension() const { return {&incision_, &contractor_.field(), &volume_}; }
   std::size_t vertex_count() const { return rest_.size() - 1; }
 
   /// The vertices whose positions the last follow() or move_to() has computed, some perhaps twice.

@@ -66,6 +66,13 @@ double ScalpelCutting::cut_length() const {
   return length;
 }
 
+std::vector<Validity> ScalpelCutting::validity() const {
+  std::vector<CutInTension> cuts;
+  for (const Wound& wound : wounds_)
+    if (wound.opening) cuts.push_back(wound.opening->in_tension());
+  return cuts.empty() ? std::vector<Validity>{} : validity_of(cuts, setup_.fields->turning());
+}
+
 void ScalpelCutting::step(TickQueue<HapticState>& ticks) {
   HapticState scalpel;
   bool any = false;

@@ -15,6 +15,7 @@
 #include "explorer/incision/incision.h"
 #include "explorer/scene/cut_fields.h"
 #include "explorer/scene/live_replay.h"
+#include "explorer/scene/validity.h"
 #include "haptic/contact_query.h"
 #include "haptic/loop.h"
 
@@ -46,6 +47,8 @@ class ScalpelCutting {
   std::size_t incisions() const { return wounds_.size() - made_; }  ///< but those made before
   double cut_length() const;                                        ///< mm, of all cuts but those made before
   const CuttingFigures& figures() const { return figures_; }
+  /// Of every cut, those made before too; none without a field.
+  std::vector<Validity> validity() const;
   const CutMesh& mesh() const { return mesh_; }
   int original_points() const { return original_points_; }
   /// The newest cut's; null where there is none.

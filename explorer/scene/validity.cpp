@@ -28,8 +28,12 @@ double smallest_radius(const ScalpelPath& path) {
   return least;
 }
 
-double largest_tilt(const CutInTension& cut) {
-  const double length = cut.incision->path().length();
+/// The path, but what lies ahead of a blade whose way is found as it goes.
+ScalpelPath way_of(const Incision& incision) {
+  return incision.led() > 0 ? incision.path().until(incision.led()) : incision.path();
+}
+
+double largest_tilt(const CutInTension& cut, double length) {
   double least = 1;  // cosine
   for (int i = 0; i <= 128; ++i) {
     const double s = length * i / 128;
@@ -114,11 +118,12 @@ std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool tu
   for (std::size_t i = 0; i < cuts.size(); ++i) junctions.push_back(junctions_of(cuts, i));
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const Field& field = cuts[i].field->shape();
+    const ScalpelPath way = way_of(*cuts[i].incision);
     const double scale = cuts[i].volume->scale(), canonical = field.cut().length,
-                 length = cuts[i].incision->path().length() * scale;
+                 length = way.length() * scale;
     Validity& v = result.emplace_back();
-    v.smallest_radius = smallest_radius(cuts[i].incision->path()) * scale;
-    v.largest_tilt = largest_tilt(cuts[i]);
+    v.smallest_radius = smallest_radius(way) * scale;
+    v.largest_tilt = largest_tilt(cuts[i], way.length());
     v.length_defect = length_defect(field);
     v.nearest_cut = infinity;
     double nearest_beside = infinity;  // cuts that meet squarely are none beside each other

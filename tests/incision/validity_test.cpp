@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 
@@ -63,6 +65,27 @@ TEST(Validity, CutsThatMeetAtASlantOrLieBesideEachOtherAreJudgedByTheirDistance)
   EXPECT_EQ(tells(beside[1], "meets another cut"), 0);
   EXPECT_EQ(tells(beside[1], "comes as near as 2 mm"), 1);
   EXPECT_NEAR(beside[1].nearest_cut, 2, 0.2);
+}
+
+TEST(Validity, OfAWayThatIsFoundOnTheGoOnlyWhatTheBladeHasCutIsJudged) {
+  // Three quarters of a circle of 8 mm about (0, 8); straight ahead it would pass beside its own start.
+  CutMesh mesh(grid(60, 60, -30, -30, 1));
+  const auto at = [](double a) { return Vec3{8 * std::sin(a), 8 - 8 * std::cos(a), 0}; };
+  IncisionOptions options;
+  options.max_edge = 0;
+  Incision cut(mesh, path_through({{0, 0, 0}, {30, 0, 0}}, up, 3), options);
+  for (int k = 1; k <= 160; ++k) cut.lead_on({at(1.5 * std::numbers::pi * k / 160), {0, 0, 1}, 3}, 15);
+  const Field field = pulled(0.01, 0.01);
+  const IncisionVolume volume(cut, field, 1);
+  const VaryingField along(field);
+  const Validity v = validity_of({{&cut, &along, &volume}}, true).front();
+  // The way's direction lags by a quarter of a piece's turn, e, after the first one. Looked at over a
+  // twentieth of its length, d, that is a bend of 1 / (1/8 + 2 e/d).
+  const double turn = 1.5 * std::numbers::pi / 160, d = 0.05 * 12 * std::numbers::pi;
+  EXPECT_GT(v.smallest_radius, 1 / (1. / 8 + 2 * turn / 4 / d));
+  EXPECT_LT(v.smallest_radius, 8.05);
+  EXPECT_EQ(tells(v, "mm long"), 1) << "37.7 mm, of a field of 30";
+  EXPECT_LT(v.largest_tilt, 1e-6);
 }
 
 }  // namespace

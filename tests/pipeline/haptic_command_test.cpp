@@ -1,6 +1,8 @@
 // cleft haptic as a user runs it: the simulated hand cuts a sheet in real time, and what it did plays again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -23,10 +25,14 @@ class HapticCommand : public ::testing::Test {
         path(in.write("path.csv", "x,y,z,nx,ny,nz\n-10,0.3,0,0,0,1\n10,0.1,0,0,0,1\n")) {
     write_mesh(mesh, testing::grid(30, 20, -30, -20, 2));
   }
+  /// They come after the warnings.
+  static nlohmann::json figures_in(const Outcome& outcome) {
+    return nlohmann::json::parse(
+        outcome.output.substr(std::min(outcome.output.size(), outcome.output.find('{'))), nullptr, false);
+  }
   nlohmann::json figures(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"--mesh", mesh, "--json"});
-    const Outcome outcome = expect_success(run_cleft("haptic", arguments));
-    return nlohmann::json::parse(outcome.output, nullptr, false);
+    return figures_in(expect_success(run_cleft("haptic", arguments)));
   }
   void expect_refused(std::vector<std::string> arguments, const std::string& part) {
     arguments.insert(arguments.begin(), {"--mesh", mesh});
@@ -34,6 +40,38 @@ class HapticCommand : public ::testing::Test {
     EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
     EXPECT_NE(outcome.output.find(part), std::string::npos)
         << "missing '" << part << "' in: " << outcome.output;
+  }
+  static long told(const nlohmann::json& figures, const std::string& what) {
+    const auto& warnings = figures["warnings"];
+    return std::count_if(warnings.begin(), warnings.end(),
+                         [&](const std::string& warning) { return warning.find(what) != std::string::npos; });
+  }
+  std::string field() {
+    Field opening = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
+    opening.parameters = {{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}};
+    write_field(in / "case.dffd", opening);
+    return in / "case.dffd";
+  }
+  /// Poses of two straight cuts, 12 mm and 8 mm long, 5 mm deep; between them the blade is out.
+  std::string two_cuts(double apart) {
+    std::string poses = "time,x,y,z,ax,ay,az,ex,ey,ez,cutting,present\n";
+    double time = 0;
+    const auto go = [&](double x0, double z0, double x1, double z1, double y, int ticks) {
+      for (int k = 1; k <= ticks; ++k) {
+        time += 1e-3;
+        const double part = double(k) / ticks;
+        for (const double value : {time, x0 + part * (x1 - x0), y, z0 + part * (z1 - z0)})
+          poses += shortest(value) + ",";
+        poses += "0,0,1,1,0,0,1,1\n";
+      }
+    };
+    for (const double y : {-5.3, apart - 5.3}) {
+      const double length = y == -5.3 ? 12 : 8;
+      go(-6, 3, -6, -5, y, 300);
+      go(-6, -5, -6 + length, -5, y, 600);
+      go(-6 + length, -5, -6 + length, 4, y, 300);
+    }
+    return in.write("poses.csv", poses);
   }
   TemporaryFolder in, out;
   std::string mesh, path;
@@ -65,42 +103,42 @@ TEST_F(HapticCommand, TheHandCutsAndItsRecordingPlays) {
 }
 
 TEST_F(HapticCommand, WithoutAPathItCutsWhereTheBladeGoes) {
-  // Two straight cuts, 12 mm and 8 mm long, 5 mm deep; between them the blade is out.
-  std::string poses = "time,x,y,z,ax,ay,az,ex,ey,ez,cutting,present\n";
-  double time = 0;
-  const auto go = [&](double x0, double z0, double x1, double z1, double y, int ticks) {
-    for (int k = 1; k <= ticks; ++k) {
-      time += 1e-3;
-      const double part = double(k) / ticks;
-      for (const double value : {time, x0 + part * (x1 - x0), y, z0 + part * (z1 - z0)})
-        poses += shortest(value) + ",";
-      poses += "0,0,1,1,0,0,1,1\n";
-    }
-  };
-  for (const double y : {-5.3, 6.7}) {
-    const double length = y < 0 ? 12 : 8;
-    go(-6, 3, -6, -5, y, 300);
-    go(-6, -5, -6 + length, -5, y, 600);
-    go(-6 + length, -5, -6 + length, 4, y, 300);
-  }
-  Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
-  field.parameters = {{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}};
-  write_field(in / "case.dffd", field);
-  const auto cut = figures(
-      {"--device", "recorded", "--trajectory", in.write("poses.csv", poses), "--field", in / "case.dffd"});
+  const auto cut = figures({"--device", "recorded", "--trajectory", two_cuts(12), "--field", field()});
   ASSERT_TRUE(cut.is_object());
   EXPECT_EQ(cut["punctures"], 2);
   EXPECT_EQ(cut["cuts"], 2);
   EXPECT_EQ(cut["stopped"], "");
   EXPECT_LE(cut["cut_mm"], 20);
   EXPECT_GE(cut["cut_mm"], 16.5) << "at each end a piece of 0.7 mm and what the scalpel goes in a frame";
+  EXPECT_EQ(told(cut, "another cut"), 0) << "12 mm apart: 0.6 of the field's cut";
+}
+
+TEST_F(HapticCommand, CutsWithoutAPathAreWarnedOfWhereTheyLieTooNear) {
+  const auto cut = figures({"--device", "recorded", "--trajectory", two_cuts(5), "--field", field()});
+  ASSERT_TRUE(cut.is_object());
+  EXPECT_EQ(told(cut, "another cut comes as near as"), 2);
+}
+
+TEST_F(HapticCommand, AlongAPathItWarnsAsCutDoes) {
+  // A circle's arc of 4 mm and a blade tilted by 50 degrees along it.
+  std::string bend = "x,y,z,nx,ny,nz\n";
+  for (int k = 0; k <= 40; ++k) {
+    const double a = 4. * k / 40, tilt = 50 * 3.14159265 / 180;
+    for (const double value : {4 * std::sin(a), 4 - 4 * std::cos(a), 0., std::sin(a) * std::sin(tilt),
+                               -std::cos(a) * std::sin(tilt)})
+      bend += shortest(value) + ",";
+    bend += shortest(std::cos(tilt)) + "\n";
+  }
+  const std::string curved = in.write("bend.csv", bend);
+  const Outcome made = expect_success(run_cleft(
+      "cut", {"--mesh", mesh, "--path", curved, "--field", field(), "--out", out / "cut.vtp", "--json"}));
+  const auto cut = figures_in(made)["warnings"];
+  ASSERT_EQ(cut.size(), 2);
+  EXPECT_EQ(figures({"--path", curved, "--field", field()})["warnings"], cut);
 }
 
 TEST_F(HapticCommand, AFieldOpensTheWound) {
-  Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
-  field.parameters = {{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}};
-  write_field(in / "case.dffd", field);
-  const auto cut = figures({"--path", path, "--field", in / "case.dffd", "--speed", "40"});
+  const auto cut = figures({"--path", path, "--field", field(), "--speed", "40"});
   ASSERT_TRUE(cut.is_object());
   // Uniform pressure p on a disc of radius a sinks a half space by 2 p a (1 - nu^2) / E in its middle: K = pi
   // a^2 p over that.
