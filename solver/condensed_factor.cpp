@@ -13,6 +13,7 @@
 
 #include "solver/frame_solver.h"
 #include "solver/message_order.h"
+#include "solver/spectrum.h"
 
 namespace cleft {
 
@@ -93,18 +94,13 @@ struct CondensedFactor::Mumps {
   /// Control parameters are numbered from 1, as in the manual.
   MUMPS_INT& icntl(int number) { return id.icntl[number - 1]; }
 
-  [[noreturn]] static void fail_indefinite(const std::string& what, const std::string& codes) {
-    throw SolveError(what + ": the stiffness matrix is not positive definite (MUMPS, " + codes + "); " +
-                     cause_of_indefinite);
-  }
-
   void run(int job, const std::string& what) {
     id.job = job;
     dmumps_c(&id);
     if (id.infog[0] >= 0) return;
     const std::string codes =
         "INFOG(1:2) = " + std::to_string(id.infog[0]) + ", " + std::to_string(id.infog[1]);
-    if (id.infog[0] == -10 || id.infog[0] == -40) fail_indefinite(what, codes);
+    if (id.infog[0] == -10 || id.infog[0] == -40) fail_indefinite(system, what + " (MUMPS, " + codes + ")");
     if (id.infog[0] == -9)
       throw NotEnoughWorkspace(what + ": MUMPS needs more workspace than it estimated, " + codes);
     if (id.infog[0] == -13)
@@ -182,8 +178,8 @@ void CondensedFactor::factorize() {
   }
   // MUMPS takes our word for a definite matrix, and only counts the pivots that belie it.
   if (m.id.infog[11] > 0)
-    Mumps::fail_indefinite("factorising the stiffness matrix",
-                           "INFOG(12) = " + std::to_string(m.id.infog[11]));
+    fail_indefinite(m.system, "factorising the stiffness matrix (MUMPS, INFOG(12) = " +
+                                  std::to_string(m.id.infog[11]) + ")");
   m.entries = {};
   m.id.irn_loc = m.id.jcn_loc = nullptr;
   m.id.a_loc = nullptr;

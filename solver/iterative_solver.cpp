@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "solver/cut_nodes.h"
+#include "solver/spectrum.h"
 
 namespace cleft {
 
@@ -209,9 +210,7 @@ struct IterativeSolver::Parts {
       product = system.multiply(direction);
       project(first, product);
       const double energy = dot(direction, product);
-      if (!(energy > 0) || !(rz > 0))
-        throw SolveError(std::string("the stiffness matrix is not positive definite; ") +
-                         cause_of_indefinite);
+      if (!(energy > 0) || !(rz > 0)) fail_indefinite(system, "by " + std::to_string(n) + " iterations");
       x += rz / energy * direction;
       r -= rz / energy * product;
     }

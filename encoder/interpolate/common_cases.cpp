@@ -18,15 +18,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void for_each_member(const std::string& study, const std::function<void(StudyMember)>& take) {
+void for_each_member(const std::string& study, const std::function<void(StudyMember)>& take,
+                     const ToldPart& told = {}) {
+  const auto begin = [&](std::size_t i, std::size_t count) {
+    if (told) told(static_cast<double>(i) / static_cast<double>(count));
+  };
   if (fs::is_directory(study)) {
-    for (const StudyCase& one : published_study_cases(study))
-      take({one.name, read_field(one.field_file), one.choices});
+    const std::vector<StudyCase> cases = published_study_cases(study);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      begin(i, cases.size());
+      take({cases[i].name, read_field(cases[i].field_file), cases[i].choices});
+    }
     return;
   }
   if (!fs::exists(study)) throw InputError(study + ": no such study folder or study.dffd");
   const StudyFile file(study);
-  for (int i = 0; i < file.size(); ++i) take({file.name(i), file.field(i), file.choices(i)});
+  for (int i = 0; i < file.size(); ++i) {
+    begin(static_cast<std::size_t>(i), static_cast<std::size_t>(file.size()));
+    take({file.name(i), file.field(i), file.choices(i)});
+  }
 }
 
 /// The cut ends at nodes: where the mesh was made for another one, not where it was asked to.
@@ -179,9 +189,10 @@ std::vector<StudyMember> read_members(const std::string& study) {
   return members;
 }
 
-CommonCases CommonCases::of_study(const std::string& study) {
+CommonCases CommonCases::of_study(const std::string& study, const ToldPart& told) {
   std::vector<Own> all;
-  for_each_member(study, [&](const StudyMember& member) { all.push_back(own_of(member)); });
+  for_each_member(
+      study, [&](const StudyMember& member) { all.push_back(own_of(member)); }, told);
   return CommonCases(std::move(all));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -23,6 +24,9 @@ struct StudyMember {
 /// The published cases of a study folder, or the fields of a study.dffd. Throws InputError where there are
 /// none, FileError where one is damaged.
 std::vector<StudyMember> read_members(const std::string& study);
+
+/// Is told now and then what part of the work is done, 0 to 1; what it throws ends the work.
+using ToldPart = std::function<void(double part)>;
 
 /// What is kept of a case beside its control points.
 struct CommonCase {
@@ -47,7 +51,7 @@ class CommonCases {
   /// choices differ, or one cut reaches an edge of the patch that another does not.
   explicit CommonCases(const std::vector<StudyMember>& members);
   /// The same of a study folder or a study.dffd, of which it holds one field at a time.
-  static CommonCases of_study(const std::string& study);
+  static CommonCases of_study(const std::string& study, const ToldPart& told = {});
   /// The same of what goes into a study.dffd.
   static CommonCases of_records(const std::vector<const StudyRecord*>& records);
 

@@ -43,12 +43,20 @@ std::vector<Loading> loadings_of(const CommonCases& cases) {
   return {Loading::superposed, Loading::general};
 }
 
+constexpr double time_to_read = 0.4, time_to_sample = 0.3;  // of the whole, and of the rest
+
+ToldPart share_of(const ToldPart& told, double begin, double end) {
+  if (!told) return {};
+  return [=](double part) { told(begin + part * (end - begin)); };
+}
+
 }  // namespace
 
-StudyInterpolator::StudyInterpolator(const std::string& study)
-    : StudyInterpolator(CommonCases::of_study(study)) {}
+StudyInterpolator::StudyInterpolator(const std::string& study, const ToldPart& told)
+    : StudyInterpolator(CommonCases::of_study(study, share_of(told, 0, time_to_read)),
+                        share_of(told, time_to_read, 1)) {}
 
-StudyInterpolator::StudyInterpolator(CommonCases cases)
+StudyInterpolator::StudyInterpolator(CommonCases cases, const ToldPart& told)
     : cases_(std::move(cases)),
       parameters_(parameters_of(cases_)),
       geometry_(parameters_, geometries_of(cases_)) {
@@ -58,8 +66,10 @@ StudyInterpolator::StudyInterpolator(CommonCases cases)
       range.least = std::min(range.least, one.at(name)),
       range.greatest = std::max(range.greatest, one.at(name));
   }
+  if (told) told(0);
   const CaseSamples samples = this->samples();
   for (const Loading loading : loadings_of(cases_)) {
+    if (told) told(time_to_sample);
     DisplacementModel model(parameters_, samples, loading);
     if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));
   }

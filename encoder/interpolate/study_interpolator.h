@@ -21,9 +21,10 @@ class StudyInterpolator {
     double least, greatest;
   };
 
-  /// Of a study folder or a study.dffd; throws InputError as read_members() and CommonCases do.
-  explicit StudyInterpolator(const std::string& study);
-  explicit StudyInterpolator(CommonCases cases);
+  /// Of a study folder or a study.dffd; throws InputError as read_members() and CommonCases do, and what
+  /// `told` throws.
+  explicit StudyInterpolator(const std::string& study, const ToldPart& told = {});
+  explicit StudyInterpolator(CommonCases cases, const ToldPart& told = {});
 
   const std::vector<Range>& varying() const { return varying_; }
   const CommonCases& cases() const { return cases_; }

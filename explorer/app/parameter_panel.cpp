@@ -22,8 +22,23 @@ ParameterPanel::ParameterPanel(Session& session, Say say) : session_(session), s
   note_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   column_->addWidget(note_);
   session_.prepare_beside(true);  // sliders need not wait for the cases to be read
+  preparing_ = new QWidget(this);
+  auto* row = new QHBoxLayout(preparing_);
+  row->setContentsMargins(0, 0, 0, 0);
+  prepared_ = new QProgressBar(preparing_);
+  prepared_->setObjectName("prepared");
+  prepared_->setRange(0, steps);
+  prepared_->setToolTip("how far the cases are read that the wound between them is made from");
+  auto* cancel = new QPushButton("Cancel", preparing_);
+  cancel->setObjectName("cancel_preparing");
+  cancel->setToolTip("show the nearest case instead (between off)");
+  connect(cancel, &QPushButton::clicked, this, [this] { say_("between off"); });
+  row->addWidget(prepared_, 1);
+  row->addWidget(cancel);
+  column_->addWidget(preparing_);
   connect(&waiting_, &QTimer::timeout, this, [this] {
-    if (!session_.take_prepared()) waiting_.stop();
+    session_.take_prepared();
+    show_preparing();
   });
   column_->addStretch(1);
 }
@@ -118,6 +133,13 @@ QString ParameterPanel::note_of_case() {
 void ParameterPanel::follow(const Changes& changes) {
   if (changes.study) make_rows();
   if (changes.study || changes.shown || changes.layout || changes.cuts) show_values();
+  show_preparing();
+}
+
+void ParameterPanel::show_preparing() {
+  preparing_->setVisible(session_.preparing());
+  prepared_->setValue(static_cast<int>(steps * session_.prepared_part()));
+  if (!session_.preparing()) waiting_.stop();
   if (session_.preparing() && !waiting_.isActive()) waiting_.start(milliseconds_between_looks);
 }
 

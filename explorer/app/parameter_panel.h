@@ -1,7 +1,10 @@
 // A slider for every parameter that varies in the study, and what of it is shown.
 #pragma once
 
+#include <QHBoxLayout>
 #include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
 #include <QSlider>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -20,6 +23,7 @@ class ParameterPanel : public QWidget, public Panel {
  private:
   void make_rows();
   void show_values();
+  void show_preparing();
   QString note_between() const;
   QString note_of_case();
 
@@ -35,6 +39,8 @@ class ParameterPanel : public QWidget, public Panel {
   QWidget* rows_widget_ = nullptr;
   QLabel* note_;
   QTimer waiting_;  ///< for what lies between the cases
+  QWidget* preparing_;
+  QProgressBar* prepared_;
   std::vector<Row> rows_;
 };
 

@@ -2,17 +2,28 @@
 
 #include <chrono>
 
+#include "base/error.h"
 #include "encoder/interpolate/study_interpolator.h"
 
 namespace cleft {
 
 BetweenCases::BetweenCases(const std::string& study)
-    : prepared_(std::async(std::launch::async, [study] {
-                  return std::make_shared<const StudyInterpolator>(study);
+    : prepared_(std::async(std::launch::async, [study, state = state_] {
+                  return std::make_shared<const StudyInterpolator>(study, [&](double part) {
+                    state->part = part;
+                    if (state->unwanted) throw InputError(study + ": no longer wanted");
+                  });
                 }).share()) {}
+
+BetweenCases::~BetweenCases() { state_->unwanted = true; }
 
 bool BetweenCases::ready() const {
   return prepared_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+void BetweenCases::wait(const std::function<void(double part)>& go_on) const {
+  constexpr std::chrono::milliseconds moment(50);
+  while (prepared_.wait_for(moment) != std::future_status::ready) go_on(state_->part);
 }
 
 std::shared_ptr<const Field> BetweenCases::at(const std::map<std::string, double>& parameters) const {

@@ -83,6 +83,25 @@ TEST_F(WindowTest, ASliderForEveryParameterThatVaries) {
   EXPECT_EQ(slider.value(), 0) << "it follows the session";
 }
 
+TEST_F(WindowTest, ReadingTheCasesIsShownAndCanBeCancelled) {
+  tell("open " + study());
+  auto& cancel = widget<QPushButton>("cancel_preparing");
+  EXPECT_FALSE(cancel.isVisible());
+  auto& slider = widget<QSlider>("skin.prestress_v");
+  slider.setValue(slider.maximum() / 2);
+  ASSERT_EQ(cancel.isVisible(), real_.preparing());
+  cancel.click();
+  EXPECT_FALSE(real_.preparing());
+  EXPECT_FALSE(now().between);
+  EXPECT_FALSE(cancel.isVisible());
+  settle(300);
+  EXPECT_FALSE(real_.between()) << "nothing comes later";
+  tell("between on");
+  for (int tries = 0; tries < 200 && !real_.between(); ++tries) settle(20);
+  EXPECT_TRUE(real_.between()) << real_.why_nearest();
+  EXPECT_FALSE(cancel.isVisible());
+}
+
 TEST_F(WindowTest, TheListOfCasesIsSortedAndChooses) {
   tell("open " + study());
   wait_for_figures();  // figures are read when nothing else is to be done

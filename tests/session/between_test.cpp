@@ -1,7 +1,9 @@
 // What a session shows between the cases of its study.
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
+#include "encoder/interpolate/study_interpolator.h"
 #include "explorer/scene/case_figures.h"
 #include "tests/session/session_fixture.h"
 
@@ -165,6 +167,23 @@ TEST_F(Between, CasesAreReadBesideWhereThatIsWished) {
   say("set skin.prestress_v 0.03");
   say("screenshot a.png");
   EXPECT_TRUE(session_.between()) << "a picture waits";
+}
+
+TEST_F(Between, ReadingTellsItsPartAndEndsWhereItIsNotWanted) {
+  open_scaled();
+  std::vector<double> parts;
+  const StudyInterpolator whole(session_.study()->path(), [&](double part) { parts.push_back(part); });
+  ASSERT_GT(parts.size(), static_cast<std::size_t>(session_.study()->size()));
+  EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+  EXPECT_EQ(parts.front(), 0);
+  EXPECT_LT(parts.back(), 1);
+  int calls = 0;
+  EXPECT_THROW(StudyInterpolator(session_.study()->path(),
+                                 [&](double) {
+                                   if (++calls == 2) throw std::runtime_error("enough");
+                                 }),
+               std::runtime_error);
+  EXPECT_EQ(calls, 2) << "it goes no further";
 }
 
 }  // namespace

@@ -112,6 +112,7 @@ class Session {
   void prepare_beside(bool on) { beside_ = on; }
   bool take_prepared();
   bool preparing() const { return preparing_; }
+  double prepared_part() const;  ///< of the time it takes
   /// Waits for what is being prepared, so that pictures show it.
   void finish_preparing();
 

@@ -53,6 +53,7 @@ void Session::ask_for(const std::string& parameter, double value) {
 
 void Session::interpolate(bool on) {
   state_.between = on;
+  if (!on && preparing_) between_cases_.reset();
   follow_parameters();
   if (has_scene()) set_time(state_.time);
   changes_.shown = true;
@@ -109,12 +110,15 @@ std::string Session::make_between() {
     return "the cases are being read";
   }
   try {
+    between_cases_->wait([&](double part) { progress("reading the cases", part); });
     between_ = between_cases_->at(state_.parameters);
     return "";
   } catch (const InputError& e) {
     return e.what();
   }
 }
+
+double Session::prepared_part() const { return preparing_ ? between_cases_->part_done() : 1; }
 
 bool Session::take_prepared() {
   if (!preparing_ || busy_ || !between_cases_->ready()) return preparing_;
