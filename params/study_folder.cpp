@@ -35,14 +35,19 @@ std::vector<std::string> folders_in(const std::string& path) {
   return names;
 }
 
+std::string shared_memory_of(const std::string& token) { return "/dev/shm/cleft-" + token; }
+
 constexpr const char *failed_file = "/failed.txt", *again_file = "/again.txt";
 
 /// Removes what killed and failed runs left, never what another process works in; the folder too when it is
 /// empty. In a Moment of the study.
 void clear(const std::string& attempts) {
   std::error_code ignored;
-  for (const std::string& token : folders_in(attempts))
-    if (!Lock::is_held(attempts + "/" + token + "/lock")) fs::remove_all(attempts + "/" + token, ignored);
+  for (const std::string& token : folders_in(attempts)) {
+    if (Lock::is_held(attempts + "/" + token + "/lock")) continue;
+    fs::remove_all(shared_memory_of(token), ignored);  // first: the attempt's name is what leads to it
+    fs::remove_all(attempts + "/" + token, ignored);
+  }
   fs::remove(attempts, ignored);
 }
 
@@ -78,6 +83,10 @@ CaseStatus status_of_attempts(const std::string& attempts) {
 }
 
 }  // namespace
+
+std::string Attempt::shared_memory() const {
+  return access("/dev/shm", W_OK | X_OK) == 0 ? shared_memory_of(token) : "";
+}
 
 std::string to_text(CaseState state) {
   switch (state) {

@@ -26,6 +26,10 @@ struct CaseStatus {
 struct Attempt {
   std::string folder, token;
   Lock lock;
+
+  /// A folder in this machine's memory for what the case's processes share; to be made by the one that needs
+  /// it, and removed with the attempt at the latest. None where the machine has no such place.
+  std::string shared_memory() const;
 };
 
 class StudyFolder {

@@ -27,6 +27,7 @@ class BSplineBasis {
   int degree() const { return degree_; }
   int size() const { return static_cast<int>(knots_.size()) - degree_ - 1; }  ///< number of control points
   const std::vector<double>& knots() const { return knots_; }
+  bool operator==(const BSplineBasis& other) const = default;
   double front() const { return knots_.front(); }
   double back() const { return knots_.back(); }
 

@@ -72,17 +72,24 @@ double finite(const Json& object, const char* name) {
   return value;
 }
 
+void put_bases(Json& header, const std::array<BSplineBasis, 4>& bases) {
+  for (int axis = 0; axis < 4; ++axis)
+    header["bases"][axis_names[axis]] = {{"degree", bases[axis].degree()}, {"knots", bases[axis].knots()}};
+}
+
+std::array<BSplineBasis, 4> bases_of(const Field& field) {
+  return {field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+}
+
 Json header_of(const Field& field, int slices) {
   Json header{{"case", field.case_hash},
               {"parametrization", field.parametrization().name()},
               {"quantum", field.quantum},
               {"slices", slices}};
   const FieldGeometry& geometry = field.parametrization().geometry();
-  for (int axis = 0; axis < 4; ++axis) {
-    const BSplineBasis& basis = field.basis(axis);
-    header["bases"][axis_names[axis]] = {{"degree", basis.degree()}, {"knots", basis.knots()}};
+  put_bases(header, bases_of(field));
+  for (int axis = 0; axis < 4; ++axis)
     header["domain"][domain_names[axis]] = {geometry.domain[axis].front, geometry.domain[axis].back};
-  }
   header["cut"] = {
       {"start", geometry.cut.start}, {"length", geometry.cut.length}, {"depth", geometry.cut.depth}};
   header["tip"] = {{"times", geometry.tip.times}, {"positions", geometry.tip.positions}};
@@ -174,13 +181,14 @@ std::size_t count_of(const std::array<BSplineBasis, 4>& bases, std::size_t bytes
   return static_cast<std::size_t>(count);
 }
 
-std::array<BSplineBasis, 4> bases_of(const Field& field) {
-  return {field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
-}
-
 }  // namespace
 
-FieldRecord record_of_sum(const Field& field, int slices) { return {header_of(field, slices), {}}; }
+FieldRecord record_of_sum(const Json& header, const std::array<BSplineBasis, 4>& bases, int slices) {
+  FieldRecord record{header, {}};
+  record.header["quantum"] = 0., record.header["slices"] = slices;
+  put_bases(record.header, bases);
+  return record;
+}
 
 FieldRecord record_of(const Field& field) {
   const std::array<BSplineBasis, 4> bases = bases_of(field);

@@ -19,8 +19,9 @@ struct FieldRecord {
 };
 
 FieldRecord record_of(const Field& field);
-/// The header alone, of a field whose unknowns field_of() is then to be given, in that many slices of t.
-FieldRecord record_of_sum(const Field& field, int slices);
+/// A header alone: of the field of another one, whose unknowns, on these bases and in that many slices of t,
+/// field_of() is then to be given.
+FieldRecord record_of_sum(const Json& header, const std::array<BSplineBasis, 4>& bases, int slices);
 
 /// That of a field file, as it stands there; throws FileError.
 FieldRecord read_field_record(const std::string& path);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "encoder/field/field_file.h"
 #include "encoder/field/knot_insertion.h"
 #include "encoder/field/study_file.h"
@@ -195,6 +196,15 @@ CommonCases CommonCases::of_study(const std::string& study, const ToldPart& told
   return CommonCases(std::move(all));
 }
 
+CommonCases CommonCases::of_records(const std::vector<const StudyRecord*>& records) {
+  std::vector<Own> all;
+  for (const StudyRecord* one : records)
+    told_of_file("cases/" + one->name + "/case.dffd", [&] {
+      all.push_back(own_of({one->name, cleft::field_of(one->record), one->choices}));
+    });
+  return CommonCases(std::move(all));
+}
+
 CommonCases::CommonCases(const std::vector<StudyMember>& members) : CommonCases(own_of(members)) {}
 
 CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all)) {
@@ -202,14 +212,15 @@ CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all)) {
   choices_ = all.front().choices;
   const std::vector<bool> is_kept = distinct(all);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Own own = std::move(all[i]);
+    Own own = std::move(all[i]);
     if (!is_kept[i]) continue;
-    const auto raised = [&](const std::vector<float>& points) {
-      return floats_of(insert_knots(points_of(points), own.bases, bases_));
+    const auto raised = [&](std::vector<float>& points) {
+      return own.bases == bases_ ? std::move(points)
+                                 : floats_of(insert_knots(points_of(points), own.bases, bases_));
     };
     cases_.push_back(own.kept);
     points_.push_back(raised(own.points));
-    for (const Own::Derivative& one : own.derivatives) {
+    for (Own::Derivative& one : own.derivatives) {
       derivatives_.push_back({size() - 1, one.parameter, one.error});
       derivative_points_.push_back(raised(one.points));
     }
@@ -228,15 +239,37 @@ std::vector<Vec3> points_of(std::span<const float> flat) {
   return points;
 }
 
-Field CommonCases::field_of(const std::vector<Vec3>& points, FieldGeometry geometry) const {
-  std::array<BSplineBasis, 4> bases = bases_;
-  auto parametrization = make_parametrization(parametrization_, std::move(geometry));
-  if (!parametrization->moves())
-    for (int axis = 0; axis < 4; ++axis) {
-      const Scale scale = scale_of(parametrization->geometry(), axis);
-      bases[axis] = mapped(bases[axis], [&](double knot) { return scale.own(knot); });
+std::vector<Vec3> sum_of(const std::vector<Summand>& summands) {
+  constexpr std::size_t piece = 3 * 1024;  // stays in the nearest cache
+  const std::size_t size = summands.front().values.size();
+  std::vector<Vec3> sum(size / 3);
+  parallel_for(static_cast<int>((size + piece - 1) / piece), [&](int number) {
+    const std::size_t begin = static_cast<std::size_t>(number) * piece;
+    const std::size_t count = std::min(piece, size - begin);
+    std::array<double, piece> to{};
+    for (const auto& [weight, values] : summands) {
+      if (weight == 0) continue;
+      const float* from = values.data() + begin;
+      for (std::size_t n = 0; n < count; ++n) to[n] += weight * static_cast<double>(from[n]);
     }
-  return {std::move(parametrization), std::move(bases), points};
+    for (std::size_t n = 0; n < count; ++n) sum[(begin + n) / 3][static_cast<int>(n % 3)] = to[n];
+  });
+  return sum;
+}
+
+std::array<BSplineBasis, 4> CommonCases::bases_in(const FieldGeometry& geometry) const {
+  std::array<BSplineBasis, 4> bases = bases_;
+  if (make_parametrization(parametrization_, geometry)->moves()) return bases;
+  for (int axis = 0; axis < 4; ++axis) {
+    const Scale scale = scale_of(geometry, axis);
+    bases[axis] = mapped(bases[axis], [&](double knot) { return scale.own(knot); });
+  }
+  return bases;
+}
+
+Field CommonCases::field_of(const std::vector<Vec3>& points, FieldGeometry geometry) const {
+  std::array<BSplineBasis, 4> bases = bases_in(geometry);
+  return {make_parametrization(parametrization_, std::move(geometry)), std::move(bases), points};
 }
 
 }  // namespace cleft

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "encoder/field/field.h"
+#include "encoder/field/study_file.h"
 
 namespace cleft {
 
@@ -51,6 +52,8 @@ class CommonCases {
   explicit CommonCases(const std::vector<StudyMember>& members);
   /// The same of a study folder or a study.dffd, of which it holds one field at a time.
   static CommonCases of_study(const std::string& study, const ToldPart& told = {});
+  /// The same of what goes into a study.dffd.
+  static CommonCases of_records(const std::vector<const StudyRecord*>& records);
 
   const std::vector<CommonCase>& cases() const { return cases_; }
   int size() const { return static_cast<int>(cases_.size()); }
@@ -67,8 +70,9 @@ class CommonCases {
   /// Of all cases; their control points likewise, mm per unit.
   const std::vector<CommonDerivative>& derivatives() const { return derivatives_; }
   std::span<const float> derivative_points(std::size_t d) const { return derivative_points_[d]; }
-  /// The field of a sum of control points, in a body of this geometry.
+  /// The field of a sum of control points, in a body of this geometry; and the bases it has there.
   Field field_of(const std::vector<Vec3>& points, FieldGeometry geometry) const;
+  std::array<BSplineBasis, 4> bases_in(const FieldGeometry& geometry) const;
 
  private:
   struct Own;  // a case on its own knots
@@ -90,5 +94,13 @@ class CommonCases {
 
 /// The same control points in double precision.
 std::vector<Vec3> points_of(std::span<const float> flat);
+
+/// A sum of control points as those of CommonCases, all of one number. Added up in one order: points that are
+/// the same in all summands stay the same, bit for bit.
+struct Summand {
+  double weight;
+  std::span<const float> values;
+};
+std::vector<Vec3> sum_of(const std::vector<Summand>& summands);
 
 }  // namespace cleft

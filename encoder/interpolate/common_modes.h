@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "encoder/field/study_file.h"
-#include "encoder/interpolate/common_cases.h"
 
 namespace cleft {
 
@@ -15,12 +14,12 @@ struct PackedStudy {
 };
 std::size_t coefficient_bytes(const PackedStudy& study);  ///< of its file, about
 
-/// The same cases, of `members`, as sums of modes, if that costs less than half the bytes; else as they are.
-/// Modes are the leading left singular vectors of the cases, on common knots, each over its largest
-/// displacement, compared where meshes have nodes. A case becomes a sum of them where it is then off nowhere
-/// there by more than `error` times its largest displacement. So many modes are taken as make the fewest
-/// bytes. Cases with further quantities, and those whose parameters another case has too, stay as they are.
+/// The same cases as sums of modes, if that costs less than half the bytes; else as they are. Modes are the
+/// leading left singular vectors of the cases, on common knots, each over its largest displacement, compared
+/// where meshes have nodes. A case becomes a sum of them where it is then off nowhere there by more than
+/// `error` times its largest displacement. So many modes are taken as make the fewest bytes. Cases with
+/// further quantities or derivatives, and those whose parameters another case has too, stay as they are.
 /// Throws InputError as CommonCases does.
-PackedStudy with_common_modes(const std::vector<StudyMember>& members, const PackedStudy& own, double error);
+PackedStudy with_common_modes(const PackedStudy& own, double error);
 
 }  // namespace cleft

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> older;
     PackedStudy study{study_records(published_study_cases(folder, &older))};
     if (!older.empty()) std::cerr << "cleft pack: " << note_of_older(folder, older) << "\n";
-    if (error > 0) study = with_common_modes(read_members(folder), study, error);
+    if (error > 0) study = with_common_modes(study, error);
     const std::string out = (fs::path(folder) / "study.dffd").string();
     write_study(out, study.cases, study.modes);
     const StudyFile file(out);

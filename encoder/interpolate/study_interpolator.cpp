@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "base/text.h"
 #include "encoder/interpolate/field_samples.h"
 #include "params/parameters.h"
@@ -49,29 +48,6 @@ constexpr double time_to_read = 0.4, time_to_sample = 0.3;  // of the whole, and
 ToldPart share_of(const ToldPart& told, double begin, double end) {
   if (!told) return {};
   return [=](double part) { told(begin + part * (end - begin)); };
-}
-
-struct Summand {
-  double weight;
-  std::span<const float> values;
-};
-
-/// In the same order for every value: control points that are one in all cases stay one, bit for bit. By
-/// pieces that stay in the nearest cache.
-std::vector<double> sum_of(const std::vector<Summand>& summands) {
-  constexpr std::size_t piece = 2048;
-  std::vector<double> sum(summands.front().values.size(), 0);
-  parallel_for(static_cast<int>((sum.size() + piece - 1) / piece), [&](int number) {
-    const std::size_t begin = static_cast<std::size_t>(number) * piece;
-    const std::size_t count = std::min(piece, sum.size() - begin);
-    double* to = sum.data() + begin;
-    for (const auto& [weight, values] : summands) {
-      if (weight == 0) continue;
-      const float* from = values.data() + begin;
-      for (std::size_t n = 0; n < count; ++n) to[n] += weight * static_cast<double>(from[n]);
-    }
-  });
-  return sum;
 }
 
 }  // namespace
@@ -188,11 +164,8 @@ Field StudyInterpolator::at(const CaseParameters& values) const {
     summands.push_back({prediction.weights[i], cases_.control_points(i)});
   for (Eigen::Index d = 0; d < prediction.derivatives.size(); ++d)
     summands.push_back({prediction.derivatives[d], cases_.derivative_points(static_cast<std::size_t>(d))});
-  const std::vector<double> sum = sum_of(summands);
-  std::vector<Vec3> points(sum.size() / 3);
-  for (std::size_t n = 0; n < sum.size(); ++n) points[n / 3][static_cast<int>(n % 3)] = sum[n];
 
-  Field field = cases_.field_of(points, geometry_.at(parameters));
+  Field field = cases_.field_of(sum_of(summands), geometry_.at(parameters));
   const double largest = largest_displacement(
       field, sample_places(field.parametrization().geometry(), node_spacing(cases_.cases().front())));
   const double error = largest > 0 ? prediction.error / largest : 0;

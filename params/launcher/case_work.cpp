@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -100,6 +101,32 @@ bool disk_is_full(const std::string& folder) {
          static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) < least;
 }
 
+/// A place for what Open MPI's processes on this machine share, and for mpirun's own files. A rank or an
+/// mpirun that is killed leaves them behind: they go when this goes, or with the attempt.
+class SharedMemory {
+ public:
+  explicit SharedMemory(std::string place) : place_(std::move(place)) {
+    std::error_code error;
+    if (place_.empty() || !fs::create_directory(place_, error)) place_.clear();
+    if (!place_.empty()) fs::permissions(place_, fs::perms::owner_all, error);
+  }
+  ~SharedMemory() {
+    std::error_code ignored;
+    if (!place_.empty()) fs::remove_all(place_, ignored);
+  }
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+
+  void put_into(std::map<std::string, std::string>& environment) const {
+    if (place_.empty()) return;
+    for (const char* name : {"OMPI_MCA_orte_tmpdir_base", "OMPI_MCA_btl_vader_backing_directory"})
+      if (!std::getenv(name)) environment[name] = place_;
+  }
+
+ private:
+  std::string place_;
+};
+
 }  // namespace
 
 CaseWork::CaseWork(const StudyFolder& folder, const Study& study, Settings settings, const StopCount& stop)
@@ -120,6 +147,9 @@ ProcessResult CaseWork::child(const std::string& command, const std::vector<std:
   environment["OPENBLAS_NUM_THREADS"] = environment["OMP_NUM_THREADS"] = std::to_string(settings_.threads);
   if (geteuid() == 0)
     environment["OMPI_ALLOW_RUN_AS_ROOT"] = environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
+  const bool by_mpirun = argv.front() == "mpirun";  // srun's ranks may be on other machines
+  const SharedMemory shared(by_mpirun ? teller.attempt.shared_memory() : "");
+  shared.put_into(environment);
   const ProcessResult result =
       run_process(argv, teller.file(name + ".log"), environment, &stop_, teller.file(name + ".json"));
   if (stop_) throw Interrupted();

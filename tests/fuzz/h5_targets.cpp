@@ -190,7 +190,8 @@ std::string write_sound_study() {
   const Field field = quantised(sound_field(), 1e-3, 0.5);
   const FieldRecord own = record_of(field);
   const int slices = field.basis(3).size();
-  const FieldRecord sum = record_of_sum(field, slices);
+  const FieldRecord sum =
+      record_of_sum(own.header, {field.basis(0), field.basis(1), field.basis(2), field.basis(3)}, slices);
   const CodedModes modes{{1e-3}, {own.coefficients}};
   write_study(
       path, {{"a", own, {{"cut.contact", "false"}}}, {"b", sum, {}, {0.5}, 0.01}, {"c", sum, {}, {2}, 0.01}},

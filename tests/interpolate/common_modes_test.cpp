@@ -65,7 +65,7 @@ TEST(CommonModes, CasesAreSumsOfAsManyAsThereAre) {
   const std::vector<StudyMember> members = sums_of_three(16);
   const PackedStudy own = packed_of(members, folder);
   for (const double error : {0.02, 0.001}) {
-    const PackedStudy study = with_common_modes(members, own, error);
+    const PackedStudy study = with_common_modes(own, error);
     EXPECT_GE(study.modes.quanta.size(), 3u);
     EXPECT_LE(study.modes.quanta.size(), 6u);  // some for what the steps of three leave
     EXPECT_LT(coefficient_bytes(study), coefficient_bytes(own) / 4);
@@ -101,7 +101,7 @@ TEST(CommonModes, ACaseWithFurtherQuantitiesStandsByItself) {
   other.parameters = p, other.report.largest_displacement = 1;
   other.quantities.push_back({"stress", 1, std::vector<double>(points.size(), 0.5), 0.5, 0});
   members.push_back({"other", other, {}});
-  const PackedStudy own = packed_of(members, folder), study = with_common_modes(members, own, 0.005);
+  const PackedStudy own = packed_of(members, folder), study = with_common_modes(own, 0.005);
   EXPECT_GT(study.modes.quanta.size(), 0u);
   const std::string path = folder / "study.dffd";
   write_study(path, study.cases, study.modes);
@@ -115,7 +115,7 @@ TEST(CommonModes, ACaseWithFurtherQuantitiesStandsByItself) {
 TEST(CommonModes, WhereTheyCostMoreNothingChanges) {
   const TemporaryFolder folder;
   const std::vector<StudyMember> members = sums_of_three(4);
-  const PackedStudy own = packed_of(members, folder), study = with_common_modes(members, own, 0.001);
+  const PackedStudy own = packed_of(members, folder), study = with_common_modes(own, 0.001);
   EXPECT_TRUE(study.modes.quanta.empty());
   ASSERT_EQ(study.cases.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i)
@@ -125,7 +125,7 @@ TEST(CommonModes, WhereTheyCostMoreNothingChanges) {
 TEST(CommonModes, DamageIsNoticed) {
   const TemporaryFolder folder;
   const std::vector<StudyMember> members = sums_of_three(16);
-  const PackedStudy study = with_common_modes(members, packed_of(members, folder), 0.01);
+  const PackedStudy study = with_common_modes(packed_of(members, folder), 0.01);
   const std::string path = folder / "study.dffd";
   write_study(path, study.cases, study.modes);
   std::vector<std::vector<Vec3>> sound, found;

@@ -330,6 +330,42 @@ TEST(StudyRun, ARankThatDiesEndsTheSolve) {
   EXPECT_EQ(place.entries(), 1) << "nothing but the case file";
 }
 
+TEST(StudyRun, KilledRanksLeaveNothingInSharedMemory) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", "[case]\nmesh.element_size = 0.4\n");  // minutes
+  const std::string folder = place / "out";
+  const auto start = [&] {
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(CLEFT_BIN "/cleft-run", "cleft-run", file.c_str(), "--out", folder.c_str(), "--ranks", "2",
+            nullptr);
+      _exit(127);
+    }
+    return child;
+  };
+  const auto is_shared = [](pid_t driver) {
+    return in_shell("ls /dev/shm/cleft-*-" + std::to_string(driver) + "/vader_segment.*").exit_code == 0;
+  };
+
+  pid_t driver = start();
+  int result = 0, kills = 0;
+  for (int i = 0; i < 300 && waitpid(driver, &result, WNOHANG) == 0; ++i, usleep(200'000))
+    if (is_shared(driver))
+      kills += in_shell("kill -9 $(pgrep -n -f '^" CLEFT_BIN "/cleft-solve " + folder + "')").exit_code == 0;
+  ASSERT_TRUE(WIFEXITED(result)) << "it did not give up";
+  EXPECT_GE(kills, 3);
+  EXPECT_NE(in_shell("ls -d /dev/shm/cleft-*-" + std::to_string(driver)).exit_code, 0);
+
+  driver = start();
+  for (int i = 0; i < 100 && !is_shared(driver); ++i) usleep(100'000);
+  kill(driver, SIGKILL);
+  waitpid(driver, &result, 0);
+  EXPECT_TRUE(is_shared(driver)) << "it had no time to remove it";
+  place.write("study.toml", study);
+  expect_success(run_cleft("run", {file, "--out", folder}));
+  EXPECT_NE(in_shell("ls -d /dev/shm/cleft-*-" + std::to_string(driver)).exit_code, 0);
+}
+
 TEST(StudyRun, AKilledRunIsFinishedByTheNext) {
   const TemporaryFolder place;
   const std::string file = place.write("study.toml", study), folder = place / "out";
