@@ -116,44 +116,6 @@ File File::open_to_write(const std::string& path) {
   return {path, std::move(file)};
 }
 
-#ifdef H5_HAVE_PARALLEL
-namespace {
-
-std::function<void(const std::string&)> end_all_ranks;
-std::string written_by_all;  // the file
-
-void share_failed(MPI_File*, int* error, ...) {
-  char reason[MPI_MAX_ERROR_STRING] = "";
-  int length = 0;
-  MPI_Error_string(*error, reason, &length);
-  if (end_all_ranks)
-    end_all_ranks(written_by_all + " could not be written: is the disk full? (" + reason + ")");
-}
-
-}  // namespace
-
-void on_failed_share(std::function<void(const std::string&)> end) { end_all_ranks = std::move(end); }
-
-File File::open_to_write(const std::string& path, MPI_Comm communicator) {
-  begin_hdf5();
-  const Handle access = file_access();
-  H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL);
-  Handle handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access), H5Fclose);
-  if (handle < 0) throw std::runtime_error(path + ": could not be opened to write by all ranks");
-  written_by_all = path;
-  void* within = nullptr;
-  if (H5Fget_vfd_handle(handle, access, &within) >= 0 && within) {
-    MPI_Errhandler failed = MPI_ERRHANDLER_NULL;
-    MPI_File_create_errhandler(share_failed, &failed);
-    MPI_File_set_errhandler(*static_cast<MPI_File*>(within), failed);
-    MPI_Errhandler_free(&failed);
-  }
-  File file{path, std::move(handle)};
-  file.collective_ = true;
-  return file;
-}
-#endif
-
 bool File::has(const std::string& name) const {
   // H5Lexists wants every intermediate group to exist.
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
@@ -410,10 +372,7 @@ void File::write_rows(const std::string& name, hsize_t first, hsize_t count, std
   const auto [file_space, memory_space] = row_selection(dataset, first, count);
   CLEFT_CHECK(static_cast<hsize_t>(H5Sget_select_npoints(file_space)), ==, data.size());
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-#ifdef H5_HAVE_PARALLEL
-  if (collective_) H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
-#endif
-  if (count > 0 || collective_)
+  if (count > 0)
     check_write(H5Dwrite(dataset, native<T>(), memory_space, file_space, transfer, data.data()), name);
   check_write(dataset.close() ? 0 : -1, name);
 }
@@ -465,8 +424,7 @@ void File::write_text(const std::string& object, const std::string& attribute, c
 
 void File::close() {
   const bool flushed = file_ < 0 || H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
-  // Where it failed on one of several ranks the others still wait in theirs, and none may begin to close.
-  const bool closed = (flushed || !collective_) && file_.close();
+  const bool closed = file_.close();
   check_write(flushed && closed ? 0 : -1, "the last part");
 }
 

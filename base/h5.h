@@ -5,7 +5,6 @@
 #include <hdf5.h>
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,12 +41,6 @@ enum class Packing { plain, deflate };
 /// not.
 enum class Growth { usual, none };
 
-#ifdef H5_HAVE_PARALLEL
-/// What a rank does where its share of a collective write fails; it must end all ranks, and not return. HDF5
-/// would go on to the next of its calls here, while the others wait in the failed one for ever.
-void on_failed_share(std::function<void(const std::string& message)> end_all_ranks);
-#endif
-
 /// Supported element types: double, float, std::int32_t, std::int64_t, std::uint8_t.
 /// Reading throws FileError (what is missing or damaged); writing throws std::runtime_error (disk full, ...).
 class File {
@@ -55,11 +48,6 @@ class File {
   static File create(const std::string& path, Growth growth = Growth::usual);
   static File open(const std::string& path);
   static File open_to_write(const std::string& path);
-#ifdef H5_HAVE_PARALLEL
-  /// An existing file, by all ranks together: write_rows() and close() are collective then. See
-  /// on_failed_share().
-  static File open_to_write(const std::string& path, MPI_Comm communicator);
-#endif
 
   const std::string& path() const { return path_; }
   bool is_open() const { return file_ >= 0; }
@@ -116,7 +104,6 @@ class File {
 
   std::string path_;
   Handle file_;
-  bool collective_ = false;
 };
 
 }  // namespace cleft::h5

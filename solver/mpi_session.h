@@ -12,20 +12,13 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "base/h5.h"
 #include "base/memory.h"
 
 namespace cleft {
 
 class MpiSession {
  public:
-  MpiSession(int& argc, char**& argv) : session_(prepared(argc), argv, 1) {
-    return_large_blocks();
-    h5::on_failed_share([this](const std::string& message) {
-      dprintf(error_, "cleft solve: failed: %s\n", message.c_str());
-      end_all_ranks(1);
-    });
-  }
+  MpiSession(int& argc, char**& argv) : session_(prepared(argc), argv, 1) { return_large_blocks(); }
 
   int rank() const { return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)); }
   int ranks() const { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }
@@ -47,15 +40,11 @@ class MpiSession {
       dprintf(error_, "cleft: failed on rank %d of %d\n", rank(), ranks());
     }
     std::cout.flush(), std::cerr.flush();
-    end_all_ranks(code);
-  }
-
- private:
-  [[noreturn]] void end_all_ranks(int code) const {
     if (ranks() > 1) MPI_Abort(MPI_COMM_WORLD, code);
     std::_Exit(code);
   }
 
+ private:
   /// A process of its own, started by neither mpirun nor srun, talks to nobody: without these Open MPI would
   /// start a daemon for it and share a folder with all others of its kind, which now and then fails when many
   /// start together.

@@ -19,23 +19,6 @@ void add_cells(Snapshot& s, const PatchMesh& mesh) {
   for (const auto& w : mesh.wedges) add(Snapshot::wedge, {w[3], w[4], w[5], w[0], w[1], w[2]});
 }
 
-/// Runs what writes. On several ranks a failure ends them all here: it is one rank's, the others wait for it,
-/// and an exception would have HDF5 close files, which waits for them.
-template <class Work>
-void written(MPI_Comm communicator, const std::string& unfinished, const Work& work) {
-  int ranks = 1;
-  MPI_Comm_size(communicator, &ranks);
-  if (ranks == 1) return work();
-  try {
-    work();
-  } catch (const std::exception& e) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    std::cerr << std::string("cleft solve: failed: ") + e.what() + '\n' << std::flush;
-    MPI_Abort(communicator, 1);
-  }
-}
-
 }  // namespace
 
 Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Release& release) {
@@ -57,41 +40,36 @@ Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Rel
 }
 
 SnapshotOutput::SnapshotOutput(const std::string& out, Snapshot snapshot,
-                               const std::vector<SnapshotArray>& arrays, const NodeSlabs& slabs,
-                               const PatchSystem& system)
-    : snapshot_(std::move(snapshot)),
-      nodes_(snapshot_.points.size()),
-      slabs_(slabs),
-      communicator_(system.communicator()) {
-  written(communicator_, name_, [&] {
-    if (system.rank() != 0) return;
-    writer_.emplace(out, snapshot_, arrays);
-    name_ = writer_->path();
-    writer_->close();
-  });
-  int length = static_cast<int>(name_.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, communicator_);
-  name_.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(name_.data(), length, MPI_CHAR, 0, communicator_);
-  written(communicator_, name_, [&] { rows_.emplace(name_, nodes_, communicator_); });
+                               const std::vector<SnapshotArray>& arrays, MPI_Comm communicator)
+    : snapshot_(std::move(snapshot)), communicator_(communicator) {
+  on_root([&] { writer_.emplace(out, snapshot_, arrays); });
   snapshot_ = {};
 }
 
-void SnapshotOutput::write_vectors(const std::string& array, std::size_t frame,
-                                   const std::vector<Vec3>& slab) {
-  written(communicator_, name_, [&] {
-    rows_->write(array, 3, frame, slabs_.first(),
-                 {slab.empty() ? nullptr : &slab.front().x, 3 * slab.size()});
-  });
+/// Work of rank 0. On several ranks a failure ends them all here: the others are on their way to other calls.
+void SnapshotOutput::on_root(const std::function<void()>& work) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(communicator_, &rank);
+  MPI_Comm_size(communicator_, &ranks);
+  if (rank != 0) return;
+  if (ranks == 1) return work();
+  try {
+    work();
+  } catch (const std::exception& e) {
+    std::error_code ignored;
+    if (writer_) std::filesystem::remove(writer_->path(), ignored);
+    std::cerr << std::string("cleft solve: failed: ") + e.what() + '\n' << std::flush;
+    MPI_Abort(communicator_, 1);
+  }
 }
 
-void SnapshotOutput::write_scalars(const std::string& array, std::vector<double> values) {
-  values.resize(nodes_);
-  MPI_Bcast(values.data(), static_cast<int>(nodes_), MPI_DOUBLE, 0, communicator_);
-  written(communicator_, name_, [&] {
-    rows_->write(array, 1, 0, slabs_.first(),
-                 std::span<const double>(values).subspan(slabs_.first(), slabs_.count()));
-  });
+void SnapshotOutput::write_vectors(const std::string& array, std::size_t frame,
+                                   const std::vector<Vec3>& values) {
+  on_root([&] { writer_->write_array({array, 3, true}, frame, {&values.front().x, 3 * values.size()}); });
+}
+
+void SnapshotOutput::write_scalars(const std::string& array, const std::vector<double>& values) {
+  on_root([&] { writer_->write_array({array, 1, false}, 0, values); });
 }
 
 void SnapshotOutput::add_figures(const FrameFigures& f) {
@@ -101,10 +79,7 @@ void SnapshotOutput::add_figures(const FrameFigures& f) {
 }
 
 void SnapshotOutput::finish() {
-  written(communicator_, name_, [&] {
-    rows_->close();
-    if (writer_) writer_->finish(snapshot_);
-  });
+  on_root([&] { writer_->finish(snapshot_); });
 }
 
 }  // namespace cleft

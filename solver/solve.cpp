@@ -14,6 +14,7 @@
 #include "params/stiffness.h"
 #include "solver/compliance.h"
 #include "solver/frame_figures.h"
+#include "solver/node_gather.h"
 #include "solver/phases.h"
 #include "solver/snapshot_output.h"
 
@@ -62,7 +63,6 @@ class SharedStiffness {
     progress_("meshing and assembling");
     mesh_ = make_patch_mesh(parameters);
     system_.emplace(mesh_, parameters, communicator, options.discretization);
-    slabs_.emplace(*system_, mesh_.points.size());
     residual_.emplace(mesh_, *system_);
     phases_.end("assemble");
     chosen_ = make_frame_solver(mesh_, *system_, options.method, progress);
@@ -95,7 +95,6 @@ class SharedStiffness {
   Phases phases_;
   PatchMesh mesh_;
   std::optional<PatchSystem> system_;
-  std::optional<NodeSlabs> slabs_;
   std::optional<FrameResidual> residual_;
   ChosenSolver chosen_;
   Compliance compliance_;
@@ -217,10 +216,15 @@ class SharedStiffness::Batch {
     for (const std::string& name : derivatives()) arrays.push_back({array_of(name), 3, true});
     member.writing = std::make_unique<SnapshotOutput>(shared_.cases_[c].out,
                                                       describe(parameters(member), shared_.mesh_, release_),
-                                                      arrays, *shared_.slabs_, system_);
+                                                      arrays, system_.communicator());
     member.writing->write_scalars("compliance", shared_.compliance_.at_node);
-    member.writing->write_vectors("dent", 0, (*shared_.slabs_)(shared_.compliance_.dent.data()));
+    member.writing->write_vectors("dent", 0, at_nodes(shared_.compliance_.dent.data()));
     shared_.phases_.end("write");
+  }
+
+  /// On rank 0; collective.
+  std::vector<Vec3> at_nodes(const double* column) const {
+    return gather_nodes(system_, shared_.mesh_.points.size(), column);
   }
 
   static std::string array_of(const std::string& parameter) { return "displacement_per_" + parameter; }
@@ -275,10 +279,10 @@ class SharedStiffness::Batch {
     shared_.phases_.end("frames");
     if (!add_figures(member, figures)) return;
     for (Eigen::Index j = 0; j < count; ++j) {
-      const std::vector<Vec3> slab = (*shared_.slabs_)(frames.col(j).data());
-      if (first + j == 0) member.closed = slab;
-      add_largest(member, slab);
-      member.writing->write_vectors("displacement", static_cast<std::size_t>(first + j), slab);
+      const std::vector<Vec3> nodes = at_nodes(frames.col(j).data());
+      if (first + j == 0) member.closed = nodes;
+      add_largest(member, nodes);
+      member.writing->write_vectors("displacement", static_cast<std::size_t>(first + j), nodes);
     }
     for (std::size_t i = 0; shared_.options_.unit_prestress && i < units_.size(); ++i)
       write_derivative(member, prestress_names[units_[i]], first,
@@ -318,15 +322,15 @@ class SharedStiffness::Batch {
   void write_derivative(Member& member, const std::string& name, int first, const Block& frames) {
     for (Eigen::Index j = 0; j < frames.cols(); ++j)
       member.writing->write_vectors(array_of(name), static_cast<std::size_t>(first + j),
-                                    (*shared_.slabs_)(frames.col(j).data()));
+                                    at_nodes(frames.col(j).data()));
   }
 
   /// Largest displacement from frame 0.
-  void add_largest(const Member& member, const std::vector<Vec3>& slab) const {
+  void add_largest(const Member& member, const std::vector<Vec3>& nodes) const {
     double largest = 0;
-    for (std::size_t n = 0; n < slab.size(); ++n)
-      largest = std::max(largest, norm(slab[n] - member.closed[n]));
-    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, system_.communicator());
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      largest = std::max(largest, norm(nodes[n] - member.closed[n]));
+    MPI_Bcast(&largest, 1, MPI_DOUBLE, 0, system_.communicator());
     double& of_case = shared_.reports_[member.number].largest_displacement;
     of_case = std::max(of_case, largest);
   }

@@ -124,9 +124,11 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
       continue;
     if (away > same_place) {
       const int triangle = pierced(mesh_, mesh_.skin_fan(v), frame);
-      if (triangle < 0) continue;
-      step.place = piercing_point(mesh_, triangle, frame);
-      if (norm(step.place - position) > 1.5 * options_.snap * room || !keeps_fold(v, step.place, triangle))
+      if (triangle >= 0) step.place = piercing_point(mesh_, triangle, frame);
+      // On the outline of what the blade sees it passes the vertex by, which then draws the path to itself.
+      if (triangle < 0 ? away * room > chord_tolerance_ / 10
+                       : norm(step.place - position) > 1.5 * options_.snap * room ||
+                             !keeps_fold(v, step.place, triangle))
         continue;
     }
     step.s = std::min(step.s, path_.length());

@@ -80,9 +80,7 @@ class SnapshotWriter {
   /// N times its components, point by point: the frame's rows of an array made room for. Rows never written
   /// are 0.
   void write_array(const SnapshotArray& array, std::size_t frame, std::span<const double> numbers);
-  /// The name the file has until finish(): others may add rows to it between close() and finish().
-  const std::string& path() const { return out_.path(); }
-  void close() { file_.close(); }
+  const std::string& path() const { return out_.path(); }  ///< the name the file has until finish()
   /// Writes smallest_gap and the residuals, flushes, and gives the file its name.
   void finish(const Snapshot& snapshot);
 
@@ -91,23 +89,6 @@ class SnapshotWriter {
   h5::File file_;
   std::size_t points_;
 };
-
-#ifdef H5_HAVE_PARALLEL
-/// Rows of point arrays of a snapshot on its way, written by all ranks of a communicator. Calls are
-/// collective, but a communicator of one rank needs no MPI-IO.
-class SnapshotRows {
- public:
-  SnapshotRows(const std::string& path, std::size_t points, MPI_Comm communicator);
-  /// Nodes first, first + 1, ... of an array ("displacement" or another) in a frame; `numbers` node by node.
-  void write(const std::string& array, std::size_t components, std::size_t frame, std::size_t first,
-             std::span<const double> numbers);
-  void close() { file_.close(); }
-
- private:
-  h5::File file_;
-  std::size_t points_;
-};
-#endif
 
 /// Opens, reads and checks all but the displacements, which are read frame by frame or in slabs of nodes.
 class SnapshotReader {

@@ -132,7 +132,6 @@ void SnapshotWriter::write_array(const SnapshotArray& array, std::size_t frame,
 }
 
 void SnapshotWriter::finish(const Snapshot& s) {
-  if (!file_.is_open()) file_ = h5::File::open_to_write(out_.path());
   write_list(file_, "/frames/smallest_gap", s.smallest_gap);
   if (!s.source) {
     write_list(file_, "/frames/residual_equilibrium", s.residual_equilibrium);
@@ -141,28 +140,5 @@ void SnapshotWriter::finish(const Snapshot& s) {
   file_.close();
   out_.commit();
 }
-
-#ifdef H5_HAVE_PARALLEL
-
-namespace {
-
-h5::File open_by_all(const std::string& path, MPI_Comm communicator) {
-  int ranks = 1;
-  MPI_Comm_size(communicator, &ranks);
-  return ranks == 1 ? h5::File::open_to_write(path) : h5::File::open_to_write(path, communicator);
-}
-
-}  // namespace
-
-SnapshotRows::SnapshotRows(const std::string& path, std::size_t points, MPI_Comm communicator)
-    : file_(open_by_all(path, communicator)), points_(points) {}
-
-void SnapshotRows::write(const std::string& array, std::size_t components, std::size_t frame,
-                         std::size_t first, std::span<const double> numbers) {
-  file_.write_rows<double>("/VTKHDF/PointData/" + array, frame * points_ + first, numbers.size() / components,
-                           numbers);
-}
-
-#endif
 
 }  // namespace cleft

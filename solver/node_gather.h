@@ -1,0 +1,15 @@
+// Displacements by node, as files want them, from unknowns as the solver owns them.
+#pragma once
+
+#include <vector>
+
+#include "base/vec3.h"
+#include "solver/patch_system.h"
+
+namespace cleft {
+
+/// One column of unknowns (owned() entries) as displacements of the mesh's nodes, mm: on rank 0, which writes
+/// the files; empty elsewhere. Collective.
+std::vector<Vec3> gather_nodes(const PatchSystem& system, std::size_t nodes, const double* column);
+
+}  // namespace cleft
