@@ -167,10 +167,14 @@ void Plots::draw_opening() {
     }
     const double t = std::min(session_.state().time, session_.field()->duration());
     add_curve(over_time_.chart, {{t, t}, {0, highest}}, "now", 1, Style::dashed);
-    along_cut_.chart->GetAxis(vtkAxis::LEFT)->SetBehavior(vtkAxis::FIXED);
-    along_cut_.chart->GetAxis(vtkAxis::LEFT)
-        ->SetRange(0, (highest > 0 ? highest : 1) * (views.size() > 1 ? 1.5 : 1.05));
-    along_cut_.chart->SetShowLegend(views.size() > 1);  // for both: the corner there is free
+    const bool several = views.size() > 1;
+    for (const auto& [plot, room] : {std::pair{&over_time_, several ? 1.6 : 1.05}, {&along_cut_, 1.05}}) {
+      vtkAxis* axis = plot->chart->GetAxis(vtkAxis::LEFT);
+      axis->SetBehavior(vtkAxis::FIXED);
+      axis->SetRange(0, (highest > 0 ? highest : 1) * room);
+    }
+    over_time_.chart->SetShowLegend(several);                                     // for both
+    over_time_.chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);  // where wounds begin
   }
   gapes_.swap(gapes);
   for (Plot* plot : {&over_time_, &along_cut_}) {

@@ -112,7 +112,7 @@ Overlay lattice_at(const Field& field, double t) {
   }
   overlay.surface_opacity = 0.3;
   overlay.caption =
-      text_of("the lattice at t = %.1f mm: %d x %d x %d x %d control points, broken across v = 0", t,
+      text_of("the lattice at t = %.1f mm: %d x %d x %d x %d control points, broken at the cut", t,
               field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size());
   return overlay;
 }

@@ -10,6 +10,7 @@
 #include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
@@ -140,7 +141,7 @@ void Furniture::draw_ruler(double pixels_per_mm, const int size[2], double scale
 void Furniture::turn_axes() {
   const double* view = renderer_->GetViewport();
   const int* size = window_->GetSize();
-  const double side = 84 * window_->GetDPI() / 72.;
+  const double side = std::min(84 * window_->GetDPI() / 72., 0.2 * renderer_->GetSize()[1]);
   if (size[0] <= 0 || size[1] <= 0) return;
   corner_->SetViewport(view[0], view[1], view[0] + side / size[0], view[1] + side / size[1]);
   vtkCamera* from = renderer_->GetActiveCamera();
