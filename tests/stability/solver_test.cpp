@@ -177,7 +177,7 @@ TEST(SolverLimits, CompressivePrestress) {
                 .shown = "smallest eigenvalue of K: " + rounded(held) + " N/mm at -0.001 MPa, " +
                          rounded(buckled) + " N/mm at -0.01 MPa",
                 .noticed = "before the work: " + quoted(refusal_of(p), "skin.prestress_u") +
-                           "; by the factor: " + quoted(failure, "the stiffness matrix"),
+                           "; by the factor: " + quoted(failure, "its smallest eigenvalue"),
                 .then = "refused, exit code 2"});
 }
 
