@@ -27,6 +27,11 @@ Vec3 unit_normal(const CutMesh& mesh, int t) {
       cross(mesh.position(v[1]) - mesh.position(v[0]), mesh.position(v[2]) - mesh.position(v[0])));
 }
 
+/// How far from one face a step along the other leads, over its length.
+double fold(const Vec3& normal, const Vec3& other) {
+  return dot(normal, other) > 0 ? norm(cross(normal, other)) : 1;
+}
+
 /// The worst quality of the skin's triangles around v, were it at `place`.
 double quality_around(const CutMesh& mesh, int v, const Vec3& place) {
   double worst = 1;
@@ -141,13 +146,13 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
 /// How far a vertex may move, or draw the path to itself: not so far that a short path would lose its shape.
 double Incision::room_of(int v) const { return std::min(mesh_.room(v), longest_step_); }
 
-/// Whether a vertex may move to a place in one of its triangles: what that cuts off the folds around it
-/// shortens lips over them by less than they may stray.
+/// Whether a vertex may move to a place in one of its triangles: the faces around it then move by no more
+/// than lips may stray.
 bool Incision::keeps_fold(int v, const Vec3& place, int triangle) const {
   const Vec3 n = unit_normal(mesh_, triangle);
-  double sharpest = 1;
-  for (const int t : mesh_.skin_fan(v)) sharpest = std::min(sharpest, dot(n, unit_normal(mesh_, t)));
-  return (1 - sharpest) * norm(place - mesh_.position(v)) <= chord_tolerance_;
+  double sharpest = 0;
+  for (const int t : mesh_.skin_fan(v)) sharpest = std::max(sharpest, fold(n, unit_normal(mesh_, t)));
+  return sharpest * norm(place - mesh_.position(v)) <= chord_tolerance_;
 }
 
 /// Where the path is about to leave the surface beside a vertex of its boundary, which may go there.
@@ -235,9 +240,8 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
     const Vec3 &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];
     const double away = norm(cross(place - a, b - a)) / squared_norm(b - a);
     const int across = t.neighbor[i];
-    const double fold = across >= 0 ? 1 - dot(n, unit_normal(mesh_, across)) : 0;
-    const bool may_bend =
-        across >= 0 && !mesh_.is_wall(across) && fold * away * norm(b - a) <= chord_tolerance_;
+    const bool may_bend = across >= 0 && !mesh_.is_wall(across) &&
+                          fold(n, unit_normal(mesh_, across)) * away * norm(b - a) <= chord_tolerance_;
     const bool border = across == CutMesh::boundary || mesh_.is_wall(across);
     const bool touches = border &&
                          away <= (end                           ? near_lip
