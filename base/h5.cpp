@@ -109,13 +109,6 @@ File File::open(const std::string& path) {
   return {path, std::move(file)};
 }
 
-File File::open_to_write(const std::string& path) {
-  begin_hdf5();
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, file_access()), H5Fclose);
-  if (file < 0) throw std::runtime_error(path + ": could not be opened to write");
-  return {path, std::move(file)};
-}
-
 bool File::has(const std::string& name) const {
   // H5Lexists wants every intermediate group to exist.
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
@@ -371,9 +364,8 @@ void File::write_rows(const std::string& name, hsize_t first, hsize_t count, std
   Handle dataset(check_write(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), name), H5Dclose);
   const auto [file_space, memory_space] = row_selection(dataset, first, count);
   CLEFT_CHECK(static_cast<hsize_t>(H5Sget_select_npoints(file_space)), ==, data.size());
-  const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   if (count > 0)
-    check_write(H5Dwrite(dataset, native<T>(), memory_space, file_space, transfer, data.data()), name);
+    check_write(H5Dwrite(dataset, native<T>(), memory_space, file_space, H5P_DEFAULT, data.data()), name);
   check_write(dataset.close() ? 0 : -1, name);
 }
 

@@ -47,7 +47,6 @@ class File {
  public:
   static File create(const std::string& path, Growth growth = Growth::usual);
   static File open(const std::string& path);
-  static File open_to_write(const std::string& path);
 
   const std::string& path() const { return path_; }
   bool is_open() const { return file_ >= 0; }

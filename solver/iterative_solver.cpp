@@ -108,12 +108,6 @@ struct IterativeSolver::Parts {
   std::vector<Block> last;  // solution of every load, to start from
   std::vector<int> iterations;
 
-  double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-    double sum = a.dot(b);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, system.communicator());
-    return sum;
-  }
-
   /// Groups of tied copies: by node of the cut, the first of its group.
   std::vector<int> groups(int open) const {
     std::vector<int> first(cut.nodes.size());
@@ -189,27 +183,27 @@ struct IterativeSolver::Parts {
     project(first, x);
     Eigen::VectorXd r = load;
     project(first, r);
-    const double enough = column.residual * std::sqrt(dot(r, r));
+    const double enough = column.residual * std::sqrt(dot(system, r, r));
     Eigen::VectorXd product = system.multiply(x);
     project(first, product);
     r -= product;
     Eigen::VectorXd direction;
     double rz = 0;
     int n = 0;
-    for (; std::sqrt(dot(r, r)) > enough; ++n) {
+    for (; std::sqrt(dot(system, r, r)) > enough; ++n) {
       if (n == most_iterations)
         throw SolveError("no solution after " + std::to_string(n) +
                          " iterations: the stiffness is badly conditioned");
       const Eigen::VectorXd z = precondition(first, r);
       const double previous = rz;
-      rz = dot(r, z);
+      rz = dot(system, r, z);
       if (n == 0)
         direction = z;
       else
         direction = z + rz / previous * direction;
       product = system.multiply(direction);
       project(first, product);
-      const double energy = dot(direction, product);
+      const double energy = dot(system, direction, product);
       if (!(energy > 0) || !(rz > 0)) fail_indefinite(system, "by " + std::to_string(n) + " iterations");
       x += rz / energy * direction;
       r -= rz / energy * product;

@@ -430,6 +430,12 @@ Eigen::MatrixXd own_rows(const PatchSystem& system, const Block& block, const st
 
 }  // namespace
 
+double dot(const PatchSystem& system, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  double sum = a.dot(b);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, system.communicator());
+  return sum;
+}
+
 Eigen::MatrixXd gather_rows(const PatchSystem& system, const Block& block, const std::vector<int>& unknowns) {
   Eigen::MatrixXd rows = own_rows(system, block, unknowns);
   const bool root = system.rank() == 0;

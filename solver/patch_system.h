@@ -89,6 +89,9 @@ class PatchSystem::Derivative {
   virtual Block load() const = 0;                        ///< df/dp, a column
 };
 
+/// Of two columns, over all ranks; the same on each. Collective.
+double dot(const PatchSystem& system, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
 /// Rows of a distributed block, by number of the unknown: on rank 0, empty elsewhere. Collective.
 Eigen::MatrixXd gather_rows(const PatchSystem& system, const Block& block, const std::vector<int>& unknowns);
 /// The same on every rank.

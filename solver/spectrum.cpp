@@ -14,12 +14,6 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-double dot(const PatchSystem& system, const Vector& a, const Vector& b) {
-  double sum = a.dot(b);
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, system.communicator());
-  return sum;
-}
-
 /// A direction that no eigenvector is normal to, the same for any number of ranks.
 Vector some_direction(const PatchSystem& system) {
   Vector direction(system.owned());
