@@ -8,14 +8,14 @@
 namespace cleft {
 
 BetweenCases::BetweenCases(const std::string& study)
-    : prepared_(std::async(std::launch::async, [study, state = state_] {
+    : prepared_(std::async(std::launch::async, [this, study] {
                   return std::make_shared<const StudyInterpolator>(study, [&](double part) {
-                    state->part = part;
-                    if (state->unwanted) throw InputError(study + ": no longer wanted");
+                    part_ = part;
+                    if (unwanted_) throw InputError(study + ": no longer wanted");
                   });
                 }).share()) {}
 
-BetweenCases::~BetweenCases() { state_->unwanted = true; }
+BetweenCases::~BetweenCases() { unwanted_ = true; }
 
 bool BetweenCases::ready() const {
   return prepared_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -23,7 +23,7 @@ bool BetweenCases::ready() const {
 
 void BetweenCases::wait(const std::function<void(double part)>& go_on) const {
   constexpr std::chrono::milliseconds moment(50);
-  while (prepared_.wait_for(moment) != std::future_status::ready) go_on(state_->part);
+  while (prepared_.wait_for(moment) != std::future_status::ready) go_on(part_);
 }
 
 std::shared_ptr<const Field> BetweenCases::at(const std::map<std::string, double>& parameters) const {

@@ -24,18 +24,15 @@ class BetweenCases {
   bool ready() const;
   /// Waits for that as long as `go_on`, called with the part that is done, does not throw.
   void wait(const std::function<void(double part)>& go_on) const;
-  double part_done() const { return state_->part; }
+  double part_done() const { return part_; }
   /// The field of these parameters, in milliseconds once all is ready, which it waits for. Its
   /// `interpolation` tells the estimated error. Throws InputError where the study's cases have none.
   std::shared_ptr<const Field> at(const std::map<std::string, double>& parameters) const;
 
  private:
-  struct State {
-    std::atomic<double> part = 0;
-    std::atomic<bool> unwanted = false;
-  };
-  std::shared_ptr<State> state_ = std::make_shared<State>();
-  std::shared_future<std::shared_ptr<const StudyInterpolator>> prepared_;
+  std::atomic<double> part_ = 0;
+  std::atomic<bool> unwanted_ = false;
+  std::shared_future<std::shared_ptr<const StudyInterpolator>> prepared_;  // its end waits for the thread
 };
 
 }  // namespace cleft
