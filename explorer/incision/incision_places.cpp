@@ -106,7 +106,7 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
     if (const auto exit = exit_at(v, crossing.s)) return exit;
     if (mesh_.vertex(v).kind != VertexKind::skin || (mesh_.on_boundary(v) && !may_move(v, crossing.place))) {
       // What cannot be moved draws the path to itself.
-      if (to_crossing > least / 2 * room || !may_reach(v)) continue;
+      if (to_crossing > least / 2 * room || !may_reach(v) || drawn_along_edge(v, crossing.s)) continue;
       least = 2 * to_crossing / room;
       best = step;
       continue;
@@ -141,6 +141,29 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
     best = step;
   }
   return best;
+}
+
+/// Whether the path, drawn to a vertex of a lip or of the outline, would run along it from there, so close
+/// that no triangle fits between, while by itself it does not: one with the angle a has a radius ratio below
+/// 2 a.
+bool Incision::drawn_along_edge(int v, double s) const {
+  const auto aside = [&](int w) {
+    PathFrame frame = path_.at(s);
+    double at = s;
+    for (int k = 0; k < 3; ++k) {
+      at += dot(mesh_.position(w) - frame.position, frame.along);
+      frame = path_.at(at);
+    }
+    return dot(mesh_.position(w) - frame.position, frame.across);
+  };
+  const std::vector<int> fan = mesh_.skin_fan(v);
+  const CutMesh::Triangle &first = mesh_.triangle(fan.front()), &last = mesh_.triangle(fan.back());
+  const double drawn = aside(v);
+  for (const int w : {first.vertex[(first.corner(v) + 1) % 3], last.vertex[(last.corner(v) + 2) % 3]}) {
+    const double beside = aside(w), least = asked_ * norm(mesh_.position(w) - mesh_.position(v));
+    if (std::abs(beside) < least && std::abs(beside - drawn) >= least) return true;
+  }
+  return false;
 }
 
 /// How far a vertex may move, or draw the path to itself: not so far that a short path would lose its shape.
