@@ -43,6 +43,20 @@ TEST(Stress, LargeTrianglesWoundRoundByTheirOwnCuts) {
   EXPECT_LE(tally.refused, 1);
 }
 
+TEST(Stress, StripsBetweenLipsThatNearlyTouch) {
+  Plan plan;
+  plan.good = false;
+  plan.seed = 20;
+  plan.paths = 4166;
+  // Needles (292: of a path that closes on itself again and again), and lips' vertices that drew the path to
+  // themselves and then ran along the lip.
+  plan.only = {292, 1072, 1579, 3316, 3874};
+  const Tally tally = stress("octahedron", testing::sphere(1, 10), plan);
+  EXPECT_EQ(tally.violations, 0);
+  EXPECT_EQ(tally.poor - tally.squeezed, 0);
+  EXPECT_EQ(tally.refused, 0);
+}
+
 TEST(Stress, FacesOrgansAndDefectiveMeshes) {
   namespace fs = std::filesystem;
   if (!fs::exists(CLEFT_SHARED_MESHES)) GTEST_SKIP() << CLEFT_SHARED_MESHES << " is absent";
