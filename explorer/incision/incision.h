@@ -108,6 +108,7 @@ class Incision {
   std::optional<Step> snapped(const Step& crossing) const;
   std::vector<int> triangles_at(const Step& start) const;
   Step placed(int triangle, const Vec3& place, double s) const;
+  double beside(const Vec3& place, double s) const;
   bool drawn_along_edge(int v, double s) const;
   bool may_move(int v, const Vec3& place) const;
   bool may_reach(int v) const;
