@@ -133,6 +133,7 @@ class Incision {
   Step step_at(const Track& track) const;
   bool too_soon_at_wound(const Step& step) const;
   double chord_error(const Vec3& from, const Vec3& to, double s_from, double s_to) const;
+  bool wounds_cross_at(int v) const;
   bool go_on_from_wound();
   [[noreturn]] void report_end() const;
   double wall_spacing(int start, double max_edge) const;

@@ -107,6 +107,8 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
     if (mesh_.vertex(v).kind != VertexKind::skin || (mesh_.on_boundary(v) && !may_move(v, crossing.place))) {
       // What cannot be moved draws the path to itself.
       if (to_crossing > least / 2 * room || !may_reach(v) || drawn_along_edge(v, crossing.s)) continue;
+      // No third wound can be sewn in there; nearer, it would leave needles beside the place.
+      if (to_crossing > asked_ * room && wounds_cross_at(v)) continue;
       least = 2 * to_crossing / room;
       if (mesh_.on_wound(v))  // not to turn back from there
         step.s = std::clamp(beside(position, crossing.s), crossing.s, path_.length());
@@ -163,8 +165,10 @@ bool Incision::drawn_along_edge(int v, double s) const {
   const CutMesh::Triangle &first = mesh_.triangle(fan.front()), &last = mesh_.triangle(fan.back());
   const double drawn = aside(v);
   for (const int w : {first.vertex[(first.corner(v) + 1) % 3], last.vertex[(last.corner(v) + 2) % 3]}) {
-    const double by_itself = aside(w), least = asked_ * norm(mesh_.position(w) - mesh_.position(v));
-    if (std::abs(by_itself) < least && std::abs(by_itself - drawn) >= least) return true;
+    // The wedge's breadth at w, and how far the path comes nearer to or farther from the edge by itself.
+    const double breadth = std::abs(aside(w)), by_itself = std::abs(aside(w) - drawn),
+                 least = asked_ * norm(mesh_.position(w) - mesh_.position(v));
+    if (breadth < least && by_itself >= std::max(least / 2, 2 * breadth)) return true;
   }
   return false;
 }
