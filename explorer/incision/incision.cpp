@@ -169,7 +169,7 @@ void Incision::step_on() {
 }
 
 void Incision::check_progress() const {
-  constexpr std::size_t steps = 12;
+  constexpr std::size_t steps = 32;
   if (chain_.size() < steps || tip() - chain_[chain_.size() - steps].s > 1e-6 * path_.length()) return;
   throw InputError("the path runs along a wound near " + place_of(mesh_.position(tip_vertex())) +
                    ", at arc length " + shortest(tip()) + "; lead it across, or away from it");

@@ -108,6 +108,8 @@ class Incision {
   std::optional<Step> snapped(const Step& crossing) const;
   std::vector<int> triangles_at(const Step& start) const;
   Step placed(int triangle, const Vec3& place, double s) const;
+  double beside(const Vec3& place, double s) const;
+  bool drawn_along_edge(int v, double s) const;
   bool may_move(int v, const Vec3& place) const;
   bool may_reach(int v) const;
   bool begins_ahead(const Vec3& start, const Vec3& drawn_to) const;
@@ -131,6 +133,7 @@ class Incision {
   Step step_at(const Track& track) const;
   bool too_soon_at_wound(const Step& step) const;
   double chord_error(const Vec3& from, const Vec3& to, double s_from, double s_to) const;
+  bool wounds_cross_at(int v) const;
   bool go_on_from_wound();
   [[noreturn]] void report_end() const;
   double wall_spacing(int start, double max_edge) const;

@@ -106,8 +106,12 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
     if (const auto exit = exit_at(v, crossing.s)) return exit;
     if (mesh_.vertex(v).kind != VertexKind::skin || (mesh_.on_boundary(v) && !may_move(v, crossing.place))) {
       // What cannot be moved draws the path to itself.
-      if (to_crossing > least / 2 * room || !may_reach(v)) continue;
+      if (to_crossing > least / 2 * room || !may_reach(v) || drawn_along_edge(v, crossing.s)) continue;
+      // No third wound can be sewn in there; nearer, it would leave needles beside the place.
+      if (to_crossing > asked_ * room && wounds_cross_at(v)) continue;
       least = 2 * to_crossing / room;
+      if (mesh_.on_wound(v))  // not to turn back from there
+        step.s = std::clamp(beside(position, crossing.s), crossing.s, path_.length());
       best = step;
       continue;
     }
@@ -118,11 +122,8 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
       best = step;
       continue;
     }
-    PathFrame frame = path_.at(step.s);
-    for (int k = 0; k < 3; ++k) {
-      step.s += dot(position - frame.position, frame.along);
-      frame = path_.at(step.s);
-    }
+    step.s = beside(position, crossing.s);
+    const PathFrame frame = path_.at(step.s);
     const double away = std::abs(dot(position - frame.position, frame.across)) / room;
     if (away > least || step.s - chain_.back().s < 0.1 * room || step.s - crossing.s > longest_step_ ||
         step.s - path_.length() > options_.snap * room)
@@ -141,6 +142,35 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
     best = step;
   }
   return best;
+}
+
+/// Where, near s, the path passes a place.
+double Incision::beside(const Vec3& place, double s) const {
+  for (int k = 0; k < 3; ++k) {
+    const PathFrame frame = path_.at(s);
+    s += dot(place - frame.position, frame.along);
+  }
+  return s;
+}
+
+/// Whether the path, drawn to a vertex of a lip or of the outline, would run along it from there, so close
+/// that no triangle fits between, while by itself it does not: one with the angle a has a radius ratio below
+/// 2 a.
+bool Incision::drawn_along_edge(int v, double s) const {
+  const auto aside = [&](int w) {
+    const PathFrame frame = path_.at(beside(mesh_.position(w), s));
+    return dot(mesh_.position(w) - frame.position, frame.across);
+  };
+  const std::vector<int> fan = mesh_.skin_fan(v);
+  const CutMesh::Triangle &first = mesh_.triangle(fan.front()), &last = mesh_.triangle(fan.back());
+  const double drawn = aside(v);
+  for (const int w : {first.vertex[(first.corner(v) + 1) % 3], last.vertex[(last.corner(v) + 2) % 3]}) {
+    // The wedge's breadth at w, and how far the path comes nearer to or farther from the edge by itself.
+    const double breadth = std::abs(aside(w)), by_itself = std::abs(aside(w) - drawn),
+                 least = asked_ * norm(mesh_.position(w) - mesh_.position(v));
+    if (breadth < least && by_itself >= std::max(least / 2, 2 * breadth)) return true;
+  }
+  return false;
 }
 
 /// How far a vertex may move, or draw the path to itself: not so far that a short path would lose its shape.

@@ -157,6 +157,12 @@ bool Incision::too_soon_at_wound(const Step& step) const {
   return step.kind == Step::edge && mesh_.is_wall(mesh_.triangle(step.triangle).neighbor[step.index]);
 }
 
+bool Incision::wounds_cross_at(int v) const {
+  const std::vector<int> places = on_the_same_place(mesh_, v);
+  return std::count_if(places.begin(), places.end(),
+                       [&](int place) { return mesh_.is_skin(mesh_.vertex(place).triangle); }) > 3;
+}
+
 bool Incision::go_on_from_wound() {
   const std::vector<int> places = on_the_same_place(mesh_, chain_.back().left);
   for (const double part : {0.1, 0.03, 0.3, 0.01, 0.003, 0.001})

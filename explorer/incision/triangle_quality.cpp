@@ -35,9 +35,11 @@ class Mender {
       if (!is_sliver(t)) continue;
       const std::size_t first_new = mesh_.triangles().size();
       const auto neighbors = mesh_.triangle(t).neighbor;
+      const std::vector<int> across = across_wounds(t);
       if (!flip_best(t) && !split_longest(t)) continue;
       ++changes;
       work.insert(work.begin(), neighbors.begin(), neighbors.end());
+      work.insert(work.begin(), across.begin(), across.end());
       work.insert(work.begin(), t);
       for (std::size_t n = first_new; n < mesh_.triangles().size(); ++n)
         work.insert(work.begin(), static_cast<int>(n));
@@ -78,11 +80,26 @@ class Mender {
                &d = mesh_.position(q.d);
     const Vec3 n = cross(d - c, b - a);  // of the quadrilateral, by its diagonals
     const double size = norm(n);
-    const double plane = std::max(bend, flat * std::max(norm(b - a), norm(d - c)));
-    if (size == 0 || std::abs(dot(n, a - c)) > plane * size) return 0;  // between the diagonals
+    const double plane = flat * std::max(norm(b - a), norm(d - c)),
+                 apart = size > 0 ? std::abs(dot(n, a - c)) / size : 1e300;  // between the diagonals
+    if (apart > std::max(bend, plane)) return 0;
+    if (apart > plane && turns(a, b, c, d)) return 0;
     if (dot(cross(d - a, c - a), n) <= 0 || dot(cross(b - d, c - d), n) <= 0) return 0;  // not convex
     if (mesh_.any_triangle_with(q.c, q.d) >= 0 || mesh_.any_triangle_with(q.d, q.c) >= 0) return 0;
     return std::min(radius_ratio(a, d, c), radius_ratio(d, b, c));
+  }
+
+  /// Whether flipping the edge a b would turn a face away from those that were there, as it can where these
+  /// are narrow however little it moves them: the blade might see it from behind.
+  static bool turns(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const auto unit = [](const Vec3& p, const Vec3& q, const Vec3& r) {
+      return normalized(cross(q - p, r - p));
+    };
+    const Vec3 old[] = {unit(a, b, c), unit(b, a, d)};
+    const double least = std::min(0.5, dot(old[0], old[1])) - 0.1;
+    for (const Vec3& fresh : {unit(a, d, c), unit(d, b, c)})
+      if (std::min(dot(fresh, old[0]), dot(fresh, old[1])) < least) return true;
+    return false;
   }
 
   bool flip_best(int t) {
@@ -107,57 +124,105 @@ class Mender {
     int longest = 0;
     for (int i = 1; i < 3; ++i)
       if (length(x, i) > length(x, longest)) longest = i;
-    const int across = x.neighbor[longest];
     if (!may_split(x, longest)) return false;
-    const Vec3 &a = mesh_.position(x.vertex[longest]), &b = mesh_.position(x.vertex[(longest + 1) % 3]),
-               &c = mesh_.position(x.vertex[(longest + 2) % 3]);
-    double part = dot(c - a, b - a) / squared_norm(b - a);
-    if (part < 0.2 || part > 0.8) part = 0.5;
-    const Vec3 place = lerp(a, b, part);
-    double before = radius_ratio(a, b, c),
-           after = std::min(radius_ratio(a, place, c), radius_ratio(place, b, c));
-    if (across >= 0 && mesh_.is_skin(across)) {
-      const Vec3& d = mesh_.position(quad_at(mesh_, t, longest).d);
-      before = std::min(before, radius_ratio(b, a, d));
-      after = std::min({after, radius_ratio(b, place, d), radius_ratio(place, a, d)});
+    const int c = x.vertex[(longest + 2) % 3],
+              d = mesh_.is_skin(x.neighbor[longest]) ? quad_at(mesh_, t, longest).d : -1;
+    const Vec3 &from = mesh_.position(x.vertex[longest]), &to = mesh_.position(x.vertex[(longest + 1) % 3]);
+    const auto ratio = [&](const Vec3& a, const Vec3& b) {  // of the triangles on the edge a b
+      const double first = radius_ratio(a, b, mesh_.position(c));
+      return d < 0 ? first : std::min(first, radius_ratio(b, a, mesh_.position(d)));
+    };
+    const double before = ratio(from, to), at_foot = foot(x, longest);
+    for (const double part : {at_foot < 0.2 || at_foot > 0.8 ? 0.5 : at_foot, at_foot}) {
+      if (!(part > 0.01 && part < 0.99)) continue;
+      const Vec3 place = lerp(from, to, part);
+      if (std::min(ratio(from, place), ratio(place, to)) < better * before) continue;
+      mesh_.split_edge(t, longest, place);
+      return true;
     }
-    if (after < better * before) return false;
-    mesh_.split_edge(t, longest, place);
-    return true;
+    return false;
   }
 
-  /// The split, with what it makes possible, that leaves the best triangles; none where that is no better.
+  /// The skin's triangles across wounds from t, which splits of its edges there split too.
+  std::vector<int> across_wounds(int t) const {
+    std::vector<int> found;
+    const CutMesh::Triangle& x = mesh_.triangle(t);
+    for (int i = 0; i < 3; ++i) {
+      if (!mesh_.is_wall(x.neighbor[i])) continue;
+      const int edge = mesh_.triangle(x.neighbor[i]).corner(x.vertex[(i + 1) % 3]);
+      found.push_back(mesh_.triangle(mesh_.twin(x.neighbor[i])).neighbor[CutMesh::twin_edge(edge)]);
+    }
+    return found;
+  }
+
+  /// The split of one of its edges, or of a neighbour's, that with what it makes possible leaves the best
+  /// triangles; none where that is no better.
   bool split_best(int t) {
     const CutMesh::Triangle x = mesh_.triangle(t);
     const double before = radius_ratio(mesh_, t),
                  shortest = std::min({length(x, 0), length(x, 1), length(x, 2)});
-    double most = better * before, part_of_best = 0;
-    int best = -1;
-    for (int i = 0; i < 3; ++i) {
-      if (!may_split(x, i)) continue;
-      const double rung = 16 * shortest / length(x, i);  // beside the short edge of a needle
-      for (const double part : {0.5, foot(x, i), rung, 1 - rung, rung / 4, 1 - rung / 4}) {
+    Split best{-1, -1, 0};
+    double most = better * before;
+    for (const auto& [owner, i] : edges_around(t)) {
+      const CutMesh::Triangle y = mesh_.triangle(owner);
+      if (!may_split(y, i)) continue;
+      const double rung = 16 * shortest / length(y, i);  // beside the short edge of a needle
+      for (const double part : {0.5, foot(y, i), rung, 1 - rung, rung / 4, 1 - rung / 4}) {
         if (!(part > 0.01 && part < 0.99)) continue;
-        const CutMesh::Checkpoint since = mesh_.checkpoint();
-        const bool bent = bent_;
-        const double after = ratio_after_split(t, i, part);
-        mesh_.roll_back(since);
-        bent_ = bent;
-        if (after > most) most = after, best = i, part_of_best = part;
+        const double after = ratio_after({owner, i, part}, t);
+        if (after > most) most = after, best = {owner, i, part};
       }
     }
-    return best >= 0 && ratio_after_split(t, best, part_of_best) > 0;
+    if (best.triangle < 0) return false;
+    make(best, t);
+    return true;
   }
 
-  double ratio_after_split(int t, int i, double part) {
+  struct Split {
+    int triangle, edge;
+    double part;
+  };
+
+  /// The edges of t and of its neighbours on the skin, each once.
+  std::vector<std::array<int, 2>> edges_around(int t) const {
+    std::vector<std::array<int, 2>> edges;
+    for (int i = 0; i < 3; ++i) {
+      edges.push_back({t, i});
+      const int across = mesh_.triangle(t).neighbor[i];
+      if (across < 0 || !mesh_.is_skin(across)) continue;
+      for (int k = 0; k < 3; ++k)
+        if (mesh_.triangle(across).neighbor[k] != t) edges.push_back({across, k});
+    }
+    return edges;
+  }
+
+  /// The smallest radius ratio of t and of the triangles that the split, with what follows, would make.
+  /// (Others beside them may be worse, and stay so.)
+  double ratio_after(const Split& split, int t) {
     const CutMesh::Checkpoint since = mesh_.checkpoint();
-    const CutMesh::Triangle& x = mesh_.triangle(t);
-    mesh_.split_edge(t, i, lerp(mesh_.position(x.vertex[i]), mesh_.position(x.vertex[(i + 1) % 3]), part));
-    mend(mesh_.changed_since(since));
-    double least = 1;
+    const bool bent = bent_;
+    make(split, t);
+    double least = radius_ratio(mesh_, t);
+    std::vector<std::pair<int, double>> worse;
     for (const int changed : mesh_.changed_since(since))
-      if (mesh_.is_skin(changed)) least = std::min(least, radius_ratio(mesh_, changed));
+      if (const double ratio = mesh_.is_skin(changed) ? radius_ratio(mesh_, changed) : 1; ratio < least)
+        worse.emplace_back(changed, ratio);
+    mesh_.roll_back(since);
+    bent_ = bent;
+    const auto there = [&](int n) { return n < static_cast<int>(mesh_.triangles().size()); };
+    for (const auto& [changed, ratio] : worse)
+      if (!there(changed) || radius_ratio(mesh_, changed) != ratio) least = std::min(least, ratio);
     return least;
+  }
+
+  void make(const Split& split, int t) {
+    const CutMesh::Checkpoint since = mesh_.checkpoint();
+    const auto& v = mesh_.triangle(split.triangle).vertex;
+    const Vec3 &from = mesh_.position(v[split.edge]), &to = mesh_.position(v[(split.edge + 1) % 3]);
+    mesh_.split_edge(split.triangle, split.edge, lerp(from, to, split.part));
+    std::vector<int> triangles = mesh_.changed_since(since);
+    triangles.push_back(t);
+    mend(triangles);
   }
 
   bool may_split(const CutMesh::Triangle& x, int i) const {

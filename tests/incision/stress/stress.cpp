@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -138,7 +139,7 @@ class Stress {
     list("refused" + (due.empty() ? "" : " (" + due + ")") + ": " + why);
   }
 
-  void after(const Incision& cut, PathKind kind, double area, long boundary) {
+  void after(Incision& cut, PathKind kind, double area, long boundary) {
     if (!large_ || tally_.paths % 100 == 0)
       if (const std::string wrong = soundness_.whole(); !wrong.empty()) violation(wrong);
     if (boundary == 0 && soundness_.boundary_edges() != 0) violation("the closed mesh has a boundary");
@@ -155,20 +156,7 @@ class Stress {
       if (!(mesh_.position(chain[i].left) == mesh_.position(chain[i].right))) violation("lips apart at rest");
     }
     if (closed_again) violation("a vertex of the lips without a pair");
-    if (upright > 2) {
-      const auto length = blade_trace(ground_, cut.path(), mesh_.position(chain.front().left), cut.start(),
-                                      mesh_.position(chain[upright - 1].left), chain[upright - 1].s);
-      tally_.jumping += !length;
-      // Of a path that was stopped a part is compared, and straight pieces stray by so much of the whole.
-      const double stray =
-          cut.left_mesh() || cut.tip() >= 0.99 * cut.path().length() ? 0 : cut.path().length() / 1000;
-      const double error = length ? std::max(0., std::abs(lip - *length) - stray) / *length : 0;
-      tally_.worst_lip_length = std::max(tally_.worst_lip_length, error);
-      tally_.long_lips += error > 0.01;
-      if (error > 0.01) list("lips " + std::to_string(lip / *length) + " of the blade's way");
-      if (error > 0.01 && plan_.good)
-        violation("lips " + std::to_string(lip / *length) + " of the blade's way");
-    }
+    if (upright > 2) compare_lips(cut, lip, chain[upright - 1]);
     const int worst_triangle = soundness_.worst_new_triangle();
     const double worst = worst_triangle < 0 ? 1 : radius_ratio(mesh_, worst_triangle),
                  asked = 0.05 * std::min(worst_before_, 0.1);
@@ -192,6 +180,51 @@ class Stress {
       tally_.worst_area = std::max(tally_.worst_area, change);
       if (change > 1e-10) violation("the skin's area has changed by " + std::to_string(change));
     }
+  }
+
+  void compare_lips(Incision& cut, double lip, const Incision::ChainVertex& end) {
+    const Vec3 first = mesh_.position(cut.chain().front().left), last = mesh_.position(end.left);
+    const auto way_over = [&](const Ground& ground) {
+      return blade_trace(ground, cut.path(), first, cut.start(), last, end.s);
+    };
+    // Of a path that was stopped a part is compared, and straight pieces stray by so much of the whole.
+    const double stray =
+        cut.left_mesh() || cut.tip() >= 0.99 * cut.path().length() ? 0 : cut.path().length() / 1000;
+    const auto error_over = [&](double way) { return std::max(0., std::abs(lip - way) - stray) / way; };
+    auto way = way_over(ground_);
+    tally_.jumping += !way;
+    if (!way) return;
+    // Earlier cuts have moved the skin, by as much as they may stray.
+    if (error_over(*way) > 0.01) way = way_over(Ground(skin_before(cut))).value_or(*way);
+    const double error = error_over(*way);
+    tally_.worst_lip_length = std::max(tally_.worst_lip_length, error);
+    if (error <= 0.01) return;
+    ++tally_.long_lips;
+    const std::string what = "lips " + std::to_string(lip / *way) + " of the blade's way";
+    list(what);
+    if (plan_.good) violation(what);
+  }
+
+  /// The skin that the cut has met, with earlier wounds closed: vertices of lips on one place are the same.
+  SurfaceMesh skin_before(Incision& cut) {
+    cut.undo();
+    soundness_.step();
+    SurfaceMesh skin;
+    std::map<std::array<double, 3>, int> known;
+    for (const CutMesh::Triangle& t : mesh_.triangles()) {
+      if (t.region != Region::skin) continue;
+      std::array<int, 3> corners;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& p = mesh_.position(t.vertex[i]);
+        const auto [at, fresh] = known.insert({{p.x, p.y, p.z}, static_cast<int>(skin.points.size())});
+        if (fresh) skin.points.push_back(p);
+        corners[i] = at->second;
+      }
+      skin.triangles.push_back(corners);
+    }
+    cut.redo();
+    soundness_.step();
+    return skin;
   }
 
   /// Whether a triangle, or a neighbour of it, touches the outline or another cut: where a path grazes these,

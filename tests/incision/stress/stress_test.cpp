@@ -43,6 +43,26 @@ TEST(Stress, LargeTrianglesWoundRoundByTheirOwnCuts) {
   EXPECT_LE(tally.refused, 1);
 }
 
+TEST(Stress, LipsThatNearlyTouchAndPlacesWhereWoundsCross) {
+  const auto expect_good = [](std::uint64_t seed, const std::vector<long>& paths) {
+    Plan plan;
+    plan.good = false;
+    plan.seed = seed;
+    plan.paths = 4166;
+    plan.only = paths;
+    const Tally tally = stress("octahedron", testing::sphere(1, 10), plan);
+    EXPECT_EQ(tally.violations, 0);
+    EXPECT_EQ(tally.poor - tally.squeezed, 0);
+    EXPECT_EQ(tally.long_lips, 0);
+    EXPECT_EQ(tally.refused, 0);
+  };
+  // Needles (292: of a path that closes on itself again and again); lips' vertices that drew the path to
+  // themselves, so that it then ran along the lip (3316, 3874); and places where wounds cross (214, 742).
+  expect_good(20, {214, 292, 742, 1072, 1579, 3316, 3874});
+  // A lip's vertex ahead that drew the path to itself, so that it then turned back.
+  expect_good(2, {1537});
+}
+
 TEST(Stress, FacesOrgansAndDefectiveMeshes) {
   namespace fs = std::filesystem;
   if (!fs::exists(CLEFT_SHARED_MESHES)) GTEST_SKIP() << CLEFT_SHARED_MESHES << " is absent";
