@@ -105,7 +105,7 @@ class Incision {
   Step find_start() const;
   std::optional<Step> start_on_face(double reach) const;
   std::optional<Step> start_on_boundary(double reach) const;
-  std::optional<Step> snapped(const Step& crossing) const;
+  std::optional<Step> snapped(const Step& crossing, double to) const;
   std::vector<int> triangles_at(const Step& start) const;
   Step placed(int triangle, const Vec3& place, double s) const;
   double beside(const Vec3& place, double s) const;

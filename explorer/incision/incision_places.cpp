@@ -95,7 +95,9 @@ std::optional<Incision::Step> Incision::start_on_boundary(double reach) const {
   return best;
 }
 
-std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
+/// At a vertex of the edge that is crossed, which the path passes so closely, no later than at `to` but where
+/// it is near.
+std::optional<Incision::Step> Incision::snapped(const Step& crossing, double to) const {
   const CutMesh::Triangle& t = mesh_.triangle(crossing.triangle);
   std::optional<Step> best;
   double least = options_.snap;
@@ -126,7 +128,7 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing) const {
     const PathFrame frame = path_.at(step.s);
     const double away = std::abs(dot(position - frame.position, frame.across)) / room;
     if (away > least || step.s - chain_.back().s < 0.1 * room || step.s - crossing.s > longest_step_ ||
-        step.s - path_.length() > options_.snap * room)
+        step.s - path_.length() > options_.snap * room || (step.s > to && to_crossing > options_.snap * room))
       continue;
     if (away > same_place) {
       const int triangle = pierced(mesh_, mesh_.skin_fan(v), frame);

@@ -138,14 +138,14 @@ Incision::Step Incision::shorter(const Step& step, double to) const {
   if (track.edge < 0 || next.kind != Step::vertex || next.s <= to) return next;
   // Behind the edge the path bends before it comes to the vertex: no straight piece leads there.
   const Step plain = crossing(track);
-  return norm(plain.place - next.place) > options_.snap * room_of(next.index) ? plain : next;
+  return snapped(plain, to).value_or(plain);
 }
 
 Incision::Step Incision::step_at(const Track& track) const {
   if (track.edge < 0)
     return placed(track.triangle, piercing_point(mesh_, track.triangle, path_.at(track.s)), track.s);
   const Step step = crossing(track);
-  return snapped(step).value_or(step);
+  return snapped(step, std::numeric_limits<double>::infinity()).value_or(step);
 }
 
 bool Incision::too_soon_at_wound(const Step& step) const {

@@ -71,5 +71,18 @@ TEST(Stress, FacesOrgansAndDefectiveMeshes) {
   expect_sound("cracked", read_mesh(CLEFT_SHARED_MESHES "/defective/liver-479-flipped.stl"), 100, 1, false);
 }
 
+TEST(Stress, APathThatTurnsIntoAnEdgeWhereItBegins) {
+  const std::string head = CLEFT_SHARED_MESHES "/faces/lee-perry-smith-12108.obj";
+  if (!std::filesystem::exists(head)) GTEST_SKIP() << CLEFT_SHARED_MESHES << " is absent";
+  // Both ends of the edge lie on the path, but no straight piece leads past the first to the second.
+  Plan plan;
+  plan.seed = 20;
+  plan.paths = 4167;
+  plan.only = {297};
+  const Tally tally = stress("lee-perry-smith-12108", read_mesh(head), plan);
+  EXPECT_EQ(tally.refused, 0);
+  EXPECT_EQ(tally.poor, 0);
+}
+
 }  // namespace
 }  // namespace cleft::stress
