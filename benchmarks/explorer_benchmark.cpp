@@ -132,15 +132,15 @@ double frame_us(const WoundScene& scene) {
 void details(MainWindow& window, Session& session, const std::function<void(int)>& open_it) {
   window.scene().set_slowest(HUGE_VAL);
   for (const char* detail : {"off", "0.1px", "0.25px", "0.5px", "1px"}) {
+    const Stopwatch watch;
     say(window, std::string("detail ") + detail);
+    const double ms = 1e3 * watch.seconds();
     const auto whole = session.scene();
     if (const auto& seen = session.seen()) {
-      Stopwatch watch;
       const auto some = whole->with_detail(seen->left_out.error);
-      const double ms = 1e3 * watch.seconds();
       std::printf(
-          "detail %s: %zu of %zu at rest, off by %.3f mm and %.3f pixels at most, measured %.3f; chosen "
-          "in %.1f ms, positions in %.1f us\n",
+          "detail %s: %zu of %zu at rest, off by %.3f mm and %.3f pixels at most, measured %.3f; "
+          "first picture after %.1f ms, positions in %.1f us\n",
           detail, seen->left_out.vertices, seen->left_out.of, seen->left_out.error, seen->pixels,
           measured(window.scene(), *whole, *some), ms, frame_us(*some));
     } else {

@@ -36,8 +36,9 @@ void MeshScene::aim_at_cuts(WoundSurface& surface) const {
 }
 
 void MeshScene::positions(double t, std::vector<Vec3>& out) const {
-  out = surface_->points;
-  if (wounds_) wounds_->positions(t, level(), out);
+  if (!wounds_) return void(out = surface_->points);
+  out.resize(surface_->points.size());
+  wounds_->positions(t, level(), out);
 }
 
 std::vector<bool> MeshScene::moving() const {
