@@ -1,5 +1,6 @@
 // Pictures, saved sessions, recordings, help.
 #include <cmath>
+#include <cstdio>
 
 #include "base/output_file.h"
 #include "base/text.h"
@@ -60,16 +61,24 @@ void record(Session& session, CommandWords& words) {
 }
 
 std::string told(const LeftOut& out) {
-  return std::to_string(out.vertices) + " of " + std::to_string(out.of) +
-         " vertices that the cuts move are left at rest, off by at most " + shortest(out.error) + " mm";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%zu of %zu vertices that the cuts move are left at rest, off by at most %.3g mm",
+                out.vertices, out.of, out.error);
+  return text;
+}
+
+std::string pixels_of(const DetailSeen& seen) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g pixels", seen.pixels);
+  return text;
 }
 
 /// In pixels there is something to tell once there is a picture.
 std::string told_detail(const Session& session, const WoundScene& scene) {
   const Detail& detail = *session.state().detail;
   const std::string text = "detail " + text_of(detail) + ": ";
-  if (const auto& seen = session.seen())
-    return text + told(seen->left_out) + ", " + shortest(seen->pixels) + " pixels";
+  if (const auto& seen = session.seen()) return text + told(seen->left_out) + ", " + pixels_of(*seen);
   if (detail.pixels) return text + "no picture has been drawn with it";
   const auto some = scene.with_detail(1e-3 * detail.amount);
   return text + (some ? told(*some->left_out()) : "no vertices are moved by cuts in a mesh");
