@@ -1,7 +1,9 @@
-// What the explorer's window costs: xvfb-run cleft-benchmark-explorer STUDY [MESH PATH.csv]
+// What the explorer's window costs: xvfb-run cleft-benchmark-explorer STUDY [MESH PATH.csv [MM_PER_UNIT]]
 // Of a study: the first picture; from a slider to the picture of what lies between the cases; brushing. Of a
-// mesh with a cut: pictures of the wound while it opens, processor and wall time. 1280 x 720.
+// mesh with a cut: pictures of the wound while it opens, processor and wall time. 1280 x 720. And the same at
+// levels of detail, from afar and near, in a picture of 1280 x 720.
 #include <QApplication>
+#include <QDockWidget>
 #include <QSlider>
 #include <QStyleFactory>
 #include <QSurfaceFormat>
@@ -90,8 +92,69 @@ void study(MainWindow& window, Session& session, const std::string& path) {
   say(window, "brush clear");
 }
 
-void mesh(MainWindow& window, Session& session, const std::string& file, const std::string& path) {
-  say(window, "mesh " + quoted(file));
+/// Of what is left at rest, the largest way in the picture that it would go, pixels.
+double measured(SceneWidget& scene, const WoundScene& whole, const WoundScene& some) {
+  vtkRenderer* renderer = scene.stage().view(0).renderer();
+  const auto pixel = [&](const Vec3& x) {
+    renderer->SetWorldPoint(x.x, x.y, x.z, 1);
+    renderer->WorldToDisplay();
+    return std::pair{renderer->GetDisplayPoint()[0], renderer->GetDisplayPoint()[1]};
+  };
+  const std::vector<Vec3>& rest = whole.surface().points;
+  const std::vector<bool> moving = some.moving();
+  std::vector<Vec3> x;
+  double worst = 0;
+  for (int i = 0; i <= 50; ++i) {
+    whole.positions(whole.duration() * i / 50, x);
+    for (std::size_t v = 0; v < rest.size(); ++v) {
+      if (moving[v] || x[v] == rest[v]) continue;
+      const auto [a, b] = pixel(rest[v]);
+      const auto [c, d] = pixel(x[v]);
+      if (renderer->IsInViewport(static_cast<int>(a), static_cast<int>(b)))
+        worst = std::max(worst, std::hypot(c - a, d - b));
+    }
+  }
+  return worst;
+}
+
+/// Microseconds of a frame's positions, the median.
+double frame_us(const WoundScene& scene) {
+  std::vector<Vec3> x;
+  std::vector<double> us;
+  for (int i = 0; i < 1000; ++i) {
+    Stopwatch watch;
+    scene.positions(scene.duration() * (i % 100 + 1) / 100, x);
+    us.push_back(1e6 * watch.seconds());
+  }
+  std::nth_element(us.begin(), us.begin() + 500, us.end());
+  return us[500];
+}
+
+void details(MainWindow& window, Session& session, const std::function<void(int)>& open_it) {
+  window.scene().set_slowest(HUGE_VAL);
+  window.scene().rest();
+  for (const char* detail : {"off", "0.1px", "0.25px", "0.5px", "1px"}) {
+    const Stopwatch watch;
+    say(window, std::string("detail ") + detail);
+    const double ms = 1e3 * watch.seconds();
+    const auto whole = session.scene();
+    if (const auto& seen = session.seen()) {
+      const auto some = whole->with_detail(seen->left_out.error);
+      std::printf(
+          "detail %s: %zu of %zu at rest, off by %.3f mm and %.3f pixels at most, measured %.3f; "
+          "first picture after %.1f ms, positions in %.1f us\n",
+          detail, seen->left_out.vertices, seen->left_out.of, seen->left_out.error, seen->pixels,
+          measured(window.scene(), *whole, *some), ms, frame_us(*some));
+    } else {
+      std::printf("detail off: positions in %.1f us\n", frame_us(*whole));
+    }
+    time_calls(" whole pictures", 20, [&](int i) { open_it(5 * i + 4); });
+  }
+}
+
+void mesh(MainWindow& window, Session& session, const std::string& file, const std::string& path,
+          const std::string& scale) {
+  say(window, "mesh " + quoted(file) + " " + scale);
   say(window, "cut-file " + quoted(path));
   settle(session);
   const double end = session.duration();
@@ -102,12 +165,19 @@ void mesh(MainWindow& window, Session& session, const std::string& file, const s
   window.scene().set_slowest(0.066);
   time_calls(" as they are while time runs", 100, open_it);
   std::printf("%36s%s\n", "", window.scene().coarse() ? "at half the resolution" : "at the whole resolution");
+  for (auto* dock : window.findChildren<QDockWidget*>()) dock->hide();
+  window.scene().setFixedSize(1280, 720);
+  QApplication::processEvents();
+  details(window, session, open_it);
+  say(window, "camera 0 0 4");
+  details(window, session, open_it);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 && argc != 4) return std::fprintf(stderr, "cleft-benchmark-explorer STUDY [MESH PATH]\n"), 2;
+  if (argc != 2 && argc != 4 && argc != 5)
+    return std::fprintf(stderr, "cleft-benchmark-explorer STUDY [MESH PATH [MM_PER_UNIT]]\n"), 2;
   QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
   format.setSamples(0);
   QSurfaceFormat::setDefaultFormat(format);
@@ -119,6 +189,6 @@ int main(int argc, char** argv) {
   window.show();
   QApplication::processEvents();
   study(window, session, argv[1]);
-  if (argc == 4) mesh(window, session, argv[2], argv[3]);
+  if (argc >= 4) mesh(window, session, argv[2], argv[3], argc == 5 ? argv[4] : "1");
   return 0;
 }

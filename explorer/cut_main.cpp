@@ -121,21 +121,25 @@ std::unique_ptr<Wounds> open(const Options& options, const CutFields& fields, co
       throw FileError(options.paths[k], e.what());
     }
   }
-  return std::make_unique<Wounds>(std::move(opened), options.scale, 1e-3 * options.detail);
+  return std::make_unique<Wounds>(std::move(opened), options.scale);
 }
 
 /// Moves the mesh as the wounds say, and tells of that.
 void move(const Wounds& wounds, const CutFields& fields, const Options& options, double t,
           std::vector<Vec3>& positions, Json& figures) {
-  wounds.positions(t, positions);  // the second frame is timed: memory is warm then
+  std::optional<Wounds::Level> some;
+  if (options.detail > 0) some = wounds.level(1e-3 * options.detail);
+  const Wounds::Level& level = some ? *some : wounds.whole();
+  wounds.positions(t, level, positions);  // the second frame is timed: memory is warm then
   const Stopwatch frame;
-  wounds.positions(t, positions);
+  wounds.positions(t, level, positions);
   figures["frame_ms"] = 1e3 * frame.seconds();
   double largest = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
     largest = std::max(largest, norm(positions[i] - wounds.rest()[i]));
-  figures["active_vertices"] = wounds.active();
-  figures["left_out_vertices"] = wounds.left_out();
+  figures["active_vertices"] = level.active();
+  figures["left_out_vertices"] = level.left_out();
+  figures["left_out_at_most_mm"] = level.error;
   figures["largest_displacement_mm"] = largest * options.scale;
   const std::vector<Validity> validity = wounds.validity(fields.turning());
   for (std::size_t k = 0; k < validity.size(); ++k) figures["cuts"][k].update(figures_of(validity[k]));
@@ -197,7 +201,7 @@ int main(int argc, char** argv) {
                  "split longer edges near the path, mm; 0 leaves them [1/30 of the path]")
       ->check(at_least(0));
   app.add_option("--detail", o.detail,
-                 "vertices that a cut never moves by more than this many micrometres stay where they are")
+                 "vertices that the cuts never move by more than this many micrometres stay where they are")
       ->check(at_least(0))
       ->capture_default_str();
   app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();

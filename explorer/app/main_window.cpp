@@ -41,6 +41,11 @@ MainWindow::MainWindow(Session& session) : session_(session) {
       text += QString("   |   mesh of %1 triangles, %2 cuts")
                   .arg(session_.scene()->surface().triangles.size())
                   .arg(session_.state().cuts.size());
+    if (const auto& seen = session_.seen())
+      text += QString("   |   %1 of %2 vertices left at rest, off by at most %3 pixels")
+                  .arg(seen->left_out.vertices)
+                  .arg(seen->left_out.of)
+                  .arg(seen->pixels, 0, 'g', 2);
     if (device_->on()) text += "   |   " + device_->status();
     if (!session_.warnings().empty()) text += "   |   " + QString::fromStdString(session_.warnings().front());
     const QString fits = status_->fontMetrics().elidedText(text, Qt::ElideRight, status_->width());

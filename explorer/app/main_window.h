@@ -43,6 +43,7 @@ class MainWindow : public QMainWindow {
   void make_tools();
   void make_device_menu(QMenu* menu);
   void make_closer_actions(QMenu* menu);
+  void make_detail_menu(QMenu* menu);
   void pick(const std::string& command);
   bool show_progress(const std::string& what, double part);
   QAction* add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
@@ -69,7 +70,7 @@ class MainWindow : public QMainWindow {
   QComboBox* coloring_;
   QAction *scalpel_, *undo_, *redo_, *dark_;
   QDoubleSpinBox *depth_, *tilt_;
-  QMenu *recent_, *device_menu_, *figure_menu_;
+  QMenu *recent_, *device_menu_, *figure_menu_, *detail_menu_;
   QAction *probe_, *zoom_, *between_;
   std::unique_ptr<QProgressDialog> progress_;
   QElapsedTimer since_said_;

@@ -87,6 +87,7 @@ void MainWindow::make_actions() {
   add_action(view, "back", "&Back by 1 mm", QKeySequence("Left"), line("step -1"));
   add_action(view, "on", "On by 1 &mm", QKeySequence("Right"), line("step 1"));
   make_closer_actions(view);
+  make_detail_menu(view->addMenu("&Level of detail"));
   dark_ = add_action(view, "dark", "&Dark", QKeySequence("Ctrl+D"),
                      [this] { say(session_.state().dark ? "theme light" : "theme dark"); });
   dark_->setCheckable(true);
@@ -117,6 +118,21 @@ void MainWindow::make_closer_actions(QMenu* menu) {
     add_action(figure_menu_, ("figure_" + name).c_str(), QString::fromStdString(name), {}, [this, name] {
       say("figure " + name);
     })->setCheckable(true);
+}
+
+/// What a cut in a mesh never moves by more than that stays at rest.
+void MainWindow::make_detail_menu(QMenu* menu) {
+  detail_menu_ = menu;
+  const std::pair<const char*, const char*> details[] = {{"off", "&All motion"},
+                                                         {"0.1px", "Motion of more than 0.&1 pixels"},
+                                                         {"0.25px", "Motion of more than 0.&25 pixels"},
+                                                         {"0.5px", "Motion of more than 0.&5 pixels"},
+                                                         {"1px", "Motion of more than a &pixel"},
+                                                         {"10um", "Motion of more than 10 &micrometres"}};
+  for (const auto& [amount, text] : details)
+    add_action(menu, (std::string("detail_") + amount).c_str(), text, {},
+               [this, amount = std::string(amount)] { say("detail " + amount); })
+        ->setCheckable(true);
 }
 
 /// Another time the same: no more.
@@ -217,6 +233,9 @@ void MainWindow::follow_tools() {
   figure_menu_->setEnabled(session_.has_scene());
   const QString figure = "figure_" + QString::fromStdString(s.figure.empty() ? "off" : s.figure);
   for (QAction* action : figure_menu_->actions()) action->setChecked(action->objectName() == figure);
+  detail_menu_->setEnabled(can_cut);
+  const QString detail = "detail_" + QString::fromStdString(s.detail ? text_of(*s.detail) : "off");
+  for (QAction* action : detail_menu_->actions()) action->setChecked(action->objectName() == detail);
   const QString device = "device_" + QString::fromStdString(device_->on() ? device_->name() : "off");
   for (QAction* action : device_menu_->actions()) action->setChecked(action->objectName() == device);
 }

@@ -97,6 +97,7 @@ void SceneWidget::set_coarse(bool coarse) {
                       static_cast<int>(pixel_ratio() * height())};
   renderWindow()->SetSize(size[0], size[1]);
   interactor()->UpdateSize(size[0], size[1]);
+  stage_->set_samples(coarse ? 0.5 : 1);  // details stay as they are
   last_x_ = static_cast<int>(coarse ? 0.5 * last_x_ : 2 * last_x_);
   last_y_ = static_cast<int>(coarse ? 0.5 * last_y_ : 2 * last_y_);
 }
@@ -138,7 +139,7 @@ void SceneWidget::set_cutting(bool on) {
 void SceneWidget::follow(const Changes& changes) {
   if (!own_ && (changes.cuts || changes.study || changes.shown)) live_.reset();
   const bool seen = changes.study || changes.shown || changes.cuts || changes.time || changes.coloring ||
-                    changes.camera || changes.layout || changes.look || changes.closer;
+                    changes.camera || changes.layout || changes.look || changes.closer || changes.detail;
   if (seen) draw();
 }
 

@@ -22,23 +22,11 @@ void Contractor::history(const ActiveVertex& a, Side side, History& out) const {
     for (Vec3& d : piece) d = 1 / scale_ * a.in_mesh(d);
 }
 
-std::size_t Contractor::leave_out(std::vector<ActiveVertex>& active, double detail) const {
-  if (detail <= 0) return 0;
-  History path;
-  return std::erase_if(active, [&](const ActiveVertex& a) {
-    history(a, a.side, path);
-    for (const auto& piece : path.controls)
-      for (const Vec3& d : piece)
-        if (scale_ * norm(d) > detail) return false;
-    return true;
-  });
-}
-
-ReplayPieces Contractor::contract(const std::vector<ActiveVertex>& sorted, int shift) const {
+ReplayPieces Contractor::contract(const std::vector<ActiveVertex>& sorted, int shift, double reach) const {
   std::vector<double> offsets;
   std::vector<int> vertices;
   for (const ActiveVertex& a : sorted) offsets.push_back(a.time_offset), vertices.push_back(a.vertex + shift);
-  ReplayPieces pieces(times_, std::move(offsets), std::move(vertices));
+  ReplayPieces pieces(times_, std::move(offsets), std::move(vertices), reach);
   History open, closed;
   for (const ActiveVertex& a : sorted) {
     history(a, a.side, open);

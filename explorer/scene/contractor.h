@@ -1,6 +1,7 @@
 // From a field to what replays read: the histories of active vertices, each contracted once.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "explorer/incision/ipv.h"
@@ -21,12 +22,9 @@ class Contractor {
 
   /// The histories in the mesh's space, weighted and in its units, to within the field's
   /// contraction_tolerance(). A vertex of the cut has a second one for the time before the blade has passed
-  /// it. The displacement of vertex v goes to number v + `shift`.
-  ReplayPieces contract(const std::vector<ActiveVertex>& sorted, int shift = 0) const;
-
-  /// Removes the vertices whose displacement is at most `detail` mm all the time, and returns their number.
-  /// Control points bound it.
-  std::size_t leave_out(std::vector<ActiveVertex>& active, double detail) const;
+  /// it. The displacement of vertex v goes to number v + `shift`. `reach`: that of ReplayPieces.
+  ReplayPieces contract(const std::vector<ActiveVertex>& sorted, int shift = 0,
+                        double reach = std::numeric_limits<double>::infinity()) const;
 
  private:
   void history(const ActiveVertex& vertex, Side side, History& out) const;

@@ -11,39 +11,54 @@ MeshScene::MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<
     if (fields_) cuts.push_back({incision.get(), fields_->along(*incision, 1)});
     duration_ += incision->path().length();
   }
-  if (!cuts.empty()) wounds_ = std::make_unique<Wounds>(std::move(cuts), 1);
-  surface_ = wound_surface_of(cut_->mesh(), cut_->original_points());
-  aim_at_cuts();
+  if (!cuts.empty()) wounds_ = std::make_shared<Wounds>(std::move(cuts), 1);
+  WoundSurface surface = wound_surface_of(cut_->mesh(), cut_->original_points());
+  aim_at_cuts(surface);
+  surface_ = std::make_shared<const WoundSurface>(std::move(surface));
 }
 
-void MeshScene::aim_at_cuts() {
-  surface_.outward = {};
+void MeshScene::aim_at_cuts(WoundSurface& surface) const {
+  surface.outward = {};
   if (cut_->cuts().empty()) {  // from the front, the whole mesh
-    Vec3 low = surface_.points.front(), high = low;
-    for (const Vec3& p : surface_.points)
+    Vec3 low = surface.points.front(), high = low;
+    for (const Vec3& p : surface.points)
       for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
-    surface_.middle = 0.5 * (low + high);
-    surface_.outward = {0, 0, 1};
+    surface.middle = 0.5 * (low + high);
+    surface.outward = {0, 0, 1};
     return;
   }
   const ScalpelPath& path = cut_->cuts().front()->path();
   const PathFrame middle = path.at(path.length() / 2);
-  surface_.middle = middle.position;
-  surface_.along = middle.along;
+  surface.middle = middle.position;
+  surface.along = middle.along;
   constexpr int samples = 20;
-  for (int i = 0; i <= samples; ++i) surface_.outward += path.at(path.length() * i / samples).outward;
+  for (int i = 0; i <= samples; ++i) surface.outward += path.at(path.length() * i / samples).outward;
 }
 
 void MeshScene::positions(double t, std::vector<Vec3>& out) const {
-  out = surface_.points;
-  if (wounds_) wounds_->positions(t, out);
+  if (!wounds_) return void(out = surface_->points);
+  out.resize(surface_->points.size());
+  wounds_->positions(t, level(), out);
 }
 
 std::vector<bool> MeshScene::moving() const {
-  std::vector<bool> any(surface_.points.size(), false);
-  for (std::size_t k = 0; wounds_ && k < cut_->cuts().size(); ++k)
-    for (const ActiveVertex& a : wounds_->active(k)) any[static_cast<std::size_t>(a.vertex)] = true;
+  std::vector<bool> any(surface_->points.size(), false);
+  if (!wounds_) return any;
+  for (const Replay& replay : level().replays)
+    for (const ActiveVertex& a : replay.active()) any[static_cast<std::size_t>(a.vertex)] = true;
   return any;
+}
+
+std::shared_ptr<const WoundScene> MeshScene::with_detail(double mm) const {
+  if (!wounds_) return nullptr;
+  auto scene = std::shared_ptr<MeshScene>(new MeshScene(*this));
+  scene->level_ = std::make_shared<const Wounds::Level>(wounds_->level(mm));
+  return scene;
+}
+
+std::optional<LeftOut> MeshScene::left_out() const {
+  if (!wounds_) return std::nullopt;
+  return LeftOut{level().left_out(), level().left_out() + level().active(), level().error};
 }
 
 std::vector<std::string> MeshScene::warnings() const {
@@ -55,7 +70,7 @@ std::vector<std::string> MeshScene::warnings() const {
 }
 
 void MeshScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
-  out.assign(surface_.points.size(), 0);
+  out.assign(surface_->points.size(), 0);
   if (coloring == Coloring::tissue || !wounds_) return;
   const Wounds::Blade now = wounds_->blade(t);
   for (std::size_t k = 0; k <= now.cut; ++k) {

@@ -18,21 +18,26 @@ class MeshScene : public WoundScene {
   /// relieve each other.
   MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<CutFields>& fields);
 
-  const WoundSurface& surface() const override { return surface_; }
+  const WoundSurface& surface() const override { return *surface_; }
   double duration() const override { return duration_; }
   void positions(double t, std::vector<Vec3>& out) const override;
   std::vector<bool> moving() const override;
+  std::shared_ptr<const WoundScene> with_detail(double mm) const override;
+  std::optional<LeftOut> left_out() const override;
   void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
   std::vector<std::string> warnings() const override;
 
  private:
-  void aim_at_cuts();
+  MeshScene(const MeshScene&) = default;
+  const Wounds::Level& level() const { return level_ ? *level_ : wounds_->whole(); }
+  void aim_at_cuts(WoundSurface& surface) const;
 
   std::shared_ptr<const CutSurface> cut_;
   std::optional<CutFields> fields_;
-  std::unique_ptr<Wounds> wounds_;  // none without fields or cuts
+  std::shared_ptr<const Wounds> wounds_;        // none without fields or cuts
+  std::shared_ptr<const Wounds::Level> level_;  // none: whole
   double duration_ = 0;
-  WoundSurface surface_;
+  std::shared_ptr<const WoundSurface> surface_;
 };
 
 }  // namespace cleft

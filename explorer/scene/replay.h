@@ -2,6 +2,7 @@
 // both ways and nothing accumulates.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,19 +26,25 @@ class Replay {
   void positions(double s, std::span<Vec3> out) const;
 
   double path_length() const { return path_length_; }  ///< mm
-  std::size_t vertex_count() const { return rest_.size(); }
+  std::size_t vertex_count() const { return rest_->size(); }
   const std::vector<ActiveVertex>& active() const { return active_; }
   std::size_t left_out() const { return left_out_; }  ///< vertices that move too little
-  const std::vector<Vec3>& rest() const { return rest_; }
+  /// active()[i] never moves by more, mm: control points bound it.
+  double bound(std::size_t i) const { return scale_ * pieces_.bound(i); }
+  const std::vector<Vec3>& rest() const { return *rest_; }
+
+  /// The same in which only active()[chosen[k]] move, bit for bit as before; `chosen` ascends.
+  Replay of(const std::vector<std::size_t>& chosen) const;
 
  private:
-  Replay(const Contractor& contractor, const Incision& incision, const Field& shape, double scale,
-         double detail);
+  Replay(const Contractor& contractor, const Incision& incision, const Field& shape, double scale);
+  Replay(const Replay& whole, ReplayPieces few)
+      : path_length_(whole.path_length_), scale_(whole.scale_), rest_(whole.rest_), pieces_(std::move(few)) {}
 
-  double path_length_;
-  std::vector<Vec3> rest_;
+  double path_length_, scale_;
+  std::shared_ptr<const std::vector<Vec3>> rest_;
   std::vector<ActiveVertex> active_;  // in the order of their time offsets
-  std::size_t left_out_;
+  std::size_t left_out_ = 0;
   ReplayPieces pieces_;
 };
 

@@ -1,6 +1,7 @@
 #include "explorer/scene/replay_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/error.h"
@@ -66,10 +67,13 @@ std::vector<double> replay_times(std::span<const Field* const> fields, double to
   }
 }
 
-ReplayPieces::ReplayPieces(std::vector<double> times, std::vector<double> offsets, std::vector<int> vertices)
+ReplayPieces::ReplayPieces(std::vector<double> times, std::vector<double> offsets, std::vector<int> vertices,
+                           double reach)
     : times_(std::move(times)),
       offsets_(std::move(offsets)),
       vertices_(std::move(vertices)),
+      bounds_(vertices_.size()),
+      reach_(reach),
       blocks_a_span_((vertices_.size() + 3) / 4),
       blocks_(spans() * blocks_a_span_),
       divided_(spans()) {
@@ -88,6 +92,9 @@ void ReplayPieces::append(const History& closed, const History& open, double s) 
   const double passage = std::clamp(s + offsets_[next_], times_.front(), times_.back()),
                close = 1e-9 * (times_.back() - times_.front());
   const bool passes = &closed != &open;
+  const double first = std::clamp(offsets_[next_], times_.front(), times_.back()),
+               last = std::clamp(reach_ + offsets_[next_], times_.front(), times_.back());
+  double longest = 0;  // squared
   for (std::size_t span = 0; span < spans(); ++span) {
     const bool before = passes && passage > times_[span] - close,
                after = !passes || passage < times_[span + 1] + close;
@@ -97,6 +104,9 @@ void ReplayPieces::append(const History& closed, const History& open, double s) 
     exception.open = pieces.size();
     if (after) collect(open, span);
     exception.last = pieces.size();
+    const bool reached = times_[span] <= last + close && times_[span + 1] >= first - close;
+    for (std::size_t i = exception.first; reached && i < exception.last; ++i)
+      for (const Vec3& d : pieces[i].control) longest = std::max(longest, squared_norm(d));
     if (exception.last == exception.first + 1) {
       set(span, pieces.back().control);
       pieces.pop_back();
@@ -105,7 +115,42 @@ void ReplayPieces::append(const History& closed, const History& open, double s) 
       ++exception_count_;
     }
   }
+  bounds_[next_] = std::sqrt(longest);
   ++next_;
+}
+
+ReplayPieces ReplayPieces::of(const std::vector<std::size_t>& chosen) const {
+  CLEFT_CHECK(next_, ==, vertices_.size());
+  std::vector<double> offsets;
+  std::vector<int> vertices;
+  for (const std::size_t i : chosen) offsets.push_back(offsets_[i]), vertices.push_back(vertices_[i]);
+  ReplayPieces few(times_, std::move(offsets), std::move(vertices), reach_);
+  for (std::size_t k = 0; k < chosen.size(); ++k) few.bounds_[k] = bounds_[chosen[k]];
+  for (std::size_t span = 0; span < spans(); ++span) choose(chosen, span, few);
+  few.next_ = chosen.size();
+  return few;
+}
+
+void ReplayPieces::choose(const std::vector<std::size_t>& chosen, std::size_t span, ReplayPieces& out) const {
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const PieceBlock& from = blocks_[span * blocks_a_span_ + chosen[k] / 4];
+    PieceBlock& to = out.blocks_[span * out.blocks_a_span_ + k / 4];
+    for (int m = 0; m < 4; ++m)
+      for (int d = 0; d < 3; ++d) to.control[m][d][k % 4] = from.control[m][d][chosen[k] % 4];
+  }
+  const auto& [exceptions, pieces] = divided_[span];
+  auto& [kept, kept_pieces] = out.divided_[span];
+  auto at = chosen.begin();
+  for (const Exception& e : exceptions) {
+    at = std::lower_bound(at, chosen.end(), e.vertex);
+    if (at == chosen.end()) break;
+    if (*at != e.vertex) continue;
+    const std::size_t first = kept_pieces.size();
+    kept.push_back({static_cast<std::size_t>(at - chosen.begin()), e.closed_until, first,
+                    first + e.open - e.first, first + e.last - e.first});
+    for (std::size_t i = e.first; i < e.last; ++i) kept_pieces.push_back(pieces[i]);
+  }
+  out.exception_count_ += kept.size();
 }
 
 /// Appends the history's pieces within a span to that span's.

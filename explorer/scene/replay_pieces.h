@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,8 +22,10 @@ std::vector<double> replay_times(std::span<const Field* const> fields, double to
 class ReplayPieces {
  public:
   /// Room for the histories over `times` (the first and last of the field included) of vertices whose own
-  /// time is the blade's plus their offset, clamped. `offsets` never decrease.
-  ReplayPieces(std::vector<double> times, std::vector<double> offsets, std::vector<int> vertices);
+  /// time is the blade's plus their offset, clamped. `offsets` never decrease. The blade
+  /// goes from 0 to `reach`, as far as bounds know.
+  ReplayPieces(std::vector<double> times, std::vector<double> offsets, std::vector<int> vertices,
+               double reach = std::numeric_limits<double>::infinity());
 
   /// The history of vertices[i], with breaks at all times of the grid. In the order of i.
   void append(const History& history);
@@ -37,7 +40,13 @@ class ReplayPieces {
   /// are the range returned.
   std::pair<std::size_t, std::size_t> positions(double before, double s, const Vec3* rest, Vec3* out) const;
 
+  /// The same histories of vertices[chosen[k]] alone; `chosen` ascends.
+  ReplayPieces of(const std::vector<std::size_t>& chosen) const;
+
   const std::vector<int>& vertices() const { return vertices_; }
+  /// vertices[i] is never displaced by more, with the blade within its reach: the longest of its control
+  /// points.
+  double bound(std::size_t i) const { return bounds_[i]; }
   /// From now on the displacement of vertices[i] goes to another.
   void redirect(std::size_t i, int vertex) { vertices_[i] = vertex; }
 
@@ -60,10 +69,13 @@ class ReplayPieces {
   void positions(double s, std::size_t front, std::size_t last, const Vec3* rest, Vec3* out) const;
   void set(std::size_t span, const std::array<Vec3, 4>& control);
   void collect(const History& history, std::size_t span);
+  void choose(const std::vector<std::size_t>& chosen, std::size_t span, ReplayPieces& out) const;
   Vec3 displacement(const Exception& exception, const std::vector<Piece>& pieces, double s) const;
 
   std::vector<double> times_, offsets_;
   std::vector<int> vertices_;
+  std::vector<double> bounds_;
+  double reach_;
   std::size_t blocks_a_span_, next_ = 0, exception_count_ = 0;
   std::vector<PieceBlock> blocks_;  // [span][vertex / 4]
   /// Of one span of time, both in the order of vertices.

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/vec3.h"
 #include "explorer/incision/cut_mesh.h"
 #include "explorer/scene/coloring.h"
+#include "explorer/scene/detail.h"
 
 namespace cleft {
 
@@ -33,6 +36,11 @@ class WoundScene {
 
   /// Which points can ever be elsewhere than at rest; empty: any may.
   virtual std::vector<bool> moving() const { return {}; }
+
+  /// The same surface() in which points that never move by more than `mm` stay at rest, and all others move
+  /// bit for bit as here; null where it cannot be told which.
+  virtual std::shared_ptr<const WoundScene> with_detail(double) const { return nullptr; }
+  virtual std::optional<LeftOut> left_out() const { return {}; }  ///< likewise
 
   /// The value of every point at t by which it is coloured; of `difference`, against `reference`.
   virtual void values(Coloring coloring, const Field* reference, double t,

@@ -69,7 +69,7 @@ vtkSmartPointer<vtkImageData> without_background(vtkImageData* black, vtkImageDa
 
 }  // namespace
 
-CameraShot::CameraShot(int width, int height) : window_(double_window(width, height)), stage_(window_) {}
+CameraShot::CameraShot(int width, int height) : window_(double_window(width, height)), stage_(window_, 2) {}
 
 vtkSmartPointer<vtkImageData> CameraShot::take(Session& session, bool transparent) {
   stage_.show(session);

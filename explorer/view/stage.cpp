@@ -1,5 +1,6 @@
 #include "explorer/view/stage.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkRendererCollection.h>
 
@@ -10,9 +11,18 @@
 
 namespace cleft {
 
-Stage::Stage(vtkRenderWindow* window) : window_(window) {}
+Stage::Stage(vtkRenderWindow* window, double samples) : window_(window), samples_(samples) {
+  vtkNew<vtkCallbackCommand> before;
+  before->SetClientData(this);
+  before->SetCallback(
+      [](vtkObject*, unsigned long, void* stage, void*) { static_cast<Stage*>(stage)->follow_camera(); });
+  camera_observer_ = window_->AddObserver(vtkCommand::StartEvent, before);
+}
 
-Stage::~Stage() { make_views(0); }
+Stage::~Stage() {
+  window_->RemoveObserver(camera_observer_);
+  make_views(0);
+}
 
 void Stage::make_views(std::size_t count) {
   if (count == views_.size()) return;
@@ -39,19 +49,34 @@ void Stage::make_views(std::size_t count) {
   }
 }
 
+namespace {
+
+std::pair<Vec3, Vec3> moving_box(const WoundScene& scene) {
+  const std::vector<bool> moving = scene.moving();
+  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    for (int k = 0; moving[i] && k < 3; ++k) {
+      low[k] = std::min(low[k], scene.surface().points[i][k]);
+      high[k] = std::max(high[k], scene.surface().points[i][k]);
+    }
+  return {low, high};
+}
+
+std::shared_ptr<const WoundScene> at_detail(const std::shared_ptr<const WoundScene>& whole, double mm) {
+  const auto some = mm > 0 ? whole->with_detail(mm) : nullptr;
+  return some ? some : whole;
+}
+
+}  // namespace
+
 void Stage::show(Session& session) {
   if (!session.has_scene()) return make_views(0);
   const std::vector<int> cases = session.views();
   const bool relaid = cases.size() != views_.size();
   make_views(cases.size());
-  bool fresh = relaid;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const auto scene = scene_of(session, cases[i]);
-    if (scene == scenes_[i]) continue;
-    scenes_[i] = scene;
-    views_[i].view->show(scene, session.state().time);
-    fresh = true;
-  }
+  const bool fresh = take_scenes(session) || relaid;
+  aim(session.state().camera, relaid);
+  follow_camera();
   color(session, fresh);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     WoundView& view = *views_[i].view;
@@ -61,8 +86,61 @@ void Stage::show(Session& session) {
   }
   if (!scalpel_) scalpel_view_.reset();
   lay_over(session);
-  aim(session.state().camera, relaid);
+  for (View& v : views_) v.view->renderer()->ResetCameraClippingRange();
   label(session);
+  tell_detail(session);
+}
+
+bool Stage::take_scenes(Session& session) {
+  detail_ = session.state().detail;
+  const std::vector<int> cases = session.views();
+  bool fresh = false;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    View& view = views_[i];
+    const auto whole = scene_of(session, cases[i]);
+    if (whole == view.whole) continue;
+    view.whole = whole, view.detail = 0;
+    view.box = moving_box(*whole);
+    view.detail = detail_of(view);
+    scenes_[i] = at_detail(whole, view.detail);
+    view.view->show(scenes_[i], session.state().time);
+    fresh = true;
+  }
+  return fresh;
+}
+
+/// Before every picture, whoever has moved the camera or the window's edge.
+void Stage::follow_camera() {
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    View& view = views_[i];
+    const double detail = view.whole ? detail_of(view) : 0;
+    if (detail == view.detail) continue;
+    view.detail = detail;
+    scenes_[i] = at_detail(view.whole, detail);
+    view.view->show(scenes_[i], view.view->time());
+  }
+}
+
+PixelBound Stage::pixel_bound(const View& view) const { return {view.view->renderer(), view.box, samples_}; }
+
+/// mm. In pixels down to a power of the square root of 2, so that a camera that slowly comes closer seldom
+/// needs another.
+double Stage::detail_of(const View& view) const {
+  if (!detail_) return 0;
+  if (!detail_->pixels) return 1e-3 * detail_->amount;
+  const double mm = pixel_bound(view).mm(detail_->amount);
+  return mm > 0 ? std::exp2(std::floor(2 * std::log2(mm)) / 2) : 0;
+}
+
+/// Of the shown case's view.
+void Stage::tell_detail(Session& session) const {
+  const std::vector<int> cases = session.views();
+  const auto shown =
+      static_cast<std::size_t>(std::find(cases.begin(), cases.end(), session.state().shown) - cases.begin());
+  const std::size_t i = shown < cases.size() ? shown : 0;
+  const auto out = detail_ ? scenes_[i]->left_out() : std::nullopt;
+  session.see(out ? std::optional(DetailSeen{*out, pixel_bound(views_[i]).pixels(out->error)})
+                  : std::nullopt);
 }
 
 /// In the view of the shown case.

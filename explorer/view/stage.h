@@ -10,6 +10,7 @@
 #include "explorer/scene/session/session.h"
 #include "explorer/view/furniture.h"
 #include "explorer/view/overlay_view.h"
+#include "explorer/view/pixel_bound.h"
 #include "explorer/view/scalpel_view.h"
 #include "explorer/view/wound_view.h"
 #include "haptic/loop.h"
@@ -18,7 +19,8 @@ namespace cleft {
 
 class Stage {
  public:
-  explicit Stage(vtkRenderWindow* window);
+  /// A pixel of the picture is `samples` of the window's wide.
+  explicit Stage(vtkRenderWindow* window, double samples = 1);
   ~Stage();
 
   /// Makes everything as the session has it; what is so already is left alone.
@@ -27,6 +29,7 @@ class Stage {
   /// Draws a scene in place of the shown case's, with a scalpel in it where there is one; null: no more.
   void set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel);
 
+  void set_samples(double samples) { samples_ = samples; }
   /// Whether edges are smoothed; off while something moves and pictures take long.
   void set_smooth(bool smooth);
 
@@ -43,6 +46,9 @@ class Stage {
     std::unique_ptr<WoundView> view;
     std::unique_ptr<Furniture> furniture;
     std::unique_ptr<OverlayView> overlay = nullptr;
+    std::shared_ptr<const WoundScene> whole = nullptr;
+    std::pair<Vec3, Vec3> box = {};  // of what moves in it
+    double detail = 0;               // mm, that it is drawn with
   };
   /// What the views were last made for.
   struct Shown {
@@ -54,6 +60,11 @@ class Stage {
     bool dark = false;
   };
   std::shared_ptr<const WoundScene> scene_of(Session& session, int shown) const;
+  bool take_scenes(Session& session);
+  void follow_camera();
+  PixelBound pixel_bound(const View& view) const;
+  double detail_of(const View& view) const;
+  void tell_detail(Session& session) const;
   void make_views(std::size_t count);
   void color(Session& session, bool fresh);
   void aim(const CameraState& camera, bool fresh);
@@ -69,7 +80,10 @@ class Stage {
   std::unique_ptr<ScalpelView> scalpel_view_;
   std::string caption_;  // of what lies over the scene
   Shown shown_;
+  std::optional<Detail> detail_;
+  unsigned long camera_observer_;
   bool smooth_ = true;
+  double samples_;
 };
 
 }  // namespace cleft

@@ -68,8 +68,8 @@ void WoundView::add_lights() {
 
 void WoundView::show(std::shared_ptr<const WoundScene> scene, std::optional<double> t) {
   const bool first = !scene_;
+  if (first || &scene->surface() != &scene_->surface()) largest_.reset();
   scene_ = std::move(scene);
-  largest_.reset();
   const WoundSurface& surface = scene_->surface();
   CLEFT_CHECK(surface.regions.size(), ==, surface.triangles.size());
   CLEFT_CHECK(surface.depth_fraction.size(), ==, surface.points.size());

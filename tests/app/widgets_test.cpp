@@ -6,6 +6,7 @@
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
+#include <QLabel>
 #include <QMimeData>
 #include <QPushButton>
 #include <QSlider>
@@ -174,6 +175,28 @@ TEST_F(WindowTest, PressingAndDraggingCutsTheSkin) {
   widget<QAction>("patch").trigger();
   EXPECT_FALSE(scalpel.isEnabled());
   EXPECT_FALSE(window_.scene().cutting());
+}
+
+TEST_F(WindowTest, ALevelOfDetailIsChosenAndTold) {
+  tell("open " + study());
+  tell("mesh " + mesh());
+  tell("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  EXPECT_TRUE(widget<QAction>("detail_off").isChecked());
+  EXPECT_EQ(widget<QLabel>("status").text().indexOf("left at rest"), -1);
+  widget<QAction>("detail_1px").trigger();
+  EXPECT_EQ(text_of(*now().detail), "1px");
+  EXPECT_TRUE(widget<QAction>("detail_1px").isChecked());
+  EXPECT_FALSE(widget<QAction>("detail_off").isChecked());
+  EXPECT_NE(widget<QLabel>("status").text().indexOf("left at rest"), -1);
+  ASSERT_TRUE(real_.seen());
+  const std::size_t before = real_.seen()->left_out.vertices;
+  EXPECT_GT(before, 0u);
+  EXPECT_LE(real_.seen()->pixels, 1);
+  tell("camera 0 0 4");
+  EXPECT_LT(real_.seen()->left_out.vertices, before);
+  widget<QAction>("detail_off").trigger();
+  EXPECT_FALSE(now().detail);
+  EXPECT_FALSE(real_.seen());
 }
 
 TEST_F(WindowTest, WithoutTheScalpelDraggingTurnsThePicture) {

@@ -139,6 +139,30 @@ TEST(Replay, WhatMovesLessThanTheDetailStaysAndAllElseIsAsItWas) {
   }
 }
 
+TEST(Replay, AChosenFewMoveBitForBitAsBeforeAndNoneFurtherThanItsBound) {
+  const Straight cut;
+  const Replay whole(tip_field(), cut.incision, 1);  // has exceptions where the tip passes
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < whole.active().size(); ++i)
+    if (i % 3 == 1 || i % 7 == 0) chosen.push_back(i);
+  const Replay few = whole.of(chosen);
+  EXPECT_EQ(few.left_out(), whole.active().size() - chosen.size());
+  std::vector<Vec3> moved(whole.vertex_count()), less(moved.size()), expected(moved.size());
+  for (double t = 0; t <= 10; t += 0.0371) {
+    whole.positions(t, moved), few.positions(t, less);
+    expected = whole.rest();
+    for (const std::size_t i : chosen) {
+      const auto v = static_cast<std::size_t>(whole.active()[i].vertex);
+      expected[v] = moved[v];
+    }
+    ASSERT_EQ(less, expected) << t;
+    for (std::size_t i = 0; i < whole.active().size(); ++i) {
+      const auto v = static_cast<std::size_t>(whole.active()[i].vertex);
+      ASSERT_LE(norm(moved[v] - whole.rest()[v]), whole.bound(i) * (1 + 1e-12)) << t;
+    }
+  }
+}
+
 TEST(Replay, TheChainAheadOfTheTipIsClosedAndBehindItOpen) {
   const Straight cut;
   const Replay replay(opening_field(canonical, 20, 16, 6, 2), cut.incision, 1);

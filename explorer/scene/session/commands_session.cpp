@@ -1,5 +1,6 @@
 // Pictures, saved sessions, recordings, help.
 #include <cmath>
+#include <cstdio>
 
 #include "base/output_file.h"
 #include "base/text.h"
@@ -59,6 +60,30 @@ void record(Session& session, CommandWords& words) {
   write_text_file(file, text);
 }
 
+std::string told(const LeftOut& out) {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%zu of %zu vertices that the cuts move are left at rest, off by at most %.3g mm",
+                out.vertices, out.of, out.error);
+  return text;
+}
+
+std::string pixels_of(const DetailSeen& seen) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g pixels", seen.pixels);
+  return text;
+}
+
+/// In pixels there is something to tell once there is a picture.
+std::string told_detail(const Session& session, const WoundScene& scene) {
+  const Detail& detail = *session.state().detail;
+  const std::string text = "detail " + text_of(detail) + ": ";
+  if (const auto& seen = session.seen()) return text + told(seen->left_out) + ", " + pixels_of(*seen);
+  if (detail.pixels) return text + "no picture has been drawn with it";
+  const auto some = scene.with_detail(1e-3 * detail.amount);
+  return text + (some ? told(*some->left_out()) : "no vertices are moved by cuts in a mesh");
+}
+
 void info(Session& session, CommandWords&) {
   const SessionState& s = session.state();
   const auto scene = session.scene();
@@ -76,6 +101,7 @@ void info(Session& session, CommandWords&) {
   }
   if (!s.mesh.empty()) session.answer("mesh: " + s.mesh + ", cuts: " + std::to_string(s.cuts.size()));
   session.answer("length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");
+  if (s.detail) session.answer(told_detail(session, *scene));
   for (const std::string& warning : session.warnings()) session.answer("warning: " + warning);
 }
 

@@ -57,6 +57,17 @@ void theme(Session& session, CommandWords& words) {
   session.changes().look = true;
 }
 
+void detail(Session& session, CommandWords& words) {
+  const std::string amount = words.text("micrometres, pixels or off");
+  session.changes().detail = true;
+  if (amount == "off") return session.edit().detail.reset();
+  try {
+    session.edit().detail = detail_of(amount);
+  } catch (const InputError& e) {
+    words.wrong(e.what());
+  }
+}
+
 }  // namespace
 
 std::span<const Command> view_commands() {
@@ -72,6 +83,9 @@ std::span<const Command> view_commands() {
        Command::latest},
       {"look", "X,Y,Z FX,FY,FZ UX,UY,UZ [ANGLE]", "camera, the place it looks at, up, view angle", look,
        Command::latest},
+      {"detail", "MICROMETRESum|PIXELSpx|off",
+       "what a cut in a mesh never moves by more, like 10um or 0.25px, is not evaluated and stays at rest",
+       detail, Command::latest},
       {"theme", "light|dark", "of window and pictures", theme},
   };
   return commands;

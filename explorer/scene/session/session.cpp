@@ -52,6 +52,7 @@ void Session::say(const std::string& line) {
     const bool again = !said_.empty() && split_line(said_.back()).front() == command.name;
     if (again && command.recorded == Command::latest) said_.pop_back();
     said_.push_back(line);
+    seen_.reset();
   }
   warn();
   notify();

@@ -50,10 +50,17 @@ struct SessionServices {
 /// What a line has changed, for those who listen.
 struct Changes {
   bool study = false, shown = false, cuts = false, time = false, playing = false, coloring = false,
-       camera = false, layout = false, look = false, brushes = false, closer = false;
+       camera = false, layout = false, look = false, brushes = false, closer = false, detail = false;
   void all() {
-    study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = closer = true;
+    study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = closer = detail =
+        true;
   }
+};
+
+/// What a picture leaves out of the shown case's wounds.
+struct DetailSeen {
+  LeftOut left_out;
+  double pixels = 0;  ///< by which it is off at most; infinite where the camera is among what moves
 };
 
 class Session {
@@ -97,6 +104,9 @@ class Session {
   /// Where openings of the shown case's cuts may be off, and by how much (validity.h). A line that brings a
   /// new one about is answered with it.
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Views tell what their pictures leave out; none of what has changed since, or where nothing is left out.
+  void see(const std::optional<DetailSeen>& detail) { seen_ = detail; }
+  const std::optional<DetailSeen>& seen() const { return seen_; }
   /// Whether the shown case has exactly the parameters asked for.
   bool shows_exactly() const;
   /// The interpolated field that is shown in place of the shown case; null where there is none.
@@ -213,6 +223,7 @@ class Session {
   std::shared_ptr<const Field> between_;
   std::string why_nearest_;
   std::map<int, std::shared_ptr<const RawCase>> raws_;
+  std::optional<DetailSeen> seen_;
   bool beside_ = false, preparing_ = false, busy_ = false;
   std::vector<std::string> said_, warnings_;
   std::vector<Listener> listeners_;

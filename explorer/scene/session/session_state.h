@@ -9,6 +9,7 @@
 
 #include "explorer/incision/scalpel_path.h"
 #include "explorer/scene/coloring.h"
+#include "explorer/scene/detail.h"
 #include "explorer/scene/prestress_fields.h"
 
 namespace cleft {
@@ -75,6 +76,7 @@ struct SessionState {
   std::optional<ZoomState> zoom;
   std::string figure;  ///< of how the method works, over the scene; empty: none
   bool dark = false;
+  std::optional<Detail> detail;  ///< of the wounds in a mesh; none: everything is evaluated
 };
 
 /// The line that makes a cut, as `cut` or `recut`: places to a micrometre, short enough to be read.
