@@ -1,12 +1,12 @@
 // cleft-benchmark-incision: microseconds for a step of the cut, one triangle crossed, walls and their column
 // included, on flat meshes of different sizes, whose triangles the path meets at the same scale; and for a
 // frame of the wound as it opens.
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
+#include "base/quantiles.h"
 #include "explorer/incision/incision.h"
 #include "explorer/scene/live_replay.h"
 #include "tests/incision/fields.h"
@@ -62,12 +62,9 @@ double measure(int squares, int paths) {
     }
     cut.undo();
   }
-  std::sort(us.begin(), us.end());
-  const auto at = [&us](double part) {
-    return us[static_cast<std::size_t>(part * static_cast<double>(us.size() - 1))];
-  };
+  const auto at = [&us](double part) { return quantile(us, part); };
   std::printf("%9d triangles: %6zu steps, p50 %6.1f us, p90 %6.1f, p99 %6.1f, p99.9 %6.1f, largest %7.1f\n",
-              2 * squares * squares, us.size(), at(.5), at(.9), at(.99), at(.999), us.back());
+              2 * squares * squares, us.size(), at(.5), at(.9), at(.99), at(.999), at(1));
   return at(.99);
 }
 
@@ -91,11 +88,8 @@ void measure_frames() {
     follow.push_back(std::chrono::duration<double, std::micro>(middle - start).count());
     move.push_back(std::chrono::duration<double, std::micro>(Clock::now() - middle).count());
   }
-  std::sort(follow.begin(), follow.end());
-  std::sort(move.begin(), move.end());
   std::printf("%9zu active vertices: step p50 %6.1f us, p90 %6.1f; frame p50 %6.1f us, p90 %6.1f\n",
-              live.active(), follow[follow.size() / 2], follow[follow.size() * 9 / 10], move[move.size() / 2],
-              move[move.size() * 9 / 10]);
+              live.active(), median(follow), quantile(follow, .9), median(move), quantile(move, .9));
 }
 
 }  // namespace
@@ -110,6 +104,5 @@ int main() {
     const double small = measure(78, 20);        // 12,168
     ratios.push_back(measure(708, 20) / small);  // 1,002,528
   }
-  std::sort(ratios.begin(), ratios.end());
-  std::printf("p99 at a million triangles over p99 at 12,168: %.2f (median of three)\n", ratios[1]);
+  std::printf("p99 at a million triangles over p99 at 12,168: %.2f (median of three)\n", median(ratios));
 }

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "base/output_file.h"
+#include "base/quantiles.h"
 #include "base/sealed_json.h"
 #include "base/stopwatch.h"
 #include "encoder/field/field_file.h"
@@ -107,11 +108,9 @@ int main(int argc, char** argv) try {
     const Field field = study.field(i);
     decode.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
-  std::sort(open.begin(), open.end()), std::sort(decode.begin(), decode.end());
   std::printf(
       "open and list %.0f ms; decode a case, of the processor: median %.2f ms, least %.2f, most %.2f\n",
-      1e3 * open[open.size() / 2], 1e3 * decode[decode.size() / 2], 1e3 * decode.front(),
-      1e3 * decode.back());
+      1e3 * median(open), 1e3 * median(decode), 1e3 * quantile(decode, 0), 1e3 * quantile(decode, 1));
 } catch (const std::exception& e) {
   std::fprintf(stderr, "cleft-benchmark-study: %s\n", e.what());
   return 1;

@@ -13,6 +13,7 @@
 #include <functional>
 #include <thread>
 
+#include "base/quantiles.h"
 #include "explorer/scene/hand_script.h"
 #include "explorer/scene/scalpel_cutting.h"
 #include "haptic/loop.h"
@@ -109,10 +110,7 @@ int main(int argc, char** argv) {
       if (times.size() != least.size()) return std::fprintf(stderr, "the cut did not repeat\n"), 1;
       for (std::size_t i = 0; i < times.size(); ++i) least[i] = std::min(least[i], times[i]);
     }
-    std::sort(least.begin(), least.end());
-    const auto at = [&](double part) {
-      return 1e-3 * least[static_cast<std::size_t>(part * static_cast<double>(least.size() - 1))];
-    };
+    const auto at = [&](double part) { return 1e-3 * quantile(least, part); };
     std::printf("%10zu %8zu %22.1f %6.1f %6.1f %6.1f\n", mesh.triangles.size(), least.size(), at(.5), at(.99),
                 at(.999), at(1));
     std::fflush(stdout);

@@ -1,18 +1,12 @@
 #include "tradeoff/frame_time.h"
 
-#include <algorithm>
 #include <random>
 
+#include "base/quantiles.h"
 #include "base/stopwatch.h"
 #include "explorer/scene/replay_pieces.h"
 
 namespace cleft {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double frame_seconds(const Field& field) {
   constexpr int count = 10000, frames = 101;

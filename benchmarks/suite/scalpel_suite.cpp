@@ -55,7 +55,7 @@ void cut_step(benchmark::State& state) {
     }
   }
   state.counters["work_steps"] = static_cast<double>(stops.size());
-  report_quantiles(state, "us_step", std::move(us));
+  report_quantiles(state, "us_step", us);
 }
 BENCHMARK(cut_step)->Arg(12000)->Arg(100000)->Arg(1000000)->Iterations(5)->Unit(benchmark::kMillisecond);
 
@@ -88,7 +88,7 @@ void haptic_tick(benchmark::State& state) {
       us.push_back(now() - start);
     }
   }
-  report_quantiles(state, "us_tick", std::move(us));
+  report_quantiles(state, "us_tick", us);
 }
 BENCHMARK(haptic_tick)->Arg(12000)->Arg(100000)->Arg(1000000)->Iterations(1)->Unit(benchmark::kMillisecond);
 
