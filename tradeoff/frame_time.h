@@ -5,7 +5,8 @@
 
 namespace cleft {
 
-/// Seconds for the positions of 10,000 vertices about the cut: the median over all its frames.
-double frame_seconds(const Field& field);
+/// Seconds for the positions of 10,000 vertices about the cut: the median over all its frames. Those that
+/// never move by more than `detail` mm are left alone.
+double frame_seconds(const Field& field, double detail = 0);
 
 }  // namespace cleft
