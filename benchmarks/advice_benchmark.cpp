@@ -41,7 +41,9 @@ class Truth {
       : parameters_(parameters),
         work_(work),
         opening_(
-            Chain(applied({finest.element_size / 3, 2 * finest.margin, 0}, parameters), work).opening()) {}
+            Chain(applied({.element_size = finest.element_size / 3, .margin = 2 * finest.margin}, parameters),
+                  work)
+                .opening()) {}
 
   std::vector<Outcome> outcomes(const Setting& setting, const std::vector<double>& tolerances) const {
     const Chain chain(applied(setting, parameters_), work_);
@@ -82,7 +84,7 @@ int main(int argc, char** argv) {
     std::vector<Setting> others;
     for (const double elements : {12, 16, 24, 32, 48})
       for (const double margin : {0.5, 1., 2., 4.})
-        others.push_back({p.cut.length / elements, margin * p.cut.length, 0});
+        others.push_back({.element_size = p.cut.length / elements, .margin = margin * p.cut.length});
     const auto nodes = [&](const Setting& s) { return estimated_nodes(applied(s, p)); };
     double cheapest = outcome.seconds;
     int tried = 0;

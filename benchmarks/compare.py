@@ -23,7 +23,7 @@ def samples_of(path):
         if run.get("run_type") == "aggregate":
             continue
         figures = {"time": run["real_time" if "manual_time" in run["run_name"] else "cpu_time"]}
-        figures.update({k: v for k, v in run.items() if k.startswith(("work_", "error_", "us_", "ns_"))})
+        figures.update({k: v for k, v in run.items() if k.startswith(("work_", "error_", "ms_", "us_", "ns_"))})
         for figure, value in figures.items():
             samples.setdefault(run["run_name"], {}).setdefault(figure, []).append(value)
     return samples

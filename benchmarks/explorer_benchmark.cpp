@@ -13,6 +13,7 @@
 #include <ctime>
 #include <functional>
 
+#include "base/quantiles.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "explorer/app/main_window.h"
@@ -34,12 +35,9 @@ void time_calls(const char* what, int count, const std::function<void(int)>& cal
     wall.push_back(1e3 * watch.seconds());
     cpu.push_back(1e3 * double(std::clock() - begin) / CLOCKS_PER_SEC);
   }
-  std::sort(wall.begin(), wall.end()), std::sort(cpu.begin(), cpu.end());
-  const auto at = [](const std::vector<double>& x, double part) {
-    return x[static_cast<std::size_t>(part * double(x.size() - 1))];
-  };
   std::printf("%-34s wall %6.1f %6.1f %6.1f ms   processor %6.1f %6.1f %6.1f ms (median, p95, most)\n", what,
-              at(wall, 0.5), at(wall, 0.95), wall.back(), at(cpu, 0.5), at(cpu, 0.95), cpu.back());
+              median(wall), quantile(wall, 0.95), quantile(wall, 1), median(cpu), quantile(cpu, 0.95),
+              quantile(cpu, 1));
 }
 
 /// Until every case's figures are known and nothing is being read.

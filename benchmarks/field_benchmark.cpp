@@ -1,22 +1,17 @@
 // What a field costs to evaluate, measured within one run: medians, every figure beside what it is compared
 // with. cleft-benchmark-field
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <random>
 #include <string>
 
+#include "base/quantiles.h"
 #include "encoder/field/field.h"
 #include "explorer/scene/replay_pieces.h"
 
 using namespace cleft;
 
 namespace {
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 /// Keeps the compiler from leaving out what is measured.
 double kept = 0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "base/quantiles.h"
 #include "tests/haptic/surfaces.h"
 
 using namespace cleft;
@@ -14,12 +15,6 @@ using testing::Surface;
 namespace {
 
 double kept = 0;  // keeps the compiler from leaving out what is measured
-
-double quantile(std::vector<double>& values, double part) {
-  const auto n = static_cast<long>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + n, values.end());
-  return values[static_cast<std::size_t>(n)];
-}
 
 /// Nanoseconds of a call, over groups of `together` calls.
 template <class Function>

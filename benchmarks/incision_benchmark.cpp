@@ -1,13 +1,13 @@
 // cleft-benchmark-incision: microseconds for a step of the cut, one triangle crossed, walls and their column
 // included, on flat meshes of different sizes, whose triangles the path meets at the same scale; and for a
 // frame of the wound as it opens.
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "explorer/incision/incision.h"
+#include "base/quantiles.h"
+#include "benchmarks/winding_cut.h"
 #include "explorer/scene/live_replay.h"
 #include "tests/incision/fields.h"
 
@@ -16,58 +16,14 @@ namespace {
 using namespace cleft;
 using Clock = std::chrono::steady_clock;
 
-SurfaceMesh hills(int squares) {
-  SurfaceMesh mesh;
-  for (int j = 0; j <= squares; ++j)
-    for (int i = 0; i <= squares; ++i)
-      mesh.points.push_back({double(i), double(j), 2 * std::sin(0.11 * i) * std::cos(0.13 * j)});
-  for (int j = 0; j < squares; ++j)
-    for (int i = 0; i < squares; ++i) {
-      const int a = j * (squares + 1) + i, b = a + 1, c = a + squares + 1, d = c + 1;
-      mesh.triangles.push_back({a, b, d});
-      mesh.triangles.push_back({a, d, c});
-    }
-  return mesh;
-}
-
-/// A winding path over most of the smallest mesh, beginning elsewhere each time.
-ScalpelPath winding(int number, int squares) {
-  const double x0 = squares / 2. - 30 + 0.37 * number, y0 = squares / 2. + 0.83 * number - 5;
-  std::vector<ScalpelPath::Point> points;
-  for (int i = 0; i <= 120; ++i) {
-    const double x = x0 + 0.5 * i, y = y0 + 3 * std::sin(0.1 * i);
-    points.push_back({{x, y, 2 * std::sin(0.11 * x) * std::cos(0.13 * y)}, {0, 0, 1}, 2});
-  }
-  return ScalpelPath(points);
-}
-
-/// One step of the chain at a time: the time of every advance that went on by one vertex. Returns p99, us.
+/// Of cuts here and there. Returns p99, us.
 double measure(int squares, int paths) {
   CutMesh mesh(hills(squares));
   std::vector<double> us;
-  for (int number = 0; number < paths; ++number) {
-    IncisionOptions options;
-    options.max_edge = 0;
-    options.reach = 0;
-    Incision whole(mesh, winding(number, squares), options);
-    whole.advance_to(whole.path().length());
-    std::vector<double> stops;
-    for (const auto& c : whole.chain()) stops.push_back(c.s);
-    whole.undo();
-    Incision cut(mesh, winding(number, squares), options);
-    for (std::size_t i = 1; i < stops.size(); ++i) {
-      const auto start = Clock::now();
-      cut.advance_to(stops[i]);
-      us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
-    }
-    cut.undo();
-  }
-  std::sort(us.begin(), us.end());
-  const auto at = [&us](double part) {
-    return us[static_cast<std::size_t>(part * static_cast<double>(us.size() - 1))];
-  };
+  for (int number = 0; number < paths; ++number) WindingCut(mesh, winding(number)).time(us);
+  const auto at = [&us](double part) { return quantile(us, part); };
   std::printf("%9d triangles: %6zu steps, p50 %6.1f us, p90 %6.1f, p99 %6.1f, p99.9 %6.1f, largest %7.1f\n",
-              2 * squares * squares, us.size(), at(.5), at(.9), at(.99), at(.999), us.back());
+              2 * squares * squares, us.size(), at(.5), at(.9), at(.99), at(.999), at(1));
   return at(.99);
 }
 
@@ -75,7 +31,7 @@ double measure(int squares, int paths) {
 void measure_frames() {
   const Field field = testing::opening_field({-15, 30, 3}, 50, 50, 6, 3);
   SurfaceMesh mesh = hills(98);
-  for (Vec3& p : mesh.points) p = {(p.x - 49) / 2, (p.y - 49) / 2, 0};
+  for (Vec3& p : mesh.points) p = {p.x / 2, p.y / 2, 0};
   IncisionOptions options;
   options.max_edge = 0;
   Incision incision(mesh, ScalpelPath({{{-15, 0.1, 0}, {0, 0, 1}, 2}, {{15, 0.1, 0}, {0, 0, 1}, 2}}),
@@ -91,11 +47,8 @@ void measure_frames() {
     follow.push_back(std::chrono::duration<double, std::micro>(middle - start).count());
     move.push_back(std::chrono::duration<double, std::micro>(Clock::now() - middle).count());
   }
-  std::sort(follow.begin(), follow.end());
-  std::sort(move.begin(), move.end());
   std::printf("%9zu active vertices: step p50 %6.1f us, p90 %6.1f; frame p50 %6.1f us, p90 %6.1f\n",
-              live.active(), follow[follow.size() / 2], follow[follow.size() * 9 / 10], move[move.size() / 2],
-              move[move.size() * 9 / 10]);
+              live.active(), median(follow), quantile(follow, .9), median(move), quantile(move, .9));
 }
 
 }  // namespace
@@ -110,6 +63,5 @@ int main() {
     const double small = measure(78, 20);        // 12,168
     ratios.push_back(measure(708, 20) / small);  // 1,002,528
   }
-  std::sort(ratios.begin(), ratios.end());
-  std::printf("p99 at a million triangles over p99 at 12,168: %.2f (median of three)\n", ratios[1]);
+  std::printf("p99 at a million triangles over p99 at 12,168: %.2f (median of three)\n", median(ratios));
 }

@@ -7,21 +7,17 @@
 #include <filesystem>
 #include <random>
 
+#include "base/memory.h"
+#include "base/quantiles.h"
 #include "base/stopwatch.h"
 #include "solver/direct_solver.h"
 #include "solver/iterative_solver.h"
-#include "base/memory.h"
 #include "solver/mpi_session.h"
 #include "solver/solve.h"
 
 using namespace cleft;
 
 namespace {
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 std::vector<FrameSolver::Column> columns_of(const Release& release) {
   std::vector<FrameSolver::Column> columns;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # study_overhead.sh [CASES [BIN [OPTIONS OF cleft run]]]: what running a study costs a case beside solving and encoding,
-# which stand-ins do in no time here: milliseconds a case of cleft run, with everything flushed to disk; then the time
-# of cleft status with its index, and without.
+# which stand-ins do in no time here: milliseconds a case of cleft run, with everything flushed to disk; then those of
+# cleft status with its index, and without. A figure and a number a line.
 set -eu
 cases=${1:-200}; bin=$(realpath "${2:-build/release/bin}"); shift $(($# < 2 ? $# : 2))
 place=$(mktemp -d "${TMPDIR:-/tmp}/cleft-overhead-XXXXXX"); trap 'rm -rf "$place"' EXIT
@@ -27,8 +27,8 @@ printf '[vary]\n"skin.prestress_v" = { from = 0.01, to = 0.05, count = %d }\n' "
 milliseconds() { local begin=$(date +%s%N); "$@" > "$place/out" 2> "$place/log" || { cat "$place/log"; exit 1; }
   echo $((($(date +%s%N) - begin) / 1000000)); }
 ms=$(milliseconds "$place/bin/cleft-run" "$place/study.toml" --out "$place/study" "$@")
-echo "cleft run: $cases cases in $ms ms, $((ms * 10 / cases / 10)).$((ms * 10 / cases % 10)) ms a case"
+echo "ms_run_a_case $((ms * 10 / cases / 10)).$((ms * 10 / cases % 10))"
 milliseconds "$place/bin/cleft-status" "$place/study" > /dev/null
-echo "cleft status: $(milliseconds "$place/bin/cleft-status" "$place/study") ms with the index"
+echo "ms_status_with_index $(milliseconds "$place/bin/cleft-status" "$place/study")"
 rm "$place/study/index.json"
-echo "cleft status: $(milliseconds "$place/bin/cleft-status" "$place/study") ms without"
+echo "ms_status_without_index $(milliseconds "$place/bin/cleft-status" "$place/study")"

@@ -75,7 +75,8 @@ void HapticLoop::count(const Vec3& force) {
 }
 
 void HapticLoop::run(const std::atomic<bool>& stop, double seconds) {
-  refused_ = prepare_thread(options_.real_time);
+  const TickingThread thread(options_.real_time);
+  refused_ = thread.refused();
   const auto period = static_cast<std::int64_t>(static_cast<double>(clock_second) / options_.rate);
   std::int64_t due = clock_time(CLOCK_MONOTONIC);
   const std::int64_t end = due + static_cast<std::int64_t>(seconds * static_cast<double>(clock_second));

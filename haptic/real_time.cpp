@@ -1,7 +1,6 @@
 #include "haptic/real_time.h"
 
 #include <link.h>
-#include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -61,22 +60,27 @@ void touch_stack() {
 
 }  // namespace
 
-std::string prepare_thread(bool real_time) {
+TickingThread::TickingThread(bool real_time)
+    : slack_(prctl(PR_GET_TIMERSLACK)), policy_(sched_getscheduler(0)) {
+  sched_getparam(0, &priority_);
   prctl(PR_SET_TIMERSLACK, 1UL);  // else a sleep may end 50 us late by design
   touch_stack();
   dl_iterate_phdr(touch_code, nullptr);
-  if (!real_time) return "";
-  std::string refused;
+  if (!real_time) return;
   const sched_param priority{sched_get_priority_max(SCHED_FIFO) / 2};
   if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
-    refused = std::string("SCHED_FIFO: ") + std::strerror(errno);
+    refused_ = std::string("SCHED_FIFO: ") + std::strerror(errno);
   if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0)
-    refused += (refused.empty() ? "" : "; ") + std::string("locked memory: ") + std::strerror(errno);
-  return refused;
+    refused_ += (refused_.empty() ? "" : "; ") + std::string("locked memory: ") + std::strerror(errno);
+}
+
+TickingThread::~TickingThread() {
+  sched_setscheduler(0, policy_, &priority_);
+  prctl(PR_SET_TIMERSLACK, static_cast<unsigned long>(slack_));
 }
 
 BareTimer bare_timer(double rate, bool real_time, const std::atomic<bool>& stop) {
-  prepare_thread(real_time);
+  const TickingThread thread(real_time);
   BareTimer bare;
   const auto period = static_cast<std::int64_t>(static_cast<double>(clock_second) / rate);
   double x = 1;

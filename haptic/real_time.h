@@ -1,6 +1,7 @@
 // Clocks, absolute sleeps, and what a thread asks of the system before it keeps time.
 #pragma once
 
+#include <sched.h>
 #include <time.h>
 
 #include <cstdint>
@@ -22,9 +23,22 @@ void be_awake_at(std::int64_t time);
 /// Page faults of this thread so far.
 std::int64_t page_faults();
 
-/// Sleeps of this thread end as exactly as the system can; with `real_time` it asks for SCHED_FIFO and locks
-/// the program's memory. Its stack and the program's code are touched, so that no tick waits for them.
-/// Returns what was refused, "" where nothing was.
-std::string prepare_thread(bool real_time);
+/// As long as it lives, sleeps of the thread that made it end as exactly as the system can, with `real_time`
+/// under SCHED_FIFO. The thread's stack and the program's code are touched, so that no tick waits for them;
+/// with `real_time` the program's memory is locked, and stays so.
+class TickingThread {
+ public:
+  explicit TickingThread(bool real_time);
+  ~TickingThread();
+  TickingThread(const TickingThread&) = delete;
+  TickingThread& operator=(const TickingThread&) = delete;
+
+  const std::string& refused() const { return refused_; }  ///< "" where nothing was
+
+ private:
+  int slack_, policy_;
+  sched_param priority_{};
+  std::string refused_;
+};
 
 }  // namespace cleft

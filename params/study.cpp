@@ -266,7 +266,7 @@ std::string case_file_text(const Case& a_case) {
   return text;
 }
 
-std::string with_settings(const Study& study, const std::vector<std::pair<std::string, double>>& values,
+std::string with_settings(const Study& study, const std::vector<std::pair<std::string, Value>>& values,
                           double tolerance) {
   toml::table file = toml::parse(study.text);
   const auto section = [](toml::table& parent, std::string_view name) -> toml::table& {
@@ -276,7 +276,8 @@ std::string with_settings(const Study& study, const std::vector<std::pair<std::s
   for (const auto& [name, value] : values) {
     const auto dot = name.find('.');
     a_case.erase(name);  // as one quoted key
-    section(a_case, name.substr(0, dot)).insert_or_assign(name.substr(dot + 1), value);
+    toml::table& group = section(a_case, name.substr(0, dot));
+    std::visit([&](const auto& v) { group.insert_or_assign(name.substr(dot + 1), v); }, value);
   }
   toml::table& encode = section(file, "encode");
   encode.erase("control_points");

@@ -91,7 +91,7 @@ std::string case_file_text(const Case& a_case);
 
 /// The study's file with other values of some parameters of its [case] and another tolerance; comments are
 /// lost.
-std::string with_settings(const Study& study, const std::vector<std::pair<std::string, double>>& values,
+std::string with_settings(const Study& study, const std::vector<std::pair<std::string, Value>>& values,
                           double tolerance);
 
 }  // namespace cleft

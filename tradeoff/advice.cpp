@@ -13,11 +13,15 @@ namespace cleft {
 
 namespace {
 
-constexpr int grid = 48;                                             // samples along the cut and over time
-constexpr double elements_along_cut[] = {8, 16, 32};                 // of the cheap meshes
-constexpr double margins[] = {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 6};  // over the cut's length
+constexpr int grid = 96;                                                // samples along the cut and over time
+constexpr double elements_along_cut[] = {8, 16, 32};                    // of the cheap meshes
+constexpr double margins[] = {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 6, 8};  // over the cut's length
+constexpr double elements_in_patches = 16;                              // of the meshes of patches
 constexpr double least_tip_order = 0.5;  // of a square root that a mesh cannot follow
-constexpr double widest = 12, cheap_margin = 0.5;
+constexpr double widest = 16;
+constexpr double safety = 1.05;         // what was measured beside estimates lay up to 8 % above them
+constexpr double most_of_patch = 0.25;  // its error, where meshes are compared
+constexpr double details[] = {0, 0.01, 0.02, 0.05, 0.1, 0.25};  // over the error and the opening
 constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
 template <class At>
@@ -44,13 +48,20 @@ double size_of(const std::vector<Vec3>& samples) {
 
 Parameters applied(const Setting& setting, Parameters p) {
   p.mesh.element_size = setting.element_size, p.mesh.grading = advised_grading;
+  // A frame for every pair costs 1.2 to 2.2 times as much, and takes 3 to 9 % off the error: a finer mesh
+  // takes off more.
+  p.cut.frames = "column";
   p.patch.length = p.cut.length + 2 * setting.margin, p.patch.width = 2 * setting.margin;
   return p;
 }
 
 std::string Expectation::dominating() const {
-  const double most = std::max({mesh, tip, patch, code});
-  return most == patch ? "patch" : most == tip ? "tip" : most == mesh ? "mesh" : "code";
+  const double most = std::max({mesh, tip, patch, code, detail});
+  return most == detail  ? "detail"
+         : most == patch ? "patch"
+         : most == tip   ? "tip"
+         : most == mesh  ? "mesh"
+                         : "code";
 }
 
 CaseModel::CaseModel(const Parameters& parameters, std::string work,
@@ -62,96 +73,117 @@ CaseModel::CaseModel(const Parameters& parameters, std::string work,
         "cut.radius, cut.tilt, cut.count or cut.branch: advice is for one straight, upright cut, from which "
         "others are replayed");
   parameters_.mesh.cut_length = parameters_.mesh.cut_depth = 0;
-  measure_meshes();
   measure_patches();
+  measure_meshes();
 }
 
 Parameters CaseModel::coarse(double elements, double margin) const {
   const double length = parameters_.cut.length;
-  return applied({length / elements, margin * length, 0}, parameters_);
-}
-
-void CaseModel::measure_meshes() {
-  const double length = parameters_.cut.length;
-  std::optional<Opening> before;
-  for (const double elements : elements_along_cut) {
-    progress_("solving with " + shortest(elements) + " elements along the cut");
-    const Chain chain(coarse(elements, cheap_margin), work_);
-    const Opening opening = chain.opening();
-    const auto at = [&](double s, double t) { return opening.at(s, t); };
-    if (before) {
-      const double coarser = size_of(mesh_);
-      mesh_ = difference(sampled(length, [&](double s, double t) { return before->at(s, t); }),
-                         sampled(length, at));
-      mesh_size_ = 2 * length / elements;
-      if (coarser > 0) mesh_order_ = std::clamp(std::log2(coarser / size_of(mesh_)), 0.7, 1.5);
-    }
-    before = opening;
-    largest_ = opening.largest();
-    const auto apart = [&](const Field& field) {
-      return size_of(
-          difference(sampled(length, [&](double s, double t) { return cleft::opening(field, s, t); }),
-                     sampled(length, at)));
-    };
-    const double tightest = tolerances[std::size(tolerances) - 1];
-    const Chain::Encoded tight = chain.encoded(tightest);
-    tips_.emplace_back(length / elements, apart(tight.field));
-    costs_.emplace_back(chain.nodes(), chain.solve_seconds() + tight.seconds);
-    if (elements != elements_along_cut[std::size(elements_along_cut) - 1]) continue;
-    frame_ms_ = 1e3 * frame_seconds(tight.field);
-    for (const double tolerance : tolerances) {
-      const Chain::Encoded encoded = tolerance == tightest ? tight : chain.encoded(tolerance);
-      codes_.push_back({tolerance, std::max(0., apart(encoded.field) - tips_.back().second), encoded.bytes});
-    }
-  }
-}
-
-/// Straight in logarithms between the measured sizes.
-double CaseModel::tip_error(double size) const {
-  std::size_t i = 0;
-  while (i + 2 < tips_.size() && size < tips_[i + 1].first) ++i;
-  const auto& [coarse, coarse_error] = tips_[i];
-  const auto& [fine, fine_error] = tips_[i + 1];
-  const double order =
-      std::max(least_tip_order, std::log(coarse_error / fine_error) / std::log(coarse / fine));
-  return fine_error * std::pow(size / fine, order);
+  return applied({.element_size = length / elements, .margin = margin * length}, parameters_);
 }
 
 void CaseModel::measure_patches() {
   const double length = parameters_.cut.length;
   const auto samples = [&](double margin) {
     progress_("solving in a patch of " + shortest(margin) + " cut lengths around the cut");
-    const Chain chain(coarse(elements_along_cut[0], margin), work_);
+    const Chain chain(coarse(elements_in_patches, margin), work_);
     const Opening opening = chain.opening();
     return sampled(length, [&](double s, double t) { return opening.at(s, t); });
   };
   const Samples wide = samples(widest);
-  const double grown = size_of(wide) / largest_;
+  largest_ = size_of(wide);
   for (const double margin : margins)
     patches_.emplace_back(margin * length, difference(samples(margin), wide));
-  // Meshes were compared in a small patch: what they differ by goes with the opening.
-  for (Vec3& x : mesh_) x *= grown;
-  for (Code& code : codes_) code.error *= grown;
-  for (auto& [size, error] : tips_) error *= grown;
-  largest_ *= grown;
 }
+
+void CaseModel::measure_meshes() {
+  const double length = parameters_.cut.length;
+  const auto like = std::find_if(patches_.begin(), patches_.end(), [&](const auto& patch) {
+    return size_of(patch.second) <= most_of_patch * largest_;
+  });
+  const double margin = (like == patches_.end() ? patches_.back() : *like).first / length;
+  std::optional<Opening> before;
+  double largest = 0;
+  for (const double elements : elements_along_cut) {
+    progress_("solving with " + shortest(elements) + " elements along the cut");
+    const Chain chain(coarse(elements, margin), work_);
+    const Opening opening = chain.opening();
+    const auto at = [&](double s, double t) { return opening.at(s, t); };
+    if (before)
+      mesh_ = difference(sampled(length, [&](double s, double t) { return before->at(s, t); }),
+                         sampled(length, at));
+    before = opening;
+    largest = opening.largest();
+    const auto apart = [&](const Field& field) {
+      return difference(sampled(length, [&](double s, double t) { return cleft::opening(field, s, t); }),
+                        sampled(length, at));
+    };
+    const double tightest = tolerances[std::size(tolerances) - 1];
+    const Chain::Encoded tight = chain.encoded(tightest);
+    tips_.emplace_back(length / elements, apart(tight.field));
+    costs_.emplace_back(chain.nodes(), chain.solve_seconds() + tight.seconds);
+    if (elements != elements_along_cut[std::size(elements_along_cut) - 1]) continue;
+    mesh_size_ = 2 * length / elements;
+    field_ = tight.field;
+    for (const double tolerance : tolerances) {
+      const Chain::Encoded encoded = tolerance == tightest ? tight : chain.encoded(tolerance);
+      const Field& field = encoded.field;
+      codes_.push_back(
+          {tolerance,
+           std::max(0., size_of(apart(field)) - size_of(tips_.back().second)),
+           encoded.bytes,
+           {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}});
+    }
+  }
+  // Against a patch in which this much opens.
+  for (auto& [narrow, samples] : patches_)
+    for (Vec3& x : samples) x *= largest / largest_;
+  largest_ = largest;
+}
+
+/// Of a measured size that is near, as large as it is at this size: straight in logarithms between them.
+CaseModel::Samples CaseModel::tip_samples(double size) const {
+  std::size_t i = 0;
+  while (i + 2 < tips_.size() && size < tips_[i + 1].first) ++i;
+  const auto& [coarse, coarse_samples] = tips_[i];
+  const auto& [fine, fine_samples] = tips_[i + 1];
+  const double fine_error = size_of(fine_samples);
+  const double order =
+      std::max(least_tip_order, std::log(size_of(coarse_samples) / fine_error) / std::log(coarse / fine));
+  Samples samples = size * size > coarse * fine ? coarse_samples : fine_samples;
+  const double factor = fine_error * std::pow(size / fine, order) / size_of(samples);
+  for (Vec3& x : samples) x *= factor;
+  return samples;
+}
+
+std::array<int, 4> CaseModel::control_points(double tolerance) const {
+  const auto code =
+      std::find_if(codes_.begin(), codes_.end(), [&](const Code& one) { return one.tolerance == tolerance; });
+  CLEFT_CHECK(code != codes_.end(), ==, true);
+  return code->control_points;
+}
+
+double CaseModel::frame_ms(double detail) const { return 1e3 * frame_seconds(*field_, detail); }
 
 Expectation CaseModel::expectation(const Setting& setting) const {
   Expectation e;
-  // Against one twice as fine: what is left there is 2^-order of it.
-  const double share =
-      std::pow(setting.element_size / mesh_size_, mesh_order_) / (1 - std::pow(2, -mesh_order_));
+  // Against one twice as fine, the same is left there.
+  const double share = 2 * setting.element_size / mesh_size_;
   const Samples* patch = nullptr;
   for (const auto& [margin, samples] : patches_)
     if (std::abs(margin - setting.margin) < 1e-9 * margin) patch = &samples;
   CLEFT_CHECK(patch != nullptr, ==, true);
-  Samples sum = *patch;
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share * mesh_[i];
+  const Samples tip = tip_samples(setting.element_size);
+  Samples sum = *patch, all = tip;
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share * mesh_[i], all[i] += sum[i];
   e.mesh = share * size_of(mesh_) / largest_, e.patch = size_of(*patch) / largest_;
-  e.tip = tip_error(setting.element_size) / largest_;
+  e.tip = size_of(tip) / largest_;
   for (const Code& code : codes_)
     if (code.tolerance == setting.tolerance) e.code = code.error / largest_, e.bytes = code.bytes;
-  e.total = std::hypot(size_of(sum) / largest_, e.tip) + e.code;
+  e.detail = 2 * setting.detail / largest_;  // of both lips
+  e.total =
+      safety * std::max(size_of(all), std::hypot(size_of(sum), size_of(tip))) / largest_ + e.code + e.detail;
+  e.frames = std::round(parameters_.cut.length / setting.element_size);
   e.nodes = estimated_nodes(applied(setting, parameters_));
   const auto& [n0, s0] = costs_.front();
   const auto& [n1, s1] = costs_.back();
@@ -165,7 +197,7 @@ std::vector<Setting> CaseModel::settings() const {
   for (const double elements : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
     for (const auto& [margin, samples] : patches_)
       for (const Code& code : codes_)
-        all.push_back({parameters_.cut.length / elements, margin, code.tolerance});
+        all.push_back({parameters_.cut.length / elements, margin, code.tolerance, 0});
   return all;
 }
 
@@ -174,24 +206,41 @@ Expectation expectation(const std::vector<CaseModel>& models, const Setting& set
   for (const CaseModel& model : models) {
     const Expectation e = model.expectation(setting);
     for (double Expectation::*error : {&Expectation::mesh, &Expectation::tip, &Expectation::patch,
-                                       &Expectation::code, &Expectation::total})
+                                       &Expectation::code, &Expectation::detail, &Expectation::total})
       all.*error = std::max(all.*error, e.*error);
-    for (double Expectation::*cost : {&Expectation::nodes, &Expectation::seconds, &Expectation::bytes})
+    for (double Expectation::*cost :
+         {&Expectation::nodes, &Expectation::seconds, &Expectation::bytes, &Expectation::frames})
       all.*cost += e.*cost / static_cast<double>(models.size());
   }
   return all;
 }
 
+namespace {
+
+/// The least detail that replays need to keep their time.
+double detail_for(const std::vector<CaseModel>& models, const Goals& goals) {
+  double least = models.front().largest_opening(), frame = 0;
+  for (const CaseModel& model : models) least = std::min(least, model.largest_opening());
+  for (const double share : details) {
+    const double detail = share * goals.error * least;
+    frame = 0;
+    for (const CaseModel& model : models) frame = std::max(frame, model.frame_ms(detail));
+    if (frame <= goals.frame_ms) return detail;
+  }
+  throw InputError("--frame-ms " + shortest(goals.frame_ms) + ": a frame of 10,000 vertices takes " +
+                   shortest(std::round(1e4 * frame) / 1e4) +
+                   " ms here, without those that move less than a " + "quarter of the error too");
+}
+
+}  // namespace
+
 Setting advise(const std::vector<CaseModel>& models, const Goals& goals) {
-  double frame = 0;
-  for (const CaseModel& model : models) frame = std::max(frame, model.frame_ms());
-  if (goals.frame_ms > 0 && frame > goals.frame_ms)
-    throw InputError("--frame-ms " + shortest(goals.frame_ms) + ": a frame of 10,000 moving vertices takes " +
-                     shortest(std::round(1e4 * frame) / 1e4) + " ms here, whatever the settings");
+  const double detail = goals.frame_ms > 0 ? detail_for(models, goals) : 0;
   std::optional<Setting> best;
   Expectation of_best, nearest;
   bool fits_at_all = false;
-  for (const Setting& setting : models.front().settings()) {
+  for (Setting setting : models.front().settings()) {
+    setting.detail = detail;
     const Expectation e = expectation(models, setting);
     if (goals.megabytes > 0 && 1e-6 * goals.cases * e.bytes > goals.megabytes) continue;
     if (!fits_at_all || e.total < nearest.total) nearest = e;

@@ -4,23 +4,28 @@
 // An error is a difference of openings, right lip less left lip, over the cut and over time; its size is its
 // largest length over the largest opening. What a link does is measured where it is cheap:
 //
-//   mesh     nodes of coarse meshes of three sizes against each other; they give the order in the element's
-//   size tip      the field against its own mesh between nodes and frames, where the lips close as the square
-//   root
-//            of the distance from the tip, at the same sizes; finer ones go on with the order of the last two
 //   patch    against one that is far wider, in a coarse mesh
+//   mesh     nodes of two coarse meshes against each other, in a patch that errs little; it goes as the
+//            element's size, as the energy of a crack does
+//   tip      the field against its own mesh between nodes and frames, where the lips close as the square root
+//            of the distance from the tip, at three sizes; finer ones go on with the order of the last two
 //   code     what a looser tolerance adds, at the finest of those meshes
+//   detail   what a replay leaves alone, on both lips
 //
-// Mesh and patch may cancel: their differences are added with their signs before their size is taken. The
-// error at the tip is largest elsewhere: the root of both squares counts. The code's is added.
+// Patch, mesh and tip may add or cancel: their differences are added with their signs before their size is
+// taken. That of the tip is often largest elsewhere: where the root of both squares is more, it counts. The
+// others are added.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/vec3.h"
+#include "encoder/field/field.h"
 #include "params/parameters.h"
 
 namespace cleft {
@@ -29,15 +34,17 @@ namespace cleft {
 struct Setting {
   double element_size = 0;  ///< mm, at the cut; elements grow away from it by mesh_grading
   double margin = 0;        ///< mm of patch around the cut, on all four sides
-  double tolerance = 0;     ///< of the encoder
+  double tolerance = 0;     ///< of the encoder, which takes the fewest knots that keep it
+  double detail = 0;        ///< mm: what never moves by more is left alone in replays
 };
 inline constexpr double advised_grading = 1.3;
 Parameters applied(const Setting& setting, Parameters parameters);
 
 /// What a setting is expected to come to. Errors are over the largest opening.
 struct Expectation {
-  double mesh = 0, tip = 0, patch = 0, code = 0, total = 0;
+  double mesh = 0, tip = 0, patch = 0, code = 0, detail = 0, total = 0;
   double nodes = 0, seconds = 0, bytes = 0;  ///< seconds: of processors, to solve and encode
+  double frames = 0;                         ///< one a column of nodes along the cut
 
   /// The link whose error is largest.
   std::string dominating() const;
@@ -52,7 +59,11 @@ class CaseModel {
             const std::function<void(const std::string&)>& progress);
 
   Expectation expectation(const Setting& setting) const;
-  double frame_ms() const { return frame_ms_; }  ///< of a replayed frame of 10,000 moving vertices
+  double largest_opening() const { return largest_; }  ///< mm
+  /// Of a replayed frame of 10,000 vertices in the patch, but those that never move by more than this, mm.
+  double frame_ms(double detail) const;
+  /// That the encoder takes for a tolerance of settings(), along u, v, w and t, in the finest mesh measured.
+  std::array<int, 4> control_points(double tolerance) const;
   /// All settings there are to choose from.
   std::vector<Setting> settings() const;
 
@@ -61,7 +72,7 @@ class CaseModel {
 
   void measure_meshes();
   void measure_patches();
-  double tip_error(double size) const;  // mm
+  Samples tip_samples(double size) const;
   Parameters coarse(double elements, double margin) const;
 
   Parameters parameters_;
@@ -69,16 +80,16 @@ class CaseModel {
   std::function<void(const std::string&)> progress_;
   double largest_ = 0;    // opening, mm
   double mesh_size_ = 0;  // element size of the coarser of the two meshes compared
-  double mesh_order_ = 1;
   Samples mesh_;
-  std::vector<std::pair<double, double>> tips_;      // by element size, coarsest first: mm
+  std::vector<std::pair<double, Samples>> tips_;     // by element size, coarsest first
   std::vector<std::pair<double, Samples>> patches_;  // by margin
   struct Code {
     double tolerance, error, bytes;  // mm beyond the mesh's
+    std::array<int, 4> control_points;
   };
   std::vector<Code> codes_;
   std::vector<std::pair<double, double>> costs_;  // nodes, seconds
-  double frame_ms_ = 0;
+  std::optional<Field> field_;
 };
 
 /// Of several cases the largest errors and the mean costs.

@@ -18,7 +18,8 @@ namespace {
 constexpr std::size_t most_models = 3;
 
 /// Names that advice sets, which no study may vary.
-const std::vector<std::string> advised = {"mesh.element_size", "mesh.grading", "patch.length", "patch.width"};
+const std::vector<std::string> advised = {"mesh.element_size", "mesh.grading", "patch.length", "patch.width",
+                                          "cut.frames"};
 
 /// The first, the middle and the last case: of a grid its corners.
 std::vector<Parameters> representatives(const Study& study) {
@@ -31,16 +32,14 @@ std::vector<Parameters> representatives(const Study& study) {
 }
 
 double rounded(double x) {
+  if (x == 0) return 0;
   const double digits = std::pow(10, 4 - std::ceil(std::log10(x)));
   return std::round(x * digits) / digits;
 }
 
 Json shown(const Expectation& e) {
-  return {{"mesh", rounded(e.mesh)},
-          {"tip", rounded(e.tip)},
-          {"patch", rounded(e.patch)},
-          {"code", e.code},
-          {"total", rounded(e.total)}};
+  return {{"mesh", rounded(e.mesh)}, {"tip", rounded(e.tip)},       {"patch", rounded(e.patch)},
+          {"code", e.code},          {"detail", rounded(e.detail)}, {"total", rounded(e.total)}};
 }
 
 }  // namespace
@@ -55,8 +54,10 @@ int main(int argc, char** argv) {
   app.add_option("--error", goals.error,
                  "largest error of the opening, over the cut and over time, over the largest opening")
       ->required();
-  app.add_option("--frame-ms", goals.frame_ms,
-                 "most milliseconds for a replayed frame of 10,000 moving vertices")
+  app.add_option(
+         "--frame-ms", goals.frame_ms,
+         "most milliseconds for a replayed frame of 10,000 vertices in the patch; what moves least may be "
+         "left alone for it")
       ->check(above(0));
   app.add_option("--mb", goals.megabytes, "most megabytes of all the study's fields")->check(above(0));
   app.add_option("--out", out, "study file to write, with what was chosen");
@@ -82,24 +83,32 @@ int main(int argc, char** argv) {
     const Setting setting = advise(models, goals);
     const Expectation e = expectation(models, setting);
     const Parameters p = applied(setting, study.base.parameters);
-    if (!out.empty())
-      write_text_file(out, with_settings(study,
-                                         {{"mesh.element_size", rounded(p.mesh.element_size)},
-                                          {"mesh.grading", p.mesh.grading},
-                                          {"patch.length", p.patch.length},
-                                          {"patch.width", p.patch.width}},
-                                         setting.tolerance));
+    if (!out.empty()) {
+      std::vector<std::pair<std::string, Value>> chosen = {
+          {"mesh.element_size", rounded(p.mesh.element_size)},
+          {"mesh.grading", p.mesh.grading},
+          {"patch.length", p.patch.length},
+          {"patch.width", p.patch.width}};
+      if (study.base.parameters.cut.frames != p.cut.frames) chosen.emplace_back("cut.frames", p.cut.frames);
+      write_text_file(out, with_settings(study, chosen, setting.tolerance));
+    }
+    double frame_ms = 0;
+    for (const CaseModel& model : models) frame_ms = std::max(frame_ms, model.frame_ms(setting.detail));
     Json figures = {{"mesh.element_size_mm", rounded(p.mesh.element_size)},
                     {"mesh.grading", p.mesh.grading},
                     {"patch.length_mm", p.patch.length},
                     {"patch.width_mm", p.patch.width},
+                    {"cut.frames", p.cut.frames},
+                    {"frames", e.frames},
+                    {"control_points", models.front().control_points(setting.tolerance)},
                     {"tolerance", setting.tolerance},
+                    {"detail_um", rounded(1e3 * setting.detail)},
                     {"expected_error", shown(e)},
                     {"dominates", e.dominating()},
                     {"nodes", std::round(e.nodes)},
                     {"processor_seconds_a_case", rounded(e.seconds)},
                     {"bytes_a_case", std::round(e.bytes)},
-                    {"frame_ms", rounded(models.front().frame_ms())},
+                    {"frame_ms", rounded(frame_ms)},
                     {"cases", goals.cases}};
     if (!out.empty()) figures["out"] = out;
     print_figures(figures, json);

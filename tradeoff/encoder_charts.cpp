@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <numeric>
 
+#include "base/quantiles.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "encoder/encode.h"
@@ -15,12 +15,6 @@ namespace {
 
 constexpr double tolerances[] = {0.08, 0.04, 0.02, 0.01, 0.005, 0.001, 1e-4};
 
-double median_of(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
-
 /// Of the spline at all nodes, as they stand, in a frame: ns a point, the median over the frames.
 double point_nanoseconds(const Field& field, const Series& series) {
   std::vector<Place> places;
@@ -33,7 +27,7 @@ double point_nanoseconds(const Field& field, const Series& series) {
     field.displacements(places, out);
     times.push_back(1e9 * watch.lap() / static_cast<double>(places.size()));
   }
-  return median_of(times);
+  return median(times);
 }
 
 struct Panels {

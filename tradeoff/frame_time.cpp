@@ -1,20 +1,14 @@
 #include "tradeoff/frame_time.h"
 
-#include <algorithm>
 #include <random>
 
+#include "base/quantiles.h"
 #include "base/stopwatch.h"
 #include "explorer/scene/replay_pieces.h"
 
 namespace cleft {
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double frame_seconds(const Field& field) {
+double frame_seconds(const Field& field, double detail) {
   constexpr int count = 10000, frames = 101;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> along(field.domain(0).front, field.domain(0).back),
@@ -22,15 +16,24 @@ double frame_seconds(const Field& field) {
   const double tolerance = field.contraction_tolerance();
   const Field* const fields[] = {&field};
   const std::vector<double> times = replay_times(fields, tolerance);
+  const auto rests = [&](const History& history) {
+    for (const auto& piece : history.controls)
+      for (const Vec3& d : piece)
+        if (norm(d) > detail) return false;
+    return detail > 0;
+  };
   std::vector<Vec3> rest, out(count);
   std::vector<int> vertices;
-  for (int i = 0; i < count; ++i) rest.push_back({along(random), across(random), 0}), vertices.push_back(i);
-  ReplayPieces pieces(times, std::vector<double>(count), vertices);
-  History history;
-  for (const Vec3& at : rest) {
-    field.contract(at, at.y < 0 ? Side::left : Side::right, tolerance, times, history);
-    pieces.append(history);
+  std::vector<History> histories;
+  for (int i = 0; i < count; ++i) {
+    rest.push_back({along(random), across(random), 0});
+    History history;
+    field.contract(rest.back(), rest.back().y < 0 ? Side::left : Side::right, tolerance, times, history);
+    if (rests(history)) continue;
+    vertices.push_back(i), histories.push_back(std::move(history));
   }
+  ReplayPieces pieces(times, std::vector<double>(vertices.size()), vertices);
+  for (const History& history : histories) pieces.append(history);
   std::vector<double> seconds;
   for (int frame = 0; frame < frames; ++frame) {
     Stopwatch watch;

@@ -1,16 +1,12 @@
 // How long a frame of a replay takes.
 #pragma once
 
-#include <vector>
-
 #include "encoder/field/field.h"
 
 namespace cleft {
 
-/// Of one or more; the upper one of an even number.
-double median(std::vector<double> values);
-
-/// Seconds for the positions of 10,000 vertices about the cut: the median over all its frames.
-double frame_seconds(const Field& field);
+/// Seconds for the positions of 10,000 vertices about the cut: the median over all its frames. Those that
+/// never move by more than `detail` mm are left alone.
+double frame_seconds(const Field& field, double detail = 0);
 
 }  // namespace cleft

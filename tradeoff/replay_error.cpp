@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/quantiles.h"
 #include "base/stopwatch.h"
 #include "explorer/scene/replay.h"
 #include "explorer/scene/wounds.h"
-#include "tradeoff/frame_time.h"
 #include "tradeoff/uncut_skin.h"
 
 namespace cleft {

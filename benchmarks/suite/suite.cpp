@@ -4,9 +4,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "base/output_file.h"
+#include "base/quantiles.h"
 #include "encoder/field/field_file.h"
 #include "tests/support/allocations.h"
 #include "tests/support/temporary_folder.h"
@@ -56,14 +55,11 @@ WorkCount::~WorkCount() {
   close(file_);
 }
 
-void report_quantiles(benchmark::State& state, const std::string& prefix, std::vector<double> samples) {
-  std::sort(samples.begin(), samples.end());
-  const auto at = [&](double part) {
-    return samples[static_cast<std::size_t>(part * static_cast<double>(samples.size() - 1))];
-  };
-  state.counters[prefix + "_p50"] = at(0.5);
-  state.counters[prefix + "_p99"] = at(0.99);
-  state.counters[prefix + "_p99_9"] = at(0.999);
+void report_quantiles(benchmark::State& state, const std::string& prefix,
+                      const std::vector<double>& samples) {
+  state.counters[prefix + "_p50"] = quantile(samples, 0.5);
+  state.counters[prefix + "_p99"] = quantile(samples, 0.99);
+  state.counters[prefix + "_p99_9"] = quantile(samples, 0.999);
 }
 
 }  // namespace cleft

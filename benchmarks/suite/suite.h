@@ -39,6 +39,6 @@ class WorkCount {
 };
 
 /// p50, p99 and p99.9 of samples as counters of these names with a prefix.
-void report_quantiles(benchmark::State& state, const std::string& prefix, std::vector<double> samples);
+void report_quantiles(benchmark::State& state, const std::string& prefix, const std::vector<double>& samples);
 
 }  // namespace cleft

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/quantiles.h"
 #include "encoder/interpolate/convex_hull.h"
 #include "encoder/interpolate/field_samples.h"
 
@@ -16,12 +17,6 @@ namespace {
 // Of the ratios of residual and deviation, cases left out: most in between then lie below the estimate.
 constexpr double share_below_estimate = 0.95;
 constexpr Eigen::Index few_points = 2000;
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 /// Exponents of the power law in the features that fits the columns' norms best.
 Eigen::VectorXd exponents_of(const Eigen::MatrixXd& places, const Eigen::VectorXd& norms) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/quantiles.h"
 #include "base/text.h"
 #include "encoder/interpolate/field_samples.h"
 #include "params/parameters.h"
@@ -22,12 +23,6 @@ std::vector<FieldGeometry> geometries_of(const CommonCases& cases) {
   std::vector<FieldGeometry> list;
   for (const CommonCase& one : cases.cases()) list.push_back(one.geometry);
   return list;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// What is known of the prestress: it superposes, it does not, or the data must say. By default it does: only

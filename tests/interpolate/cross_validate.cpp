@@ -5,6 +5,7 @@
 
 #include "base/command.h"
 #include "base/error.h"
+#include "base/quantiles.h"
 #include "tests/interpolate/held_out.h"
 
 using namespace cleft;
@@ -14,7 +15,7 @@ namespace {
 Json figures_of(const StudyInterpolator& study, const std::vector<HeldOut>& list) {
   Json features = Json::array();
   for (const std::string& name : study.features().names()) features.push_back(name);
-  const auto median = [&](auto function) { return median_of(of_each(list, function)); };
+  const auto middle = [&](auto function) { return median(of_each(list, function)); };
   const auto share = [&](auto function, double most) { return share_within(of_each(list, function), most); };
   const Eigen::VectorXd& left_out = study.left_out_errors();
   return {
@@ -22,20 +23,20 @@ Json figures_of(const StudyInterpolator& study, const std::vector<HeldOut>& list
       {"held_out", list.size()},
       {"features", features},
       {"method", study.regression().covariance().name},
-      {"left_out_error", median_of({left_out.begin(), left_out.end()})},
-      {"error", median([](const HeldOut& one) { return one.error; })},
-      {"fit_error", median([](const HeldOut& one) { return one.fit; })},
-      {"error_against_field", median([](const HeldOut& one) { return one.against_field; })},
-      {"nearest_error", median([](const HeldOut& one) { return one.nearest; })},
-      {"error_over_nearest", median([](const HeldOut& one) { return one.error / one.nearest; })},
+      {"left_out_error", median({left_out.begin(), left_out.end()})},
+      {"error", middle([](const HeldOut& one) { return one.error; })},
+      {"fit_error", middle([](const HeldOut& one) { return one.fit; })},
+      {"error_against_field", middle([](const HeldOut& one) { return one.against_field; })},
+      {"nearest_error", middle([](const HeldOut& one) { return one.nearest; })},
+      {"error_over_nearest", middle([](const HeldOut& one) { return one.error / one.nearest; })},
       {"below_a_fifth_of_nearest", share([](const HeldOut& one) { return one.error / one.nearest; }, 0.2)},
-      {"estimate_over_error", median([](const HeldOut& one) { return one.estimate / one.error; })},
+      {"estimate_over_error", middle([](const HeldOut& one) { return one.estimate / one.error; })},
       {"within_twice_the_estimate", share([](const HeldOut& one) { return one.error / one.estimate; }, 2)},
       {"estimate_over_error_against_field",
-       median([](const HeldOut& one) { return one.interpolation_estimate / one.against_field; })},
+       middle([](const HeldOut& one) { return one.interpolation_estimate / one.against_field; })},
       {"within_twice_the_estimate_against_field",
        share([](const HeldOut& one) { return one.against_field / one.interpolation_estimate; }, 2)},
-      {"milliseconds", median([](const HeldOut& one) { return one.milliseconds; })}};
+      {"milliseconds", middle([](const HeldOut& one) { return one.milliseconds; })}};
 }
 
 }  // namespace

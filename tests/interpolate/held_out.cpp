@@ -77,11 +77,6 @@ std::vector<HeldOut> compare_held_out(const StudyInterpolator& study, const std:
   return list;
 }
 
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? std::nan("") : values[values.size() / 2];
-}
-
 double share_within(const std::vector<double>& values, double most) {
   const auto within = std::count_if(values.begin(), values.end(), [&](double x) { return x <= most; });
   return static_cast<double>(within) / static_cast<double>(values.size());

@@ -23,8 +23,7 @@ struct HeldOut {
 std::vector<HeldOut> compare_held_out(const StudyInterpolator& study, const std::vector<StudyMember>& members,
                                       const std::string& held);
 
-/// Middle one of the values, and the share of those that are at most `most`.
-double median_of(std::vector<double> values);
+/// Of the values, the share of those that are at most `most`.
 double share_within(const std::vector<double>& values, double most);
 
 /// One number of each.

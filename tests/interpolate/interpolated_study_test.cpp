@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/quantiles.h"
 #include "base/text.h"
 #include "encoder/field/field_file.h"
 #include "tests/interpolate/held_out.h"
@@ -85,8 +86,7 @@ TEST_F(InterpolatedStudy, IsAsGoodAsItSays) {
     EXPECT_LT(one.error, one.nearest);
     EXPECT_EQ(one.outside, 0);
   }
-  const auto median = [&](auto function) { return median_of(of_each(list, function)); };
-  EXPECT_LE(median([](const HeldOut& one) { return one.estimate / one.error; }), 3);
+  EXPECT_LE(median(of_each(list, [](const HeldOut& one) { return one.estimate / one.error; })), 3);
 }
 
 TEST_F(InterpolatedStudy, DerivativesHelpWhereCasesAreFew) {

@@ -71,7 +71,13 @@ TEST(Advice, LessErrorCostsMore) {
   };
   refused({.error = 1e-3}, "--error 0.001: out of reach");
   refused({.error = 0.2, .frame_ms = 1e-6}, "--frame-ms");
-  refused({.error = 0.2, .megabytes = 1e-6}, "--mb");
+  // What replays leave alone counts for both lips.
+  const CaseModel& model = models.front();
+  Setting setting = advise(models, {.error = 0.3});
+  EXPECT_EQ(setting.detail, 0);
+  const double whole = model.expectation(setting).total;
+  setting.detail = 0.01 * model.largest_opening();
+  EXPECT_NEAR(model.expectation(setting).total, whole + 0.02, 1e-12);
 }
 
 TEST(Advice, ToldWhatIsWrong) {

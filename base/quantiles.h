@@ -1,0 +1,23 @@
+// Quantiles of values that were measured.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace cleft {
+
+/// The value that `part` of the others, 0 to 1, lie below: one of the values. NaN where there are none.
+inline double quantile(std::vector<double> values, double part) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Of an even number the upper one.
+inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+
+}  // namespace cleft

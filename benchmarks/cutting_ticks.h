@@ -1,0 +1,23 @@
+// Ticks of the haptic loop while another thread cuts the mesh.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "encoder/field/field.h"
+#include "explorer/incision/surface_mesh.h"
+
+namespace cleft {
+
+/// 100 mm wide hills of 2 squares x squares triangles.
+SurfaceMesh hills_to_cut(int squares);
+std::shared_ptr<const Field> field_of_the_cut();
+
+/// Nanoseconds of every tick of a cut of 66 mm, ticks and cutting in turns on two threads; of each the least
+/// of `repeats` cuts. What interrupts, other programs and other machines on the same host add falls on other
+/// ticks each time; what a tick itself needs (surface just changed, new cells, what the other core has
+/// written) does not. Throws std::runtime_error where a cut is not the same as the first.
+std::vector<double> ticks_while_cutting(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field,
+                                        int repeats);
+
+}  // namespace cleft
