@@ -53,6 +53,7 @@ void LiveReplay::follow() {
   }
   rest_.resize(count + 1), position_.resize(count + 1);
   slots_.resize(std::max(slots_.size(), count + 1));  // those of former vertices remember their versions
+  stations_.resize(slots_.size());
   const bool led = incision_.led() > led_;
   if (led) volume_.follow_path();
   volume_.take_in(changed);
@@ -133,7 +134,9 @@ void LiveReplay::enter() {
     Slot& slot = slots_[static_cast<std::size_t>(entering_[i].vertex) + 1];
     slot.batch = static_cast<int>(batches_.size());
     slot.index = static_cast<int>(i);
+    stations_[static_cast<std::size_t>(entering_[i].vertex) + 1] = entering_[i].s;
     touched_.push_back(entering_[i].vertex);
+    entered_.push_back(entering_[i].vertex);
   }
   batches_.push_back({contractor_.contract(entering_, 1), entering_.size()});
   batches_.back().pieces.positions(blade_, rest_.data(), position_.data());

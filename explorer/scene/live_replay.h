@@ -41,6 +41,11 @@ class LiveReplay {
   CutInTension in_tension() const { return {&incision_, &contractor_.field(), &volume_}; }
   std::size_t vertex_count() const { return rest_.size() - 1; }
 
+  /// Where along the path a vertex that has entered lies, mm.
+  double station(int vertex) const { return stations_[static_cast<std::size_t>(vertex) + 1]; }
+  /// All that have entered so far; some perhaps twice, or no longer active.
+  const std::vector<int>& entered() const { return entered_; }
+
   /// The vertices whose positions the last follow() or move_to() has computed, some perhaps twice.
   const std::vector<int>& touched() const { return touched_; }
   std::size_t active() const { return active_; }          ///< vertices that have entered
@@ -88,6 +93,8 @@ class LiveReplay {
   IncisionVolume volume_;
   std::vector<Vec3> rest_, position_;  // number 0 is nobody's: it takes what is computed for those that left
   std::vector<Slot> slots_;
+  std::vector<double> stations_;
+  std::vector<int> entered_;
   std::vector<Placed> placed_;  // of a path that is led on
   std::vector<Batch> batches_;
   std::priority_queue<Waiting> waiting_;

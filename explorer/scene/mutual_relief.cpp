@@ -89,7 +89,9 @@ std::vector<Amplitude> mutual_relief(const std::vector<CutInTension>& cuts, doub
         const std::optional<ActiveVertex> at = cuts[j].volume->locate(c.left);
         if (!at) continue;
         const bool last = j + 1 == cuts.size();
-        const double there = last ? blade : cuts[j].incision->path().length() * cuts[j].volume->scale();
+        const Incision& other = *cuts[j].incision;  // one that was led ends where its blade left it
+        const double whole = other.led() > 0 ? other.tip() : other.path().length(),
+                     there = last ? blade : whole * cuts[j].volume->scale();
         const double tension = cut.field->load("skin.prestress_v", s);
         if (!(tension > 0)) continue;
         const Stiffness stiffness(cuts[j].field->shape());

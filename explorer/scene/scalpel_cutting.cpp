@@ -18,7 +18,8 @@ constexpr double sharpest = 0.5;     // cosine of the turn from one piece to the
 constexpr double least_depth = 0.5;  // mm, of a cut as deep as the scalpel is
 constexpr std::size_t most_entering = 2000;  // vertices that a cut begins to move in a step
 constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
-constexpr double far = 30;  // mm, how far ahead a cut without a field is taken to go
+constexpr double relieved_each = 1;  // mm of a cut, after which the others' relief is found anew
+constexpr double far = 30;           // mm, how far ahead a cut without a field is taken to go
 }  // namespace
 
 ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
@@ -32,10 +33,15 @@ ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
   }
   made_ = wounds_.size();
   if (setup_.path) add_wound(*setup_.path, {}, most_entering);
+  for (std::size_t k = 0; k < made_; ++k)
+    if (wounds_[k].opening) wounds_[k].opening->follow();
+  displacements_.resize(mesh_.vertices().size());
+  relieve();
+  untold_.clear(), is_untold_.clear();
   SurfaceMesh felt = mesh_.surface();
   for (std::size_t v = 0; v < felt.points.size(); ++v) {
-    displacements_.push_back(displacement(static_cast<int>(v)));
-    felt.points[v] = setup_.scale * felt.points[v] + displacements_.back();
+    displacements_[v] = displacement(static_cast<int>(v));
+    felt.points[v] = setup_.scale * felt.points[v] + displacements_[v];
   }
   surface_ = std::make_unique<ContactSurface>(felt.points, felt.triangles);
   for (std::size_t t = 0; t < felt.triangles.size(); ++t)
@@ -212,7 +218,7 @@ void ScalpelCutting::cut(const Change& change) {
   for (Wound& wound : wounds_)
     if (wound.opening) wound.opening->follow();
   for (const Wound& wound : wounds_)
-    if (wound.opening) tell(*wound.opening);
+    if (wound.opening) tell(wound.opening->touched());
 }
 
 void ScalpelCutting::take_in_changes() {
@@ -246,7 +252,8 @@ void ScalpelCutting::open() {
   for (Wound& wound : wounds_)
     if (wound.opening) wound.opening->move_to(wound.incision->tip() * setup_.scale);
   for (const Wound& wound : wounds_)
-    if (wound.opening) tell(*wound.opening);
+    if (wound.opening) tell(wound.opening->touched());
+  relieve();
   moved_.clear();
   for (; !untold_.empty() && moved_.size() < most_moved; untold_.pop_front()) {
     const int v = untold_.front();
@@ -261,18 +268,45 @@ void ScalpelCutting::open() {
   figures_.open.add(watch.lap());
 }
 
+/// How far each wound opens in the tension that the others leave. The newest has its blade at its tip.
+void ScalpelCutting::relieve() {
+  std::vector<CutInTension> cuts;
+  double length = 0;
+  for (const Wound& wound : wounds_) {
+    if (!wound.opening) return;
+    cuts.push_back(wound.opening->in_tension());
+    length += setup_.scale * wound.incision->tip();
+  }
+  if (cuts.size() < 2) return;
+  const Incision& newest = *wounds_.back().incision;
+  const bool complete = newest.tip() == newest.path().length() && length > relieved_at_;
+  if (amplitudes_.size() == cuts.size() && length < relieved_at_ + relieved_each && !complete) return;
+  try {
+    amplitudes_ = mutual_relief(cuts, setup_.scale * newest.tip());
+  } catch (const InputError&) {  // the field does not tell the tension: they add
+    return;
+  }
+  relieved_at_ = length;
+  for (const Wound& wound : wounds_) tell(wound.opening->entered());
+}
+
 /// By all wounds, mm.
 Vec3 ScalpelCutting::displacement(int vertex) const {
   Vec3 sum;
-  for (const Wound& wound : wounds_)
-    if (wound.opening) sum += setup_.scale * wound.opening->displacement(vertex);
+  for (std::size_t k = 0; k < wounds_.size(); ++k) {
+    const LiveReplay* opening = wounds_[k].opening.get();
+    if (!opening) continue;
+    const double amplitude = k < amplitudes_.size() ? amplitudes_[k].at(opening->station(vertex)) : 1;
+    sum += setup_.scale * amplitude * opening->displacement(vertex);
+  }
   return sum;
 }
 
 /// Takes note of those that have moved so far that it can be felt.
-void ScalpelCutting::tell(const LiveReplay& opening) {
+void ScalpelCutting::tell(const std::vector<int>& vertices) {
   is_untold_.resize(std::max(is_untold_.size(), displacements_.size()));
-  for (const int v : opening.touched()) {
+  for (const int v : vertices) {
+    if (static_cast<std::size_t>(v) >= mesh_.vertices().size()) continue;
     const auto i = static_cast<std::size_t>(v);
     if (is_untold_[i] || squared_norm(displacement(v) - displacements_[i]) <= told * told) continue;
     is_untold_[i] = true;

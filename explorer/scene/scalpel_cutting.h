@@ -88,7 +88,8 @@ class ScalpelCutting {
   void cut(const Change& change);
   void take_in_changes();
   void open();
-  void tell(const LiveReplay& opening);
+  void relieve();
+  void tell(const std::vector<int>& vertices);
   Vec3 displacement(int vertex) const;
 
   Setup setup_;
@@ -101,8 +102,10 @@ class ScalpelCutting {
   bool cutting_ = false;
   std::optional<ScalpelPath::Point> entered_;  // where the skin gave way
   std::vector<std::vector<ScalpelPath::Point>> led_;
-  std::vector<Vec3> displacements_;  // mm, of vertices, as told to the surface
-  std::deque<int> untold_;           // vertices that have moved since
+  std::vector<Amplitude> amplitudes_;  // of every wound; none where one is alone, or their tension unknown
+  double relieved_at_ = 0;             // mm: the length of all cuts for which these were found
+  std::vector<Vec3> displacements_;    // mm, of vertices, as told to the surface
+  std::deque<int> untold_;             // vertices that have moved since
   std::vector<bool> is_untold_;
   std::vector<ContactSurface::Moved> moved_;
   std::vector<ContactSurface::Changed> changed_;

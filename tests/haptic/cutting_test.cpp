@@ -4,10 +4,12 @@
 #include "explorer/scene/hand_script.h"
 #include "explorer/scene/replay.h"
 #include "explorer/scene/scalpel_cutting.h"
+#include "explorer/scene/wounds.h"
 #include "haptic/devices/hand.h"
 #include "haptic/surface_stiffness.h"
 #include "tests/haptic/surfaces.h"
 #include "tests/incision/fields.h"
+#include "tests/incision/meshes.h"
 
 namespace cleft {
 namespace {
@@ -168,6 +170,43 @@ TEST(Cutting, TheHandCutsTheWholePathOfSoftAndStiffTissue) {
       const double dent = force.puncture_force / std::min(force.stiffness, DeviceLimits{}.max_stiffness);
       EXPECT_LT(deepest, dent + force.puncture_force / of_the_hand.stiffness + 2) << what;
     }
+}
+
+TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
+  Field opens = testing::opening_field({-15, 30, 3}, 50, 50, 6, 3);
+  opens.parameters = {{"skin.prestress_v", 0.03},     {"skin.thickness", 1.5},
+                      {"skin.young_modulus", 0.2},    {"skin.poisson_ratio", 0.4},
+                      {"tissue.young_modulus", 0.02}, {"tissue.poisson_ratio", 0.4}};
+  const auto field = std::make_shared<const Field>(opens);
+  const SurfaceMesh mesh = testing::grid(40, 40, -30, -30, 1.5);
+  const auto at = [](double y) { return testing::path_through({{-15, y, 0}, {15, y, 0}}, testing::up, 2); };
+  ScalpelCutting cutting(mesh, {at(4), {at(-4)}, CutFields(field), 1, 0});
+  HapticState scalpel;
+  scalpel.phase = Phase::cutting;
+  scalpel.pose.cutting = true;
+  for (int k = 0; k <= 100; ++k) {
+    scalpel.pose.tip = {-15 + 0.3 * k, 4, -2};
+    cutting.step(scalpel);
+  }
+  for (int k = 0; k < 5; ++k) cutting.step(scalpel);  // what waits to be told
+  EXPECT_EQ(cutting.figures().waiting, 0u);
+
+  CutMesh cut(mesh);
+  std::vector<std::unique_ptr<Incision>> incisions;
+  std::vector<Wounds::Cut> cuts;
+  for (const double y : {-4, 4}) {
+    incisions.push_back(std::make_unique<Incision>(cut, at(y), IncisionOptions{}));
+    incisions.back()->advance_to(30);
+    cuts.push_back({incisions.back().get(), CutFields(field).along(*incisions.back(), 1)});
+  }
+  const Wounds wounds(std::move(cuts), 1);
+  std::vector<Vec3> moved(wounds.vertex_count());
+  wounds.positions(wounds.duration(), moved);
+  double apart = 0;
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    apart = std::max(apart, norm(cutting.position(static_cast<int>(v)) - moved[v]));
+  EXPECT_GT(std::abs(wounds.amplitude(0, 15, wounds.blade(wounds.duration())) - 1), 0.05);
+  EXPECT_LT(apart, 5e-3);   // what is not felt, 0.002, once before the blade came and once after it
 }
 
 }  // namespace
