@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "base/stopwatch.h"
 #include "explorer/scene/hand_script.h"
 #include "explorer/scene/scalpel_cutting.h"
 #include "haptic/loop.h"
+#include "haptic/real_time.h"
 #include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 
@@ -37,10 +37,10 @@ ScalpelPath winding() {
 }
 
 /// A thread that does the same work whenever it is told to, while the one that tells waits awake.
-class Beside {
+class InTurns {
  public:
-  explicit Beside(std::function<void()> work) : work_(std::move(work)), thread_([this] { follow(); }) {}
-  ~Beside() {
+  explicit InTurns(std::function<void()> work) : work_(std::move(work)), thread_([this] { follow(); }) {}
+  ~InTurns() {
     turn_ = Turn::over;
     thread_.join();
   }
@@ -68,23 +68,65 @@ class Beside {
 };
 
 /// Of every tick of the cut, nanoseconds.
-std::vector<double> ticks_of(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field) {
-  const ScalpelPath path = winding();
-  ScalpelCutting cutting(mesh, {path, {}, CutFields(field), 1, 0});
-  const ForceParameters force;
-  Hand hand({}, hand_along(path, 1, speed, {}, force));
-  HapticLoop loop(hand, cutting.surface(), force);
-  Beside frames([&] { cutting.step(loop.for_cutting()); });
-  std::vector<double> times;
-  while (loop.state().time < hand.duration()) {
-    Stopwatch watch;
-    loop.update(1e-3);
-    times.push_back(1e9 * watch.seconds());
-    if (times.size() % ticks_a_frame == 0) frames.once();
+class Ticks {
+ public:
+  Ticks(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field)
+      : cutting_(mesh, {winding(), {}, CutFields(field), 1, 0}),
+        hand_({}, hand_along(winding(), 1, speed, {}, force_)),
+        loop_(hand_, cutting_.surface(), force_) {
+    times_.reserve(static_cast<std::size_t>(1e3 * hand_.duration()) + 1);
   }
-  if (cutting.cut_length() < 50) throw std::runtime_error("the blade did not cut all its way");
-  return times;
-}
+
+  std::vector<double> in_turns() {
+    InTurns frames([this] { cutting_.step(loop_.for_cutting()); });
+    while (going()) {
+      tick();
+      if (times_.size() % ticks_a_frame == 0) frames.once();
+    }
+    return checked();
+  }
+
+  std::vector<double> by_the_clock() {
+    std::atomic<bool> over = false;
+    std::thread frames([&] {
+      for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !over;
+           due = std::max(due, clock_time(CLOCK_MONOTONIC) - clock_second / 60)) {
+        cutting_.step(loop_.for_cutting());
+        sleep_until(due += clock_second / 60);
+      }
+    });
+    {
+      const TickingThread thread(true);
+      for (std::int64_t due = clock_time(CLOCK_MONOTONIC); going();
+           due = std::max(due, clock_time(CLOCK_MONOTONIC))) {
+        be_awake_at(due += clock_second / 1000);
+        tick();
+      }
+    }
+    over = true;
+    frames.join();
+    cutting_.step(loop_.for_cutting());
+    return checked();
+  }
+
+ private:
+  bool going() const { return loop_.state().time < hand_.duration(); }
+  void tick() {
+    const std::int64_t before = clock_time(CLOCK_THREAD_CPUTIME_ID);
+    loop_.update(1e-3);
+    times_.push_back(static_cast<double>(clock_time(CLOCK_THREAD_CPUTIME_ID) - before));
+  }
+  std::vector<double> checked() const {
+    if (cutting_.cut_length() < 50) throw std::runtime_error("the blade did not cut all its way");
+    return times_;
+  }
+
+  const ForceParameters force_;
+  ScalpelCutting cutting_;
+  Hand hand_;
+  HapticLoop loop_;
+  std::vector<double> times_;
+};
 
 }  // namespace
 
@@ -97,10 +139,12 @@ std::shared_ptr<const Field> field_of_the_cut() {
 }
 
 std::vector<double> ticks_while_cutting(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field,
-                                        int repeats) {
-  std::vector<double> least = ticks_of(mesh, field);
-  for (int repeat = 1; repeat < repeats; ++repeat) {
-    const std::vector<double> times = ticks_of(mesh, field);
+                                        int repeats, Beside beside) {
+  std::vector<double> least;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    Ticks ticks(mesh, field);
+    const std::vector<double> times = beside == Beside::in_turns ? ticks.in_turns() : ticks.by_the_clock();
+    if (repeat == 0) least = times;
     if (times.size() != least.size()) throw std::runtime_error("the cut did not repeat");
     for (std::size_t i = 0; i < times.size(); ++i) least[i] = std::min(least[i], times[i]);
   }
