@@ -89,11 +89,8 @@ class Ticks {
   std::vector<double> by_the_clock() {
     std::atomic<bool> over = false;
     std::thread frames([&] {
-      for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !over;
-           due = std::max(due, clock_time(CLOCK_MONOTONIC) - clock_second / 60)) {
-        cutting_.step(loop_.for_cutting());
-        sleep_until(due += clock_second / 60);
-      }
+      repeat(
+          clock_second / 60, [&] { return over.load(); }, [&] { cutting_.step(loop_.for_cutting()); });
     });
     {
       const TickingThread thread(true);

@@ -124,8 +124,7 @@ double frame_us(const WoundScene& scene) {
     scene.positions(scene.duration() * (i % 100 + 1) / 100, x);
     us.push_back(1e6 * watch.seconds());
   }
-  std::nth_element(us.begin(), us.begin() + 500, us.end());
-  return us[500];
+  return median(us);
 }
 
 void details(MainWindow& window, Session& session, const std::function<void(int)>& open_it) {

@@ -146,13 +146,12 @@ void haptic(const Options& o) {
                    loop.run(stop, seconds);
                    over = true;
                  })};
-    constexpr std::int64_t frame = clock_second / 60;
-    for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !over;
-         due = std::max(due, clock_time(CLOCK_MONOTONIC) - frame)) {
-      cutting.step(loop.for_cutting());
-      progress(shortest(std::round(10 * loop.for_view().read().time) / 10) + " s");
-      sleep_until(due += frame);
-    }
+    repeat(
+        clock_second / 60, [&] { return over.load(); },
+        [&] {
+          cutting.step(loop.for_cutting());
+          progress(shortest(std::round(10 * loop.for_view().read().time) / 10) + " s");
+        });
   }
   cutting.step(loop.for_cutting());  // what the blade did while the last step was made
   if (!o.record.empty()) {

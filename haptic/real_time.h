@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <time.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -19,6 +20,17 @@ void sleep_until(std::int64_t time);
 /// The same, for ticks: the last 60 us are waited through awake, so that what waking up brings with it (the
 /// scheduler's and timers' own work, a slow clock of the processor) is over when the time comes.
 void be_awake_at(std::int64_t time);
+
+/// Does `step` at once and then each `period`, ns, until `over`. One that is late is made up for by going on
+/// sooner, but by one period at most.
+template <class Over, class Step>
+void repeat(std::int64_t period, const Over& over, const Step& step) {
+  for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !over();
+       due = std::max(due, clock_time(CLOCK_MONOTONIC) - period)) {
+    step();
+    sleep_until(due += period);
+  }
+}
 
 /// Page faults of this thread so far.
 std::int64_t page_faults();

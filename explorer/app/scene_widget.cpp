@@ -1,6 +1,5 @@
 #include "explorer/app/scene_widget.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkRenderWindowInteractor.h>
@@ -23,10 +22,6 @@ constexpr int rest_ms = 250;    // pictures that follow each other within this a
 
 std::string text(const Vec3& x) { return shortest(x.x) + "," + shortest(x.y) + "," + shortest(x.z); }
 
-void call_back(vtkObject*, unsigned long what, void* data, void*) {
-  (*static_cast<std::function<void(unsigned long)>*>(data))(what);
-}
-
 }  // namespace
 
 SceneWidget::SceneWidget(Session& session, Say say) : session_(session), say_(std::move(say)) {
@@ -42,24 +37,17 @@ SceneWidget::SceneWidget(Session& session, Say say) : session_(session), say_(st
   connect(&resting_, &QTimer::timeout, this, [this] { rest(); });
   vtkNew<vtkInteractorStyleTrackballCamera> style;
   static_cast<vtkRenderWindowInteractor*>(interactor())->SetInteractorStyle(style);
-  auto* turned = new std::function<void(unsigned long)>([this](unsigned long what) { turn(what); });
   for (const unsigned long what :
        {vtkCommand::StartInteractionEvent, vtkCommand::InteractionEvent, vtkCommand::EndInteractionEvent,
         vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent}) {
-    vtkNew<vtkCallbackCommand> after;
-    after->SetCallback(call_back);
-    after->SetClientData(turned);
-    if (what == vtkCommand::EndInteractionEvent)
-      after->SetClientDataDeleteCallback(
-          [](void* f) { delete static_cast<std::function<void(unsigned long)>*>(f); });
     const bool wheel =
         what == vtkCommand::MouseWheelForwardEvent || what == vtkCommand::MouseWheelBackwardEvent;
-    style->AddObserver(what, after, wheel ? -1 : 0);  // after the style itself
+    style->AddObserver(what, this, &SceneWidget::turn, wheel ? -1 : 0);  // after the style itself
   }
 }
 
 /// What a mouse has done to the camera becomes a line when it is done.
-void SceneWidget::turn(unsigned long what) {
+void SceneWidget::turn(vtkObject*, unsigned long what, void*) {
   if (stage_->views() == 0) return;
   const double last = stage_->view(0).renderer()->GetLastRenderTimeInSeconds() * stage_->views();
   if (what == vtkCommand::StartInteractionEvent) {

@@ -60,7 +60,7 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
 
  private:
   bool pick(int x, int y);
-  void turn(unsigned long what);
+  void turn(vtkObject*, unsigned long what, void*);
   void hurry(double last_seconds);
   void set_coarse(bool coarse);
   std::pair<int, int> pixel(const QMouseEvent& mouse) const;

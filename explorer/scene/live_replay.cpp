@@ -136,12 +136,20 @@ void LiveReplay::enter() {
     slot.index = static_cast<int>(i);
     stations_[static_cast<std::size_t>(entering_[i].vertex) + 1] = entering_[i].s;
     touched_.push_back(entering_[i].vertex);
-    entered_.push_back(entering_[i].vertex);
   }
   batches_.push_back({contractor_.contract(entering_, 1), entering_.size()});
   batches_.back().pieces.positions(blade_, rest_.data(), position_.data());
   active_ += entering_.size();
   contracted_ += entering_.size();
+}
+
+std::vector<int> LiveReplay::entered() const {
+  std::vector<int> vertices;
+  vertices.reserve(active_);
+  for (const Batch& batch : batches_)
+    for (const int v : batch.pieces.vertices())
+      if (v > 0) vertices.push_back(v - 1);
+  return vertices;
 }
 
 void LiveReplay::move_to(double s) {

@@ -43,8 +43,8 @@ class LiveReplay {
 
   /// Where along the path a vertex that has entered lies, mm.
   double station(int vertex) const { return stations_[static_cast<std::size_t>(vertex) + 1]; }
-  /// All that have entered so far; some perhaps twice, or no longer active.
-  const std::vector<int>& entered() const { return entered_; }
+  /// All that have entered and are still there.
+  std::vector<int> entered() const;
 
   /// The vertices whose positions the last follow() or move_to() has computed, some perhaps twice.
   const std::vector<int>& touched() const { return touched_; }
@@ -94,7 +94,6 @@ class LiveReplay {
   std::vector<Vec3> rest_, position_;  // number 0 is nobody's: it takes what is computed for those that left
   std::vector<Slot> slots_;
   std::vector<double> stations_;
-  std::vector<int> entered_;
   std::vector<Placed> placed_;  // of a path that is led on
   std::vector<Batch> batches_;
   std::priority_queue<Waiting> waiting_;

@@ -30,13 +30,12 @@ std::vector<LiveScalpel::Places> LiveScalpel::stop() {
 }
 
 void LiveScalpel::follow() {
-  constexpr std::int64_t frame = clock_second / 60;
-  for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !stop_;
-       due = std::max(due, clock_time(CLOCK_MONOTONIC) - frame)) {
-    cutting_.step(loop_.for_cutting());
-    tell();
-    sleep_until(due += frame);
-  }
+  repeat(
+      clock_second / 60, [this] { return stop_.load(); },
+      [this] {
+        cutting_.step(loop_.for_cutting());
+        tell();
+      });
 }
 
 void LiveScalpel::tell() {

@@ -284,7 +284,7 @@ void ScalpelCutting::relieve() {
   try {
     amplitudes_ = mutual_relief(cuts, setup_.scale * newest.tip());
   } catch (const InputError&) {  // the field does not tell the tension: they add
-    return;
+    amplitudes_.assign(cuts.size(), {{0}, {1}});
   }
   relieved_at_ = length;
   for (const Wound& wound : wounds_) tell(wound.opening->entered());
@@ -306,7 +306,6 @@ Vec3 ScalpelCutting::displacement(int vertex) const {
 void ScalpelCutting::tell(const std::vector<int>& vertices) {
   is_untold_.resize(std::max(is_untold_.size(), displacements_.size()));
   for (const int v : vertices) {
-    if (static_cast<std::size_t>(v) >= mesh_.vertices().size()) continue;
     const auto i = static_cast<std::size_t>(v);
     if (is_untold_[i] || squared_norm(displacement(v) - displacements_[i]) <= told * told) continue;
     is_untold_[i] = true;

@@ -1,10 +1,10 @@
 #include "explorer/view/furniture.h"
 
 #include <vtkActor2D.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCaptionActor2D.h>
 #include <vtkCellArray.h>
+#include <vtkCommand.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper2D.h>
 #include <vtkProperty2D.h>
@@ -70,11 +70,7 @@ Furniture::Furniture(vtkRenderWindow* window, vtkRenderer* renderer) : window_(w
   window_->SetNumberOfLayers(2);
   window_->AddRenderer(corner_);
 
-  vtkNew<vtkCallbackCommand> before;
-  before->SetClientData(this);
-  before->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void*) { static_cast<Furniture*>(self)->arrange(); });
-  observer_ = renderer_->AddObserver(vtkCommand::StartEvent, before);
+  observer_ = renderer_->AddObserver(vtkCommand::StartEvent, this, &Furniture::arrange);
 }
 
 Furniture::~Furniture() {

@@ -1,7 +1,7 @@
 #include "explorer/view/stage.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkCommand.h>
 #include <vtkRendererCollection.h>
 
 #include <algorithm>
@@ -12,11 +12,7 @@
 namespace cleft {
 
 Stage::Stage(vtkRenderWindow* window, double samples) : window_(window), samples_(samples) {
-  vtkNew<vtkCallbackCommand> before;
-  before->SetClientData(this);
-  before->SetCallback(
-      [](vtkObject*, unsigned long, void* stage, void*) { static_cast<Stage*>(stage)->follow_camera(); });
-  camera_observer_ = window_->AddObserver(vtkCommand::StartEvent, before);
+  camera_observer_ = window_->AddObserver(vtkCommand::StartEvent, this, &Stage::follow_camera);
 }
 
 Stage::~Stage() {
