@@ -1,8 +1,9 @@
-// The picture, by gnuplot: panels in rows of three, series labelled at their ends.
+// The picture, by gnuplot: panels in rows of three, series labelled beside their lines.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 #include "base/output_file.h"
@@ -16,6 +17,7 @@ namespace cleft {
 namespace {
 
 constexpr int panels_a_row = 3, panel_width = 520, panel_height = 430, heading_height = 70;
+constexpr double axes_width = 410, axes_height = 325;  // about, of a panel
 
 /// Okabe and Ito's colours, which the colour-blind tell apart.
 constexpr std::array<const char*, 6> colors = {"#0072B2", "#D55E00", "#009E73",
@@ -40,7 +42,38 @@ std::string quoted(const std::string& text) {
 
 struct Range1D {
   double least, most;
+
+  /// 0 at the least, 1 at the most.
+  double part(double value, bool logarithmic) const {
+    return logarithmic ? std::log(value / least) / std::log(most / least) : (value - least) / (most - least);
+  }
 };
+
+/// Pixels of a panel, from its axes' corner.
+struct Box {
+  double left, right, bottom, top;
+
+  bool holds(const std::array<double, 2>& p) const {
+    return p[0] > left && p[0] < right && p[1] > bottom && p[1] < top;
+  }
+  bool meets(const Box& other) const {
+    return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
+  }
+  Box grown(double by) const { return {left - by, right + by, bottom - by, top + by}; }
+};
+
+/// Of a series, in pixels, every few of them.
+std::vector<std::array<double, 2>> along_line(const std::vector<std::array<double, 2>>& points) {
+  constexpr double spacing = 4;
+  std::vector<std::array<double, 2>> all(points.begin(), points.begin() + 1);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto [x0, y0] = points[i - 1];
+    const double dx = points[i][0] - x0, dy = points[i][1] - y0;
+    const int steps = 1 + static_cast<int>(std::hypot(dx, dy) / spacing);
+    for (int k = 1; k <= steps; ++k) all.push_back({x0 + dx * k / steps, y0 + dy * k / steps});
+  }
+  return all;
+}
 
 /// With room for the labels at the ends of lines.
 Range1D padded(double least, double most, bool logarithmic, double left, double right) {
@@ -78,8 +111,9 @@ class PanelScript {
       return out + "set label 1 'nothing measured' at graph 0.5,0.5 center\nplot [0:1][0:1] NaN notitle\n";
     if (chart_.log_x) out += "set logscale x\n";
     if (chart_.log_y) out += "set logscale y\n";
-    out += ranges();  // names of series are placed within them
+    out += ranges();
     out += series();
+    out += names();
     out += front();
     out += standard();
     return out + "plot " + plots_ + "\n";
@@ -96,20 +130,6 @@ class PanelScript {
     y_ = padded(y_.least, y_.most, chart_.log_y, 0.08, 0.12);
     return tics("x", chart_.log_x, x_) + tics("y", chart_.log_y, y_) + "set xrange [" + shortest(x_.least) +
            ":" + shortest(x_.most) + "]\nset yrange [" + shortest(y_.least) + ":" + shortest(y_.most) + "]\n";
-  }
-
-  /// Above a series' first point, or below where another's name stands there.
-  double label_offset(const std::array<double, 2>& at) {
-    const auto part = [](double value, const Range1D& range, bool logarithmic) {
-      return logarithmic ? std::log(value / range.least) / std::log(range.most / range.least)
-                         : (value - range.least) / (range.most - range.least);
-    };
-    const std::array<double, 2> place{part(at[0], x_, chart_.log_x), part(at[1], y_, chart_.log_y)};
-    const bool taken = std::any_of(labels_.begin(), labels_.end(), [&](const std::array<double, 2>& other) {
-      return std::abs(other[0] - place[0]) < 0.3 && std::abs(other[1] - place[1]) < 0.06;
-    });
-    labels_.push_back(place);
-    return taken ? -0.8 : 0.7;
   }
 
   /// On a logarithmic axis of few decades 1, 2 and 5 of each, of less than one more; gnuplot would label the
@@ -144,10 +164,39 @@ class PanelScript {
       const std::string data = prefix_ + "_" + std::to_string(n), color = colors[n % colors.size()];
       out += block(data, rows);
       plot(data + " with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '" + color + "' notitle");
-      const auto first = *std::min_element(rows.begin(), rows.end());
-      out += "set label " + std::to_string(n + 1) + " " + quoted(names[n]) + " at " + shortest(first[0]) +
-             "," + shortest(first[1]) + " left offset 0.6," + shortest(label_offset(first)) + " tc rgb '" +
-             color + "' noenhanced\n";
+      for (auto& [x, y] : rows)
+        x = axes_width * x_.part(x, chart_.log_x), y = axes_height * y_.part(y, chart_.log_y);
+      std::sort(rows.begin(), rows.end());
+      lines_.push_back({names[n], color, rows, along_line(rows)});
+    }
+    return out;
+  }
+
+  /// Each beside a point of its line, where it hides least and is nearest to its own.
+  std::string names() {
+    constexpr double letter = 8, half = 8, beside = 9, above = 14;
+    std::string out;
+    std::vector<Box> taken;
+    for (const Line& line : lines_) {
+      const double width = letter * static_cast<double>(line.name.size());
+      double least = 0;
+      std::optional<Box> best;
+      for (const auto& [x, y] : line.points)
+        for (const double up : {above, -above, 0.})
+          for (const double left : {x + beside, x - beside - width}) {
+            const Box box{left, left + width, y + up - half, y + up + half};
+            double hidden =
+                box.left < 0 || box.right > axes_width || box.bottom < 0 || box.top > axes_height ? 1000 : 0;
+            for (const Box& other : taken) hidden += box.meets(other) ? 1000 : 0;
+            for (const Line& other : lines_)
+              for (const auto& p : other.way)
+                hidden += box.holds(p) ? 3 : &other != &line && box.grown(above).holds(p) ? 1 : 0;
+            if (!best || hidden < least) best = box, least = hidden;
+          }
+      taken.push_back(*best);
+      out += "set label " + std::to_string(taken.size()) + " " + quoted(line.name) + " at graph " +
+             shortest(best->left / axes_width) + "," + shortest((best->bottom + half) / axes_height) +
+             " left tc rgb '" + line.color + "' noenhanced\n";
     }
     return out;
   }
@@ -175,7 +224,11 @@ class PanelScript {
   std::string prefix_, plots_;
   std::vector<ChartPoint> drawn_;
   Range1D x_{}, y_{};
-  std::vector<std::array<double, 2>> labels_;  // where they stand, in parts of the panel
+  struct Line {
+    std::string name, color;
+    std::vector<std::array<double, 2>> points, way;  // pixels; the way: all along it
+  };
+  std::vector<Line> lines_;
 };
 
 std::string script_of(const std::vector<Chart>& charts, const std::string& heading,
