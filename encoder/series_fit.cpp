@@ -19,7 +19,7 @@ constexpr int usual = 1;
 constexpr double hardly_any = 1e-10, of_search = 1e-6, weakest_strength = 1e-8;
 constexpr double regularisation_cost = 1.05;  // of the data's error, at most
 constexpr double of_first = 0.02;             // and of the first frame, of which one column tells little
-constexpr double residual_bound = 1e-5;       // of the right-hand side, where iterations stop
+constexpr double residual_bound = 1e-6;       // of the right-hand side, where iterations stop
 // Data may be a spline of the space where the fit is off by no more than `nearly` of them, or fits of single
 // frames next to nothing. It is then looked for, and found where it is off by no more than `found`.
 constexpr double nearly = 1e-3, next_to_nothing = 1e-5, found = 1e-11;

@@ -1,6 +1,9 @@
 #include "encoder/series_system.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 
 #include "base/parallel.h"
@@ -9,8 +12,9 @@ namespace cleft {
 
 namespace {
 
-constexpr int most_iterations = 200;
+constexpr int most_iterations = 500;
 constexpr double least_hold = 1e-9;  // of all in t, where frames are fewer than control points
+constexpr double negligible = 1e-3;  // of a frame in a block, over the frame that counts most there
 
 /// D^T D of second differences; a first control point that is 0 is one of them.
 Eigen::MatrixXd roughness_in_time(int size, bool from_zero) {
@@ -22,6 +26,23 @@ Eigen::MatrixXd roughness_in_time(int size, bool from_zero) {
     roughness += d * d.transpose();
   }
   return roughness;
+}
+
+/// R with R^T (B^T B + hold) R = 1, such that each transformed control point sees as much as it can of one
+/// frame and nothing of the others: rows of (B, H) R, hold = H^T H, as many as there are control points and
+/// as independent as can be, come near to the identity.
+Eigen::MatrixXd one_frame_each(const Eigen::MatrixXd& in_time, const Eigen::MatrixXd& hold) {
+  const auto frames = in_time.rows(), T = in_time.cols();
+  const Eigen::MatrixXd root =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(in_time.transpose() * in_time + hold)
+          .operatorInverseSqrt();
+  Eigen::MatrixXd rows(frames + T, T);
+  rows << in_time, Eigen::MatrixXd(Eigen::LLT<Eigen::MatrixXd>(hold).matrixU());
+  rows *= root;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> independent(rows.transpose());
+  const Eigen::MatrixXd chosen = (independent.colsPermutation().transpose() * rows).topRows(T);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> polar(chosen, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return root * polar.matrixV() * polar.matrixU().transpose();
 }
 
 Eigen::RowVector3d products(const SeriesSystem::Blocks& a, const SeriesSystem::Blocks& b) {
@@ -44,25 +65,23 @@ SeriesSystem::SeriesSystem(const SpaceFit& space, const Eigen::MatrixXd& in_time
                            std::vector<SpaceFit::Normal> normals)
     : space_(space), in_time_(in_time), normals_(std::move(normals)) {
   const auto frames = in_time.rows(), T = in_time.cols();
-  Eigen::MatrixXd in_t = in_time.transpose() * in_time;
-  hold_ = in_t.diagonal().mean() * (time_roughness * roughness_in_time(static_cast<int>(T), from_zero) +
-                                    least_hold * Eigen::MatrixXd::Identity(T, T));
-  const Eigen::LLT<Eigen::MatrixXd> time_factor(in_t + hold_);
-  inverse_ = time_factor.matrixL().solve(Eigen::MatrixXd::Identity(T, T));
+  hold_ = (in_time.squaredNorm() / static_cast<double>(T)) *
+          (time_roughness * roughness_in_time(static_cast<int>(T), from_zero) +
+           least_hold * Eigen::MatrixXd::Identity(T, T));
+  inverse_root_ = one_frame_each(in_time, hold_);
   if (!same())
     for (const SpaceFit::Normal& normal : normals_) mean_.add(1 / static_cast<double>(frames), normal);
 
-  // The mean of the normal matrices that each control point in t sees.
+  const Eigen::MatrixXd parts = (in_time * inverse_root_).cwiseAbs2(),
+                        held = inverse_root_.transpose() * hold_ * inverse_root_;
   factors_.resize(same() ? 1 : static_cast<std::size_t>(T));
   parallel_for(static_cast<int>(factors_.size()), [&](int l) {
     if (same()) return void(factors_[0].emplace(space_.factorize(normals_[0])));
     SpaceFit::Normal sum;
-    double all = 0;
-    for (Eigen::Index j = 0; j < frames; ++j) all += in_time(j, l) * in_time(j, l);
     for (Eigen::Index j = 0; j < frames; ++j)
-      if (const double part = in_time(j, l) * in_time(j, l); part > 0)
-        sum.add(part / (all + hold_(l, l)), normals_[static_cast<std::size_t>(j)]);
-    sum.add(hold_(l, l) / (all + hold_(l, l)), mean_);
+      if (parts(j, l) > negligible * parts.col(l).maxCoeff())
+        sum.add(parts(j, l), normals_[static_cast<std::size_t>(j)]);
+    sum.add(held(l, l), mean_);
     factors_[static_cast<std::size_t>(l)].emplace(space_.factorize(sum));
   });
 }
@@ -116,14 +135,14 @@ SeriesSystem::Blocks SeriesSystem::multiply(const Blocks& x) const {
   return sums;
 }
 
-/// L^-T blockdiag(N)^-1 L^-1.
+/// R blockdiag(N)^-1 R^T.
 SeriesSystem::Blocks SeriesSystem::precondition(const Blocks& x) const {
-  Blocks y = mixed(inverse_, x);
+  Blocks y = mixed(inverse_root_.transpose(), x);
   parallel_for(static_cast<int>(y.size()), [&](int i) {
     const auto l = static_cast<std::size_t>(i);
     y[l] = factors_[same() ? 0 : l]->solve(std::move(y[l]));
   });
-  return mixed(inverse_.transpose(), y);
+  return mixed(inverse_root_, y);
 }
 
 SeriesSystem::Blocks SeriesSystem::solve(const Blocks& right, double bound) const {

@@ -119,17 +119,28 @@ TEST(LeastSquares, EqualsTheJointFourDimensionalOne) {
     const Eigen::MatrixXd all = joint.data + joint.roughness;
     const Eigen::MatrixXd best = all.ldlt().solve(joint.right), found = stacked(fit.control_points());
     EXPECT_GT(joint.cost(best), 1e-3 * joint.total) << "a perfect fit proves nothing";
-    // Where the parametrisation moves, conjugate gradients stop at a residual of 1e-4 of the right-hand side:
-    // what is left of the cost, r^T A^-1 r, is then a few millionths of that of data which are no spline.
+    // Where the parametrisation moves, conjugate gradients stop at a residual of 1e-6 of the right-hand side.
     const Eigen::MatrixXd residual = joint.right - all * found;
     for (int axis = 0; axis < 3; ++axis)
-      EXPECT_LE(residual.col(axis).norm(), 1e-4 * joint.right.col(axis).norm());
+      EXPECT_LE(residual.col(axis).norm(), 1.1e-6 * joint.right.col(axis).norm());
     EXPECT_GE(joint.cost(found) / joint.cost(best), 1 - 1e-9);
-    EXPECT_LE(joint.cost(found) / joint.cost(best), 1 + (std::string(name) == "tip" ? 1e-5 : 1e-6));
+    EXPECT_LE(joint.cost(found) / joint.cost(best), 1 + 1e-7);
     // Regularisation costs the data 5 % at most.
     const Eigen::MatrixXd free = (joint.data + 1e-4 * joint.roughness).ldlt().solve(joint.right);
     EXPECT_LT(std::sqrt(joint.data_cost(found) / joint.data_cost(free)), 1.05);
   }
+}
+
+/// Few nodes in the hole of a cloud, and few frames for each control point in t: what a fit says there comes
+/// late in the iterations.
+TEST(LeastSquares, ConvergesSoonWhereLittleIsKnown) {
+  std::vector<Vec3> points;
+  for (const Vec3& p : grid(24, 20, 5))
+    if (std::hypot(p.x - 2, p.y - 2) > 1.2) points.push_back(p);
+  const Series series = SyntheticSnapshot(cut_in(points, eight_times), opening).series();
+  const auto parametrization = make_parametrization("tip", series.geometry);
+  const SeriesFit fit(series, parametrization, bases_of({2, 12, 2, 7, 2, 2, 4}, *parametrization, 8));
+  EXPECT_LT(fit.iterations(), 150);
 }
 
 /// Where no data reach, the roughness carries straight lines on: data on one half, a linear motion over all.
