@@ -49,4 +49,9 @@ void return_large_blocks() {
   mallopt(M_MMAP_THRESHOLD, 16 << 20);  // vectors of a million unknowns still come from the heap, for speed
 }
 
+void keep_freed_blocks() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most there may be
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
+
 }  // namespace cleft

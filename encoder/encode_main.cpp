@@ -5,6 +5,7 @@
 #include "base/command.h"
 #include "base/error.h"
 #include "base/h5.h"
+#include "base/memory.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "encoder/encode.h"
@@ -82,6 +83,7 @@ void verify_written(const std::string& out, const Encoded& encoded) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_blocks();
   CLI::App app("Fits a discontinuous free-form deformation to a snapshot.", "cleft encode");
   std::string snapshot, out;
   std::vector<int> counts;
