@@ -59,6 +59,9 @@ struct Box {
   bool meets(const Box& other) const {
     return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
   }
+  bool covers(const Box& other) const {
+    return other.left >= left && other.right <= right && other.bottom >= bottom && other.top <= top;
+  }
   Box grown(double by) const { return {left - by, right + by, bottom - by, top + by}; }
 };
 
@@ -176,6 +179,7 @@ class PanelScript {
   std::string names() {
     constexpr double letter = 8, half = 8, beside = 9, above = 14;
     std::string out;
+    constexpr Box inside{0, axes_width, half, axes_height};
     std::vector<Box> taken;
     for (const Line& line : lines_) {
       const double width = letter * static_cast<double>(line.name.size());
@@ -185,8 +189,7 @@ class PanelScript {
         for (const double up : {above, -above, 0.})
           for (const double left : {x + beside, x - beside - width}) {
             const Box box{left, left + width, y + up - half, y + up + half};
-            double hidden =
-                box.left < 0 || box.right > axes_width || box.bottom < 0 || box.top > axes_height ? 1000 : 0;
+            double hidden = inside.covers(box) ? 0 : 1000;
             for (const Box& other : taken) hidden += box.meets(other) ? 1000 : 0;
             for (const Line& other : lines_)
               for (const auto& p : other.way)

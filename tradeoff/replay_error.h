@@ -14,10 +14,11 @@ ScalpelPath path_of(const Snapshot& snapshot, int cut = 0);
 
 /// Over all frames; lengths in mm.
 struct ReplayError {
-  double gape = 0;           ///< largest distance between the lips, of the truth
-  double gape_error = 0;     ///< of the vector from lip to lip
-  double skin_error = 0;     ///< of the displacement of any vertex of the skin from the closed frame
-  double frame_seconds = 0;  ///< median time for the positions of all vertices
+  double gape = 0;        ///< largest distance between the lips, of the truth
+  double gape_error = 0;  ///< of the vector from lip to lip
+  double skin_error = 0;  ///< of the displacement of any vertex of the skin from the closed frame
+  double frame_seconds =
+      0;  ///< for the positions of all vertices: of each frame the least of many, the median
   std::size_t vertices = 0;
 };
 

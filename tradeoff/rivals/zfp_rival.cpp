@@ -2,6 +2,8 @@
 
 #include <zfp.h>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -27,10 +29,14 @@ ZfpCost through_zfp(std::vector<float>& values, std::size_t nx, std::size_t ny, 
   zfp_stream_set_bit_stream(stream.get(), bits.get());
   zfp_stream_rewind(stream.get());
   const std::size_t bytes = zfp_compress(stream.get(), field.get());
-  zfp_stream_rewind(stream.get());
-  Stopwatch watch;
-  zfp_decompress(stream.get(), field.get());
-  return {static_cast<double>(bytes), watch.lap()};
+  double least = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    zfp_stream_rewind(stream.get());
+    Stopwatch watch;
+    zfp_decompress(stream.get(), field.get());
+    least = std::min(least, watch.seconds());
+  }
+  return {static_cast<double>(bytes), least};
 }
 
 }  // namespace
