@@ -169,8 +169,9 @@ class PanelScript {
       plot(data + " with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '" + color + "' notitle");
       for (auto& [x, y] : rows)
         x = axes_width * x_.part(x, chart_.log_x), y = axes_height * y_.part(y, chart_.log_y);
+      const auto way = along_line(rows);
       std::sort(rows.begin(), rows.end());
-      lines_.push_back({names[n], color, rows, along_line(rows)});
+      lines_.push_back({names[n], color, rows, way});
     }
     return out;
   }
