@@ -39,7 +39,7 @@ double rounded(double x) {
 
 Json shown(const Expectation& e) {
   return {{"mesh", rounded(e.mesh)}, {"tip", rounded(e.tip)},       {"patch", rounded(e.patch)},
-          {"code", e.code},          {"detail", rounded(e.detail)}, {"total", rounded(e.total)}};
+          {"code", rounded(e.code)}, {"detail", rounded(e.detail)}, {"total", rounded(e.total)}};
 }
 
 }  // namespace
