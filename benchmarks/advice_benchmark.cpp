@@ -109,8 +109,8 @@ int main(int argc, char** argv) {
     // Every setting of a lattice whose mesh is smaller.
     const auto nodes = [&](const Setting& s) { return estimated_nodes(applied(s, p)); };
     int tried = 0;
-    for (const double elements : {12, 16, 24, 32, 48})
-      for (const double margin : {0.5, 1., 2., 4.}) {
+    for (const double elements : {8, 12, 16, 20, 24, 32, 48})
+      for (const double margin : {0.5, 1., 2., 3., 4., 6.}) {
         const Setting other{.element_size = p.cut.length / elements, .margin = margin * p.cut.length};
         if (nodes(other) >= nodes(chosen)) continue;
         ++tried;
