@@ -21,9 +21,11 @@ constexpr double least_tip_order = 0.5;  // of a square root that a mesh cannot 
 constexpr double widest = 16;
 constexpr double safety = 1.05;         // what was measured beside estimates lay up to 8 % above them
 constexpr double most_of_patch = 0.25;  // its error, where meshes are compared
+// Tolerance over the error. Of displacements, about half of the opening, it bounds the error at nodes; what
+// coarse meshes tell of a looser one does not hold in others, where other knots keep it.
+constexpr double loosest = 0.5;
 constexpr double details[] = {0, 0.01, 0.02, 0.05, 0.1, 0.25};  // over the error and the opening
-constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001}, tightest = 0.001;
-constexpr double same_knots = 1e-4;  // of two fields' openings, over the largest: tighter ones are the same
+constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
 template <class At>
 std::vector<Vec3> sampled(double length, const At& at) {
@@ -85,45 +87,24 @@ Parameters CaseModel::coarse(double elements, double margin) const {
 
 void CaseModel::measure_patches() {
   const double length = parameters_.cut.length;
-  const auto chain = [&](double margin) {
+  const auto samples = [&](double margin) {
     progress_("solving in a patch of " + shortest(margin) + " cut lengths around the cut");
-    return Chain(coarse(elements_in_patches, margin), work_);
-  };
-  const auto samples = [&](const Chain& of) {
-    const Opening opening = of.opening();
+    const Chain chain(coarse(elements_in_patches, margin), work_);
+    const Opening opening = chain.opening();
     return sampled(length, [&](double s, double t) { return opening.at(s, t); });
   };
-  const Samples wide = samples(chain(widest));
+  const Samples wide = samples(widest);
   largest_ = size_of(wide);
-  for (const double margin : margins) {
-    const Chain narrow = chain(margin);
-    const Samples opening = samples(narrow);
-    patches_.push_back({margin * length, difference(opening, wide), code_errors(narrow, size_of(opening))});
-  }
-}
-
-/// Of each tolerance, over the largest opening: how far its field's is from the tightest one's, in the same
-/// patch, since the knots that keep a tolerance are others in a wider one.
-std::vector<double> CaseModel::code_errors(const Chain& chain, double largest) const {
-  const auto samples = [&](double tolerance) {
-    const Field field = chain.encoded(tolerance).field;
-    return sampled(parameters_.cut.length, [&](double s, double t) { return opening(field, s, t); });
-  };
-  const Samples tight = samples(tightest);
-  std::vector<double> errors(std::size(tolerances), 0.);
-  for (std::size_t i = 0; tolerances[i] != tightest; ++i) {
-    errors[i] = size_of(difference(samples(tolerances[i]), tight)) / largest;
-    if (errors[i] < same_knots) break;
-  }
-  return errors;
+  for (const double margin : margins)
+    patches_.emplace_back(margin * length, difference(samples(margin), wide));
 }
 
 void CaseModel::measure_meshes() {
   const double length = parameters_.cut.length;
-  const auto like = std::find_if(patches_.begin(), patches_.end(), [&](const Patch& patch) {
-    return size_of(patch.apart) <= most_of_patch * largest_;
+  const auto like = std::find_if(patches_.begin(), patches_.end(), [&](const auto& patch) {
+    return size_of(patch.second) <= most_of_patch * largest_;
   });
-  const double margin = (like == patches_.end() ? patches_.back() : *like).margin / length;
+  const double margin = (like == patches_.end() ? patches_.back() : *like).first / length;
   std::optional<Opening> before;
   double largest = 0;
   for (const double elements : elements_along_cut) {
@@ -136,11 +117,12 @@ void CaseModel::measure_meshes() {
                          sampled(length, at));
     before = opening;
     largest = opening.largest();
-    const Chain::Encoded tight = chain.encoded(tightest);
     const auto apart = [&](const Field& field) {
       return difference(sampled(length, [&](double s, double t) { return cleft::opening(field, s, t); }),
                         sampled(length, at));
     };
+    const double tightest = tolerances[std::size(tolerances) - 1];
+    const Chain::Encoded tight = chain.encoded(tightest);
     tips_.emplace_back(length / elements, apart(tight.field));
     costs_.emplace_back(chain.nodes(), chain.solve_seconds() + tight.seconds);
     if (elements != elements_along_cut[std::size(elements_along_cut) - 1]) continue;
@@ -151,22 +133,19 @@ void CaseModel::measure_meshes() {
       const Field& field = encoded.field;
       codes_.push_back(
           {tolerance,
+           std::max(0., size_of(apart(field)) - size_of(tips_.back().second)),
            encoded.bytes,
-           apart(field),
            {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}});
     }
   }
   // Against a patch in which this much opens.
-  for (Patch& patch : patches_)
-    for (Vec3& x : patch.apart) x *= largest / largest_;
+  for (auto& [narrow, samples] : patches_)
+    for (Vec3& x : samples) x *= largest / largest_;
   largest_ = largest;
 }
 
-/// Of a measured size that is near, as large as it is at this size: straight in logarithms between them. The
-/// knots a looser tolerance does without do not follow finer meshes.
-CaseModel::Samples CaseModel::tip_samples(double size, double tolerance) const {
-  const Code& code = code_of(tolerance);
-  if (size < tips_.back().first && code.control_points != codes_.back().control_points) return code.tip;
+/// Of a measured size that is near, as large as it is at this size: straight in logarithms between them.
+CaseModel::Samples CaseModel::tip_samples(double size) const {
   std::size_t i = 0;
   while (i + 2 < tips_.size() && size < tips_[i + 1].first) ++i;
   const auto& [coarse, coarse_samples] = tips_[i];
@@ -180,15 +159,11 @@ CaseModel::Samples CaseModel::tip_samples(double size, double tolerance) const {
   return samples;
 }
 
-const CaseModel::Code& CaseModel::code_of(double tolerance) const {
+std::array<int, 4> CaseModel::control_points(double tolerance) const {
   const auto code =
       std::find_if(codes_.begin(), codes_.end(), [&](const Code& one) { return one.tolerance == tolerance; });
   CLEFT_CHECK(code != codes_.end(), ==, true);
-  return *code;
-}
-
-std::array<int, 4> CaseModel::control_points(double tolerance) const {
-  return code_of(tolerance).control_points;
+  return code->control_points;
 }
 
 double CaseModel::frame_ms(double detail) const { return 1e3 * frame_seconds(*field_, detail); }
@@ -197,20 +172,20 @@ Expectation CaseModel::expectation(const Setting& setting) const {
   Expectation e;
   // Against one twice as fine, the same is left there.
   const double share = 2 * setting.element_size / mesh_size_;
-  const auto patch = std::find_if(patches_.begin(), patches_.end(), [&](const Patch& one) {
-    return std::abs(one.margin - setting.margin) < 1e-9 * one.margin;
-  });
-  CLEFT_CHECK(patch != patches_.end(), ==, true);
-  const Samples tip = tip_samples(setting.element_size, setting.tolerance);
-  Samples sum = patch->apart, all = tip;
+  const Samples* patch = nullptr;
+  for (const auto& [margin, samples] : patches_)
+    if (std::abs(margin - setting.margin) < 1e-9 * margin) patch = &samples;
+  CLEFT_CHECK(patch != nullptr, ==, true);
+  const Samples tip = tip_samples(setting.element_size);
+  Samples sum = *patch, all = tip;
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share * mesh_[i], all[i] += sum[i];
-  e.mesh = share * size_of(mesh_) / largest_, e.patch = size_of(patch->apart) / largest_;
+  e.mesh = share * size_of(mesh_) / largest_, e.patch = size_of(*patch) / largest_;
   e.tip = size_of(tip) / largest_;
-  const Code& code = code_of(setting.tolerance);
-  e.code = patch->code[static_cast<std::size_t>(&code - codes_.data())], e.bytes = code.bytes;
+  for (const Code& code : codes_)
+    if (code.tolerance == setting.tolerance) e.code = code.error / largest_, e.bytes = code.bytes;
   e.detail = 2 * setting.detail / largest_;  // of both lips
-  const double solved = std::max(size_of(all), std::hypot(size_of(sum), size_of(tip))) / largest_;
-  e.total = safety * std::hypot(solved, e.code) + e.detail;
+  e.total =
+      safety * std::max(size_of(all), std::hypot(size_of(sum), size_of(tip))) / largest_ + e.code + e.detail;
   e.frames = std::round(parameters_.cut.length / setting.element_size);
   e.nodes = estimated_nodes(applied(setting, parameters_));
   const auto& [n0, s0] = costs_.front();
@@ -223,9 +198,9 @@ Expectation CaseModel::expectation(const Setting& setting) const {
 std::vector<Setting> CaseModel::settings() const {
   std::vector<Setting> all;
   for (const double elements : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
-    for (const Patch& patch : patches_)
-      for (const double tolerance : tolerances)
-        all.push_back({parameters_.cut.length / elements, patch.margin, tolerance, 0});
+    for (const auto& [margin, samples] : patches_)
+      for (const Code& code : codes_)
+        all.push_back({parameters_.cut.length / elements, margin, code.tolerance, 0});
   return all;
 }
 
@@ -264,10 +239,12 @@ double detail_for(const std::vector<CaseModel>& models, const Goals& goals) {
 
 Setting advise(const std::vector<CaseModel>& models, const Goals& goals) {
   const double detail = goals.frame_ms > 0 ? detail_for(models, goals) : 0;
+  const double most_tolerance = std::max(loosest * goals.error, tolerances[std::size(tolerances) - 1]);
   std::optional<Setting> best;
   Expectation of_best, nearest;
   bool fits_at_all = false;
   for (Setting setting : models.front().settings()) {
+    if (setting.tolerance > most_tolerance) continue;
     setting.detail = detail;
     const Expectation e = expectation(models, setting);
     if (goals.megabytes > 0 && 1e-6 * goals.cases * e.bytes > goals.megabytes) continue;
@@ -279,7 +256,7 @@ Setting advise(const std::vector<CaseModel>& models, const Goals& goals) {
   }
   if (!fits_at_all)
     throw InputError("--mb " + shortest(goals.megabytes) + ": " + shortest(goals.cases) +
-                     " cases take more, whatever the tolerance");
+                     " cases take more, with tolerances of half the error and tighter");
   if (!best)
     throw InputError("--error " + shortest(goals.error) + ": out of reach; " +
                      shortest(std::round(1e4 * nearest.total) / 1e4) + " can be had, where the " +

@@ -8,15 +8,13 @@
 //   mesh     nodes of two coarse meshes against each other, in a patch that errs little; it goes as the
 //            element's size, as the energy of a crack does
 //   tip      the field against its own mesh between nodes and frames, where the lips close as the square root
-//            of the distance from the tip, at three sizes; finer ones go on with the order of the last two,
-//            but not where a looser tolerance has fewer knots: those do not become finer
-//   code     the field of a looser tolerance against the tightest one's, in each patch: a wider one has other
-//            knots
+//            of the distance from the tip, at three sizes; finer ones go on with the order of the last two
+//   code     what a looser tolerance adds, at the finest of those meshes; at most half the error asked for
 //   detail   what a replay leaves alone, on both lips
 //
 // Patch, mesh and tip may add or cancel: their differences are added with their signs before their size is
 // taken. That of the tip is often largest elsewhere: where the root of both squares is more, it counts. The
-// code's, which are elsewhere again, join as a root of squares; the detail's is added.
+// others are added.
 #pragma once
 
 #include <array>
@@ -31,8 +29,6 @@
 #include "params/parameters.h"
 
 namespace cleft {
-
-class Chain;
 
 /// What is chosen.
 struct Setting {
@@ -73,22 +69,10 @@ class CaseModel {
 
  private:
   using Samples = std::vector<Vec3>;  // over the cut and over time, mm
-  struct Patch {
-    double margin;             // mm
-    Samples apart;             // from one that is far wider
-    std::vector<double> code;  // error of each tolerance, over the largest opening
-  };
-  struct Code {
-    double tolerance, bytes;
-    Samples tip;  // in the finest mesh measured
-    std::array<int, 4> control_points;
-  };
 
   void measure_meshes();
   void measure_patches();
-  std::vector<double> code_errors(const Chain& chain, double largest) const;
-  const Code& code_of(double tolerance) const;
-  Samples tip_samples(double size, double tolerance) const;
+  Samples tip_samples(double size) const;
   Parameters coarse(double elements, double margin) const;
 
   Parameters parameters_;
@@ -97,9 +81,13 @@ class CaseModel {
   double largest_ = 0;    // opening, mm
   double mesh_size_ = 0;  // element size of the coarser of the two meshes compared
   Samples mesh_;
-  std::vector<std::pair<double, Samples>> tips_;  // by element size, coarsest first
-  std::vector<Patch> patches_;
-  std::vector<Code> codes_;                       // by tolerance, loosest first
+  std::vector<std::pair<double, Samples>> tips_;     // by element size, coarsest first
+  std::vector<std::pair<double, Samples>> patches_;  // by margin
+  struct Code {
+    double tolerance, error, bytes;  // mm beyond the mesh's
+    std::array<int, 4> control_points;
+  };
+  std::vector<Code> codes_;
   std::vector<std::pair<double, double>> costs_;  // nodes, seconds
   std::optional<Field> field_;
 };
