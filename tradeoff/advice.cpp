@@ -20,7 +20,7 @@ constexpr double elements_in_patches = 16;                              // of th
 constexpr double least_tip_order = 0.5;  // of a square root that a mesh cannot follow
 constexpr double widest = 16;
 constexpr double safety = 1.05;         // what was measured beside estimates lay up to 8 % above them
-constexpr double most_of_patch = 0.25;  // its error, where meshes are compared
+constexpr double most_of_patch = 0.05;  // its error, where meshes are compared
 // Tolerance over the error. Of displacements, about half of the opening, it bounds the error at nodes; what
 // coarse meshes tell of a looser one does not hold in others, where other knots keep it.
 constexpr double loosest = 0.5;
