@@ -1,7 +1,9 @@
 // Seconds of a steady clock.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 
 namespace cleft {
 
@@ -24,5 +26,17 @@ class Stopwatch {
   }
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
+
+/// Seconds that `work` takes, the least of `repeats` times: what else the machine does is left out.
+template <class Work>
+double least_seconds(int repeats, const Work& work) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const Stopwatch watch;
+    work();
+    least = std::min(least, watch.seconds());
+  }
+  return least;
+}
 
 }  // namespace cleft

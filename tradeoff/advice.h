@@ -9,7 +9,7 @@
 //            element's size, as the energy of a crack does
 //   tip      the field against its own mesh between nodes and frames, where the lips close as the square root
 //            of the distance from the tip, at three sizes; finer ones go on with the order of the last two
-//   code     what a looser tolerance adds, at the finest of those meshes; at most half the error asked for
+//   code     what a looser tolerance adds, at the finest of those meshes; none beyond half the error is taken
 //   detail   what a replay leaves alone, on both lips
 //
 // Patch, mesh and tip may add or cancel: their differences are added with their signs before their size is

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "base/quantiles.h"
@@ -26,13 +25,8 @@ double point_nanoseconds(const Field& field, const Series& series) {
   for (const double t : series.times) {
     places.clear();
     for (const Sample& sample : series.samples) places.push_back({sample.uvw, sample.side, t});
-    double least = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < 5; ++repeat) {
-      Stopwatch watch;
-      field.displacements(places, out);
-      least = std::min(least, watch.seconds());
-    }
-    times.push_back(1e9 * least / static_cast<double>(places.size()));
+    const double seconds = least_seconds(5, [&] { field.displacements(places, out); });
+    times.push_back(1e9 * seconds / static_cast<double>(places.size()));
   }
   return median(times);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
@@ -128,13 +127,7 @@ ReplayError compare(const SnapshotReader& truth, const UncutSkin& skin, const In
   std::vector<double> seconds;
   constexpr int repeats = 50;
   for (std::size_t j = 1; j < truth.snapshot().frames(); ++j) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-      Stopwatch watch;
-      replay.positions(truth.snapshot().times[j], moved);
-      least = std::min(least, watch.seconds());
-    }
-    seconds.push_back(least);
+    seconds.push_back(least_seconds(repeats, [&] { replay.positions(truth.snapshot().times[j], moved); }));
     comparison.add(j, incision.mesh(), {{&incision}}, moved);
   }
   comparison.result.frame_seconds = median(seconds), comparison.result.vertices = moved.size();

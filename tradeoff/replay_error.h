@@ -14,11 +14,10 @@ ScalpelPath path_of(const Snapshot& snapshot, int cut = 0);
 
 /// Over all frames; lengths in mm.
 struct ReplayError {
-  double gape = 0;        ///< largest distance between the lips, of the truth
-  double gape_error = 0;  ///< of the vector from lip to lip
-  double skin_error = 0;  ///< of the displacement of any vertex of the skin from the closed frame
-  double frame_seconds =
-      0;  ///< for the positions of all vertices: of each frame the least of many, the median
+  double gape = 0;           ///< largest distance between the lips, of the truth
+  double gape_error = 0;     ///< of the vector from lip to lip
+  double skin_error = 0;     ///< of the displacement of any vertex of the skin from the closed frame
+  double frame_seconds = 0;  ///< for all vertices' positions: the least of many, the median of frames
   std::size_t vertices = 0;
 };
 

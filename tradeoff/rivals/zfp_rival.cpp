@@ -2,8 +2,6 @@
 
 #include <zfp.h>
 
-#include <algorithm>
-#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -29,14 +27,11 @@ ZfpCost through_zfp(std::vector<float>& values, std::size_t nx, std::size_t ny, 
   zfp_stream_set_bit_stream(stream.get(), bits.get());
   zfp_stream_rewind(stream.get());
   const std::size_t bytes = zfp_compress(stream.get(), field.get());
-  double least = std::numeric_limits<double>::infinity();
-  for (int repeat = 0; repeat < 3; ++repeat) {
+  const double seconds = least_seconds(3, [&] {
     zfp_stream_rewind(stream.get());
-    Stopwatch watch;
     zfp_decompress(stream.get(), field.get());
-    least = std::min(least, watch.seconds());
-  }
-  return {static_cast<double>(bytes), least};
+  });
+  return {static_cast<double>(bytes), seconds};
 }
 
 }  // namespace
