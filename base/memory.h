@@ -14,8 +14,8 @@ double peak_memory();
 /// in use.
 void return_large_blocks();
 
-/// From here on what is freed is kept for what comes next. Matrices of some MB that come and go are made of new
-/// pages each time otherwise: a seventh of the time of a fit.
+/// From here on what is freed is kept for what comes next. Matrices of some MB that come and go are made of
+/// new pages each time otherwise: a seventh of the time of a fit.
 void keep_freed_blocks();
 
 }  // namespace cleft

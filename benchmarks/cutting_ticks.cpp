@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "explorer/scene/hand_script.h"
-#include "explorer/scene/scalpel_cutting.h"
+#include "explorer/scalpel/hand_script.h"
+#include "explorer/scalpel/scalpel_cutting.h"
 #include "haptic/loop.h"
 #include "haptic/real_time.h"
 #include "tests/incision/fields.h"

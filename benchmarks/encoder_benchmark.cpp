@@ -8,9 +8,9 @@
 #include <random>
 
 #include "base/stopwatch.h"
-#include "tradeoff/rivals/node_data.h"
 #include "benchmarks/encoder/ours.h"
 #include "benchmarks/encoder/pod_rival.h"
+#include "tradeoff/rivals/node_data.h"
 #include "tradeoff/rivals/zfp_rival.h"
 
 using namespace cleft;

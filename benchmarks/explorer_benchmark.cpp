@@ -17,7 +17,7 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "explorer/app/main_window.h"
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 #include "explorer/view/picture.h"
 
 using namespace cleft;

@@ -7,7 +7,7 @@
 
 #include "base/quantiles.h"
 #include "encoder/field/field.h"
-#include "explorer/scene/replay_pieces.h"
+#include "explorer/wound/replay_pieces.h"
 
 using namespace cleft;
 

@@ -45,7 +45,7 @@ Vec3 tool_at(int tick) {
 void queries(ContactReader& reader) {
   std::vector<Vec3> tool(200002);
   for (std::size_t n = 0; n < tool.size(); ++n) tool[n] = tool_at(static_cast<int>(n));
-  const auto at = [&](int n) -> const Vec3& { return tool[static_cast<std::size_t>(n)]; };
+  const auto at = [&](int n) -> const Vec3& { return tool[n]; };
   const ContactLook look(reader);
   print("first contact of a tick's way", nanoseconds(20000, 10, [&](int n) {
           kept += reader.first_contact(at(n), at(n + 1), Facing::any).fraction;

@@ -8,7 +8,7 @@
 
 #include "base/quantiles.h"
 #include "benchmarks/winding_cut.h"
-#include "explorer/scene/live_replay.h"
+#include "explorer/wound/live_replay.h"
 #include "tests/incision/fields.h"
 
 namespace {

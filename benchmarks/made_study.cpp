@@ -6,7 +6,7 @@
 
 #include "base/output_file.h"
 #include "base/sealed_json.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "encoder/field/unknowns.h"
 
 namespace cleft {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "encoder/field/field.h"
-#include "encoder/field/study_file.h"
+#include "encoder/field/file/study_file.h"
 
 namespace cleft {
 

@@ -12,7 +12,7 @@
 #include "base/quantiles.h"
 #include "base/stopwatch.h"
 #include "benchmarks/made_study.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 
 using namespace cleft;
 namespace fs = std::filesystem;

@@ -4,12 +4,12 @@
 #include <iostream>
 #include <map>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
-#include "base/h5.h"
-#include "encoder/field/field_file.h"
-#include "encoder/field/study_file.h"
-#include "params/study_folder.h"
+#include "base/h5/h5.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/study_file.h"
+#include "params/run/study_folder.h"
 #include "solver/snapshot/snapshot.h"
 
 using namespace cleft;

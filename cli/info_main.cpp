@@ -4,12 +4,12 @@
 #include <iostream>
 #include <sstream>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
 #include "base/sealed_json.h"
-#include "encoder/field/field_file.h"
-#include "encoder/field/field_record.h"
-#include "encoder/field/study_file.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/field_record.h"
+#include "encoder/field/file/study_file.h"
 #include "solver/snapshot/snapshot.h"
 
 using namespace cleft;

@@ -15,7 +15,7 @@ CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& sa
     double least = 0, greatest = 0;
     bool beside = false;
     for (auto node = begin; node != end; ++node) {
-      const Vec3& at = samples[static_cast<std::size_t>(*node)].uvw;
+      const Vec3& at = samples[*node].uvw;
       centre += (1. / static_cast<double>(end - begin)) * at;
       least = std::min(least, at.y), greatest = std::max(greatest, at.y);
       beside = beside || at.y == 0;

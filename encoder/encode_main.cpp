@@ -2,15 +2,15 @@
 #include <Eigen/Core>
 #include <filesystem>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
-#include "base/h5.h"
+#include "base/h5/h5.h"
 #include "base/memory.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "encoder/encode.h"
-#include "encoder/field/field_file.h"
-#include "encoder/field/field_record.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/field_record.h"
 #include "params/encode_limits.h"
 
 using namespace cleft;

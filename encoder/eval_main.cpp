@@ -1,11 +1,11 @@
 // cleft eval: displacements of a field at points given as CSV, or at the nodes of its snapshot.
 #include <iostream>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "encoder/samples.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -100,7 +100,7 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
   const Snapshot& s = reader.snapshot();
   const std::optional<NodeResidual> residual = read_residual(file);
   check_fit(field, residual, s, file, nodes);
-  const auto j = static_cast<std::size_t>(frame);
+  const std::size_t j = frame;
   if (j >= s.frames())
     throw InputError("--frame: " + std::to_string(frame) + ": " + nodes + " holds frames 0 to " +
                      std::to_string(s.frames() - 1));

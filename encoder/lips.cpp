@@ -51,7 +51,7 @@ class Jumps {
         for (int l = 0; l <= field_.basis(3).degree(); ++l) {
           const int place = (along.first + i) * W + height.first + k;
           const double factor = along.value[i] * height.value[k] * time.value[l];
-          if (!free_[static_cast<std::size_t>(place)] || time.first + l == 0 || factor == 0) continue;
+          if (!free_[place] || time.first + l == 0 || factor == 0) continue;
           bound.terms.push_back({place * T + time.first + l, factor});
           bound.squares += factor * factor;
         }
@@ -90,8 +90,8 @@ std::vector<Bound> bounds_of(const Field& field, const Jumps& jumps, const Serie
   std::vector<Bound> bounds;
   for (std::size_t j = 1; j < series.times.size(); ++j)
     for (int p = 0; p < series.released[j]; ++p) {
-      const auto [left, right] = series.pairs[static_cast<std::size_t>(p)];
-      const Vec3& uvw = series.samples[static_cast<std::size_t>(left)].uvw;
+      const auto [left, right] = series.pairs[p];
+      const Vec3& uvw = series.samples[left].uvw;
       const double t = series.times[j],
                    opening =
                        field.displacement(uvw, Side::right, t).y - field.displacement(uvw, Side::left, t).y,
@@ -114,10 +114,10 @@ std::vector<double> nearest(std::vector<Bound> bounds, std::size_t jumps, double
     moved = 0;
     for (Bound& bound : bounds) {
       double missing = bound.missing;
-      for (const auto& [jump, factor] : bound.terms) missing -= factor * by[static_cast<std::size_t>(jump)];
+      for (const auto& [jump, factor] : bound.terms) missing -= factor * by[jump];
       const double step = std::max(missing / bound.squares, -bound.multiplier);
       bound.multiplier += step, moved = std::max(moved, std::abs(step * bound.squares));
-      for (const auto& [jump, factor] : bound.terms) by[static_cast<std::size_t>(jump)] += step * factor;
+      for (const auto& [jump, factor] : bound.terms) by[jump] += step * factor;
     }
   }
   return by;
@@ -128,10 +128,9 @@ double error_at_lips(const Field& field, const Series& series) {
   double largest = 0;
   for (std::size_t j = 1; j < series.times.size(); ++j)
     for (int p = 0; p < series.released[j]; ++p) {
-      const auto [left, right] = series.pairs[static_cast<std::size_t>(p)];
+      const auto [left, right] = series.pairs[p];
       for (const auto& [node, side] : {std::pair{left, Side::left}, {right, Side::right}}) {
-        const Vec3 d =
-            field.displacement(series.samples[static_cast<std::size_t>(node)].uvw, side, series.times[j]);
+        const Vec3 d = field.displacement(series.samples[node].uvw, side, series.times[j]);
         const auto data = series.frames[j].row(node);
         largest = std::max(largest, squared_norm(d - Vec3{data[0], data[1], data[2]}));
       }

@@ -127,7 +127,7 @@ NodeResidual residual_of(Field& field, const Series& series, double bound) {
   residual.values.resize(series.samples.size() * 3 * static_cast<std::size_t>(residual.frames));
   std::vector<double> largest(series.times.size());
   parallel_for(static_cast<int>(largest.size()), [&](int frame) {
-    const auto j = static_cast<std::size_t>(frame);
+    const std::size_t j = frame;
     const std::vector<Vec3> spline = spline_at(field, series, series.times[j]);
     for (std::size_t n = 0; n < spline.size(); ++n) {
       const Vec3 left = data_at(series, j, n) - spline[n];

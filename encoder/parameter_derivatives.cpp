@@ -18,7 +18,7 @@ constexpr double farthest = 0.625;       // steps a control point may be moved t
 double error_of(const Field& field, const Series& series, const SeriesDerivative& data) {
   std::vector<double> errors(series.times.size());
   parallel_for(static_cast<int>(errors.size()), [&](int frame) {
-    const auto j = static_cast<std::size_t>(frame);
+    const std::size_t j = frame;
     std::vector<Place> places;
     for (const Sample& sample : series.samples) places.push_back({sample.uvw, sample.side, series.times[j]});
     std::vector<Vec3> values(places.size());

@@ -33,7 +33,7 @@ class Spline {
     std::vector<Vec3> values(places.size());
     Eigen::MatrixXd left = data_.frames[frame];
     for (int first = 0; first < components(); first += at_once) {
-      parts_[static_cast<std::size_t>(first / at_once)].displacements(places, values);
+      parts_[first / at_once].displacements(places, values);
       for (std::size_t n = 0; n < values.size(); ++n)
         for (int c = first; c < std::min(first + at_once, components()); ++c)
           left(static_cast<Eigen::Index>(n), c) -= values[n][c - first];
@@ -45,7 +45,7 @@ class Spline {
   double error() const {
     std::vector<double> errors(data_.frames.size());
     parallel_for(static_cast<int>(errors.size()), [&](int j) {
-      const auto frame = static_cast<std::size_t>(j);
+      const std::size_t frame = j;
       errors[frame] = left(frame).rowwise().norm().maxCoeff();
     });
     return *std::max_element(errors.begin(), errors.end());
@@ -62,7 +62,7 @@ class Spline {
     std::vector<double> all;
     for (std::size_t n = 0; n < parts_.front().coefficients().size(); ++n)
       for (int c = 0; c < components(); ++c)
-        all.push_back(parts_[static_cast<std::size_t>(c / at_once)].coefficients()[n][c % at_once]);
+        all.push_back(parts_[c / at_once].coefficients()[n][c % at_once]);
     return all;
   }
 
@@ -95,11 +95,11 @@ NodeResidual residual_of(const Spline& spline, const Series& series, double boun
                          series.times.size());
   std::vector<double> errors(series.times.size());
   parallel_for(residual.frames, [&](int j) {
-    const auto frame = static_cast<std::size_t>(j);
+    const std::size_t frame = j;
     Eigen::MatrixXd left = spline.left(frame);
     for (Eigen::Index n = 0; n < left.rows(); ++n)
       for (int c = 0; c < residual.components; ++c) {
-        const auto node = static_cast<std::size_t>(n);
+        const std::size_t node = n;
         residual.value(node, c, frame) =
             static_cast<std::int32_t>(std::lround(left(n, c) / residual.quantum));
         left(n, c) -= residual.at(node, c, frame);

@@ -16,8 +16,8 @@ std::vector<Sample> samples_of(const Snapshot& snapshot) {
     samples.push_back({p, side_of(p.y)});
   }
   for (const auto& [left, right] : snapshot.pairs) {
-    samples[static_cast<std::size_t>(left)].side = Side::left;
-    samples[static_cast<std::size_t>(right)].side = Side::right;
+    samples[left].side = Side::left;
+    samples[right].side = Side::right;
   }
   return samples;
 }

@@ -14,7 +14,7 @@ namespace {
 /// The cut between nodes that stay whole. Where a snapshot only knows the pairs that part, it begins and has
 /// its bottom at the nodes of v = 0 next to them; where there are none it reaches the body's edge.
 CanonicalCut cut_of(const Snapshot& s, const Eigen::MatrixX3d& last, double largest) {
-  const auto open = static_cast<std::size_t>(s.released.back());
+  const std::size_t open = s.released.back();
   if (open == 0) return {};
   constexpr double far = std::numeric_limits<double>::infinity();
   const double tiny = 1e-9 * s.cut_length;
@@ -23,8 +23,8 @@ CanonicalCut cut_of(const Snapshot& s, const Eigen::MatrixX3d& last, double larg
   for (std::size_t p = 0; p < open; ++p) {
     if ((last.row(s.pairs[p][1]) - last.row(s.pairs[p][0])).norm() <= 1e-6 * largest)
       continue;  // it never parts
-    for (const std::int32_t node : s.pairs[p]) divided[static_cast<std::size_t>(node)] = true;
-    const Vec3& at = s.points[static_cast<std::size_t>(s.pairs[p][0])];
+    for (const std::int32_t node : s.pairs[p]) divided[node] = true;
+    const Vec3& at = s.points[s.pairs[p][0]];
     first = std::min(first, at.x), lowest = std::min(lowest, at.z), highest = std::max(highest, at.z);
   }
   double before = -far, below = -far;
@@ -83,7 +83,7 @@ FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
 
 void check_cut(const Snapshot& s) {
   for (const auto& [left, right] : s.pairs) {
-    const Vec3& at = s.points[static_cast<std::size_t>(left)];
+    const Vec3& at = s.points[left];
     if (std::abs(at.y) > 1e-6 * s.cut_length)
       throw InputError("the cut leaves the plane v = 0 (node " + std::to_string(left) +
                        " at v = " + shortest(at.y) +

@@ -49,7 +49,7 @@ double space_misfit(const Series& series, const Parametrization& parametrization
   std::atomic<double> sum = 0;
   parallel_for(static_cast<int>(frames.size()), [&](int i) {
     if (sum > most) return;
-    const std::size_t frame = frames[static_cast<std::size_t>(i)];
+    const std::size_t frame = frames[i];
     const auto factor = fit.space().factorize(fit.normal(frame, of_search));
     sum += misfit_of(fit.misfit(factor.solve(fit.project(frame)), frame), limit).beyond;
   });
@@ -108,10 +108,9 @@ void SeriesFit::solve() {
   std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(frames));
   std::vector<SpaceFit::Normal> normals(same_in_all_frames() ? 1 : projected.size());
   parallel_for(frames, [&](int j) {
-    const auto frame = static_cast<std::size_t>(j + first_);
-    projected[static_cast<std::size_t>(j)] = fit_.project(frame);
-    if (static_cast<std::size_t>(j) < normals.size())
-      normals[static_cast<std::size_t>(j)] = fit_.normal(frame, strength_);
+    const std::size_t frame = j + first_;
+    projected[j] = fit_.project(frame);
+    if (static_cast<std::size_t>(j) < normals.size()) normals[j] = fit_.normal(frame, strength_);
   });
   system_.emplace(fit_.space(), in_time_, first_ > 0, std::move(normals));
   control_points_ = Eigen::MatrixXd::Zero(in_time_.cols(), 3 * ties().size());
@@ -122,19 +121,18 @@ void SeriesFit::solve() {
 Eigen::MatrixXd SeriesFit::control_points_of(const std::vector<Eigen::MatrixX3d>& frames) const {
   std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(in_time_.rows()));
   parallel_for(static_cast<int>(projected.size()), [&](int j) {
-    const auto frame = static_cast<std::size_t>(j + first_);
-    projected[static_cast<std::size_t>(j)] = fit_.project(frame, frames[frame]);
+    const std::size_t frame = j + first_;
+    projected[j] = fit_.project(frame, frames[frame]);
   });
   const SeriesSystem::Blocks blocks = system_->solve(system_->over_frames(projected), residual_bound);
   Eigen::MatrixXd points(control_points_.rows(), control_points_.cols());
-  for (Eigen::Index l = 0; l < points.rows(); ++l)
-    points.row(l) = blocks[static_cast<std::size_t>(l)].reshaped().transpose();
+  for (Eigen::Index l = 0; l < points.rows(); ++l) points.row(l) = blocks[l].reshaped().transpose();
   return points;
 }
 
 void SeriesFit::add(const std::vector<Eigen::MatrixXd>& blocks) {
   for (Eigen::Index l = 0; l < control_points_.rows(); ++l)
-    control_points_.row(l) += blocks[static_cast<std::size_t>(l)].reshaped().transpose();
+    control_points_.row(l) += blocks[l].reshaped().transpose();
 }
 
 Eigen::MatrixX3d SeriesFit::errors(Eigen::Index j) const {
@@ -149,24 +147,21 @@ void SeriesFit::refine() {
   const SpaceFit& space = fit_.space();
   std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(frames));
   double data = 0;
-  for (int j = 0; j < frames; ++j) data += series_.frames[static_cast<std::size_t>(j + first_)].squaredNorm();
+  for (int j = 0; j < frames; ++j) data += series_.frames[j + first_].squaredNorm();
   const auto project_misfit = [&] {
     Eigen::VectorXd squares(frames);
     parallel_for(frames, [&](int j) {
       const Eigen::MatrixX3d left = errors(j);
       squares(j) = left.squaredNorm();
-      projected[static_cast<std::size_t>(j)] =
-          space.project(-left, series_.times[static_cast<std::size_t>(j + first_)]);
+      projected[j] = space.project(-left, series_.times[j + first_]);
     });
     return std::sqrt(squares.sum() / std::max(data, 1e-300));
   };
   double misfit = project_misfit();
   if ((misfit > nearly && reached_ > next_to_nothing) || data == 0) return;
   std::vector<SpaceFit::Normal> normals(same_in_all_frames() ? 1 : projected.size());
-  parallel_for(static_cast<int>(normals.size()), [&](int j) {
-    normals[static_cast<std::size_t>(j)] =
-        space.normal(series_.times[static_cast<std::size_t>(j + first_)], weakest_strength);
-  });
+  parallel_for(static_cast<int>(normals.size()),
+               [&](int j) { normals[j] = space.normal(series_.times[j + first_], weakest_strength); });
   const SeriesSystem system(space, in_time_, first_ > 0, std::move(normals));
   const Eigen::MatrixXd regularised = control_points_;
   Eigen::MatrixXd best = control_points_;
@@ -189,8 +184,8 @@ Misfit SeriesFit::misfit(double limit) const {
   std::vector<Misfit> misfits(static_cast<std::size_t>(frames));
   parallel_for(frames, [&](int j) {
     const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
-    const auto frame = static_cast<std::size_t>(j + first_);
-    misfits[static_cast<std::size_t>(j)] = misfit_of(fit_.misfit(x.reshaped(ties().size(), 3), frame), limit);
+    const std::size_t frame = j + first_;
+    misfits[j] = misfit_of(fit_.misfit(x.reshaped(ties().size(), 3), frame), limit);
   });
   Misfit all;
   for (const Misfit& one : misfits) {

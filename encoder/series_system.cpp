@@ -79,10 +79,9 @@ SeriesSystem::SeriesSystem(const SpaceFit& space, const Eigen::MatrixXd& in_time
     if (same()) return void(factors_[0].emplace(space_.factorize(normals_[0])));
     SpaceFit::Normal sum;
     for (Eigen::Index j = 0; j < frames; ++j)
-      if (parts(j, l) > negligible * parts.col(l).maxCoeff())
-        sum.add(parts(j, l), normals_[static_cast<std::size_t>(j)]);
+      if (parts(j, l) > negligible * parts.col(l).maxCoeff()) sum.add(parts(j, l), normals_[j]);
     sum.add(held(l, l), mean_);
-    factors_[static_cast<std::size_t>(l)].emplace(space_.factorize(sum));
+    factors_[l].emplace(space_.factorize(sum));
   });
 }
 
@@ -95,10 +94,10 @@ double SeriesSystem::condition() const {
 SeriesSystem::Blocks SeriesSystem::over_frames(const Blocks& of_frames) const {
   Blocks sums(static_cast<std::size_t>(in_time_.cols()));
   parallel_for(static_cast<int>(sums.size()), [&](int l) {
-    Eigen::MatrixXd& sum = sums[static_cast<std::size_t>(l)];
+    Eigen::MatrixXd& sum = sums[l];
     sum = Eigen::MatrixXd::Zero(space_.ties().size(), 3);
     for (Eigen::Index j = 0; j < in_time_.rows(); ++j)
-      if (in_time_(j, l) != 0) sum += in_time_(j, l) * of_frames[static_cast<std::size_t>(j)];
+      if (in_time_(j, l) != 0) sum += in_time_(j, l) * of_frames[j];
   });
   return sums;
 }
@@ -106,7 +105,7 @@ SeriesSystem::Blocks SeriesSystem::over_frames(const Blocks& of_frames) const {
 SeriesSystem::Blocks SeriesSystem::mixed(const Eigen::MatrixXd& factors, const Blocks& x) const {
   Blocks y(x.size());
   parallel_for(static_cast<int>(x.size()), [&](int l) {
-    Eigen::MatrixXd& sum = y[static_cast<std::size_t>(l)];
+    Eigen::MatrixXd& sum = y[l];
     sum = Eigen::MatrixXd::Zero(space_.ties().size(), 3);
     for (std::size_t k = 0; k < x.size(); ++k)
       if (const double factor = factors(l, static_cast<Eigen::Index>(k)); factor != 0) sum += factor * x[k];
@@ -120,14 +119,14 @@ SeriesSystem::Blocks SeriesSystem::multiply(const Blocks& x) const {
   Blocks of_frames(static_cast<std::size_t>(frames)), of_hold(x.size());
   parallel_for(frames + T, [&](int task) {
     if (task >= frames) {
-      const auto l = static_cast<std::size_t>(task - frames);
+      const std::size_t l = task - frames;
       of_hold[l] = space_.multiply(mean_, held[l]);
       return;
     }
-    const auto j = static_cast<std::size_t>(task);
+    const std::size_t j = task;
     Eigen::MatrixXd at = Eigen::MatrixXd::Zero(space_.ties().size(), 3);
     for (int l = 0; l < T; ++l)
-      if (in_time_(task, l) != 0) at += in_time_(task, l) * x[static_cast<std::size_t>(l)];
+      if (in_time_(task, l) != 0) at += in_time_(task, l) * x[l];
     of_frames[j] = space_.multiply(normals_[j], at);
   });
   Blocks sums = over_frames(of_frames);
@@ -139,7 +138,7 @@ SeriesSystem::Blocks SeriesSystem::multiply(const Blocks& x) const {
 SeriesSystem::Blocks SeriesSystem::precondition(const Blocks& x) const {
   Blocks y = mixed(inverse_root_.transpose(), x);
   parallel_for(static_cast<int>(y.size()), [&](int i) {
-    const auto l = static_cast<std::size_t>(i);
+    const std::size_t l = i;
     y[l] = factors_[same() ? 0 : l]->solve(std::move(y[l]));
   });
   return mixed(inverse_root_, y);

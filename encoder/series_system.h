@@ -15,10 +15,10 @@ inline constexpr double time_roughness = 1e-4;
 
 /// sum over the frames of (b b^T) x N, and time_roughness (D^T D x mean of N): b the values in t, D second
 /// differences, N the frames' normal matrices in space. Where all N are the same that is a Kronecker product,
-/// and solved as one. Else conjugate gradients are preconditioned by the diagonal blocks of the system between
-/// R^T and R, where R R^T is the inverse of the matrix in t: sums of N by what each transformed control point
-/// sees of the frames, mostly of one. (The means of N that control points see as they are took three to seven
-/// times the iterations.)
+/// and solved as one. Else conjugate gradients are preconditioned by the diagonal blocks of the system
+/// between R^T and R, where R R^T is the inverse of the matrix in t: sums of N by what each transformed
+/// control point sees of the frames, mostly of one. (The means of N that control points see as they are took
+/// three to seven times the iterations.)
 class SeriesSystem {
  public:
   using Blocks = std::vector<Eigen::MatrixXd>;  ///< n x 3 for every control point in t

@@ -35,8 +35,7 @@ bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& 
   const FeltTriangle& now = felt(triangle);
   if (!now.exists()) return false;
   t = now.triangle();
-  for (int i = 0; i < 3; ++i)
-    corners[i] = surface_.positions_[static_cast<std::size_t>(t.vertex[i])].at(version_);
+  for (int i = 0; i < 3; ++i) corners[i] = surface_.positions_[t.vertex[i]].at(version_);
   return true;
 }
 

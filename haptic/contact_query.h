@@ -55,9 +55,7 @@ class ContactReader {
   SurfaceProxy proxy(const Vec3& x, const SurfaceProxy& before) const;
 
  private:
-  const FeltTriangle& felt(int triangle) const {
-    return surface_.triangles_[static_cast<std::size_t>(triangle)].at(version_);
-  }
+  const FeltTriangle& felt(int triangle) const { return surface_.triangles_[triangle].at(version_); }
   template <class May, class Look>
   void each_of(const CellList& list, const May& may, const Look& look) const;
   bool corners_of(int triangle, Corners& corners, ContactTriangle& t) const;

@@ -27,8 +27,7 @@ Box box_of(std::span<const Vec3> points, double margin) {
 double mean_edge(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles) {
   double sum = 0;
   for (const auto& t : triangles)
-    for (int i = 0; i < 3; ++i)
-      sum += norm(points[static_cast<std::size_t>(t[(i + 1) % 3])] - points[static_cast<std::size_t>(t[i])]);
+    for (int i = 0; i < 3; ++i) sum += norm(points[t[(i + 1) % 3]] - points[t[i]]);
   return sum / static_cast<double>(3 * triangles.size());
 }
 
@@ -72,7 +71,7 @@ void ContactSurface::prepare() {
 
 Corners ContactSurface::corners_at(const ContactTriangle& t, std::uint64_t version) const {
   Corners corners;
-  for (int i = 0; i < 3; ++i) corners[i] = positions_[static_cast<std::size_t>(t.vertex[i])].at(version);
+  for (int i = 0; i < 3; ++i) corners[i] = positions_[t.vertex[i]].at(version);
   return corners;
 }
 
@@ -100,7 +99,7 @@ void ContactSurface::update(std::span<const Moved> moved, std::span<const Change
 
 /// Into the voxels it has come to, at once; out of those it has left in the next step.
 void ContactSurface::rebin(int id, std::uint64_t next) {
-  TwoStates<FeltTriangle>& triangle = triangles_[static_cast<std::size_t>(id)];
+  TwoStates<FeltTriangle>& triangle = triangles_[id];
   old_voxels_.clear(), new_voxels_.clear();
   if (const FeltTriangle& old = triangle.at(next - 1); old.exists())
     cells_.voxels_of(corners_at(old.triangle(), next - 1), old_voxels_);
@@ -127,7 +126,7 @@ void ContactSurface::leave_old_voxels() {
 }
 
 void ContactSurface::touch(int triangle) {
-  std::uint64_t& last = triangle_touched_[static_cast<std::size_t>(triangle)];
+  std::uint64_t& last = triangle_touched_[triangle];
   const std::uint64_t next = version_.load(std::memory_order_relaxed) + 1;
   if (last == next) return;
   last = next;
@@ -135,7 +134,7 @@ void ContactSurface::touch(int triangle) {
 }
 
 void ContactSurface::set_vertex(int id, const Vec3& position, std::uint64_t version) {
-  const auto v = static_cast<std::size_t>(id);
+  const std::size_t v = id;
   if (v >= positions_.size()) {
     positions_.grow_to(v + 1);
     normals_.grow_to(v + 1);
@@ -148,7 +147,7 @@ void ContactSurface::set_vertex(int id, const Vec3& position, std::uint64_t vers
 }
 
 void ContactSurface::set_triangle(int id, const ContactTriangle& now, std::uint64_t version) {
-  const auto t = static_cast<std::size_t>(id);
+  const std::size_t t = id;
   if (t >= triangles_.size()) {
     triangles_.grow_to(t + 1);
     next_corner_.grow_to(t + 1, std::array{none, none, none});
@@ -164,7 +163,7 @@ void ContactSurface::set_triangle(int id, const ContactTriangle& now, std::uint6
     }
     if (now.vertex[0] == none) continue;
     CLEFT_CHECK(static_cast<std::size_t>(now.vertex[i]), <, positions_.size());
-    int& first = first_corner_[static_cast<std::size_t>(now.vertex[i])];
+    int& first = first_corner_[now.vertex[i]];
     next_corner(3 * id + i) = first;
     first = 3 * id + i;
   }
@@ -172,7 +171,7 @@ void ContactSurface::set_triangle(int id, const ContactTriangle& now, std::uint6
 }
 
 void ContactSurface::unlink(int triangle, int corner, int vertex) {
-  int* link = &first_corner_[static_cast<std::size_t>(vertex)];
+  int* link = &first_corner_[vertex];
   while (*link != 3 * triangle + corner) {
     CLEFT_CHECK(*link, !=, none);
     link = &next_corner(*link);
@@ -182,13 +181,13 @@ void ContactSurface::unlink(int triangle, int corner, int vertex) {
 
 void ContactSurface::renew_normals(std::uint64_t version) {
   for (const int t : touched_) {
-    const ContactTriangle now = triangles_[static_cast<std::size_t>(t)].last().triangle();
+    const ContactTriangle now = triangles_[t].last().triangle();
     if (now.vertex[0] == none) continue;
     for (const int v : now.vertex) renewed_.push_back(v);
   }
   for (const int v : renewed_)
-    if (vertex_touched_[static_cast<std::size_t>(v)] != version) {
-      vertex_touched_[static_cast<std::size_t>(v)] = version;
+    if (vertex_touched_[v] != version) {
+      vertex_touched_[v] = version;
       renew_normal(v, version);
     }
   renewed_.clear();
@@ -196,10 +195,10 @@ void ContactSurface::renew_normals(std::uint64_t version) {
 
 /// A lip's normal is that of its skin: walls meet it at an edge that is meant to be sharp.
 void ContactSurface::renew_normal(int vertex, std::uint64_t version) {
-  const auto v = static_cast<std::size_t>(vertex);
+  const std::size_t v = vertex;
   Vec3 skin, wall;
   for (int corner = first_corner_[v]; corner != none; corner = next_corner(corner)) {
-    const ContactTriangle t = triangles_[static_cast<std::size_t>(corner / 3)].last().triangle();
+    const ContactTriangle t = triangles_[corner / 3].last().triangle();
     (t.wall ? wall : skin) += scaled_normal(corners_at(t, version));
   }
   const Vec3& sum = skin == Vec3{} ? wall : skin;

@@ -131,7 +131,7 @@ class ContactSurface {
   std::uint64_t version() const { return version_.load(std::memory_order_relaxed); }
   std::size_t vertex_count() const { return positions_.size(); }
   std::size_t triangle_count() const { return triangles_.size(); }  ///< also those that are gone
-  const Vec3& position(int v) const { return positions_[static_cast<std::size_t>(v)].last(); }
+  const Vec3& position(int v) const { return positions_[v].last(); }
   const ContactCells& cells() const { return cells_; }
 
  private:
@@ -141,7 +141,7 @@ class ContactSurface {
   static constexpr std::uint64_t unused = 0, idle = 1, entering = 2, reading = 3;
 
   Corners corners_at(const ContactTriangle& t, std::uint64_t version) const;
-  int& next_corner(int corner) { return next_corner_[static_cast<std::size_t>(corner / 3)][corner % 3]; }
+  int& next_corner(int corner) { return next_corner_[corner / 3][corner % 3]; }
   void wait_for_readers() const;
   void rebin(int id, std::uint64_t next);
   void leave_old_voxels();

@@ -7,7 +7,7 @@ namespace cleft {
 
 void TimeHistogram::add(double seconds) {
   const double step = steps * std::log2(std::max(seconds * 1e9, 1.));
-  ++counts_[static_cast<std::size_t>(std::min(step, steps * octaves - 1.))];
+  ++counts_[std::min(step, steps * octaves - 1.)];
   ++count_;
   largest_ = std::max(largest_, seconds);
 }

@@ -47,7 +47,7 @@ Vec3 PassivityControl::update(const Vec3& position, const Vec3& velocity, const 
   started_ = true;
   force = limited(force);
   std::copy(under_way_.begin() + 1, under_way_.begin() + late_ + 1, under_way_.begin());
-  under_way_[static_cast<std::size_t>(late_)] = force;
+  under_way_[late_] = force;
   return force;
 }
 
@@ -59,7 +59,7 @@ void PassivityControl::observe(const Vec3& position, double stored, double dt) {
   created_ = std::max(created_, contact_);
   tank_ = std::min(tank_ - work, stored + p_.energy_allowance);
   bool none = true;
-  for (int k = 0; k <= late_; ++k) none = none && under_way_[static_cast<std::size_t>(k)] == Vec3{};
+  for (int k = 0; k <= late_; ++k) none = none && under_way_[k] == Vec3{};
   idle_ = none ? idle_ + dt : 0;
   if (idle_ < rest) return;
   tank_ = p_.energy_allowance;
@@ -77,7 +77,7 @@ double PassivityControl::taking_back(double force) const {
 /// back.
 double PassivityControl::affordable(double wanted, double speed) const {
   double under_way = 0;
-  for (int k = 1; k <= late_; ++k) under_way += period_ * norm(under_way_[static_cast<std::size_t>(k)]);
+  for (int k = 1; k <= late_; ++k) under_way += period_ * norm(under_way_[k]);
   const auto paid = [&](double force) {
     constexpr double joule = 1e3;  // N mm
     const double impulse = under_way + taking_back(force);
@@ -90,7 +90,7 @@ double PassivityControl::affordable(double wanted, double speed) const {
 }
 
 Vec3 PassivityControl::limited(const Vec3& wanted) const {
-  const Vec3& last = under_way_[static_cast<std::size_t>(late_)];
+  const Vec3& last = under_way_[late_];
   Vec3 force = squared_norm(wanted) > max_force_ * max_force_ ? max_force_ / norm(wanted) * wanted : wanted;
   const Vec3 step = force - last;
   const double most = p_.change * norm(last) + p_.floor, size = norm(step);

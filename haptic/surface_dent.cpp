@@ -43,7 +43,7 @@ SurfaceDent::SurfaceDent(const Field& field) {
 double SurfaceDent::at(double distance) const {
   const double place = distance / dent_reach * samples;
   if (place >= samples) return 0;
-  const auto k = static_cast<std::size_t>(place);
+  const std::size_t k = place;
   return std::lerp(table_[k], table_[k + 1], place - static_cast<double>(k));
 }
 

@@ -30,7 +30,7 @@ bool ContactReader::project(int triangle, const Vec3& x, const SurfaceProxy& bef
   const Vec3 face = 1 / size * area;
   Vec3 n[3];
   for (int i = 0; i < 3; ++i) {
-    n[i] = surface_.normals_[static_cast<std::size_t>(t.vertex[i])].at(version_);
+    n[i] = surface_.normals_[t.vertex[i]].at(version_);
     if (dot(n[i], face) < cos_crease) n[i] = face;
   }
   const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0], m1 = n[1] - n[0], m2 = n[2] - n[0];

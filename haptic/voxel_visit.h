@@ -73,8 +73,7 @@ void ContactReader::each_of(const CellList& list, const May& may, const Look& lo
       if (id < 0) continue;
       const FeltTriangle& t = felt(id);
       if (!t.exists() || !may(t)) continue;
-      for (const int v : t.triangle().vertex)
-        __builtin_prefetch(&surface_.positions_[static_cast<std::size_t>(v)]);
+      for (const int v : t.triangle().vertex) __builtin_prefetch(&surface_.positions_[v]);
       ids[kept++] = id;
     }
     for (int k = 0; k < kept; ++k) {

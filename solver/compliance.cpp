@@ -36,14 +36,14 @@ class Skin {
         if (skin.touches(t, center.x - radius, center.x + radius, center.y - radius, center.y + radius))
           triangles.push_back(static_cast<int>(t));
       across_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(triangles.size()) / 2)));
-      bins_.resize(static_cast<std::size_t>(across_ * across_));
+      bins_.resize(across_ * across_);
       for (const int t : triangles) {
-        const auto [u_least, u_most] = skin.range(skin.mesh_.skin[static_cast<std::size_t>(t)], 0);
-        const auto [v_least, v_most] = skin.range(skin.mesh_.skin[static_cast<std::size_t>(t)], 1);
+        const auto [u_least, u_most] = skin.range(skin.mesh_.skin[t], 0);
+        const auto [v_least, v_most] = skin.range(skin.mesh_.skin[t], 1);
         for (int j = bin(v_least, center.y); j <= bin(v_most, center.y); ++j)
           for (int i = bin(u_least, center.x); i <= bin(u_most, center.x); ++i)
-            bins_[static_cast<std::size_t>(j * across_ + i)].push_back(t);
-        const auto& corner = skin.mesh_.skin[static_cast<std::size_t>(t)];
+            bins_[j * across_ + i].push_back(t);
+        const auto& corner = skin.mesh_.skin[t];
         for (int c = 0; c < 3; ++c) {
           const Vec3 &p = skin.mesh_.points[corner[c]], &q = skin.mesh_.points[corner[(c + 1) % 3]];
           shortest_edge_ = std::min(shortest_edge_, std::hypot(q.x - p.x, q.y - p.y));
@@ -52,8 +52,7 @@ class Skin {
     }
 
     bool find(double u, double v, Place& place) const {
-      return skin_.find(bins_[static_cast<std::size_t>(bin(v, center_.y) * across_ + bin(u, center_.x))], u,
-                        v, place);
+      return skin_.find(bins_[bin(v, center_.y) * across_ + bin(u, center_.x)], u, v, place);
     }
 
     double shortest_edge() const { return shortest_edge_; }
@@ -76,7 +75,7 @@ class Skin {
   bool find(const std::vector<int>& triangles, double u, double v, Place& place) const {
     constexpr double rounding = 1e-12;
     for (const int t : triangles) {
-      const auto& corner = mesh_.skin[static_cast<std::size_t>(t)];
+      const auto& corner = mesh_.skin[t];
       const Vec3 &a = mesh_.points[corner[0]], &b = mesh_.points[corner[1]], &c = mesh_.points[corner[2]];
       const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
       const double at_b = ((u - a.x) * (c.y - a.y) - (c.x - a.x) * (v - a.y)) / area;
@@ -110,10 +109,8 @@ std::vector<int> lines_to_sample(const std::vector<double>& lines) {
   const int last = static_cast<int>(lines.size()) - 1;
   const auto nearest = [&](double place) {
     int best = last;
-    for (int i = last; i >= 0 && lines[static_cast<std::size_t>(i)] > -1e-9; --i)
-      if (std::abs(lines[static_cast<std::size_t>(i)] - place) <
-          std::abs(lines[static_cast<std::size_t>(best)] - place) - 1e-9)
-        best = i;
+    for (int i = last; i >= 0 && lines[i] > -1e-9; --i)
+      if (std::abs(lines[i] - place) < std::abs(lines[best] - place) - 1e-9) best = i;
     return best;
   };
   std::set<int> sampled = {nearest(0)};
@@ -176,7 +173,7 @@ class Quarter {
     std::vector<double> result(mesh_.points.size());
     std::vector<bool> known(mesh_.points.size(), false);
     for (std::size_t n = 0; n < result.size(); ++n) {
-      const auto above = static_cast<std::size_t>(mesh_.skin_above[n]);
+      const std::size_t above = mesh_.skin_above[n];
       if (!known[above]) {
         const Vec3& at = mesh_.points[above];
         std::vector<double> values;

@@ -216,7 +216,7 @@ Block CondensedFactor::solve(const SparseColumns& right) {
     m.id.irhs_ptr = starts.data();
     m.id.rhs_sparse = block.valuePtr();
     const int length = std::max<int>(1, m.id.info[22]);
-    m.solution_rows.resize(static_cast<std::size_t>(length));
+    m.solution_rows.resize(length);
     std::vector<double> values(static_cast<std::size_t>(length) * count);
     m.id.lsol_loc = length;
     m.id.isol_loc = m.solution_rows.data();

@@ -127,7 +127,7 @@ void DirectSolver::factorize() {
   }
   int count = static_cast<int>(neighbors_.size());
   MPI_Bcast(&count, 1, MPI_INT, 0, system_.communicator());
-  neighbors_.resize(static_cast<std::size_t>(count));
+  neighbors_.resize(count);
   MPI_Bcast(neighbors_.data(), count, MPI_INT, 0, system_.communicator());
 }
 
@@ -189,7 +189,7 @@ Block DirectSolver::solve_together(const std::vector<Column>& columns) {
   Eigen::SparseMatrix<double> right(system_.size(), count);
   on_root(system_, [&] {
     for (Eigen::Index c = 0; c < count; ++c) {
-      const Column& column = columns[static_cast<std::size_t>(c)];
+      const Column& column = columns[c];
       jumps.col(c) = opening_->jumps(loads_[column.load], column.open, column.contact);
     }
     const Eigen::MatrixXd pull = coupling_ * jumps;  // K_ii x_i = f_i - K_ia a
@@ -201,8 +201,7 @@ Block DirectSolver::solve_together(const std::vector<Column>& columns) {
   });
   MPI_Bcast(jumps.data(), static_cast<int>(jumps.size()), MPI_DOUBLE, 0, system_.communicator());
   Block solution = factor_.solve(right);
-  for (Eigen::Index c = 0; c < count; ++c)
-    solution.col(c) += interior_.col(columns[static_cast<std::size_t>(c)].load);
+  for (Eigen::Index c = 0; c < count; ++c) solution.col(c) += interior_.col(columns[c].load);
   set_rows(system_, solution, jump_unknowns_, jumps);
   Eigen::MatrixXd at_cut = all_gather_rows(system_, solution, cut_.unknowns);
   cut_.to_displacements(at_cut);

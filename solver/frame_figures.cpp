@@ -57,8 +57,8 @@ std::vector<FrameFigures> FrameResidual::figures(const Release& release,
   std::vector<FrameFigures> figures(columns.size());
   const auto relative = [](double value, double scale) { return scale > 0 ? value / scale : value; };
   for (Eigen::Index c = 0; c < count && system_.rank() == 0; ++c) {
-    FrameFigures& f = figures[static_cast<std::size_t>(c)];
-    f = at_cut(release, columns[static_cast<std::size_t>(c)], at.col(c), forces.col(c));
+    FrameFigures& f = figures[c];
+    f = at_cut(release, columns[c], at.col(c), forces.col(c));
     f.residual_equilibrium = relative(std::max(f.residual_equilibrium, largest(0, c)), largest_load);
     f.residual_closure = relative(f.residual_closure, largest(1, c));
   }

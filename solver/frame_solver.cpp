@@ -55,7 +55,7 @@ void on_root(const PatchSystem& system, const std::function<void()>& work) {
     }
   int length = static_cast<int>(failure.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, system.communicator());
-  failure.resize(static_cast<std::size_t>(length));
+  failure.resize(length);
   MPI_Bcast(failure.data(), length, MPI_CHAR, 0, system.communicator());
   if (!failure.empty()) throw SolveError(failure);
 }

@@ -228,7 +228,7 @@ void IterativeSolver::set_release(const Release& release) {
 }
 
 void IterativeSolver::set_loads(Block loads, Together) {
-  parts_->last.assign(static_cast<std::size_t>(loads.cols()), Block::Zero(loads.rows(), 1));
+  parts_->last.assign(loads.cols(), Block::Zero(loads.rows(), 1));
   parts_->loads = std::move(loads);
 }
 

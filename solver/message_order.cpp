@@ -28,7 +28,7 @@ class Rounds {
     int ranks = 0;
     MPI_Comm_size(communicator, &ranks);
     MPI_Comm_rank(communicator, &rank_);
-    arrived_.resize(static_cast<std::size_t>(ranks));
+    arrived_.resize(ranks);
     has_left_.resize(arrived_.size(), false);
   }
 
@@ -96,7 +96,7 @@ class Rounds {
     Message message{status, std::vector<char>(static_cast<std::size_t>(count))};
     PMPI_Recv(message.bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, communicator_,
               &message.status);
-    arrived_[static_cast<std::size_t>(status.MPI_SOURCE)].push_back(std::move(message));
+    arrived_[status.MPI_SOURCE].push_back(std::move(message));
   }
 
   void mark(int tag) const {

@@ -13,7 +13,7 @@ std::vector<Vec3> gather_nodes(const PatchSystem& system, std::size_t nodes, con
   std::vector<Vec3> displacement(root ? nodes : 0);
   for (std::size_t n = 0; n < displacement.size(); ++n)
     for (int axis = 0; axis < 3; ++axis)
-      displacement[n][axis] = values[static_cast<std::size_t>(system.unknown(static_cast<int>(n), axis))];
+      displacement[n][axis] = values[system.unknown(static_cast<int>(n), axis)];
   return displacement;
 }
 

@@ -24,7 +24,7 @@ Opening::Opening(const Eigen::MatrixXd& stiffness, std::vector<int> order, const
   for (std::size_t p = 0; p < order_.size(); ++p)
     for (int axis = 0; axis < 3; ++axis)
       normal_forward_(3 * static_cast<Eigen::Index>(p) + axis, static_cast<Eigen::Index>(p)) =
-          normal[static_cast<std::size_t>(order_[p])][axis];
+          normal[order_[p]][axis];
   factor_.matrixL().solveInPlace(normal_forward_);
 }
 

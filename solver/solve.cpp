@@ -264,8 +264,7 @@ class SharedStiffness::Batch {
   void finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads) {
     std::vector<FrameSolver::Column> columns;
     for (Eigen::Index j = first; j < first + count; ++j)
-      columns.push_back({0, release_.released[static_cast<std::size_t>(j)],
-                         parameters(member).cut.contact == "true", 1e-10});
+      columns.push_back({0, release_.released[j], parameters(member).cut.contact == "true", 1e-10});
     const auto combined = [&](const Block& block) {
       Block sum = Block::Zero(block.rows(), count);
       for (std::size_t load = loads.begin; load < loads.end; ++load)
@@ -312,7 +311,7 @@ class SharedStiffness::Batch {
     for (Eigen::Index c = 0; c < frames.cols(); c += at_once) {
       const Eigen::Index count = std::min(at_once, frames.cols() - c);
       std::vector<FrameSolver::Column> some(columns.begin() + c, columns.begin() + c + count);
-      for (Eigen::Index i = 0; i < count; ++i) some[static_cast<std::size_t>(i)].load = static_cast<int>(i);
+      for (Eigen::Index i = 0; i < count; ++i) some[i].load = static_cast<int>(i);
       shared_.chosen_.solver->set_loads(loads.middleCols(c, count));
       solution.middleCols(c, count) = shared_.chosen_.solver->solve(some);
     }

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <set>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
-#include "base/h5.h"
+#include "base/h5/h5.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "params/study.h"

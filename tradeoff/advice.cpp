@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "tradeoff/chain.h"
-#include "tradeoff/frame_time.h"
+#include "tradeoff/replays/frame_time.h"
 
 namespace cleft {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"

@@ -4,7 +4,7 @@
 
 #include "base/output_file.h"
 #include "base/text.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "params/study.h"
 #include "tradeoff/tool.h"
 

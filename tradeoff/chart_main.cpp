@@ -4,12 +4,12 @@
 #include <functional>
 #include <thread>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"
 #include "base/text.h"
-#include "params/study_folder.h"
+#include "params/run/study_folder.h"
 #include "solver/snapshot/snapshot.h"
 #include "tradeoff/measures.h"
 

@@ -5,8 +5,8 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "encoder/encode.h"
-#include "encoder/field/field_file.h"
-#include "encoder/field/field_record.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/field_record.h"
 #include "tradeoff/measures.h"
 #include "tradeoff/rivals/zfp_rival.h"
 

@@ -66,7 +66,7 @@ std::vector<Vec3> forces_at(const ContactSurface& surface, double rate, bool pas
     loop.update(1 / rate);
     forces.insert(forces.end(), static_cast<std::size_t>(held), loop.state().force);
   }
-  forces.resize(static_cast<std::size_t>(duration * reference_rate));
+  forces.resize(duration * reference_rate);
   return forces;
 }
 

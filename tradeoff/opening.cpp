@@ -23,7 +23,7 @@ std::pair<std::size_t, double> place_in(const std::vector<double>& values, doubl
 
 Opening::Opening(const SnapshotReader& reader) : times_(reader.snapshot().times) {
   const Snapshot& s = reader.snapshot();
-  const auto node_at = [&](int n) -> const Vec3& { return s.points[static_cast<std::size_t>(n)]; };
+  const auto node_at = [&](int n) -> const Vec3& { return s.points[n]; };
   std::vector<std::array<std::int32_t, 2>> pairs;
   for (const auto& pair : s.pairs) {
     const Vec3& p = node_at(pair[0]);
@@ -41,7 +41,7 @@ Opening::Opening(const SnapshotReader& reader) : times_(reader.snapshot().times)
   for (std::size_t j = 0; j < times_.size(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const Vec3 jump = d[static_cast<std::size_t>(pairs[i][1])] - d[static_cast<std::size_t>(pairs[i][0])];
+      const Vec3 jump = d[pairs[i][1]] - d[pairs[i][0]];
       jump_[j * along_.size() + i + 1] = jump;
       largest_ = std::max(largest_, norm(jump));
     }

@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "base/text.h"
-#include "encoder/field/study_file.h"
-#include "explorer/scene/prestress_fields.h"
+#include "encoder/field/file/study_file.h"
+#include "explorer/wound/prestress_fields.h"
 #include "tradeoff/chain.h"
 #include "tradeoff/measures.h"
-#include "tradeoff/replay_error.h"
+#include "tradeoff/replays/replay_error.h"
 
 namespace cleft {
 

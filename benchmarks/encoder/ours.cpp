@@ -10,8 +10,8 @@
 #include "base/stopwatch.h"
 #include "benchmarks/encoder/unseen.h"
 #include "encoder/encode.h"
-#include "encoder/field/field_file.h"
-#include "encoder/field/field_record.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/field_record.h"
 
 namespace cleft {
 
@@ -23,7 +23,7 @@ std::vector<float> decoded(const std::string& file, const Series& series, const 
   const std::optional<NodeResidual> residual = read_residual(file);
   std::vector<float> values(data.values.size());
   parallel_for(static_cast<int>(data.frames), [&](int j) {
-    const auto frame = static_cast<std::size_t>(j);
+    const std::size_t frame = j;
     for (std::size_t n = 0; n < data.nodes; ++n) {
       Vec3 d = field.displacement(series.samples[n].uvw, series.samples[n].side, series.times[frame + 1]);
       if (residual) d += residual->at(n, frame + 1);

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "tradeoff/rivals/node_data.h"
 #include "encoder/field/field.h"
 #include "solver/snapshot/snapshot.h"
+#include "tradeoff/rivals/node_data.h"
 
 namespace cleft {
 

@@ -12,8 +12,7 @@ namespace {
 template <class Function>
 double largest_of(std::size_t count, const Function& error) {
   std::vector<double> errors(count);
-  parallel_for(static_cast<int>(count),
-               [&](int i) { errors[static_cast<std::size_t>(i)] = error(static_cast<std::size_t>(i)); });
+  parallel_for(static_cast<int>(count), [&](int i) { errors[i] = error(static_cast<std::size_t>(i)); });
   return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
 }
 
@@ -31,8 +30,7 @@ double error_at_centroids(const Field& field, const Series& series, const Snapsh
                                       static_cast<std::size_t>(s.cell_offsets[c + 1] - s.cell_offsets[c]));
     const double part = 1. / static_cast<double>(corners.size());
     Vec3 centre;
-    for (const std::int64_t node : corners)
-      centre += part * series.samples[static_cast<std::size_t>(node)].uvw;
+    for (const std::int64_t node : corners) centre += part * series.samples[node].uvw;
     double error = 0;
     if (centre.y == 0) return error;  // a face in the cut's plane: on which side is not said
     for (std::size_t j = 1; j < series.frames.size(); ++j) {

@@ -2,8 +2,8 @@
 #include <random>
 
 #include "benchmarks/suite/suite.h"
-#include "encoder/field/field_file.h"
-#include "tradeoff/frame_time.h"
+#include "encoder/field/file/field_file.h"
+#include "tradeoff/replays/frame_time.h"
 
 namespace cleft {
 

@@ -1,7 +1,7 @@
 // From parameters to a field.
 #include "benchmarks/suite/suite.h"
 #include "encoder/encode.h"
-#include "encoder/field/field_record.h"
+#include "encoder/field/file/field_record.h"
 #include "tradeoff/tool.h"
 
 namespace cleft {

@@ -6,7 +6,7 @@
 
 #include "base/output_file.h"
 #include "base/quantiles.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "tests/support/allocations.h"
 #include "tests/support/temporary_folder.h"
 #include "tradeoff/tool.h"

@@ -120,7 +120,7 @@ struct LogisticTable {
 
   LogisticTable();
   const std::int16_t* at(int level, int offset) const {  // level: 0 or more
-    return &opinion[static_cast<std::size_t>((std::min(level, levels - 1) * offsets + offset) * decisions)];
+    return &opinion[(std::min(level, levels - 1) * offsets + offset) * decisions];
   }
 };
 extern const LogisticTable logistic;

@@ -12,7 +12,7 @@ void Field::collapse(double t, CollapsedField& out) const {
   out.time_ = parametrization_->inside(t, 3);
   out.stride_[1] = 4 * (*axes_)[2].size();
   out.stride_[0] = out.stride_[1] * (*axes_)[1].size();
-  const auto rows = static_cast<std::size_t>((*axes_)[0].size() * (*axes_)[1].size() * (*axes_)[2].size());
+  const std::size_t rows = (*axes_)[0].size() * (*axes_)[1].size() * (*axes_)[2].size();
   out.values_.resize(4 * rows);
   double weight[4];
   const int first = (*axes_)[3].evaluate(parametrization_->time(out.time_).value, weight);

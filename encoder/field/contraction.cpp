@@ -134,7 +134,7 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
                                (s.first[1] + j) * grid_.stride[1] + (s.first[2] + k) * grid_.stride[2];
         rows.weight[rows.count++] = s.weight[0][i] * s.weight[1][j] * s.weight[2][k];
       }
-  out.scratch.resize(static_cast<std::size_t>(grid_.stride[2]));
+  out.scratch.resize(grid_.stride[2]);
   kernels_->combine(rows, grid_.stride[2], out.scratch.data());
 
   const auto [front, back] = domain(3);
@@ -144,7 +144,7 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
     const BasisSpan& span = axis.spans()[i];
     Piece piece;
     for (int m = 0; m < 4; ++m) {
-      const double* c = &out.scratch[static_cast<std::size_t>(4 * span.first)];
+      const double* c = &out.scratch[4 * span.first];
       piece[m] = {};
       for (int r = 0; r < 4; ++r, c += 4) piece[m] += span.share[m][r] * Vec3{c[0], c[1], c[2]};
     }

@@ -7,14 +7,13 @@ ControlGrid::ControlGrid(const std::array<BSplineBasis, 4>& bases, const Axes& a
   stride[2] = 4 * axes[3].size();
   stride[1] = stride[2] * axes[2].size();
   stride[0] = stride[1] * axes[1].size();
-  values.assign(static_cast<std::size_t>(stride[0] * axes[0].size()), 0);
+  values.assign(stride[0] * axes[0].size(), 0);
   const Vec3* next = coefficients.data();
   for (int i = 0; i < bases[0].size(); ++i)
     for (int j = 0; j < bases[1].size(); ++j)
       for (int k = 0; k < bases[2].size(); ++k)
         for (int l = 0; l < bases[3].size(); ++l, ++next) {
-          double* point =
-              &values[static_cast<std::size_t>(i * stride[0] + j * stride[1] + k * stride[2] + 4 * l)];
+          double* point = &values[i * stride[0] + j * stride[1] + k * stride[2] + 4 * l];
           point[0] = next->x, point[1] = next->y, point[2] = next->z;
         }
 }

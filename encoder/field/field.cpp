@@ -101,7 +101,7 @@ double Field::contraction_tolerance() const {
 
 void Field::quantity(std::size_t index, const Vec3& uvw, Side side, double t, std::span<double> out) const {
   const Quantity& q = quantities.at(index);
-  const auto components = static_cast<std::size_t>(q.components);
+  const std::size_t components = q.components;
   CLEFT_CHECK(out.size(), ==, components);
   CLEFT_CHECK(q.coefficients.size(), ==, coefficients_.size() * components);
   Stencil s;

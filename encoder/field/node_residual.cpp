@@ -19,8 +19,8 @@ constexpr int earlier_nodes = 3;
 class History {
  public:
   explicit History(int frames) : data_(static_cast<std::size_t>(frames) + 4, 0) {}
-  std::int32_t& operator[](int frame) { return data_[static_cast<std::size_t>(frame + 2)]; }
-  std::int32_t operator[](int frame) const { return data_[static_cast<std::size_t>(frame + 2)]; }
+  std::int32_t& operator[](int frame) { return data_[frame + 2]; }
+  std::int32_t operator[](int frame) const { return data_[frame + 2]; }
 
  private:
   std::vector<std::int32_t> data_;
@@ -34,7 +34,7 @@ int level_of(int sum) {
   constexpr std::array<std::uint8_t, 40> levels = {0, 1, 2,  3,  4,  4,  5,  5,  6,  6,  6,  7, 7, 7,
                                                    7, 8, 8,  8,  8,  8,  9,  9,  9,  9,  9,  9, 9, 9,
                                                    9, 9, 10, 10, 10, 10, 10, 10, 10, 10, 10, 10};
-  return sum < 40 ? levels[static_cast<std::size_t>(sum)] : sum < 80 ? 11 : sum < 160 ? 12 : 13;
+  return sum < 40 ? levels[sum] : sum < 80 ? 11 : sum < 160 ? 12 : 13;
 }
 
 int sign_of(std::int32_t value) { return value < 0 ? 0 : value > 0 ? 2 : 1; }
@@ -55,7 +55,7 @@ class Model {
   void code_node(std::int32_t* values, int frames) {
     std::rotate(nodes_.begin(), nodes_.end() - 1, nodes_.end());
     for (int c = 0; c < components_; ++c) {
-      const auto k = static_cast<std::size_t>(c);
+      const std::size_t k = c;
       History& own = nodes_[0][k];
       const History &last = nodes_[1][k], &second = nodes_[2][k], &third = nodes_[3][k];
       const History *other = c > 0 ? &nodes_[0][k - 1] : nullptr, *another = c > 1 ? &nodes_[0][0] : nullptr;
@@ -116,7 +116,7 @@ void code_nodes(Coder& coder, int nodes, int components, int frames, std::int32_
                 std::span<const std::int32_t> order) {
   Model<Coder> model(coder, components, frames);
   for (int n = 0; n < nodes; ++n) {
-    const std::size_t node = static_cast<std::size_t>(order.empty() ? n : order[static_cast<std::size_t>(n)]);
+    const std::size_t node = static_cast<std::size_t>(order.empty() ? n : order[n]);
     model.code_node(values + node * static_cast<std::size_t>(components) * static_cast<std::size_t>(frames),
                     frames);
   }

@@ -18,7 +18,7 @@ struct Face {
   Vec3 outward;
 };
 
-Vec3 place(const SourceMesh& mesh, vtkIdType node) { return mesh.points[static_cast<std::size_t>(node)]; }
+Vec3 place(const SourceMesh& mesh, vtkIdType node) { return mesh.points[node]; }
 
 /// The cells that have one of the nodes; VTK knows the faces of all types.
 vtkNew<vtkUnstructuredGrid> cells_at(const SourceMesh& mesh, const std::vector<char>& asked) {
@@ -31,8 +31,7 @@ vtkNew<vtkUnstructuredGrid> cells_at(const SourceMesh& mesh, const std::vector<c
   for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {
     const std::vector<vtkIdType> corners(mesh.connectivity.begin() + mesh.cell_offsets[c],
                                          mesh.connectivity.begin() + mesh.cell_offsets[c + 1]);
-    if (std::any_of(corners.begin(), corners.end(),
-                    [&](vtkIdType i) { return asked[static_cast<std::size_t>(i)]; }))
+    if (std::any_of(corners.begin(), corners.end(), [&](vtkIdType i) { return asked[i]; }))
       grid->InsertNextCell(mesh.cell_types[c], static_cast<vtkIdType>(corners.size()), corners.data());
   }
   return grid;
@@ -59,7 +58,7 @@ Vec3 normal_of(const SourceMesh& mesh, vtkCell* face, const Vec3& inside) {
 
 std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int32_t>& nodes) {
   std::vector<char> asked(mesh.points.size());
-  for (const std::int32_t node : nodes) asked[static_cast<std::size_t>(node)] = 1;
+  for (const std::int32_t node : nodes) asked[node] = 1;
   const auto grid = cells_at(mesh, asked);
 
   std::map<std::vector<vtkIdType>, Face> faces;
@@ -72,8 +71,8 @@ std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int3
       vtkCell* face = cell->GetFace(f);
       vtkIdList* ids = face->GetPointIds();
       std::vector<vtkIdType> corners(ids->begin(), ids->end());
-      if (corners.size() < 3 || std::none_of(corners.begin(), corners.end(),
-                                             [&](vtkIdType i) { return asked[static_cast<std::size_t>(i)]; }))
+      if (corners.size() < 3 ||
+          std::none_of(corners.begin(), corners.end(), [&](vtkIdType i) { return asked[i]; }))
         continue;
       std::sort(corners.begin(), corners.end());
       const auto [found, is_new] = faces.try_emplace(corners, Face{1, normal_of(mesh, face, inside)});

@@ -90,7 +90,7 @@ class Search {
       }
       std::vector<std::int32_t> left, right;
       for (const std::int32_t node : group) {
-        const double s = side[static_cast<std::size_t>(node)];
+        const double s = side[node];
         if (s != 0) (s < 0 ? left : right).push_back(node);
       }
       if (left.empty() || right.empty()) {
@@ -120,7 +120,7 @@ class Search {
  private:
   template <class Nodes>
   Vec3 place_of(const Nodes& nodes) const {
-    return mesh_.points[static_cast<std::size_t>(*nodes.begin())];
+    return mesh_.points[*nodes.begin()];
   }
 
   std::size_t nodes_in_groups() const {
@@ -170,19 +170,17 @@ class Search {
   std::vector<double> sides(const Plane& plane) const {
     std::vector<char> asked(mesh_.points.size());
     for (const auto& group : groups_)
-      for (const std::int32_t node : group) asked[static_cast<std::size_t>(node)] = 1;
+      for (const std::int32_t node : group) asked[node] = 1;
     std::vector<double> side(mesh_.points.size());
     for (std::size_t c = 0; c < mesh_.cell_types.size(); ++c) {
       const auto* first = mesh_.connectivity.data() + mesh_.cell_offsets[c];
       const auto* last = mesh_.connectivity.data() + mesh_.cell_offsets[c + 1];
-      if (std::none_of(first, last, [&](std::int64_t i) { return asked[static_cast<std::size_t>(i)]; }))
-        continue;
+      if (std::none_of(first, last, [&](std::int64_t i) { return asked[i]; })) continue;
       double sum = 0;
-      for (const auto* i = first; i != last; ++i)
-        sum += plane.distance(mesh_.points[static_cast<std::size_t>(*i)]);
+      for (const auto* i = first; i != last; ++i) sum += plane.distance(mesh_.points[*i]);
       const double centroid = sum / static_cast<double>(last - first);
       if (std::abs(centroid) <= tolerance_) continue;  // an interface element, between the two sides
-      for (const auto* i = first; i != last; ++i) side[static_cast<std::size_t>(*i)] += centroid;
+      for (const auto* i = first; i != last; ++i) side[*i] += centroid;
     }
     return side;
   }

@@ -16,16 +16,16 @@ class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
   std::int32_t root(std::int32_t i) {
-    while (parent_[static_cast<std::size_t>(i)] != i) {
-      auto& up = parent_[static_cast<std::size_t>(i)];
-      i = up = parent_[static_cast<std::size_t>(up)];
+    while (parent_[i] != i) {
+      auto& up = parent_[i];
+      i = up = parent_[up];
     }
     return i;
   }
   /// The lowest number is the root.
   void join(std::int32_t a, std::int32_t b) {
     a = root(a), b = root(b);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    parent_[std::max(a, b)] = std::min(a, b);
   }
 
  private:
@@ -59,15 +59,13 @@ Groups coincident_groups(const std::vector<Vec3>& points, double tolerance) {
     for (const std::uint64_t cell : near)
       if (const auto found = cells.find(cell); found != cells.end())
         for (const std::int32_t other : found->second)
-          if (norm(points[static_cast<std::size_t>(other)] - points[i]) <= tolerance)
-            sets.join(static_cast<std::int32_t>(i), other);
+          if (norm(points[other] - points[i]) <= tolerance) sets.join(static_cast<std::int32_t>(i), other);
     cells[key(points[i], size)].push_back(static_cast<std::int32_t>(i));
   }
 
   std::vector<std::vector<std::int32_t>> members(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    members[static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(i)))].push_back(
-        static_cast<std::int32_t>(i));
+    members[sets.root(static_cast<std::int32_t>(i))].push_back(static_cast<std::int32_t>(i));
   Groups groups;
   for (auto& group : members)
     if (group.size() > 1) groups.push_back(std::move(group));
@@ -87,7 +85,7 @@ std::size_t weld(Series& series, const Groups& groups) {
   std::vector<std::int32_t> stands_for(points);  // the first node that agreed so far
   std::iota(stands_for.begin(), stands_for.end(), 0);
   for (const auto& group : groups)
-    for (const std::int32_t node : group) stands_for[static_cast<std::size_t>(node)] = group.front();
+    for (const std::int32_t node : group) stands_for[node] = group.front();
 
   for (std::size_t j = 0; j < series.frames(); ++j) {
     const FieldValues values = series.frame(j);
@@ -100,7 +98,7 @@ std::size_t weld(Series& series, const Groups& groups) {
       // Those that stood for one node, and now differ from it, follow the first of them with their values.
       std::vector<std::pair<std::int32_t, std::int32_t>> classes;  // before, and now
       for (const std::int32_t node : group) {
-        std::int32_t& mine = stands_for[static_cast<std::size_t>(node)];
+        std::int32_t& mine = stands_for[node];
         const auto found = std::find_if(classes.begin(), classes.end(), [&](const auto& c) {
           return c.first == mine && agree(c.second, node);
         });
@@ -114,9 +112,7 @@ std::size_t weld(Series& series, const Groups& groups) {
   std::vector<std::int32_t> number(points);
   std::int32_t next = 0;
   for (std::size_t i = 0; i < points; ++i)
-    number[i] = stands_for[i] == static_cast<std::int32_t>(i)
-                    ? next++
-                    : number[static_cast<std::size_t>(stands_for[i])];
+    number[i] = stands_for[i] == static_cast<std::int32_t>(i) ? next++ : number[stands_for[i]];
   series.weld(number);
   return points - static_cast<std::size_t>(next);
 }

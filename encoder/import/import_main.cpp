@@ -1,7 +1,7 @@
 // cleft import: another program's time series to a snapshot.
 #include <map>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
 #include "encoder/import/import_series.h"
 
@@ -29,8 +29,7 @@ Json figures_of(const ImportReport& report) {
                   {"cut", {{"start", s.cut_start}, {"length", s.cut_length}, {"depth", s.cut_depth}}},
                   {"break", s.source->break_plane},
                   {"origin", list_of(s.source->origin)}};
-  for (int i = 0; i < 3; ++i)
-    figures[std::string(1, "uvw"[i])] = list_of(s.source->axes[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 3; ++i) figures[std::string(1, "uvw"[i])] = list_of(s.source->axes[i]);
   figures["notes"] = report.notes;
   return figures;
 }

@@ -76,9 +76,7 @@ Vec3 orthogonal(const Vec3& u, const Vec3& v) { return normalized(u - dot(u, v) 
 /// Whether the pairs open against u: later ones at smaller u.
 bool opens_backwards(const Break& found, const SourceMesh& mesh, const Vec3& u) {
   const auto count = static_cast<double>(found.pairs.size());
-  const auto place = [&](std::size_t p) {
-    return dot(u, mesh.points[static_cast<std::size_t>(found.pairs[p][0])]);
-  };
+  const auto place = [&](std::size_t p) { return dot(u, mesh.points[found.pairs[p][0]]); };
   double mean_place = 0, mean_frame = 0, covariance = 0, places = 0, frames = 0;
   for (std::size_t p = 0; p < found.pairs.size(); ++p)
     mean_place += place(p) / count, mean_frame += found.first_frame[p] / count;
@@ -92,8 +90,7 @@ bool opens_backwards(const Break& found, const SourceMesh& mesh, const Vec3& u) 
 
 double volume(const std::vector<Vec3>& points, const std::array<Vec3, 3>& axes, bool is_flat) {
   double product = 1;
-  for (int i = 0; i < (is_flat ? 2 : 3); ++i)
-    product *= range_along(points, axes[static_cast<std::size_t>(i)]).extent();
+  for (int i = 0; i < (is_flat ? 2 : 3); ++i) product *= range_along(points, axes[i]).extent();
   return product;
 }
 
@@ -112,8 +109,7 @@ void Placement::turn(std::vector<double>& values, int components) const {
                    yz = values[i + 4], xz = values[i + 5];
       const Vec3 tensor[3] = {{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
       for (int c = 0; c < 6; ++c) {
-        const Vec3 &a = axes[static_cast<std::size_t>(row[c])],
-                   &b = axes[static_cast<std::size_t>(column[c])];
+        const Vec3 &a = axes[row[c]], &b = axes[column[c]];
         values[i + static_cast<std::size_t>(c)] =
             dot(a, {dot(tensor[0], b), dot(tensor[1], b), dot(tensor[2], b)});
       }
@@ -132,7 +128,7 @@ Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional
   std::vector<Vec3> places;
   for (const auto& [left, right] : found.pairs) {
     doubled.insert(doubled.end(), {left, right});
-    places.push_back(mesh.points[static_cast<std::size_t>(left)]);
+    places.push_back(mesh.points[left]);
   }
   if (places.empty()) places = mesh.points;
 

@@ -20,9 +20,7 @@ class Opening {
     }
   }
 
-  const Vec3& place(std::size_t pair) const {
-    return s_.points[static_cast<std::size_t>(found_.pairs[pair][0])];
-  }
+  const Vec3& place(std::size_t pair) const { return s_.points[found_.pairs[pair][0]]; }
   const Vec3& low() const { return low_; }
   const Vec3& high() const { return high_; }
 
@@ -89,8 +87,7 @@ class Opening {
   /// Places of nodes in the plane that are one, at the depth of the pairs: where the cut's end has stopped.
   std::vector<double> undivided_ahead() const {
     std::vector<char> paired(s_.points.size());
-    for (const auto& [left, right] : found_.pairs)
-      paired[static_cast<std::size_t>(left)] = paired[static_cast<std::size_t>(right)] = 1;
+    for (const auto& [left, right] : found_.pairs) paired[left] = paired[right] = 1;
     std::vector<double> places;
     for (std::size_t i = 0; i < s_.points.size(); ++i)
       if (const Vec3& x = s_.points[i]; !paired[i] && x.y == 0 && low_.z - rounding_ <= x.z &&

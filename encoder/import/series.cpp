@@ -156,7 +156,7 @@ void Series::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
 void Series::check_values(std::size_t frame, const SourceFrame& found) const {
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     const SourceArray& array = found.arrays[f];
-    const auto components = static_cast<std::size_t>(fields_[f].components);
+    const std::size_t components = fields_[f].components;
     if (array.components != fields_[f].components ||
         array.values.size() != components * found.mesh.points.size())
       throw InputError(where(frame) + ": field '" + fields_[f].source +
@@ -198,10 +198,10 @@ void Series::weld(const std::vector<std::int32_t>& number) {
   kept_.assign(static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1, -1);
   mesh_.points.resize(kept_.size());
   for (std::size_t i = number.size(); i-- > 0;) {
-    kept_[static_cast<std::size_t>(number[i])] = static_cast<std::int32_t>(i);
-    mesh_.points[static_cast<std::size_t>(number[i])] = mesh_as_read_.points[i];
+    kept_[number[i]] = static_cast<std::int32_t>(i);
+    mesh_.points[number[i]] = mesh_as_read_.points[i];
   }
-  for (std::int64_t& corner : mesh_.connectivity) corner = number[static_cast<std::size_t>(corner)];
+  for (std::int64_t& corner : mesh_.connectivity) corner = number[corner];
 }
 
 }  // namespace cleft

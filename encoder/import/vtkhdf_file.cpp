@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/h5.h"
+#include "base/h5/h5.h"
 #include "encoder/import/frame_files.h"
 
 namespace cleft {

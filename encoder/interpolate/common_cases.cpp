@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/study_file.h"
 #include "encoder/field/knot_insertion.h"
-#include "encoder/field/study_file.h"
 
 namespace cleft {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "encoder/field/field.h"
-#include "encoder/field/study_file.h"
+#include "encoder/field/file/study_file.h"
 
 namespace cleft {
 
@@ -65,7 +65,7 @@ class CommonCases {
   const std::array<BSplineBasis, 4>& bases() const { return bases_; }
   /// Control points of a case on bases(), mm: [point * 3 + component]. Single precision is 1e4 times finer
   /// than any fit.
-  std::span<const float> control_points(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  std::span<const float> control_points(int i) const { return points_[i]; }
   std::vector<Vec3> points(int i) const;  ///< the same
   /// Of all cases; their control points likewise, mm per unit.
   const std::vector<CommonDerivative>& derivatives() const { return derivatives_; }

@@ -18,10 +18,9 @@ Eigen::VectorXd not_negative_solution(const Eigen::MatrixXd& A, const Eigen::Vec
     const Eigen::VectorXd slope = A.transpose() * (b - A * y);
     Eigen::Index best = -1;
     for (Eigen::Index i = 0; i < n; ++i)
-      if (!is_free[static_cast<std::size_t>(i)] && slope[i] > tiny && (best < 0 || slope[i] > slope[best]))
-        best = i;
+      if (!is_free[i] && slope[i] > tiny && (best < 0 || slope[i] > slope[best])) best = i;
     if (best < 0) break;
-    free.push_back(best), is_free[static_cast<std::size_t>(best)] = true;
+    free.push_back(best), is_free[best] = true;
     while (!free.empty()) {
       const Eigen::VectorXd s = Eigen::MatrixXd(A(Eigen::all, free)).colPivHouseholderQr().solve(b);
       if (s.minCoeff() > 0) {
@@ -36,7 +35,7 @@ Eigen::VectorXd not_negative_solution(const Eigen::MatrixXd& A, const Eigen::Vec
       for (std::size_t k = 0; k < free.size(); ++k) {
         y[free[k]] += step * (s[static_cast<Eigen::Index>(k)] - y[free[k]]);
         const bool stays = y[free[k]] > 1e-14;
-        if (!stays) y[free[k]] = 0, is_free[static_cast<std::size_t>(free[k])] = false;
+        if (!stays) y[free[k]] = 0, is_free[free[k]] = false;
         if (stays) left.push_back(free[k]);
       }
       free = std::move(left);

@@ -44,7 +44,7 @@ std::vector<int> representative_cases(const std::vector<CaseParameters>& cases, 
   if (n <= most) return list;
   const Features features(cases, Loading::general);
   Eigen::MatrixXd places(features.size(), n);
-  for (int i = 0; i < n; ++i) places.col(i) = features.at(cases[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < n; ++i) places.col(i) = features.at(cases[i]);
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
   Eigen::Index next = 0;
   (places.colwise() - places.rowwise().mean()).colwise().squaredNorm().maxCoeff(&next);
@@ -65,7 +65,7 @@ DisplacementModel::DisplacementModel(const std::vector<CaseParameters>& cases, c
   const auto n = static_cast<Eigen::Index>(cases.size());
   places_.resize(n, features_.size()), loads_.resize(n, features_.load(cases[0]).size()), scales_.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const CaseParameters& one = cases[static_cast<std::size_t>(i)];
+    const CaseParameters& one = cases[i];
     places_.row(i) = features_.at(one).transpose(), loads_.row(i) = features_.load(one).transpose();
     const double scale = features_.scale(one);
     scales_[i] = scale > 0 ? scale : 1;
@@ -102,9 +102,9 @@ DisplacementModel::DisplacementModel(const std::vector<CaseParameters>& cases, c
 void DisplacementModel::add_ways(const std::vector<CaseParameters>& cases, const CaseSamples& samples) {
   constexpr double nothing = 1e-9;  // of a change of the parameter by its step
   for (Eigen::Index d = 0; d < derivatives_; ++d) {
-    const Eigen::Index of = samples.derivative_of[static_cast<std::size_t>(d)];
-    const CaseParameters& one = cases[static_cast<std::size_t>(of)];
-    const std::string& name = samples.parameter[static_cast<std::size_t>(d)];
+    const Eigen::Index of = samples.derivative_of[d];
+    const CaseParameters& one = cases[of];
+    const std::string& name = samples.parameter[d];
     if (!one.contains(name) || !(features_.scale(one) > 0)) continue;
     Way way{d, of, features_.slope(one, name), 0, 0};
     way.size = std::hypot(way.slope.features.norm(), way.slope.load.norm());
@@ -121,7 +121,7 @@ TrainingCases DisplacementModel::training(const std::vector<int>& cases, bool wi
   auto& slopes = training.slopes;
   slopes.features.resize(q, places_.cols()), slopes.loads.resize(q, loads_.cols());
   for (Eigen::Index w = 0; w < q; ++w) {
-    const Way& way = ways_[static_cast<std::size_t>(w)];
+    const Way& way = ways_[w];
     slopes.of.push_back(way.of);
     slopes.features.row(w) = way.slope.features.transpose() / way.size;
     slopes.loads.row(w) = way.slope.load.transpose() / way.size;
@@ -189,7 +189,7 @@ DisplacementModel::Prediction DisplacementModel::at(const CaseParameters& parame
   Prediction prediction{weights.head(n).cwiseQuotient(scales_), Eigen::VectorXd::Zero(derivatives_),
                         scale * error_of_deviation_ * regression_->deviation(place, load)};
   for (Eigen::Index w = 0; w < weights.size() - n; ++w) {
-    const Way& way = ways_[static_cast<std::size_t>(w)];
+    const Way& way = ways_[w];
     const double weight = weights[n + w] / (scales_[way.of] * way.size);
     prediction.derivatives[way.derivative] += weight;
     prediction.weights[way.of] -= weight * way.log_scale;

@@ -77,8 +77,7 @@ Features::Features(const std::vector<CaseParameters>& cases, Loading loading)
   }
   middle_.setZero(count), half_.setOnes(count);
   Eigen::MatrixXd table(n, count);
-  for (Eigen::Index i = 0; i < n; ++i)
-    table.row(i) = normalised(cases[static_cast<std::size_t>(i)]).transpose();
+  for (Eigen::Index i = 0; i < n; ++i) table.row(i) = normalised(cases[i]).transpose();
   const Eigen::VectorXd least = table.colwise().minCoeff(), greatest = table.colwise().maxCoeff();
   middle_ = 0.5 * (least + greatest), half_ = 0.5 * (greatest - least);
   const auto constant = [&](Eigen::Index f) {
@@ -94,7 +93,7 @@ Features::Features(const std::vector<CaseParameters>& cases, Loading loading)
     const Eigen::VectorXd column = (table.col(f).array() - middle_[f]) / half_[f];
     const Eigen::VectorXd combination = kept.colPivHouseholderQr().solve(column);
     if (!constant(f) && (kept * combination - column).cwiseAbs().maxCoeff() > 1e-6) {
-      chosen_.push_back(static_cast<int>(f)), names_.push_back(first[static_cast<std::size_t>(f)].name);
+      chosen_.push_back(static_cast<int>(f)), names_.push_back(first[f].name);
       kept.conservativeResize(Eigen::NoChange, kept.cols() + 1);
       kept.rightCols(1) = column;
     } else {
@@ -157,7 +156,7 @@ Features::Slope Features::slope(const CaseParameters& parameters, const std::str
 double Features::scale(const CaseParameters& p) const {
   if (!ours_) return 1;
   Eigen::Vector3d q;
-  for (int k = 0; k < 3; ++k) q[k] = p.at(prestress[static_cast<std::size_t>(k)]) * p.at("skin.thickness");
+  for (int k = 0; k < 3; ++k) q[k] = p.at(prestress[k]) * p.at("skin.thickness");
   return q.norm() / p.at("tissue.young_modulus");
 }
 

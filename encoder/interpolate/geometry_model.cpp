@@ -64,17 +64,14 @@ GeometryModel::GeometryModel(const std::vector<CaseParameters>& parameters,
     : varying_(varying_parameters(parameters)), times_(common_times(geometries)) {
   const auto n = static_cast<Eigen::Index>(parameters.size()), d = static_cast<Eigen::Index>(varying_.size());
   middle_.setZero(d), half_.setOnes(d), places_.resize(n, d);
-  for (Eigen::Index i = 0; i < n; ++i)
-    places_.row(i) = place_of(parameters[static_cast<std::size_t>(i)]).transpose();
+  for (Eigen::Index i = 0; i < n; ++i) places_.row(i) = place_of(parameters[i]).transpose();
   const Eigen::VectorXd least = places_.colwise().minCoeff(), greatest = places_.colwise().maxCoeff();
   middle_ = 0.5 * (least + greatest), half_ = 0.5 * (greatest - least);
-  for (Eigen::Index i = 0; i < n; ++i)
-    places_.row(i) = place_of(parameters[static_cast<std::size_t>(i)]).transpose();
+  for (Eigen::Index i = 0; i < n; ++i) places_.row(i) = place_of(parameters[i]).transpose();
 
   Eigen::MatrixXd design(n, d + 1), measures(n, plain_measures + static_cast<Eigen::Index>(times_.size()));
   design << Eigen::VectorXd::Ones(n), places_;
-  for (Eigen::Index i = 0; i < n; ++i)
-    measures.row(i) = measures_of(geometries[static_cast<std::size_t>(i)], times_).transpose();
+  for (Eigen::Index i = 0; i < n; ++i) measures.row(i) = measures_of(geometries[i], times_).transpose();
   linear_ = design.completeOrthogonalDecomposition().solve(measures);
   left_ = measures - design * linear_;
   constant_ = measures.row(0).transpose();
@@ -85,7 +82,7 @@ GeometryModel::GeometryModel(const std::vector<CaseParameters>& parameters,
 Eigen::VectorXd GeometryModel::place_of(const CaseParameters& parameters) const {
   Eigen::VectorXd place(static_cast<Eigen::Index>(varying_.size()));
   for (Eigen::Index k = 0; k < place.size(); ++k)
-    place[k] = (parameters.at(varying_[static_cast<std::size_t>(k)]) - middle_[k]) / half_[k];
+    place[k] = (parameters.at(varying_[k]) - middle_[k]) / half_[k];
   return place;
 }
 

@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <iostream>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "encoder/interpolate/compact.h"
 #include "encoder/interpolate/study_interpolator.h"
 

@@ -32,7 +32,7 @@ double covariance_of(const Row& a, const Row& b, const Covariance& covariance) {
 
 Row row_of(const TrainingCases& cases, Eigen::Index row) {
   const Eigen::Index n = cases.features.rows(), slope = row - n;
-  const Eigen::Index of = slope < 0 ? row : cases.slopes.of[static_cast<std::size_t>(slope)];
+  const Eigen::Index of = slope < 0 ? row : cases.slopes.of[slope];
   Row result{cases.features.row(of).transpose(), cases.loads.row(of).transpose(), {}, {}, slope >= 0};
   if (slope >= 0)
     result.dx = cases.slopes.features.row(slope).transpose(),
@@ -50,9 +50,7 @@ Eigen::MatrixXd matrix_of(const TrainingCases& cases, const Covariance& covarian
   for (Eigen::Index i = 0; i < m; ++i) rows.push_back(row_of(cases, i));
   Eigen::MatrixXd K(m, m);
   for (Eigen::Index i = 0; i < m; ++i)
-    for (Eigen::Index j = 0; j <= i; ++j)
-      K(i, j) = K(j, i) =
-          covariance_of(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)], covariance);
+    for (Eigen::Index j = 0; j <= i; ++j) K(i, j) = K(j, i) = covariance_of(rows[i], rows[j], covariance);
   return K;
 }
 
@@ -60,9 +58,9 @@ Eigen::MatrixXd matrix_of(const TrainingCases& cases, const Covariance& covarian
 std::vector<std::vector<Eigen::Index>> blocks_of(const TrainingCases& cases) {
   const Eigen::Index n = cases.features.rows();
   std::vector<std::vector<Eigen::Index>> blocks(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) blocks[static_cast<std::size_t>(i)] = {i};
+  for (Eigen::Index i = 0; i < n; ++i) blocks[i] = {i};
   for (std::size_t s = 0; s < cases.slopes.of.size(); ++s)
-    blocks[static_cast<std::size_t>(cases.slopes.of[s])].push_back(n + static_cast<Eigen::Index>(s));
+    blocks[cases.slopes.of[s]].push_back(n + static_cast<Eigen::Index>(s));
   return blocks;
 }
 
@@ -149,7 +147,7 @@ KernelRegression::KernelRegression(const TrainingCases& cases, Covariance covari
   left_out_.resize(m, n), left_out_deviation_.resize(n);
   double sum = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& block = blocks[static_cast<std::size_t>(i)];
+    const auto& block = blocks[i];
     if (block.size() == 1) {
       const double diagonal = std::max(inverse(i, i), 1e-300);
       left_out_.col(i) = inverse.col(i) / diagonal;

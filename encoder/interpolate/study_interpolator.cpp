@@ -93,13 +93,12 @@ double StudyInterpolator::fit_error(const DisplacementModel::Prediction& predict
   std::vector<double> fits;
   double squares = 0;
   for (int i = 0; i < cases_.size(); ++i) {
-    const FitReport& report = cases_.cases()[static_cast<std::size_t>(i)].report;
+    const FitReport& report = cases_.cases()[i].report;
     fits.push_back(std::isfinite(report.spline_error) ? report.spline_error : 0);
     squares += std::pow(prediction.weights[i] * fits.back() * report.largest_displacement, 2);
   }
   for (Eigen::Index d = 0; d < prediction.derivatives.size(); ++d)
-    squares +=
-        std::pow(prediction.derivatives[d] * cases_.derivatives()[static_cast<std::size_t>(d)].error, 2);
+    squares += std::pow(prediction.derivatives[d] * cases_.derivatives()[d].error, 2);
   return std::max(median(fits), largest > 0 ? std::sqrt(squares) / largest : 0);
 }
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <fstream>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "examples/head/head_shape.h"

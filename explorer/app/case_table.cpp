@@ -60,7 +60,7 @@ QVariant CaseModel::headerData(int section, Qt::Orientation orientation, int rol
     const Parameter& row = find_parameter(name, "cases");
     unit = row.unit, help = row.help;
   } else {
-    const FigureText& figure = figure_texts()[static_cast<std::size_t>(section - 1 - parameters_)];
+    const FigureText& figure = figure_texts()[section - 1 - parameters_];
     unit = figure.unit, help = figure.help;
   }
   if (role == Qt::ToolTipRole)

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "explorer/scene/hand_script.h"
-#include "explorer/scene/path_file.h"
+#include "explorer/scalpel/hand_script.h"
+#include "explorer/wound/path_file.h"
 #include "haptic/devices/list.h"
 #include "haptic/surface_stiffness.h"
 

@@ -9,7 +9,7 @@
 
 #include "explorer/app/panel.h"
 #include "explorer/app/scene_widget.h"
-#include "explorer/scene/live_scalpel.h"
+#include "explorer/scalpel/live_scalpel.h"
 #include "haptic/devices/mouse.h"
 
 namespace cleft {

@@ -4,7 +4,7 @@
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 
 namespace cleft {
 

@@ -16,7 +16,7 @@
 #include "explorer/app/parameter_panel.h"
 #include "explorer/app/plots.h"
 #include "explorer/app/time_bar.h"
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 
 namespace cleft {
 

@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "explorer/app/main_window.h"
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 
 namespace cleft {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "explorer/scene/session/session.h"
+#include "explorer/session/session.h"
 
 namespace cleft {
 

@@ -126,10 +126,9 @@ void Plots::draw_probe() {
     const Motion motion = session_.probed_motion();
     constexpr const char* names[] = {"along u", "across v", "height w"};
     for (int k = 0; k < 3; ++k) {
-      add_curve(probe_.chart, motion.field[static_cast<std::size_t>(k)], names[k], k, Style::line);
+      add_curve(probe_.chart, motion.field[k], names[k], k, Style::line);
       if (motion.node)
-        add_curve(probe_.chart, motion.raw[static_cast<std::size_t>(k)], std::string(names[k]) + ", node", k,
-                  Style::dots);
+        add_curve(probe_.chart, motion.raw[k], std::string(names[k]) + ", node", k, Style::dots);
     }
     const Vec3& x = session_.state().probe->uvw;
     note = QString("Motion of %1, %2, %3 mm; ").arg(x.x).arg(x.y).arg(x.z) +

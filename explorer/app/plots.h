@@ -14,7 +14,7 @@
 #include <map>
 
 #include "explorer/app/panel.h"
-#include "explorer/scene/case_figures.h"
+#include "explorer/study/case_figures.h"
 
 namespace cleft {
 

@@ -1,7 +1,7 @@
 // The explorer's window.
 #pragma once
 
-#include "explorer/scene/session/session.h"
+#include "explorer/session/session.h"
 
 namespace cleft {
 

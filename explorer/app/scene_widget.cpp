@@ -263,12 +263,11 @@ CutState SceneWidget::smoothed() const {
   constexpr int reach = 3;
   const int count = static_cast<int>(blade_.size());
   std::vector<WoundView::Place> blade = blade_;
-  const auto at = [&](int i) { return blade[static_cast<std::size_t>(std::clamp(i, 0, count - 1))]; };
+  const auto at = [&](int i) { return blade[std::clamp(i, 0, count - 1)]; };
   for (int pass = 0; pass < 2; ++pass) {  // a mouse goes from pixel to pixel, a hand does not
     std::vector<WoundView::Place> smooth = blade;
     for (int i = 1; i + 1 < count; ++i)
-      smooth[static_cast<std::size_t>(i)].position =
-          0.25 * (at(i - 1).position + 2 * at(i).position + at(i + 1).position);
+      smooth[i].position = 0.25 * (at(i - 1).position + 2 * at(i).position + at(i + 1).position);
     blade.swap(smooth);
   }
   CutState cut;

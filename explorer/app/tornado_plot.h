@@ -4,7 +4,7 @@
 #include <QWidget>
 #include <optional>
 
-#include "explorer/scene/session/session.h"
+#include "explorer/session/session.h"
 
 namespace cleft {
 

@@ -6,7 +6,7 @@
 #include <QSettings>
 #include <QVBoxLayout>
 
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 
 namespace cleft {
 

@@ -248,7 +248,7 @@ void Surroundings::lead_on(const CutMesh& mesh, const ScalpelPath& path, double 
                            int seed) {
   const auto before = static_cast<int>(labels_.size()), now = static_cast<int>(mesh.vertices().size());
   keep_until(from);
-  labels_.resize(static_cast<std::size_t>(now));
+  labels_.resize(now);
   Trace trace(mesh, path, from - reach_, from + ahead);
   trace.follow(seed, from, true);
   std::sort(trace.stations.begin(), trace.stations.end(),

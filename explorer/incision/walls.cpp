@@ -115,7 +115,7 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
     const double fraction = 1 + (from / depth - 1) * (1 - double(i) / more);
     const Vec3 place = lerp(mesh.position(bottom), mesh.position(top) + down, double(i) / more);
     column.vertex.push_back(below.empty() ? add_below(mesh, top, place, s, fraction, depth, cut)
-                                          : below[static_cast<std::size_t>(i - 1)]);
+                                          : below[i - 1]);
     column.depth_fraction.push_back(i == more ? 1 : fraction);
   }
   column.opens = !below.empty();

@@ -177,8 +177,8 @@ std::vector<VolumeMesh::Nearest> VolumeMesh::nearest(const SurfaceMesh& surface)
     int unused;
     locator->FindClosestPoint(x, closest, cell, triangle, unused, squared);
     const Vec3 foot{closest[0], closest[1], closest[2]};
-    const auto& t = surface.triangles[static_cast<std::size_t>(triangle)];
-    const auto away = [&](int v) { return squared_norm(surface.points[static_cast<std::size_t>(v)] - foot); };
+    const auto& t = surface.triangles[triangle];
+    const auto away = [&](int v) { return squared_norm(surface.points[v] - foot); };
     result.push_back({*std::min_element(t.begin(), t.end(), [&](int a, int b) { return away(a) < away(b); }),
                       std::sqrt(squared)});
   }
@@ -206,11 +206,9 @@ void VolumeMesh::clip(const std::vector<double>& beside,
   vtkNew<vtkIdList> whole, parted, list;
   for (vtkIdType c = 0; c < grid_->cells->GetNumberOfCells(); ++c) {
     const std::vector<int> corners = corners_of(grid_->cells, c, list);
-    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), [&](int a, int b) {
-      return beside[static_cast<std::size_t>(a)] < beside[static_cast<std::size_t>(b)];
-    });
-    const bool crossed =
-        beside[static_cast<std::size_t>(*low)] < 0 && beside[static_cast<std::size_t>(*high)] > 0;
+    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
+                                                 [&](int a, int b) { return beside[a] < beside[b]; });
+    const bool crossed = beside[*low] < 0 && beside[*high] > 0;
     (crossed && is_cut(corners) ? parted : whole)->InsertNextId(c);
   }
   vtkNew<vtkAppendFilter> all;

@@ -23,7 +23,7 @@ const std::vector<ColoringText>& colorings() {
   return all;
 }
 
-const ColoringText& text_of(Coloring coloring) { return colorings().at(static_cast<std::size_t>(coloring)); }
+const ColoringText& text_of(Coloring coloring) { return colorings().at(coloring); }
 
 Coloring coloring_of(const std::string& name) {
   std::vector<std::string> names;
@@ -34,12 +34,6 @@ Coloring coloring_of(const std::string& name) {
   std::string list;
   for (const std::string& n : names) list += (list.empty() ? "" : ", ") + n;
   throw InputError("'" + name + "' is no colouring" + did_you_mean(name, names) + "; there are " + list);
-}
-
-double gape(const Field& field, double u, double t) {
-  const CanonicalCut& cut = field.cut();
-  if (u <= cut.start || u >= cut.start + std::min(t, cut.length)) return 0;
-  return norm(field.displacement({u, 0, 0}, Side::right, t) - field.displacement({u, 0, 0}, Side::left, t));
 }
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "explorer/scene/varying_field.h"
+#include "explorer/wound/varying_field.h"
 
 namespace cleft {
 
@@ -20,9 +20,6 @@ const std::vector<ColoringText>& colorings();
 const ColoringText& text_of(Coloring coloring);
 /// Throws InputError for an unknown name, with the nearest one.
 Coloring coloring_of(const std::string& name);
-
-/// Opening of the lips at u when the length t is cut, mm.
-double gape(const Field& field, double u, double t);
 
 /// The value at a point: displacement and difference (from `reference`) in mm, gape in mm, on both sides
 /// of the cut that between a point and its mirror image, the largest principal Green-Lagrange strain as a

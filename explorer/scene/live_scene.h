@@ -4,21 +4,11 @@
 #include <memory>
 #include <optional>
 
-#include "explorer/scene/scalpel_cutting.h"
+#include "explorer/scalpel/cutting_moment.h"
 #include "explorer/scene/wound_scene.h"
 #include "haptic/surface_dent.h"
 
 namespace cleft {
-
-/// The cutting at a moment, in mesh units; the surface is shared by those between which nothing was cut.
-struct CuttingMoment {
-  std::shared_ptr<const WoundSurface> surface;
-  std::vector<Vec3> points;
-  double cut_length = 0;  ///< mm
-  int cuts = 0;           ///< CuttingFigures::cuts as of the surface
-};
-/// `before`: the moment before, or null.
-std::shared_ptr<const CuttingMoment> moment_of(const ScalpelCutting& cutting, const CuttingMoment* before);
 
 class LiveScene : public WoundScene {
  public:

@@ -45,7 +45,7 @@ std::vector<bool> MeshScene::moving() const {
   std::vector<bool> any(surface_->points.size(), false);
   if (!wounds_) return any;
   for (const Replay& replay : level().replays)
-    for (const ActiveVertex& a : replay.active()) any[static_cast<std::size_t>(a.vertex)] = true;
+    for (const ActiveVertex& a : replay.active()) any[a.vertex] = true;
   return any;
 }
 
@@ -80,7 +80,7 @@ void MeshScene::values(Coloring coloring, const Field* reference, double t, std:
       const bool closed = a.on_cut && a.s >= s;
       const double own_time = std::clamp(s + a.time_offset, 0., field.shape().cut().length);
       const Place place{a.uvw, closed ? Side::both : a.side, own_time};
-      double& value = out[static_cast<std::size_t>(a.vertex)];
+      double& value = out[a.vertex];
       value = std::max(value, a.weight * wounds_->amplitude(k, a.s, now) *
                                   color_value(coloring, field, reference, place, a.s));
     }

@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
-#include "explorer/scene/cut_fields.h"
-#include "explorer/scene/cut_surface.h"
+#include "explorer/incision/cut_surface.h"
 #include "explorer/scene/wound_scene.h"
-#include "explorer/scene/wounds.h"
+#include "explorer/wound/cut_fields.h"
+#include "explorer/wound/wounds.h"
 
 namespace cleft {
 

@@ -40,7 +40,7 @@ Overlay nodes_around(const RawCase& raw, const Vec3& place, double radius, doubl
   constexpr Ink little{1, 0.95, 0.7}, much{0.3, 0, 0.35};
   Overlay overlay;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    overlay.dots.push_back({raw.snapshot().points[static_cast<std::size_t>(nodes[i])] + moves[i],
+    overlay.dots.push_back({raw.snapshot().points[nodes[i]] + moves[i],
                             between(little, much, largest > 0 ? errors[i] / largest : 0)});
   overlay.in_front = true;
   if (largest > 0) overlay.scale = {"error of the field at the nodes, mm", largest, little, much};
@@ -55,15 +55,13 @@ Overlay constraints_at(const RawCase& raw, double t) {
   const Field& field = raw.field();
   const std::size_t frame = raw.nearest_frame(t);
   const double time = s.times[frame];
-  const auto place = [&](int node) {
-    return moved(field, s.points[static_cast<std::size_t>(node)], raw.side(node), time);
-  };
+  const auto place = [&](int node) { return moved(field, s.points[node], raw.side(node), time); };
   Overlay overlay;
   for (const auto& [a, b, c] : s.skin())
     overlay.lines.push_back({{place(a), place(b), place(c), place(a)}, grey});
   const int released = s.released[frame];
   for (int k = 0; k < static_cast<int>(s.pairs.size()); ++k) {
-    const auto [left, right] = s.pairs[static_cast<std::size_t>(k)];
+    const auto [left, right] = s.pairs[k];
     const Vec3 a = place(left), b = place(right);
     overlay.dots.push_back({a, k < released ? vermilion : blue});
     if (k >= released) continue;

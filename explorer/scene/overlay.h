@@ -8,7 +8,7 @@
 
 #include "base/vec3.h"
 #include "explorer/incision/scalpel_path.h"
-#include "explorer/scene/raw_case.h"
+#include "explorer/study/raw_case.h"
 
 namespace cleft {
 

@@ -148,8 +148,7 @@ void PatchScene::errors(double t, std::vector<double>& out) const {
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     const std::vector<double> of_nodes = raw_->errors(frame, nodes);
     for (const int node : nearest_)
-      known.push_back(of_nodes[static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
-                                                        nodes.begin())]);
+      known.push_back(of_nodes[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()]);
   }
   out = known;
 }

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "encoder/field/field.h"
-#include "explorer/scene/raw_case.h"
 #include "explorer/scene/wound_scene.h"
+#include "explorer/study/raw_case.h"
 
 namespace cleft {
 

@@ -1,28 +1,16 @@
 // What a view draws: a surface whose points depend on the length cut. Knows nothing of VTK.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "base/vec3.h"
-#include "explorer/incision/cut_mesh.h"
 #include "explorer/scene/coloring.h"
-#include "explorer/scene/detail.h"
+#include "explorer/wound/detail.h"
+#include "explorer/wound/wound_surface.h"
 
 namespace cleft {
-
-/// A surface with an incision, fully cut; at t = 0 its lips lie on each other. Lengths in mm.
-struct WoundSurface {
-  std::vector<Vec3> points;                       ///< at rest
-  std::vector<std::array<int, 3>> triangles;      ///< counter-clockwise seen from outside
-  std::vector<Region> regions;                    ///< one for each triangle
-  std::vector<double> depth_fraction;             ///< one for each point: 0 at the skin, 1 at the bottom
-  int original_points = 0;                        ///< the points from this number on were added by the cut
-  Vec3 middle, outward{0, 0, 1}, along{1, 0, 0};  ///< of the cut, for the camera
-};
 
 class WoundScene {
  public:

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "explorer/scene/session/session.h"
+#include "explorer/session/session.h"
 #include "explorer/view/stage.h"
 
 namespace cleft {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "explorer/scene/session/session.h"
+#include "explorer/session/session.h"
 
 namespace cleft {
 

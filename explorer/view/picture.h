@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "explorer/scene/session/session.h"
+#include "explorer/session/session.h"
 #include "explorer/view/wound_view.h"
 
 namespace cleft {

@@ -24,7 +24,7 @@ SmoothNormals::SmoothNormals(const WoundSurface& surface,
   for (const std::array<int, 3>& points : triangles_of_points) {
     std::array<int, 3>& triangle = triangles_.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
-      int& vertex = number[static_cast<std::size_t>(points[i])];
+      int& vertex = number[points[i]];
       if (vertex < 0) {
         vertex = static_cast<int>(source_.size());
         source_.push_back(points[i]);

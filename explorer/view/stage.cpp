@@ -229,7 +229,7 @@ std::string without_groups(const std::string& name) {
 
 /// In lines of what fits `width` pixels.
 std::string wrapped(const std::string& text, double width) {
-  const auto most = static_cast<std::size_t>(std::max(20., width / 7.5));
+  const std::size_t most = std::max(20., width / 7.5);
   std::string out;
   std::size_t length = 0;
   std::istringstream words(text);
@@ -273,7 +273,7 @@ int Stage::view_at(int x, int y) const {
 }
 
 double Stage::mm_a_pixel(int i) const {
-  vtkRenderer* renderer = views_.at(static_cast<std::size_t>(i)).view->renderer();
+  vtkRenderer* renderer = views_.at(i).view->renderer();
   return 2 * renderer->GetActiveCamera()->GetDistance() *
          std::tan(renderer->GetActiveCamera()->GetViewAngle() / 2 * M_PI / 180) / renderer->GetSize()[1];
 }

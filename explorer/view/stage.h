@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "explorer/scene/session/session.h"
+#include "explorer/session/session.h"
 #include "explorer/view/furniture.h"
 #include "explorer/view/overlay_view.h"
 #include "explorer/view/pixel_bound.h"
@@ -34,7 +34,7 @@ class Stage {
   void set_smooth(bool smooth);
 
   int views() const { return static_cast<int>(views_.size()); }
-  WoundView& view(int i) { return *views_.at(static_cast<std::size_t>(i)).view; }
+  WoundView& view(int i) { return *views_.at(i).view; }
   int view_at(int x, int y) const;  ///< pixels from the lower left; -1: none
   /// Of a view's picture, in the plane through the middle of what it shows.
   double mm_a_pixel(int view) const;

@@ -182,7 +182,7 @@ void WoundView::set_time(double t) {
   walls_->move(points_);
   if (coloring_ == Coloring::tissue) return;
   scene_->values(coloring_, reference_.get(), time_, values_);
-  skin_->color([this](int p) { return values_[static_cast<std::size_t>(p)]; });
+  skin_->color([this](int p) { return values_[p]; });
 }
 
 std::optional<WoundView::Place> WoundView::skin_at(int x, int y) {
@@ -195,9 +195,7 @@ std::optional<WoundView::Place> WoundView::skin_at(int x, int y) {
   const auto corners = skin_->corners(hit, static_cast<std::size_t>(picker->GetCellId()));
   const double* p = picker->GetPCoords();
   const std::vector<Vec3>& rest = scene_->surface().points;
-  const auto corner = [&](int i) {
-    return rest[static_cast<std::size_t>(corners[static_cast<std::size_t>(i)])];
-  };
+  const auto corner = [&](int i) { return rest[corners[i]]; };
   return Place{(1 - p[0] - p[1]) * corner(0) + p[0] * corner(1) + p[1] * corner(2),
                normalized(cross(corner(1) - corner(0), corner(2) - corner(0)))};
 }

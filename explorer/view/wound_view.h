@@ -13,8 +13,8 @@
 #include <tuple>
 #include <vector>
 
-#include "explorer/scene/session/session_state.h"
 #include "explorer/scene/wound_scene.h"
+#include "explorer/session/session_state.h"
 #include "explorer/view/surface_part.h"
 
 namespace cleft {

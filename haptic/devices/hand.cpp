@@ -77,6 +77,6 @@ ScalpelPose Hand::read(double time) {
   return pose;
 }
 
-void Hand::command(const Vec3& force) { under_way_[static_cast<std::size_t>(late_)] = force; }
+void Hand::command(const Vec3& force) { under_way_[late_] = force; }
 
 }  // namespace cleft

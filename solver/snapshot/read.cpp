@@ -86,7 +86,7 @@ class SnapshotCheck {
     std::vector<std::int32_t> joined(s_.points.size());  // toward a node that stands for all joined ones
     std::iota(joined.begin(), joined.end(), 0);
     const auto find = [&](std::int32_t node) {
-      const auto next = [&](std::int32_t n) -> std::int32_t& { return joined[static_cast<std::size_t>(n)]; };
+      const auto next = [&](std::int32_t n) -> std::int32_t& { return joined[n]; };
       while (next(node) != node) node = next(node) = next(next(node));
       return node;
     };
@@ -97,7 +97,7 @@ class SnapshotCheck {
                           std::to_string(right) +
                           (left == right ? ": a node is no pair" : ": earlier rows join them already") +
                           "; leave the row out");
-      joined[static_cast<std::size_t>(b)] = a;
+      joined[b] = a;
     }
   }
 
@@ -191,7 +191,7 @@ std::vector<std::array<int, 3>> Snapshot::skin() const {
   std::vector<std::array<int, 3>> triangles;
   for (std::size_t c = 0; c < cell_types.size(); ++c)
     if (cell_types[c] == triangle) {
-      const auto* corner = &connectivity[static_cast<std::size_t>(cell_offsets[c])];
+      const auto* corner = &connectivity[cell_offsets[c]];
       triangles.push_back(
           {static_cast<int>(corner[0]), static_cast<int>(corner[1]), static_cast<int>(corner[2])});
     }

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/h5.h"
+#include "base/h5/h5.h"
 #include "base/output_file.h"
 #include "base/vec3.h"
 

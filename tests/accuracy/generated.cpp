@@ -94,7 +94,7 @@ void write_imported(const std::string& path) {
     const double at = tip(s.times.back());
     const auto open = [&](const auto& pair) { return s.points[pair[0]].x < at - 1e-9; };
     s.released.push_back(static_cast<int>(std::count_if(s.pairs.begin(), s.pairs.end(), open)));
-    const auto closed = static_cast<std::size_t>(s.released.back());
+    const std::size_t closed = s.released.back();
     s.position.push_back(closed < s.pairs.size() ? s.points[s.pairs[closed][0]].x : end);
   }
   // The lips part as the square root of the distance from start, tip and bottom; the rest follows more weakly

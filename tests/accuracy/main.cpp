@@ -13,7 +13,7 @@
 #include "base/process.h"
 #include "base/text.h"
 #include "benchmarks/encoder/unseen.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "tests/accuracy/figures.h"
 #include "tests/accuracy/generated.h"
 #include "tests/accuracy/references.h"

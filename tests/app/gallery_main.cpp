@@ -13,7 +13,7 @@
 #include <iostream>
 
 #include "explorer/app/main_window.h"
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 #include "explorer/view/picture.h"
 #include "tests/app/mouse.h"
 

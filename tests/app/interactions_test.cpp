@@ -16,7 +16,7 @@
 #include <iostream>
 #include <map>
 
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 #include "tests/app/window_fixture.h"
 
 namespace cleft {

@@ -17,7 +17,7 @@
 #include <fstream>
 
 #include "base/text.h"
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 #include "tests/app/window_fixture.h"
 
 namespace cleft {

@@ -18,7 +18,7 @@ Snapshot grid_with_cells() {
   Snapshot s = cut_in(grid(nu, nv, nw), eight_times);
   std::vector<std::int64_t> right(s.points.size());
   for (std::size_t n = 0; n < right.size(); ++n) right[n] = static_cast<std::int64_t>(n);
-  for (const auto& [l, r] : s.pairs) right[static_cast<std::size_t>(l)] = r;
+  for (const auto& [l, r] : s.pairs) right[l] = r;
   for (int i = 0; i < nu; ++i)
     for (int j = 0; j < nv; ++j)
       for (int k = 0; k < nw; ++k) {
@@ -31,7 +31,7 @@ Snapshot grid_with_cells() {
                                       {1, 1, 1},
                                       {0, 1, 1}}) {
           const std::int64_t node = ((i + a) * (nv + 1) + j + b) * (nw + 1) + k + c;
-          s.connectivity.push_back(2 * j >= nv ? right[static_cast<std::size_t>(node)] : node);
+          s.connectivity.push_back(2 * j >= nv ? right[node] : node);
         }
         s.cell_types.push_back(12);  // VTK's hexahedron
         s.cell_offsets.push_back(static_cast<std::int64_t>(s.connectivity.size()));

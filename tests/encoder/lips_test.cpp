@@ -14,7 +14,7 @@ namespace cleft {
 namespace {
 
 double opening_at(const Field& field, const Series& series, std::size_t pair, std::size_t frame) {
-  const Vec3& uvw = series.samples[static_cast<std::size_t>(series.pairs[pair][0])].uvw;
+  const Vec3& uvw = series.samples[series.pairs[pair][0]].uvw;
   const double t = series.times[frame];
   return field.displacement(uvw, Side::right, t).y - field.displacement(uvw, Side::left, t).y;
 }
@@ -110,7 +110,7 @@ TEST(Lips, MoveAsLittleAsPossible) {
   series.pairs = {series.pairs[worst]};
   series.released.assign(series.released.size(), 0), series.released[frame] = 1;
   const Field after = with_lips_apart(before, series, 1e-6, std::numeric_limits<double>::infinity());
-  const Vec3& uvw = series.samples[static_cast<std::size_t>(series.pairs[0][0])].uvw;
+  const Vec3& uvw = series.samples[series.pairs[0][0]].uvw;
   double length = 0, factors = 0;
   for (std::size_t n = 0; n < before.coefficients().size(); ++n)
     length += squared_norm(after.coefficients()[n] - before.coefficients()[n]);

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "tests/encoder/synthetic_snapshot.h"
 
 namespace cleft {
@@ -115,8 +115,8 @@ TEST(Quantities, AStressKeepsTheToleranceAtEveryNodeAndFrameAsItIsWritten) {
           field.quantity(q, sample.uvw, sample.side, series.times[j], value);
           double squared = 0, squared_of_spline = 0;
           for (int c = 0; c < found.components; ++c) {
-            const double off = value[static_cast<std::size_t>(c)] -
-                               (q == 0 ? stress : temperature)(sample.uvw, sample.side, series.times[j], c);
+            const double off =
+                value[c] - (q == 0 ? stress : temperature)(sample.uvw, sample.side, series.times[j], c);
             squared_of_spline += off * off;
             squared += std::pow(off + (residual ? residual->at(n, c, j) : 0), 2);
           }

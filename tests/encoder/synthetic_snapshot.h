@@ -39,7 +39,7 @@ inline Snapshot cut_in(std::vector<Vec3> points, const std::vector<double>& time
     s.position.push_back(t - 4);
     int open = 0;
     for (const auto& [left, right] : s.pairs)
-      if (s.points[static_cast<std::size_t>(left)].x < t - 4) ++open;
+      if (s.points[left].x < t - 4) ++open;
     s.released.push_back(open);
   }
   s.cell_offsets = {0};

@@ -4,7 +4,7 @@
 #include <random>
 #include <set>
 
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "encoder/field/unknowns.h"
 #include "encoder/series_fit.h"
 #include "tests/encoder/synthetic_snapshot.h"

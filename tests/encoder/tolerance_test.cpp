@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "encoder/ladder.h"
 #include "tests/encoder/synthetic_snapshot.h"
 

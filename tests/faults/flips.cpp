@@ -9,9 +9,9 @@
 #include "base/output_file.h"
 #include "base/sealed_json.h"
 #include "base/text.h"
-#include "encoder/field/field_file.h"
-#include "encoder/field/study_file.h"
-#include "params/study_index.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/study_file.h"
+#include "params/run/study_index.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft::faults {

@@ -1,7 +1,7 @@
 // cleft-faults: kills, full disks, failing writes and flipped bits under a study; prints what came of them.
 #include <filesystem>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "tests/faults/disk.h"
 #include "tests/faults/flips.h"
 #include "tests/faults/kills.h"

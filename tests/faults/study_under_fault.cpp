@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
-#include "params/study_folder.h"
+#include "params/run/study_folder.h"
 #include "tests/support/small_study.h"
 
 namespace cleft::faults {

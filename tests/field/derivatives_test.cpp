@@ -24,7 +24,7 @@ const Cubic along{{1, 0.3, -0.2, 0.05}}, left{{0.5, -1, 0.3, 0.2}}, right{{-2, 1
 Field product(std::shared_ptr<const Parametrization> parametrization, std::array<BSplineBasis, 4> bases) {
   const auto blossom = [&](const Cubic& cubic, int axis, int i) {
     const auto& knots = bases[axis].knots();
-    const auto k = static_cast<std::size_t>(i);
+    const std::size_t k = i;
     return cubic.blossom(knots[k + 1], knots[k + 2], knots[k + 3]);
   };
   const int half = bases[1].evaluate(0).first;

@@ -1,4 +1,4 @@
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/h5.h"
+#include "base/h5/h5.h"
 #include "base/text.h"
-#include "encoder/field/field_record.h"
+#include "encoder/field/file/field_record.h"
 #include "tests/field/random_field.h"
 #include "tests/support/damage.h"
 #include "tests/support/temporary_folder.h"

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-
 namespace cleft {
 namespace {
 
@@ -22,7 +21,8 @@ TEST(Histories, AddUpWhateverTheirBreaks) {
     h.breaks = std::move(breaks);
     return h;
   };
-  const std::vector<History> parts{history(1, {0, 1, 2.5, 4}), history(-2, {0, 2.5, 3, 4}), history(3, {0, 4})};
+  const std::vector<History> parts{history(1, {0, 1, 2.5, 4}), history(-2, {0, 2.5, 3, 4}),
+                                   history(3, {0, 4})};
   const std::vector<double> factors{0.5, 2, -1.5};
   History sum;
   combine(parts, factors, sum);

@@ -54,11 +54,11 @@ TEST(KnotInsertion, OfDegreesOneAndTwo) {
       const auto coarse = from.evaluate(x), fine = to.evaluate(x);
       std::vector<double> sum(6);
       for (int i = 0; i <= degree; ++i) {
-        const auto& row = rows[static_cast<std::size_t>(fine.first + i)];
+        const auto& row = rows[fine.first + i];
         for (std::size_t n = 0; n < row.weight.size(); ++n)
           sum[static_cast<std::size_t>(row.first) + n] += fine.value[i] * row.weight[n];
       }
-      for (int i = 0; i <= degree; ++i) sum[static_cast<std::size_t>(coarse.first + i)] -= coarse.value[i];
+      for (int i = 0; i <= degree; ++i) sum[coarse.first + i] -= coarse.value[i];
       for (const double rest : sum) EXPECT_NEAR(rest, 0, 1e-14) << x;
     }
   }

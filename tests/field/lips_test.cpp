@@ -14,7 +14,7 @@ template <class Use>
 Field with_lips(const Field& field, const Use& use) {
   std::vector<Vec3> c = field.coefficients();
   const int V = field.basis(1).size(), left = field.basis(1).evaluate(0, Limit::from_left).first + 3;
-  const auto rows = static_cast<std::size_t>(field.basis(2).size() * field.basis(3).size());
+  const std::size_t rows = field.basis(2).size() * field.basis(3).size();
   for (int i = 0; i < field.basis(0).size(); ++i)
     for (std::size_t r = 0; r < rows; ++r) {
       const std::size_t at = static_cast<std::size_t>(i * V + left) * rows + r;
@@ -75,7 +75,7 @@ TEST(Lips, HearNothingOfEachOther) {
   for (const Field& whole : {random_field(), tip_field()}) {
     std::vector<Vec3> c = whole.coefficients();
     const int V = whole.basis(1).size(), half = whole.basis(1).evaluate(0).first;
-    const auto rows = static_cast<std::size_t>(whole.basis(2).size() * whole.basis(3).size());
+    const std::size_t rows = whole.basis(2).size() * whole.basis(3).size();
     for (std::size_t n = 0; n < c.size(); ++n)
       if (static_cast<int>(n / rows % static_cast<std::size_t>(V)) >= half) c[n] = {nan, nan, nan};
     Field broken(whole.shared_parametrization(),

@@ -82,8 +82,8 @@ inline Vec3 by_definition(const Field& f, const Place& p) {
     const BSplineBasis& basis = f.basis(axis);
     const bool left = axis == 1 && (v < 0 || (v == 0 && p.side == Side::left));
     const auto b = basis.evaluate(at[axis], left ? Limit::from_left : Limit::from_right);
-    value[axis].assign(static_cast<std::size_t>(basis.size()), 0);
-    for (int i = 0; i <= basis.degree(); ++i) value[axis][static_cast<std::size_t>(b.first + i)] = b.value[i];
+    value[axis].assign(basis.size(), 0);
+    for (int i = 0; i <= basis.degree(); ++i) value[axis][b.first + i] = b.value[i];
   }
   Vec3 sum;
   std::size_t next = 0;

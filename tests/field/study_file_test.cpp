@@ -1,4 +1,4 @@
-#include "encoder/field/study_file.h"
+#include "encoder/field/file/study_file.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/h5.h"
+#include "base/h5/h5.h"
 #include "base/text.h"
-#include "encoder/field/columns.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/columns.h"
+#include "encoder/field/file/field_file.h"
 #include "tests/field/random_field.h"
 #include "tests/support/damage.h"
 #include "tests/support/older_field.h"
@@ -58,7 +58,7 @@ TEST(StudyFile, HoldsEveryFieldAsItsOwnFileDoes) {
   const StudyFile study(packed.file());
   ASSERT_EQ(study.size(), 4);
   for (const int i : {2, 0, 3, 1}) {
-    const Field& field = packed.fields[static_cast<std::size_t>(i)];
+    const Field& field = packed.fields[i];
     EXPECT_EQ(study.name(i), "case" + std::to_string(i));
     EXPECT_EQ(study.case_hash(i), field.case_hash);
     EXPECT_EQ(study.parameters(i), field.parameters);

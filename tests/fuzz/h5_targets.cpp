@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/h5.h"
-#include "encoder/field/field_file.h"
-#include "encoder/field/study_file.h"
+#include "base/h5/h5.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/study_file.h"
 #include "encoder/field/unknowns.h"
 #include "solver/snapshot/snapshot.h"
 #include "tests/io/wedge_row.h"

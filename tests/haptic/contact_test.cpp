@@ -65,8 +65,7 @@ TEST(Contact, NearestPointTellsTheSide) {
       x = (n % 8 ? 1.01 : 0.99) * s.points[random() % s.points.size()];  // over and under vertices
     bool inside = true;
     for (std::size_t t = 0; t < s.triangles.size(); ++t)
-      inside = inside && dot(x - s.points[static_cast<std::size_t>(s.triangles[t][0])],
-                             scaled_normal(testing::corners(s, t))) < 0;
+      inside = inside && dot(x - s.points[s.triangles[t][0]], scaled_normal(testing::corners(s, t))) < 0;
     const NearestPoint p = reader.nearest(x, 30);
     ASSERT_TRUE(p);
     ASSERT_EQ(p.distance < 0, inside) << n;
@@ -82,8 +81,7 @@ TEST(Contact, NothingSlipsThroughSeams) {
   for (const auto& t : s.triangles)
     for (int i = 0; i < 3; ++i)
       for (const double part : {0., 0.25, 0.5, 1 / 3.}) {
-        const Vec3 target = lerp(s.points[static_cast<std::size_t>(t[i])],
-                                 s.points[static_cast<std::size_t>(t[(i + 1) % 3])], part);
+        const Vec3 target = lerp(s.points[t[i]], s.points[t[(i + 1) % 3]], part);
         ASSERT_TRUE(reader.first_contact(1.3 * target, 0.7 * target, Facing::front));
         ASSERT_TRUE(reader.first_contact(0.7 * target, 1.3 * target, Facing::back));
       }

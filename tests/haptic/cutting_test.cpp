@@ -1,10 +1,10 @@
 // The scalpel cuts a mesh as the loop drives it, in simulated time: every sixteen ticks the mesh follows.
 #include <gtest/gtest.h>
 
-#include "explorer/scene/hand_script.h"
-#include "explorer/scene/replay.h"
-#include "explorer/scene/scalpel_cutting.h"
-#include "explorer/scene/wounds.h"
+#include "explorer/scalpel/hand_script.h"
+#include "explorer/scalpel/scalpel_cutting.h"
+#include "explorer/wound/replay.h"
+#include "explorer/wound/wounds.h"
 #include "haptic/devices/hand.h"
 #include "haptic/surface_stiffness.h"
 #include "tests/haptic/surfaces.h"
@@ -206,7 +206,7 @@ TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
   for (std::size_t v = 0; v < moved.size(); ++v)
     apart = std::max(apart, norm(cutting.position(static_cast<int>(v)) - moved[v]));
   EXPECT_GT(std::abs(wounds.amplitude(0, 15, wounds.blade(wounds.duration())) - 1), 0.05);
-  EXPECT_LT(apart, 5e-3);   // what is not felt, 0.002, once before the blade came and once after it
+  EXPECT_LT(apart, 5e-3);  // what is not felt, 0.002, once before the blade came and once after it
 }
 
 }  // namespace

@@ -178,8 +178,7 @@ TEST(Force, ALeapThroughAClosedWoundStaysInTheTissue) {
   s.triangles.push_back({first, first + 2, first + 1});
   ContactSurface surface(s.points, s.triangles);
   const ContactSurface::Changed walls[] = {
-      {skin, {s.triangles[static_cast<std::size_t>(skin)], true}},
-      {skin + 1, {s.triangles[static_cast<std::size_t>(skin) + 1], true}}};
+      {skin, {s.triangles[skin], true}}, {skin + 1, {s.triangles[static_cast<std::size_t>(skin) + 1], true}}};
   surface.update({}, walls);
   Led led(surface);
   led.to({-3.3, 0.2, 1});
@@ -236,7 +235,7 @@ TEST(Force, ThinPartsHold) {
   // Two sheets half a millimetre apart, both facing out: the proxy stays on the side it came from.
   auto s = testing::flat(20, 1);
   const int count = static_cast<int>(s.points.size());
-  for (int v = 0; v < count; ++v) s.points.push_back(s.points[static_cast<std::size_t>(v)] - Vec3{0, 0, 0.5});
+  for (int v = 0; v < count; ++v) s.points.push_back(s.points[v] - Vec3{0, 0, 0.5});
   const auto triangles = s.triangles;
   for (const auto& [a, b, c] : triangles) s.triangles.push_back({a + count, c + count, b + count});
   const ContactSurface surface(s.points, s.triangles);

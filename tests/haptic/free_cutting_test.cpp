@@ -2,8 +2,8 @@
 // at rest, are the path.
 #include <gtest/gtest.h>
 
-#include "explorer/scene/replay.h"
-#include "explorer/scene/scalpel_cutting.h"
+#include "explorer/scalpel/scalpel_cutting.h"
+#include "explorer/wound/replay.h"
 #include "tests/haptic/surfaces.h"
 #include "tests/incision/fields.h"
 #include "tests/incision/stress/soundness.h"

@@ -1,5 +1,5 @@
 // The scalpel beside what draws: threads of its own, moments to draw, cuts when they have ended.
-#include "explorer/scene/live_scalpel.h"
+#include "explorer/scalpel/live_scalpel.h"
 
 #include <gtest/gtest.h>
 

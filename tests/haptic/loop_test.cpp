@@ -217,12 +217,11 @@ TEST(Recorded, ReplaysBitForBit) {
   int contacts = 0;
   for (int n = 0; n < 1200; ++n) {
     second.update(1e-3);
-    const RecordedPose &a = first.recorded()[static_cast<std::size_t>(n)],
-                       &b = second.recorded()[static_cast<std::size_t>(n)];
+    const RecordedPose &a = first.recorded()[n], &b = second.recorded()[n];
     ASSERT_EQ(a.time, b.time);
     ASSERT_EQ(a.pose, b.pose) << n;
-    ASSERT_EQ(second.state().force, forces[static_cast<std::size_t>(n)]) << n;
-    contacts += norm(forces[static_cast<std::size_t>(n)]) > 0;
+    ASSERT_EQ(second.state().force, forces[n]) << n;
+    contacts += norm(forces[n]) > 0;
   }
   EXPECT_GT(contacts, 200);
 }

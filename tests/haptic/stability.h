@@ -9,7 +9,7 @@ namespace cleft::testing {
 
 struct Scenario {
   HandParameters hand;
-  double stiffness = 0.3;  ///< N/mm, of the tissue
+  double stiffness = 0.3;                              ///< N/mm, of the tissue
   double puncture = ForceParameters{}.puncture_force;  ///< N
   bool passive = true;
 };

@@ -65,9 +65,7 @@ inline Surface ball(int rings, double radius, double bumps = 0) {
 }
 
 inline Corners corners(const Surface& s, std::size_t t) {
-  return {s.points[static_cast<std::size_t>(s.triangles[t][0])],
-          s.points[static_cast<std::size_t>(s.triangles[t][1])],
-          s.points[static_cast<std::size_t>(s.triangles[t][2])]};
+  return {s.points[s.triangles[t][0]], s.points[s.triangles[t][1]], s.points[s.triangles[t][2]]};
 }
 
 /// The first triangle met by solving from + x d = a + y (b - a) + z (c - a) for each: another formula than

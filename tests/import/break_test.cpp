@@ -36,10 +36,10 @@ SourceSeries unshared(const SourceSeries& series) {
   for (std::size_t c = 0; c < series.mesh.cell_types.size(); ++c) {
     std::vector<std::int64_t> corners;
     for (auto i = series.mesh.cell_offsets[c]; i < series.mesh.cell_offsets[c + 1]; ++i) {
-      const auto node = static_cast<std::size_t>(series.mesh.connectivity[static_cast<std::size_t>(i)]);
+      const std::size_t node = series.mesh.connectivity[i];
       corners.push_back(loose.add_point(series.mesh.points[node]));
       for (std::size_t f = 0; f < series.fields.size(); ++f) {
-        const auto k = static_cast<std::size_t>(series.fields[f].components);
+        const std::size_t k = series.fields[f].components;
         for (std::size_t j = 0; j < series.times.size(); ++j) {
           const auto first = series.fields[f].frames[j].begin() + static_cast<long>(k * node);
           auto& to = loose.fields[f].frames[j];
@@ -55,23 +55,18 @@ SourceSeries unshared(const SourceSeries& series) {
 /// One more node at the place of another, with its values; cells at larger or smaller distance along `axis`
 /// than the node get it, according to `sign`.
 std::int32_t double_node(SourceSeries& series, std::int32_t node, const Vec3& axis, double sign) {
-  const Vec3 place = series.mesh.points[static_cast<std::size_t>(node)];
+  const Vec3 place = series.mesh.points[node];
   const std::int32_t added = series.add_point(place);
   for (auto& field : series.fields)
     for (auto& values : field.frames)
-      for (int c = 0; c < field.components; ++c)
-        values.push_back(values[static_cast<std::size_t>(node * field.components + c)]);
+      for (int c = 0; c < field.components; ++c) values.push_back(values[node * field.components + c]);
   for (std::size_t cell = 0; cell < series.mesh.cell_types.size(); ++cell) {
     const auto first = series.mesh.cell_offsets[cell], last = series.mesh.cell_offsets[cell + 1];
     double side = 0;
     for (auto i = first; i < last; ++i)
-      side += dot(axis, series.mesh.points[static_cast<std::size_t>(
-                            series.mesh.connectivity[static_cast<std::size_t>(i)])] -
-                            place);
+      side += dot(axis, series.mesh.points[series.mesh.connectivity[i]] - place);
     for (auto i = first; i < last; ++i)
-      if (auto& corner = series.mesh.connectivity[static_cast<std::size_t>(i)];
-          corner == node && side * sign > 0)
-        corner = added;
+      if (auto& corner = series.mesh.connectivity[i]; corner == node && side * sign > 0) corner = added;
   }
   return added;
 }
@@ -132,9 +127,9 @@ TEST_F(ImportBreak, AFlatMeshStaysFlat) {
     for (const Vec3& p : r.points) right_edge = std::max(right_edge, p.x);
     EXPECT_NEAR(right_edge, 8, 1e-12) << "u points the way the cut grows";
     // Left and right by the cells, not by which way they move: here they close over each other.
-    for (const auto& [left, right] : r.pairs) EXPECT_EQ(r.points[static_cast<std::size_t>(left)].y, 0);
-    EXPECT_NEAR(imported.reader.displacement(2)[static_cast<std::size_t>(r.pairs[0][1])].y, 0.5, 1e-12);
-    EXPECT_NEAR(imported.reader.displacement(2)[static_cast<std::size_t>(r.pairs[0][0])].y, -0.5, 1e-12);
+    for (const auto& [left, right] : r.pairs) EXPECT_EQ(r.points[left].y, 0);
+    EXPECT_NEAR(imported.reader.displacement(2)[r.pairs[0][1]].y, 0.5, 1e-12);
+    EXPECT_NEAR(imported.reader.displacement(2)[r.pairs[0][0]].y, -0.5, 1e-12);
   }
 }
 
@@ -200,7 +195,7 @@ TEST_F(ImportBreak, ACutWithinTheBodyIsMeasuredFromItsTop) {
     for (int j = 0; j < 2; ++j)
       for (const double d :
            {0.1, p.z != std::round(p.z) && j == 1 ? (p.z - std::round(p.z)) * 1e12 : 0.0, 0.0})
-        s.fields[0].frames[static_cast<std::size_t>(j)].push_back(d);
+        s.fields[0].frames[j].push_back(d);
   const Imported imported(folder, s.write(folder), {"displacement"});
   EXPECT_EQ(imported.snapshot().pairs.size(), 10u);
   double high = -10;
@@ -232,11 +227,9 @@ TEST_F(ImportBreak, UnsharedNodesAreWeldedButNotAcrossTheBreak) {
       for (const auto& [left, right] : r.pairs)
         for (const std::int32_t node : {left, right}) {
           std::size_t n = 0;
-          while (plate.side[n] != (node == left ? -1 : 1) ||
-                 norm(plate.local[n] - r.points[static_cast<std::size_t>(node)]) > 1e-9)
+          while (plate.side[n] != (node == left ? -1 : 1) || norm(plate.local[n] - r.points[node]) > 1e-9)
             ASSERT_LT(++n, plate.local.size());
-          EXPECT_LT(norm(found[static_cast<std::size_t>(node)] - plate.displacement(n, j)),
-                    single ? 1e-6 : 1e-12);
+          EXPECT_LT(norm(found[node] - plate.displacement(n, j)), single ? 1e-6 : 1e-12);
         }
     }
   }
@@ -264,7 +257,7 @@ TEST_F(ImportBreak, CoincidentPointsAreFoundAcrossAnyBorder) {
   std::vector<std::int32_t> first(points.size(), -1);
   for (const auto& group : coincident_groups(points, tolerance)) {
     EXPECT_GT(group.size(), 1u);
-    for (const std::int32_t i : group) first[static_cast<std::size_t>(i)] = group.front();
+    for (const std::int32_t i : group) first[i] = group.front();
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     bool alone = true;
@@ -281,7 +274,7 @@ TEST_F(ImportBreak, AConformingSeamIsNoBreak) {
   SourceSeries s = strip(0, 20, 20, {closed, closed});  // no node doubled
   const auto count = static_cast<std::int32_t>(s.mesh.points.size());
   for (std::int32_t i = 0; i < count; ++i)
-    if (s.mesh.points[static_cast<std::size_t>(i)].x == 4) double_node(s, i, {1, 0, 0}, 1);
+    if (s.mesh.points[i].x == 4) double_node(s, i, {1, 0, 0}, 1);
   const Imported imported(folder, s.write(folder), {"displacement"});
   EXPECT_TRUE(imported.snapshot().pairs.empty());
   EXPECT_EQ(imported.snapshot().source->break_plane, "none");
@@ -296,7 +289,7 @@ TEST_F(ImportBreak, ASeamBesideTheBreakIsLeft) {
   SourceSeries s = strip(0, 0, 4, {closed, {-1, 1.5}, {-1, 4.5}});
   const auto count = static_cast<std::int32_t>(s.mesh.points.size());
   for (std::int32_t i = 0; i < count; ++i)
-    if (s.mesh.points[static_cast<std::size_t>(i)].x == 7) double_node(s, i, {1, 0, 0}, 1);
+    if (s.mesh.points[i].x == 7) double_node(s, i, {1, 0, 0}, 1);
   const Imported imported(folder, s.write(folder), {"displacement"});
   EXPECT_EQ(imported.snapshot().pairs.size(), 5u);
   EXPECT_NE(imported.notes().find("8 coincident nodes lie outside the break's plane"), std::string::npos)
@@ -327,8 +320,8 @@ TEST_F(ImportBreak, TwoBreaksNeedToBeToldWhich) {
   std::vector<std::int32_t> added;
   const auto count = static_cast<std::int32_t>(s.mesh.points.size());
   for (std::int32_t i = 0; i < count; ++i)
-    if (s.mesh.points[static_cast<std::size_t>(i)].x == 7) added.push_back(double_node(s, i, {1, 0, 0}, 1));
-  for (const std::int32_t node : added) s.fields[0].frames[1][static_cast<std::size_t>(3 * node)] += 0.5;
+    if (s.mesh.points[i].x == 7) added.push_back(double_node(s, i, {1, 0, 0}, 1));
+  for (const std::int32_t node : added) s.fields[0].frames[1][3 * node] += 0.5;
   const std::string message = refusal(s);
   for (const char* part : {"20 coincident nodes at 10 places", "lie in no common plane", "--break"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -349,9 +342,9 @@ TEST_F(ImportBreak, ALineOfDoubledNodesFixesNoPlaneInABody) {
   const auto count = static_cast<std::int32_t>(s.mesh.points.size());
   std::vector<std::int32_t> added;
   for (std::int32_t i = 0; i < count; ++i)
-    if (const Vec3& p = s.mesh.points[static_cast<std::size_t>(i)]; p.y == 0 && p.z == 0)
+    if (const Vec3& p = s.mesh.points[i]; p.y == 0 && p.z == 0)
       added.push_back(double_node(s, i, {0, 1, 0}, 1));
-  for (const std::int32_t node : added) s.fields[0].frames[1][static_cast<std::size_t>(3 * node)] += 0.5;
+  for (const std::int32_t node : added) s.fields[0].frames[1][3 * node] += 0.5;
   EXPECT_NE(refusal(s).find("on a line"), std::string::npos) << refusal(s);
   const Imported imported(folder, s.write(folder), {"displacement"}, "0,1,0,0");
   EXPECT_EQ(imported.snapshot().pairs.size(), 11u);

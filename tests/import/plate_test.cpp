@@ -75,7 +75,7 @@ TEST_P(ImportPlate, TheSourceIsTold) {
   EXPECT_EQ(source.file, "series.pvd");
   EXPECT_EQ(source.time_start, 3);
   EXPECT_LT(norm(source.origin - pose.origin), 1e-12);
-  for (int i = 0; i < 3; ++i) EXPECT_LT(norm(source.axes[static_cast<std::size_t>(i)] - pose.axes[i]), 1e-12);
+  for (int i = 0; i < 3; ++i) EXPECT_LT(norm(source.axes[i] - pose.axes[i]), 1e-12);
   const Plane plane = parse_plane(source.break_plane);
   EXPECT_LT(norm(plane.normal - pose.axes[1]), 1e-12);
   EXPECT_NEAR(plane.offset, dot(pose.axes[1], pose.origin), 1e-12);
@@ -96,12 +96,11 @@ TEST_P(ImportPlate, PairsAreLeftAndRightInTheOrderTheyOpen) {
   for (std::size_t j = 0; j < Plate::frames; ++j) {
     EXPECT_EQ(s.released[j], pairs_open(plate, j)) << "frame " << j;
     for (std::size_t p = 0; p < s.pairs.size(); ++p)
-      EXPECT_EQ(static_cast<std::int32_t>(p) < s.released[j],
-                Plate::is_open(plate.local[static_cast<std::size_t>(s.pairs[p][0])], j));
+      EXPECT_EQ(static_cast<std::int32_t>(p) < s.released[j], Plate::is_open(plate.local[s.pairs[p][0]], j));
   }
   // Of those that open together, the first along u and from the top first.
   for (std::size_t p = 1; p < s.pairs.size(); ++p) {
-    const auto at = [&](std::size_t i) { return plate.local[static_cast<std::size_t>(s.pairs[i][0])]; };
+    const auto at = [&](std::size_t i) { return plate.local[s.pairs[i][0]]; };
     const auto frame = [&](std::size_t i) {
       return std::count_if(s.released.begin(), s.released.end(),
                            [=](int open) { return open <= static_cast<int>(i); });

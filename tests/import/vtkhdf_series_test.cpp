@@ -89,7 +89,7 @@ TEST_F(ImportVtkHdf, AMeshAStepIsRead) {
       if (j == 3 && !same_cells)
         std::swap(connectivity[connectivity.size() - 1], connectivity[connectivity.size() - 2]);
       types.insert(types.end(), series.mesh.cell_types.begin(), series.mesh.cell_types.end());
-      const auto& values = series.fields[0].frames[static_cast<std::size_t>(4 - j)];  // backwards
+      const auto& values = series.fields[0].frames[4 - j];  // backwards
       displacement.insert(displacement.end(), values.begin(), values.end());
       rows["NumberOfPoints"].push_back(points), rows["NumberOfCells"].push_back(cells);
       rows["NumberOfConnectivityIds"].push_back(corners);

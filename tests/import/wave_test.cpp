@@ -34,7 +34,7 @@ class Wave {
                                              number(x + 1, y + 1, side), number(x, y + 1, side)};
         series.add_cell(quad, n);
         for (std::size_t i = 0; i < 4; ++i) {
-          area[static_cast<std::size_t>(n[i])] += 0.25;
+          area[n[i]] += 0.25;
           edges.push_back({static_cast<std::size_t>(n[i]), static_cast<std::size_t>(n[(i + 1) % 4])});
         }
       }
@@ -99,8 +99,8 @@ TEST_F(ImportWave, TheSlitIsFoundAndThePressureKept) {
   constexpr int slit_nodes = slit_last - slit_first + 1;
   ASSERT_EQ(r.pairs.size(), static_cast<std::size_t>(slit_nodes));
   for (const auto& [left, right] : r.pairs) {
-    EXPECT_EQ(wave.sides[static_cast<std::size_t>(left)], -1);
-    EXPECT_EQ(wave.sides[static_cast<std::size_t>(right)], 1);
+    EXPECT_EQ(wave.sides[left], -1);
+    EXPECT_EQ(wave.sides[right], 1);
   }
   EXPECT_EQ(r.source->axes[1], (Vec3{0, 1, 0}));
   EXPECT_EQ(r.source->axes[2], (Vec3{0, 0, 1}));
@@ -121,11 +121,8 @@ TEST_F(ImportWave, TheSlitIsFoundAndThePressureKept) {
   std::vector<bool> open(slit_nodes);
   for (std::size_t j = 0; j < 30; ++j) {
     for (int x = slit_first; x <= slit_last; ++x) {
-      const auto at = [&](int side) {
-        return s.fields[0].frames[j][static_cast<std::size_t>(wave.number(x, 0, side))];
-      };
-      if (std::abs(at(1) - at(-1)) > 1e-9 * (high - low))
-        open[static_cast<std::size_t>(x - slit_first)] = true;
+      const auto at = [&](int side) { return s.fields[0].frames[j][wave.number(x, 0, side)]; };
+      if (std::abs(at(1) - at(-1)) > 1e-9 * (high - low)) open[x - slit_first] = true;
     }
     EXPECT_EQ(r.released[j], j == 0 ? 0 : std::count(open.begin(), open.end(), true)) << "frame " << j;
   }
@@ -149,7 +146,7 @@ TEST_F(ImportWave, ItsFieldKeepsTheToleranceAtEveryNodeAndFrame) {
     expect_success(
         run_cleft("eval", {field, "--nodes", snapshot, "--frame", std::to_string(j), "--out", values}));
     const NumberTable table = read_csv(values);
-    const auto column = static_cast<std::size_t>(table.column("pressure"));
+    const std::size_t column = table.column("pressure");
     ASSERT_EQ(table.rows.size(), s.fields[0].frames[j].size());
     for (std::size_t n = 0; n < table.rows.size(); ++n)
       worst = std::max(worst, std::abs(table.rows[n][column] - s.fields[0].frames[j][n]));

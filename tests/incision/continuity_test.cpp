@@ -2,7 +2,7 @@
 // itself.)
 #include <gtest/gtest.h>
 
-#include "explorer/scene/replay.h"
+#include "explorer/wound/replay.h"
 #include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 #include "tests/incision/self_intersections.h"

@@ -52,8 +52,7 @@ int skin_pieces(const CutMesh& mesh) {
       const int t = work.back();
       work.pop_back();
       for (const int n : mesh.triangle(t).neighbor)
-        if (n >= 0 && !seen[static_cast<std::size_t>(n)] && mesh.triangle(n).region == Region::skin)
-          seen[static_cast<std::size_t>(n)] = true, work.push_back(n);
+        if (n >= 0 && !seen[n] && mesh.triangle(n).region == Region::skin) seen[n] = true, work.push_back(n);
     }
   }
   return pieces;
@@ -189,9 +188,8 @@ TEST(ChangedTriangles, AreAllThatChanged) {
     cut.advance_to(s);
     for (const int t : cut.changed_triangles()) {
       known.resize(std::max<std::size_t>(known.size(), static_cast<std::size_t>(t) + 1));
-      known[static_cast<std::size_t>(t)] = t < static_cast<int>(mesh.triangles().size())
-                                               ? corners(static_cast<std::size_t>(t))
-                                               : std::vector<double>{};
+      known[t] = t < static_cast<int>(mesh.triangles().size()) ? corners(static_cast<std::size_t>(t))
+                                                               : std::vector<double>{};
     }
     EXPECT_LT(cut.changed_triangles().size(), 400u);
     for (std::size_t t = 0; t < known.size(); ++t) {

@@ -1,12 +1,12 @@
 // The wound kept up step by step is the one that a look at the whole mesh gives.
-#include "explorer/scene/live_replay.h"
+#include "explorer/wound/live_replay.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "explorer/scene/replay.h"
+#include "explorer/wound/replay.h"
 #include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 

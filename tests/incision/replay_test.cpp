@@ -1,4 +1,4 @@
-#include "explorer/scene/replay.h"
+#include "explorer/wound/replay.h"
 
 #include <gtest/gtest.h>
 
@@ -127,7 +127,7 @@ TEST(Replay, WhatMovesLessThanTheDetailStaysAndAllElseIsAsItWas) {
     EXPECT_EQ(replay.left_out() + replay.active().size(), whole.active().size());
     before = replay.left_out();
     std::vector<bool> kept(moved.size());
-    for (const ActiveVertex& a : replay.active()) kept[static_cast<std::size_t>(a.vertex)] = true;
+    for (const ActiveVertex& a : replay.active()) kept[a.vertex] = true;
     for (double t = 0; t <= 10; t += 0.5) {
       whole.positions(t, moved), replay.positions(t, less);
       for (std::size_t i = 0; i < moved.size(); ++i)
@@ -152,12 +152,12 @@ TEST(Replay, AChosenFewMoveBitForBitAsBeforeAndNoneFurtherThanItsBound) {
     whole.positions(t, moved), few.positions(t, less);
     expected = whole.rest();
     for (const std::size_t i : chosen) {
-      const auto v = static_cast<std::size_t>(whole.active()[i].vertex);
+      const std::size_t v = whole.active()[i].vertex;
       expected[v] = moved[v];
     }
     ASSERT_EQ(less, expected) << t;
     for (std::size_t i = 0; i < whole.active().size(); ++i) {
-      const auto v = static_cast<std::size_t>(whole.active()[i].vertex);
+      const std::size_t v = whole.active()[i].vertex;
       ASSERT_LE(norm(moved[v] - whole.rest()[v]), whole.bound(i) * (1 + 1e-12)) << t;
     }
   }
@@ -272,11 +272,10 @@ TEST(Replay, OnLongPathsEveryVertexHasATimeOfItsOwn) {
         const bool closed = a.on_cut && a.side != Side::both && a.s >= s;
         const Vec3 d =
             field.displacement(a.uvw, closed ? Side::both : a.side, std::clamp(s + a.time_offset, 0., 10.));
-        const Vec3 expected = replay.rest()[static_cast<std::size_t>(a.vertex)] +
-                              a.weight * (d.x * a.along + d.y * a.across + d.z * a.outward);
+        const Vec3 expected =
+            replay.rest()[a.vertex] + a.weight * (d.x * a.along + d.y * a.across + d.z * a.outward);
         if (std::abs(a.uvw.x + 5) < 1e-6 && field.parametrization().moves()) continue;  // see above
-        ASSERT_LE(norm(moved[static_cast<std::size_t>(a.vertex)] - expected), tolerance)
-            << a.vertex << ' ' << s;
+        ASSERT_LE(norm(moved[a.vertex] - expected), tolerance) << a.vertex << ' ' << s;
       }
     }
   }

@@ -30,9 +30,8 @@ inline int self_intersections(const SurfaceMesh& mesh) {
     std::array<std::array<int, 3>, 2> box;
     for (int k = 0; k < 3; ++k) {
       double low = 1e9, high = -1e9;
-      for (const int v : mesh.triangles[static_cast<std::size_t>(t)])
-        low = std::min(low, mesh.points[static_cast<std::size_t>(v)][k]),
-        high = std::max(high, mesh.points[static_cast<std::size_t>(v)][k]);
+      for (const int v : mesh.triangles[t])
+        low = std::min(low, mesh.points[v][k]), high = std::max(high, mesh.points[v][k]);
       box[0][k] = static_cast<int>(std::floor(low)), box[1][k] = static_cast<int>(std::floor(high));
     }
     return box;
@@ -47,13 +46,13 @@ inline int self_intersections(const SurfaceMesh& mesh) {
   for (int t = 0; t < count; ++t) each_cell(t, [&](const auto& cell) { cells[cell].push_back(t); });
   int found = 0;
   for (int t = 0; t < count; ++t) {
-    const auto& a = mesh.triangles[static_cast<std::size_t>(t)];
+    const auto& a = mesh.triangles[t];
     bool hit = false;
     each_cell(t, [&](const auto& cell) {
       for (const int other : cells[cell]) {
-        const auto& b = mesh.triangles[static_cast<std::size_t>(other)];
+        const auto& b = mesh.triangles[other];
         if (hit || std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end()) continue;
-        const auto at = [&](int v) { return mesh.points[static_cast<std::size_t>(v)]; };
+        const auto at = [&](int v) { return mesh.points[v]; };
         for (int i = 0; i < 3 && !hit; ++i)
           hit = pierces(at(a[i]), at(a[(i + 1) % 3]), at(b[0]), at(b[1]), at(b[2]));
       }

@@ -1,4 +1,4 @@
-#include "explorer/scene/validity.h"
+#include "explorer/wound/validity.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <map>
 
-#include "explorer/cut_volume.h"
-#include "explorer/scene/wounds.h"
+#include "explorer/commands/cut_volume.h"
+#include "explorer/wound/wounds.h"
 #include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 #include "tests/support/temporary_folder.h"

@@ -6,34 +6,51 @@ root=$1; bad=0
 
 complain() { echo "$1: a file here must not include $2:"; sed 's/^/  /' <<<"$3"; bad=1; }
 
-# part : parts it may include, as extended regular expressions of paths
-while IFS=: read -r part allowed; do
-  [ -n "$part" ] || continue
-  [ -d "$root/$part" ] || { echo "$part: no such folder"; bad=1; continue; }
-  nested=$(case $part in solver) echo snapshot ;; encoder) echo field import interpolate ;; *) echo nowhere ;; esac)
-  found=$(find "$root/$part" \( -false $(printf -- "-o -path $root/$part/%s " $nested) \) -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 |
-    xargs -0 -r grep -HnE '#include "(base|params|solver|encoder|haptic|explorer|tradeoff|cli|examples)/' |
-    grep -vE "#include \"($part|$allowed)/")
-  [ -z "$found" ] || complain "$part" "anything but $allowed" "$found"
-done <<'PARTS'
+# folder : folders it may include, as extended regular expressions of paths. A folder listed with a folder inside it is checked
+# without that one, which has a line of its own.
+parts=$(cat <<'PARTS'
 base:base
+base/command:base
+base/h5:base
 params:base
-solver/snapshot:base
-solver:base|params
+params/run:base|base/command|params
+solver/snapshot:base|base/h5
+solver:base|base/command|base/h5|params|solver/snapshot
 encoder/field:base
-encoder:base|params|solver/snapshot
-encoder/import:base|solver/snapshot
-encoder/interpolate:base|encoder/field|params
+encoder/field/file:base|base/h5|encoder/field
+encoder:base|base/command|base/h5|params|encoder/field|encoder/field/file|solver/snapshot
+encoder/import:base|base/command|base/h5|solver/snapshot
+encoder/interpolate:base|base/command|encoder/field|encoder/field/file|params
+encoder/modes:base|base/command|encoder/field|encoder/field/file|encoder/interpolate|params
 haptic:base|encoder/field
-explorer/incision:base|encoder/field|haptic
+haptic/devices:base|haptic
+explorer/incision:base|encoder/field
+explorer/study:base|base/h5|params|solver/snapshot|encoder/field|encoder/field/file|encoder/interpolate
+explorer/wound:base|base/h5|encoder/field|encoder/field/file|explorer/incision|explorer/study
+explorer/scalpel:base|encoder/field|haptic|haptic/devices|explorer/incision|explorer/wound
+explorer/scene:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel
+explorer/session:base|params|params/run|encoder/field|explorer/incision|explorer/study|explorer/wound|explorer/scene
 explorer/io:base|explorer/incision|solver/snapshot
-explorer/scene:base|encoder/field|encoder/interpolate|haptic|explorer/incision|solver/snapshot|params
-explorer/view:base|encoder/field|haptic|explorer/incision|explorer/scene|explorer/io
-explorer/app:base|params|encoder/field|haptic|explorer/incision|explorer/scene|explorer/view
-tradeoff:base|params|solver/snapshot|encoder|haptic|explorer/incision|explorer/scene
-cli:base|params|solver/snapshot|encoder/field
-examples:base
+explorer/view:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|explorer/scene|explorer/session|explorer/io
+explorer/app:base|params|encoder/field|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|explorer/scene|explorer/session|explorer/view
+explorer/commands:base|base/command|base/h5|params|params/run|encoder/field|encoder/field/file|haptic|haptic/devices|solver/snapshot|explorer/[a-z]+
+tradeoff/rivals:base|encoder|encoder/field|solver/snapshot
+tradeoff/replays:base|encoder/field|solver/snapshot|explorer/incision|explorer/wound
+tradeoff:base|base/command|params|params/run|solver/snapshot|encoder|encoder/field|encoder/field/file|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|tradeoff/rivals|tradeoff/replays
+cli:base|base/command|base/h5|params|params/run|solver/snapshot|encoder/field|encoder/field/file
+examples/head:base|base/command
 PARTS
+)
+variants='kernels|parametrization|sampling|material'  # folders of one library that hold a file for each variant
+folders=$(cut -d: -f1 <<< "$parts")
+while IFS=: read -r part allowed; do
+  [ -d "$root/$part" ] || { echo "$part: no such folder"; bad=1; continue; }
+  inner=$(grep "^$part/" <<< "$folders")
+  found=$(find "$root/$part" \( -false $(printf -- "-o -path $root/%s " ${inner:-nowhere}) \) -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 |
+    xargs -0 -r grep -HnE '#include "(base|params|solver|encoder|haptic|explorer|tradeoff|cli|examples)/' |
+    grep -vE "#include \"($part(/($variants))?|$allowed)/[^/]+\"")
+  [ -z "$found" ] || complain "$part" "anything but $allowed" "$found"
+done <<< "$parts"
 
 # forbid NAME PATTERN FOLDER...: no file of the folders may include a header that matches, but for what $except names
 forbid() {
@@ -43,8 +60,8 @@ forbid() {
 }
 forbid "deal.II or Trilinos" 'deal\.II/|Epetra|ml_|Teuchos|dmumps' base params solver/snapshot encoder haptic explorer tradeoff cli examples
 forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer tradeoff cli examples
-except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/scene tradeoff cli
-forbid "Qt" 'Q[A-Z]' base params solver encoder haptic explorer/incision explorer/scene explorer/io explorer/view tradeoff cli examples
+except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session tradeoff cli
+forbid "Qt" 'Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session explorer/io explorer/view tradeoff cli examples
 forbid "Eigen" 'Eigen/' base params encoder/field haptic
 forbid "HDF5" 'hdf5|H5' params solver encoder haptic explorer tradeoff cli examples
 found=$(cd "$root" && grep -rn --include='*.h' --include='*.cpp' '#include "encoder/import/' base params solver encoder haptic \

@@ -1,10 +1,10 @@
-#include "encoder/interpolate/common_modes.h"
+#include "encoder/modes/common_modes.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "encoder/field/unknowns.h"
 #include "tests/interpolate/made_study.h"
 #include "tests/support/damage.h"
@@ -74,7 +74,7 @@ TEST(CommonModes, CasesAreSumsOfAsManyAsThereAre) {
     const StudyFile file(path);
     ASSERT_EQ(file.size(), 16);
     for (int i = 0; i < file.size(); ++i) {
-      const Field field = file.field(i), &truth = members[static_cast<std::size_t>(i)].field;
+      const Field field = file.field(i), &truth = members[i].field;
       EXPECT_GT(file.modes_error(i), 0);
       EXPECT_LE(file.modes_error(i), error);
       EXPECT_LE(distance_of(field, truth, nodes_of_millimetres()), 1.3 * error);  // between the places, too

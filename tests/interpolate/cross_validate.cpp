@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
 #include "base/quantiles.h"
 #include "tests/interpolate/held_out.h"

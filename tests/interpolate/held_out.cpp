@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "encoder/field/field_file.h"
-#include "encoder/field/study_file.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/study_file.h"
 #include "encoder/series.h"
 
 namespace cleft {

@@ -5,7 +5,7 @@
 
 #include "base/quantiles.h"
 #include "base/text.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "tests/interpolate/held_out.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"

@@ -104,7 +104,7 @@ TEST(KernelRegression, ACaseLeftOutTakesItsSlopesWithIt) {
       for (Eigen::Index k = 0; k < n; ++k)
         if (k != i) columns.push_back(k);
       for (Eigen::Index s = 0; s < q; ++s)
-        if (const Eigen::Index of = p.cases.slopes.of[static_cast<std::size_t>(s)]; of != i)
+        if (const Eigen::Index of = p.cases.slopes.of[s]; of != i)
           kept.push_back(s), columns.push_back(n + s), rest.slopes.of.push_back(of - (of > i ? 1 : 0));
       rest.slopes.features = p.cases.slopes.features(kept, Eigen::all);
       rest.slopes.loads = p.cases.slopes.loads(kept, Eigen::all);

@@ -51,7 +51,7 @@ inline FieldGeometry geometry_with(const CaseParameters& p) {
 inline std::vector<Vec3> random_motion(unsigned seed) {
   const auto bases = tip_bases();
   std::vector<Vec3> points = random_coefficients(bases, seed);
-  const auto T = static_cast<std::size_t>(bases[3].size());
+  const std::size_t T = bases[3].size();
   for (std::size_t n = 0; n < points.size(); n += T) points[n] = {};
   return points;
 }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "encoder/field/unknowns.h"
 #include "encoder/interpolate/compact.h"
 #include "tests/interpolate/made_study.h"

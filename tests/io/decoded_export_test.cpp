@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"
 

@@ -110,7 +110,7 @@ TEST(LatinHypercube, PlacesInTheStrataAreSpread) {
   const auto points = unit_points("latin-hypercube", 500, 3);
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::vector<int> tenths(10, 0);
-    for (const auto& point : points) ++tenths[static_cast<std::size_t>(std::fmod(point[k] * 500, 1) * 10)];
+    for (const auto& point : points) ++tenths[std::fmod(point[k] * 500, 1) * 10];
     for (const int held : tenths) EXPECT_NEAR(held, 50, 34) << names[k];
   }
 }

@@ -1,11 +1,11 @@
 // Every case once, and none beside one of another stiffness.
-#include "params/launcher/solve_groups.h"
+#include "params/run/solve_groups.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "params/launcher/estimates.h"
+#include "params/run/estimates.h"
 #include "params/stiffness.h"
 
 namespace cleft {

@@ -1,4 +1,4 @@
-#include "params/study_folder.h"
+#include "params/run/study_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The index against the manifests it is made from.
-#include "params/study_index.h"
+#include "params/run/study_index.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/sealed_json.h"
 #include "base/text.h"
-#include "params/study_folder.h"
+#include "params/run/study_folder.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "base/text.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "tests/field/random_field.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"

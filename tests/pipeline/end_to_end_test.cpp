@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "explorer/io/mesh_file.h"
 #include "solver/snapshot/snapshot.h"
 #include "tests/pipeline/commands.h"
 #include "tests/pipeline/cut_file.h"
 #include "tests/support/temporary_folder.h"
-#include "tradeoff/uncut_skin.h"
+#include "tradeoff/replays/uncut_skin.h"
 
 namespace cleft {
 

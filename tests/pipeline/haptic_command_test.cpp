@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "explorer/io/mesh_file.h"
 #include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "params/study_folder.h"
+#include "params/run/study_folder.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/older_field.h"
 #include "tests/support/small_study.h"

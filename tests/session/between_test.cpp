@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "encoder/interpolate/study_interpolator.h"
-#include "explorer/scene/case_figures.h"
+#include "explorer/study/case_figures.h"
 #include "tests/session/session_fixture.h"
 
 namespace cleft {

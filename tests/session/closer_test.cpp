@@ -59,11 +59,11 @@ TEST_F(Closer, AProbePlotsAPointAndTheNodeBesideIt) {
   ASSERT_EQ(motion.raw[0].x, raw_snapshot().times);
   for (std::size_t j = 1; j < 4; ++j) {
     const Vec3 d = field->displacement({}, Side::left, motion.raw[0].x[j]) + made_error({});
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(motion.raw[static_cast<std::size_t>(k)].y[j], d[k], 1e-9);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(motion.raw[k].y[j], d[k], 1e-9);
   }
   const NumberTable table = read_csv(folder_ / "motion.csv");
   ASSERT_EQ(table.rows.size(), 4u);
-  EXPECT_NEAR(table.rows[3][static_cast<std::size_t>(table.column("node_dw"))], motion.raw[2].y[3], 1e-9);
+  EXPECT_NEAR(table.rows[3][table.column("node_dw")], motion.raw[2].y[3], 1e-9);
   EXPECT_NE(answers_.find("off by up to 0.04 mm"), std::string::npos) << answers_;
   EXPECT_NE(refused("probe 0,0,1").find("outside the patch"), std::string::npos);
   EXPECT_NE(refused("probe 0,3,0 left").find("other side"), std::string::npos);
@@ -121,7 +121,7 @@ TEST_F(Closer, SlabsHoldTheNodesAskedForAndLittleElse) {
   const std::vector<int> nodes{3, 7, 100, 39990, 39999};
   const std::vector<Vec3> found = raw.displacements(2, nodes);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto n = static_cast<std::size_t>(nodes[i]);
+    const std::size_t n = nodes[i];
     EXPECT_EQ(found[i], frames[2][n] - frames[0][n]);
   }
   EXPECT_EQ(raw.rows_read(), 2u * (98 + 10));
@@ -140,7 +140,7 @@ TEST_F(Closer, TheNearestNodeIsThatOfAllOnItsSide) {
     for (std::size_t n = 0; n < s.points.size(); ++n)
       if (const Side of = raw.side(static_cast<int>(n)); of == Side::both || of == side)
         least = std::min(least, norm(s.points[n] - p));
-    EXPECT_EQ(norm(s.points[static_cast<std::size_t>(raw.nearest_node(p, side))] - p), least);
+    EXPECT_EQ(norm(s.points[raw.nearest_node(p, side)] - p), least);
   }
 }
 
@@ -150,7 +150,7 @@ TEST_F(Closer, ConstraintsAreReleasedBehindTheTip) {
   say("figure constraints");
   const Snapshot s = raw_snapshot();
   const Overlay overlay = session_.overlay();
-  const auto released = static_cast<std::size_t>(s.released[2]);
+  const std::size_t released = s.released[2];
   ASSERT_GT(released, 0u);
   EXPECT_EQ(overlay.dots.size(), s.pairs.size() + released) << "two where they have parted";
   EXPECT_EQ(overlay.lines.size(), released) << "there is no skin in this snapshot";

@@ -1,5 +1,5 @@
 // Lines and words.
-#include "explorer/scene/session/command_table.h"
+#include "explorer/session/command_table.h"
 
 #include <gtest/gtest.h>
 

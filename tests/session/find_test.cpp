@@ -1,11 +1,11 @@
 // Conditions, and where they hold in a study.
-#include "explorer/scene/find/find.h"
+#include "explorer/study/find.h"
 
 #include <cmath>
 #include <random>
 
 #include "base/text.h"
-#include "explorer/scene/coloring.h"
+#include "explorer/study/case_figures.h"
 #include "tests/session/session_fixture.h"
 
 namespace cleft {
@@ -40,8 +40,7 @@ struct Random {
   int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(generator); }
   std::pair<std::string, double> value(int depth) {
     if (depth == 0 || below(3) == 0) {
-      if (const int i = below(4); i < 3)
-        return {names[static_cast<std::size_t>(i)], values[static_cast<std::size_t>(i)]};
+      if (const int i = below(4); i < 3) return {names[i], values[i]};
       const int number = below(9);
       return {std::to_string(number), number};
     }

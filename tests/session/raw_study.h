@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "solver/snapshot/snapshot.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/view/synthetic_field.h"
@@ -32,7 +32,7 @@ inline Snapshot raw_snapshot() {
     s.position.push_back(t - 15);
     int open = 0;
     for (const auto& [left, right] : s.pairs)
-      if (s.points[static_cast<std::size_t>(left)].x < t - 15) ++open;
+      if (s.points[left].x < t - 15) ++open;
     s.released.push_back(open);
   }
   s.cell_offsets = {0};

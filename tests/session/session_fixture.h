@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "encoder/field/field_file.h"
-#include "explorer/scene/session/session.h"
+#include "encoder/field/file/field_file.h"
+#include "explorer/session/session.h"
 #include "tests/support/flat_plate.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/view/synthetic_field.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/h5.h"
+#include "base/h5/h5.h"
 
 namespace cleft {
 

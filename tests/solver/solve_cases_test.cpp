@@ -92,7 +92,7 @@ TEST(SolveCases, TheSnapshotHoldsTheFramesOfTheSystem) {
     ASSERT_EQ(frames.cols(), static_cast<Eigen::Index>(patch.release.released.size()));
     double largest = 0;
     for (Eigen::Index j = 0; j < frames.cols(); ++j) {
-      const int open = patch.release.released[static_cast<std::size_t>(j)];
+      const int open = patch.release.released[j];
       const Eigen::VectorXd expected = by_node(patch.solve(patch.closure(patch.release, open), patch.load));
       EXPECT_LT(difference(frames.col(j), expected), 1e-10) << name << ", frame " << j;
       for (int n = 0; n < expected.size() / 3; ++n)

@@ -14,8 +14,8 @@ int main(int argc, char** argv) {
   }
   SolveOptions options;
   options.discretization.rule = WedgeRule::centroid_by_two;
-  const auto reports =
-      solve_cases({{read_case(argv[1], {}).parameters, argv[2]}}, options, MPI_COMM_WORLD, [](const auto&) {});
+  const auto reports = solve_cases({{read_case(argv[1], {}).parameters, argv[2]}}, options, MPI_COMM_WORLD,
+                                   [](const auto&) {});
   if (!reports[0].failure.empty()) std::fprintf(stderr, "%s\n", reports[0].failure.c_str());
   return reports[0].failure.empty() ? 0 : 1;
 }

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "tests/encoder/synthetic_snapshot.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/stability_row.h"

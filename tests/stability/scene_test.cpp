@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "encoder/field/field_file.h"
+#include "encoder/field/file/field_file.h"
 #include "explorer/incision/triangle_quality.h"
-#include "explorer/scene/replay.h"
-#include "explorer/scene/validity.h"
+#include "explorer/wound/replay.h"
+#include "explorer/wound/validity.h"
 #include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 #include "tests/support/stability_row.h"
@@ -39,9 +39,7 @@ std::vector<double> gaps(const Field& field, const Incision& incision, double en
   replay.positions(length, moved);
   std::vector<double> result;
   for (const auto& c : incision.chain())
-    if (c.s >= ends && c.s <= length - ends)
-      result.push_back(
-          norm(moved[static_cast<std::size_t>(c.right)] - moved[static_cast<std::size_t>(c.left)]));
+    if (c.s >= ends && c.s <= length - ends) result.push_back(norm(moved[c.right] - moved[c.left]));
   return result;
 }
 

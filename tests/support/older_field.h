@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/file_versions.h"
-#include "base/h5.h"
+#include "base/h5/h5.h"
 #include "base/output_file.h"
 
 namespace cleft {

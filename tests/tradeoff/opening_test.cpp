@@ -40,7 +40,7 @@ std::string slit_file(const TemporaryFolder& folder, const std::string& name, do
     std::vector<Vec3> d(s.points.size());
     for (int i = 0; i < inner; ++i) {
       const double half = lip((i + 1) * step, s.times[j], factor);
-      d[static_cast<std::size_t>(i)].y = -half, d[static_cast<std::size_t>(inner + i)].y = half;
+      d[i].y = -half, d[inner + i].y = half;
     }
     writer.write_frames(j, d);
   }

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <string>
 
-#include "tradeoff/replay_error.h"
 #include "tests/truth/truth_cases.h"
+#include "tradeoff/replays/replay_error.h"
 
 using namespace cleft;
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "encoder/field/field_file.h"
-#include "encoder/field/study_file.h"
-#include "explorer/scene/prestress_fields.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/study_file.h"
+#include "explorer/wound/prestress_fields.h"
 #include "solver/snapshot/snapshot.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"

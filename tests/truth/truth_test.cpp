@@ -2,11 +2,11 @@
 // opening.
 #include <gtest/gtest.h>
 
-#include "explorer/scene/replay.h"
+#include "explorer/wound/replay.h"
 #include "tests/incision/meshes.h"
 #include "tests/incision/self_intersections.h"
-#include "tradeoff/replay_error.h"
 #include "tests/truth/truth_cases.h"
+#include "tradeoff/replays/replay_error.h"
 
 namespace cleft {
 

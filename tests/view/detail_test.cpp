@@ -36,7 +36,7 @@ class PixelDetail : public SessionTest {
   };
   /// In the view as it is drawn now, over all times. What is not drawn at rest must be where it always is.
   Seen look(Stage& stage, int i = 0, double samples = 1) {
-    const auto whole = drawn_.scene_of(drawn_.views().at(static_cast<std::size_t>(i)));
+    const auto whole = drawn_.scene_of(drawn_.views().at(i));
     const std::vector<Vec3>& rest = whole->surface().points;
     WoundView& view = stage.view(i);
     vtkRenderer* renderer = view.renderer();

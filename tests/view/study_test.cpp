@@ -1,5 +1,5 @@
 // Opening a study folder.
-#include "explorer/scene/study.h"
+#include "explorer/study/study.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "encoder/field/field_file.h"
-#include "encoder/field/study_file.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/study_file.h"
 #include "tests/view/synthetic_field.h"
 
 namespace cleft {

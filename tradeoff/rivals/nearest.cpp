@@ -35,14 +35,14 @@ std::vector<int> nearest_kept(const std::vector<Sample>& samples, const std::vec
   };
   std::vector<std::vector<int>> in_box(index(boxes[0] - 1, boxes[1] - 1, boxes[2] - 1) + 1);
   for (const int node : kept) {
-    const auto [i, j, k] = box_of(samples[static_cast<std::size_t>(node)].uvw);
+    const auto [i, j, k] = box_of(samples[node].uvw);
     in_box[index(i, j, k)].push_back(node);
   }
   const int most = std::max({boxes[0], boxes[1], boxes[2]});
 
   std::vector<int> nearest(samples.size());
   parallel_for(static_cast<int>(samples.size()), [&](int n) {
-    const Sample& sample = samples[static_cast<std::size_t>(n)];
+    const Sample& sample = samples[n];
     const auto [i, j, k] = box_of(sample.uvw);
     double least = std::numeric_limits<double>::infinity();
     // Shells of boxes: what lies beyond shell r is farther than r edges.
@@ -52,11 +52,11 @@ std::vector<int> nearest_kept(const std::vector<Sample>& samples, const std::vec
           for (int c = std::max(0, k - r); c <= std::min(boxes[2] - 1, k + r); ++c) {
             if (std::max({std::abs(a - i), std::abs(b - j), std::abs(c - k)}) != r) continue;
             for (const int node : in_box[index(a, b, c)]) {
-              const Sample& other = samples[static_cast<std::size_t>(node)];
+              const Sample& other = samples[node];
               const bool across =
                   sample.side != Side::both && other.side != Side::both && sample.side != other.side;
               const double distance = squared_norm(other.uvw - sample.uvw);
-              if (!across && distance < least) least = distance, nearest[static_cast<std::size_t>(n)] = node;
+              if (!across && distance < least) least = distance, nearest[n] = node;
             }
           }
   });

@@ -34,8 +34,10 @@ inline Parametrization::Along TipParametrization::along_at(double u, double tip,
     // Both ends count: (G(r) - G(l - r) + G(l)) / (2 G(l)), r from the start.
     const double l = tip - start, r = u - start, rest = l - r;
     const double whole = bounded(l, a), part = bounded(r, a) - bounded(rest, a);
-    const double by_l = -bounded_slope(rest, a) / (2 * whole) - part * bounded_slope(l, a) / (2 * whole * whole);
-    return {1.5 + part / (2 * whole), (bounded_slope(r, a) + bounded_slope(rest, a)) / (2 * whole), by_l * speed};
+    const double by_l =
+        -bounded_slope(rest, a) / (2 * whole) - part * bounded_slope(l, a) / (2 * whole * whole);
+    return {1.5 + part / (2 * whole), (bounded_slope(r, a) + bounded_slope(rest, a)) / (2 * whole),
+            by_l * speed};
   }
   const double l = back - tip, r = u - tip;
   if (l <= 0) return {2, 0, 0};
@@ -46,7 +48,12 @@ inline Parametrization::Along TipParametrization::along_at(double u, double tip,
 double TipParametrization::u_at(double along, double t) const {
   const auto [front, back] = domain()[0];
   const double start = geometry().cut.start, tip = geometry().tip.at(t);
-  double low = along <= 1 ? front : along <= 2 ? start : tip, high = along <= 1 ? start : along <= 2 ? tip : back;
+  double low = along <= 1   ? front
+               : along <= 2 ? start
+                            : tip,
+         high = along <= 1   ? start
+                : along <= 2 ? tip
+                             : back;
   for (int i = 0; i < 60; ++i) {  // increasing between them
     const double middle = 0.5 * (low + high);
     (this->along(middle, t).value < along ? low : high) = middle;

@@ -1,5 +1,6 @@
 // The parametrisation that follows the tip. All parameters are normalised:
-//   along   0 patch's edge, 1 start of the cut, 2 tip at time t, 3 far edge; between them monotone and smooth, such
+//   along   0 patch's edge, 1 start of the cut, 2 tip at time t, 3 far edge; between them monotone and
+//   smooth, such
 //           that knots lie at nearly the same distances from start and tip while the cut grows
 //   across  -1 .. 0 left of the cut, 0 .. 1 right of it
 //   height  0 skin, -1 bottom of the cut, -2 bottom of the patch (-1 where the cut goes through)

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "base/command.h"
+#include "base/command/command.h"
 #include "base/error.h"
 #include "explorer/io/mesh_file.h"
 #include "tests/incision/meshes.h"
@@ -102,9 +102,8 @@ void run(const Options& o) {
   report("all", all, o.json);
   for (int i = 0; i < stress::path_kinds; ++i)
     std::printf("  %-12s %7ld paths %5ld refused %5ld poor\n",
-                stress::name_of(static_cast<stress::PathKind>(i)).c_str(),
-                all.paths_of[static_cast<std::size_t>(i)], all.refused_of[static_cast<std::size_t>(i)],
-                all.poor_of[static_cast<std::size_t>(i)]);
+                stress::name_of(static_cast<stress::PathKind>(i)).c_str(), all.paths_of[i], all.refused_of[i],
+                all.poor_of[i]);
   for (const auto& [reason, count] : all.due_reasons)
     std::printf("  %5ld impossible: %s\n", count, reason.c_str());
   for (const auto& [reason, count] : all.reasons) std::printf("  %5ld refused: %s\n", count, reason.c_str());

@@ -24,7 +24,7 @@ Soundness::Soundness(const CutMesh& mesh) : mesh_(mesh), known_(mesh.triangles()
 std::vector<int> Soundness::corner_counts() const {
   std::vector<int> corners(mesh_.vertices().size());
   for (const CutMesh::Triangle& t : mesh_.triangles())
-    for (const int v : t.vertex) ++corners[static_cast<std::size_t>(v)];
+    for (const int v : t.vertex) ++corners[v];
   return corners;
 }
 
@@ -62,7 +62,7 @@ std::string Soundness::local(int t) const {
     if (j < 0 || y.vertex[(j + 1) % 3] != a || y.neighbor[j] != t) return wrong("a neighbour that disagrees");
   }
   if (x.region == Region::skin) {
-    if (!(known_[static_cast<std::size_t>(t)].area > 0)) return wrong("a triangle without area");
+    if (!(known_[t].area > 0)) return wrong("a triangle without area");
     return "";
   }
   const int twin = mesh_.twin(t);
@@ -79,7 +79,7 @@ std::string Soundness::step() {
   known_.resize(std::max(known_.size(), mesh_.triangles().size()));
   for (const int t : mesh_.changed()) {
     if (t >= static_cast<int>(known_.size())) continue;  // added and taken away again
-    Known& known = known_[static_cast<std::size_t>(t)];
+    Known& known = known_[t];
     area_ -= known.area, boundary_ -= known.boundary, triangles_ -= known.there;
     known = t < static_cast<int>(mesh_.triangles().size()) ? look(t) : Known{};
     area_ += known.area, boundary_ += known.boundary, triangles_ += known.there;

@@ -1,0 +1,276 @@
+#include "encoder/field/file/study_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/h5/h5.h"
+#include "base/output_file.h"
+#include "base/sealed_json.h"
+#include "encoder/field/file/columns.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/unknowns.h"
+
+namespace cleft {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const FileFormat format{"cleft-study", 3, "study file", "cleft pack"};
+constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
+
+/// The members of an object that are text.
+std::map<std::string, std::string> texts_of(const Json& object) {
+  std::map<std::string, std::string> texts;
+  for (const auto& [name, value] : object.items())
+    if (value.is_string()) texts[name] = value.get<std::string>();
+  return texts;
+}
+
+std::vector<double> numbers_of(const Json& object, const char* name) {
+  if (!object.is_object() || !object.contains(name) || !object[name].is_array())
+    throw InputError(std::string(name) + " of the modes are missing");
+  std::vector<double> numbers;
+  for (const Json& number : object[name]) {
+    if (!number.is_number()) throw InputError(std::string(name) + " of the modes are no numbers");
+    numbers.push_back(number.get<double>());
+  }
+  return numbers;
+}
+
+std::map<std::string, std::string> choices_of_manifest(const std::string& file) {
+  const Json manifest = read_sealed(file);
+  return manifest.contains("parameters") ? texts_of(manifest["parameters"])
+                                         : std::map<std::string, std::string>();
+}
+
+Json header_of_study(const h5::File& file) {
+  require_format(file, format);
+  return header_from(file.read<std::uint8_t>("/header", {0}));
+}
+
+}  // namespace
+
+struct StudyFile::Parts {
+  explicit Parts(const std::string& path) : file(h5::File::open(path)), columns(Json::object(), 0) {
+    Json header = header_of_study(file);
+    for (const char* name : {"names", "bytes", "columns"})
+      if (!header.contains(name)) throw InputError(std::string("the header has no ") + name);
+    begins.push_back(0);
+    for (const Json& name : header["names"]) {
+      if (!name.is_string()) throw InputError("a case's name is no text");
+      names.push_back(name.get<std::string>());
+    }
+    for (const Json& bytes : header["bytes"]) {
+      if (!bytes.is_number_unsigned()) throw InputError("a case's number of bytes is no count");
+      begins.push_back(begins.back() + bytes.get<std::uint32_t>());
+    }
+    if (begins.size() != names.size() + 1 || begins.back() != file.shape("/coefficients").at(0))
+      throw InputError("the cases' bytes are not those of /coefficients");
+    columns = Columns(std::move(header["columns"]), names.size());
+    if (header.contains("modes")) read_modes(header["modes"]);
+  }
+
+  /// The unknowns of a case that is a sum of modes, mm.
+  std::vector<double> sum_of_modes(const Json& case_header) {
+    const std::vector<double> weights = numbers_of(case_header["modes"], "weights");
+    if (weights.size() != coded.quanta.size())
+      throw InputError("has " + std::to_string(weights.size()) + " weights for " +
+                       std::to_string(coded.quanta.size()) + " modes");
+    if (modes.empty())
+      for (std::size_t k = 0; k < coded.quanta.size(); ++k) {
+        const auto [grid, slices] = unknown_places(case_header, coded.coefficients[k].size());
+        modes.push_back(multiples(decode_coefficients(grid, slices, coded.coefficients[k]), coded.quanta[k]));
+      }
+    std::vector<double> sum(modes.empty() ? 0 : modes[0].size(), 0);
+    const double largest = report_of(case_header).largest_displacement;
+    for (std::size_t k = 0; k < modes.size(); ++k)
+      for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += weights[k] * largest * modes[k][n];
+    return sum;
+  }
+
+  h5::File file;
+  Columns columns;
+  std::vector<std::string> names;
+  std::vector<std::uint64_t> begins;  // of each case in /coefficients, and their end
+  CodedModes coded;
+  std::vector<std::vector<double>> modes;  // mm; once a case has asked for them
+
+ private:
+  void read_modes(const Json& header) {
+    coded.quanta = numbers_of(header, "quanta");
+    const std::vector<double> lengths = numbers_of(header, "bytes");
+    const auto bytes = file.read<std::uint8_t>("/modes", {0});
+    std::size_t at = 0;
+    for (const double told : lengths) {
+      if (!(told >= 0 && told <= static_cast<double>(bytes.size() - at)))
+        throw InputError("there are fewer bytes of modes than told");
+      const std::size_t length = told;
+      coded.coefficients.emplace_back(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                                      bytes.begin() + static_cast<std::ptrdiff_t>(at + length));
+      at += length;
+    }
+    if (at != bytes.size() || lengths.size() != coded.quanta.size())
+      throw InputError("the modes' bytes are not those of /modes");
+  }
+};
+
+StudyFile::StudyFile(const std::string& path)
+    : parts_(told_of_file(path, [&] { return std::make_unique<Parts>(path); })) {}
+StudyFile::~StudyFile() = default;
+StudyFile::StudyFile(StudyFile&&) noexcept = default;
+
+int StudyFile::size() const { return static_cast<int>(parts_->names.size()); }
+
+const std::string& StudyFile::name(int i) const { return parts_->names.at(i); }
+
+std::string StudyFile::case_hash(int i) const {
+  return told_of_file(parts_->file.path(), [&] {
+    const Json hash = parts_->columns.entry("case", static_cast<std::size_t>(i));
+    if (!hash.is_string()) throw InputError("a case's hash is no text");
+    return hash.get<std::string>();
+  });
+}
+
+std::map<std::string, double> StudyFile::parameters(int i) const {
+  return told_of_file(parts_->file.path(), [&] {
+    return parameters_of(parts_->columns.group("parameters", static_cast<std::size_t>(i)));
+  });
+}
+
+std::map<std::string, std::string> StudyFile::choices(int i) const {
+  return told_of_file(parts_->file.path(), [&] {
+    const Json header = parts_->columns.group("choices", static_cast<std::size_t>(i));
+    return header.contains("choices") ? texts_of(header["choices"]) : std::map<std::string, std::string>();
+  });
+}
+
+int StudyFile::modes() const { return static_cast<int>(parts_->coded.quanta.size()); }
+
+double StudyFile::modes_error(int i) const {
+  return told_of_file(parts_->file.path(), [&] {
+    const Json group = parts_->columns.group("modes", static_cast<std::size_t>(i))["modes"];
+    if (group.empty()) return 0.;
+    if (!group.contains("error") || !group["error"].is_number())
+      throw InputError("the error of the modes is missing");
+    return group["error"].get<double>();
+  });
+}
+
+FitReport StudyFile::report(int i) const {
+  return told_of_file(parts_->file.path(), [&] {
+    FitReport report = report_of(parts_->columns.group("report", static_cast<std::size_t>(i)));
+    const double cost = modes_error(i);
+    report.node_error += cost, report.spline_error += cost, report.frame_error += cost;
+    return report;
+  });
+}
+
+std::size_t StudyFile::coefficient_bytes(int i) const {
+  const std::size_t n = i;
+  return parts_->begins.at(n + 1) - parts_->begins.at(n);
+}
+
+Field StudyFile::field(int i) const {
+  const std::size_t n = i;
+  FieldRecord record{{}, std::vector<std::uint8_t>(coefficient_bytes(i))};
+  if (!record.coefficients.empty())
+    parts_->file.read_rows<std::uint8_t>("/coefficients", parts_->begins[n], record.coefficients.size(),
+                                         record.coefficients);
+  return told_of_file(parts_->file.path() + ", case " + name(i), [&] {
+    record.header = parts_->columns.header(n);
+    Field field = record.header.contains("modes") ? field_of(record, parts_->sum_of_modes(record.header))
+                                                  : field_of(record);
+    field.report = report(i);
+    return field;
+  });
+}
+
+std::vector<StudyCase> published_study_cases(const std::string& study, std::vector<std::string>* older) {
+  if (!fs::is_directory(study)) throw InputError(study + ": no such folder (give a study folder)");
+  std::vector<StudyCase> cases;
+  std::vector<std::string> left_out;
+  std::error_code absent;
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(study) / "cases", absent)) {
+    const std::string name = entry.path().filename().string(), field = (entry.path() / "case.dffd").string(),
+                      manifest = (entry.path() / "manifest.json").string();
+    if (!fs::exists(manifest) || !fs::exists(field)) continue;
+    if (is_older_field(field))
+      left_out.push_back(name);
+    else
+      cases.push_back({name, field, choices_of_manifest(manifest)});
+  }
+  if (older) older->insert(older->end(), left_out.begin(), left_out.end());
+  if (cases.empty() && !left_out.empty()) throw InputError(study + ": " + note_of_older(study, left_out));
+  if (cases.empty())
+    throw InputError(study +
+                     ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
+                     "STUDY.toml --out " +
+                     study + "` first");
+  std::sort(cases.begin(), cases.end(),
+            [](const StudyCase& a, const StudyCase& b) { return a.name < b.name; });
+  return cases;
+}
+
+std::string note_of_older(const std::string& study, std::vector<std::string> older) {
+  std::sort(older.begin(), older.end());
+  constexpr std::size_t most_named = 10;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(older.size(), most_named); ++i)
+    names += (i > 0 ? ", " : "") + older[i];
+  if (older.size() > most_named) names += " and " + std::to_string(older.size() - most_named) + " more";
+  const bool one = older.size() == 1;
+  return (one ? "left out, since its field is" : "left out, since their fields are") +
+         std::string(" of an older format: ") + (one ? "case " : "cases ") + names +
+         "; cleft run STUDY.toml --out " + study + " encodes anew what the study asks for, then " + study +
+         "/cases/" + (one ? older.front() : "NAME of each") + " can be deleted";
+}
+
+std::vector<StudyRecord> study_records(const std::vector<StudyCase>& cases) {
+  std::vector<StudyRecord> records;
+  for (const StudyCase& one : cases)
+    records.push_back({one.name, read_field_record(one.field_file), one.choices});
+  return records;
+}
+
+void write_study(const std::string& path, const std::vector<StudyRecord>& cases, const CodedModes& modes) {
+  std::vector<Json> headers;
+  std::vector<std::uint8_t> coefficients, mode_coefficients;
+  Json names = Json::array(), bytes = Json::array();
+  for (const StudyRecord& one : cases) {
+    const FieldRecord& record = one.record;
+    names.push_back(one.name);
+    bytes.push_back(record.coefficients.size());
+    coefficients.insert(coefficients.end(), record.coefficients.begin(), record.coefficients.end());
+    Json& header = headers.emplace_back(record.header);
+    for (const auto& [name, value] : one.choices) header["choices"][name] = value;
+    if (!one.weights.empty()) header["modes"] = {{"weights", one.weights}, {"error", one.modes_error}};
+  }
+  Json header{{"names", names}, {"bytes", bytes}, {"columns", columns_of(headers)}};
+  if (!modes.quanta.empty()) {
+    Json lengths = Json::array();
+    for (const auto& mode : modes.coefficients) {
+      lengths.push_back(mode.size());
+      mode_coefficients.insert(mode_coefficients.end(), mode.begin(), mode.end());
+    }
+    header["modes"] = {{"quanta", modes.quanta}, {"bytes", lengths}};
+  }
+
+  OutputFile out(path);
+  h5::File file = h5::File::create(out.path(), h5::Growth::none);
+  write_format(file, format);
+  file.write_text("/", "units", "mm N MPa");
+  const auto text = header_bytes(header);
+  file.write<std::uint8_t>("/header", text, {text.size()}, h5::Packing::deflate);
+  if (!mode_coefficients.empty())
+    file.write<std::uint8_t>("/modes", mode_coefficients, {mode_coefficients.size()}, h5::Packing::deflate);
+  file.create_dataset<std::uint8_t>("/coefficients", {coefficients.size()}, chunk_bytes,
+                                    h5::Packing::deflate);
+  file.write_rows<std::uint8_t>("/coefficients", 0, coefficients.size(), coefficients);
+  file.close();
+  out.commit();
+}
+
+}  // namespace cleft

@@ -1,0 +1,96 @@
+#include "explorer/commands/cut_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "explorer/incision/triangle_quality.h"
+
+namespace cleft {
+
+namespace {
+
+struct Size {
+  double skin_area = 0, volume = 0;
+};
+
+Size size_of(const CutMesh& mesh) {
+  Size size;
+  for (const CutMesh::Triangle& t : mesh.triangles()) {
+    const Vec3 &a = mesh.position(t.vertex[0]), &b = mesh.position(t.vertex[1]),
+               &c = mesh.position(t.vertex[2]);
+    size.volume += dot(a, cross(b, c)) / 6;
+    if (t.region == Region::skin) size.skin_area += norm(cross(b - a, c - a)) / 2;
+  }
+  return size;
+}
+
+/// JSON knows no infinity.
+Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+}  // namespace
+
+Json figures_of(const MeshReport& m) {
+  return {{"points", m.points},
+          {"triangles", m.triangles},
+          {"components", m.components},
+          {"boundary_edges", m.boundary_edges},
+          {"non_manifold_edges", m.non_manifold_edges},
+          {"non_manifold_vertices", m.non_manifold_vertices},
+          {"inside_out_components", m.inside_out_components},
+          {"merged_points", m.merged_points},
+          {"degenerate_triangles_left_out", m.degenerate_triangles},
+          {"duplicate_triangles_left_out", m.duplicate_triangles},
+          {"triangles_turned", m.turned_triangles}};
+}
+
+Json figures_of(const std::vector<const Incision*>& cuts, const SurfaceMesh& before, double scale) {
+  const CutMesh uncut(before);
+  const CutMesh& mesh = cuts.front()->mesh();
+  const Size was = size_of(uncut), is = size_of(mesh);
+  const auto walls = std::count_if(mesh.triangles().begin(), mesh.triangles().end(),
+                                   [](const CutMesh::Triangle& t) { return t.region != Region::skin; });
+  std::size_t steps = 0;
+  double length = 0, chord_error = 0;
+  for (const Incision* cut : cuts) {
+    steps += cut->chain().size();
+    length += cut->tip() - cut->start();
+    chord_error = std::max(chord_error, cut->chord_error());
+  }
+  return {{"triangles_before", before.triangles.size()},
+          {"triangles_after", mesh.triangles().size()},
+          {"triangles_added", mesh.triangles().size() - before.triangles.size()},
+          {"wall_triangles", walls},
+          {"steps", steps},
+          {"cut_length_mm", length * scale},
+          {"chord_error_mm", chord_error * scale},
+          {"worst_quality_before", smallest_radius_ratio(uncut)},
+          {"worst_quality_after", smallest_radius_ratio(mesh)},
+          {"skin_area_change_mm2", (is.skin_area - was.skin_area) * scale * scale},
+          {"volume_change_mm3", (is.volume - was.volume) * scale * scale * scale}};
+}
+
+Json figures_of(const Incision& cut, double scale) {
+  return {{"cut_length_mm", (cut.tip() - cut.start()) * scale},
+          {"chord_error_mm", cut.chord_error() * scale}};
+}
+
+Json figures_of(const Validity& v) {
+  return {{"smallest_radius_mm", finite(v.smallest_radius)},
+          {"largest_tilt_degrees", v.largest_tilt},
+          {"length_defect", finite(v.length_defect)},
+          {"nearest_cut_mm", finite(v.nearest_cut)},
+          {"junction_tension", v.junction_tension ? finite(*v.junction_tension) : Json()}};
+}
+
+Json warnings_of(const std::vector<Validity>& validity, const char* command) {
+  Json warnings = Json::array();
+  for (const Validity& v : validity)
+    for (const std::string& warning : v.warnings) {
+      std::fprintf(stderr, "%s: warning: %s\n", command, warning.c_str());
+      warnings.push_back(warning);
+    }
+  return warnings;
+}
+
+}  // namespace cleft

@@ -1,0 +1,25 @@
+// What `cleft cut` reports, and of it `cleft haptic`.
+#pragma once
+
+#include <vector>
+
+#include "base/command/command.h"
+#include "explorer/incision/incision.h"
+#include "explorer/incision/mesh_repair.h"
+#include "explorer/wound/validity.h"
+
+namespace cleft {
+
+Json figures_of(const MeshReport& report);
+
+/// Of all cuts together, at rest, before fields open them. `scale` is mm per mesh unit.
+Json figures_of(const std::vector<const Incision*>& cuts, const SurfaceMesh& before, double scale);
+
+/// Of one cut.
+Json figures_of(const Incision& cut, double scale);
+Json figures_of(const Validity& validity);
+
+/// All warnings, said on stderr too, as those of `command`.
+Json warnings_of(const std::vector<Validity>& validity, const char* command);
+
+}  // namespace cleft

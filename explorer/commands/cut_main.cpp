@@ -1,0 +1,213 @@
+// cleft cut: cuts through one mesh, one after the other, without a window.
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "base/command/command.h"
+#include "base/error.h"
+#include "base/output_file.h"
+#include "base/stopwatch.h"
+#include "base/text.h"
+#include "explorer/commands/cut_figures.h"
+#include "explorer/commands/cut_volume.h"
+#include "explorer/commands/tension_options.h"
+#include "explorer/io/mesh_file.h"
+#include "explorer/wound/cut_fields.h"
+#include "explorer/wound/path_file.h"
+#include "explorer/wound/wounds.h"
+
+namespace {
+
+using namespace cleft;
+
+struct Options {
+  std::string mesh, field, out;
+  std::vector<std::string> paths;
+  bool rest = false, json = false;
+  double scale = 1;                 // mm per mesh unit
+  double depth = 0, progress = -1;  // mm; 0 and -1: not given
+  double detail = 0;                // micrometres
+  std::optional<double> max_edge;   // mm
+  TensionOptions tension;
+};
+
+bool is_volume(const std::string& path) { return path.ends_with(".vtu"); }
+
+/// A surface, or a volume with its surface.
+struct Skin {
+  MeshReport report;
+  std::optional<VolumeMesh> volume;
+  SurfaceMesh surface;
+
+  explicit Skin(const std::string& file) {
+    if (is_volume(file)) volume.emplace(file);
+    surface = volume ? volume->surface(&report) : read_mesh(file, &report);
+  }
+};
+
+std::vector<PointArray> point_arrays(const std::vector<const Incision*>& cuts, const std::vector<Vec3>& moved,
+                                     double scale) {
+  PointArray displacement{"displacement", 3, {}}, depth{"depth", 1, {}}, region{"region", 1, {}},
+      s{"s", 1, {}};
+  const CutMesh& mesh = cuts.front()->mesh();
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const CutMesh::Vertex& v = mesh.vertices()[i];
+    const Vec3 d = moved[i] - v.position;
+    displacement.values.insert(displacement.values.end(), {d.x, d.y, d.z});
+    depth.values.push_back(v.depth * scale);
+    region.values.push_back(v.depth_fraction == 0 ? 0 : side_of(v.kind) == Side::right ? 2 : 1);
+    const bool on_cut = v.kind != VertexKind::skin;
+    s.values.push_back(scale * (on_cut ? v.s : cuts.back()->path().coordinates(v.position).s));
+  }
+  return {displacement, depth, region, s};
+}
+
+void check_files(const Options& options) {
+  if (is_volume(options.mesh) != is_volume(options.out))
+    throw InputError("--mesh " + options.mesh + " and --out " + options.out +
+                     ": a mesh of volume, .vtu, becomes a .vtu, and a surface a .vtp, .obj or .stl");
+  if (!is_volume(options.out)) check_mesh_ending(options.out);  // a bad name is told before the work
+  std::vector<std::string> inputs = options.paths;
+  inputs.insert(inputs.end(), {options.mesh, options.field});
+  refuse_to_overwrite(options.out, inputs);
+  const OutputFile probe(options.out);
+}
+
+IncisionOptions incision_options(const Options& options, const ScalpelPath& path, const Field* field) {
+  IncisionOptions result;
+  if (options.max_edge && *options.max_edge > 0 && *options.max_edge < path.length() * options.scale / 1000)
+    throw InputError("--max-edge " + shortest(*options.max_edge) +
+                     ": at least a thousandth of the path's length, " +
+                     shortest(path.length() * options.scale / 1000) + " mm");
+  if (options.max_edge) result.max_edge = *options.max_edge / options.scale;
+  if (field) result.reach = reach_of(*field, options.scale);
+  return result;
+}
+
+/// The cuts, made one after the other, the last one as far as --progress.
+struct Cuts {
+  CutMesh mesh;
+  std::vector<std::unique_ptr<Incision>> made;
+  std::vector<const Incision*> list;
+  double t = 0;  // where the blade is, mm of all paths
+  double making = 0, stepping = 0;
+
+  Cuts(const Options& options, const SurfaceMesh& surface, const Field* field) : mesh(surface) {
+    for (const std::string& file : options.paths) {
+      const ScalpelPath path = read_path(file, options.depth, options.scale, field);
+      const IncisionOptions how = incision_options(options, path, field);
+      const double length = path.length() * options.scale;
+      const bool last = made.size() + 1 == options.paths.size();
+      const double progress = options.progress < 0 || !last ? length : std::min(options.progress, length);
+      Stopwatch watch;
+      made.push_back(std::make_unique<Incision>(mesh, path, how));
+      watch.lap();
+      made.back()->advance_to(progress / options.scale);
+      stepping += watch.lap(), making += watch.seconds();
+      list.push_back(made.back().get());
+      t += progress;
+    }
+  }
+};
+
+std::unique_ptr<Wounds> open(const Options& options, const CutFields& fields, const Cuts& cuts) {
+  std::vector<Wounds::Cut> opened;
+  for (std::size_t k = 0; k < cuts.list.size(); ++k) {
+    const Incision& cut = *cuts.list[k];
+    const auto own = read_prestress(options.paths[k], cut.path(), options.scale);
+    try {
+      opened.push_back({&cut, fields.along(cut, options.scale, own)});
+    } catch (const InputError& e) {
+      throw FileError(options.paths[k], e.what());
+    }
+  }
+  return std::make_unique<Wounds>(std::move(opened), options.scale);
+}
+
+/// Moves the mesh as the wounds say, and tells of that.
+void move(const Wounds& wounds, const CutFields& fields, const Options& options, double t,
+          std::vector<Vec3>& positions, Json& figures) {
+  std::optional<Wounds::Level> some;
+  if (options.detail > 0) some = wounds.level(1e-3 * options.detail);
+  const Wounds::Level& level = some ? *some : wounds.whole();
+  wounds.positions(t, level, positions);  // the second frame is timed: memory is warm then
+  const Stopwatch frame;
+  wounds.positions(t, level, positions);
+  figures["frame_ms"] = 1e3 * frame.seconds();
+  double largest = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    largest = std::max(largest, norm(positions[i] - wounds.rest()[i]));
+  figures["active_vertices"] = level.active();
+  figures["left_out_vertices"] = level.left_out();
+  figures["left_out_at_most_mm"] = level.error;
+  figures["largest_displacement_mm"] = largest * options.scale;
+  const std::vector<Validity> validity = wounds.validity(fields.turning());
+  for (std::size_t k = 0; k < validity.size(); ++k) figures["cuts"][k].update(figures_of(validity[k]));
+  figures["warnings"] = warnings_of(validity, "cleft cut");
+}
+
+void cut(const Options& options) {
+  check_files(options);
+  std::optional<CutFields> fields;
+  if (!options.rest)
+    fields = read_cut_fields(options.field, options.tension.direction, options.tension.prestresses);
+  Skin skin(options.mesh);
+  const Cuts cuts(options, skin.surface, fields ? &fields->shape() : nullptr);
+  SurfaceMesh result = cuts.mesh.surface();
+  Json figures = figures_of(cuts.list, skin.surface, options.scale);
+  figures["mesh"] = figures_of(skin.report);
+  figures["cut_ms"] = 1e3 * cuts.making;
+  figures["us_per_step"] = 1e6 * cuts.stepping / figures["steps"].get<double>();
+  for (const Incision* one : cuts.list) figures["cuts"].push_back(figures_of(*one, options.scale));
+  std::unique_ptr<Wounds> wounds;
+  if (fields) {
+    wounds = open(options, *fields, cuts);
+    move(*wounds, *fields, options, cuts.t, result.points, figures);
+  }
+  if (skin.volume)
+    figures["cells_added"] = write_cut_volume(*skin.volume, skin.surface, cuts.list, wounds.get(),
+                                              options.scale, cuts.t, options.out);
+  else
+    write_mesh(options.out, result, point_arrays(cuts.list, result.points, options.scale));
+  print_figures(figures, options.json);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Cuts a mesh along paths, one after the other, and opens the cuts as a field says.",
+               "cleft cut");
+  Options o;
+  app.add_option("--mesh", o.mesh, "surface mesh: .stl .obj .ply .vtp; or a mesh of volume: .vtu")
+      ->required();
+  app.add_option(
+         "--path", o.paths,
+         "CSV with columns x,y,z,nx,ny,nz[,depth][,skin.prestress_u,_v,_uv], in the mesh's units; again for "
+         "further cuts")
+      ->required();
+  auto* field =
+      app.add_option("--field", o.field,
+                     "field file case.dffd that opens the cut; or study.dffd of three cases of other "
+                     "prestress, for a tension that turns against the path");
+  auto* rest = app.add_flag("--rest", o.rest, "leave the cut closed");
+  field->excludes(rest);
+  app.add_option("--out", o.out, "the cut mesh: .vtp (with point arrays) .obj .stl, or .vtu")->required();
+  app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
+      ->check(above(0));
+  app.add_option("--progress", o.progress, "how far the blade of the last cut has come, mm [the whole path]")
+      ->check(at_least(0));
+  o.tension.add_to(app);
+  app.add_option("--max-edge", o.max_edge,
+                 "split longer edges near the path, mm; 0 leaves them [1/30 of the path]")
+      ->check(at_least(0));
+  app.add_option("--detail", o.detail,
+                 "vertices that the cuts never move by more than this many micrometres stay where they are")
+      ->check(at_least(0))
+      ->capture_default_str();
+  app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
+  app.add_flag("--json", o.json, "figures as JSON");
+  return run_command(app, argc, argv, [&] {
+    if (o.field.empty() && !o.rest) throw InputError("give --field case.dffd, or --rest for the closed cut");
+    cut(o);
+  });
+}

@@ -1,0 +1,19 @@
+// A mesh of volume, cut where its surface is and moved by the same fields.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "explorer/incision/incision.h"
+#include "explorer/io/volume_mesh.h"
+#include "explorer/wound/wounds.h"
+
+namespace cleft {
+
+/// Splits the cells that the blade has passed, moves all points as they are at t mm of all paths, and
+/// writes `out`. `surface` is the volume's, uncut. Without `wounds` nothing moves. Returns how many cells
+/// there are more than before.
+int write_cut_volume(VolumeMesh& volume, const SurfaceMesh& surface, const std::vector<const Incision*>& cuts,
+                     const Wounds* wounds, double scale, double t, const std::string& out);
+
+}  // namespace cleft

@@ -1,0 +1,91 @@
+// cleft explore: looks at a study, case by case, on its patch or as wounds in a surface mesh.
+#include <iostream>
+
+#include "base/command/command.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "explorer/app/run_window.h"
+#include "explorer/session/command_table.h"
+#include "explorer/session/session.h"
+#include "explorer/view/picture.h"
+
+using namespace cleft;
+
+namespace {
+
+struct Options {
+  std::string study, mesh, path, screenshot, script, state;
+  double scale = 1;  ///< mm in a unit of the mesh and the path
+  int shown_case = 1;
+  double time = -1;  ///< the end, where none is given
+  std::vector<double> view{0, 0};
+  double zoom = 1;
+  std::vector<int> size{1280, 720};
+  std::string device, device_file;
+};
+
+void add_options(CLI::App& app, Options& o) {
+  app.add_option("study", o.study, "A study folder, a study.dffd or a case.dffd");
+  CLI::Option* mesh = app.add_option("--mesh", o.mesh, "A surface mesh to cut instead of the patch");
+  CLI::Option* path = app.add_option("--path", o.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
+  path->needs(mesh);
+  app.add_option("--scale", o.scale, "mm in a unit of the mesh and the path")
+      ->needs(mesh)
+      ->check(above(0))
+      ->capture_default_str();
+  app.add_option("--script", o.script, "Do the commands of this file and open no window");
+  app.add_option("--state", o.state, "Begin with a saved session: .json, or a .png written here");
+  app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
+  app.add_option("--device", o.device,
+                 "Cut the mesh in the window with mouse, hand, recorded, spacemouse, gamepad or phantom")
+      ->needs(mesh);
+  app.add_option("--device-file", o.device_file, "The hand's path, or the recording that is played");
+  app.add_option("--case", o.shown_case, "The case to begin with, from 1")->capture_default_str();
+  app.add_option("--time", o.time, "Length cut, mm; default: the end")->check(at_least(0));
+  app.add_option("--view", o.view, "AZIMUTH,ELEVATION from the cut's normal, degrees")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(at_least(-360));
+  app.add_option("--zoom", o.zoom, "1: everything is in the picture")
+      ->check(CLI::Range(0.1, 100.))
+      ->capture_default_str();
+  app.add_option("--size", o.size, "WIDTH,HEIGHT in pixels, default 1280,720")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::Range(16, 8192));
+  app.footer("Commands, for --script and in the window:\n\n" + help_sheet());
+}
+
+/// The options as commands.
+void begin(Session& session, const CLI::App& app, const Options& o) {
+  if (!o.state.empty()) session.say("load " + quoted(o.state));
+  if (!o.study.empty()) session.say("open " + quoted(o.study));
+  if (app.count("--case")) session.say("case " + std::to_string(o.shown_case));
+  if (!o.mesh.empty()) session.say("mesh " + quoted(o.mesh) + " " + shortest(o.scale));
+  if (!o.path.empty()) session.say("cut-file " + quoted(o.path));
+  if (o.time >= 0) session.say("time " + shortest(o.time));
+  if (app.count("--view") + app.count("--zoom") > 0)
+    session.say("camera " + shortest(o.view[0]) + " " + shortest(o.view[1]) + " " + shortest(o.zoom));
+}
+
+void explore(const CLI::App& app, const Options& o) {
+  Session session(session_services([](const std::string& text) { std::cout << text << '\n'; }));
+  begin(session, app, o);
+  if (!o.script.empty()) session.run_script(o.script);
+  if (!o.screenshot.empty())
+    session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +
+                std::to_string(o.size[1]));
+  if (!o.script.empty() || !o.screenshot.empty()) return;
+  const std::string file = o.device_file.empty() ? "" : " " + quoted(o.device_file);
+  const std::string device = o.device.empty() ? "" : "device " + quoted(o.device) + file;
+  run_window(session, o.size[0], o.size[1], device);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Looks at a study: every case, at every length cut", "cleft explore");
+  Options options;
+  add_options(app, options);
+  return run_command(app, argc, argv, [&] { explore(app, options); });
+}

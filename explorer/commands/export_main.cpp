@@ -1,0 +1,217 @@
+// cleft export: snapshots and fields in the files of other programs.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "base/command/command.h"
+#include "base/error.h"
+#include "base/output_file.h"
+#include "base/output_folder.h"
+#include "explorer/io/paraview_file.h"
+#include "explorer/scene/patch_scene.h"
+#include "explorer/session/command_table.h"
+#include "explorer/view/cinema.h"
+#include "explorer/view/picture.h"
+#include "params/run/study_folder.h"
+
+using namespace cleft;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string input, color = "displacement";
+  std::optional<std::string> paraview, cinema;  // one of them
+  bool decoded = false, json = false;
+  int frames = 61;
+  CinemaGrid grid;
+  std::vector<int> size{640, 360};
+};
+
+/// Where the output stands: `out`, `out/` and, for a series, `out.pvd` mean the same.
+struct Place {
+  std::string folder, name;
+};
+
+Place place_of(const std::string& out, bool is_series) {
+  fs::path path = fs::path(out).lexically_normal();
+  if (path.filename().empty()) path = path.parent_path();
+  if (is_series && path.extension() == ".pvd") path.replace_extension();
+  const std::string name = path.filename().string();
+  if (name.empty() || name == "." || name == "..")
+    throw InputError("--paraview '" + out + "': give a name, like out.pvd");
+  return {path.has_parent_path() ? path.parent_path().string() : ".", name};
+}
+
+void export_case(const Options& o, Progress& progress, Json& figures) {
+  const Place place = place_of(*o.paraview, true);
+  refuse_to_replace_series(place.folder, place.name);
+  OutputFolder out(place.folder, place.name);
+  const SnapshotReader reader(o.input);
+  const std::string frames = std::to_string(reader.snapshot().frames());
+  const ExportFigures done = write_paraview_series(reader, out.path(), place.name, [&](std::size_t j) {
+    progress("frame " + std::to_string(j + 1) + " of " + frames);
+  });
+  out.commit({place.name, place.name + ".pvd"});
+  figures = {{"frames", done.frames}, {"files", done.files}, {"bytes", done.bytes}};
+}
+
+/// Of a study: the folder for the series of all its cases.
+Place place_of_study(const Options& o) {
+  if (fs::path(*o.paraview).extension() == ".pvd")
+    throw InputError("--paraview " + *o.paraview + ": " + o.input +
+                     " is a study, with a .pvd for each case; give a folder");
+  const Place place = place_of(*o.paraview, false);
+  refuse_to_replace_folder_of_series((fs::path(place.folder) / place.name).string());
+  return place;
+}
+
+void export_study(const Options& o, Progress& progress, Json& figures) {
+  const StudyFolder study(o.input);
+  const std::vector<std::string> cases = study.published_cases();
+  if (cases.empty())
+    throw InputError(o.input + ": no case is published yet; cleft status " + o.input + " tells more");
+  const Place place = place_of_study(o);
+  OutputFolder out(place.folder, place.name);
+  const std::string folder = out.path() + "/" + place.name;
+  fs::create_directory(folder);
+
+  const auto snapshot = [&](const std::string& hash) { return study.published(hash) + "/case.h5"; };
+  Mistakes mistakes;  // told at once, before the long part
+  for (const std::string& hash : cases)
+    mistakes.collect([&] {
+      if (study.manifest(hash).value("snapshot", "kept") == "dropped")
+        throw InputError(snapshot(hash) +
+                         ": its raw data are gone (keep_snapshots = \"none\" in the study file): solve " +
+                         study.published(hash) + "/case.toml again to export it");
+      SnapshotReader(snapshot(hash)).point_arrays();
+    });
+  mistakes.throw_if_any();
+  ExportFigures done;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    progress("case " + std::to_string(i + 1) + " of " + std::to_string(cases.size()));
+    done += write_paraview_series(SnapshotReader(snapshot(cases[i])), folder, cases[i]);
+  }
+  out.commit({place.name});
+  figures = {{"cases", cases.size()}, {"frames", done.frames}, {"files", done.files}, {"bytes", done.bytes}};
+}
+
+/// The surface that the explorer shows, as the field moves it.
+SurfaceSeries series_of(const std::shared_ptr<const Field>& field, int frames) {
+  const auto scene = std::make_shared<const PatchScene>(field);
+  SurfaceSeries series;
+  series.points = scene->surface().points;
+  series.triangles = scene->surface().triangles;
+  for (const Region region : scene->surface().regions) series.parts.push_back(static_cast<int>(region));
+  for (int j = 0; j < frames; ++j) series.times.push_back(field->duration() * j / std::max(1, frames - 1));
+  series.displacement = [scene](double t) {
+    std::vector<Vec3> moved;
+    scene->positions(t, moved);
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = moved[i] - scene->surface().points[i];
+    return moved;
+  };
+  return series;
+}
+
+/// Of one field a .pvd with its folder, of a study a folder with those of all cases.
+void export_decoded(const Options& o, Progress& progress, Json& figures) {
+  PublishedStudy study(o.input);
+  const bool single = !fs::is_directory(o.input) && format_of(o.input) == "cleft-field";
+  const Place place = single ? place_of(*o.paraview, true) : place_of_study(o);
+  OutputFolder out(place.folder, place.name);
+  ExportFigures done;
+  if (single) {
+    refuse_to_replace_series(place.folder, place.name);
+    done = write_paraview_series(series_of(study.field(0), o.frames), out.path(), place.name);
+    out.commit({place.name, place.name + ".pvd"});
+  } else {
+    const std::string folder = out.path() + "/" + place.name;
+    fs::create_directory(folder);
+    for (int i = 0; i < study.size(); ++i) {
+      progress("case " + std::to_string(i + 1) + " of " + std::to_string(study.size()));
+      const std::string hash = fs::path(study.snapshot(i)).parent_path().filename().string();
+      done += write_paraview_series(series_of(study.field(i), o.frames), folder, hash);
+    }
+    out.commit({place.name});
+  }
+  figures = {{"cases", study.size()}, {"frames", done.frames}, {"files", done.files}, {"bytes", done.bytes}};
+}
+
+void export_cinema(const Options& o, Progress& progress, Json& figures) {
+  const Place place = place_of(*o.cinema, false);
+  if (!place.name.ends_with(".cdb"))
+    throw InputError("--cinema " + *o.cinema + ": a Cinema database is a folder that ends in .cdb");
+  if (fs::exists(*o.cinema)) throw InputError(*o.cinema + ": exists; give another name, or remove it");
+  Session session(
+      session_services([](const std::string& text) { std::cerr << "cleft export: " << text << '\n'; }));
+  session.say("open " + quoted(o.input));
+  session.say("color " + quoted(o.color));
+  OutputFolder out(place.folder, place.name);
+  const std::string folder = out.path() + "/" + place.name;
+  fs::create_directory(folder);
+  CinemaGrid grid = o.grid;
+  grid.width = o.size[0], grid.height = o.size[1];
+  const CinemaFigures done = write_cinema(session, folder, grid, [&](int picture, int of) {
+    progress("picture " + std::to_string(picture + 1) + " of " + std::to_string(of));
+  });
+  out.commit({place.name});
+  figures = {{"cases", done.cases}, {"pictures", done.pictures}};
+}
+
+void export_paraview(const Options& o, Progress& progress, Json& figures) {
+  const bool folder = fs::is_directory(o.input),
+             snapshot = !folder && format_of(o.input) == snapshot_format.name,
+             fields = !folder && fs::path(o.input).extension() == ".dffd";
+  if (snapshot && o.decoded)
+    throw InputError(o.input + " is a simulation: --decoded takes a field (case.dffd) or a study");
+  if (o.decoded || fields) return export_decoded(o, progress, figures);
+  (folder ? export_study : export_case)(o, progress, figures);
+}
+
+void export_files(const Options& o) {
+  if (o.paraview.has_value() == o.cinema.has_value())
+    throw InputError("give either --paraview OUT or --cinema OUT.cdb");
+  const std::string& out = o.paraview ? *o.paraview : *o.cinema;
+  std::error_code absent;
+  if (fs::equivalent(out, o.input, absent))
+    throw InputError((o.paraview ? "--paraview " : "--cinema ") + out + ": is the input; give another name");
+  if (!fs::exists(o.input)) throw InputError(o.input + ": no such file or folder");
+  Json figures;
+  {
+    Progress progress("exporting");
+    (o.paraview ? export_paraview : export_cinema)(o, progress, figures);
+  }
+  print_figures(figures, o.json);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Writes snapshots and fields as files of other programs.", "cleft export");
+  Options o;
+  app.add_option("CASE.h5|CASE.dffd|DIR", o.input,
+                 "a snapshot, a field, or a study (folder or study.dffd): all its published cases")
+      ->required();
+  app.add_option(
+      "--paraview", o.paraview,
+      "for ParaView and VTK: OUT.pvd, and a .vtu file a frame in OUT/; of a study, OUT/<case>.pvd");
+  app.add_flag("--decoded", o.decoded,
+               "of a study, the fields rather than the simulations: skin and walls of the wound");
+  app.add_option("--frames", o.frames, "of a field")->check(CLI::Range(2, 100000))->capture_default_str();
+  app.add_option(
+      "--cinema", o.cinema,
+      "OUT.cdb, a Cinema database (Spec D): a picture for every case, length cut and of two cameras");
+  app.add_option("--times", o.grid.times, "lengths cut in a Cinema database")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  app.add_option("--size", o.size, "WIDTH,HEIGHT of its pictures, pixels")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  app.add_option("--color", o.color, "what its surfaces are coloured by")->capture_default_str();
+  app.add_flag("--json", o.json, "figures as JSON");
+  return run_command(app, argc, argv, [&] { export_files(o); });
+}

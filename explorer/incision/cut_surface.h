@@ -1,0 +1,28 @@
+// A surface mesh with all the cuts that were made in it, one after another.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "explorer/incision/incision.h"
+
+namespace cleft {
+
+/// Never changes once made: to add or take back a cut another one is made.
+class CutSurface {
+ public:
+  /// Cuts along all paths to their ends; lengths in mm. Throws InputError naming the cut where a path does
+  /// not meet the mesh or cannot go on.
+  CutSurface(const SurfaceMesh& mesh, const std::vector<ScalpelPath>& paths);
+
+  const CutMesh& mesh() const { return mesh_; }
+  const std::vector<std::unique_ptr<Incision>>& cuts() const { return cuts_; }
+  int original_points() const { return original_points_; }
+
+ private:
+  CutMesh mesh_;
+  int original_points_;
+  std::vector<std::unique_ptr<Incision>> cuts_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,315 @@
+#include "explorer/scalpel/scalpel_cutting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+
+namespace cleft {
+
+namespace {
+constexpr double beside = 5;         // mm: a scalpel farther from the path does not follow it
+constexpr double ahead = 10;         // mm: how far ahead of the tip the path is looked at
+constexpr double told = 2e-3;        // mm: smaller motions of the skin are not felt
+constexpr double piece = 0.7;        // mm, of a way that is found as the scalpel goes
+constexpr double sharpest = 0.5;     // cosine of the turn from one piece to the next: an edge cuts ahead
+constexpr double least_depth = 0.5;  // mm, of a cut as deep as the scalpel is
+constexpr std::size_t most_entering = 2000;  // vertices that a cut begins to move in a step
+constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+constexpr double relieved_each = 1;  // mm of a cut, after which the others' relief is found anew
+constexpr double far = 30;           // mm, how far ahead a cut without a field is taken to go
+}  // namespace
+
+ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
+    : setup_(std::move(setup)), mesh_(mesh), original_points_(static_cast<int>(mesh.points.size())) {
+  for (const ScalpelPath& path : setup_.made) {
+    add_wound(path, {}, all);
+    wounds_.back().incision->advance_to(path.length());
+    for (Wound& wound : wounds_)
+      if (wound.opening) wound.opening->follow();
+    if (wounds_.back().opening) wounds_.back().opening->move_to(setup_.scale * path.length());
+  }
+  made_ = wounds_.size();
+  if (setup_.path) add_wound(*setup_.path, {}, most_entering);
+  for (std::size_t k = 0; k < made_; ++k)
+    if (wounds_[k].opening) wounds_[k].opening->follow();
+  displacements_.resize(mesh_.vertices().size());
+  relieve();
+  untold_.clear(), is_untold_.clear();
+  SurfaceMesh felt = mesh_.surface();
+  for (std::size_t v = 0; v < felt.points.size(); ++v) {
+    displacements_[v] = displacement(static_cast<int>(v));
+    felt.points[v] = setup_.scale * felt.points[v] + displacements_[v];
+  }
+  surface_ = std::make_unique<ContactSurface>(felt.points, felt.triangles);
+  for (std::size_t t = 0; t < felt.triangles.size(); ++t)
+    if (mesh_.is_wall(static_cast<int>(t)))
+      changed_.push_back({static_cast<int>(t), {felt.triangles[t], true}});
+  if (!changed_.empty()) surface_->update({}, changed_);
+  reader_.emplace(*surface_);
+}
+
+void ScalpelCutting::add_wound(const ScalpelPath& path, const IncisionOptions& options,
+                               std::size_t entering) {
+  Wound& wound = wounds_.emplace_back();
+  try {
+    wound.incision = std::make_unique<Incision>(mesh_, path, options);
+    if (setup_.fields)
+      wound.opening = std::make_unique<LiveReplay>(setup_.fields->along(*wound.incision, setup_.scale),
+                                                   *wound.incision, setup_.scale, entering);
+  } catch (...) {
+    wounds_.pop_back();
+    throw;
+  }
+}
+
+double ScalpelCutting::cut_length() const {
+  double length = 0;
+  for (std::size_t k = made_; k < wounds_.size(); ++k)
+    length += setup_.scale * (wounds_[k].incision->tip() - wounds_[k].incision->start());
+  return length;
+}
+
+std::vector<Validity> ScalpelCutting::validity() const {
+  std::vector<CutInTension> cuts;
+  for (const Wound& wound : wounds_)
+    if (wound.opening) cuts.push_back(wound.opening->in_tension());
+  return cuts.empty() ? std::vector<Validity>{} : validity_of(cuts, setup_.fields->turning());
+}
+
+void ScalpelCutting::step(TickQueue<HapticState>& ticks) {
+  HapticState scalpel;
+  bool any = false;
+  for (; ticks.pop(scalpel); any = true)
+    setup_.path ? follow_path(scalpel, piece / setup_.scale) : follow_scalpel(scalpel);
+  if (any && setup_.path) follow_path(scalpel, 0);
+  open();
+}
+
+void ScalpelCutting::step(const HapticState& scalpel) {
+  setup_.path ? follow_path(scalpel, 0) : follow_scalpel(scalpel);
+  open();
+}
+
+/// Along the path that was given, by more than `least`.
+void ScalpelCutting::follow_path(const HapticState& scalpel, double least) {
+  const double s = reached(scalpel);
+  if (s > incision()->tip() + least && figures_.stopped.empty())
+    cut([&] { wounds_.back().incision->advance_to(s); });
+}
+
+/// Arc length of the path, mesh units, that the blade has come to; 0 where it does not cut.
+double ScalpelCutting::reached(const HapticState& scalpel) const {
+  if (scalpel.phase != Phase::cutting || !scalpel.pose.cutting) return 0;
+  const double tip = incision()->tip(), scale = setup_.scale;
+  const PathCoordinates at =
+      incision()->path().coordinates(1 / scale * scalpel.pose.tip, tip - ahead / scale, tip + ahead / scale);
+  return std::abs(at.v) * scale < beside ? at.s : 0;
+}
+
+/// Where the blade passes the skin, pulled back through the triangle there to the surface at rest; none where
+/// it is in a wound.
+std::optional<ScalpelPath::Point> ScalpelCutting::contact(const HapticState& scalpel) {
+  const Vec3& axis = scalpel.pose.axis;
+  const double upright = std::max(0.2, dot(axis, scalpel.normal));
+  const Vec3 skin = scalpel.pose.tip + scalpel.depth / upright * axis;
+  const ContactLook look(*reader_);
+  const SurfaceHit hit = reader_->first_contact(skin + beside * axis, skin - beside * axis, Facing::front);
+  if (!hit || hit.wall || !mesh_.is_skin(hit.triangle)) return std::nullopt;
+  const auto& corner = mesh_.triangle(hit.triangle).vertex;
+  const Vec3 moved = surface_->position(corner[0]), rest = mesh_.position(corner[0]);
+  const Vec3 a = surface_->position(corner[1]) - moved, b = surface_->position(corner[2]) - moved;
+  const Vec3 a0 = mesh_.position(corner[1]) - rest, b0 = mesh_.position(corner[2]) - rest;
+  const Vec3 normal = cross(a, b);
+  // What a direction is made of, of the two edges and the normal.
+  const auto pulled_back = [&](const Vec3& d, double height) {
+    const double area = squared_norm(normal);
+    return dot(cross(d, b), normal) / area * a0 + dot(cross(a, d), normal) / area * b0 +
+           height * normalized(cross(a0, b0));
+  };
+  const Vec3 outward =
+      pulled_back(axis - dot(axis, hit.normal) * hit.normal, dot(axis, hit.normal) / setup_.scale);
+  const double depth = setup_.depth > 0 ? setup_.depth : std::max(least_depth, scalpel.depth / upright);
+  return ScalpelPath::Point{rest + pulled_back(hit.position - moved, 0), normalized(outward),
+                            depth / setup_.scale};
+}
+
+void ScalpelCutting::follow_scalpel(const HapticState& scalpel) {
+  if (scalpel.phase != Phase::cutting || !scalpel.pose.cutting) return end_cut();
+  if (entered_ && !cutting_ && !figures_.stopped.empty()) return;  // until the blade is out
+  if (const auto at = contact(scalpel)) cut_on_to(*at);
+}
+
+void ScalpelCutting::end_cut() {
+  cutting_ = false;
+  entered_.reset();
+}
+
+void ScalpelCutting::cut_at(const ScalpelPath::Point& place) {
+  cut_on_to(place);
+  open();
+}
+
+void ScalpelCutting::cut_on_to(const ScalpelPath::Point& at) {
+  if (!entered_) {
+    entered_ = at;
+    figures_.stopped.clear();
+    return;
+  }
+  if (!cutting_ && setup_.scale * norm(at.position - entered_->position) >= piece) {
+    cut([&] { begin_cut(*entered_, at); });
+    if (cutting_) cut([&] { lead_on(at); });
+  } else if (cutting_ && leads_on(at)) {
+    cut([&] { lead_on(at); });
+  } else if (cutting_ &&
+             setup_.scale * norm(at.position - incision()->path().at(incision()->led()).position) > beside) {
+    end_cut();  // it has turned back, or leapt: that is another cut
+    entered_ = at;
+  }
+}
+
+/// Half of what the scalpel is beside the way so far: at the tip the skin is torn aside, and which lip the
+/// blade meets there is chance. From piece to piece a lasting deviation is halved.
+void ScalpelCutting::lead_on(ScalpelPath::Point next) {
+  Incision& incision = *wounds_.back().incision;
+  const PathFrame end = incision.path().at(incision.led());
+  next.position -= 0.5 * dot(next.position - end.position, end.across) * end.across;
+  next.outward = normalized(next.outward + end.outward);
+  // The field moves vertices from half its cut's length ahead of the blade on.
+  const double beyond = (setup_.fields ? setup_.fields->shape().cut().length / 2 : far) / setup_.scale;
+  incision.lead_on(next, beyond);
+  led_.back().push_back(next);
+}
+
+void ScalpelCutting::begin_cut(const ScalpelPath::Point& first, const ScalpelPath::Point& next) {
+  const double length = (setup_.fields ? setup_.fields->shape().cut().length : far) / setup_.scale;
+  ScalpelPath::Point end = next;
+  end.position = first.position + length * normalized(next.position - first.position);
+  IncisionOptions options;
+  options.reach = setup_.fields ? reach_of(setup_.fields->shape(), setup_.scale) : 0;
+  options.refined = norm(next.position - first.position);
+  add_wound(ScalpelPath({first, end}), options, most_entering);
+  led_.push_back({first});
+  cutting_ = true;
+}
+
+bool ScalpelCutting::leads_on(const ScalpelPath::Point& next) const {
+  const Incision& incision = *wounds_.back().incision;
+  const PathFrame end = incision.path().at(incision.led());
+  const Vec3 way = next.position - end.position;
+  const double distance = setup_.scale * norm(way);
+  return distance >= piece && distance < beside && dot(way, end.along) >= sharpest * norm(way);
+}
+
+/// One change of the newest incision, told to the surface and the openings.
+template <class Change>
+void ScalpelCutting::cut(const Change& change) {
+  Stopwatch watch;
+  try {
+    change();
+  } catch (const InputError& e) {
+    figures_.stopped = e.what();
+    cutting_ = false;
+  }
+  figures_.cut.add(watch.lap());
+  take_in_changes();
+  for (Wound& wound : wounds_)
+    if (wound.opening) wound.opening->follow();
+  for (const Wound& wound : wounds_)
+    if (wound.opening) tell(wound.opening->touched());
+}
+
+void ScalpelCutting::take_in_changes() {
+  displacements_.resize(mesh_.vertices().size());
+  changed_.clear(), vertices_.clear(), moved_.clear();
+  for (const int t : mesh_.changed()) {
+    if (static_cast<std::size_t>(t) >= mesh_.triangles().size()) {
+      changed_.push_back({t, {}});
+      continue;
+    }
+    const CutMesh::Triangle& now = mesh_.triangle(t);
+    changed_.push_back({t, {now.vertex, now.region != Region::skin}});
+    vertices_.insert(vertices_.end(), now.vertex.begin(), now.vertex.end());
+  }
+  std::sort(vertices_.begin(), vertices_.end());
+  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  for (const int v : vertices_) moved_.push_back({v, setup_.scale * mesh_.position(v) + displacements_[v]});
+  Stopwatch watch;
+  surface_->update(moved_, changed_);
+  figures_.update.add(watch.lap());
+  ++figures_.cuts;
+  figures_.triangles_cut += changed_.size();
+}
+
+void ScalpelCutting::open() {
+  ++figures_.steps;
+  surface_->prepare();
+  if (!setup_.fields || wounds_.empty()) return;
+  Stopwatch watch;
+  for (Wound& wound : wounds_)
+    if (wound.opening) wound.opening->move_to(wound.incision->tip() * setup_.scale);
+  for (const Wound& wound : wounds_)
+    if (wound.opening) tell(wound.opening->touched());
+  relieve();
+  moved_.clear();
+  for (; !untold_.empty() && moved_.size() < most_moved; untold_.pop_front()) {
+    const int v = untold_.front();
+    is_untold_[v] = false;
+    if (static_cast<std::size_t>(v) >= mesh_.vertices().size()) continue;
+    Vec3& d = displacements_[v];
+    d = displacement(v);
+    moved_.push_back({v, setup_.scale * mesh_.position(v) + d});
+  }
+  figures_.waiting = untold_.size();
+  if (!moved_.empty()) surface_->update(moved_, {});
+  figures_.open.add(watch.lap());
+}
+
+/// How far each wound opens in the tension that the others leave. The newest has its blade at its tip.
+void ScalpelCutting::relieve() {
+  std::vector<CutInTension> cuts;
+  double length = 0;
+  for (const Wound& wound : wounds_) {
+    if (!wound.opening) return;
+    cuts.push_back(wound.opening->in_tension());
+    length += setup_.scale * wound.incision->tip();
+  }
+  if (cuts.size() < 2) return;
+  const Incision& newest = *wounds_.back().incision;
+  const bool complete = newest.tip() == newest.path().length() && length > relieved_at_;
+  if (amplitudes_.size() == cuts.size() && length < relieved_at_ + relieved_each && !complete) return;
+  try {
+    amplitudes_ = mutual_relief(cuts, setup_.scale * newest.tip());
+  } catch (const InputError&) {  // the field does not tell the tension: they add
+    amplitudes_.assign(cuts.size(), {{0}, {1}});
+  }
+  relieved_at_ = length;
+  for (const Wound& wound : wounds_) tell(wound.opening->entered());
+}
+
+/// By all wounds, mm.
+Vec3 ScalpelCutting::displacement(int vertex) const {
+  Vec3 sum;
+  for (std::size_t k = 0; k < wounds_.size(); ++k) {
+    const LiveReplay* opening = wounds_[k].opening.get();
+    if (!opening) continue;
+    const double amplitude = k < amplitudes_.size() ? amplitudes_[k].at(opening->station(vertex)) : 1;
+    sum += setup_.scale * amplitude * opening->displacement(vertex);
+  }
+  return sum;
+}
+
+/// Takes note of those that have moved so far that it can be felt.
+void ScalpelCutting::tell(const std::vector<int>& vertices) {
+  is_untold_.resize(std::max(is_untold_.size(), displacements_.size()));
+  for (const int v : vertices) {
+    const std::size_t i = v;
+    if (is_untold_[i] || squared_norm(displacement(v) - displacements_[i]) <= told * told) continue;
+    is_untold_[i] = true;
+    untold_.push_back(v);
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,89 @@
+// What the explorer is at: plain values, that a file can hold. Lengths in mm.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "explorer/incision/scalpel_path.h"
+#include "explorer/scene/coloring.h"
+#include "explorer/wound/detail.h"
+#include "explorer/wound/prestress_fields.h"
+
+namespace cleft {
+
+/// Where the camera stands. Angles: at 0, 0 it looks at the middle of the cut along its mean normal, and at
+/// zoom 1 everything is in the picture. What a mouse has done to it is a pose of its own.
+struct CameraState {
+  double azimuth = 0, elevation = 0;  ///< degrees, towards the picture's right and up
+  double zoom = 1;
+  struct Pose {
+    Vec3 position, focal_point, up;
+    double view_angle = 24;  ///< degrees
+  };
+  std::optional<Pose> pose;
+};
+
+struct CutState {
+  std::vector<ScalpelPath::Point> points;  ///< depth 0: as deep as the shown case
+};
+
+/// A point of the patch whose motion is plotted; on the cut, on one side of it.
+struct ProbeState {
+  Vec3 uvw;
+  Side side = Side::both;
+};
+
+/// Where the simulation's nodes are drawn: those within `radius` mm.
+struct ZoomState {
+  Vec3 place;
+  double radius = 5;
+};
+
+/// Another tension, given when there were so many cuts.
+struct TensionChange {
+  std::size_t cuts;
+  std::optional<SkinTension> tension;  ///< before it; of one that is undone, after it
+};
+
+struct SessionState {
+  std::string study;  ///< study folder, study.dffd or case.dffd; empty: nothing is open
+  int shown = 0;      ///< case, from 0
+  std::map<std::string, double> parameters;  ///< asked for with `set`
+  bool between = true;  ///< what has these parameters is interpolated; else the nearest case is shown
+
+  std::string mesh;  ///< file of the surface mesh to cut; empty: the canonical patch
+  double scale = 1;  ///< mm in a unit of the mesh
+  std::vector<CutState> cuts, undone;
+  std::optional<SkinTension> tension;  ///< of the mesh; none: that of the shown case, along every cut
+  std::vector<TensionChange> tensions, tensions_undone;  ///< oldest first; last undone last
+
+  double time = 0;  ///< length cut
+  bool playing = false, loop = false;
+  double speed = 10;  ///< mm of cut a second
+
+  Coloring coloring = Coloring::displacement;
+  std::optional<std::pair<double, double>> range;  ///< of colours; none: from 0 to the largest of all times
+  int reference = -1;                              ///< the case from which `difference` is taken
+  /// Cases outside these ranges of parameters and figures are faded.
+  std::map<std::string, std::pair<double, double>> brushes;
+  std::string where;          ///< and those in which this condition holds nowhere; empty: none
+  std::vector<int> compared;  ///< two to four cases side by side; empty: one view
+  CameraState camera;
+  std::optional<ProbeState> probe;
+  std::optional<ZoomState> zoom;
+  std::string figure;  ///< of how the method works, over the scene; empty: none
+  bool dark = false;
+  std::optional<Detail> detail;  ///< of the wounds in a mesh; none: everything is evaluated
+};
+
+/// The line that makes a cut, as `cut` or `recut`: places to a micrometre, short enough to be read.
+std::string cut_line(const std::string& command, const CutState& cut);
+
+/// As JSON, and back. Throws InputError naming what is missing or wrong.
+std::string state_to_json(const SessionState& state);
+SessionState state_from_json(const std::string& json);
+
+}  // namespace cleft

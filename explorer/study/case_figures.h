@@ -1,0 +1,41 @@
+// What tells the cases of a study apart beside their parameters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "encoder/field/field.h"
+
+namespace cleft {
+
+/// Of one case; lengths in mm.
+struct CaseFigures {
+  double gape = 0;                  ///< widest opening when all is cut
+  double largest_displacement = 0;  ///< from the closed frame
+  double node_error = 0;            ///< of the field, over largest_displacement
+  double cut_length = 0, cut_depth = 0;
+};
+CaseFigures case_figures(const Field& field);
+
+/// Opening of the lips at u when the length t is cut, mm.
+double gape(const Field& field, double u, double t);
+
+/// Widest opening of the lips when t is cut.
+double widest_gape(const Field& field, double t);
+
+/// Pairs of u and the opening there when t is cut, from start to end of the cut.
+struct Curve {
+  std::vector<double> x, y;
+};
+Curve opening_profile(const Field& field, double t);
+/// Widest opening over the length cut.
+Curve gape_over_time(const Field& field);
+
+/// A column of figures or parameters, as lists and plots show it.
+struct FigureText {
+  std::string name, unit, help;
+  double (*value)(const CaseFigures&);
+};
+const std::vector<FigureText>& figure_texts();
+
+}  // namespace cleft

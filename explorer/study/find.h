@@ -1,0 +1,44 @@
+// Which cases of a study fulfil a condition, at which lengths cut, and where along the cut.
+//
+// Names: gape (opening of the lips at a place, mm), t (length cut, mm), u (the place along the cut, mm),
+// error (of the field, %), displacement (largest of the case, mm), and all numeric parameters.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "encoder/field/field.h"
+#include "explorer/study/expression.h"
+#include "explorer/study/study.h"
+
+namespace cleft {
+
+struct Finding {
+  double first_t, last_t;       ///< lengths cut between which it holds somewhere (not always at all between)
+  double least_u, greatest_u;   ///< places along the cut where it holds at some of these
+  double best_t, best_u, gape;  ///< where the gape is widest of those, and that
+  /// On the simulation's own nodes at the nearest frame; none where it is not kept.
+  std::optional<bool> confirmed;
+};
+
+class Condition {
+ public:
+  /// Throws InputError as Expression does.
+  explicit Condition(const std::string& text);
+
+  /// Evaluates the field at 60 lengths cut and 80 places, where the condition asks for them.
+  std::optional<Finding> find(const Field& field) const;
+  /// The same, confirmed from the case's snapshot, where that is beside its field file.
+  std::optional<Finding> find(const Field& field, const std::string& snapshot) const;
+
+ private:
+  bool holds(std::vector<double>& values, double t, double u, double gape) const;
+
+  Expression expression_;
+};
+
+/// Of case i of the study: nothing where the condition does not hold.
+std::optional<Finding> find_in_case(const Condition& condition, const PublishedStudy& study, int i);
+
+}  // namespace cleft

@@ -1,0 +1,85 @@
+#include "explorer/study/study.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/h5/h5.h"
+#include "base/text.h"
+#include "encoder/field/file/field_file.h"
+
+namespace cleft {
+
+namespace fs = std::filesystem;
+
+PublishedStudy::PublishedStudy(const std::string& path) : path_(path) {
+  if (!fs::exists(path))
+    throw InputError(path + ": no such file or folder (give a study folder, a study.dffd or a case.dffd)");
+  if (fs::is_regular_file(path) && format_of(path) == "cleft-study") {
+    packed_.emplace(path);
+    for (int i = 0; i < packed_->size(); ++i)
+      cases_.push_back({packed_->name(i), "", packed_->parameters(i), packed_->choices(i), i});
+    if (cases_.empty()) throw InputError(path + ": holds no case; run `cleft pack` again");
+    name_and_sort();
+    return;
+  }
+  folder_ = fs::is_directory(path);
+  for (const StudyCase& one :
+       folder_ ? published_study_cases(path, &older_) : std::vector<StudyCase>{{"", path}})
+    cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), one.choices, -1});
+  name_and_sort();
+}
+
+void PublishedStudy::name_and_sort() {
+  for (const auto& [name, value] : cases_.front().parameters) {
+    const auto differs = [&name = name, value = value](const Case& c) {
+      const auto found = c.parameters.find(name);
+      return found == c.parameters.end() || found->second != value;
+    };
+    if (std::any_of(cases_.begin(), cases_.end(), differs)) varying_.push_back(name);
+  }
+  const auto values = [this](const Case& c) {
+    std::vector<double> row;
+    for (const std::string& name : varying_) {
+      const auto found = c.parameters.find(name);
+      row.push_back(found == c.parameters.end() ? -HUGE_VAL : found->second);
+    }
+    return row;
+  };
+  std::stable_sort(cases_.begin(), cases_.end(),
+                   [&](const Case& a, const Case& b) { return values(a) < values(b); });
+  for (Case& c : cases_) {
+    for (const std::string& name : varying_)
+      if (const auto found = c.parameters.find(name); found != c.parameters.end())
+        c.name += (c.name.empty() ? "" : " ") + name + "=" + shortest(found->second);
+    const fs::path file(c.file);
+    if (c.name.empty())
+      c.name = (cases_.size() > 1 && !packed_ ? file.parent_path() : file).filename().string();
+  }
+}
+
+std::string PublishedStudy::snapshot(int i) const {
+  const fs::path beside(path_);
+  return (packed_ ? beside.parent_path() / "cases" / file(i) : fs::path(file(i)).parent_path()) / "case.h5";
+}
+
+Field PublishedStudy::read(int i) const {
+  const Case& wanted = cases_.at(i);
+  return packed_ ? packed_->field(wanted.packed) : read_field(wanted.file);
+}
+
+std::shared_ptr<const Field> PublishedStudy::field(int i) {
+  const auto found =
+      std::find_if(recent_.begin(), recent_.end(), [i](const auto& r) { return r.first == i; });
+  if (found != recent_.end()) {
+    recent_.splice(recent_.begin(), recent_, found);
+  } else {
+    const Case& wanted = cases_.at(i);
+    recent_.emplace_front(
+        i, std::make_shared<const Field>(packed_ ? packed_->field(wanted.packed) : read_field(wanted.file)));
+    if (recent_.size() > kept) recent_.pop_back();
+  }
+  return recent_.front().second;
+}
+
+}  // namespace cleft

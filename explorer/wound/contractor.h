@@ -1,0 +1,37 @@
+// From a field to what replays read: the histories of active vertices, each contracted once.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "explorer/wound/ipv.h"
+#include "explorer/wound/replay_pieces.h"
+#include "explorer/wound/varying_field.h"
+
+namespace cleft {
+
+class Contractor {
+ public:
+  /// The field's own fields must outlive it. `scale` is mm per mesh unit.
+  Contractor(VaryingField field, double scale);
+
+  const VaryingField& field() const { return field_; }
+
+  /// In the order that contract() asks for: of time offsets, and of memory.
+  static void sort(std::vector<ActiveVertex>& active);
+
+  /// The histories in the mesh's space, weighted and in its units, to within the field's
+  /// contraction_tolerance(). A vertex of the cut has a second one for the time before the blade has passed
+  /// it. The displacement of vertex v goes to number v + `shift`. `reach`: that of ReplayPieces.
+  ReplayPieces contract(const std::vector<ActiveVertex>& sorted, int shift = 0,
+                        double reach = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  void history(const ActiveVertex& vertex, Side side, History& out) const;
+
+  VaryingField field_;
+  double scale_;
+  std::vector<double> times_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,39 @@
+// What opens the cuts in a skin: one case's field, the same whichever way a cut goes; or fields of three
+// prestresses, superposed as the skin's tension turns against each path.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "explorer/wound/prestress_fields.h"
+
+namespace cleft {
+
+class CutFields {
+ public:
+  explicit CutFields(std::shared_ptr<const Field> one) : one_(std::move(one)) {}
+  /// Without `tension`, every path must have prestresses of its own.
+  CutFields(std::shared_ptr<const PrestressFields> three, const std::optional<SkinTension>& tension)
+      : three_(std::move(three)), tension_(tension) {}
+
+  const Field& shape() const { return one_ ? *one_ : three_->shape(); }
+  bool turning() const { return !one_; }
+
+  /// For a cut whose surroundings are known; must not outlive this. `own`: prestresses along its path, where
+  /// they are known better than by the tension. Throws InputError where one field is asked to turn, or three
+  /// are not told how.
+  VaryingField along(const Incision& cut, double scale, const std::optional<PathPrestress>& own = {}) const;
+
+ private:
+  std::shared_ptr<const Field> one_;
+  std::shared_ptr<const PrestressFields> three_;
+  std::optional<SkinTension> tension_;
+};
+
+/// Of a field file, or of a study.dffd of three cases of other prestress. `direction` (three numbers) and
+/// `prestresses` (two, MPa, in either order) tell the tension, where they are not empty. Throws InputError
+/// where one case's field is given a tension.
+CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,
+                          const std::vector<double>& prestresses);
+
+}  // namespace cleft

@@ -1,0 +1,208 @@
+#include "explorer/wound/ipv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace cleft {
+
+namespace {
+
+/// How far beside the patch, mm, displacements fall to nothing.
+double margin_of(const Field& field) { return (field.domain(1).back - field.domain(1).front) / 4; }
+
+}  // namespace
+
+CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut) {
+  if (length <= cut.length || s < cut.length / 2) return {cut.start + s, 0};
+  if (length - s < cut.length / 2) return {cut.start + cut.length - (length - s), cut.length - length};
+  return {cut.start + cut.length / 2, cut.length / 2 - s};
+}
+
+double reach_of(const Field& field, double scale) {
+  const Interval u = field.domain(0), v = field.domain(1);
+  return (std::max({-v.front, v.back, field.cut().start - u.front,
+                    u.back - field.cut().start - field.cut().length}) +
+          margin_of(field)) /
+         scale;
+}
+
+IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, double scale)
+    : incision_(incision), field_(field), scale_(scale), margin_(margin_of(field)) {
+  labels_ = incision.surroundings().labels();
+  std::vector<int> later(incision.mesh().vertices().size());
+  std::iota(later.begin(), later.end(), 0);
+  later.erase(later.begin(),
+              later.begin() + static_cast<std::ptrdiff_t>(std::min(labels_.size(), later.size())));
+  take_in(later);
+  find_normals();
+  find_room();
+}
+
+void IncisionVolume::follow_path() {
+  const auto& found = incision_.surroundings().labels();
+  labels_.resize(std::max(labels_.size(), found.size()));
+  for (const int v : incision_.surroundings().relabelled()) labels_[v] = found[v];
+  find_normals();
+  find_room();
+}
+
+void IncisionVolume::find_room() {
+  for (auto& side : room_) side.clear();
+  constexpr int pieces = 128;
+  for (int i = 0; i <= pieces; ++i)
+    for (const bool right : {false, true})
+      room_[right].push_back(incision_.path().room_beside(incision_.path().length() * i / pieces, right));
+}
+
+/// Falls smoothly from 1 in the path's half of its room to 0 at the end of it.
+double IncisionVolume::inside_bend(double s, double straight) const {
+  const std::vector<double>& room = room_[straight > 0];
+  const double at = std::clamp(s / incision_.path().length(), 0., 1.) * static_cast<double>(room.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), room.size() - 2);
+  const double part = at - static_cast<double>(i);
+  // The inverse of the room, a curvature, is linear between places: there is none beside a straight piece.
+  const double used = std::abs(straight) * ((1 - part) / room[i] + part / room[i + 1]);
+  const double x = std::clamp(2 * used - 1, 0., 1.);
+  return 1 - x * x * (3 - 2 * x);
+}
+
+void IncisionVolume::take_in(const std::vector<int>& vertices) {
+  const CutMesh& mesh = incision_.mesh();
+  labels_.resize(std::max(mesh.vertices().size(), incision_.surroundings().labels().size()));
+  for (const int v : vertices) {
+    if (static_cast<std::size_t>(v) < incision_.surroundings().labels().size()) continue;
+    labels_[v] = Surroundings::of_parents(mesh, v, labels_);
+  }
+}
+
+/// The skin's normal along the path, at rest, even where its triangles are not: a mean over the triangles
+/// under it, as far along as the cut is deep. The blade may be tilted against it; the field is not.
+void IncisionVolume::find_normals() {
+  const auto& stations = incision_.surroundings().stations();
+  station_.clear(), normal_.clear();
+  const double reach = std::max(field_.cut().depth / scale_, 1e-3 * incision_.path().length());
+  for (const auto& at : stations) {
+    Vec3 sum = 1e-9 * at.length * at.normal;
+    const auto from = std::partition_point(stations.begin(), stations.end(),
+                                           [&](const auto& other) { return other.s < at.s - reach; });
+    for (auto other = from; other != stations.end() && other->s < at.s + reach; ++other)
+      sum += (1 - std::abs(other->s - at.s) / reach) * other->length * other->normal;
+    const Vec3 blade = incision_.path().at(at.s).outward;
+    station_.push_back(at.s);
+    normal_.push_back(dot(sum, blade) > 0 ? normalized(sum) : blade);
+  }
+}
+
+PathFrame IncisionVolume::skin_frame(double s) const {
+  PathFrame frame = incision_.path().at(s);
+  if (!station_.empty()) {
+    const auto next =
+        static_cast<std::size_t>(std::upper_bound(station_.begin(), station_.end(), s) - station_.begin());
+    const std::size_t a = next == 0 ? 0 : next - 1, b = std::min(next, station_.size() - 1);
+    const double part =
+        station_[b] > station_[a] ? std::clamp((s - station_[a]) / (station_[b] - station_[a]), 0., 1.) : 0;
+    frame.outward = normalized(lerp(normal_[a], normal_[b], part));
+  }
+  frame.along = normalized(frame.along - dot(frame.along, frame.outward) * frame.outward);
+  frame.across = cross(frame.outward, frame.along);
+  return frame;
+}
+
+/// Of which side of this wound a vertex is that is not its own: by the walls around it, else by the lips
+/// beside it.
+IncisionVolume::WoundSide IncisionVolume::side_of_wound(int v) const {
+  const CutMesh& mesh = incision_.mesh();
+  bool left = false, right = false, left_beside = false, right_beside = false;
+  for (const int t : mesh.fan(v)) {
+    const CutMesh::Triangle& triangle = mesh.triangle(t);
+    if (triangle.sheet >= 0) {
+      if (mesh.sheets()[triangle.sheet].cut == incision_.cut())
+        (triangle.region == Region::left_wall ? left : right) = true;
+      continue;
+    }
+    for (const int other : triangle.vertex)
+      if (mesh.vertex(other).cut == incision_.cut()) {
+        const Side side = cleft::side_of(mesh.vertex(other).kind);
+        left_beside = left_beside || side == Side::left;
+        right_beside = right_beside || side == Side::right;
+      }
+  }
+  const bool on_wall = left || right;
+  if (!on_wall) left = left_beside, right = right_beside;
+  return {left == right ? Side::both : left ? Side::left : Side::right, on_wall};
+}
+
+std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
+  const CutMesh::Vertex& vertex = incision_.mesh().vertex(v);
+  if (vertex.cut == incision_.cut())  // lips, walls and closed ends know where they are
+    return Place{vertex.s, 0, -vertex.depth_fraction * field_.cut().depth, side_of(vertex.kind), true, 0};
+  const Surroundings::Label& label = labels_[v];
+  if (!label.reached) return std::nullopt;
+  const PathCoordinates at = incision_.path().coordinates(vertex.position);
+  const double straight = std::abs(at.v) <= 1e-9 * incision_.path().length() ? 0 : at.v;
+  const auto [wound, on_wall] = side_of_wound(v);
+  Side side = wound == Side::both ? label.side : wound;
+  if (side == Side::both) side = side_of(straight);
+  return Place{at.s, across(straight, label.detour, side), -vertex.depth * scale_, side, on_wall, straight};
+}
+
+/// Signed. Between the curve and its chords, and where the curve is as far on both sides, v's sign may be
+/// another than the side.
+double IncisionVolume::across(double straight, double detour, Side side) const {
+  return side == Side::left    ? std::min(straight, 0.0) - detour
+         : side == Side::right ? std::max(straight, 0.0) + detour
+                               : 0;
+}
+
+std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
+  const std::optional<Place> at = place_of(vertex);
+  return at ? activate(vertex, *at) : std::nullopt;
+}
+
+std::optional<ActiveVertex> IncisionVolume::locate_below(const Vec3& place, double depth, int nearest,
+                                                         Side side) const {
+  const Surroundings::Label& label = labels_[nearest];
+  if (!label.reached) return std::nullopt;
+  const PathCoordinates at = incision_.path().coordinates(place);
+  const double straight = std::abs(at.v) <= 1e-9 * incision_.path().length() ? 0 : at.v;
+  if (side == Side::both) side = side_of(straight);
+  // As deep as the blade is as deep as the canonical cut; below, depths differ by the same.
+  const double own = incision_.path().depth(at.s) * scale_, canonical = field_.cut().depth;
+  const double w = depth < own ? -depth / own * canonical : own - depth - canonical;
+  return activate(-1, {at.s, across(straight, label.detour, side), w, side, false, straight});
+}
+
+std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at) const {
+  const ScalpelPath& path = incision_.path();
+  const CanonicalPlace place = canonical_place(at.s * scale_, path.length() * scale_, field_.cut());
+  const double v = at.across * scale_;
+  const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
+  const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
+  const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
+  const double weight =
+      outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * inside_bend(at.s, at.straight) : 0;
+  if (weight <= 0) return std::nullopt;
+  const PathFrame frame = skin_frame(at.s);
+  const double lift = lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));
+  return ActiveVertex{
+      vertex,        {u_in, v_in, at.w}, at.side,           frame.along, frame.across + lift * frame.outward,
+      frame.outward, at.s * scale_,      place.time_offset, weight,      at.on_cut};
+}
+
+/// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two
+/// thirds of the tilt, as the solver's tilted cuts show (tests/truth), and the more the nearer to the cut.
+double IncisionVolume::lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const {
+  const double tilt = std::atan2(-dot(blade, skin.across), dot(blade, skin.outward));
+  return std::tan(2. / 3 * tilt) * std::exp(-v / (1.5 * field_.cut().depth));
+}
+
+std::vector<ActiveVertex> active_vertices(const Incision& incision, const Field& field, double scale) {
+  const IncisionVolume volume(incision, field, scale);
+  std::vector<ActiveVertex> active;
+  for (std::size_t v = 0; v < incision.mesh().vertices().size(); ++v)
+    if (const auto one = volume.locate(static_cast<int>(v))) active.push_back(*one);
+  return active;
+}
+
+}  // namespace cleft

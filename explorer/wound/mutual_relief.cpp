@@ -1,0 +1,116 @@
+#include "explorer/wound/mutual_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace cleft {
+
+namespace {
+
+/// The tension across `cut` at one of its stations: as it is given, and what another cut's field adds.
+struct Influence {
+  std::size_t cut, by;
+  std::size_t station;
+  double s;      // of the other's path
+  double ratio;  // of its change to the tension
+};
+
+double linear(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const std::size_t next = std::upper_bound(x.begin(), x.end(), at) - x.begin();
+  if (next == 0) return y.front();
+  if (next == x.size()) return y.back();
+  const double part = (at - x[next - 1]) / (x[next] - x[next - 1]);
+  return (1 - part) * y[next - 1] + part * y[next];
+}
+
+/// Skin and tissue as a field's case has them.
+struct Stiffness {
+  double thickness, skin_young, skin_poisson, shear, lame;  // the last two of the tissue
+
+  explicit Stiffness(const Field& field)
+      : thickness(parameter_of(field, "skin.thickness")),
+        skin_young(parameter_of(field, "skin.young_modulus")),
+        skin_poisson(parameter_of(field, "skin.poisson_ratio")) {
+    const double young = parameter_of(field, "tissue.young_modulus"),
+                 poisson = parameter_of(field, "tissue.poisson_ratio");
+    shear = young / (2 * (1 + poisson));
+    lame = 2 * shear * poisson / (1 - 2 * poisson);
+  }
+};
+
+/// What another cut's field changes of the force across a line with normal `n`, N for each mm of it: in the
+/// skin (plane stress), and in the tissue as deep as the cut (the tissue has no prestress, but it presses on
+/// the walls where the skin draws it together).
+double change_across(const CutInTension& other, const Stiffness& is, const ActiveVertex& at, const Vec3& n,
+                     double blade) {
+  const CanonicalCut& cut = other.field->shape().cut();
+  const double t = std::clamp(blade + at.time_offset, 0., cut.length);
+  double a = dot(n, at.along), b = dot(n, normalized(at.across));
+  const double length = std::hypot(a, b);
+  if (length < 0.1) return 0;  // the surface has turned away
+  a /= length, b /= length;
+  const auto strains = [&](double w) {
+    const Derivatives d = other.field->derivatives({at.uvw.x, at.uvw.y, w}, at.side, t, at.s);
+    const double uu = at.weight * d.by_u.x, vv = at.weight * d.by_v.y,
+                 uv = at.weight * (d.by_u.y + d.by_v.x) / 2, ww = at.weight * d.by_w.z;
+    return std::array{uu * a * a + 2 * uv * a * b + vv * b * b, uu + vv,
+                      ww};  // across the line, in plane, upright
+  };
+  const auto [across, in_plane, upright] = strains(0);
+  const double nu = is.skin_poisson;
+  double force = is.thickness * is.skin_young / (1 - nu * nu) * ((1 - nu) * across + nu * in_plane);
+  constexpr int layers = 6;
+  for (int i = 0; i < layers; ++i) {
+    const auto [nn, plane, up] = strains(-cut.depth * (i + 0.5) / layers);
+    force += cut.depth / layers * (2 * is.shear * nn + is.lame * (plane + up));
+  }
+  return force;
+}
+
+}  // namespace
+
+double Amplitude::at(double s) const { return linear(stations, values, s); }
+
+std::vector<Amplitude> mutual_relief(const std::vector<CutInTension>& cuts, double blade) {
+  std::vector<Amplitude> result(cuts.size());
+  std::vector<Influence> influences;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const CutInTension& cut = cuts[i];
+    for (const Incision::ChainVertex& c : cut.incision->chain()) {
+      const double s = c.s * cut.volume->scale();
+      if (!result[i].stations.empty() && s <= result[i].stations.back()) continue;
+      const std::size_t station = result[i].stations.size();
+      result[i].stations.push_back(s);
+      const Vec3 normal = cut.volume->skin_frame(c.s).across;
+      for (std::size_t j = 0; j < cuts.size(); ++j) {
+        if (j == i) continue;
+        const std::optional<ActiveVertex> at = cuts[j].volume->locate(c.left);
+        if (!at) continue;
+        const bool last = j + 1 == cuts.size();
+        const Incision& other = *cuts[j].incision;  // one that was led ends where its blade left it
+        const double whole = other.led() > 0 ? other.tip() : other.path().length(),
+                     there = last ? blade : whole * cuts[j].volume->scale();
+        const double tension = cut.field->load("skin.prestress_v", s);
+        if (!(tension > 0)) continue;
+        const Stiffness stiffness(cuts[j].field->shape());
+        const double change = change_across(cuts[j], stiffness, *at, normal, there);
+        influences.push_back({i, j, station, at->s, change / (stiffness.thickness * tension)});
+      }
+    }
+    result[i].values.assign(result[i].stations.size(), 1);
+  }
+  // Fixed point, halfway each time: parallel cuts close together relieve each other nearly wholly.
+  for (int round = 0; round < 60; ++round) {
+    std::vector<std::vector<double>> next;
+    for (const Amplitude& amplitude : result) next.emplace_back(amplitude.values.size(), 1);
+    for (const Influence& x : influences) next[x.cut][x.station] += x.ratio * result[x.by].at(x.s);
+    for (std::size_t i = 0; i < result.size(); ++i)
+      for (std::size_t k = 0; k < next[i].size(); ++k)
+        result[i].values[k] += 0.5 * (std::clamp(next[i][k], 0., 3.) - result[i].values[k]);
+  }
+  return result;
+}
+
+}  // namespace cleft

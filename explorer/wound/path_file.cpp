@@ -1,0 +1,50 @@
+#include "explorer/wound/path_file.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace cleft {
+
+namespace {
+
+const std::vector<std::string> prestress_columns{"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
+
+}  // namespace
+
+ScalpelPath read_path(const std::string& file, double depth, double scale, const Field* field) {
+  const NumberTable table = read_csv(file);
+  ScalpelPath path = ScalpelPath::from_table(table, file, prestress_columns);
+  if (depth > 0)
+    path.set_depth(depth / scale);
+  else if (table.column("depth") < 0 && field)
+    path.set_depth(field->cut().depth / scale);
+  else if (table.column("depth") < 0)
+    throw FileError(file, "has no column 'depth', and there is no field that knows one: give --depth in mm");
+  return path;
+}
+
+std::optional<PathPrestress> read_prestress(const std::string& file, const ScalpelPath& path, double scale) {
+  const NumberTable table = read_csv(file);
+  int column[3];
+  for (int i = 0; i < 3; ++i) column[i] = table.column(prestress_columns[i]);
+  if (std::max({column[0], column[1], column[2]}) < 0) return std::nullopt;
+  const int x = table.column("x"), y = table.column("y"), z = table.column("z");
+  PathPrestress result;
+  double s = 0;
+  Vec3 before;
+  for (const auto& row : table.rows) {
+    const auto at = [&row](int i) { return i < 0 ? 0 : row[i]; };
+    const Vec3 here{at(x), at(y), at(z)};
+    // The path may come back to where it was: looked for from the point before.
+    if (!result.stations.empty()) s = path.coordinates(here, s, s + 1.5 * norm(here - before)).s;
+    before = here;
+    if (!result.stations.empty() && !(s * scale > result.stations.back())) continue;
+    result.stations.push_back(s * scale);
+    result.values.push_back({at(column[0]), at(column[1]), at(column[2])});
+  }
+  return result;
+}
+
+}  // namespace cleft

@@ -1,0 +1,104 @@
+#include "explorer/wound/prestress_fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace cleft {
+
+namespace {
+
+const char* const names[3] = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
+
+Vec3 prestress_of(const std::map<std::string, double>& parameters) {
+  Vec3 result;
+  for (int i = 0; i < 3; ++i)
+    if (const auto found = parameters.find(names[i]); found != parameters.end()) result[i] = found->second;
+  return result;
+}
+
+/// The first parameter but prestresses in which two cases differ; "" where there is none.
+std::string difference(const PublishedStudy& study, int i, int j) {
+  auto a = study.parameters(i), b = study.parameters(j);
+  for (const char* name : names) a.erase(name), b.erase(name);
+  for (const auto& [name, value] : a)
+    if (const auto found = b.find(name); found == b.end() || found->second != value) return name;
+  const auto c = study.choices(i), d = study.choices(j);
+  for (const auto& [name, value] : c)
+    if (const auto found = d.find(name); found == d.end() || found->second != value) return name;
+  return "";
+}
+
+PublishedStudy all_alike(PublishedStudy study) {
+  for (int i = 1; i < study.size(); ++i)
+    if (const std::string name = difference(study, 0, i); !name.empty())
+      throw InputError(study.path() + ": cases " + study.name(0) + " and " + study.name(i) + " differ in " +
+                       name + "; fields superpose where cases differ in skin.prestress_u, _v and _uv alone");
+  return study;
+}
+
+}  // namespace
+
+PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension) {
+  PathPrestress result;
+  constexpr int pieces = 128;
+  const double mean = (tension.larger + tension.smaller) / 2, half = (tension.larger - tension.smaller) / 2;
+  for (int i = 0; i <= pieces; ++i) {
+    const double s = length * i / pieces;
+    const PathFrame frame = volume.skin_frame(s);
+    const double along = dot(tension.direction, frame.along), across = dot(tension.direction, frame.across);
+    if (std::hypot(along, across) < 0.02 * norm(tension.direction))
+      throw InputError("the tension stands upright on the skin " + shortest(s) +
+                       " mesh units along the path; give its direction in the skin");
+    const double twice = 2 * std::atan2(across, along);
+    result.stations.push_back(s * volume.scale());
+    result.values.push_back(
+        {mean + half * std::cos(twice), mean - half * std::cos(twice), half * std::sin(twice)});
+  }
+  return result;
+}
+
+PrestressFields::PrestressFields(const std::string& study_file)
+    : PrestressFields(all_alike(PublishedStudy(study_file)), 0) {}
+
+PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
+  const auto chosen = [&](const char* name) {
+    const auto found = study.choices(like).find(name);
+    return found != study.choices(like).end() && found->second == "true";
+  };
+  if (chosen("cut.contact") || chosen("skin.initial_stress_stiffness"))
+    throw InputError(study.path() +
+                     ": fields do not superpose with cut.contact or skin.initial_stress_stiffness");
+  Vec3 p[3];
+  for (int i = 0; i < study.size() && fields_.size() < 3; ++i) {
+    if (!difference(study, like, i).empty()) continue;
+    const std::size_t n = fields_.size();
+    p[n] = prestress_of(study.parameters(i));
+    const double size = norm(p[n]);
+    const double independent = n == 0   ? size
+                               : n == 1 ? norm(cross(p[0], p[1])) / norm(p[0])
+                                        : std::abs(dot(cross(p[0], p[1]), p[2])) / norm(cross(p[0], p[1]));
+    if (!(independent > 1e-3 * size)) continue;
+    fields_.push_back(study.read(i));
+  }
+  if (fields_.size() < 3)
+    throw InputError(study.path() +
+                     ": a tension that turns needs three cases that differ in skin.prestress_u, _v and _uv "
+                     "alone and whose prestresses are independent, such as (0.01, 0, 0), (0, 0.01, 0) and "
+                     "(0.01, 0.01, 0.005) MPa");
+  const double volume = dot(cross(p[0], p[1]), p[2]);
+  for (int i = 0; i < 3; ++i) inverse_[i] = 1 / volume * cross(p[(i + 1) % 3], p[(i + 2) % 3]);
+}
+
+VaryingField PrestressFields::along(const PathPrestress& prestress) const {
+  std::vector<std::vector<double>> weights;
+  for (const Prestress& at : prestress.values) {
+    std::vector<double>& row = weights.emplace_back();
+    for (const Vec3& inverse : inverse_) row.push_back(dot(inverse, {at.uu, at.vv, at.uv}));
+  }
+  return {{&fields_[0], &fields_[1], &fields_[2]}, prestress.stations, std::move(weights)};
+}
+
+}  // namespace cleft

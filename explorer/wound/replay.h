@@ -1,0 +1,51 @@
+// The wound at any position of the blade: every frame is computed from the REST positions, so that time runs
+// both ways and nothing accumulates.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "explorer/incision/incision.h"
+#include "explorer/wound/ipv.h"
+#include "explorer/wound/replay_pieces.h"
+#include "explorer/wound/varying_field.h"
+
+namespace cleft {
+
+class Contractor;
+
+class Replay {
+ public:
+  /// Contracts the field once for each active vertex, to within its contraction_tolerance(). `scale` is mm
+  /// per mesh unit. Vertices that never move by more than `detail` mm stay where they are, and cost nothing.
+  Replay(const VaryingField& field, const Incision& incision, double scale, double detail = 0);
+
+  /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
+  /// for each vertex of the incision's mesh. Allocates nothing.
+  void positions(double s, std::span<Vec3> out) const;
+
+  double path_length() const { return path_length_; }  ///< mm
+  std::size_t vertex_count() const { return rest_->size(); }
+  const std::vector<ActiveVertex>& active() const { return active_; }
+  std::size_t left_out() const { return left_out_; }  ///< vertices that move too little
+  /// active()[i] never moves by more, mm: control points bound it.
+  double bound(std::size_t i) const { return scale_ * pieces_.bound(i); }
+  const std::vector<Vec3>& rest() const { return *rest_; }
+
+  /// The same in which only active()[chosen[k]] move, bit for bit as before; `chosen` ascends.
+  Replay of(const std::vector<std::size_t>& chosen) const;
+
+ private:
+  Replay(const Contractor& contractor, const Incision& incision, const Field& shape, double scale);
+  Replay(const Replay& whole, ReplayPieces few)
+      : path_length_(whole.path_length_), scale_(whole.scale_), rest_(whole.rest_), pieces_(std::move(few)) {}
+
+  double path_length_, scale_;
+  std::shared_ptr<const std::vector<Vec3>> rest_;
+  std::vector<ActiveVertex> active_;  // in the order of their time offsets
+  std::size_t left_out_ = 0;
+  ReplayPieces pieces_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,166 @@
+#include "explorer/wound/validity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/text.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// In lengths of the canonical cut, of the figures in tests/truth/README.md.
+constexpr double least_radius = 2. / 3, least_radius_not_turned = 2.7, least_spacing = 0.4;
+constexpr double greatest_tilt = 45, greatest_defect = 0.1;
+// A branch was compared at a right angle, pulled 1 : 3 and alike along the cut that it leaves and across it.
+constexpr double greatest_junction_tension = 1.01 / 3, least_junction_sine = 0.87;
+
+std::string rounded(double x) { return shortest(std::round(10 * x) / 10); }
+
+double smallest_radius(const ScalpelPath& path) {
+  double least = infinity;
+  for (int i = 0; i <= 128; ++i)
+    for (const bool right : {false, true})
+      least = std::min(least, path.room_beside(path.length() * i / 128, right));
+  return least;
+}
+
+/// The path, but what lies ahead of a blade whose way is found as it goes.
+ScalpelPath way_of(const Incision& incision) {
+  return incision.led() > 0 ? incision.path().until(incision.led()) : incision.path();
+}
+
+double largest_tilt(const CutInTension& cut, double length) {
+  double least = 1;  // cosine
+  for (int i = 0; i <= 128; ++i) {
+    const double s = length * i / 128;
+    least = std::min(least, dot(cut.volume->skin_frame(s).outward, cut.incision->path().at(s).outward));
+  }
+  return std::acos(least) * 180 / std::numbers::pi;
+}
+
+/// The opening of the canonical cut at its widest, when it has come to t.
+double opening(const Field& field, double t) {
+  double widest = 0;
+  for (int i = 1; i < 16; ++i) {
+    const Vec3 place{field.cut().start + t * i / 16, 0, 0};
+    widest = std::max(
+        widest, norm(field.displacement(place, Side::right, t) - field.displacement(place, Side::left, t)));
+  }
+  return widest;
+}
+
+/// Aitken: openings at equal steps of length that near their limit by equal factors.
+double length_defect(const Field& field) {
+  const double length = field.cut().length, a = opening(field, length / 2), b = opening(field, 0.75 * length),
+               c = opening(field, length);
+  const double bend = (b - a) - (c - b);
+  if (!(c > 0) || c <= b) return 0;
+  return bend > 0 ? (c - b) * (c - b) / bend / c : infinity;
+}
+
+/// A place of a cut's path on the wound of another.
+struct Junction {
+  std::size_t other;
+  double tension;  ///< along the other over across it
+  double sine;     ///< of the angle between the two
+};
+
+std::vector<Junction> junctions_of(const std::vector<CutInTension>& cuts, std::size_t i) {
+  const Incision& own = *cuts[i].incision;
+  std::vector<Junction> found;
+  for (const auto& c : own.chain()) {
+    const CutMesh::Vertex& vertex = own.mesh().vertex(c.left);
+    for (std::size_t j = 0; j < cuts.size(); ++j) {
+      if (j == i || vertex.cut != cuts[j].incision->cut()) continue;
+      const double s = vertex.s * cuts[j].volume->scale();
+      const double across = cuts[j].field->load("skin.prestress_v", s);
+      const Vec3 along = cuts[j].incision->path().at(vertex.s).along;
+      found.push_back({j, across > 0 ? cuts[j].field->load("skin.prestress_u", s) / across : infinity,
+                       norm(cross(along, own.path().at(c.s).along))});
+    }
+  }
+  return found;
+}
+
+bool crosses_squarely(const std::vector<Junction>& junctions, std::size_t other) {
+  return std::any_of(junctions.begin(), junctions.end(), [other](const Junction& x) {
+    return x.other == other && x.sine >= least_junction_sine;
+  });
+}
+
+double distance(const CutInTension& a, const CutInTension& b) {
+  double least = infinity;
+  for (const auto& p : a.incision->chain())
+    for (const auto& q : b.incision->chain())
+      least =
+          std::min(least, norm(a.incision->mesh().position(p.left) - b.incision->mesh().position(q.left)));
+  return least * a.volume->scale();
+}
+
+bool pulled_alike(const Field& field) {
+  const auto value = [&](const char* name) {
+    const auto found = field.parameters.find(name);
+    return found == field.parameters.end() ? 0 : found->second;
+  };
+  const double u = value("skin.prestress_u"), v = value("skin.prestress_v");
+  return std::abs(u - v) + 2 * std::abs(value("skin.prestress_uv")) <= 0.05 * (u + v);
+}
+
+}  // namespace
+
+std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool turned) {
+  std::vector<Validity> result;
+  std::vector<std::vector<Junction>> junctions;
+  for (std::size_t i = 0; i < cuts.size(); ++i) junctions.push_back(junctions_of(cuts, i));
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const Field& field = cuts[i].field->shape();
+    const ScalpelPath way = way_of(*cuts[i].incision);
+    const double scale = cuts[i].volume->scale(), canonical = field.cut().length,
+                 length = way.length() * scale;
+    Validity& v = result.emplace_back();
+    v.smallest_radius = smallest_radius(way) * scale;
+    v.largest_tilt = largest_tilt(cuts[i], way.length());
+    v.length_defect = length_defect(field);
+    v.nearest_cut = infinity;
+    double nearest_beside = infinity;  // cuts that meet squarely are none beside each other
+    for (std::size_t j = 0; j < cuts.size(); ++j) {
+      if (j == i) continue;
+      const double way = distance(cuts[i], cuts[j]);
+      v.nearest_cut = std::min(v.nearest_cut, way);
+      if (!crosses_squarely(junctions[i], j) && !crosses_squarely(junctions[j], i))
+        nearest_beside = std::min(nearest_beside, way);
+    }
+    for (const Junction& x : junctions[i])
+      v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
+    const std::string which = cuts.size() > 1 ? "cut " + std::to_string(i + 1) + ": " : "";
+    const auto warn = [&](const std::string& what) {
+      v.warnings.push_back(which + what + ": its opening may be off by more than a tenth");
+    };
+    const bool known = turned || pulled_alike(field);
+    const double radius = canonical * (known ? least_radius : least_radius_not_turned);
+    if (v.smallest_radius < radius)
+      warn("the path bends with a radius of " + rounded(v.smallest_radius) + " mm, below " + rounded(radius) +
+           (known ? "" : " where the tension does not turn with it (give --tension)"));
+    if (v.largest_tilt > greatest_tilt)
+      warn("the blade is tilted by " + rounded(v.largest_tilt) + " degrees, above " + rounded(greatest_tilt));
+    if (length > canonical * (1 + 1e-9) && v.length_defect > greatest_defect)
+      warn("the path is " + rounded(length) + " mm long, and the field's cut of " + rounded(canonical) +
+           " mm is too short for its opening to have come to its width");
+    if (nearest_beside < least_spacing * canonical)
+      warn("another cut comes as near as " + rounded(nearest_beside) + " mm, below " +
+           rounded(least_spacing * canonical));
+    if (const auto pulled = v.junction_tension; pulled && (!known || *pulled > greatest_junction_tension))
+      warn("it meets another cut where the skin is pulled " + shortest(std::round(100 * *pulled) / 100) +
+           " times as hard along that one as across it" +
+           (*pulled > greatest_junction_tension
+                ? ", above 0.33"
+                : ", and the tension does not turn with it (give --tension)"));
+  }
+  return result;
+}
+
+}  // namespace cleft

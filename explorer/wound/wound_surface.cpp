@@ -1,0 +1,19 @@
+#include "explorer/wound/wound_surface.h"
+
+namespace cleft {
+
+WoundSurface wound_surface_of(const CutMesh& mesh, int original_points) {
+  WoundSurface surface;
+  surface.original_points = original_points;
+  for (const CutMesh::Vertex& v : mesh.vertices()) {
+    surface.points.push_back(v.position);
+    surface.depth_fraction.push_back(v.depth_fraction);
+  }
+  for (const CutMesh::Triangle& t : mesh.triangles()) {
+    surface.triangles.push_back(t.vertex);
+    surface.regions.push_back(t.region);
+  }
+  return surface;
+}
+
+}  // namespace cleft

@@ -1,0 +1,142 @@
+// cleft run: a study file to a folder of published cases.
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "base/command/command.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "params/run/case_list.h"
+#include "params/run/estimates.h"
+#include "params/run/local.h"
+#include "params/run/packing.h"
+#include "params/run/run_table.h"
+#include "params/run/slurm.h"
+#include "params/study.h"
+
+using namespace cleft;
+
+namespace {
+
+/// The cases, what is done of them, and what the rest will take by what measured ones took.
+void list_cases(const Study& study, const std::vector<Case>& cases, const std::string& out, int jobs,
+                bool as_json) {
+  const bool exists = std::filesystem::exists(out + "/study.toml");
+  std::vector<CaseStatus> states(cases.size());
+  Estimates estimates;
+  if (exists) {
+    const auto index = StudyFolder(out).index();
+    states = StudyFolder(out).status(cases, index), estimates = Estimates(index);
+  }
+  Json list = Json::array();
+  std::size_t published = 0;
+  double seconds = 0, bytes = 0;
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    list.push_back(case_entry(study, cases[c], states[c]));
+    if (states[c].state == CaseState::published) {
+      ++published;
+      continue;
+    }
+    const CaseSize size = size_of(cases[c].parameters);
+    seconds += estimates.seconds(size).value_or(0), bytes += estimates.bytes(size).value_or(0);
+  }
+  const bool measured = estimates.seconds({1, 1}).has_value();
+  Json figures = {{"cases", list}, {"published", published}, {"to_run", cases.size() - published}};
+  figures["estimated_seconds"] = measured ? Json(std::round(seconds / jobs)) : Json();
+  figures["estimated_bytes"] = measured ? Json(std::round(bytes)) : Json();
+  if (as_json) return print_figures(figures, true);
+  print_cases(list);
+  std::cout << cases.size() << " cases, " << published << " of them published\n";
+  if (published == cases.size()) return;
+  if (measured)
+    std::cout << "the others: about " << as_clock(seconds / jobs) << " with --jobs " << jobs << ", and "
+              << std::ceil(bytes / 1e5) / 10 << " MB on disk, as measured so far\n";
+  else
+    std::cout << "no case of the study has been measured: what they will take is not known yet\n";
+}
+
+Json figures_of(const RunReport& r) {
+  return {{"cases", r.cases},         {"already_published", r.already_published},
+          {"published", r.published}, {"superseded", r.superseded},
+          {"failed", r.failed},       {"interrupted", r.interrupted}};
+}
+
+/// What the command line says, over what the study file says.
+SlurmSettings over(SlurmSettings settings, const SlurmSettings& said) {
+  if (!said.partition.empty()) settings.partition = said.partition;
+  if (!said.account.empty()) settings.account = said.account;
+  if (!said.time.empty()) settings.time = said.time;
+  if (said.cases_per_task > 0) settings.cases_per_task = said.cases_per_task;
+  settings.options.insert(settings.options.end(), said.options.begin(), said.options.end());
+  return settings;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Runs every case of a study and publishes it. Run again, it finishes what is missing.",
+               "cleft run");
+  std::string file, out, launcher = "local";
+  LocalOptions options;
+  options.jobs = 0;
+  bool dry_run = false, json = false;
+  double memory = 0;
+  SlurmSettings slurm;
+  std::string task;
+  app.add_option("STUDY.toml", file, "study file")->required();
+  app.add_option("--out", out, "study folder")->required();
+  app.add_option("--jobs", options.jobs, "cases at a time (default: as many as there are cores)")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--ranks", options.ranks, "MPI ranks of each solve")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  app.add_option(
+         "--threads", options.threads,
+         "threads of each process; a study's numbers are the same, bit for bit, for equal ranks and threads")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  app.add_option("--memory", memory,
+                 "GB that cases may take together, as estimated (default: nine tenths of what is free)")
+      ->check(above(0));
+  app.add_option("--launcher", launcher, "where cases run")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  app.add_option("--partition", slurm.partition, "Slurm: partition");
+  app.add_option("--account", slurm.account, "Slurm: account");
+  app.add_option("--time", slurm.time, "Slurm: time limit of a task, as sbatch takes it");
+  app.add_option("--sbatch", slurm.options,
+                 "Slurm: a further option of sbatch, --sbatch=--mem=4G (repeatable)")
+      ->allow_extra_args(false);
+  app.add_option("--cases-per-task", slurm.cases_per_task,
+                 "Slurm: cases in a task of the array (default: 32)")
+      ->check(CLI::Range(1, 10000));
+  app.add_option("--task", task, "")->group("");  // what a task of the array is called with
+  app.add_flag("--retry-failed", options.retry_failed, "run cases again that have failed before");
+  app.add_flag("--dry-run", dry_run,
+               "print the cases, their state, and what they will take by those measured; run nothing");
+  app.add_flag("--json", json, "print the figures as JSON");
+
+  return run_command(app, argc, argv, [&] {
+    const Study study = read_study(file);
+    const std::vector<Case> cases = cases_of(study);
+    if (options.jobs == 0)
+      options.jobs = std::max(
+          1, static_cast<int>(std::thread::hardware_concurrency()) / (options.ranks * options.threads));
+    if (dry_run) return list_cases(study, cases, out, options.jobs, json);
+    options.memory = memory > 0 ? 1e9 * memory : 0.9 * available_memory();
+    const StudyFolder folder = task.empty() ? StudyFolder::create(out, study) : StudyFolder(out);
+    const RunReport report = !task.empty() ? run_slurm_task(folder, study, cases, options, task)
+                             : launcher == "slurm"
+                                 ? run_slurm(folder, study, cases, options, over(study.slurm, slurm))
+                                 : run_local(folder, study, cases, options);
+    if (task.empty() && report.interrupted == 0 &&
+        report.already_published + report.published + report.superseded > 0)
+      pack_study(out);
+    print_figures(figures_of(report), json);
+    if (report.failed > 0)
+      throw std::runtime_error(std::to_string(report.failed) + " of " + std::to_string(report.cases) +
+                               " cases failed; cleft status " + out + " says why");
+    if (report.interrupted > 0) throw std::runtime_error("interrupted; run the same command again to finish");
+  });
+}
