@@ -23,7 +23,7 @@ const std::vector<ColoringText>& colorings() {
   return all;
 }
 
-const ColoringText& text_of(Coloring coloring) { return colorings().at(coloring); }
+const ColoringText& text_of(Coloring coloring) { return colorings().at(static_cast<std::size_t>(coloring)); }
 
 Coloring coloring_of(const std::string& name) {
   std::vector<std::string> names;

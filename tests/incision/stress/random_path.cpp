@@ -130,7 +130,7 @@ std::string name_of(PathKind kind) {
   static const std::array<const char*, path_kinds> names{"straight",    "wavy",        "spiral",     "eight",
                                                          "zigzag",      "along edges", "near edges", "tiny",
                                                          "off surface", "across"};
-  return names[kind];
+  return names[static_cast<std::size_t>(kind)];
 }
 
 std::optional<ScalpelPath> random_path(const Ground& ground, PathKind kind,

@@ -77,7 +77,7 @@ class Stress {
             << ", cut " << i << ")";
       label_ = label.str();
       ++tally_.paths;
-      ++tally_.paths_of[kind];
+      ++tally_.paths_of[static_cast<std::size_t>(kind)];
       auto cut = one(*path, kind, own);
       if (!cut) continue;
       cuts.push_back(std::move(cut));
@@ -114,7 +114,7 @@ class Stress {
       }
     } catch (const InputError& error) {
       ++tally_.refused;
-      ++tally_.refused_of[kind];
+      ++tally_.refused_of[static_cast<std::size_t>(kind)];
       refused(path, cut.get(), error.what());
       check();
     } catch (const std::exception& error) {
@@ -172,7 +172,7 @@ class Stress {
            (squeezed ? ", squeezed" : ""));
     if (poor && !squeezed && plan_.good)
       violation("a triangle of " + std::to_string(worst / asked) + " of what is asked");
-    tally_.poor_of[kind] += poor;
+    tally_.poor_of[static_cast<std::size_t>(kind)] += poor;
     bool moved = cut.bent();
     for (const auto& c : chain) moved |= !(mesh_.vertex(c.left).original == mesh_.position(c.left));
     if (!moved) {
