@@ -10,8 +10,8 @@
 #include "explorer/scalpel/scalpel_cutting.h"
 #include "haptic/loop.h"
 #include "haptic/real_time.h"
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 

@@ -9,7 +9,7 @@
 #include "base/quantiles.h"
 #include "benchmarks/winding_cut.h"
 #include "explorer/wound/live_replay.h"
-#include "tests/incision/fields.h"
+#include "tests/wound/fields.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "haptic/surface_dent.h"
 #include "haptic/surface_stiffness.h"
-#include "tests/incision/fields.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {

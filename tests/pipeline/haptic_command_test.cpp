@@ -9,10 +9,10 @@
 #include "base/text.h"
 #include "encoder/field/file/field_file.h"
 #include "explorer/io/mesh_file.h"
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 

@@ -7,10 +7,10 @@
 #include "explorer/incision/triangle_quality.h"
 #include "explorer/wound/replay.h"
 #include "explorer/wound/validity.h"
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 #include "tests/support/stability_row.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {

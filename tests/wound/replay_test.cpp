@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 #include "tests/support/allocations.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {

@@ -8,8 +8,8 @@
 #include "haptic/devices/hand.h"
 #include "haptic/surface_stiffness.h"
 #include "tests/haptic/surfaces.h"
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {

@@ -5,8 +5,8 @@
 #include "explorer/scalpel/scalpel_cutting.h"
 #include "explorer/wound/replay.h"
 #include "tests/haptic/surfaces.h"
-#include "tests/incision/fields.h"
 #include "tests/incision/stress/soundness.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {

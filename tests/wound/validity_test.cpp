@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {

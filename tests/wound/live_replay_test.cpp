@@ -7,8 +7,8 @@
 #include <random>
 
 #include "explorer/wound/replay.h"
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {

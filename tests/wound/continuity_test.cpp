@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "explorer/wound/replay.h"
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 #include "tests/incision/self_intersections.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {

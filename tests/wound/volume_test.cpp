@@ -7,9 +7,9 @@
 
 #include "explorer/commands/cut_volume.h"
 #include "explorer/wound/wounds.h"
-#include "tests/incision/fields.h"
 #include "tests/incision/meshes.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {
