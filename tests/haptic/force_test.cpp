@@ -155,6 +155,53 @@ TEST(Force, PunctureThresholdRampAndExit) {
   EXPECT_EQ(led.loop.state().phase, Phase::contact);
 }
 
+/// The model alone, without the passivity controller whose own limit would hide a force that jumps. The tip
+/// slides at `speed` mm/s, 3 mm under a flat sheet, and the sheet gives way once everything is stationary.
+struct Slide {
+  explicit Slide(double speed) : moved{dt * speed, 0, 0}, model(surface, p, strong(), 0) {
+    pose.tip = {-20, 0.2, 1};
+    pose.cutting = false;
+    model.update(pose, dt);
+    for (int k = 0; k < 400; ++k) pose.tip.z -= 0.01, model.update(pose, dt);
+    for (int k = 0; k < 200; ++k) pose.tip += moved, model.update(pose, dt);  // 40 times the filter's time
+    pose.cutting = true;
+    at_puncture = tick();
+  }
+  Vec3 tick() {
+    pose.tip += moved;
+    return model.update(pose, dt);
+  }
+  ForceParameters p;
+  testing::Surface sheet = testing::flat(60, 1);
+  ContactSurface surface{sheet.points, sheet.triangles};
+  Vec3 moved;
+  ForceModel model;
+  ScalpelPose pose;
+  Vec3 at_puncture;
+};
+
+TEST(Force, FadesOverThePunctureTime) {
+  // F(t) = (1 - g) F_puncture + g F_cutting and the stored energy (1 - g)^2 F_puncture^2 / 2 K, with
+  // g = 3 x^2 - 2 x^3 of x = t / puncture_time, for a blade at rest and one that slides along its edge.
+  for (const double speed : {0., 40.}) {
+    Slide slide(speed);
+    const ForceParameters& p = slide.p;
+    const double depth = 3, elastic = p.stiffness * depth;
+    ASSERT_EQ(slide.model.punctures(), 1);
+    EXPECT_NEAR(slide.at_puncture.z, elastic, 1e-9);
+    const double cutting =
+        -p.drag * speed - p.cutting_resistance * depth * std::tanh(speed / p.resistance_speed);
+    const int ticks = static_cast<int>(std::lround(p.puncture_time / dt));
+    for (int k = 1; k <= ticks + 5; ++k) {
+      const double x = std::min(1., static_cast<double>(k) / ticks), g = x * x * (3 - 2 * x);
+      const Vec3 force = slide.tick();
+      EXPECT_NEAR(force.z, (1 - g) * elastic, 1e-9) << "tick " << k << " at " << speed << " mm/s";
+      EXPECT_NEAR(force.x, g * cutting, 1e-9) << "tick " << k << " at " << speed << " mm/s";
+      EXPECT_NEAR(slide.model.stored(), (1 - g) * (1 - g) * elastic * elastic / (2 * p.stiffness), 1e-9);
+    }
+  }
+}
+
 TEST(Force, OneLeapOutOfTheTissueIsOut) {
   const auto s = testing::flat(20, 1);
   const ContactSurface surface(s.points, s.triangles);

@@ -63,6 +63,32 @@ TEST(Loop, RunsAtItsRateAndCounts) {
   EXPECT_TRUE(loop.statistics().overruns > 0 || loop.statistics().ticks >= 299u);
 }
 
+TEST(Loop, ADeviceThatReturnsBeginsWithoutForceAndWithoutWork) {
+  // It is unplugged while it presses with 0.3 N, and plugged in again 30 mm above the surface: there is
+  // neither a rest of the old force nor any work of it over the gap.
+  const auto s = testing::flat(20, 1);
+  const ContactSurface surface(s.points, s.triangles);
+  Mouse mouse;
+  HapticLoop loop(mouse, surface, {});
+  ScalpelPose pose;
+  const auto to = [&](const ScalpelPose& next) {
+    mouse.set(next);
+    loop.update(1e-3);
+  };
+  for (int k = 0; k <= 200; ++k) pose.tip = {0.3, 0.2, 1 - 0.01 * k}, to(pose);
+  for (int k = 0; k < 300; ++k) to(pose);
+  ASSERT_NEAR(loop.state().force.z, 0.3, 0.015);
+  const double delivered = loop.passivity().delivered();
+  for (int k = 0; k < 20; ++k) to(absent(pose));
+  ASSERT_EQ(loop.state().force, Vec3{});
+  pose.tip.z = 30;
+  for (int k = 0; k < 20; ++k) {
+    to(pose);
+    EXPECT_EQ(loop.state().force, Vec3{}) << "tick " << k << " after it came back";
+  }
+  EXPECT_EQ(loop.passivity().delivered(), delivered);
+}
+
 TEST(Loop, RefusesRatesAndLatenciesItCannotHold) {
   const auto s = testing::flat(4, 2);
   const ContactSurface surface(s.points, s.triangles);
