@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "explorer/incision/cut_mesh.h"
+#include "explorer/incision/incision_tolerances.h"
 #include "explorer/incision/scalpel_path.h"
 
 namespace cleft {
-
-constexpr double same_place = 1e-9;  ///< relative to the length at hand
 
 /// Whether the blade pierces a triangle that faces along N: exact for the frame's numbers.
 bool pierces(const CutMesh& mesh, int t, const PathFrame& frame);
@@ -26,9 +25,9 @@ double zero_between(double lo, double hi, const F& f) {
   double at_lo = f(lo), at_hi = f(hi);
   if (!(at_lo > 0)) return lo;
   if (!(at_hi < 0)) return hi;
-  const double enough = 1e-13 * hi;
+  const double enough = IncisionTolerances::zero_accuracy * hi;
   double x = lo;
-  for (int k = 0, last = 0; k < 60 && hi - lo > enough; ++k) {
+  for (int k = 0, last = 0; k < IncisionTolerances::zero_steps && hi - lo > enough; ++k) {
     x = lo + at_lo * (hi - lo) / (at_lo - at_hi);
     const double y = f(x);
     if (y == 0) break;

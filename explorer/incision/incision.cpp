@@ -11,6 +11,12 @@
 
 namespace cleft {
 
+namespace {
+
+using Limits = IncisionTolerances;
+
+}  // namespace
+
 Incision::Incision(const SurfaceMesh& surface, ScalpelPath path, const IncisionOptions& options)
     : Incision(std::make_unique<CutMesh>(surface), nullptr, std::move(path), options) {}
 
@@ -25,12 +31,14 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
       options_(options),
       before_cut_(mesh_.checkpoint()),
       cut_(mesh_.begin_cut()),
-      chord_tolerance_(options.chord_tolerance.value_or(path_.length() / 1000)),
-      longest_step_(path_.length() / 4),  // even a cut inside one triangle has vertices that can open
-      max_edge_(options.max_edge.value_or(path_.length() / 30)),
+      chord_tolerance_(options.chord_tolerance.value_or(path_.length() / Limits::chord_parts)),
+      longest_step_(
+          path_.length() /
+          Limits::longest_piece_parts),  // even a cut inside one triangle has vertices that can open
+      max_edge_(options.max_edge.value_or(path_.length() / Limits::edge_parts)),
       original_triangles_(static_cast<int>(mesh_.triangles().size())),
       worst_before_(smallest_radius_ratio(mesh_)),
-      asked_(0.05 * std::min(0.1, smallest_given_radius_ratio(mesh_))) {
+      asked_(Limits::asked_part * std::min(Limits::fair_ratio, smallest_given_radius_ratio(mesh_))) {
   if (!(path_.smallest_depth() > 0))
     throw InputError("the cut has no depth: give the path a column 'depth', or a depth for all of it");
   mesh_.forget_changes();
@@ -40,13 +48,13 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
       const double height = dot(start.place - path_.at(start.s).position, path_.at(start.s).outward);
       if (options_.refined < path_.length())
         refine_along(mesh_, path_, 0, options_.refined, triangles_at(start), height, max_edge_,
-                     4 * max_edge_);
+                     Limits::growing_band_edges * max_edge_);
       else
-        refine_along(mesh_, path_, height, max_edge_, path_.length() / 8);
+        refine_along(mesh_, path_, height, max_edge_, path_.length() / Limits::band_parts);
       start = find_start();
     }
-    for (int k = 0; k < 60 && start.inside &&
-                    longest_edge_length(mesh_, start.triangle) > room_for_piece * longest_step_ &&
+    for (int k = 0; k < Limits::start_bisections && start.inside &&
+                    longest_edge_length(mesh_, start.triangle) > Limits::room_for_piece * longest_step_ &&
                     bisect(mesh_, start.triangle);
          ++k)
       start = find_start();
@@ -54,7 +62,8 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
     const int first = realise(start);
     grow(first, start.s);
     mend(before_cut_);
-    rows_ = static_cast<int>(std::clamp(path_.largest_depth() / wall_spacing(first, max_edge_), 3.0, 32.0));
+    rows_ = static_cast<int>(std::clamp(path_.largest_depth() / wall_spacing(first, max_edge_),
+                                        Limits::fewest_rows, Limits::most_rows));
     rehearse();
   } catch (...) {
     mesh_.roll_back(before_cut_);
@@ -65,10 +74,14 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
 /// Cuts the first segment and takes it back. What was looked through for the start has driven all else out of
 /// the caches: so the blade finds there what its first steps read and write, instead of waiting for it.
 void Incision::rehearse() {
+  constexpr int most_steps = 6;            // of them some make room only
+  constexpr std::size_t segment_open = 3;  // vertices of the chain: start, one that opens, tip
   const Before untouched = before();
   const bool bent = bent_;
   try {
-    for (int k = 0; k < 6 && chain_.size() < 3 && !state_.left_mesh && next_step().s <= path_.length(); ++k)
+    for (int k = 0; k < most_steps && chain_.size() < segment_open && !state_.left_mesh &&
+                    next_step().s <= path_.length();
+         ++k)
       step_on();
   } catch (const InputError&) {  // for the blade to meet, if it gets there
   }
@@ -105,7 +118,8 @@ void Incision::lead_on(const ScalpelPath::Point& next, double ahead) {
   const PathFrame here = path_.at(tip());
   const double height = dot(mesh_.position(tip_vertex()) - here.position, here.outward);
   if (max_edge_ > 0)
-    refine_along(mesh_, path_, tip(), led_ + 2 * max_edge_, seeds, height, max_edge_, 4 * max_edge_);
+    refine_along(mesh_, path_, tip(), led_ + Limits::growing_ahead_edges * max_edge_, seeds, height,
+                 max_edge_, Limits::growing_band_edges * max_edge_);
   if (options_.reach > 0) surroundings_.lead_on(mesh_, path_, tip(), ahead, triangle_ahead());
   cut_on_to(led_);
 }
@@ -115,7 +129,7 @@ void Incision::cut_on_to(double s) {
   if (s < tip() || (!provisional_ && (s == tip() || state_.left_mesh))) return;
   if (provisional_) roll_back(*provisional_);
   provisional_.reset();
-  const double same = 1e-12 * path_.length();
+  const double same = Limits::same_s * path_.length();
   while (!state_.left_mesh && s - tip() > same && next_step().s <= s + same) {
     const Before state = before();
     try {
@@ -130,7 +144,7 @@ void Incision::cut_on_to(double s) {
 
   // The blade stands between two vertices of the path: at one of them if it is close, else at one of its own.
   const Step& next = next_step();
-  const double close = options_.snap / 2 * std::min(next.s - tip(), longest_step_);
+  const double close = options_.snap / Limits::path_snap_parts * std::min(next.s - tip(), longest_step_);
   if (s - tip() <= close) return;
   const Step step = next.s - s <= close ? next : shorter(next, s);
   const Before state = before();
@@ -169,14 +183,18 @@ void Incision::step_on() {
 }
 
 void Incision::check_progress() const {
-  constexpr std::size_t steps = 32;
-  if (chain_.size() < steps || tip() - chain_[chain_.size() - steps].s > 1e-6 * path_.length()) return;
+  constexpr std::size_t steps = Limits::stuck_vertices;
+  if (chain_.size() < steps ||
+      tip() - chain_[chain_.size() - steps].s > Limits::stuck_progress * path_.length())
+    return;
   throw InputError("the path runs along a wound near " + place_of(mesh_.position(tip_vertex())) +
                    ", at arc length " + shortest(tip()) + "; lead it across, or away from it");
 }
 
 Incision::Before Incision::before() const {
-  const std::size_t tail = std::min<std::size_t>(chain_.size(), 3);
+  constexpr std::size_t most =
+      3;  // a step changes no earlier ones: the tip, and both ends of a pending piece
+  const std::size_t tail = std::min(chain_.size(), most);
   return {mesh_.checkpoint(),
           chain_.size(),
           {chain_.end() - static_cast<std::ptrdiff_t>(tail), chain_.end()},

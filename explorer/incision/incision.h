@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "explorer/incision/cut_mesh.h"
+#include "explorer/incision/incision_tolerances.h"
 #include "explorer/incision/scalpel_path.h"
 #include "explorer/incision/surroundings.h"
 #include "explorer/incision/walls.h"
@@ -28,7 +29,8 @@ struct IncisionOptions {
   std::optional<double> max_edge;  ///< of triangles near the path; default length / 30; 0: leave them
   std::optional<double>
       chord_tolerance;  ///< how far a straight piece may stray from C(s); default length / 1000
-  double snap = 0.2;    ///< a vertex nearer to the path than this part of its room is moved onto it
+  double snap =
+      IncisionTolerances::snap;  ///< a vertex nearer to the path than this part of its room is moved onto it
   /// How far over the skin beside the path, and beyond its ends, a field may move vertices: the less, the
   /// sooner the cut begins. 0: nothing will be moved.
   double reach = std::numeric_limits<double>::infinity();
@@ -146,8 +148,6 @@ class Incision {
   void check_progress() const;
 
   // What a step changes in the mesh: incision_change.cpp.
-  /// The longest edge of a triangle that a straight piece ends in, in pieces.
-  static constexpr double room_for_piece = 6;
   void take(const Step& step);
   int realise(const Step& step);
   bool made_room(const Step& step);

@@ -10,6 +10,12 @@
 
 namespace cleft {
 
+namespace {
+
+using Limits = IncisionTolerances;
+
+}  // namespace
+
 void Incision::take(const Step& step) {
   const CutMesh::Checkpoint since = mesh_.checkpoint();
   grow(realise(step), step.s);
@@ -24,7 +30,7 @@ void Incision::take(const Step& step) {
 bool Incision::made_room(const Step& step) {
   // A piece much shorter than the triangle it is in would leave slivers: smaller triangles first.
   if (!step.inside) return false;
-  const double most = room_for_piece * norm(step.place - mesh_.position(tip_vertex()));
+  const double most = Limits::room_for_piece * norm(step.place - mesh_.position(tip_vertex()));
   const CutMesh::Checkpoint since = mesh_.checkpoint();
   const int across = step.kind == Step::edge ? mesh_.triangle(step.triangle).neighbor[step.index] : -1;
   bool made = longest_edge_length(mesh_, step.triangle) > most && bisect(mesh_, step.triangle);
@@ -45,22 +51,21 @@ std::array<int, 2> Incision::pending_edge() const {
 }
 
 void Incision::mend(const CutMesh::Checkpoint& since) {
-  constexpr int tries = 6;  // of a sliver that was left, while the blade is near
   const KeptEdge kept = pending_edge();
-  const double bend = chord_tolerance_ / 10;
+  const double bend = chord_tolerance_ / Limits::bend_parts;
   const auto slivers = [&] {
     std::vector<int> list = mesh_.changed_since(since);
     for (const auto& [t, tried] : state_.poor) list.push_back(t);
     return list;
   };
   std::erase_if(state_.poor, [&](const auto& left) {
-    return left.second == tries || left.first >= static_cast<int>(mesh_.triangles().size());
+    return left.second == Limits::tries || left.first >= static_cast<int>(mesh_.triangles().size());
   });
-  mend_slivers(mesh_, slivers(), std::min(0.03, 5 * asked_), 0, kept);
-  bent_ |= mend_slivers(mesh_, slivers(), 2 * asked_, bend, kept);
-  bent_ |= mend_needles(mesh_, mesh_.changed_since(since), 1.2 * asked_, bend, kept);
+  mend_slivers(mesh_, slivers(), std::min(Limits::flat_target, Limits::flat_target_factor * asked_), 0, kept);
+  bent_ |= mend_slivers(mesh_, slivers(), Limits::bent_target_factor * asked_, bend, kept);
+  bent_ |= mend_needles(mesh_, mesh_.changed_since(since), Limits::trial_target_factor * asked_, bend, kept);
   for (auto& [t, tried] : state_.poor) ++tried;
-  const double least = 1e-4 * std::min(0.1, worst_before_);
+  const double least = Limits::no_area_part * std::min(Limits::fair_ratio, worst_before_);
   for (const int t : mesh_.changed_since(since)) {
     if (!mesh_.is_skin(t)) continue;
     const double ratio = radius_ratio(mesh_, t);
@@ -80,7 +85,8 @@ int Incision::realise(const Step& step) {
                ab = mesh_.position(t.vertex[(step.index + 1) % 3]) - a;
     const Vec3 foot = a + (dot(step.place - a, ab) / squared_norm(ab)) * ab;
     const int m = mesh_.split_edge(step.triangle, step.index, step.place);
-    if (norm(step.place - foot) > 1e-12 * norm(ab)) mesh_.edit_vertex(m).original = foot;  // a bent edge
+    if (norm(step.place - foot) > Limits::bent_edge * norm(ab))
+      mesh_.edit_vertex(m).original = foot;  // a bent edge
     return m;
   }
   if (step.kind == Step::face) return mesh_.split_face(step.triangle, step.place);

@@ -13,7 +13,7 @@ namespace cleft {
 
 namespace {
 
-constexpr double near_lip = 0.05;  ///< relative to an edge: an end of the path so near to a lip is on it
+using Limits = IncisionTolerances;
 
 /// Height over longest edge, seen along `normal`: 0 for a degenerate triangle, negative for one turned over.
 double quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
@@ -48,7 +48,7 @@ double quality_around(const CutMesh& mesh, int v, const Vec3& place) {
 }  // namespace
 
 Incision::Step Incision::find_start() const {
-  const double reach = path_.length() / 2;
+  const double reach = path_.length() / Limits::start_height_parts;
   if (const auto start = start_on_face(reach)) return *start;
   if (const auto start = start_on_boundary(reach)) return *start;
   const Vec3 c = path_.at(0).position;
@@ -108,10 +108,12 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing, double to)
     if (const auto exit = exit_at(v, crossing.s)) return exit;
     if (mesh_.vertex(v).kind != VertexKind::skin || (mesh_.on_boundary(v) && !may_move(v, crossing.place))) {
       // What cannot be moved draws the path to itself.
-      if (to_crossing > least / 2 * room || !may_reach(v) || drawn_along_edge(v, crossing.s)) continue;
+      if (to_crossing > least / Limits::path_snap_parts * room || !may_reach(v) ||
+          drawn_along_edge(v, crossing.s))
+        continue;
       // No third wound can be sewn in there; nearer, it would leave needles beside the place.
       if (to_crossing > asked_ * room && wounds_cross_at(v)) continue;
-      least = 2 * to_crossing / room;
+      least = Limits::path_snap_parts * to_crossing / room;
       if (mesh_.on_wound(v))  // not to turn back from there
         step.s = std::clamp(beside(position, crossing.s), crossing.s, path_.length());
       best = step;
@@ -120,22 +122,23 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing, double to)
     if (mesh_.on_boundary(v)) {
       if (to_crossing > least * room) continue;
       least = to_crossing / room;
-      step.place = to_crossing <= same_place * room ? position : crossing.place;
+      step.place = to_crossing <= Limits::same_place * room ? position : crossing.place;
       best = step;
       continue;
     }
     step.s = beside(position, crossing.s);
     const PathFrame frame = path_.at(step.s);
     const double away = std::abs(dot(position - frame.position, frame.across)) / room;
-    if (away > least || step.s - chain_.back().s < 0.1 * room || step.s - crossing.s > longest_step_ ||
-        step.s - path_.length() > options_.snap * room || (step.s > to && to_crossing > options_.snap * room))
+    if (away > least || step.s - chain_.back().s < Limits::least_advance * room ||
+        step.s - crossing.s > longest_step_ || step.s - path_.length() > options_.snap * room ||
+        (step.s > to && to_crossing > options_.snap * room))
       continue;
-    if (away > same_place) {
+    if (away > Limits::same_place) {
       const int triangle = pierced(mesh_, mesh_.skin_fan(v), frame);
       if (triangle >= 0) step.place = piercing_point(mesh_, triangle, frame);
       // On the outline of what the blade sees it passes the vertex by, which then draws the path to itself.
-      if (triangle < 0 ? away * room > chord_tolerance_ / 10
-                       : norm(step.place - position) > 1.5 * options_.snap * room ||
+      if (triangle < 0 ? away * room > chord_tolerance_ / Limits::bend_parts
+                       : norm(step.place - position) > Limits::farther_snap * options_.snap * room ||
                              !keeps_fold(v, step.place, triangle))
         continue;
     }
@@ -148,7 +151,7 @@ std::optional<Incision::Step> Incision::snapped(const Step& crossing, double to)
 
 /// Where, near s, the path passes a place.
 double Incision::beside(const Vec3& place, double s) const {
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < Limits::newton_steps; ++k) {
     const PathFrame frame = path_.at(s);
     s += dot(place - frame.position, frame.along);
   }
@@ -170,7 +173,7 @@ bool Incision::drawn_along_edge(int v, double s) const {
     // The wedge's breadth at w, and how far the path comes nearer to or farther from the edge by itself.
     const double breadth = std::abs(aside(w)), by_itself = std::abs(aside(w) - drawn),
                  least = asked_ * norm(mesh_.position(w) - mesh_.position(v));
-    if (breadth < least && by_itself >= std::max(least / 2, 2 * breadth)) return true;
+    if (breadth < least && by_itself >= std::max(least / 2, Limits::snapped_wedge * breadth)) return true;
   }
   return false;
 }
@@ -197,18 +200,18 @@ std::optional<Incision::Step> Incision::exit_at(int v, double s) const {
   };
   const Vec3 onward = spoke(fan.front(), 1), outline = normalized(onward);
   Step step{Step::vertex, -1, v, position, s};
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < Limits::newton_steps; ++k) {
     const PathFrame frame = path_.at(step.s);
     const double turn = dot(outline, frame.across);  // positive where the path leaves
-    if (turn < 0.1) return std::nullopt;
+    if (turn < Limits::exit_sine) return std::nullopt;
     step.place = position - (dot(position - frame.position, frame.across) / turn) * outline;
     step.s += dot(step.place - frame.position, frame.along);
   }
   const double way = norm(step.place - position), room = mesh_.room(v);
   if (way > options_.snap * std::min(norm(onward), norm(spoke(fan.back(), 2))) || step.s > path_.length() ||
-      step.s - chain_.back().s < 0.1 * room || !may_move(v, step.place))
+      step.s - chain_.back().s < Limits::least_advance * room || !may_move(v, step.place))
     return std::nullopt;
-  return quality_around(mesh_, v, step.place) >= 0.5 * quality_around(mesh_, v, position)
+  return quality_around(mesh_, v, step.place) >= Limits::exit_quality * quality_around(mesh_, v, position)
              ? std::optional(step)
              : std::nullopt;
 }
@@ -229,16 +232,16 @@ bool Incision::may_move(int v, const Vec3& place) const {
   const Vec3 in = mesh_.position(last.vertex[(last.corner(v) + 2) % 3]) - mesh_.position(v);
   const Vec3 step = place - mesh_.position(v);
   const auto parallel = [](const Vec3& a, const Vec3& b) {
-    return norm(cross(a, b)) <= same_place * norm(a) * norm(b);
+    return norm(cross(a, b)) <= Limits::same_place * norm(a) * norm(b);
   };
-  return norm(step) <= same_place * norm(out) || (parallel(in, out) && parallel(step, out));
+  return norm(step) <= Limits::same_place * norm(out) || (parallel(in, out) && parallel(step, out));
 }
 
 /// Whether the path, drawn from its start to another place, would have to turn back at once.
 bool Incision::begins_ahead(const Vec3& start, const Vec3& drawn_to) const {
   const Vec3 way = drawn_to - start;
-  return chain_.empty() && dot(way, path_.at(0).along) > 0.1 * norm(way) &&
-         norm(way) > same_place * path_.length();
+  return chain_.empty() && dot(way, path_.at(0).along) > Limits::ahead_cosine * norm(way) &&
+         norm(way) > Limits::same_place * path_.length();
 }
 
 std::vector<int> Incision::triangles_at(const Step& start) const {
@@ -252,12 +255,13 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
   const bool end = chain_.empty() || s == path_.length();
   for (const int v : t.vertex) {
     const double room = room_of(v), away = norm(place - mesh_.position(v));
-    if (away <= same_place * room && may_reach(v)) return {Step::vertex, -1, v, mesh_.position(v), s};
+    if (away <= Limits::same_place * room && may_reach(v)) return {Step::vertex, -1, v, mesh_.position(v), s};
     const bool own = mesh_.vertex(v).parents[0] >= 0;  // made by cutting
-    if (away <= (own ? 1.5 : 1) * options_.snap * room && may_move(v, place) &&
+    if (away <= (own ? Limits::farther_snap : 1) * options_.snap * room && may_move(v, place) &&
         keeps_fold(v, place, triangle))
       return {Step::vertex, -1, v, place, s};
-    if (end && away <= options_.snap / 2 * room && may_reach(v) && !begins_ahead(place, mesh_.position(v)))
+    if (end && away <= options_.snap / Limits::path_snap_parts * room && may_reach(v) &&
+        !begins_ahead(place, mesh_.position(v)))
       return {Step::vertex, -1, v, mesh_.position(v), s};
   }
   // A new vertex inside the triangle, or where it is close to an edge, one of that edge, bent to go through
@@ -276,11 +280,11 @@ Incision::Step Incision::placed(int triangle, const Vec3& place, double s) const
                           fold(n, unit_normal(mesh_, across)) * away * norm(b - a) <= chord_tolerance_;
     const bool border = across == CutMesh::boundary || mesh_.is_wall(across);
     const bool touches = border &&
-                         away <= (end                           ? near_lip
-                                  : across == CutMesh::boundary ? same_place
+                         away <= (end                           ? Limits::near_lip
+                                  : across == CutMesh::boundary ? Limits::same_place
                                                                 : 0) &&
                          (chain_.empty() || i == (t.corner(tip_vertex()) + 1) % 3);
-    if (!(may_bend && away <= options_.snap / 2) && !touches) continue;
+    if (!(may_bend && away <= options_.snap / Limits::path_snap_parts) && !touches) continue;
     Vec3 on_edge = place;
     if (border) on_edge = lerp(a, b, std::clamp(dot(place - a, b - a) / squared_norm(b - a), 0.0, 1.0));
     if (border && begins_ahead(place, on_edge)) continue;

@@ -15,6 +15,8 @@ namespace cleft {
 
 namespace {
 
+using Limits = IncisionTolerances;
+
 double mean_spoke(const CutMesh& mesh, const std::vector<int>& fan, int v) {
   double sum = 0;
   for (const int t : fan)
@@ -42,8 +44,13 @@ Incision::Track Incision::entered(const std::vector<int>& fan, double size, doub
   // A little ahead of the tip the line is in the triangle that the path enters; how little, depends on how
   // far the path was drawn aside to a vertex.
   const double tip = chain_.back().s;
-  double ahead = 0.1 * size;
-  for (int k = 0; k < 44; ++k, ahead = k == 40 ? 0.15 * size : k > 40 ? 1.5 * ahead : ahead / 2) {
+  constexpr int halvings = Limits::entry_halvings;
+  double ahead = Limits::entry_step * size;
+  for (int k = 0; k < Limits::entry_attempts; ++k) {
+    if (k > 0)
+      ahead = k == halvings  ? Limits::entry_long_step * size
+              : k > halvings ? Limits::entry_growth * ahead
+                             : ahead / 2;
     const double s = std::min(tip + ahead, limit);
     const int triangle = pierced(mesh_, fan, path_.at(s));
     if (triangle >= 0) return {triangle, -1, s};
@@ -62,8 +69,8 @@ Incision::Track Incision::follow(int vertex, double limit) const {
   const double size = mean_spoke(mesh_, fan, vertex);
   Track track = entered(fan, size, limit);
   if (track.triangle < 0) return track;
-  const double step = std::min(0.25 * size, path_.length() / 64);
-  const int rounds = 4 * static_cast<int>(fan.size());
+  const double step = std::min(Limits::follow_step * size, path_.length() / Limits::follow_parts);
+  const int rounds = Limits::turns_around_fan * static_cast<int>(fan.size());
   for (int round = 0; track.s < limit;) {
     const double to = std::min(track.s + step, limit);
     const PathFrame frame = path_.at(to);
@@ -99,7 +106,8 @@ Incision::Track Incision::follow(int vertex, double limit) const {
 
 const Incision::Step& Incision::next_step() {
   if (next_) return *next_;
-  const double s = chain_.back().s, too_short = 0.003 * path_.length();  // a rest not worth a vertex
+  const double s = chain_.back().s,
+               too_short = Limits::shortest_rest * path_.length();  // a rest not worth a vertex
   if (state_.arrived && state_.from < 0 && !go_on_from_wound()) {
     if (path_.length() - s >= too_short) report_end();
     next_ = Step{Step::vertex, -1, -1, {}, std::numeric_limits<double>::infinity()};
@@ -113,9 +121,9 @@ const Incision::Step& Incision::next_step() {
   if (rest) step.s = std::numeric_limits<double>::infinity();
   double within =
       step.s - s;  // the piece's length, halved as often as a vertex ahead draws it to itself again
-  for (int k = 0; k < 40 && !rest && within > same_place * path_.length(); ++k) {
+  for (int k = 0; k < Limits::piece_halvings && !rest && within > Limits::same_place * path_.length(); ++k) {
     const double error = chord_error(mesh_.position(tip), step.place, s, step.s);
-    if (step.s - s > 1.25 * longest_step_)
+    if (step.s - s > Limits::longer_piece * longest_step_)
       within = std::min(within, longest_step_);
     else if (too_soon_at_wound(step))
       within /= 2;
@@ -159,13 +167,14 @@ bool Incision::too_soon_at_wound(const Step& step) const {
 
 bool Incision::wounds_cross_at(int v) const {
   const std::vector<int> places = on_the_same_place(mesh_, v);
-  return std::count_if(places.begin(), places.end(),
-                       [&](int place) { return mesh_.is_skin(mesh_.vertex(place).triangle); }) > 3;
+  return std::count_if(places.begin(), places.end(), [&](int place) {
+           return mesh_.is_skin(mesh_.vertex(place).triangle);
+         }) >= Limits::corners_where_wounds_cross;
 }
 
 bool Incision::go_on_from_wound() {
   const std::vector<int> places = on_the_same_place(mesh_, chain_.back().left);
-  for (const double part : {0.1, 0.03, 0.3, 0.01, 0.003, 0.001})
+  for (const double part : Limits::steps_over_wound)
     for (const int v : places) {
       if (mesh_.triangle(mesh_.vertex(v).triangle).region != Region::skin) continue;
       const std::vector<int> fan = mesh_.skin_fan(v);
@@ -196,7 +205,7 @@ Incision::Step Incision::crossing(const Track& track) const {
 double Incision::chord_error(const Vec3& from, const Vec3& to, double s_from, double s_to) const {
   const Vec3 chord = to - from;
   double largest = 0;
-  constexpr int samples = 8;
+  constexpr int samples = Limits::chord_samples;
   for (int k = 1; k < samples; ++k) {
     const PathFrame frame = path_.at(s_from + (s_to - s_from) * k / samples);
     const Vec3 across = cross(frame.outward, chord);

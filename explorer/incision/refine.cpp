@@ -6,9 +6,13 @@
 #include <tuple>
 #include <vector>
 
+#include "explorer/incision/incision_tolerances.h"
+
 namespace cleft {
 
 namespace {
+
+using Limits = IncisionTolerances;
 
 /// The longest edge; of equally long ones always the same, whichever triangle is asked.
 int longest_edge(const CutMesh& mesh, int t) {
@@ -51,8 +55,9 @@ class EdgeLimit {
   EdgeLimit(const CutMesh& mesh, const ScalpelPath& path, double from, double to, double height,
             double max_edge, double band)
       : mesh_(mesh), max_edge_(max_edge), band_(band) {
-    for (int i = 0; i <= 128; ++i) {
-      const PathFrame frame = path.at(from + (to - from) * i / 128);
+    constexpr int samples = Limits::refinement_samples;
+    for (int i = 0; i <= samples; ++i) {
+      const PathFrame frame = path.at(from + (to - from) * i / samples);
       line_.push_back(frame.position + height * frame.outward);
     }
     low_ = high_ = line_[0];
@@ -67,13 +72,15 @@ class EdgeLimit {
     double outside = 0;  // of the path's box: a cheap lower bound of the distance
     for (int k = 0; k < 3; ++k) outside = std::max({outside, low_[k] - middle[k], middle[k] - high_[k]});
     const auto limit = [&](double distance) {
-      return max_edge_ * (1 + 3 * std::max(0.0, (distance - longest / 2) / band_ - 1));
+      return max_edge_ *
+             (1 + Limits::refinement_growth * std::max(0.0, (distance - longest / 2) / band_ - 1));
     };
     return longest > limit(outside) && longest > limit(distance_to_line(middle));
   }
 
   bool near(int t) const {
-    return distance_to_line(middle_of(t)) < 2 * band_ + edge_length(mesh_, t, longest_edge(mesh_, t));
+    return distance_to_line(middle_of(t)) <
+           Limits::refinement_search * band_ + edge_length(mesh_, t, longest_edge(mesh_, t));
   }
 
  private:

@@ -5,10 +5,13 @@
 #include <limits>
 
 #include "base/error.h"
+#include "explorer/incision/incision_tolerances.h"
 
 namespace cleft {
 
 namespace {
+
+using Limits = IncisionTolerances;
 
 /// Natural cubic spline through values at parameters: C2, and a straight line where the data are one.
 class NaturalSpline {
@@ -63,7 +66,7 @@ ScalpelPath::ScalpelPath(const std::vector<Point>& points) {
   for (const Point& p : points) extent = std::max(extent, norm(p.position - points.front().position));
   for (const Point& p : points) {
     const double step = position.empty() ? 0 : norm(p.position - position.back());
-    if (!position.empty() && step <= 1e-9 * extent) continue;
+    if (!position.empty() && step <= Limits::same_point * extent) continue;
     chord.push_back(position.empty() ? 0 : chord.back() + step);
     position.push_back(p.position);
     if (norm(p.outward) == 0)
@@ -78,7 +81,7 @@ ScalpelPath::ScalpelPath(const std::vector<Point>& points) {
 
   const NaturalSpline curve(chord, position), direction(chord, outward);
   const std::size_t segments = position.size() - 1;
-  const std::size_t pieces = std::max<std::size_t>(2, (256 + segments - 1) / segments);
+  const std::size_t pieces = std::max<std::size_t>(2, (Limits::path_samples + segments - 1) / segments);
   double s = 0;
   for (std::size_t i = 0; i < segments; ++i)
     for (std::size_t k = 0; k < pieces + (i + 1 == segments); ++k) {
@@ -90,7 +93,7 @@ ScalpelPath::ScalpelPath(const std::vector<Point>& points) {
       if (k + 1 == pieces && i + 1 < segments) s += arc_length(curve, i, chord[i + 1] - chord[i], a, 1);
     }
   for (const Sample& sample : samples_)
-    if (norm(cross(sample.tangent, sample.outward)) < 0.05)
+    if (norm(cross(sample.tangent, sample.outward)) < Limits::least_sine)
       throw InputError("a scalpel path: near arc length " + shortest(sample.s) +
                        " the direction (nx, ny, nz) runs along the path; it must point out of the surface");
 }
@@ -176,11 +179,12 @@ double ScalpelPath::lead_on(double s, const Point& next, double beyond) {
   from.tangent = normalized(from.tangent);
   const Vec3 way = next.position - from.position;
   const double chord = norm(way);
-  if (!(chord > 1e-9 * length())) throw InputError("a scalpel path: the next place is the one before");
+  if (!(chord > Limits::same_point * length()))
+    throw InputError("a scalpel path: the next place is the one before");
   Sample to{0, next.position, {}, normalized(next.outward), next.depth};
   // Half of what makes it a circle's arc: a hand's tremor then fades, where it would swing on.
   to.tangent = normalized(1.5 / chord * way - 0.5 * from.tangent);
-  if (norm(cross(to.tangent, to.outward)) < 0.05)
+  if (norm(cross(to.tangent, to.outward)) < Limits::least_sine)
     throw InputError("a scalpel path: near arc length " + shortest(s) +
                      " its direction runs along the path; it must point out of the surface");
   std::vector<Sample> added{from};
@@ -204,7 +208,8 @@ double ScalpelPath::lead_on(double s, const Point& next, double beyond) {
     ahead.position += beyond / pieces_beyond * ahead.tangent;
     added.push_back(ahead);
   }
-  while (!samples_.empty() && samples_.back().s >= from.s - 1e-9 * (1 + from.s)) samples_.pop_back();
+  while (!samples_.empty() && samples_.back().s >= from.s - Limits::same_point * (1 + from.s))
+    samples_.pop_back();
   samples_.insert(samples_.end(), added.begin(), added.end());
   return s;
 }
@@ -218,7 +223,7 @@ double ScalpelPath::room_beside(double s, bool right) const {
   for (const Sample& sample : samples_) {
     const Vec3 away = sample.position - frame.position;
     const double beside = dot(away, aside);
-    if (std::abs(sample.s - s) > 0.05 * length() && beside > 1e-9 * length())
+    if (std::abs(sample.s - s) > Limits::tremor * length() && beside > Limits::straight * length())
       room = std::min(room, squared_norm(away) / (2 * beside));
   }
   return room;
@@ -274,11 +279,11 @@ PathCoordinates ScalpelPath::coordinates(const Vec3& x, double from, double to) 
     s = hi + g_hi;
   else if (g_lo > 0 && g_hi < 0) {
     double g = g_lo;
-    for (int k = 0; k < 60; ++k) {  // secant, kept inside by the bracket (Illinois)
+    for (int k = 0; k < Limits::nearest_steps; ++k) {  // secant, kept inside by the bracket (Illinois)
       s = lo + (hi - lo) * g_lo / (g_lo - g_hi);
       const double before = g;
       g = ahead(s);
-      if (std::abs(g) <= 1e-15 * length()) break;
+      if (std::abs(g) <= Limits::nearest_place * length()) break;
       if (g > 0) {
         lo = s, g_lo = g;
         if (before > 0) g_hi /= 2;
@@ -286,7 +291,7 @@ PathCoordinates ScalpelPath::coordinates(const Vec3& x, double from, double to) 
         hi = s, g_hi = g;
         if (before < 0) g_lo /= 2;
       }
-      if (hi - lo <= 1e-15 * length()) break;
+      if (hi - lo <= Limits::nearest_place * length()) break;
     }
   } else {
     s = g_lo == 0 ? lo : hi;

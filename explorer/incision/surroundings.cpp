@@ -8,9 +8,13 @@
 #include <span>
 #include <tuple>
 
+#include "explorer/incision/incision_tolerances.h"
+
 namespace cleft {
 
 namespace {
+
+using Limits = IncisionTolerances;
 
 /// The skin triangle across edge i of t; beyond a wound, that at the opposite lip; -1: there is none.
 int skin_across(const CutMesh& mesh, int t, int i) {
@@ -47,7 +51,7 @@ class Trace {
       const double now = ahead ? s : -s;
       stuck = now > farthest ? 0 : stuck + 1;
       farthest = std::max(farthest, now);
-      if (stuck > 20 || s < first_ || s > last_) break;
+      if (stuck > Limits::trace_stuck || s < first_ || s > last_) break;
       t = skin_across(mesh_, t, *out);
     }
     return true;
@@ -64,8 +68,9 @@ class Trace {
     const Vec3 p[3] = {mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
     const double longest = std::sqrt(
         std::max({squared_norm(p[1] - p[0]), squared_norm(p[2] - p[1]), squared_norm(p[0] - p[2])}));
+    const double window = Limits::trace_window * longest;
     Corner corner[3];
-    for (int i = 0; i < 3; ++i) corner[i] = {v[i], path_.coordinates(p[i], s - 3 * longest, s + 3 * longest)};
+    for (int i = 0; i < 3; ++i) corner[i] = {v[i], path_.coordinates(p[i], s - window, s + window)};
     int crossing[2], count = 0;
     for (int i = 0; i < 3; ++i)
       if (corner[i].right() != corner[(i + 1) % 3].right()) crossing[count++] = i;
@@ -135,7 +140,7 @@ class Surroundings::Front {
         known_(mesh.vertices().size()) {}
 
   void begin(const std::vector<Corner>& trace) {
-    const double tiny = 1e-9 * path_.length();
+    const double tiny = Limits::in_the_way * path_.length();
     for (const Corner& c : trace)
       front_.push({std::abs(c.at.v), c.vertex, side_of(std::abs(c.at.v) <= tiny ? 0 : c.at.v)});
   }
@@ -155,8 +160,8 @@ class Surroundings::Front {
       Label& label = around_.labels_[v];
       if (label.reached || distance > around_.reach_ || !inside(v)) continue;
       const double detour = distance - std::abs(known(v).v);
-      label = {detour > 1e-9 * (distance + path_.length()) ? detour : 0, static_cast<float>(known(v).s), side,
-               true};
+      label = {detour > Limits::no_detour * (distance + path_.length()) ? detour : 0,
+               static_cast<float>(known(v).s), side, true};
       around_.reached_.push_back(v);
       for (const int t : triangles_of(v))
         for (const int next : mesh_.triangle(t).vertex) go_on(distance, v, next, side);

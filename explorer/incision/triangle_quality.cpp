@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "explorer/incision/incision_tolerances.h"
 
 namespace cleft {
 
 namespace {
 
-constexpr double better = 1.2;  ///< by how much a radius ratio must grow to be worth a change
-constexpr double flat = 1e-9;   ///< height over edge length: the same plane, but for rounding
+using Limits = IncisionTolerances;
 
 struct Quad {
   int a, b, c, d;  // triangles (a, b, c) and (b, a, d)
@@ -29,7 +31,9 @@ class Mender {
   /// By changes each of which is itself for the better.
   void mend(const std::vector<int>& triangles) {
     std::vector<int> work = triangles;
-    for (std::size_t changes = 0, most = 3 * triangles.size() + 12; !work.empty() && changes < most;) {
+    for (std::size_t changes = 0,
+                     most = Limits::changes_per_sliver * triangles.size() + Limits::further_changes;
+         !work.empty() && changes < most;) {
       const int t = work.back();
       work.pop_back();
       if (!is_sliver(t)) continue;
@@ -49,7 +53,7 @@ class Mender {
   /// By splits that are for the better only with the changes that follow.
   void mend_by_trials(const std::vector<int>& triangles) {
     std::vector<int> work = triangles;
-    for (int changes = 0; !work.empty() && changes < 24;) {
+    for (int changes = 0; !work.empty() && changes < Limits::trial_changes;) {
       const int t = work.back();
       work.pop_back();
       if (!is_sliver(t)) continue;
@@ -80,8 +84,9 @@ class Mender {
                &d = mesh_.position(q.d);
     const Vec3 n = cross(d - c, b - a);  // of the quadrilateral, by its diagonals
     const double size = norm(n);
-    const double plane = flat * std::max(norm(b - a), norm(d - c)),
-                 apart = size > 0 ? std::abs(dot(n, a - c)) / size : 1e300;  // between the diagonals
+    const double plane = Limits::flat * std::max(norm(b - a), norm(d - c)),
+                 apart = size > 0 ? std::abs(dot(n, a - c)) / size
+                                  : std::numeric_limits<double>::infinity();  // between the diagonals
     if (apart > std::max(bend, plane)) return 0;
     if (apart > plane && turns(a, b, c, d)) return 0;
     if (dot(cross(d - a, c - a), n) <= 0 || dot(cross(b - d, c - d), n) <= 0) return 0;  // not convex
@@ -96,7 +101,7 @@ class Mender {
       return normalized(cross(q - p, r - p));
     };
     const Vec3 old[] = {unit(a, b, c), unit(b, a, d)};
-    const double least = std::min(0.5, dot(old[0], old[1])) - 0.1;
+    const double least = std::min(Limits::turned_cosine, dot(old[0], old[1])) - Limits::turned_slack;
     for (const Vec3& fresh : {unit(a, d, c), unit(d, b, c)})
       if (std::min(dot(fresh, old[0]), dot(fresh, old[1])) < least) return true;
     return false;
@@ -110,7 +115,7 @@ class Mender {
       if (after <= 0) continue;
       const double before =
           std::min(radius_ratio(mesh_, t), radius_ratio(mesh_, mesh_.triangle(t).neighbor[i]));
-      if (after > better * before && after > most) most = after, best = i;
+      if (after > Limits::better * before && after > most) most = after, best = i;
     }
     if (best < 0) return false;
     if (bend_ > 0 && ratio_after_flip(t, best, 0) <= 0) bent_ = true;
@@ -133,10 +138,11 @@ class Mender {
       return d < 0 ? first : std::min(first, radius_ratio(b, a, mesh_.position(d)));
     };
     const double before = ratio(from, to), at_foot = foot(x, longest);
-    for (const double part : {at_foot < 0.2 || at_foot > 0.8 ? 0.5 : at_foot, at_foot}) {
-      if (!(part > 0.01 && part < 0.99)) continue;
+    const bool near_end = at_foot < Limits::foot_from_end || at_foot > Limits::foot_to_end;
+    for (const double part : {near_end ? 0.5 : at_foot, at_foot}) {
+      if (!far_from_ends(part)) continue;
       const Vec3 place = lerp(from, to, part);
-      if (std::min(ratio(from, place), ratio(place, to)) < better * before) continue;
+      if (std::min(ratio(from, place), ratio(place, to)) < Limits::better * before) continue;
       mesh_.split_edge(t, longest, place);
       return true;
     }
@@ -162,13 +168,14 @@ class Mender {
     const double before = radius_ratio(mesh_, t),
                  shortest = std::min({length(x, 0), length(x, 1), length(x, 2)});
     Split best{-1, -1, 0};
-    double most = better * before;
+    double most = Limits::better * before;
     for (const auto& [owner, i] : edges_around(t)) {
       const CutMesh::Triangle y = mesh_.triangle(owner);
       if (!may_split(y, i)) continue;
-      const double rung = 16 * shortest / length(y, i);  // beside the short edge of a needle
-      for (const double part : {0.5, foot(y, i), rung, 1 - rung, rung / 4, 1 - rung / 4}) {
-        if (!(part > 0.01 && part < 0.99)) continue;
+      const double rung = Limits::needle_rung * shortest / length(y, i);  // beside the short edge of a needle
+      for (const double part : {0.5, foot(y, i), rung, 1 - rung, rung / Limits::needle_rung_parts,
+                                1 - rung / Limits::needle_rung_parts}) {
+        if (!far_from_ends(part)) continue;
         const double after = ratio_after({owner, i, part}, t);
         if (after > most) most = after, best = {owner, i, part};
       }
@@ -227,6 +234,9 @@ class Mender {
 
   bool may_split(const CutMesh::Triangle& x, int i) const {
     return x.neighbor[i] != CutMesh::non_manifold && !is_kept(x.vertex[i], x.vertex[(i + 1) % 3]);
+  }
+  static bool far_from_ends(double part) {
+    return part > Limits::split_from_end && part < Limits::split_to_end;
   }
   double length(const CutMesh::Triangle& x, int i) const {
     return norm(mesh_.position(x.vertex[(i + 1) % 3]) - mesh_.position(x.vertex[i]));

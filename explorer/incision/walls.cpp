@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "explorer/incision/incision_tolerances.h"
 
 namespace cleft {
 
 namespace {
+
+using Limits = IncisionTolerances;
 
 int add_below(CutMesh& mesh, int top, const Vec3& place, double s, double fraction, double depth, int cut) {
   return mesh.add_vertex(
@@ -78,20 +81,22 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
     if (next < 0) break;
     const double step = norm(mesh.position(next) - mesh.position(v));
     const double left = depth - reached;
-    if (left < step * 0.75 && left < step - 0.1 * spacing) {  // the blade ends on this edge
-      const bool near_upper = left < 0.25 * step && column.size() > 1;
+    if (left < step * Limits::ends_on_edge &&
+        left < step - Limits::ends_before_row * spacing) {  // the blade ends on this edge
+      const bool near_upper = left < Limits::ends_at_upper * step && column.size() > 1;
       if (near_upper) {
         column.opens = true;
         break;
       }
       const int t = mesh.any_triangle_with(v, next);
       CLEFT_CHECK(t, >=, 0);
-      next = mesh.split_edge(t, mesh.triangle(t).corner(v),
-                             lerp(mesh.position(v), mesh.position(next), std::max(left / step, 0.25)));
+      next = mesh.split_edge(
+          t, mesh.triangle(t).corner(v),
+          lerp(mesh.position(v), mesh.position(next), std::max(left / step, Limits::ends_at_upper)));
     }
     column.vertex.push_back(next);
     reached += step;
-    if (reached >= depth - 0.25 * spacing) {
+    if (reached >= depth - Limits::bottom_row * spacing) {
       column.opens = true;
       break;
     }
