@@ -12,23 +12,24 @@ machine=$(sed -n 's/^model name\t: //p' /proc/cpuinfo | head -1)
 cat > "$here/accuracy.md" <<PAGE
 # Speed and size against accuracy
 
-Of the default case (\`cleft solve --help\`), on $(nproc) threads of a machine with "$machine". Made by \`docs/accuracy.sh\`;
-\`cleft chart DIR\` draws the same of any study.
+The default case (\`cleft solve --help\`), on $(nproc) threads of a machine with "$machine". \`docs/accuracy.sh\` makes
+this page; \`cleft chart DIR\` draws the same for any study.
 
 ![charts of error over size, time and rate](accuracy/chart.png)
 
-- Encoded case, encoding, evaluation: the largest error at any node and frame over the largest displacement. zfp is given the
-  errors that the default parametrisation reached; it decodes whole arrays, which is its time for a point, and has no
-  values between nodes.
-- Simulation: the largest error of the opening, over the cut and over time, against the finest mesh, and of a slit in a
-  sheet against its closed form, the middle's opening 4 a tension / E.
-- Replay: cuts that are curved, tilted, longer or beside another one, replayed with the case's field, against the solver's
-  own simulations of them: the largest error of the opening (over frame time, of any vertex of the skin) over the largest
-  opening. "tension turned": three fields of other prestress, superposed as the tension turns against the path. Frame time
-  is that of all vertices of the patch's skin.
-- Force: a blade that presses, slides, trembling at 5 Hz, and leaves, against 8,000 ticks a second. Below the default 1,000
-  the energy observer takes force away to stay passive.
+- Encoded case, encoding, evaluation: the largest error at any node and frame, relative to the largest
+  displacement. zfp gets the errors that the default parametrisation reached as its bounds; it decodes whole
+  arrays, which is its time for a point, and has no values between nodes.
+- Simulation: the largest error of the opening, over the cut and over time, against the finest mesh, and that
+  of a slit in a sheet against its closed form (the opening in the middle, 4 a tension / E).
+- Replay: cuts that are curved, tilted, longer, or next to another cut, replayed with the case's field and
+  compared with the solver's own simulations of them: the largest error of the opening (over frame time: of
+  any vertex of the skin), relative to the largest opening. "tension turned": three fields of different
+  prestress, superposed as the tension turns against the path. The frame time is that of all vertices of the
+  patch's skin.
+- Force: a blade that presses, slides, trembles at 5 Hz, and leaves, against 8,000 ticks a second. Below the
+  default of 1,000 the passivity controller reduces the force.
 
-The numbers are in [accuracy/chart.csv](accuracy/chart.csv). More on replayed and simulated cuts:
-[tests/truth](../tests/truth/README.md). Where methods fail: [stability.md](stability.md).
+[accuracy/chart.csv](accuracy/chart.csv) has the numbers. Further comparisons of replayed and simulated cuts:
+[tests/truth](../tests/truth/README.md). Limits of the methods: [stability.md](stability.md).
 PAGE

@@ -65,7 +65,7 @@ TEST(Stability, FewerNodesThanCoefficients) {
                 rounded(largest_coefficient(encoded.field) / encoded.field.report.largest_displacement) +
                 " times it",
        .noticed = "where a tolerance is given: only rungs that the nodes determine are tried",
-       .then = "second differences hold what the data do not reach"});
+       .then = "the regularisation determines what the data leave free"});
 }
 
 TEST(Stability, HoleInTheCloud) {

@@ -63,11 +63,11 @@ TEST(Stability, PlainModelFailsAboveTheoryAndTheObserverHolds) {
   EXPECT_FALSE(testing::cycles(passive_above)) << passive_above.early << ' ' << passive_above.late;
   record_limit({.method = "forces at 1 kHz",
                 .limit = "tissue stiffer than 2 b / T (0.2 N/mm for a hand of damping b = 1e-4 N s/mm)",
-                .shown = "the plain force of 0.8 N/mm makes " + rounded(plain_above.created) +
-                         " N mm and a held tip goes on swinging by " + rounded(plain_above.late) +
-                         " mm; at 0.1 N/mm the swing falls to " +
-                         rounded(plain_below.late / plain_below.early) + " of itself in 0.6 s",
-                .noticed = "by the energy tank, every tick",
+                .shown = "the plain force of 0.8 N/mm creates " + rounded(plain_above.created) +
+                         " N mm of energy, and a held tip oscillates by " + rounded(plain_above.late) +
+                         " mm; at 0.1 N/mm the oscillation falls to " +
+                         rounded(plain_below.late / plain_below.early) + " of its size in 0.6 s",
+                .noticed = "by the energy tank, in each tick",
                 .then = "the force is rendered as far as the tank pays: " + rounded(passive_above.created) +
                         " N mm made, no cycle"});
 }

@@ -116,10 +116,10 @@ TEST(StudyInterpolator, SaysHowFarOutsideItIsAsked) {
   record_limit({.method = "interpolation between cases",
                 .limit = "parameters outside the study",
                 .shown = "half the spread outside, the field is off by " + rounded(error) +
-                         " of its largest displacement; in the middle it says " + rounded(inside),
-                .noticed = "`cleft interpolate` warns, and the file holds how far outside it is (" +
+                         " of its largest displacement; in the middle the estimate is " + rounded(inside),
+                .noticed = "`cleft interpolate` warns, and the file holds the distance from the study (" +
                            rounded(beyond.interpolation->outside) + ")",
-                .then = "extrapolates; its estimate of the error grows to " +
+                .then = "extrapolates; the estimated error grows to " +
                         rounded(beyond.interpolation->estimated_error)});
 }
 

@@ -93,14 +93,15 @@ TEST(EncoderLimits, TipOutsideThePatch) {
   const FitReport beyond = encoded_on(data.series(), "tip", few_knots).field.report,
                   inside = encoded_on(SyntheticSnapshot(opening).series(), "tip", few_knots).field.report;
   EXPECT_GT(beyond.node_error, 2 * inside.node_error);
-  record_limit({.method = "parametrisation `tip`",
-                .limit = "the tip is told to be outside the patch, or where it is not",
-                .shown = "3 mm ahead of where the data part, and out of the body at the end: node_error " +
-                         rounded(beyond.node_error) + " instead of " + rounded(inside.node_error) +
-                         " on the same knots",
-                .noticed = "wrong by some: `node_error`, which is bounded; outside altogether: " +
-                           quoted(refused, "the tip stands"),
-                .then = "tips beyond the body's end are taken to be at it; outside altogether: exit code 2"});
+  record_limit(
+      {.method = "parametrisation `tip`",
+       .limit = "the file states a tip outside the patch, or at a wrong place",
+       .shown = "3 mm ahead of where the data separate, and outside the body at the end: node_error " +
+                rounded(beyond.node_error) + " instead of " + rounded(inside.node_error) +
+                " on the same knots",
+       .noticed =
+           "at a wrong place: `node_error`, which is bounded; outside: " + quoted(refused, "the tip stands"),
+       .then = "tips beyond the end of the body are moved to it; outside: exit code 2"});
 }
 
 TEST(EncoderLimits, PairsThatCloseNothing) {
@@ -126,14 +127,12 @@ TEST(EncoderLimits, PairsThatCloseNothing) {
     twice = message_of([&] { SyntheticSnapshot data(s, opening); });
     EXPECT_NE(twice.find("/cut/pairs: row 3"), std::string::npos) << twice;
   }
-  record_limit(
-      {.method = "pairs of a snapshot",
-       .limit = "a pair given twice, once either way, or of one node",
-       .shown = std::to_string(lost) +
-                " nodes that should have a pair lose their side: lips that part there would be uncut "
-                "tissue to the fit",
-       .noticed = "reading the file: " + quoted(twice, "/cut/pairs"),
-       .then = "exit code 2"});
+  record_limit({.method = "pairs of a snapshot",
+                .limit = "a pair given twice, once either way, or of one node",
+                .shown = std::to_string(lost) + " nodes that should have a pair lose their side: lips that "
+                                                "separate there would be uncut tissue to the fit",
+                .noticed = "reading the file: " + quoted(twice, "/cut/pairs"),
+                .then = "exit code 2"});
 }
 
 TEST(EncoderLimits, UnevenTimes) {
@@ -151,12 +150,12 @@ TEST(EncoderLimits, UnevenTimes) {
       {.method = "splines in time",
        .limit = "time steps of very different size",
        .shown = "largest error between frames: steps of 1, " + rounded(even.between) +
-                "; with further frames 1e-9 to 1e-3 beside those, " + rounded(crowded.between) +
+                "; with further frames 1e-9 to 1e-3 next to those, " + rounded(crowded.between) +
                 "; with none between t = 2 and 7, " + rounded(gap.between) +
                 " of the largest displacement; no coefficient above " +
                 rounded(std::max({even.coefficient, crowded.coefficient, gap.coefficient})) + " times it",
-       .noticed = "not noticed: errors are those at frames, and the tolerance bounds no others",
-       .then = "second differences in t hold the spline where frames crowd, and where there are none"});
+       .noticed = "not detected: errors are those at frames, and the tolerance bounds no others",
+       .then = "the regularisation in t determines the spline where frames crowd, and where there are none"});
 }
 
 TEST(EncoderLimits, BeyondTheLastFrame) {

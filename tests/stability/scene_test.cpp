@@ -93,7 +93,7 @@ TEST(SceneLimits, TightBends) {
   EXPECT_GT(fine.jump, 0.9 * coarse.jump);              // a jump is one on any mesh
   EXPECT_LT(fine.moved_jump, 0.8 * coarse.moved_jump);  // at the ends a root: 0.71
   record_limit(
-      {.method = "canonical coordinates beside a path",
+      {.method = "canonical coordinates next to a path",
        .limit = "a bend tighter than the patch is wide",
        .shown = "in a bend of 3 mm, half the patch 8 mm wide, u of neighbours 0.5 and 0.25 mm apart jumps "
                 "by " +
@@ -101,7 +101,7 @@ TEST(SceneLimits, TightBends) {
                 " mm (straight: " + rounded(straight.jump) + "), displacements by " +
                 rounded(coarse.moved_jump) + " and " + rounded(fine.moved_jump) + " mm",
        .noticed = "`cleft cut` warns: " + quoted(fine.warning, "the path bends"),
-       .then = "inside the bend displacements fall to nothing before the nearest place jumps"});
+       .then = "inside the bend displacements fall to zero before the nearest place jumps"});
 }
 
 TEST(SceneLimits, Slivers) {
@@ -123,11 +123,11 @@ TEST(SceneLimits, Slivers) {
   record_limit(
       {.method = "cutting triangle after triangle",
        .limit = "slivers",
-       .shown = "across a row of triangles 1 mm long and 1e-10 mm high the cut comes to its end; area, "
+       .shown = "across a row of triangles 1 mm long and 1e-10 mm high the cut reaches its end; area, "
                 "Euler characteristic and edges are kept; the smallest radius ratio becomes " +
                 rounded(worse) + " times that of the given mesh",
        .noticed = "sides of edges are decided by exact predicates",
-       .then = "slivers that a cut makes are mended, given ones are left"});
+       .then = "slivers that a cut makes are repaired, given ones remain"});
 }
 
 TEST(SceneLimits, LongPaths) {
@@ -162,7 +162,7 @@ TEST(SceneLimits, LongPaths) {
            " of itself everywhere; places in 32 bits, as the window draws "
            "them, are off by less than " +
            power_of_ten(place) + " mm",
-       .noticed = "needs no notice: floats are canonical displacements, never places",
+       .noticed = "not needed: floats are canonical displacements, never places",
        .then = "places and the path's s are doubles up to the picture"});
 }
 
@@ -185,7 +185,7 @@ TEST(SceneLimits, FarFromTheOrigin) {
            "gape of the same cut 1e6 mm away: off by less than 1e-9 of itself; 1e12 mm away: less than " +
            power_of_ten(beyond / here - 1),
        .noticed = "not noticed",
-       .then = "the cut is made all the same"});
+       .then = "the cut is made nevertheless"});
 }
 
 }  // namespace cleft

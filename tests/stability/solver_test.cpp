@@ -80,7 +80,7 @@ double gape_of(const Parameters& p) {
 }
 
 const std::string refused_by_rounding =
-    "`cleft solve`: a translation that K^-1 K must give back, once a K; exit code 1 beyond 1e-6";
+    "`cleft solve`: a translation that K^-1 K must reproduce, once for each K; exit code 1 beyond 1e-6";
 
 /// The estimate is no less than the error, nor beyond what makes it useless.
 void expect_estimate(const OpenPatch& open, double generous) {
@@ -204,9 +204,9 @@ TEST(SolverLimits, RedundantConstraints) {
   record_limit({.method = "multipliers for the closed pairs (the paper's S = C K^-1 C^T)",
                 .limit = "redundant and contradictory constraints",
                 .shown = "every pair written twice: S of " + std::to_string(s.rows()) + " rows has rank " +
-                         std::to_string(rank(s)) + ", with contradicting gaps beside it " +
+                         std::to_string(rank(s)) + ", with contradicting gaps next to it rank " +
                          std::to_string(rank(with_gaps)),
-                .noticed = "cannot come up: the unknowns of a pair are its left node and its jump",
+                .noticed = "cannot occur: the unknowns of a pair are its left node and its jump",
                 .then = "a closed pair has no jump: gaps are 0 to the last bit"});
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# table.sh [PRESET]: builds and runs the tests that limits.txt lists, and makes docs/stability.md of their rows.
+# table.sh [PRESET]: builds and runs the tests that limits.txt lists, and makes docs/stability.md from their rows.
 set -eu
 cd "$(dirname "$0")/../.."
 preset=${1:-release}
@@ -14,16 +14,8 @@ for program in $(cut -d' ' -f1 <<<"$list" | sort -u); do
   CLEFT_STABILITY_ROWS=$rows OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
     "build/$preset/tests/$program" --gtest_brief=1 --gtest_filter="$filter"
 done
-new=$rows/table.md
-cat > "$new" <<'TEXT'
-# Stability: where methods fail
-
-Every row is a test that takes the method to where it fails; its numbers are those that the test measured, rounded.
-Made by `tests/stability/table.sh`; the order, and which test makes which row, is in `tests/stability/limits.txt`.
-
-| Method | Limit | What the test shows | Noticed | Then | Test |
-|---|---|---|---|---|---|
-TEXT
-while read -r _ test; do cat "$rows/$test" >> "$new"; done <<<"$list"
-cp "$new" docs/stability.md
+new=$(while read -r _ test; do echo "$rows/$test"; done <<<"$list")
+# shellcheck disable=SC2086
+tests/stability/make_page.py $new > "$rows/page.md"
+cp "$rows/page.md" docs/stability.md
 git --no-pager diff --stat -- docs/stability.md
