@@ -1,4 +1,4 @@
-// Centres of cells: what the data say between the nodes.
+// Centroids of cells, for collocation between the nodes.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace cleft {
 
-/// Centres of a snapshot's cells, where linear elements have the mean of their nodes' displacements. Cells in
-/// or across the plane v = 0 have none: on which side they stand is not said.
+/// Centroids of a snapshot's cells, at which linear elements have the mean of their nodes' displacements.
+/// Cells in or across the plane v = 0 are left out, because their side is unknown.
 struct CellCentres {
   std::vector<Sample> samples;      ///< M
   std::vector<bool> beside_plane;   ///< M: the cell has a node on v = 0
@@ -20,7 +20,7 @@ struct CellCentres {
 
   /// M x 3, of a frame's N x 3.
   Eigen::MatrixX3d mean(const Eigen::MatrixX3d& frame) const;
-  /// Some of them, by number.
+  /// The centroids with the given numbers.
   CellCentres only(const std::vector<std::size_t>& some) const;
 };
 

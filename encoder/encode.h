@@ -15,26 +15,26 @@ namespace cleft {
 
 struct EncodeOptions {
   std::string parametrization = "tip";
-  /// Bound of node_error: the largest error at any node and frame over the largest displacement. The encoder
-  /// takes the smallest knots and the coarsest steps that keep it.
+  /// Bound of node_error: the largest error at any node and frame, relative to the largest displacement. The
+  /// encoder takes the fewest knots and the coarsest quanta that satisfy it.
   double tolerance = 0.01;
-  /// Instead of a tolerance: spans of the bases. The coefficients' steps then cost a hundredth of the error,
-  /// or so.
+  /// Instead of a tolerance: spans of the bases. Rounding of the coefficients then costs about a hundredth of
+  /// the error.
   std::optional<Rung> rung;
 };
 
 struct Encoded {
   Field field;                           ///< with its report
-  std::optional<NodeResidual> residual;  ///< where the spline alone does not keep the tolerance
+  std::optional<NodeResidual> residual;  ///< if the spline alone does not satisfy the tolerance
   std::vector<std::optional<NodeResidual>> of_quantities = {};  ///< the same of field.quantities
 };
 
 /// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the
 /// displacements from frame 0, by regularised least squares over all frames. Coefficients are multiples of
-/// field.quantum. Further quantities of the series are fitted on the knots that the displacement needs, or
-/// that they need where nothing moves; the tolerance bounds them likewise, each over its own largest value.
-/// Derivatives by parameters are fitted on the same knots, and bound by nothing. Without a cut there is no
-/// break, and the parametrisation is "fixed".
+/// field.quantum. Further quantities of the series are fitted on the knots of the displacement, or on knots
+/// of their own if nothing moves; the tolerance bounds each relative to its own largest value. Derivatives by
+/// parameters are fitted on the same knots, without a bound. Without a cut there is no break, and the
+/// parametrisation is "fixed". `progress` is called with the current step.
 Encoded encode(const Series& series, const EncodeOptions& options,
                const std::function<void(const std::string&)>& progress);
 

@@ -1,4 +1,4 @@
-// What a frame adds to a fit in space: its nodes, and centres of cells where nodes alone say too little.
+// The contribution of a frame to a fit in space: its nodes, and cell centroids where nodes are too sparse.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,10 +10,10 @@
 
 namespace cleft {
 
-/// Nodes leave the spline free between them where knots lie closer than they do: beside the cut, and between
-/// its start and the tip while that is near, for there all knots of the canonical cut are at any time. There
-/// the finite elements' own values at the centres of cells, of the same weight as nodes, join the least
-/// squares.
+/// Where knots are closer than nodes, the nodes leave the spline free between them: next to the cut, and
+/// between its start and a tip that is still near, because all knots of the canonical cut are there at any
+/// time. There the least squares also use collocation at cell centroids: the finite elements' own values,
+/// with the weight of nodes.
 class FrameFit {
  public:
   /// Keeps references to `series` and `parametrization`.

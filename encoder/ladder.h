@@ -1,5 +1,5 @@
-// The ladders of knots: nested, in normalised parameters, so that every case can pick its rung alone and
-// cases can still be brought to a common one by inserting knots.
+// The ladder of knots: nested knot vectors in normalised parameters. Each case chooses its rung separately,
+// and knot insertion raises cases to common knots.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace cleft {
 
-/// Numbers of spans. A parametrisation that follows the tip has them before the start of the cut, along it
-/// and ahead of its tip; on each side of v = 0; beside the cut's depth and below its bottom; in time. A fixed
-/// one has no before, after and below.
+/// Numbers of spans. A parametrisation that follows the tip has spans before the start of the cut, along it
+/// and ahead of its tip; on each side of v = 0; above and below the bottom of the cut; in time. A fixed one
+/// has no spans before, after and below.
 struct Rung {
   int before = 1, along = 1, after = 1, across = 1, above = 1, below = 1, time = 1;
 
@@ -21,15 +21,15 @@ struct Rung {
 
 inline constexpr int most_time_spans = 32;
 
-/// Bases over along, across, height and time. A rung with as many or more spans in every number has all knots
-/// of the lesser one. Where the tip is followed, knots crowd toward it and the start, the cut's plane and its
-/// bottom; where the cut begins or ends at the patch's edge or goes through its bottom, there are none
-/// beyond. Without a cut (length 0) `across` has no break. `frames` (more than 1) bounds degree and spans in
-/// time.
+/// Bases over along, across, height and time. A rung with at least as many spans in each number contains all
+/// knots of the other rung. A parametrisation that follows the tip has dense knots near tip, start, plane and
+/// bottom of the cut; it has none beyond a start or end at the edge of the patch, or a bottom at the bottom
+/// of the patch. Without a cut (length 0) `across` has no break. `frames` (more than 1) bounds degree and
+/// spans in time.
 std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& parametrization, int frames);
 
-/// Rungs of growing size, each within the next, with one span in time: how many a series needs there is seen
-/// from the series. Following the tip, what paid early in trials on a few cuts comes first.
+/// Rungs of growing size, each contained in the next. The order of refinement that follows the tip comes from
+/// trials on a few cuts.
 std::vector<Rung> ladder_of(const Parametrization& parametrization);
 
 }  // namespace cleft

@@ -7,12 +7,12 @@
 
 namespace cleft {
 
-/// Errors of a field's spline against the series it stands for, at every node and frame. Keeps what the fit
-/// reported of itself.
+/// Errors of a field's spline against its series, at each node and frame. Copies condition and time of the
+/// fit from the field's report.
 FitReport measure(const Field& field, const Series& series);
 
-/// What the field leaves of the displacements, in steps such that no node is off by more than `bound`, mm.
-/// The field's node_error becomes that of both together.
+/// The residual of the field at the nodes, quantised such that no node differs by more than `bound`, mm. Sets
+/// the field's node_error to that of field and residual together.
 NodeResidual residual_of(Field& field, const Series& series, double bound);
 
 }  // namespace cleft

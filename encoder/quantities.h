@@ -1,4 +1,4 @@
-// Stresses, temperatures and the like beside the displacement, on the same knots.
+// Further quantities such as stresses or temperatures, on the knots of the displacement.
 #pragma once
 
 #include <optional>
@@ -10,17 +10,17 @@
 namespace cleft {
 
 /// The series of three components of a quantity, the first of them `component`, as data of a fit: columns
-/// beyond its last are 0; nodes alone count. largest_displacement is the quantity's largest value.
+/// beyond its last are 0; only nodes are used. largest_displacement is the quantity's largest value.
 Series series_of(const Series& series, const SeriesQuantity& quantity, int component);
 
 struct FittedQuantity {
   Quantity quantity;
-  std::optional<NodeResidual> residual;  ///< where the spline alone does not keep the tolerance
+  std::optional<NodeResidual> residual;  ///< if the spline alone does not satisfy the tolerance
 };
 
 /// Fits a quantity of the series over the bases of the field. `tolerance` bounds its largest error at any
-/// node and frame, over its largest value; without one nothing does, and there is no residual. Control points
-/// are multiples of a step that costs a small part of it, or of the error that there is.
+/// node and frame, over its largest value; without one there is no bound and no residual. Control points are
+/// multiples of a quantum that costs a small part of the tolerance, or of the error.
 FittedQuantity fit_quantity(const Series& series, const SeriesQuantity& data, const Field& field,
                             std::optional<double> tolerance);
 

@@ -8,15 +8,15 @@
 
 namespace cleft {
 
-/// Where data are given: a position, and the side for those on v = 0. Side::both asks both sides for the same
+/// The place of a datum: a position, and the side if it is on v = 0. With Side::both both sides have the
 /// value.
 struct Sample {
   Vec3 uvw;
   Side side;
 };
 
-/// One sample a node, in node order. On v = 0 a node's side comes from /cut/pairs; single nodes there are
-/// uncut.
+/// One sample for each node, in node order. On v = 0 the side of a node comes from /cut/pairs; nodes there
+/// without a partner are uncut.
 std::vector<Sample> samples_of(const Snapshot& snapshot);
 
 }  // namespace cleft

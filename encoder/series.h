@@ -1,4 +1,4 @@
-// A snapshot's time series in memory, as the fit wants it.
+// A snapshot's time series in memory, as the fit uses it.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,10 @@ namespace cleft {
 struct SeriesQuantity {
   std::string name;
   std::vector<Eigen::MatrixXd> frames;  ///< F: N x components
-  double largest = 0;                   ///< Euclidean norm over the components, of all
+  double largest = 0;                   ///< largest Euclidean norm over the components, at any node and frame
 };
 
-/// The displacement's derivative by a parameter, mm per its unit, from frame 0.
+/// The derivative of the displacement from frame 0 by a parameter, mm per unit of the parameter.
 struct SeriesDerivative {
   std::string parameter;
   std::vector<Eigen::MatrixX3d> frames;  ///< F: N x 3; frame 0 is zero
@@ -32,14 +32,14 @@ struct Series {
   std::vector<double> largest;           ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;       ///< mm, of all
   CellCentres centres;
-  std::vector<SeriesQuantity> quantities;     ///< of imported data: what was taken beside the displacement
-  std::vector<SeriesDerivative> derivatives;  ///< of a simulation: those that it knows
+  std::vector<SeriesQuantity> quantities;     ///< of imported data: the fields besides the displacement
+  std::vector<SeriesDerivative> derivatives;  ///< of a simulation: those that the snapshot holds
   FieldGeometry geometry;
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
-  std::vector<std::int32_t> released;              ///< F: how many of them are open
+  std::vector<std::int32_t> released;              ///< F: number of open pairs
 
-  /// Reads all frames: 24 N F bytes. Throws InputError where there are fewer than two frames, or the cut is
-  /// not in the plane v = 0; FileError that names frame and node where a displacement is not finite.
+  /// Reads all frames: 24 N F bytes. Throws InputError if there are fewer than two frames, or the cut is not
+  /// in the plane v = 0; FileError that names frame and node if a displacement is not finite.
   explicit Series(const SnapshotReader& reader);
 };
 

@@ -14,23 +14,23 @@
 
 namespace cleft {
 
-/// How far a spline is from the data of nodes and frames.
+/// The residual of a spline at nodes and frames.
 struct Misfit {
   double largest = 0;  ///< mm
-  double beyond = 0;   ///< share of the nodes and frames that are off by more than a limit
+  double beyond = 0;   ///< share of the nodes and frames whose residual exceeds a limit
 };
 
-/// Of fits of single frames in space, what the knots in space can reach, were every frame on its own: the
-/// frames' shares of nodes that are off by more than `limit`, summed until they are above `most`.
+/// A bound on the quality of knots in space: each of `frames` is fitted separately, and their shares of nodes
+/// whose residual exceeds `limit`, mm, are summed until the sum is above `most`.
 double space_misfit(const Series& series, const Parametrization& parametrization,
                     const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
                     double limit, double most);
 
 /// The least-squares spline in all four variables (see SeriesSystem). Data that are a spline of the space are
-/// reproduced to rounding: there the regularisation is iterated away.
+/// reproduced to rounding, by repeating the fit on its residual.
 class SeriesFit {
  public:
-  /// What the data are in frame 0: nothing, and then the spline is exactly that at t = 0, or anything.
+  /// Data in frame 0: zero (the spline is then exactly 0 at t = 0) or any values.
   enum class Start { zero, any };
 
   /// Keeps references to `series`. `bases` over along, across, height and time.
@@ -42,8 +42,8 @@ class SeriesFit {
   /// are 0 and left out.
   const Eigen::MatrixXd& control_points() const { return control_points_; }
   Misfit misfit(double limit) const;
-  /// The control points that the same normal matrices, as they are factorised, give for other data that are 0
-  /// in frame 0 too: F frames, N x 3.
+  /// The control points for other data that are 0 in frame 0, by the same factorised normal matrices: F
+  /// frames, N x 3.
   Eigen::MatrixXd control_points_of(const std::vector<Eigen::MatrixX3d>& frames) const;
 
   /// All control points, in the order of Field; and the field of them.

@@ -9,28 +9,29 @@
 
 namespace cleft {
 
-/// What holds second differences of the control points in t, relative to what the frames say of them: frames
-/// that are as few as the control points would leave the spline free between them.
+/// Strength of the regularisation in t (second differences of the control points) relative to the data: with
+/// as few frames as control points the spline would be free between the frames.
 inline constexpr double time_roughness = 1e-4;
 
 /// sum over the frames of (b b^T) x N, and time_roughness (D^T D x mean of N): b the values in t, D second
-/// differences, N the frames' normal matrices in space. Where all N are the same that is a Kronecker product,
-/// and solved as one. Else conjugate gradients are preconditioned by the diagonal blocks of the system
-/// between R^T and R, where R R^T is the inverse of the matrix in t: sums of N by what each transformed
-/// control point sees of the frames, mostly of one. (The means of N that control points see as they are took
-/// three to seven times the iterations.)
+/// differences, N the frames' normal matrices in space. If all N are equal the matrix is a Kronecker product,
+/// and solved as such. Else the preconditioner of the conjugate gradients consists of the diagonal blocks of
+/// R^T (system) R, where R R^T is the inverse of the matrix in t: sums of N, weighted by the dependence of
+/// each transformed control point on the frames, which is mostly on one frame. (Diagonal blocks without the
+/// transformation need three to seven times the iterations.)
 class SeriesSystem {
  public:
   using Blocks = std::vector<Eigen::MatrixXd>;  ///< n x 3 for every control point in t
 
-  /// `in_time`: frames by control points in t, from the first on that are not 0; `from_zero`: there is one
-  /// before them, which is. Normal matrices of `space`, one for each frame, or one for all.
+  /// `in_time`: values of the basis in t, frames by control points, without a first control point that is 0;
+  /// `from_zero`: whether there is such a point. `normals`: normal matrices of `space`, one for each frame,
+  /// or one for all.
   SeriesSystem(const SpaceFit& space, const Eigen::MatrixXd& in_time, bool from_zero,
                std::vector<SpaceFit::Normal> normals);
 
-  /// To a residual of `bound` times the right-hand side, each component for itself.
+  /// Solves to a residual of `bound` times the right-hand side, for each component separately.
   Blocks solve(const Blocks& right, double bound) const;
-  /// sum over the frames of b x block.
+  /// Sum over the frames of b x block.
   Blocks over_frames(const Blocks& of_frames) const;
 
   double condition() const;                       ///< of the preconditioner's matrices, the largest estimate

@@ -13,10 +13,11 @@
 namespace cleft {
 
 /// The spline over (along, across, height) of a parametrisation, at scattered samples, with the control
-/// points tied where the tissue is uncut. The samples' places across and in height never move, and samples of
-/// equal u move together along the cut: what they add to the normal matrix is summed once (for all planes of
-/// u with nodes at the same places), and a time only weighs it along u. Blocks of numbers have a row a sample
-/// or a row an unknown (ties().size()). All is safe to call from several threads at once.
+/// points tied where the tissue is uncut. The samples' parameters across and in height are constant, and
+/// samples of equal u move together along the cut. Their contributions to the normal matrix are therefore
+/// summed once (for all planes u = const with nodes at the same places), and a frame only weights the sums
+/// along u. Matrices have one row for each sample or for each unknown (ties().size()). All functions may be
+/// called from several threads at once.
 class SpaceFit {
  public:
   SpaceFit(const Parametrization& parametrization, const std::array<BSplineBasis, 3>& bases,
@@ -27,11 +28,12 @@ class SpaceFit {
   const ControlTies& ties() const;
 
   /// B^T B + strength R over all control points. R, relative to the mean diagonal of B^T B, penalises second
-  /// divided differences of the control points over their places at the time; straight lines cost nothing,
-  /// and it never acts across v = 0. Two control points meet only where their indices differ by at most 3.
+  /// divided differences of the control points over their places at time t; linear functions cost nothing,
+  /// and differences never extend across v = 0. Two control points share basis functions only if their
+  /// indices differ by at most 3.
   class Normal {
    public:
-    /// Adds a multiple of another one.
+    /// Adds `factor` times another matrix.
     void add(double factor, const Normal& other);
 
    private:

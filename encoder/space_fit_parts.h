@@ -15,14 +15,14 @@ inline constexpr int cell_size = order * order;
 inline constexpr int reach = 2 * order - 1;
 
 struct SpaceFit::Parts {
-  /// Places within one span across and in height: what a sample at each adds to B^T B.
+  /// Places within one span across and in height, and their contribution to B^T B.
   struct Cell {
     int first_across, first_height;
     std::vector<int> places;                             // of `places`
     std::array<double, cell_size * cell_size> normal{};  // sum of w w^T over them
   };
-  /// A plane u = const. Planes of a mesh mostly have their nodes at the same places across and in height, and
-  /// then share them.
+  /// A plane u = const. Planes of a mesh usually have their nodes at the same places across and in height,
+  /// and share a section.
   struct Section {
     std::vector<Cell> cells;
     std::vector<int> planes;  // of `planes`
@@ -34,7 +34,7 @@ struct SpaceFit::Parts {
   };
   struct Weights {
     int first_across, first_height;
-    double share;                          // of a sample's value: 1/2 where both sides of v = 0 see it
+    double share;                          // of a sample's value: 1/2 if it belongs to both sides of v = 0
     std::array<double, cell_size> weight;  // N_j(across) N_k(height)
   };
   /// Second divided differences: rows of (first index, three weights), scaled by the mean spacing.

@@ -8,10 +8,10 @@
 
 namespace cleft {
 
-/// The ladder with no more spans in any number than the places of the nodes at the last frame determine along
-/// that axis, and fewer where nodes are few for the control points in space (of a parametrisation that moves
-/// past them, or where they all lie in a plane). At least its first rung, with the spans in height that
-/// levels of nodes allow.
+/// The ladder, limited to the spans that the positions of the nodes in the last frame determine on each axis
+/// (Schoenberg and Whitney), and further limited if nodes are few for the control points in space (with a
+/// parametrisation that moves, or if all nodes are in a plane). Contains at least the first rung, with the
+/// spans in height that the levels of nodes determine.
 std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& series,
                             const Parametrization& parametrization);
 

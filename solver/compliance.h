@@ -1,4 +1,4 @@
-// How far the skin gives way under a pressing finger or blade: the closed patch under unit pressure.
+// The compliance of the skin: how far the closed patch sinks under unit pressure.
 #pragma once
 
 #include <span>
@@ -10,19 +10,19 @@ namespace cleft {
 
 inline constexpr double pressed_radius = 2;  ///< mm, of the disc that is pressed
 
-/// Loads of unit pressure (1 MPa, into the skin) on a disc about each centre (u, v), a column each, N. Only
-/// the part of a disc that lies on the patch is pressed. By quadrature, points a third of an element apart.
+/// Loads of unit pressure (1 MPa, into the skin) on a disc around each centre (u, v), one in each column, N.
+/// Only the part of a disc on the patch is loaded. Quadrature points are a third of an element apart.
 Block disc_loads(const PatchMesh& mesh, const PatchSystem& system, std::span<const Vec3> centers);
 
 struct Compliance {
-  std::vector<double> at_node;  ///< mm/MPa: of the skin above every node, into the skin
-  Block dent;  ///< mm/MPa: displacement under unit pressure on the disc about the cut's start
+  std::vector<double> at_node;  ///< mm/MPa: of the skin above each node, positive into the skin
+  Block dent;  ///< mm/MPa: displacement under unit pressure on the disc around the cut's start
 };
 
-/// Of the closed frame. The closed patch is a homogeneous box, so nodes of one quarter of it are pressed,
-/// closer toward its edges (at most 48), and what they give way is interpolated monotonically. It is smooth:
-/// that nodes of four triangles give way less than those of eight is averaged out. Where h = 1 mm, within 2 %
-/// of the solves but on the edges. Sets the solver's loads. Collective.
+/// The compliance of the closed frame. The closed patch is a homogeneous box, so at most 48 nodes of one
+/// quarter are loaded, denser toward the edges, and the results are interpolated monotonically. The
+/// difference between nodes of four and of eight triangles is averaged. With elements of 1 mm the error is
+/// within 2 % except at the edges. Sets the solver's loads. Collective.
 Compliance compliance_of(const PatchMesh& mesh, const PatchSystem& system, FrameSolver& solver);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// A sparse Cholesky factor that keeps a few chosen unknowns: their Schur complement comes with the factor.
+// A sparse Cholesky factor of a matrix without a few chosen unknowns, and the Schur complement of these.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@ namespace cleft {
 class CondensedFactor {
  public:
   /// Analyses only. `entries`: lower or upper triangle of the matrix, anywhere on the ranks; repeated ones
-  /// are added. It has the unknowns of the system, which says where they live. `order`: position of every
-  /// unknown in the order of elimination, the kept ones last, as in `kept`; rank 0.
+  /// are added. Its unknowns are those of the system, which also defines their ranks. `order`: position of
+  /// each unknown in the elimination order, the kept ones last and in the order of `kept`; rank 0.
   CondensedFactor(const PatchSystem& system, PatchSystem::Entries entries, const std::vector<int>& kept,
                   const std::vector<int>& order);
   ~CondensedFactor();

@@ -1,4 +1,4 @@
-// The nodes of the cut, numbered by themselves.
+// The nodes of the cut, with their own numbers.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace cleft {
 
-/// The displacements of a pair's nodes are u_left and u_right = u_left + a: with the jumps a in place of
+/// The displacements of a pair's nodes are u_left and u_right = u_left + a: with the jumps a instead of
 /// u_right, u = T x. A closed pair has a = 0.
 struct CutNodes {
   CutNodes(const PatchMesh& mesh, const PatchSystem& system) {
@@ -30,15 +30,16 @@ struct CutNodes {
   void to_displacements(Eigen::MatrixXd& x) const {
     for (const auto& [left, right] : pairs) x.middleRows<3>(3 * right) += x.middleRows<3>(3 * left);
   }
-  /// T^T: forces on the nodes to what pulls at them together, and at the jumps.
+  /// T^T: from forces on the nodes to forces on pairs and on jumps.
   void to_pulls(Eigen::MatrixXd& f) const {
     for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair)
       f.middleRows<3>(3 * (*pair)[0]) += f.middleRows<3>(3 * (*pair)[1]);
   }
 
-  std::vector<int> nodes;                 ///< of the mesh, each once
-  std::vector<int> unknowns;              ///< three a node
-  std::vector<std::array<int, 2>> pairs;  ///< left and right of the mesh's pairs, as places in `nodes`
+  std::vector<int> nodes;     ///< of the mesh, each once
+  std::vector<int> unknowns;  ///< three for each node
+  std::vector<std::array<int, 2>>
+      pairs;  ///< left and right node of the mesh's pairs, as indices into `nodes`
 };
 
 }  // namespace cleft

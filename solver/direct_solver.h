@@ -13,7 +13,7 @@ namespace cleft {
 
 class DirectSolver : public FrameSolver {
  public:
-  /// Analyses only: factorize() before all else.
+  /// Analyses only; factorize() must be called before the other functions.
   DirectSolver(const PatchMesh& mesh, const PatchSystem& system);
 
   double bytes_needed() const;  ///< on this rank
@@ -25,10 +25,11 @@ class DirectSolver : public FrameSolver {
   Block solve(const std::vector<Column>& columns) override;
 
  private:
-  /// Columns in one block of MUMPS.
+  /// Solves the columns in one block of MUMPS.
   Block solve_together(const std::vector<Column>& columns);
 
-  /// T^T K T: the unknowns of right nodes are jumps. Keeps its entries between a jump and another unknown.
+  /// T^T K T, where the unknowns of right nodes are jumps. Keeps the entries between a jump and another
+  /// unknown.
   PatchSystem::Entries stiffness_with_jumps();
 
   const PatchSystem& system_;

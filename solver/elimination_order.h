@@ -1,4 +1,4 @@
-// In which order the unknowns of a patch are eliminated.
+// The elimination order of the unknowns of a patch.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace cleft {
 
-/// Position of every unknown in the order: nested dissection of the grid under the closed mesh, then
-/// `kept`, the unknowns of the pairs' right nodes, as they stand. MUMPS by itself falls back to minimum
-/// degree where it is asked for a Schur complement.
+/// Position of each unknown in the order: nested dissection of the grid of the closed mesh, then `kept`, the
+/// unknowns of the pairs' right nodes, in their given order. (MUMPS's own orderings fall back to minimum
+/// degree if a Schur complement is requested.)
 std::vector<int> elimination_order(const PatchMesh& mesh, const PatchSystem& system,
                                    const std::vector<int>& kept);
 

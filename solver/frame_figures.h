@@ -1,4 +1,4 @@
-// How well a frame holds: what is left of its forces, and the gaps across its cut.
+// The accuracy of a frame: the residual of its forces, and the gaps across its cut.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,10 @@
 namespace cleft {
 
 struct FrameFigures {
-  double smallest_gap = 0;  ///< mm: least opening along the cut's normal over the open pairs; 0 where none is
-  double gape = 0;          ///< mm: greatest such opening
-  double residual_equilibrium = 0;  ///< largest force left over, / largest load
+  double smallest_gap =
+      0;            ///< mm: least opening along the cut's normal over the open pairs; 0 if none is open
+  double gape = 0;  ///< mm: largest such opening
+  double residual_equilibrium = 0;  ///< largest residual force / largest load
   double residual_closure = 0;      ///< largest gap of a closed pair / largest displacement
 };
 
@@ -21,13 +22,13 @@ class FrameResidual {
  public:
   FrameResidual(const PatchMesh& mesh, const PatchSystem& system);
 
-  /// f - K u for every column. Collective.
+  /// The residual f - K u of each column. Collective.
   Block left_over(const Block& loads, const Block& displacements) const {
     return loads - system_.multiply(displacements);
   }
 
-  /// Figures of columns with so many open pairs of a release, from their displacements, from what is left
-  /// over and from the largest load. Collective; the same on every rank.
+  /// Figures of columns with the given numbers of open pairs of a release, from their displacements, their
+  /// residuals and the largest load. Collective; equal on all ranks.
   std::vector<FrameFigures> figures(const Release& release, const std::vector<FrameSolver::Column>& columns,
                                     const Block& displacements, const Block& left_over,
                                     double largest_load) const;

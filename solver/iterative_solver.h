@@ -8,9 +8,9 @@
 namespace cleft {
 
 /// Conjugate gradients on the displacements that keep closed pairs together, preconditioned by smoothed
-/// aggregation (Trilinos ML) with the six rigid-body modes. Copies that are tied take their mean: with that
-/// projection P, P K P is solved with P M P, where M is a hierarchy for the patch as far open as the frame or
-/// a few pairs further. A column starts from the one before of its load.
+/// aggregation (Trilinos ML) with the six rigid-body modes. The projection P replaces tied copies by their
+/// mean; P K P is solved with the preconditioner P M P, where M is a multigrid hierarchy for the patch as far
+/// open as the frame or a few pairs further. A column starts from the previous one of its load.
 class IterativeSolver : public FrameSolver {
  public:
   IterativeSolver(const PatchMesh& mesh, const PatchSystem& system);

@@ -23,7 +23,7 @@ class MpiSession {
   int rank() const { return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)); }
   int ranks() const { return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); }
 
-  /// Standard output and error of this rank go nowhere from here on, but for what abort() says.
+  /// Discards standard output and error of this rank from now on, except for the message of abort().
   void silence() {
     error_ = dup(STDERR_FILENO);
     const int nowhere = open("/dev/null", O_WRONLY);
@@ -32,8 +32,8 @@ class MpiSession {
   }
 
   /// Ends all ranks at once after a failure on this one: the others may wait for it, and libraries that
-  /// failed half-way (HDF5 on a full disk) do not survive their own end. Rank 0 has said why; another rank
-  /// gives it time to.
+  /// failed half-way (HDF5 on a full disk) do not survive their own end. Rank 0 has printed the reason;
+  /// another rank waits until it can have done so.
   [[noreturn]] void abort(int code) const {
     if (rank() > 0) {
       sleep(2);
@@ -45,9 +45,9 @@ class MpiSession {
   }
 
  private:
-  /// A process of its own, started by neither mpirun nor srun, talks to nobody: without these Open MPI would
-  /// start a daemon for it and share a folder with all others of its kind, which now and then fails when many
-  /// start together.
+  /// A process that neither mpirun nor srun started has no peers. Without these settings Open MPI would start
+  /// a daemon for it and share a folder with other such processes, which sometimes fails when many start
+  /// together.
   static int& prepared(int& argc) {
     for (const char* by_launcher : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
       if (getenv(by_launcher)) {

@@ -1,4 +1,4 @@
-// Displacements by node, as files want them, from unknowns as the solver owns them.
+// Displacements by node, in the order of files, from the distributed unknowns of the solver.
 #pragma once
 
 #include <vector>

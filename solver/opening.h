@@ -9,24 +9,23 @@
 
 namespace cleft {
 
-/// All frames of a cut whose pairs open in a fixed order.
-///
-/// The stiffness J of the jumps u_right - u_left, everything else condensed out, is the inverse of the
-/// multipliers' C K^-1 C^T. A closed pair has no jump, so a frame with n open pairs uses the leading 3 n x 3
-/// n block of J: one Cholesky J = L L^T and one forward substitution a load serve every frame.
+/// All frames of a cut whose pairs open in a fixed order. J is the Schur complement of the jumps u_right -
+/// u_left, and the inverse of the multipliers' matrix C K^-1 C^T. The jump of a closed pair is 0, so a frame
+/// with n open pairs uses the leading 3 n x 3 n block of J: one Cholesky factorisation J = L L^T, and one
+/// forward substitution for each load, serve all frames.
 class Opening {
  public:
   /// `stiffness`: three rows for every pair of the mesh. `order`: the pairs that open, in release order.
-  /// `normal` of every pair, for contact. Throws std::runtime_error where the open cut is not held.
+  /// `normal` of every pair, for contact. Throws std::runtime_error if J is not positive definite.
   Opening(const Eigen::MatrixXd& stiffness, std::vector<int> order, const std::vector<Vec3>& normal);
 
   /// A load with its forward substitution.
   using Load = Eigen::VectorXd;
-  /// From what pulls at the jumps, three rows for every pair of the mesh.
+  /// `pull`: the right-hand side g of J a = g, three rows for every pair of the mesh, N.
   Load prepare(const Eigen::VectorXd& pull) const;
 
-  /// Jumps of all pairs of the mesh with the first `open` of the order released. With contact the lips press
-  /// on each other where they would overlap, without friction: normal jumps >= 0.
+  /// Jumps of all pairs of the mesh, mm, with the first `open` pairs of the order released. With contact the
+  /// lips press on each other, without friction, where they would overlap: normal jumps >= 0.
   Eigen::VectorXd jumps(const Load& load, int open, bool contact) const;
 
  private:

@@ -30,33 +30,34 @@ struct PatchMesh {
   std::vector<int> skin_above;             ///< by node: the node of the skin in the same column
   std::vector<NodePair>
       pairs;  ///< every duplicated node: incision by incision, along each, from the skin down
-  /// Where the nodes of each incision lie, its ends and its bottom included (they are single, but for a
-  /// branch's start): mm along it, and mm below the skin; both increase.
+  /// Positions of the nodes of each incision, including its ends and its bottom (single nodes, except for the
+  /// start of a branch): mm along it, and mm below the skin; both increase.
   std::vector<std::vector<double>> lines_along;
   std::vector<double> lines_depth;
   Vec3 start;  ///< of the first cut, on the skin
-  /// The nodes but the duplicates (the right ones of pairs) are those of a grid: number (k grid[1] + j)
-  /// grid[0] + i, i along u, j along v, k downward.
+  /// The nodes without the duplicates (the right nodes of pairs) form a grid: number (k grid[1] + j) grid[0]
+  /// + i, i along u, j along v, k downward.
   std::array<int, 3> grid{};
 };
 
-/// The ends, the bottom and the surface of every cut coincide with element faces. Elements are no longer than
-/// mesh.element_size within the cut (an arc: along it), between parallel cuts and along a branch; away from
-/// them they grow by mesh.grading. The cut the mesh is made for is mesh.cut_length by mesh.cut_depth where
-/// given; a branch has its own length always, and leaves toward +v where u = 0: its nodes on the first cut
-/// have three copies, in the pairs (left, right with u < 0) and then (right with u < 0, right with u > 0).
-/// Nodes move in v only onto a curved or tilted cut, and the patch stays a box. An upright straight cut's
-/// triangles are mirrored in v = 0 (several cuts: where the squares between them are even in number); those
-/// of a chess board (diagonal_rises) in u = 0 too where the squares along u are even in number. Throws
+/// The ends, the bottom and the surface of every cut coincide with element faces. Elements are at most
+/// mesh.element_size long within the cut (an arc: along it), between parallel cuts and along a branch; away
+/// from them they grow by mesh.grading. The mesh is made for a cut of mesh.cut_length by mesh.cut_depth if
+/// these are given; a branch has its own length always, and leaves toward +v where u = 0: its nodes on the
+/// first cut have three copies, in the pairs (left, right with u < 0) and then (right with u < 0, right with
+/// u > 0). Nodes move in v only onto a curved or tilted cut, and the patch stays a box. An upright straight
+/// cut's triangles are mirrored in v = 0 (several cuts: where the squares between them are even in number);
+/// those of a chess board (diagonal_rises) in u = 0 too where the squares along u are even in number. Throws
 /// InputError where moving the nodes would flatten an element.
 PatchMesh make_patch_mesh(const Parameters& parameters);
 
 /// Whether square (i, j), counted along u and v from the first cut's start, is halved by the diagonal that
-/// rises from (i, j). With "displacement", rows of squares alternate: all columns of nodes give way alike,
-/// and what moves with the tip moves smoothly. With "mean-dilatation", squares alternate like the colours of
-/// a chess board: where the tissue hardly changes its volume, flat motions lock but for the nodes that meet
-/// four triangles between two straight lines, whose volumes are not independent. Nodes of four triangles
-/// stand beside nodes of eight, which give way differently, and every other frame differs a little by that.
+/// rises from (i, j). With "displacement", rows of squares alternate: all columns of nodes are equally
+/// compliant, so that the displacement follows the tip smoothly. With "mean-dilatation", squares alternate
+/// like the colours of a chess board: in nearly incompressible tissue, motions in the plane lock except at
+/// nodes of four triangles between two straight lines, whose volumes are not independent. Nodes of four
+/// triangles are next to nodes of eight, whose compliance differs, so that every other frame differs
+/// slightly.
 bool diagonal_rises(const std::string& formulation, int i, int j);
 
 /// How the cut of a case opens in its mesh.
@@ -66,7 +67,7 @@ struct Release {
   std::vector<double>
       position;  ///< by frame: place of the tip along the incision being made, mm; u for a straight cut
   std::vector<double> times;                ///< by frame: length cut so far, mm
-  double start = 0, length = 0, depth = 0;  ///< of the first cut, as it lies in the mesh
+  double start = 0, length = 0, depth = 0;  ///< of the first cut in the mesh, mm
 };
 
 /// Frame 0 is closed; then a frame for each released column, or pair (cut.frames). Columns open one after the

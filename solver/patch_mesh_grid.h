@@ -1,5 +1,5 @@
-// The grid under a patch's mesh: its lines along u, v and w, where the cuts run in it, and how its nodes are
-// moved onto a curved or tilted cut.
+// The grid of a patch's mesh: its lines along u, v and w, the lines of the cuts, and the shift of its nodes
+// onto a curved or tilted cut.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 namespace cleft {
 
 /// Indices count the lines. Nodes move in v only, by (shift_u[i] + shift_w[k]) * blend[j], so that the u and
-/// w lines stay where they are.
+/// w lines do not move.
 struct PatchGrid {
-  std::vector<double> u, v, w;      ///< the lines, mm; all increase but w, which falls from the skin at 0
+  std::vector<double> u, v, w;      ///< the lines, mm; u and v increase, w decreases from the skin at 0
   std::vector<double> along;        ///< of the u lines of a cut, ends included: mm along it from its middle
   std::vector<double> angle;        ///< of the same lines: direction of the cut, radians from u toward v
   int cut_from = 0;                 ///< u line of the cuts' start
@@ -24,7 +24,7 @@ struct PatchGrid {
 
   Vec3 point(int i, int j, int k) const { return {u[i], v[j] + (shift_u[i] + shift_w[k]) * blend[j], w[k]}; }
 
-  /// Of the cut at its n-th u line (start: 0), unit, toward +v.
+  /// Normal of the cut at its n-th u line (start: 0), unit, toward +v.
   Vec3 cut_normal(int n) const;
 };
 

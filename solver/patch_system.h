@@ -15,15 +15,15 @@ class Epetra_CrsMatrix;
 
 namespace cleft {
 
-/// Vectors of unknowns, a column each: the rows that this rank owns.
+/// Vectors of unknowns, one in each column: the rows that this rank owns.
 using Block = Eigen::MatrixXd;
 
 enum class WedgeRule {
-  full,  ///< three points in the triangle by two along the axis: exact for wedges of parallel faces
-  centroid_by_two,  ///< one by two, as CalculiX integrates its C3D6: to compare with it
+  full,  ///< three points in the triangle by two along the axis: exact for wedges with parallel faces
+  centroid_by_two,  ///< one by two, as CalculiX integrates its C3D6, for comparison with it
 };
 
-/// Who divides the elements among the ranks.
+/// The library that divides the elements among the ranks.
 enum class Partitioner { metis, zorder, zoltan };
 
 struct Discretization {
@@ -32,8 +32,8 @@ struct Discretization {
 };
 
 /// Assembled in parallel; the mesh's elements, K and all blocks are distributed over the ranks of a
-/// communicator, and all calls but the plain accessors are collective. Unknowns are numbered by deal.II,
-/// those of a rank contiguously.
+/// communicator, and all calls except accessors are collective. Unknowns are numbered by deal.II, those of a
+/// rank contiguously.
 class PatchSystem {
  public:
   /// Keeps a reference to the mesh.
@@ -43,10 +43,10 @@ class PatchSystem {
 
   MPI_Comm communicator() const;
   int rank() const;
-  int size() const;   ///< number of unknowns, three a node
+  int size() const;   ///< number of unknowns, three for each node
   int first() const;  ///< this rank owns the unknowns first() .. first() + owned() - 1
   int owned() const;  ///<
-  /// Row of an unknown in this rank's blocks; -1 where another rank owns it.
+  /// Row of an unknown in this rank's blocks; -1 if another rank owns it.
   int row(int unknown) const {
     const int local = unknown - first();
     return local >= 0 && local < owned() ? local : -1;
@@ -54,9 +54,9 @@ class PatchSystem {
   int unknown(int node, int axis) const;    ///< of any node, known on every rank
   const std::vector<int>& offsets() const;  ///< first() of every rank, then size()
 
-  /// The pull of a unit prestress (1 MPa) uu, vv, uv: three columns, N.
+  /// The loads of the unit prestresses (1 MPa) uu, vv, uv: three columns, N.
   const Block& unit_loads() const;
-  /// f of a case: its prestress times the unit loads, N.
+  /// The load f of a case: its prestress times the unit loads, N.
   Block load(const Parameters::Skin& prestress) const;
 
   const Epetra_CrsMatrix& stiffness() const;
@@ -69,11 +69,12 @@ class PatchSystem {
   };
   Entries lower_triangle() const;
 
-  /// Places of the owned unknowns: the node's coordinates and the axis, as owned() rows (u, v, w, axis).
+  /// Positions of the owned unknowns: the node's coordinates, mm, and the axis, as owned() rows (u, v, w,
+  /// axis).
   Eigen::MatrixX4d places() const;
 
   /// dK/dp block - df/dp for a parameter of skin, tissue or foundation, by differences of fourth order of the
-  /// assembled system: exact up to rounding where K is linear in p.
+  /// assembled system: exact up to rounding if K is linear in p.
   class Derivative;
   std::unique_ptr<Derivative> derivative(const Parameters& parameters, const std::string& name) const;
 
@@ -89,7 +90,7 @@ class PatchSystem::Derivative {
   virtual Block load() const = 0;                        ///< df/dp, a column
 };
 
-/// Of two columns, over all ranks; the same on each. Collective.
+/// Inner product of two columns over all ranks; equal on each. Collective.
 double dot(const PatchSystem& system, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /// Rows of a distributed block, by number of the unknown: on rank 0, empty elsewhere. Collective.

@@ -1,4 +1,4 @@
-// How long the steps of a solve take, and how much memory.
+// Times and memory of the steps of a solution.
 #pragma once
 
 #include <mpi.h>
@@ -11,18 +11,18 @@
 
 namespace cleft {
 
-/// A step of the work: seconds, and the most bytes the ranks together have held so far.
+/// A step: seconds, and the largest number of bytes that all ranks together have held so far.
 struct Phase {
   std::string name;
   double seconds, peak_memory;
 };
 
-/// Times and memory of one phase after the other.
+/// Records times and memory of consecutive steps.
 class Phases {
  public:
   explicit Phases(MPI_Comm communicator) : communicator_(communicator) {}
 
-  /// What was done since the last call. Collective.
+  /// Ends the step that began with the last call. Collective.
   void end(const std::string& name) {
     const double seconds = watch_.lap();
     double peak = peak_memory();

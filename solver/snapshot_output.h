@@ -1,4 +1,4 @@
-// The snapshot of a case on its way, written by rank 0.
+// The snapshot of a case that is being solved, written by rank 0.
 #pragma once
 
 #include <mpi.h>
@@ -18,16 +18,15 @@ namespace cleft {
 /// A case's snapshot without its frames.
 Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Release& release);
 
-/// Takes its final name with finish(), and leaves nothing behind without it. Every rank makes the calls, and
-/// none but rank 0 does anything in them: HDF5's own writing by all ranks hangs where a write fails on one.
-/// What cannot be written is a std::runtime_error on one rank, and on several the end of them all, with exit
-/// code 1.
+/// The file gets its final name by finish(); without finish() no file remains. All ranks make the calls, and
+/// only rank 0 writes, because HDF5's collective writing hangs if a write fails on one rank. A failed write
+/// is a std::runtime_error on one rank, and ends all of several ranks with exit code 1.
 class SnapshotOutput {
  public:
   SnapshotOutput(const std::string& out, Snapshot snapshot, const std::vector<SnapshotArray>& arrays,
                  MPI_Comm communicator);
 
-  /// Of all nodes, in a frame, or 0 for an array that is the same in all.
+  /// Values of all nodes in a frame; frame 0 for an array that is constant.
   void write_vectors(const std::string& array, std::size_t frame, const std::vector<Vec3>& values);
   void write_scalars(const std::string& array, const std::vector<double>& values);
   /// Of the next frame.

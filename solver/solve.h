@@ -26,7 +26,7 @@ struct CaseToSolve {
 };
 
 struct SolveReport {
-  std::string out, failure;  ///< what went wrong, empty where the snapshot was written
+  std::string out, failure;  ///< the error; empty if the snapshot was written
   bool written = false;
   int ranks = 1, nodes = 0, unknowns = 0, constraints = 0, pairs = 0, frames = 0;
   std::string method, reason;
@@ -39,13 +39,13 @@ struct SolveReport {
   double worst_equilibrium = 0, worst_closure = 0, smallest_gap = 0;
 };
 
-/// Throws InputError where a case cannot be had with these options.
+/// Throws InputError if these options do not permit a case; `where` names its source in the message.
 void check_options(const Parameters& parameters, const SolveOptions& options, const std::string& where);
 
 /// Solves cases and writes their snapshots, each of which appears whole or not at all. Cases of the same K
-/// share its factorisation; of them, those that differ in prestress only share the frames too, which are
-/// linear in it. A case that fails does not keep the others from being solved. Collective; the reports, in
-/// the order of the cases, are the same on every rank. `progress` is told what is being done.
+/// share its factorisation; among these, cases that differ only in the prestress also share the frames, which
+/// are linear in it. A case that fails does not affect the others. Collective; the reports, in the order of
+/// the cases, are the same on every rank. `progress` is called with the current step.
 std::vector<SolveReport> solve_cases(const std::vector<CaseToSolve>& cases, const SolveOptions& options,
                                      MPI_Comm communicator,
                                      const std::function<void(const std::string&)>& progress);

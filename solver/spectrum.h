@@ -1,4 +1,4 @@
-// What K looks like where it is not positive definite.
+// Extreme eigenvalues of K, for messages if it is not positive definite.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ struct Spectrum {
   double smallest, largest;
 };
 
-/// By Lanczos' iteration, from within: the smallest to 1 % where it is negative and more than rounding.
-/// Collective; the same on every rank.
+/// Lanczos iteration, whose values are inside the spectrum: the smallest is within 1 % if it is negative
+/// beyond rounding. Collective; equal on all ranks.
 Spectrum spectrum_of(const PatchSystem& system);
 
-/// Throws the SolveError of a K that is not positive definite: what showed it, its eigenvalues at both
-/// ends, and what to look at. Collective.
+/// Throws the SolveError for a K that is not positive definite: how it was detected, the extreme eigenvalues,
+/// and the remedy. Collective.
 [[noreturn]] void fail_indefinite(const PatchSystem& system, const std::string& shown_by);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// The skin: a constant-strain triangle in plane stress that carries a prestress and no bending. Paper,
+// The skin: a constant-strain triangle in plane stress with a prestress and without bending stiffness. Paper,
 // section 3.1.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace cleft {
 
-/// The skin lies in a plane w = const; u and v are its directions, and w carries no stiffness but that of the
+/// The skin is in a plane w = const with the directions u and v; its only stiffness along w is that of the
 /// prestress.
 class Membrane {
  public:
@@ -29,13 +29,13 @@ class Membrane {
     return thickness_ * area(a, b, c) * strain.transpose() * elasticity_ * strain;
   }
 
-  /// The pull of a unit prestress uu, vv, uv on (u, v) of the corners: -t A B^T, a column each.
+  /// Loads of the unit prestresses uu, vv, uv on (u, v) of the corners: -t A B^T, one in each column.
   Matrix63 unit_loads(const Vec3& a, const Vec3& b, const Vec3& c) const {
     return -thickness_ * area(a, b, c) * strain_of(a, b, c).transpose();
   }
 
-  /// Geometric stiffness of the prestress between the corners, the same for each of the three directions:
-  /// t A grad N_a . sigma_0 . grad N_b.
+  /// Geometric stiffness of the prestress between the corners, equal for the three directions: t A grad N_a .
+  /// sigma_0 . grad N_b.
   Eigen::Matrix3d initial_stress_stiffness(const Vec3& a, const Vec3& b, const Vec3& c) const {
     const Strain strain = strain_of(a, b, c);
     Eigen::Matrix<double, 2, 3> gradient;

@@ -20,16 +20,16 @@ namespace cleft {
 
 inline constexpr FileFormat snapshot_format{"cleft-snapshot", 1, "snapshot", "cleft solve"};
 
-/// Where the data of another program stood: x in (u, v, w) is axes (x - origin) there.
+/// The placement of imported data: (u, v, w) = axes (x - origin) for a point x in the space of the source.
 struct SnapshotSource {
   std::string file;          ///< the series' name, without folders
-  Vec3 origin;               ///< of (u, v, w), in the source's space
-  std::array<Vec3, 3> axes;  ///< unit vectors of u, v, w there, right-handed
-  double time_start = 0;     ///< the first frame's time there
-  std::string break_plane;   ///< nx,ny,nz,offset there: points x with n . x = offset; or "none"
+  Vec3 origin;               ///< of (u, v, w), in the space of the source
+  std::array<Vec3, 3> axes;  ///< unit vectors of u, v, w in that space, right-handed
+  double time_start = 0;     ///< time of the first frame in the source
+  std::string break_plane;   ///< nx,ny,nz,offset in that space: points x with n . x = offset; or "none"
 };
 
-/// Everything but the displacements. N points, C cells, P pairs, F frames. Lengths in mm.
+/// The contents without the displacements. N points, C cells, P pairs, F frames. Lengths in mm.
 struct Snapshot {
   static constexpr std::uint8_t triangle = 5, wedge = 13;  ///< VTK's cell types: skin and tissue
 
@@ -53,32 +53,31 @@ struct Snapshot {
 
   std::map<std::string, std::variant<double, std::string>> parameters;
   std::string case_hash;
-  std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs, and know no residuals
+  std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs and have no residuals
 
   std::size_t frames() const { return times.size(); }
   /// The skin: all triangles, as indices into points.
   std::vector<std::array<int, 3>> skin() const;
 };
 
-/// An array of the points beside the displacement: /VTKHDF/PointData/<name>, one for all frames or one a
-/// frame.
+/// A further array of the points: /VTKHDF/PointData/<name>, one for all frames or one for each frame.
 struct SnapshotArray {
   std::string name;
   std::size_t components = 1;  ///< numbers for each point
   bool varies = false;         ///< F N rows instead of N
 };
 
-/// Writes a snapshot whole or not at all: displacement frame by frame, further arrays, then finish().
+/// Writes a snapshot completely or not at all: displacement frame by frame, further arrays, then finish().
 class SnapshotWriter {
  public:
-  /// Takes mesh, cut, times and parameters, and makes room for `arrays`; the figures of the frames are taken
-  /// by finish().
+  /// Writes mesh, cut, times and parameters, and allocates `arrays`; finish() writes the figures of the
+  /// frames.
   SnapshotWriter(const std::string& path, const Snapshot& snapshot,
                  const std::vector<SnapshotArray>& arrays = {});
   /// Displacements from `points`, N of them, of frames first, first + 1, ...: one or more whole frames.
   void write_frames(std::size_t first, std::span<const Vec3> displacements);
-  /// N times its components, point by point: the frame's rows of an array made room for. Rows never written
-  /// are 0.
+  /// `values`: N times the components, point by point, for a frame of an allocated array. Rows that are never
+  /// written are 0.
   void write_array(const SnapshotArray& array, std::size_t frame, std::span<const double> numbers);
   const std::string& path() const { return out_.path(); }  ///< the name the file has until finish()
   /// Writes smallest_gap and the residuals, flushes, and gives the file its name.
@@ -90,10 +89,11 @@ class SnapshotWriter {
   std::size_t points_;
 };
 
-/// Opens, reads and checks all but the displacements, which are read frame by frame or in slabs of nodes.
+/// Reads and checks all but the displacements when it opens a file; these are read frame by frame or in slabs
+/// of nodes.
 class SnapshotReader {
  public:
-  /// Throws FileError where the file is no snapshot, is damaged, or contradicts itself.
+  /// Throws FileError if the file is not a snapshot, is damaged, or is inconsistent.
   explicit SnapshotReader(const std::string& path);
 
   const Snapshot& snapshot() const { return snapshot_; }
@@ -102,10 +102,10 @@ class SnapshotReader {
   /// Displacements of the nodes first .. first + count - 1 in a frame.
   std::vector<Vec3> displacement(std::size_t frame, std::size_t first, std::size_t count) const;
 
-  /// All arrays of /VTKHDF/PointData but the displacement, by name. Throws FileError where one has neither a
-  /// row a point nor a row a frame and point.
+  /// All arrays of /VTKHDF/PointData but the displacement, by name. Throws FileError if one has neither N nor
+  /// F N rows.
   std::vector<SnapshotArray> point_arrays() const;
-  /// N times its components, point by point; of `frame` where it varies.
+  /// N times the components, point by point; those of `frame` if the array varies.
   std::vector<double> point_array(const SnapshotArray& array, std::size_t frame) const;
 
  private:
