@@ -1,4 +1,4 @@
-// The two kinds of errors: what a user can mend, and a broken invariant.
+// The two kinds of errors: a user's mistake, and a broken invariant.
 #pragma once
 
 #include <sstream>
@@ -7,17 +7,17 @@
 
 namespace cleft {
 
-/// Wrong input. The message names the value, where it stands and the remedy. Commands exit with code 2.
+/// Wrong input. The message names the value, its place and the remedy. Commands exit with code 2.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file that cannot be read as what it should be: "case.h5: <what is wrong>".
+/// A file that cannot be read in its format: "case.h5: <what is wrong>".
 struct FileError : InputError {
   FileError(const std::string& file, const std::string& what) : InputError(file + ": " + what) {}
 };
 
-/// Runs a function; the InputErrors it throws about a file's content get the file's name.
+/// Runs a function; InputErrors that it throws about the content of a file become FileErrors with its name.
 template <class Function>
 auto told_of_file(const std::string& file, Function&& function) {
   try {
@@ -29,10 +29,10 @@ auto told_of_file(const std::string& file, Function&& function) {
   }
 }
 
-/// Collects users' mistakes, so that they are told all at once.
+/// Collects users' mistakes, so that all are reported together.
 class Mistakes {
  public:
-  /// Runs a function and keeps the InputError it may throw; whether it threw none.
+  /// Runs a function and stores an InputError that it throws; returns true if it throws none.
   template <class Function>
   bool collect(Function&& function) {
     try {

@@ -1,10 +1,10 @@
-// Versions of files that are more than their own reader's affair.
+// Versions of files that other code than their reader depends on.
 #pragma once
 
 namespace cleft {
 
-/// Of case.dffd. The identity of a case is made with it: where it rises, the next run encodes its cases
-/// again.
+/// Version of case.dffd. It is part of the identity of a case: if it increases, the next run encodes its
+/// cases again.
 inline constexpr int field_version = 3;
 
 }  // namespace cleft

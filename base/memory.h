@@ -1,21 +1,20 @@
-// How much memory there is, and how much was taken.
+// Available and used memory.
 #pragma once
 
 namespace cleft {
 
-/// Bytes that this machine (or the control group this process lives in) can still give.
+/// Bytes that are available on this machine, or in the control group of this process.
 double available_memory();
 
-/// Most bytes this process has held at a time.
+/// Largest number of bytes that this process has held.
 double peak_memory();
 
-/// From here on blocks of many MB go back to the system as soon as they are freed. SuperLU_DIST, which
-/// Trilinos brings along, switches that off when it is loaded, and what is freed then stays between what is
-/// in use.
+/// From now on blocks of many MB are returned to the system when they are freed. SuperLU_DIST, a dependency
+/// of Trilinos, disables this when it is loaded, which fragments the memory.
 void return_large_blocks();
 
-/// From here on what is freed is kept for what comes next. Matrices of some MB that come and go are made of
-/// new pages each time otherwise: a seventh of the time of a fit.
+/// From now on freed memory is kept for later allocations. Otherwise matrices of some MB get new pages at
+/// each allocation, which took a seventh of the time of a fit.
 void keep_freed_blocks();
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// Files and folders that appear whole or not at all.
+// Files and folders that appear complete or not at all.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 namespace cleft {
 
 /// Write files and folders into path(), then commit() their names: all is flushed to disk and moved into
-/// `folder`. Without a commit nothing is left behind, and what had these names before stays as it was.
+/// `folder`. Without a commit nothing remains, and existing files of these names are unchanged.
 class OutputFolder {
  public:
-  /// `name`: for the temporary folder and for messages. Throws InputError where `folder` does not exist or
+  /// `name`: for the temporary folder and for messages. Throws InputError if `folder` does not exist or
   /// cannot be written.
   OutputFolder(std::string folder, const std::string& name);
   ~OutputFolder();
@@ -19,8 +19,8 @@ class OutputFolder {
 
   /// A hidden folder within `folder`, empty at first.
   const std::string& path() const { return temporary_; }
-  /// Moves in this order, each over what has its name, which is then removed. Where one cannot be moved,
-  /// those before are moved back. The caller has made sure that what is replaced may go.
+  /// Moves the names in this order and removes existing files of these names, for which the caller is
+  /// responsible. If one cannot be moved, the earlier ones are moved back.
   void commit(const std::vector<std::string>& names);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace cleft {
 
-/// Calls work(i) for i = 0 .. count - 1, in any order, on all cores. The first exception is thrown on.
+/// Calls work(i) for i = 0 .. count - 1, in any order, on all cores. The first exception is rethrown.
 template <class Work>
 void parallel_for(int count, const Work& work) {
   std::atomic<int> next = 0;

@@ -8,7 +8,7 @@
 
 namespace cleft {
 
-/// The value that `part` of the others, 0 to 1, lie below: one of the values. NaN where there are none.
+/// The `part` quantile, 0 to 1: one of the values. NaN if there are none.
 inline double quantile(std::vector<double> values, double part) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto at =
@@ -17,7 +17,7 @@ inline double quantile(std::vector<double> values, double part) {
   return *at;
 }
 
-/// Of an even number the upper one.
+/// The median; of an even number of values the upper one.
 inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// JSON files that tell when a bit of them has changed.
+// JSON files with a checksum.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,9 +9,9 @@ namespace cleft {
 /// The text of a JSON file whose last member, "seal", is a checksum of all before it.
 std::string sealed_text(nlohmann::ordered_json object);
 
-/// What a file of sealed_text() holds, without its seal. Throws FileError where the file is no JSON object,
-/// or is not, byte for byte, what was written. An object without a version, or of version 1, need not be
-/// sealed.
+/// The content of a file made by sealed_text(), without its seal. Throws FileError if the file is not a JSON
+/// object, or differs from what was written in any byte. An object without a version, or of version 1, need
+/// not be sealed.
 nlohmann::ordered_json read_sealed(const std::string& path);
 
 }  // namespace cleft

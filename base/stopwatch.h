@@ -9,9 +9,9 @@ namespace cleft {
 
 class Stopwatch {
  public:
-  /// Since the watch was made.
+  /// Seconds since construction.
   double seconds() const { return between(start_, Clock::now()); }
-  /// Since the last lap; since the watch was made for the first.
+  /// Seconds since the last lap, or since construction.
   double lap() {
     const auto now = Clock::now();
     const double seconds = between(last_, now);
@@ -27,7 +27,7 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-/// Seconds that `work` takes, the least of `repeats` times: what else the machine does is left out.
+/// The shortest time of `repeats` runs of `work`, s, which excludes other load of the machine.
 template <class Work>
 double least_seconds(int repeats, const Work& work) {
   double least = std::numeric_limits<double>::infinity();

@@ -10,19 +10,19 @@ namespace cleft {
 /// The shortest decimal text that reads back as the same double.
 std::string shortest(double value);
 
-/// Of `names` the one with the least edit distance to `word`; empty where none is close enough to be meant.
+/// Of `names` the one with the least edit distance to `word`; empty if none is close.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
-/// " (did you mean 'x'?)", or nothing where no name is near.
+/// " (did you mean 'x'?)", or "" if no name is close.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// Reads a whole number or a decimal; throws InputError "<where>: '<text>' is not a number".
 double parse_number(std::string_view text, const std::string& where);
 
-/// "cleft 0.1.0": what wrote a file.
+/// Name and version of this program, as written into files.
 std::string producer();
 
-/// The whole text of a file; throws FileError where it cannot be read.
+/// The whole text of a file; throws FileError if it cannot be read.
 std::string read_text_file(const std::string& path);
 
 /// A table of numbers with a header line of column names, as in CSV files.
@@ -35,7 +35,8 @@ struct NumberTable {
 };
 
 /// Reads comma-separated numbers under a header line. Empty lines and lines that begin with # are skipped.
-/// Throws FileError with line and column of what is no number, or of a row with too few or too many columns.
+/// Throws FileError with line and column of a text that is not a number, or of a row with too few or too many
+/// columns.
 NumberTable read_csv(const std::string& path);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// VTK's errors as values. The one header of base that sees VTK: for the sources that read or write with it.
+// VTK's errors as values. The only header of base that includes VTK, for sources that read or write with it.
 #pragma once
 
 #include <vtkCallbackCommand.h>
@@ -10,8 +10,8 @@
 
 namespace cleft {
 
-/// VTK reports errors as events: keeps the first one of a reader or writer, and what it is silent about is
-/// not printed.
+/// VTK reports errors as events. This object keeps the first error of a reader or writer, and nothing is
+/// printed.
 class VtkListener {
  public:
   template <class Algorithm>
@@ -23,7 +23,7 @@ class VtkListener {
     });
     algorithm->AddObserver("ErrorEvent", command_);
     algorithm->GetExecutive()->AddObserver("ErrorEvent", command_);
-    vtkNew<vtkCallbackCommand> silent;  // what a warning means shows in the result
+    vtkNew<vtkCallbackCommand> silent;  // the result shows the effect of a warning
     silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
     algorithm->AddObserver("WarningEvent", silent);
     if constexpr (requires { algorithm->SetParserErrorObserver(command_); })
@@ -33,7 +33,7 @@ class VtkListener {
   VtkListener& operator=(const VtkListener&) = delete;
 
   bool failed() const { return !message_.empty(); }
-  /// The part of the message that says what is wrong, on one line.
+  /// The essential part of the message, on one line.
   std::string reason() const {
     const auto colon = message_.rfind("): ");
     std::string text = colon == std::string::npos ? message_ : message_.substr(colon + 3);

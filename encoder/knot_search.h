@@ -1,4 +1,4 @@
-// Which rung of a ladder of knots is fine enough, as fits of single frames tell.
+// The search for a sufficient rung of the ladder of knots, by fits of single frames.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 
 namespace cleft {
 
-/// Index of the first rung whose fits in space of a few frames are off by no more than `limit` (mm) at any
-/// node, or, where no rung's are, by more at a few nodes only; the rungs' number where there is none either.
-/// Rungs are nested, and are taken to become better.
+/// Index of the first rung whose fits in space of a few frames have residuals of at most `limit`, mm, at all
+/// nodes, or, if there is no such rung, at all but a few nodes; the number of rungs if there is none. Rungs
+/// are nested and assumed to improve.
 std::size_t first_rung_within(double limit, const std::vector<Rung>& rungs, const Series& series,
                               const Parametrization& parametrization,
                               const std::function<void(const std::string&)>& progress);

@@ -9,9 +9,9 @@
 
 namespace cleft {
 
-/// Those of the series, from the factorisation of `fit`, the displacement's: a fit is linear in the data, and
-/// so the derivative of a fitted displacement is what the same fit makes of the derivative. Control points
-/// are rounded to what costs a small part of the error that they have.
+/// Fits the derivatives of the series with the factorisation of `fit`, that of the displacement: a fit is
+/// linear in the data, so the derivative of the fitted displacement is the same fit of the derivative.
+/// Control points are rounded to a quantum that costs a small part of their error.
 std::vector<ParameterDerivative> fit_derivatives(const Series& series, const SeriesFit& fit);
 
 }  // namespace cleft

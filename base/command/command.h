@@ -1,4 +1,4 @@
-// What every command shares: exit codes, --version, progress, and figures as text or JSON.
+// What all commands share: exit codes, --version, progress, and figures as text or JSON.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,18 +14,19 @@ using Json = nlohmann::ordered_json;
 /// Messages go to stderr as "cleft solve: error: ...".
 int run_command(CLI::App& app, int argc, char** argv, const std::function<void()>& body);
 
-/// A check for options: a finite number of at least `least`, or above it.
+/// Validators for options: a finite number of at least `least`, or above it.
 CLI::Validator at_least(double least);
 CLI::Validator above(double least);
 
-/// Figures on stdout: one JSON object with `as_json`, else a line "name: value" for each.
+/// Prints figures on stdout: one JSON object with `as_json`, else a line "name: value" for each.
 void print_figures(const Json& figures, bool as_json);
 
-/// The variable that names a file for a command to keep its state in, for whoever runs it to show.
+/// The environment variable that names a file into which a command writes its progress, for its parent
+/// process.
 inline constexpr const char* progress_file = "CLEFT_PROGRESS";
 
-/// A line of progress on stderr, overwritten in place on a terminal, and silent otherwise; in the file of
-/// CLEFT_PROGRESS too.
+/// A line of progress on stderr, overwritten in place on a terminal and omitted otherwise; also in the file
+/// of CLEFT_PROGRESS.
 class Progress {
  public:
   explicit Progress(std::string task);

@@ -1,5 +1,5 @@
 // HDF5 with every call checked. Files use the latest format, whose metadata carry checksums, and every
-// dataset is chunked with Fletcher-32, so that damage is found when it is read.
+// dataset is chunked with Fletcher-32, so that damage is detected when it is read.
 #pragma once
 
 #include <hdf5.h>
@@ -21,7 +21,7 @@ class Handle {
   Handle& operator=(Handle&& other) noexcept;
   ~Handle();
   operator hid_t() const { return id_; }  // NOLINT: meant to be passed to HDF5 calls
-  /// Closes now and says whether it went well, which a destructor cannot.
+  /// Closes now and returns whether that succeeded, which a destructor cannot.
   bool close();
 
  private:
@@ -29,16 +29,15 @@ class Handle {
   Close close_ = nullptr;
 };
 
-/// Of the library: "1.10.8".
+/// Version of the library: "1.10.8".
 std::string version();
 
 using Shape = std::vector<hsize_t>;
 
-/// How a dataset is stored beside its checksums.
+/// How a dataset is stored, besides its checksums.
 enum class Packing { plain, deflate };
 
-/// Whether a new file keeps room between its parts for more of them: what is written once, and small, need
-/// not.
+/// Whether a new file reserves space for further objects; small files that are written once need none.
 enum class Growth { usual, none };
 
 /// Supported element types: double, float, std::int32_t, std::int64_t, std::uint8_t.
@@ -57,7 +56,7 @@ class File {
   std::vector<std::string> attribute_names(const std::string& object) const;
   std::vector<std::string> members(const std::string& group) const;
 
-  /// The whole dataset, which must have the shape where one is given (0 = any extent).
+  /// The whole dataset, which must have `shape` if one is given (0 = any extent).
   template <class T>
   std::vector<T> read(const std::string& name, const Shape& expected = {}) const;
   /// Rows first .. first + count - 1, slowest index first; out holds count times the product of the other
@@ -90,7 +89,7 @@ class File {
                       std::span<const std::int64_t> values);
   void write_text(const std::string& object, const std::string& attribute, const std::string& text);
 
-  /// Flushes and closes; a full disk is found here.
+  /// Flushes and closes; a full disk is detected here.
   void close();
 
  private:
@@ -109,18 +108,17 @@ class File {
 
 namespace cleft {
 
-/// What a file of ours says of itself in its root attributes "format" and "version".
+/// Format and version of a file of this project, in its root attributes "format" and "version".
 struct FileFormat {
   const char* name;
   int version;
-  const char *noun, *writer;  ///< what users call it, and the command that writes it
+  const char *noun, *writer;  ///< its name in messages, and the command that writes it
 };
 void write_format(h5::File& file, const FileFormat& format);
-/// Throws FileError where the file is another kind, or of another version.
+/// Throws FileError if the file has another format or version.
 void require_format(const h5::File& file, const FileFormat& format);
 
-/// The root attribute "format" of a file of ours; empty where it has none. Throws FileError where it is no
-/// HDF5 file.
+/// The root attribute "format"; empty if there is none. Throws FileError if it is not an HDF5 file.
 std::string format_of(const std::string& path);
 
 }  // namespace cleft

@@ -13,15 +13,14 @@ class BSplineBasis {
  public:
   static constexpr int max_degree = 5;
 
-  /// `knots` must be non-decreasing with degree + 1 equal knots at both ends; throws InputError where it is
-  /// not.
+  /// `knots` must be non-decreasing with degree + 1 equal knots at both ends; throws InputError if not.
   BSplineBasis(int degree, std::vector<double> knots);
 
   /// `count` control points on uniform knots over [front, back]. Needs count > degree.
   static BSplineBasis uniform(int degree, int count, double front, double back);
 
   /// Uniform knots on each side of `at`, and a knot of full multiplicity there: discontinuous at `at`. The
-  /// `count` control points are dealt out in halves; needs count >= 2 (degree + 1).
+  /// `count` control points are divided into halves; needs count >= 2 (degree + 1).
   static BSplineBasis broken(int degree, int count, double front, double at, double back);
 
   int degree() const { return degree_; }

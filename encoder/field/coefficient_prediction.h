@@ -1,5 +1,5 @@
-// What a coefficient is predicted from, and how its distance from the prediction is expected to be spread.
-// docs/formats.md states all of it; integers only.
+// The prediction of a coefficient, and the expected distribution of its prediction error. docs/formats.md
+// specifies it; integers only.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ class Padded {
 /// Four inputs, in one register from the start: those stored one by one and then loaded together would wait
 /// for each other.
 using FourInputs = std::int32_t __attribute__((vector_size(16)));
-/// Two that lie together, and two more.
+/// Two adjacent values, and two further ones.
 inline FourInputs four_inputs(const std::int32_t* pair, const std::int32_t* another) {
   std::int64_t low, high;
   std::memcpy(&low, pair, sizeof(low)), std::memcpy(&high, another, sizeof(high));
@@ -68,8 +68,8 @@ inline FourInputs four_inputs(const std::int32_t* pair, std::int32_t third, std:
       std::array{low, std::int64_t{static_cast<std::uint32_t>(third)} | std::int64_t{last} << 32});
 }
 
-/// What a prediction is made from, all divided by 2^shift so that none needs more than 12 bits and sums of
-/// products stay below 2^31.
+/// The inputs of a prediction, divided by 2^shift so that each fits into 12 bits and sums of products are
+/// below 2^31.
 struct Inputs {
   alignas(16) std::array<std::int16_t, inputs> x;
   int shift;
@@ -90,17 +90,16 @@ struct Inputs {
   std::int64_t inverse_size() const;
 };
 
-/// Least mean squares, normalised by the inputs' size: forgets quickly, and so follows what changes from
-/// place to place.
+/// Normalised least mean squares, with a short memory, so that it follows changes from place to place.
 struct LinearPredictor {
   alignas(16) std::array<std::int16_t, inputs> weight{};  // units of 2^-14, at most 1.5
 };
-/// What two of them say.
+/// The mean of the predictions of two of them.
 struct TwoPredictions {
   std::int64_t first, second;
 };
 TwoPredictions predict(const Inputs& in, const LinearPredictor& first, const LinearPredictor& second);
-/// rate / 256: the part of the error that is mended at once.
+/// rate / 256: the part of the error that is corrected in one step.
 void learn(const Inputs& in, std::int64_t error, int rate, LinearPredictor& predictor);
 
 /// Which slices are known when one is coded: halfway between two known ones, the last first.

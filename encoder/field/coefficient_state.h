@@ -1,5 +1,5 @@
-// What is known while a field's quantised coefficients are coded, value after value: those coded already, and
-// how far they were from their predictions.
+// The state of coding a field's quantised coefficients: the values that are coded already, and the errors of
+// their predictions.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ class CoefficientState {
     std::int32_t unknown, across;
     std::int32_t twin;  // the unknown at the mirrored place, or -1
   };
-  /// What the slices and components before tell of a value.
+  /// The contributions of earlier slices and components to the prediction of a value.
   struct Past {
     FourInputs inputs;         // differences of the slices' slopes in t, and the other half's innovation
     std::int64_t base;         // interpolated in t
@@ -45,7 +45,7 @@ class CoefficientState {
   std::size_t first(int c, int slice) const {
     return (static_cast<std::size_t>(c) * slices_ + slice) * grid_.unknowns;
   }
-  /// Of each place, for the slice and component that are coded next: all at once, which is quicker.
+  /// Prepares these for all places of the slice and component that are coded next, together for speed.
   const std::vector<Past>& past(const SliceStep& step, int c, int half);
 
   int width(int half) const { return width_[half]; }

@@ -1,4 +1,4 @@
-// A field at a fixed time: three-variate, 64 terms a point.
+// A field at a fixed time: three-variate, 64 terms for each point.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace cleft {
 
 class Field;
 
-/// Made by Field::collapse(); using one again allocates nothing once it has grown.
+/// Made by Field::collapse(). Reusing an object allocates no memory once it is large enough.
 class CollapsedField {
  public:
   /// As Field::displacement() at time().
@@ -25,7 +25,7 @@ class CollapsedField {
 
   const Field* field_ = nullptr;
   double time_ = 0;
-  std::ptrdiff_t stride_[2] = {0, 0};  // along and across; 4 doubles a control point
+  std::ptrdiff_t stride_[2] = {0, 0};  // along and across; 4 doubles for each control point
   Lines values_;
 };
 

@@ -26,7 +26,7 @@ struct LineAllocator {
 using Lines = std::vector<double, LineAllocator<double>>;
 
 /// The grid of a field: control point (i, j, k, l) begins at i * stride[0] + j * stride[1] + k * stride[2] +
-/// 4 l. Axes of fewer functions than a span needs end in zeros.
+/// 4 l. Axes with fewer functions than a span needs are padded with zeros.
 struct ControlGrid {
   ControlGrid(const std::array<BSplineBasis, 4>& bases, const Axes& axes, std::span<const Vec3> coefficients);
 

@@ -1,4 +1,4 @@
-// Which control points are unknowns of their own, and which follow from others because the tissue is uncut.
+// Which control points are unknowns, and which follow from others because the tissue is uncut.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace cleft {
 ///
 /// Where tissue is uncut, the two control points that meet in v = 0 are the mean of their neighbours weighted
 /// by the knots: the sides agree there, bit for bit, and so do their slopes, up to the start and the tip.
-/// Along the cut's bottom, which no one sees, the displacement may have a cusp across v = 0: they are one
-/// unknown.
+/// Along the bottom of the cut, which is hidden, the displacement may have a cusp across v = 0: the two are
+/// one unknown.
 class ControlTies {
  public:
   struct Term {
@@ -30,7 +30,7 @@ class ControlTies {
   /// and 2 (or begins or ends there), `height` at -1 (or begins there), `across` is broken at 0. Control
   /// points between those of 1 and 2 and above that of -1 belong to the cut.
   static ControlTies following_tip(const std::array<BSplineBasis, 3>& bases);
-  /// Every control point is an unknown of its own.
+  /// Each control point is an unknown.
   static ControlTies none(const std::array<BSplineBasis, 3>& bases);
 
   int rows() const { return static_cast<int>(kinds_.size()); }     ///< along the cut

@@ -23,36 +23,36 @@
 
 namespace cleft {
 
-/// The report of the fit that goes with a field; errors are over the largest displacement from frame 0 unless
-/// said.
+/// The report of the fit that goes with a field; errors are relative to the largest displacement from frame 0
+/// unless stated otherwise.
 struct FitReport {
   double relative_l2 = 0;           ///< sqrt(sum |error|^2 / sum |d|^2) over nodes and frames
   double node_error = 0;            ///< largest Euclidean error at any node and frame, as stored
   double spline_error = 0;          ///< the same for the spline alone (equal where no residual is stored)
   double gape_error = 0;            ///< largest error of the opening of a pair of nodes on the cut
-  double false_gap = 0;             ///< largest opening across v = 0 at uncut nodes, where the truth is 0
+  double false_gap = 0;             ///< largest opening across v = 0 at uncut nodes, where it should be 0
   double largest_displacement = 0;  ///< mm, from frame 0
   double frame_error = 0;           ///< largest error in any frame over that frame's own largest displacement
   double worst_node = 0;            ///< node of spline_error, and its time
   double worst_time = 0;            ///<
   double condition = 0;             ///< of the fit's normal matrices, estimated
   double crease = 0;                ///< degrees: largest kink of uncut skin across v = 0
-  double overlap = 0;               ///< mm: how much further than the data's lips pass through each other
-  double least_volume = 1;          ///< least det(I + grad d) at the nodes: of a small volume, over its rest
-  double fit_seconds = 0, measure_seconds = 0;  ///< what the fit and the evaluation for this report took
+  double overlap = 0;               ///< mm: by how much lips overlap further than those of the data
+  double least_volume = 1;  ///< least det(I + grad d) at the nodes: ratio of a small volume to that at rest
+  double fit_seconds = 0, measure_seconds = 0;  ///< times of the fit and of the evaluation for this report
   double nodes = 0, frames = 0;                 ///< of the data; 0: not known
 
-  /// Of the data's displacements as 32-bit numbers.
+  /// Bytes of the data's displacements as 32-bit numbers.
   double raw_bytes() const { return 3 * sizeof(float) * nodes * frames; }
 };
 
-/// Of a field that was not fitted to a simulation but made from the fields of others.
+/// Data of a field that was interpolated between the fields of other cases.
 struct Interpolation {
-  std::string method;              ///< that was found to be best by leaving cases out
-  double cases = 0;                ///< it was made from
+  std::string method;              ///< chosen by its leave-one-out error
+  double cases = 0;                ///< number of cases that it was made from
   double estimated_error = 0;      ///< expected of node_error against a simulation of these parameters
-  double interpolation_error = 0;  ///< the same against a field fitted to it: without what a fit itself costs
-  double outside = 0;              ///< distance from the cases' parameters, in their spread; 0: between them
+  double interpolation_error = 0;  ///< the same against a field fitted to it, without the error of a fit
+  double outside = 0;  ///< distance from the cases' parameters, relative to their spread; 0: between them
 };
 
 /// The displacement and its first derivatives, mm per mm.
@@ -60,7 +60,7 @@ struct Derivatives {
   Vec3 value, by_u, by_v, by_w, by_t;
 };
 
-/// A further quantity over the field's bases: the value itself, not from frame 0.
+/// A further quantity over the field's bases: its value, not the difference from frame 0.
 struct Quantity {
   std::string name;
   int components = 1;
@@ -71,8 +71,8 @@ struct Quantity {
   double quantum = 0;       ///< unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
 };
 
-/// The displacement's derivative by a parameter of the case, over the field's bases: what interpolation
-/// between cases uses.
+/// The derivative of the displacement by a parameter of the case, over the field's bases, for interpolation
+/// between cases.
 struct ParameterDerivative {
   std::string parameter;             ///< dotted name
   std::vector<Vec3> control_points;  ///< as the field's, mm per the parameter's unit
@@ -84,29 +84,29 @@ struct ParameterDerivative {
 class Field {
  public:
   /// A 4D grid of control points: coefficients[((i * V + j) * W + k) * T + l], mm, over the parameters along,
-  /// across, height and time of the parametrisation. Throws InputError where a degree is above 3.
+  /// across, height and time of the parametrisation. Throws InputError if a degree is above 3.
   Field(std::shared_ptr<const Parametrization> parametrization, std::array<BSplineBasis, 4> bases,
         std::vector<Vec3> coefficients);
   /// The same over (u, v, w, t) themselves; the bases' ends are the domain.
   Field(BSplineBasis u, BSplineBasis v, BSplineBasis w, BSplineBasis t, std::vector<Vec3> coefficients,
         CanonicalCut cut);
 
-  // Nothing below allocates memory, but for a History or CollapsedField that is still to grow.
+  // The functions below allocate no memory, except for a History or CollapsedField that must grow.
 
   /// Displacement from the closed frame, mm. (u, v, w) is the stress-free position and t the length cut; all
-  /// four are clamped to the domain. On v = 0 `side` chooses the lip; elsewhere it must not contradict v and
-  /// is ignored.
+  /// four are clamped to the domain. On v = 0 `side` selects the lip; elsewhere it is ignored and must not
+  /// contradict v.
   Vec3 displacement(const Vec3& uvw, Side side, double t) const;
-  /// The same at many places, the quickest way; as many are written to `out`.
+  /// The same at many places, which is the fastest way; `out` has one element for each.
   void displacements(std::span<const Place> places, std::span<Vec3> out) const;
 
   /// Displacement and derivatives inside the domain; those of the edge outside it. Where a derivative jumps
-  /// (at the tip, at some knots) it is that behind, in t that of the uncut side; of Side::both on v = 0 the
-  /// mean of both sides.
+  /// (at the tip, at some knots) it is the limit from behind, in t that of the uncut side; for Side::both on
+  /// v = 0 it is the mean of both sides.
   Derivatives derivatives(const Vec3& uvw, Side side, double t) const;
 
-  /// The displacement's history at one point. Exact to rounding where the parametrisation does not move with
-  /// t. Else pieces break where the tip passes, and are as long as `tolerance` mm allows (or 1e-12 of the
+  /// The displacement's history at one point. Exact up to rounding if the parametrisation does not move with
+  /// t. Else pieces break where the tip passes, and are as long as `tolerance`, mm, permits (or 1e-12 of the
   /// largest control point, if that is more); pieces meet at their ends.
   void contract(const Vec3& uvw, Side side, double tolerance, History& out) const;
   /// The same with further breaks at all `stops`, which are sorted.
@@ -114,10 +114,11 @@ class Field {
                 History& out) const;
   /// A tolerance for contract(), mm, that adds a tenth to the error of the fit.
   double contraction_tolerance() const;
-  /// The times at which the basis of time has knots, the first and last t included.
+  /// The times of the knots of the basis in time, including the first and last t.
   std::vector<double> knot_times() const;
 
-  /// The field at a fixed t, in 64 terms a point. `out` reads this field: it must not outlive it.
+  /// The field at a fixed t, with 64 terms for each point. `out` refers to this field and must not outlive
+  /// it.
   void collapse(double t, CollapsedField& out) const;
 
   /// Value of quantities[index], one number for each component.
@@ -135,7 +136,7 @@ class Field {
   }                                                   ///< u, v, w, t = 0 .. 3
   double duration() const { return domain(3).back; }  ///< t of the last frame
 
-  /// Evaluates with the given kernel from now on; the widest of the machine's is the default.
+  /// Evaluates with the given kernel from now on; the default is the widest that the machine supports.
   void use(Kernel kernel) { kernels_ = &kernel_table(kernel); }
 
   double quantum = 0;  ///< mm: unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats

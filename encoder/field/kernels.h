@@ -1,5 +1,5 @@
-// The sums a field consists of, written for machines of several widths and chosen when the program runs. All
-// give the same to rounding.
+// The sums of which a field consists, for several instruction sets, chosen at run time. All agree up to
+// rounding.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace cleft {
 
-/// plain: what every machine has; avx2: with FMA; avx512: with F, VL and DQ.
+/// plain: portable code; avx2: with FMA; avx512: with F, VL and DQ.
 enum class Kernel { plain, avx2, avx512 };
 
-/// Those this machine can run, the widest last.
+/// The kernels that this machine supports, the widest last.
 const std::vector<Kernel>& available_kernels();
 const char* name_of(Kernel kernel);
 

@@ -10,8 +10,8 @@
 
 namespace cleft {
 
-/// The least basis whose splines include those of both. Throws InputError where there is none: other degrees
-/// or ends, or a break that only one of them has.
+/// The least basis whose splines include those of both. Throws InputError if there is none: other degrees or
+/// ends, or a break in only one of them.
 BSplineBasis common_basis(const BSplineBasis& a, const BSplineBasis& b);
 
 /// A sum of weight.size() neighbouring values, from number `first` on.
@@ -21,12 +21,12 @@ struct BandRow {
 };
 
 /// From control points of a basis to those of one that has all its knots: a row for each of the new ones.
-/// Those that no knot is near are the old ones, to the last bit. Throws InputError where `to` lacks a knot of
-/// `from`.
+/// Control points without a new knot near them are unchanged, bit for bit. Throws InputError if `to` lacks a
+/// knot of `from`.
 std::vector<BandRow> knot_insertion(const BSplineBasis& from, const BSplineBasis& to);
 
-/// A tensor [((i * V + j) * W + k) * T + l] of the given sizes, each axis taken through its rows; an axis
-/// without rows stays as it is.
+/// A tensor [((i * V + j) * W + k) * T + l] of the given sizes, multiplied on each axis by its rows; an axis
+/// without rows is unchanged.
 std::vector<Vec3> along_axes(const std::vector<Vec3>& tensor, std::array<std::size_t, 4> size,
                              const std::array<std::vector<BandRow>, 4>& rows);
 

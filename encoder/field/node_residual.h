@@ -1,5 +1,5 @@
-// What a field's spline leaves of the displacements at the nodes, quantised, and its lossless code. The bytes
-// are stated in docs/formats.md.
+// The quantised residual of a field's spline at the nodes, and its lossless code. docs/formats.md specifies
+// the bytes.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ struct NodeResidual {
   int components = 3;
   int first_frame = 1;  ///< of the series: a displacement is 0 in frame 0, a further quantity need not be
 
-  /// Of a frame of the series, from first_frame on.
+  /// A value in a frame of the series, from first_frame on.
   std::int32_t& value(std::size_t node, int component, std::size_t frame) {
     return values[place(node, component, frame)];
   }
-  /// Of one component, and of a displacement; 0 before first_frame.
+  /// The residual of one component, and of a displacement, in its unit; 0 before first_frame.
   double at(std::size_t node, int component, std::size_t frame) const {
     return frame < static_cast<std::size_t>(first_frame) ? 0
                                                          : quantum * values[place(node, component, frame)];
@@ -40,13 +40,13 @@ struct NodeResidual {
   }
 };
 
-/// `order` names every node once, neighbours near each other: it only saves bytes. Empty: 0, 1, 2, ... Throws
-/// InputError where a value is beyond +-(2^31 - 1).
+/// `order` names every node once, neighbours near each other: it only affects the number of bytes. Empty: 0,
+/// 1, 2, ... Throws InputError if a value is beyond +-(2^31 - 1).
 std::vector<std::uint8_t> encode_residual(const NodeResidual& residual,
                                           std::span<const std::int32_t> order = {});
 
-/// Values of the same nodes, frames and components, in the same order; throws InputError where the bytes are
-/// damaged and it can be told.
+/// Values of the same nodes, frames and components, in the same order; throws InputError if the bytes are
+/// detectably damaged.
 std::vector<std::int32_t> decode_residual(int nodes, int frames, std::span<const std::uint8_t> bytes,
                                           std::span<const std::int32_t> order = {}, int components = 3);
 

@@ -1,5 +1,5 @@
-// Where a point of the tissue lies in the parameters of the field's four bases. A new parametrisation is one
-// new file in parametrization/ and a line in parametrization.cpp.
+// The parametrisation: from a point of the tissue and a time to the parameters of the field's four bases. A
+// new one is one file in parametrization/ and a line in parametrization.cpp.
 #pragma once
 
 #include <algorithm>
@@ -23,18 +23,18 @@ struct CanonicalCut {
 struct TipPath {
   std::vector<double> times, positions;
 
-  bool still() const { return positions.front() == positions.back(); }  ///< at one place all the time
+  bool still() const { return positions.front() == positions.back(); }  ///< whether it never moves
   double at(double t) const;     ///< position, constant outside the times
   double speed(double t) const;  ///< of the piece that begins at t or contains it
   double passes(
-      double u) const;  ///< first time at which the tip stands at u or beyond; infinity where it never does
+      double u) const;  ///< first time at which the tip stands at u or beyond; infinity if it never does
 };
 
 struct Interval {
   double front = 0, back = 0;
 };
 
-/// All that a parametrisation is made from: what a field file holds of it beside its name.
+/// The data of a parametrisation, which a field file holds together with its name.
 struct FieldGeometry {
   std::array<Interval, 4> domain;  ///< u, v, w (mm) and t
   CanonicalCut cut;
@@ -59,23 +59,23 @@ class Parametrization {
   virtual Single across(double v) const = 0;
   virtual Single height(double w) const = 0;
   virtual Single time(double t) const = 0;
-  // Inverses, for what is known of the bases: where their knots and control points lie.
+  // Inverses, for the places of knots and control points.
   virtual double u_at(double along, double t) const = 0;
   virtual double v_at(double across) const = 0;
   virtual double w_at(double height) const = 0;
   virtual double time_at(double parameter) const = 0;
-  /// Does along() depend on t? If not, contraction of a point to a history is exact.
+  /// Whether along() depends on t. If not, the contraction of a point to a history is exact.
   virtual bool moves() const = 0;
-  /// The same at one u; true wherever in doubt.
+  /// The same at one u; may be true although along() is constant there.
   virtual bool moves_at(double) const { return moves(); }
-  /// All four parameters of as many places as `out` has room for, clamped to the domain first. Overridden
-  /// only to be quick: map_each(*this, ...) in a final class calls nothing virtual.
+  /// All four parameters of `places`, which are clamped to the domain; `out` has room for them. Overridden
+  /// for speed only: map_each(*this, ...) in a final class calls no virtual function.
   virtual void map(std::span<const Place> places, BasisPlace* out) const { map_each(*this, places, out); }
 
   const FieldGeometry& geometry() const { return geometry_; }
   const std::array<Interval, 4>& domain() const { return geometry_.domain; }
 
-  /// x clamped to an axis of the domain; NaN stays NaN.
+  /// x clamped to the domain on an axis; NaN stays NaN.
   double inside(double x, int axis) const {
     const auto [front, back] = domain()[axis];
     return x < front ? front : back < x ? back : x;

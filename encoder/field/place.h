@@ -1,18 +1,18 @@
-// Places of the tissue, and where they lie in the parameters of a field's four bases.
+// Places in the tissue, and their parameters in a field's four bases.
 #pragma once
 
 #include "base/vec3.h"
 
 namespace cleft {
 
-/// On which side of the cut plane v = 0 a point lies. Only points on the plane itself need it told.
-/// `both` is uncut tissue on the plane: the mean of the two sides.
+/// The side of the cut plane v = 0 of a point. It is needed only for points on the plane. `both` is uncut
+/// tissue on the plane: the mean of the two sides.
 enum class Side : int { left = -1, both = 0, right = 1 };
 
-/// The side that the sign of v tells; `both` on the plane itself.
+/// The side by the sign of v; `both` on the plane.
 inline Side side_of(double v) { return v < 0 ? Side::left : v > 0 ? Side::right : Side::both; }
 
-/// A point and a time: all that a field is evaluated at.
+/// A point and a time at which a field is evaluated.
 struct Place {
   Vec3 uvw;  ///< stress-free position, mm
   Side side = Side::both;

@@ -1,5 +1,5 @@
 // An adaptive binary range coder and the models of single binary decisions. Integers only: the same bytes on
-// every machine. docs/formats.md states all of it.
+// every machine. docs/formats.md specifies it.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline constexpr int least_probability = 4, greatest_probability = 65536 - least
 class Encoder {
  public:
   static constexpr bool decodes = false;
-  /// Codes `bit` where 1 has the probability p; gives it back.
+  /// Codes `bit`, where p is the probability of 1; returns the bit.
   int bit(int p, int value) {
     const std::uint32_t part = (range_ >> 16) * static_cast<std::uint32_t>(p);
     if (value)
@@ -37,7 +37,7 @@ class Encoder {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Throws InputError where the bytes end too early, or were not read to their end.
+/// Throws InputError if the bytes end too early, or were not read to their end.
 class Decoder {
  public:
   static constexpr bool decodes = true;
@@ -82,7 +82,7 @@ extern const Tables tables;
 inline int stretch(int p) { return tables.stretch[p >> 4]; }
 inline int squash(int x) { return tables.squash[std::clamp(x, -farthest, farthest) + farthest]; }
 
-/// The probability of one kind of decision, learned as it is met: quickly at first.
+/// The adaptive probability of one kind of decision; it adapts quickly at first.
 struct Chance {
   std::uint16_t p = 32768, seen = 0;
 
@@ -93,7 +93,7 @@ struct Chance {
   }
 };
 
-/// Codes one decision by one chance, which then learns.
+/// Codes one decision with one chance, which then adapts.
 template <class Coder>
 int code_bit(Coder& coder, Chance& chance, int value, int most = 255) {
   const int p = chance.p;
@@ -102,7 +102,7 @@ int code_bit(Coder& coder, Chance& chance, int value, int most = 255) {
   return bit;
 }
 
-/// Mixes N opinions about a decision, each stretched, by weights that learn which of them to believe.
+/// Mixes N stretched probability estimates of a decision (logistic mixing) with adaptive weights.
 template <int N>
 struct Mixer {
   std::array<std::int32_t, N> weight;  ///< units of 2^-16
@@ -122,8 +122,8 @@ struct Mixer {
   }
 };
 
-/// A whole number of 0 or more without a model: as many ones as its binary digits after the first, a zero,
-/// the digits. Exp-Golomb of order 0.
+/// A non-negative integer without a model: as many ones as its binary digits after the first, a zero, the
+/// digits. Exp-Golomb of order 0.
 template <class Coder>
 std::uint64_t code_plain(Coder& coder, std::uint64_t value);
 

@@ -1,4 +1,4 @@
-// A B-spline basis made ready for evaluation: on each span its functions in Bernstein form, which is exact at
+// A B-spline basis prepared for evaluation: on each span its functions in Bernstein form, which is exact at
 // the ends and never cancels, and a table of buckets instead of a search for the span.
 #pragma once
 
@@ -21,18 +21,18 @@ struct alignas(32) BasisSpan {
 
 class SpanTable {
  public:
-  /// Throws InputError where the degree is above 3.
+  /// Throws InputError if the degree is above 3.
   explicit SpanTable(const BSplineBasis& basis);
 
-  /// Gives a basis that breaks at x, so that its limits there share no function, one span more: the mean of
-  /// both limits. Does nothing where they do share one.
+  /// Adds a span at a break x, where the left and right limits share no function: the mean of both limits.
+  /// Does nothing if they share one.
   void break_at(double x, const BSplineBasis& basis);
 
   const BasisSpan* spans() const { return spans_.data(); }
   int span_count() const { return static_cast<int>(ends_.size()); }  ///< between knots, in their order
-  int size() const { return size_; }  ///< control points, with zeros behind them where a span needs four
-  /// Number of the span in which x lies; a knot belongs to the span behind it. Any x is allowed: those
-  /// outside belong to the first or the last span.
+  int size() const { return size_; }  ///< control points, padded with zeros if a span needs four
+  /// Number of the span in which x lies; a knot belongs to the span behind it. Values x outside belong to the
+  /// first or the last span.
   int find(double x) const {
     const double bucket = (x - front_) * scale_;
     int span = starts_[bucket > 0 ? static_cast<int>(bucket < last_bucket_ ? bucket : last_bucket_) : 0];

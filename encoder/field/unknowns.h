@@ -1,5 +1,5 @@
-// The unknowns among a field's control points: what its file stores, as integers, and what the others follow
-// from.
+// The unknowns among a field's control points, which its file stores as integers; the others follow from
+// them.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@ namespace cleft {
 /// The ties of a field's control points: those of its parametrisation.
 ControlTies ties_of(const std::string& parametrization, const std::array<BSplineBasis, 4>& bases);
 
-/// Where the unknowns stand on the grid along, across and in height.
+/// The places of the unknowns on the grid along, across and in height.
 CoefficientGrid places_of(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases);
 
 /// All control points, mm, in the order of Field, of the unknowns' values, mm, in the order of
-/// encode_coefficients(). Where there is one slice less than control points in t, the first are 0.
+/// encode_coefficients(). If there is one slice less than control points in t, the first control points are
+/// 0.
 std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases,
                                  std::span<const double> values);
 /// The same of values that are integers times the quantum, mm.
@@ -30,7 +31,7 @@ std::vector<Vec3> control_points(const ControlTies& ties, const std::array<BSpli
 std::vector<double> multiples(std::span<const std::int64_t> values, double quantum);
 
 /// The unknowns' values of a field over `unit`, in the order of encode_coefficients(), and their slices in t:
-/// without the first where that is 0 everywhere.
+/// without the first if that is 0 everywhere.
 struct Unknowns {
   int slices = 0;
   std::vector<double> values;

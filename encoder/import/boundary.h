@@ -1,12 +1,11 @@
-// Where given nodes touch the surface of the body.
+// The boundary faces of the body at given nodes.
 #pragma once
 
 #include "encoder/import/source_mesh.h"
 
 namespace cleft {
 
-/// Unit vectors out of the body, of every face of solid cells that belongs to one cell and has one of
-/// `nodes`.
+/// Outward unit normals of all faces of solid cells that belong to one cell and have one of `nodes`.
 std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int32_t>& nodes);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// The discontinuity: which plane it lies in, and which nodes it parts.
+// The discontinuity: its plane, and the pairs of nodes that it separates.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,15 @@
 namespace cleft {
 
 struct Break {
-  std::optional<Plane> plane;             ///< none: without a break
+  std::optional<Plane> plane;             ///< none if there is no break
   std::vector<NodePair> pairs;            ///< the node before the plane (left), the one behind it
-  std::vector<std::int32_t> first_frame;  ///< in which a pair is open; the number of frames where it never is
-  std::vector<std::string> notes;         ///< what a user should know
+  std::vector<std::int32_t> first_frame;  ///< in which a pair is open; the number of frames if it never is
+  std::vector<std::string> notes;         ///< messages for the user
 };
 
-/// `given`: a plane as text, "none", or nothing: then the plane of the coincident nodes that part in some
-/// frame. Nodes of an unwelded series are made one first. `flat`: the normal of a mesh in a plane. Throws
-/// InputError where coincident nodes lie in no common plane, or the plane given does not divide the mesh.
+/// `given`: a plane as text, "none", or no value: then the plane of the coincident nodes whose values differ
+/// in some frame. Nodes of an unwelded series are merged first. `flat`: the normal of a plane mesh. Throws
+/// InputError if the coincident nodes are in no common plane, or the given plane does not divide the mesh.
 Break find_break(Series& series, const std::optional<std::string>& given, const std::optional<Vec3>& flat,
                  const std::function<void(std::size_t)>& progress);
 

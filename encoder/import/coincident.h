@@ -1,4 +1,4 @@
-// Nodes that stand at the same place.
+// Nodes at the same place.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,12 @@ using Groups = std::vector<std::vector<std::int32_t>>;
 /// first.
 Groups coincident_groups(const std::vector<Vec3>& points, double tolerance);
 
-/// Every cell with nodes of its own, or nearly so: most nodes have company.
+/// Whether the mesh is unwelded: (nearly) each cell has its own nodes, so that most nodes have coincident
+/// ones.
 bool is_unwelded(const SourceMesh& mesh, const Groups& groups);
 
-/// Makes one of those coincident nodes whose values agree in every field and frame, up to rounding. Returns
-/// the number of nodes that went.
+/// Merges coincident nodes whose values agree in all fields and frames, up to rounding. Returns the number of
+/// nodes that were removed.
 std::size_t weld(Series& series, const Groups& groups);
 
 }  // namespace cleft

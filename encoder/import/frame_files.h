@@ -1,4 +1,4 @@
-// The files of a series: what every kind of them gives, frame by frame and unchecked.
+// The files of a series of any format: their content frame by frame, unchecked.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace cleft {
 
-/// An array of the points, in double precision whatever it was.
+/// An array of the points, converted to double precision.
 struct SourceArray {
   int components = 1;
   bool single = false;  ///< stored in single precision
@@ -18,28 +18,28 @@ struct SourceArray {
 
 struct SourceFrame {
   SourceMesh mesh;
-  std::vector<SourceArray> arrays;  ///< those asked for
+  std::vector<SourceArray> arrays;  ///< those requested
 };
 
 class FrameFiles {
  public:
   virtual ~FrameFiles() = default;
-  /// All files the series is made of.
+  /// All files of the series.
   virtual std::vector<std::string> files() const = 0;
   virtual const std::vector<double>& times() const = 0;
   /// The file that holds a frame.
   virtual const std::string& file(std::size_t frame) const = 0;
   virtual std::vector<std::string> point_arrays(std::size_t frame) const = 0;
   virtual std::vector<std::string> cell_arrays(std::size_t frame) const = 0;
-  /// Throws FileError where the file is damaged. `arrays` are names of point_arrays().
+  /// Throws FileError if the file is damaged. `arrays` are names of point_arrays().
   virtual SourceFrame read(std::size_t frame, const std::vector<std::string>& arrays) const = 0;
 };
 
-/// A .pvd that lists .vtu files, by VTK's readers. Throws FileError where it lists none that can be read, or
-/// no times.
+/// A .pvd that lists .vtu files, by VTK's readers. Throws FileError if it lists no readable file, or no
+/// times.
 std::unique_ptr<FrameFiles> open_pvd(const std::string& path);
 
-/// A temporal .vtkhdf of one mesh a step, through base/h5: VTK 9.1 reads no times in them.
+/// A temporal .vtkhdf with one mesh for each step, through base/h5: VTK 9.1 reads no times in them.
 std::unique_ptr<FrameFiles> open_vtkhdf(const std::string& path);
 
 }  // namespace cleft

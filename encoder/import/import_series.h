@@ -17,18 +17,18 @@ struct ImportOptions {
   std::optional<std::string> break_plane;  ///< nx,ny,nz,offset, or "none"; nothing: found
   Box box = Box::smaller;
   std::vector<std::string> parameters =
-      {};  ///< NAME=VALUE: what the series does not tell of skin, tissue and load
+      {};  ///< NAME=VALUE: parameters of skin, tissue and load, which the series does not hold
 };
 
 struct ImportReport {
   Snapshot snapshot;                  ///< as written
-  std::vector<SnapshotArray> arrays;  ///< beside the displacement
+  std::vector<SnapshotArray> arrays;  ///< besides the displacement
   bool has_displacement = false;
-  std::vector<std::string> notes;  ///< what was welded, left or not found
+  std::vector<std::string> notes;  ///< messages: nodes that were merged or left, data that were not found
 };
 
-/// Writes a snapshot, whole or not at all. Throws InputError where the series, its fields or the break are
-/// not as they must be.
+/// Writes a snapshot, completely or not at all. Throws InputError if the series, its fields or the break do
+/// not satisfy the requirements.
 ImportReport import_series(const ImportOptions& options,
                            const std::function<void(const std::string&)>& progress);
 

@@ -1,4 +1,4 @@
-// How far the values of coincident nodes lie apart, frame by frame.
+// Differences of the values of coincident nodes, frame by frame.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ double jump_of(const std::vector<double>& values, int components, std::int32_t a
 /// tensor's norm) or, of a scalar, of its range; of fields in single precision, their rounding.
 std::vector<double> rounding_of(const Series& series);
 
-/// The field that tells whether a pair is open: the displacement, or the first there is.
+/// The field that decides whether a pair is open: the displacement, or the first field.
 std::size_t telling_field(const Series& series);
 
-/// When pairs of coincident nodes part.
+/// The frames from which the values of coincident nodes differ.
 struct Partings {
   std::vector<NodePair> pairs;  ///< all within each group, lower node first
   std::vector<std::int32_t>

@@ -12,28 +12,30 @@ namespace cleft {
 struct Placement {
   Vec3 origin;  ///< of (u, v, w), in the source's space
   std::array<Vec3, 3> axes{
-      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< unit vectors of u, v, w there, right-handed
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< unit vectors of u, v, w in that space, right-handed
 
   Vec3 turned(const Vec3& vector) const {
     return {dot(axes[0], vector), dot(axes[1], vector), dot(axes[2], vector)};
   }
   Vec3 placed(const Vec3& point) const { return turned(point - origin); }
-  /// Values of a field in place: scalars stay, vectors and symmetric tensors (XX YY ZZ XY YZ XZ) turn.
+  /// Rotates the values of a field: scalars are unchanged, vectors and symmetric tensors (XX YY ZZ XY YZ XZ)
+  /// are rotated.
   void turn(std::vector<double>& values, int components) const;
 };
 
-/// The normal of the plane that holds the whole mesh, where one does.
+/// The normal of the plane of a plane mesh.
 std::optional<Vec3> flatness(const SourceMesh& mesh);
 
-/// v = 0 is the break's plane, u runs along the longest extent of its doubled nodes and the way they open,
-/// from their middle, and w up, to where they reach the body's surface: w = 0 at the top there, or of the
-/// body. Exchanges left and right of the pairs where that turns the plane round.
+/// v = 0 is the break's plane, u is along the longest extent of its doubled nodes, in the direction in which
+/// they open, from their middle; w is toward the surface of the body that they reach, with w = 0 at the
+/// highest of them, or at the top of the body. Exchanges left and right of the pairs if this reverses the
+/// plane.
 Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional<Vec3>& flat);
 
-/// Which box holds the mesh of a series without a break.
+/// The box of the mesh of a series without a break.
 enum class Box { smaller, aligned, principal };
 
-/// Along the axes of the space, or along the principal ones of the nodes where that box is at least a fifth
+/// Along the axes of the space, or along the principal axes of the nodes if that box is at least a fifth
 /// smaller. u = 0 and v = 0 in its middle, w = 0 at its top.
 Placement placement_in_box(const SourceMesh& mesh, Box box, const std::optional<Vec3>& flat);
 

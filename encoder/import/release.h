@@ -1,4 +1,4 @@
-// In which order the pairs open, and where the tip is.
+// The order in which the pairs open, and the position of the tip.
 #pragma once
 
 #include "encoder/import/break_plane.h"

@@ -9,14 +9,14 @@
 
 namespace cleft {
 
-/// A field of the points and what it is called here.
+/// A field of the points and its name in the snapshot.
 struct SeriesField {
   std::string source, name;  ///< in the files, in the snapshot
   int components = 1;        ///< 1, 3 (a vector) or 6 (a symmetric tensor: XX YY ZZ XY YZ XZ)
-  bool single = false;       ///< in single precision there
+  bool single = false;       ///< stored in single precision
 };
 
-/// "stress" or "U:displacement": SOURCE[:NAME]. Throws InputError where a name cannot be one, or comes twice.
+/// "stress" or "U:displacement": SOURCE[:NAME]. Throws InputError if a name is invalid or repeated.
 std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts);
 
 /// Values of each field in a frame: N times its components, point by point.
@@ -24,8 +24,8 @@ using FieldValues = std::vector<std::vector<double>>;
 
 class Series {
  public:
-  /// A .pvd or temporal .vtkhdf. Throws InputError where it has fewer than 2 frames, times that do not
-  /// increase, no such fields, or fields of other than 1, 3 or 6 components.
+  /// A .pvd or temporal .vtkhdf. Throws InputError if it has fewer than 2 frames, times that do not increase,
+  /// no such fields, or fields of other than 1, 3 or 6 components.
   Series(const std::string& path, const std::vector<SeriesField>& fields);
 
   const std::string& path() const { return path_; }
@@ -33,17 +33,17 @@ class Series {
   const std::vector<double>& times() const { return files_->times(); }
   std::size_t frames() const { return times().size(); }
   const std::vector<SeriesField>& fields() const { return fields_; }
-  /// The first frame's.
+  /// The mesh of the first frame.
   const SourceMesh& mesh() const { return mesh_; }
 
-  /// Throws FileError where the frame has other nodes or cells than the first, lacks a field, or holds a
-  /// value that is not finite: with the file, frame, node and field.
+  /// Throws FileError if the frame has other nodes or cells than the first, lacks a field, or holds a value
+  /// that is not finite: with the file, frame, node and field.
   FieldValues frame(std::size_t frame) const;
-  /// The farthest any node has stood from its place in the first frame, of the frames read so far.
+  /// The largest distance of a node from its place in the first frame, over the frames read so far.
   double farthest_moved() const { return farthest_moved_; }
 
-  /// Nodes of the same number in `number` become one, with the values of the first of them; numbers count
-  /// from 0 without gaps.
+  /// Merges nodes with equal `number`, which get the values of the first of them; the numbers are consecutive
+  /// from 0.
   void weld(const std::vector<std::int32_t>& number);
 
  private:

@@ -1,4 +1,4 @@
-// A mesh as another program wrote it, in its own space.
+// The mesh of another program, in its own space.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,11 @@ inline bool same_cells(const SourceMesh& a, const SourceMesh& b) {
 /// Length of the diagonal of the box around the points.
 double diagonal(const std::vector<Vec3>& points);
 
-/// What is closer than this counts as the same place: much less than any element, more than rounding to
-/// single precision.
+/// Points that are closer are at the same place: much less than any element, more than rounding to single
+/// precision.
 inline double same_place(const SourceMesh& mesh) { return 1e-7 * diagonal(mesh.points); }
 
-/// What is closer than this to a plane counts as in it: more than rounding to the six digits of a text file.
+/// Points that are closer to a plane are in it: more than rounding to the six digits of a text file.
 inline double in_plane(const SourceMesh& mesh) { return 2e-5 * diagonal(mesh.points); }
 
 }  // namespace cleft

@@ -13,25 +13,24 @@
 
 namespace cleft {
 
-/// A case as it was read: its field, and the parameters that are no numbers where they are known
-/// (those of imported data are not).
+/// A case as read: its field, and its parameters that are not numbers (unknown for imported data).
 struct StudyMember {
   std::string name;
   Field field;
   std::map<std::string, std::string> choices;
 };
 
-/// The published cases of a study folder, or the fields of a study.dffd. Throws InputError where there are
-/// none, FileError where one is damaged.
+/// The published cases of a study folder, or the fields of a study.dffd. Throws InputError if there are none,
+/// FileError if one is damaged.
 std::vector<StudyMember> read_members(const std::string& study);
 
-/// Is told now and then what part of the work is done, 0 to 1; what it throws ends the work.
+/// Called repeatedly with the completed part of the work, 0 to 1; an exception from it ends the work.
 using ToldPart = std::function<void(double part)>;
 
-/// What is kept of a case beside its control points.
+/// Data of a case besides its control points.
 struct CommonCase {
   std::string name;
-  /// cut.length and cut.depth are those of the cut in the mesh, where the mesh was made for another one.
+  /// cut.length and cut.depth are those of the cut in the mesh, if the mesh was made for another cut.
   std::map<std::string, double> parameters;
   FieldGeometry geometry;
   FitReport report;
@@ -46,13 +45,13 @@ struct CommonDerivative {
 
 class CommonCases {
  public:
-  /// Raises all cases to the bases that hold the knots of each. Of cases with the same parameters the one
-  /// fitted best is taken. Throws InputError where fewer than two are left, where parametrisations or
-  /// choices differ, or one cut reaches an edge of the patch that another does not.
+  /// Raises all cases to bases that contain the knots of each. Of cases with equal parameters the one with
+  /// the least error is used. Throws InputError if fewer than two remain, if parametrisations or choices
+  /// differ, or if one cut reaches an edge of the patch that another does not.
   explicit CommonCases(const std::vector<StudyMember>& members);
-  /// The same of a study folder or a study.dffd, of which it holds one field at a time.
+  /// The same for a study folder or a study.dffd, of which one field at a time is in memory.
   static CommonCases of_study(const std::string& study, const ToldPart& told = {});
-  /// The same of what goes into a study.dffd.
+  /// The same for the records of a study.dffd.
   static CommonCases of_records(const std::vector<const StudyRecord*>& records);
 
   const std::vector<CommonCase>& cases() const { return cases_; }

@@ -1,4 +1,4 @@
-// How far a point lies from the cases.
+// The distance of a point from the cases.
 #pragma once
 
 #include <Eigen/Core>

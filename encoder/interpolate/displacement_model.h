@@ -23,33 +23,34 @@ struct CaseSamples {
   Eigen::MatrixXd derivatives;
 };
 
-/// Those that lie farthest from one another, `most` at most; in order.
+/// At most `most` cases that are farthest from one another; in order.
 std::vector<int> representative_cases(const std::vector<CaseParameters>& cases, int most);
 
-/// What is regressed on are displacements over the scale of their load (Features) and over a power law of the
-/// features that is fitted to their norms. Of all methods that one is taken that predicts cases left out
-/// best, in their worst points: with the derivatives, which move along with features and load, or without.
+/// The regression is for displacements divided by the scale of their load (Features) and by a power law of
+/// the features that is fitted to their norms. The method is the one with the least leave-one-out error at
+/// the worst points, with the derivatives by parameters or without.
 class DisplacementModel {
  public:
-  /// Derivatives are of all cases or left out.
+  /// Derivatives are given for all cases or for none.
   DisplacementModel(const std::vector<CaseParameters>& cases, const CaseSamples& samples, Loading loading);
 
   struct Prediction {
-    Eigen::VectorXd weights;      ///< of the cases, for whatever is linear in their displacements
-    Eigen::VectorXd derivatives;  ///< of the derivatives, unit of their parameter; 0: without
-    double error;                 ///< mm: expected of the largest at any place
+    Eigen::VectorXd weights;  ///< of the cases, for everything that is linear in their displacements
+    Eigen::VectorXd
+        derivatives;  ///< of the derivatives, in units of their parameter; empty without derivatives
+    double error;     ///< mm: estimate of the largest error at any place
   };
   Prediction at(const CaseParameters& parameters) const;
 
-  /// Distance of parameters from the cases': of the features from their convex hull, where the spread of each
-  /// is 1, and of the load's direction from all that cases' sums have.
+  /// Distance of parameters from the cases: that of the features from their convex hull, where the spread of
+  /// each is 1, and that of the load's direction from the span of the cases' directions.
   double outside(const CaseParameters& parameters) const;
 
   const Features& features() const { return features_; }
   const KernelRegression& regression() const { return *regression_; }
   bool uses_derivatives() const { return regression_->rows() > places_.rows(); }
-  /// Largest residual of each case left out, over its largest displacement; and the root of their mean
-  /// square.
+  /// Leave-one-out errors: the largest residual of each case over its largest displacement; and the root of
+  /// their mean square.
   const Eigen::VectorXd& left_out_errors() const { return errors_; }
   double left_out_error() const { return left_out_error_; }
 

@@ -1,4 +1,4 @@
-// What parameters mean to a displacement, in numbers without dimension.
+// Dimensionless features of the parameters, by dimensional analysis.
 //
 // The solver's model is linear, and of the skin it knows thickness t times Young's modulus E_s and t times
 // prestress alone (a membrane: docs/formats.md). With the tissue's modulus E, the cut's length L and the
@@ -25,8 +25,8 @@ enum class Loading { superposed, general };
 
 class Features {
  public:
-  /// Of cases that all have the same parameters. Those that are none of the solver's (imported data) are
-  /// features themselves, or their logarithms where all values are positive.
+  /// Features of cases that all have the same parameters. Parameters that are not the solver's (imported
+  /// data) are features themselves, or their logarithms if all values are positive.
   Features(const std::vector<CaseParameters>& cases, Loading loading);
 
   int size() const { return static_cast<int>(chosen_.size()); }
@@ -36,16 +36,17 @@ class Features {
   /// Features of a case, from -1 to 1 in the study. Of features that follow linearly from one another in
   /// all cases only the first are kept.
   Eigen::VectorXd at(const CaseParameters& parameters) const;
-  /// How far the features left out are from what follows from those kept, in halves of their range.
+  /// Distance of the features that were left out from their linear dependence on those kept, in halves of
+  /// their range.
   double off(const CaseParameters& parameters) const;
-  /// Components of the prestress over its norm; (1) where it does not superpose.
+  /// Components of the prestress over its norm; (1) if it does not superpose.
   Eigen::VectorXd load(const CaseParameters& parameters) const;
-  /// How these change with a parameter; `leaves`: off() grows with it.
+  /// Derivatives of these by a parameter; `leaves`: off() grows with it.
   struct Slope {
     Eigen::VectorXd features, load;  ///< of at() and load(), per unit of the parameter
     double log_scale = 0;            ///< of the logarithm of scale()
     bool leaves = false;
-    double step = 0;  ///< units of the parameter that it was seen in
+    double step = 0;  ///< step of the finite difference, units of the parameter
   };
   Slope slope(const CaseParameters& parameters, const std::string& name) const;
   /// mm: q / E, or 1 for imported data.

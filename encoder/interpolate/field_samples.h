@@ -8,16 +8,15 @@
 
 namespace cleft {
 
-/// Where a simulation with elements of that size (`spacing`, mm) has nodes, and when it has frames; closer
-/// together toward the cut and its tip. What splines do between nodes, most of all where start and tip are
-/// still close, no simulation has told them.
+/// Nodes and frames of a simulation with elements of the size `spacing`, mm; denser toward the cut and its
+/// tip. Between nodes the splines are not determined by a simulation, least of all where start and tip are
+/// close.
 std::vector<Place> sample_places(const FieldGeometry& geometry, double spacing);
 
-/// mm: of the solver's meshes; a guess for those of others.
+/// mm: for meshes of the solver; a guess for other meshes.
 double node_spacing(const CommonCase& one);
 
-/// Places of a body that all cases have in common: of the case with the fewest nodes along its cut. Where it
-/// has some, all have.
+/// Places that exist in the bodies of all cases: those of the case with the fewest nodes along its cut.
 struct CommonPlaces {
   FieldGeometry body;
   std::vector<Place> places;
@@ -26,10 +25,10 @@ CommonPlaces places_in_common(const CommonCases& cases);
 
 /// x, y, z one after another of the displacements of control points on the common bases, mm.
 Eigen::VectorXd sample(const CommonCases& cases, const std::vector<Vec3>& points, const CommonPlaces& at);
-/// A column for each case, and for each of some cases.
+/// One column for each case, or for each of the given cases.
 Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at);
 Eigen::MatrixXd sample_cases(const CommonCases& cases, const CommonPlaces& at, const std::vector<int>& some);
-/// A column for each of their derivatives.
+/// One column for each of their derivatives.
 Eigen::MatrixXd sample_derivatives(const CommonCases& cases, const CommonPlaces& at);
 
 /// Largest norm of the points (x, y, z one after another) in a column.

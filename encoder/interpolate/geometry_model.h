@@ -1,4 +1,4 @@
-// The body and its cut in between: what a field's parametrisation is made from.
+// Interpolation of the measures of the body and its cut, from which a field's parametrisation is made.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +10,9 @@
 
 namespace cleft {
 
-/// Domain, start, length and depth of the cut, and the path of the tip as parts of duration and length. A
-/// body's measures are linear in its parameters: so they are taken, and what that leaves at the cases (a
-/// mesh's rounding) by inverse distances (Shepard 1968).
+/// Domain, start, length and depth of the cut, and the path of the tip as parts of duration and length. The
+/// measures of a body are linear in its parameters; the model is a linear fit, and its residual at the cases
+/// (rounding to the mesh) is interpolated by inverse distances (Shepard 1968).
 class GeometryModel {
  public:
   GeometryModel(const std::vector<CaseParameters>& parameters, const std::vector<FieldGeometry>& geometries);

@@ -1,13 +1,12 @@
 // Regression of many quantities at once on few parameters, by kernels. Every method here is linear in the
 // data: a prediction is a weighted sum of the cases. Leaving a case out then costs nothing (Dubrule 1983;
-// Rasmussen and Williams, Gaussian Processes for Machine Learning, 5.4.2): with K the matrix of the
-// covariance between the cases and Y their data, the data of case i differ from what all others predict by
+// Rasmussen and Williams, Gaussian Processes for Machine Learning, 5.4.2): with the covariance matrix K of
+// the cases and their data Y, the data of case i differ from the prediction of all others by
 //
 //     r_i = (Y K^-1)_i / (K^-1)_ii        with variance 1 / (K^-1)_ii
-//
-// Where derivatives of the data are known too (Hermite data), they are further rows of K, whose covariances
-// are derivatives of the kernel (Solak et al., Derivative observations in Gaussian process models, 2003); a
-// case left out takes its derivatives with it, and the quotient becomes a solution with its block of K^-1.
+// Derivatives of the data (Hermite data) are further rows of K, whose covariances are derivatives of the
+// kernel (Solak et al., Derivative observations in Gaussian process models, 2003); a case left out takes its
+// derivatives with it, and the quotient becomes a solution with its block of K^-1.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -17,12 +16,12 @@
 
 namespace cleft {
 
-/// What is regressed on: n cases. Without gram nothing is known of cases left out.
+/// The n cases of a regression. Without gram there are no leave-one-out errors.
 struct TrainingCases {
   Eigen::MatrixXd features;  ///< n x d, from -1 to 1
   Eigen::MatrixXd loads;     ///< n x k: data are linear in them
-  Eigen::MatrixXd gram;      ///< n + q: inner products of the cases' data, and of the slopes' behind them
-  /// q derivatives of cases' data, along ways on which features and load change as told.
+  Eigen::MatrixXd gram;      ///< n + q: inner products of the data of the cases, followed by the slopes
+  /// q derivatives of cases' data, along directions in which features and load change as given.
   struct Slopes {
     std::vector<Eigen::Index> of;     ///< case
     Eigen::MatrixXd features, loads;  ///< q x d, q x k
@@ -58,14 +57,14 @@ class KernelRegression {
   Eigen::Index rows() const { return matrix_.rows(); }  ///< cases and slopes
   /// Column i: weights of all cases (and slopes behind them) whose sum of data is r_i.
   const Eigen::MatrixXd& left_out() const { return left_out_; }
-  /// sqrt of the variance of r_i.
+  /// Standard deviation of r_i.
   const Eigen::VectorXd& left_out_deviation() const { return left_out_deviation_; }
   /// sqrt of the mean of |r_i|^2 / |y_i|^2.
   double left_out_error() const { return left_out_error_; }
 
-  /// Of the cases (and slopes behind them), for the data at these features under this load.
+  /// Weights of the cases, followed by the slopes, for the prediction at these features under this load.
   Eigen::VectorXd weights(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
-  /// sqrt of the variance of that prediction, in the same units as left_out_deviation().
+  /// Standard deviation of that prediction, in the unit of left_out_deviation().
   double deviation(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
 
  private:
@@ -81,8 +80,9 @@ class KernelRegression {
   double left_out_error_ = 0;
 };
 
-/// Every method, with the lengths and nuggets of least left_out_error(): polynomials, radial basis functions,
-/// and Gaussian processes with a length for each feature. Where there are slopes, all of them use these.
+/// All methods, with the hyperparameters (lengths and nuggets) of least left_out_error(): polynomials, radial
+/// basis functions, and Gaussian processes with a length for each feature. If there are slopes, all methods
+/// use them.
 std::vector<KernelRegression> all_methods(const TrainingCases& cases);
 
 }  // namespace cleft

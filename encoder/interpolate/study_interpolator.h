@@ -12,7 +12,7 @@
 
 namespace cleft {
 
-/// Reads a study once; at() then takes milliseconds and changes nothing (many threads may call it).
+/// Reads a study once; at() then takes milliseconds and is const (several threads may call it).
 class StudyInterpolator {
  public:
   /// A parameter that differs among the cases, and its range there.
@@ -21,8 +21,8 @@ class StudyInterpolator {
     double least, greatest;
   };
 
-  /// Of a study folder or a study.dffd; throws InputError as read_members() and CommonCases do, and what
-  /// `told` throws.
+  /// Of a study folder or a study.dffd; throws InputError as read_members() and CommonCases do, and the
+  /// exceptions of `told`.
   explicit StudyInterpolator(const std::string& study, const ToldPart& told = {});
   explicit StudyInterpolator(CommonCases cases, const ToldPart& told = {});
 
@@ -30,13 +30,13 @@ class StudyInterpolator {
   const CommonCases& cases() const { return cases_; }
   const Features& features() const { return model_->features(); }
   const KernelRegression& regression() const { return model_->regression(); }
-  /// Largest residual of each case left out, over its largest displacement.
+  /// Leave-one-out errors: the largest residual of each case over its largest displacement.
   const Eigen::VectorXd& left_out_errors() const { return model_->left_out_errors(); }
 
-  /// The field of these values; those of all other parameters are the cases'. Its report holds the estimated
-  /// error as node_error and spline_error, and the largest displacement; all else there is not a number.
-  /// Throws InputError where a name is unknown (the nearest is suggested), a varying one is missing, another
-  /// one is changed, or a value is out of its physical range. Outside the cases it answers too: see
+  /// The field for these values; all other parameters are those of the cases. Its report holds the estimated
+  /// error as node_error and spline_error, and the largest displacement; all other entries are NaN. Throws
+  /// InputError if a name is unknown (the nearest is suggested), a varying parameter is missing, a constant
+  /// one is changed, or a value is outside its physical range. Extrapolates outside the cases: see
   /// Field::interpolation.
   Field at(const CaseParameters& values) const;
 

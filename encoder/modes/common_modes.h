@@ -1,4 +1,4 @@
-// All cases of a study as sums of a few common modes: what they have in common is stored once.
+// Cases of a study as sums of common modes, which are stored once.
 #pragma once
 
 #include <vector>
@@ -7,19 +7,18 @@
 
 namespace cleft {
 
-/// What study.dffd is written from.
+/// The content of study.dffd.
 struct PackedStudy {
   std::vector<StudyRecord> cases;
   CodedModes modes = {};
 };
-std::size_t coefficient_bytes(const PackedStudy& study);  ///< of its file, about
+std::size_t coefficient_bytes(const PackedStudy& study);  ///< approximate size of its file
 
-/// The same cases as sums of modes, if that costs less than half the bytes; else as they are. Modes are the
-/// leading left singular vectors of the cases, on common knots, each over its largest displacement, compared
-/// where meshes have nodes. A case becomes a sum of them where it is then off nowhere there by more than
-/// `error` times its largest displacement. So many modes are taken as make the fewest bytes. Cases with
-/// further quantities or derivatives, and those whose parameters another case has too, stay as they are.
-/// Throws InputError as CommonCases does.
+/// The same cases as sums of modes, if that needs less than half of the bytes; else unchanged. The modes are
+/// the leading left singular vectors of the cases on common knots, each divided by its largest displacement,
+/// compared at nodes. A case becomes a sum of modes if it then differs nowhere at nodes by more than `error`
+/// times its largest displacement. The number of modes minimises the bytes. Cases with further quantities or
+/// derivatives, and cases with equal parameters, are unchanged. Throws InputError as CommonCases does.
 PackedStudy with_common_modes(const PackedStudy& own, double error);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// The paper's parametrisation: the stress-free position and the length cut, as they are.
+// The paper's parametrisation: the stress-free position and the length cut themselves.
 #pragma once
 
 #include "encoder/field/parametrization.h"
