@@ -1,8 +1,8 @@
-// The cheapest settings of the chain whose error stays within a bound, from what cheap cases tell of each
-// link.
+// The cheapest setting of the chain whose error is within a bound, from measurements of each source of error
+// in cheap cases.
 //
-// An error is a difference of openings, right lip less left lip, over the cut and over time; its size is its
-// largest length over the largest opening. What a link does is measured where it is cheap:
+// An error is a difference of openings (right lip minus left lip) over the cut and over time; its size is its
+// largest norm over the largest opening. Each source of error is measured where it is cheap:
 //
 //   patch    against one that is far wider, in a coarse mesh
 //   mesh     nodes of two coarse meshes against each other, in a patch that errs little; it goes as the
@@ -30,41 +30,43 @@
 
 namespace cleft {
 
-/// What is chosen.
+/// A setting of mesh, patch, encoder and replay.
 struct Setting {
   double element_size = 0;  ///< mm, at the cut; elements grow away from it by mesh_grading
   double margin = 0;        ///< mm of patch around the cut, on all four sides
-  double tolerance = 0;     ///< of the encoder, which takes the fewest knots that keep it
-  double detail = 0;        ///< mm: what never moves by more is left alone in replays
+  double tolerance = 0;     ///< of the encoder
+  double detail = 0;        ///< mm: vertices that never move by more stay at rest in replays
 };
 inline constexpr double advised_grading = 1.3;
 Parameters applied(const Setting& setting, Parameters parameters);
 
-/// What a setting is expected to come to. Errors are over the largest opening.
+/// Estimates for a setting. Errors are relative to the largest opening.
 struct Expectation {
   double mesh = 0, tip = 0, patch = 0, code = 0, detail = 0, total = 0;
   double nodes = 0, seconds = 0, bytes = 0;  ///< seconds: of processors, to solve and encode
-  double frames = 0;                         ///< one a column of nodes along the cut
+  double frames = 0;                         ///< one for each column of nodes along the cut
 
-  /// The link whose error is largest.
+  /// The name of the largest source of error.
   std::string dominating() const;
 };
 
 /// A case, measured in coarse meshes.
 class CaseModel {
  public:
-  /// Takes seconds. `work`: a folder for what is made on the way. Throws InputError where the case has not
-  /// one straight upright cut.
+  /// Takes seconds. `work`: a folder for intermediate files. Throws InputError if the case does not have
+  /// exactly one straight upright cut.
   CaseModel(const Parameters& parameters, std::string work,
             const std::function<void(const std::string&)>& progress);
 
   Expectation expectation(const Setting& setting) const;
   double largest_opening() const { return largest_; }  ///< mm
-  /// Of a replayed frame of 10,000 vertices in the patch, but those that never move by more than this, mm.
+  /// Time of a replayed frame of 10,000 vertices in the patch, without those that never move by more than
+  /// `detail`, mm.
   double frame_ms(double detail) const;
-  /// That the encoder takes for a tolerance of settings(), along u, v, w and t, in the finest mesh measured.
+  /// Numbers of control points along u, v, w and t that the encoder takes for a tolerance of settings(), in
+  /// the finest mesh measured.
   std::array<int, 4> control_points(double tolerance) const;
-  /// All settings there are to choose from.
+  /// All candidate settings.
   std::vector<Setting> settings() const;
 
  private:
@@ -92,7 +94,7 @@ class CaseModel {
   std::optional<Field> field_;
 };
 
-/// Of several cases the largest errors and the mean costs.
+/// For several cases: the largest errors and the mean costs.
 Expectation expectation(const std::vector<CaseModel>& models, const Setting& setting);
 
 struct Goals {
@@ -101,8 +103,8 @@ struct Goals {
   double cases = 1;                    ///< of the study; the models stand for them
 };
 
-/// The cheapest setting that is expected to keep all goals. Throws InputError, naming what stands in the way
-/// and the nearest that can be had, where none does.
+/// The cheapest setting that is expected to satisfy all goals. If there is none, throws InputError that names
+/// the obstacle and the nearest possible values.
 Setting advise(const std::vector<CaseModel>& models, const Goals& goals);
 
 }  // namespace cleft

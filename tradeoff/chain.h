@@ -1,4 +1,4 @@
-// One setting of the whole chain, run: simulation, field, and how its opening compares.
+// One run of the whole chain with one setting: simulation, field and opening.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace cleft {
 /// A simulation and its field, made by `cleft solve` and `cleft encode`.
 class Chain {
  public:
-  /// Solves in `folder`, which must outlive it; the next one there takes its place. Throws std::runtime_error
-  /// where a command fails.
+  /// Solves in `folder`, which must outlive it; a later object overwrites its files. Throws
+  /// std::runtime_error if a command fails.
   Chain(const Parameters& parameters, std::string folder);
 
   std::string snapshot() const { return folder_ + "/case.h5"; }

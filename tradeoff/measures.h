@@ -1,4 +1,4 @@
-// What is measured for the charts, link by link of the chain. Each takes seconds to minutes.
+// The measurements for the charts, for each link of the chain. Each takes seconds to minutes.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace cleft {
 
-/// What is charted: a simulated case, and its study's settings.
+/// The subject of the charts: a simulated case, and its study's settings.
 struct ChartedCase {
   std::string snapshot;   ///< case.h5
   Parameters parameters;  ///< what it was solved with
@@ -19,11 +19,11 @@ struct ChartedCase {
 };
 
 struct ChartOptions {
-  double most_nodes = 120000;  ///< of the finest mesh that others are compared with
+  double most_nodes = 120000;  ///< of the reference mesh
   std::function<void(const std::string&)> progress;
 };
 
-/// A folder for what is made on the way.
+/// A folder for intermediate files.
 using WorkFolder = std::string;
 
 /// Largest error at any node and frame, over bytes, time to encode, and time to evaluate a point: the
@@ -36,8 +36,9 @@ std::vector<Chart> solver_charts(const ChartedCase& charted, const ChartOptions&
                                  const WorkFolder& work);
 
 /// Error of replayed cuts against the solver's own simulations of them: over the time of a frame, and over
-/// curvature, tilt and length of the cut and the distance of parallel ones; by the case's own field, and by
-/// three of other prestress superposed as the tension turns. A cut that the solver refuses is left out.
+/// curvature, tilt and length of the cut and the distance of parallel ones; with the case's own field, and
+/// with three fields of different prestress, superposed as the tension turns. Cuts that the solver refuses
+/// are left out.
 std::vector<Chart> replay_charts(const ChartedCase& charted, const ChartOptions& options,
                                  const WorkFolder& work);
 

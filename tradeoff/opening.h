@@ -1,5 +1,5 @@
-// How a straight cut's lips part at the skin, along it and over time: what accuracy of the whole chain is
-// measured by.
+// The opening of a straight cut at the skin, along the cut and over time: the measure of accuracy for the
+// whole chain.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ namespace cleft {
 
 class Opening {
  public:
-  /// Reads all frames. Throws InputError where the cut is not straight, or has no pair of nodes in the skin.
+  /// Reads all frames. Throws InputError if the cut is not straight, or has no pair of nodes in the skin.
   explicit Opening(const SnapshotReader& reader);
 
-  /// Right lip less left lip, mm, at s mm of the cut from its start when t mm are cut; linear between nodes
+  /// Right lip minus left lip, mm, at s mm of the cut from its start when t mm are cut; linear between nodes
   /// and frames.
   Vec3 at(double s, double t) const;
 
@@ -28,7 +28,7 @@ class Opening {
   double largest() const { return largest_; }  ///< mm
 
  private:
-  /// The opening over the square root of the distances from start and tip; none where nothing is open.
+  /// The opening over the square root of the distances from start and tip; none if nothing is open.
   std::optional<Vec3> shape_at(std::size_t frame, double s) const;
 
   std::vector<double> along_, times_;
@@ -36,7 +36,7 @@ class Opening {
   double largest_ = 0;
 };
 
-/// Right lip less left lip of a field, mm.
+/// Right lip minus left lip of a field, mm.
 Vec3 opening(const Field& field, double s, double t);
 
 /// Largest difference at the nodes and frames of `found` over the largest opening of `truth`, which is finer.

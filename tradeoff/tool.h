@@ -1,4 +1,4 @@
-// The sister commands, run for their figures.
+// Runs other commands of the project and reads their figures.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 namespace cleft {
 
 /// Runs `cleft NAME ARGUMENTS --json` and returns what it prints; its messages go to `folder`. Throws
-/// std::runtime_error with its last words where it fails.
+/// std::runtime_error with its last message if it fails.
 nlohmann::json run_tool(const std::string& name, std::vector<std::string> arguments,
                         const std::string& folder);
 

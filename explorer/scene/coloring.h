@@ -1,4 +1,4 @@
-// What a surface can be coloured by, evaluated from a field.
+// The quantities that a surface can be coloured by, evaluated from a field.
 #pragma once
 
 #include <string>
@@ -21,10 +21,10 @@ const ColoringText& text_of(Coloring coloring);
 /// Throws InputError for an unknown name, with the nearest one.
 Coloring coloring_of(const std::string& name);
 
-/// The value at a point: displacement and difference (from `reference`) in mm, gape in mm, on both sides
-/// of the cut that between a point and its mirror image, the largest principal Green-Lagrange strain as a
-/// number. `tissue` has none: 0. Of `error` a field knows nothing: not a number.
-/// `field` is taken at s mm of the path.
+/// The value at a point: displacement and difference (from `reference`) in mm, gape (the opening between a
+/// point and its mirror image across the cut) in mm, strain (the largest principal Green-Lagrange strain) as
+/// a number; `tissue` is 0, and `error` is NaN, because it needs the simulation. `field` is evaluated at s mm
+/// of the path.
 double color_value(Coloring coloring, const VaryingField& field, const Field* reference, const Place& place,
                    double s = 0);
 

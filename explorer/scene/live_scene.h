@@ -1,4 +1,4 @@
-// What is drawn while a scalpel cuts: the mesh as it is at this moment, and the skin dented under the blade.
+// The scene while a scalpel cuts: the current mesh, and the skin dented under the blade.
 #pragma once
 
 #include <memory>
@@ -12,20 +12,20 @@ namespace cleft {
 
 class LiveScene : public WoundScene {
  public:
-  /// Looked at as `like`, a scene of the same mesh; without a `dent` the skin does not sink. Lengths in mm.
+  /// Shown as `like`, a scene of the same mesh; without a `dent` the skin does not sink. Lengths in mm.
   LiveScene(std::shared_ptr<const CuttingMoment> moment, const WoundSurface& like,
             std::shared_ptr<const SurfaceDent> dent = nullptr);
 
   const WoundSurface& surface() const override { return surface_; }
   double duration() const override { return moment_->cut_length; }
-  /// Of the moment, whatever t.
+  /// The current points, whatever t is.
   void positions(double t, std::vector<Vec3>& out) const override;
   void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
 
-  /// Whether a moment can be drawn without another scene.
+  /// Whether the current state can be drawn without a new scene.
   bool has_surface_of(const CuttingMoment& moment) const { return moment.surface == moment_->surface; }
   void show(std::shared_ptr<const CuttingMoment> moment) { moment_ = std::move(moment); }
-  /// While the skin holds it sinks with the tip: by as much as the force over its stiffness.
+  /// Before puncture the skin sinks with the tip, by the force divided by its stiffness.
   void dent(const HapticState& scalpel);
 
  private:

@@ -14,8 +14,8 @@ namespace cleft {
 /// The blade makes the cuts one after another: t runs over the lengths of all of them.
 class MeshScene : public WoundScene {
  public:
-  /// Without fields the cuts stay closed. Throws InputError where the fields do not tell how several cuts
-  /// relieve each other.
+  /// Without fields the cuts stay closed. Throws InputError if the fields lack the parameters for the mutual
+  /// relief of several cuts.
   MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<CutFields>& fields);
 
   const WoundSurface& surface() const override { return *surface_; }

@@ -1,4 +1,4 @@
-// What is drawn over a scene: dots and lines with colours, beside the surface itself. Knows nothing of VTK.
+// Dots and lines with colours that are drawn over a scene, without VTK.
 #pragma once
 
 #include <array>
@@ -31,9 +31,9 @@ struct Overlay {
   std::vector<Dot> dots;
   std::vector<Line> lines;
   double surface_opacity = 1;
-  bool in_front = false;  ///< drawn over all of the surface, also what lies below it
+  bool in_front = false;  ///< drawn in front of the surface
   std::string caption;
-  /// What the dots' colours mean, from 0 to `largest`.
+  /// The scale of the dots' colours, from 0 to `largest`.
   struct Scale {
     std::string title;
     double largest;
@@ -44,15 +44,15 @@ struct Overlay {
   bool empty() const { return dots.empty() && lines.empty() && caption.empty(); }
 };
 
-/// The simulation's nodes within `radius` mm of a place, where they are in the frame nearest to t, by the
-/// local error of the field: from pale to dark over the largest.
+/// The simulation's nodes within `radius` mm of a place, displaced as in the frame nearest to t, coloured by
+/// the local error of the field: from pale to dark at the largest.
 Overlay nodes_around(const RawCase& raw, const Vec3& place, double radius, double t);
 
-/// The mesh's skin, and the pairs of nodes on the cut: held together by a constraint, or released.
+/// The mesh of the skin, and the pairs of nodes on the cut: closed by a constraint, or released.
 Overlay constraints_at(const RawCase& raw, double t);
 
-/// The lattice of the four-variate spline at t: its knots' lines on the skin and on both walls of the plane
-/// of the cut, where the field has moved them to.
+/// The lattice of the four-variate spline at t: the lines of its knots on the skin and on both walls of the
+/// plane of the cut, displaced by the field.
 Overlay lattice_at(const Field& field, double t);
 
 /// The incision parametrisation volume along a path, as wide and deep as the field's patch, and the blade in

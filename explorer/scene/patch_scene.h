@@ -12,8 +12,8 @@ namespace cleft {
 
 class PatchScene : public WoundScene {
  public:
-  /// The skin is a grid over the field's (u, v), finest at the cut, parted along it; the walls go down to the
-  /// cut's depth. `raw`: the simulation it is coloured by the error from; null: none is known.
+  /// The skin is a grid over the field's (u, v), finest at the cut and divided along it; the walls extend to
+  /// the depth of the cut. `raw`: the simulation for colouring by the error; null: none.
   explicit PatchScene(std::shared_ptr<const Field> field, std::shared_ptr<const RawCase> raw = nullptr);
 
   const WoundSurface& surface() const override { return surface_; }
@@ -30,12 +30,12 @@ class PatchScene : public WoundScene {
   Place place(std::size_t point, double t) const;
   void displacements(double t, std::vector<Vec3>& out) const;
 
-  /// Of the node nearest to each point; not a number without a simulation.
+  /// The error at the node nearest to each point, mm; NaN without a simulation.
   void errors(double t, std::vector<double>& out) const;
 
   std::shared_ptr<const Field> shared_;
   std::shared_ptr<const RawCase> raw_;
-  mutable std::vector<int> nearest_;                           // node of every point, once it is asked for
+  mutable std::vector<int> nearest_;                           // node of every point, computed on request
   mutable std::map<std::size_t, std::vector<double>> errors_;  // of every point, by frame
   const Field& field_;
   WoundSurface surface_;

@@ -1,4 +1,4 @@
-// What a view draws: a surface whose points depend on the length cut. Knows nothing of VTK.
+// The interface of what a view draws: a surface whose points depend on the length cut. Without VTK.
 #pragma once
 
 #include <memory>
@@ -22,11 +22,11 @@ class WoundScene {
   /// The points when the length t is cut; always from the rest positions, so that nothing accumulates.
   virtual void positions(double t, std::vector<Vec3>& out) const = 0;
 
-  /// Which points can ever be elsewhere than at rest; empty: any may.
+  /// Which points can move; empty: all.
   virtual std::vector<bool> moving() const { return {}; }
 
   /// The same surface() in which points that never move by more than `mm` stay at rest, and all others move
-  /// bit for bit as here; null where it cannot be told which.
+  /// bit for bit as here; null if the scene has no bounds of motions.
   virtual std::shared_ptr<const WoundScene> with_detail(double) const { return nullptr; }
   virtual std::optional<LeftOut> left_out() const { return {}; }  ///< likewise
 
@@ -34,7 +34,7 @@ class WoundScene {
   virtual void values(Coloring coloring, const Field* reference, double t,
                       std::vector<double>& out) const = 0;
 
-  /// Where the opening of a cut may be off by more than a tenth, and why: a sentence each.
+  /// Warnings where the error of a cut's opening may exceed a tenth: one sentence each.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 

@@ -1,4 +1,4 @@
-// What tells the cases of a study apart beside their parameters.
+// Figures and curves of the cases of a study.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace cleft {
 
-/// Of one case; lengths in mm.
+/// Figures of one case; lengths in mm.
 struct CaseFigures {
-  double gape = 0;                  ///< widest opening when all is cut
+  double gape = 0;                  ///< widest opening of the complete cut
   double largest_displacement = 0;  ///< from the closed frame
   double node_error = 0;            ///< of the field, over largest_displacement
   double cut_length = 0, cut_depth = 0;
@@ -31,7 +31,7 @@ Curve opening_profile(const Field& field, double t);
 /// Widest opening over the length cut.
 Curve gape_over_time(const Field& field);
 
-/// A column of figures or parameters, as lists and plots show it.
+/// A column of figures or parameters, as text for lists and plots.
 struct FigureText {
   std::string name, unit, help;
   double (*value)(const CaseFigures&);

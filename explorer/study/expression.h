@@ -12,13 +12,13 @@ namespace cleft {
 
 class Expression {
  public:
-  /// Throws InputError with the place of what is no condition, or naming the nearest of `names` where a name
-  /// is none of them.
+  /// Throws InputError with the position of a syntax error, or with the nearest of `names` for an unknown
+  /// name.
   Expression(const std::string& text, const std::vector<std::string>& names);
 
-  /// `values` has one for each of `names`. A comparison with what is not a number does not hold.
+  /// `values` has one for each of `names`. A comparison with NaN does not hold.
   bool holds(const std::vector<double>& values) const;
-  /// Whether the name with that index occurs.
+  /// Whether the name with this index occurs.
   bool uses(std::size_t name) const;
 
   struct Node;

@@ -1,4 +1,4 @@
-// Which cases of a study fulfil a condition, at which lengths cut, and where along the cut.
+// The cases of a study that fulfil a condition, the lengths cut, and the places along the cut.
 //
 // Names: gape (opening of the lips at a place, mm), t (length cut, mm), u (the place along the cut, mm),
 // error (of the field, %), displacement (largest of the case, mm), and all numeric parameters.
@@ -16,9 +16,9 @@ namespace cleft {
 
 struct Finding {
   double first_t, last_t;       ///< lengths cut between which it holds somewhere (not always at all between)
-  double least_u, greatest_u;   ///< places along the cut where it holds at some of these
-  double best_t, best_u, gape;  ///< where the gape is widest of those, and that
-  /// On the simulation's own nodes at the nearest frame; none where it is not kept.
+  double least_u, greatest_u;   ///< places along the cut at which it holds for some of these lengths
+  double best_t, best_u, gape;  ///< time and place of the widest gape among these, and that gape
+  /// Confirmed at the nodes of the simulation in the nearest frame; none if the simulation was not kept.
   std::optional<bool> confirmed;
 };
 
@@ -27,9 +27,9 @@ class Condition {
   /// Throws InputError as Expression does.
   explicit Condition(const std::string& text);
 
-  /// Evaluates the field at 60 lengths cut and 80 places, where the condition asks for them.
+  /// Evaluates the field at 60 lengths cut and 80 places, as far as the condition needs them.
   std::optional<Finding> find(const Field& field) const;
-  /// The same, confirmed from the case's snapshot, where that is beside its field file.
+  /// The same, confirmed from the case's snapshot, if that is next to its field file.
   std::optional<Finding> find(const Field& field, const std::string& snapshot) const;
 
  private:
@@ -38,7 +38,7 @@ class Condition {
   Expression expression_;
 };
 
-/// Of case i of the study: nothing where the condition does not hold.
+/// The finding for case i of the study; none if the condition does not hold.
 std::optional<Finding> find_in_case(const Condition& condition, const PublishedStudy& study, int i);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// The motion of one point while the cut grows, and of the simulation's node beside it.
+// The motion of one point while the cut grows, and that of the nearest node of the simulation.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ namespace cleft {
 
 struct Motion {
   std::array<Curve, 3> field;  ///< du, dv, dw over the length cut, mm
-  std::array<Curve, 3> raw;    ///< of the node, at the frames; empty where the simulation is not there
-  std::optional<Vec3> node;    ///< where that is at rest
+  std::array<Curve, 3> raw;    ///< of the node, at the frames; empty without the simulation
+  std::optional<Vec3> node;    ///< position of the node at rest
 };
 
-/// `raw`: null where there is none.
+/// `raw`: null without a simulation.
 Motion motion_of(const Field& field, const Vec3& uvw, Side side, const RawCase* raw);
 
-/// Columns t, du, dv, dw of the field, at the frames where the simulation is there; then its node's too.
+/// Columns t, du, dv, dw of the field; with a simulation at its frames, followed by those of the node.
 std::string motion_as_csv(const Field& field, const Vec3& uvw, Side side, const Motion& motion);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// The simulation that a field was fitted to: its nodes, and of its frames just what is asked for.
+// The simulation that a field was fitted to: its nodes, and the requested parts of its frames.
 #pragma once
 
 #include <memory>
@@ -13,24 +13,25 @@ namespace cleft {
 
 class RawCase {
  public:
-  /// Reads all but the displacements. Throws FileError where the snapshot is damaged, InputError where it is
-  /// not that of the field.
+  /// Reads all but the displacements. Throws FileError if the snapshot is damaged, InputError if it is not
+  /// that of the field.
   RawCase(const std::string& snapshot, std::shared_ptr<const Field> field);
 
   const Snapshot& snapshot() const { return reader_.snapshot(); }
   const Field& field() const { return *field_; }
   std::size_t nearest_frame(double t) const;
   Side side(int node) const { return sides_[node]; }
-  /// Of nodes on that side, or in the plane of the cut where that is uncut.
+  /// The nearest node among those on that side, or uncut in the plane of the cut.
   int nearest_node(const Vec3& uvw, Side side) const;
   std::vector<int> nodes_within(const Vec3& uvw, double radius) const;  ///< at rest, mm; ascending
 
-  /// Of `nodes` (ascending), in mm from the closed frame. Reads slabs of rows that hold them, and no others.
+  /// Displacements of `nodes` (ascending) from the closed frame, mm. Reads only the slabs of rows that
+  /// contain them.
   std::vector<Vec3> displacements(std::size_t frame, std::span<const int> nodes) const;
-  /// Of the field, against them: Euclidean, mm.
+  /// Errors of the field against these displacements: Euclidean, mm.
   std::vector<double> errors(std::size_t frame, std::span<const int> nodes) const;
 
-  std::size_t rows_read() const { return rows_read_; }  ///< of displacements, so far
+  std::size_t rows_read() const { return rows_read_; }  ///< rows of displacements read so far
 
  private:
   std::vector<Vec3> rows_of(std::size_t frame, std::span<const int> nodes) const;

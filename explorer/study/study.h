@@ -1,4 +1,4 @@
-// The published cases of a study, opened at once and read when they are looked at.
+// The published cases of a study; the coefficients of a case are read when it is shown.
 #pragma once
 
 #include <list>
@@ -15,36 +15,36 @@ namespace cleft {
 
 class PublishedStudy {
  public:
-  /// `path` is a study folder (every published case: cases/<case>/manifest.json beside case.dffd), a study
-  /// file or a single field file. Reads the parameters of all cases, and no coefficients. Throws InputError
-  /// where there is no published case, FileError where a field file is damaged.
+  /// `path` is a study folder (every published case: cases/<case>/manifest.json and case.dffd), a study file
+  /// or a single field file. Reads the parameters of all cases, and no coefficients. Throws InputError if
+  /// there is no published case, FileError if a field file is damaged.
   explicit PublishedStudy(const std::string& path);
 
   int size() const { return static_cast<int>(cases_.size()); }
 
   /// The parameters in which the cases differ, "skin.prestress_v=0.03 tissue.young_modulus=0.02", in the
-  /// order of the cases; the case's folder or file where they do not differ.
+  /// order of the cases; the case's folder or file if they do not differ.
   const std::string& name(int i) const { return cases_.at(i).name; }
   /// Names of the parameters in which the cases differ.
   const std::vector<std::string>& varying() const { return varying_; }
   const std::map<std::string, double>& parameters(int i) const { return cases_.at(i).parameters; }
-  /// Those that are text, where the study tells them.
+  /// The parameters that are text, if the study holds them.
   const std::map<std::string, std::string>& choices(int i) const { return cases_.at(i).choices; }
   const std::string& file(int i) const { return cases_.at(i).file; }
-  /// Where its simulation is, if it was kept.
+  /// The path of its simulation, if that was kept.
   std::string snapshot(int i) const;
-  /// Cases left out since their fields are of an older format.
+  /// Cases that were left out because their fields have an older format.
   const std::vector<std::string>& older() const { return older_; }
   bool is_folder() const { return folder_; }
 
-  /// Read from its file when it is asked for; the cases looked at last are kept.
+  /// The field of a case, read from its file when requested; the last ones are kept.
   std::shared_ptr<const Field> field(int i);
   static constexpr std::size_t kept = 16;  ///< cases, some MB each once decoded
 
-  /// The same, and nothing is kept: for going through all cases.
+  /// The same without keeping it, for loops over all cases.
   Field read(int i) const;
 
-  const std::string& path() const { return path_; }  ///< as it was opened
+  const std::string& path() const { return path_; }  ///< as given
 
  private:
   struct Case {

@@ -1,4 +1,4 @@
-// What each parameter of a study does to a figure of its cases.
+// The effect of each parameter of a study on a figure of its cases.
 #pragma once
 
 #include <string>
@@ -14,13 +14,13 @@ struct Tornado {
     double at_least = 0, at_greatest = 0;  ///< the figure there
   };
   std::vector<Bar> bars;   ///< the widest first
-  double middle = 0;       ///< the figure where all parameters are in the middle
+  double middle = 0;       ///< the figure with all parameters in the middle
   double explained = 0;    ///< share of the figure's variance that the fit explains
   bool logarithms = true;  ///< a power law was fitted; else a plane
 };
 
-/// By least squares over all cases: a power law where all numbers are above zero, else a plane. rows[i][k]:
-/// value of parameter k in case i. Throws InputError where the cases do not determine it.
+/// Least squares over all cases: a power law if all numbers are positive, else a plane. rows[i][k]: value of
+/// parameter k in case i. Throws InputError if the cases do not determine it.
 Tornado tornado_of(const std::vector<std::string>& parameters, const std::vector<std::vector<double>>& rows,
                    const std::vector<double>& figures);
 

@@ -1,4 +1,4 @@
-// Pictures of what a session shows, one after another: for screenshots, movies and databases.
+// Pictures of a session, one after another, for screenshots, movies and databases.
 #pragma once
 
 #include <vtkImageData.h>
@@ -15,11 +15,11 @@ namespace cleft {
 
 class CameraShot {
  public:
-  /// Pictures of that size in pixels, with four samples each. Throws InputError where nothing can be drawn on
-  /// this machine.
+  /// Pictures of this size in pixels, with four samples for each. Throws InputError if this machine cannot
+  /// draw.
   CameraShot(int width, int height);
 
-  /// As the session is now. RGB; or RGBA without the background.
+  /// A picture of the session's current state: RGB, or RGBA without the background.
   vtkSmartPointer<vtkImageData> take(Session& session, bool transparent = false);
 
  private:
@@ -34,8 +34,8 @@ vtkSmartPointer<vtkImageData> read_half(vtkRenderWindow* window);
 /// A window of twice the size, so that pictures can be shrunk.
 vtkSmartPointer<vtkRenderWindow> double_window(int width, int height);
 
-/// As a PNG, whole or not at all, with the saved session `state` in it where there is one. Throws
-/// std::runtime_error where it cannot be written.
+/// Writes a PNG, completely or not at all, which contains the session `state` if one is given. Throws
+/// std::runtime_error if it cannot be written.
 void write_png(vtkImageData* image, const std::string& path, const std::string& state);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// What stands around a view's scene: title, length cut, a bar of so many mm, and the directions of the axes.
+// Title, length cut, scale bar and axes around a view's scene.
 #pragma once
 
 #include <vtkAxesActor.h>
@@ -15,16 +15,16 @@ namespace cleft {
 
 class Furniture {
  public:
-  /// For a renderer in that window; a small renderer for the axes is put above it.
+  /// For a renderer in that window, with a small renderer for the axes in front of it.
   Furniture(vtkRenderWindow* window, vtkRenderer* renderer);
   ~Furniture();
 
-  /// `small`: of a view that shares the window.
+  /// `small`: for a view that shares the window.
   void set_text(const std::string& title, const std::string& time, bool small);
   void set_axes(const std::array<const char*, 3>& names);
-  /// Of texts and lines; the background is the renderer's.
+  /// The colour of texts and lines for a dark or light background.
   void set_ink(double red, double green, double blue);
-  /// Fits everything to the renderer's part of the window.
+  /// Adapts everything to the renderer's part of the window.
   void arrange();
 
  private:
@@ -42,7 +42,7 @@ class Furniture {
   vtkNew<vtkActor2D> bar_;
 };
 
-/// The longest of 1, 2, 5, 10, 20 ... (and 0.5, 0.2 ...) that is not above `most`.
+/// The largest of 1, 2, 5, 10, 20 ... (and 0.5, 0.2 ...) that is at most `most`.
 double round_length(double most);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// What the colours of a picture mean.
+// The legend of a picture's colours.
 #pragma once
 
 #include <vtkLookupTable.h>
@@ -9,7 +9,7 @@
 
 namespace cleft {
 
-/// Across the middle of a view; `low`: how far up its height.
+/// Centred horizontally in a view; `low`: its vertical position, relative to the height.
 vtkSmartPointer<vtkScalarBarActor> make_legend(vtkLookupTable* colors, const std::string& title,
                                                double low = 0.015);
 void set_dark_background(vtkScalarBarActor* legend, bool dark);

@@ -7,9 +7,9 @@
 
 namespace cleft {
 
-/// From nothing cut to the end, at the speed of playing: Ogg Theora where the name ends in .ogv, else a
-/// folder of frame_0000.png, ... Whole or not at all; the session is then as it was. Throws InputError where
-/// the name is taken by what is no such folder or the user wants no more of it, std::runtime_error where the
+/// Writes a movie from uncut to completely cut at the speed of playing: Ogg Theora if the name ends in .ogv,
+/// else a folder of frame_0000.png, ... Complete or not at all; the session is unchanged afterwards. Throws
+/// InputError if the name exists and is not such a folder, or the user cancels; std::runtime_error if the
 /// disk is full.
 void write_movie(Session& session, const std::string& file, const MovieFormat& format);
 

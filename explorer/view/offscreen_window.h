@@ -11,11 +11,11 @@
 
 namespace cleft {
 
-/// An off-screen window of that size in pixels, without multisampling. Throws InputError where neither an X
-/// display nor EGL is to be had, with the remedy.
+/// An off-screen window of that size in pixels, without multisampling. Throws InputError with the remedy if
+/// neither an X display nor EGL is available.
 vtkSmartPointer<vtkRenderWindow> make_offscreen_window(int width, int height);
 
-/// True where an interactive window can be opened: DISPLAY is set and an X server answers.
+/// Whether an interactive window can be opened: DISPLAY is set and an X server answers.
 bool has_display();
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// Draws an overlay: dots and lines, in front of what they touch.
+// Draws an overlay: dots and lines, in front of a surface that they touch.
 #pragma once
 
 #include <vtkActor.h>
@@ -14,13 +14,13 @@ namespace cleft {
 
 class OverlayView {
  public:
-  /// Into a renderer that outlives it, and out of it at the end.
+  /// Adds its actors to a renderer, which must outlive it, and removes them on destruction.
   explicit OverlayView(vtkRenderer* renderer);
   ~OverlayView();
   OverlayView(const OverlayView&) = delete;
   OverlayView& operator=(const OverlayView&) = delete;
 
-  /// `dark`: the background, which the legend is read on.
+  /// `dark`: whether the background of the legend is dark.
   void show(const Overlay& overlay, bool dark);
 
  private:

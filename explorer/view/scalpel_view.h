@@ -1,4 +1,4 @@
-// The scalpel in the picture: blade and handle, standing on its tip.
+// The scalpel in the picture: blade and handle.
 #pragma once
 
 #include <vtkActor.h>
@@ -11,13 +11,13 @@ namespace cleft {
 
 class ScalpelView {
  public:
-  /// Into a renderer that outlives it, and out of it at the end.
+  /// Adds its actors to a renderer, which must outlive it, and removes them on destruction.
   explicit ScalpelView(vtkRenderer* renderer);
   ~ScalpelView();
   ScalpelView(const ScalpelView&) = delete;
   ScalpelView& operator=(const ScalpelView&) = delete;
 
-  /// `tip` is where it is drawn, which stiff skin may keep from where the hand is; lengths in mm.
+  /// `tip`: where it is drawn, which differs from the hand's position on stiff skin; lengths in mm.
   void move(const ScalpelPose& pose, const Vec3& tip);
 
  private:

@@ -1,4 +1,4 @@
-// Normals of a wound's surface: smooth within a part of it, and none of the cut to come ahead of the tip.
+// Normals of a wound's surface: smooth within each part, and without a visible line ahead of the tip.
 #pragma once
 
 #include <array>
@@ -9,17 +9,15 @@
 
 namespace cleft {
 
-/// Of the vertices of some triangles of a surface. A vertex is a point of the surface.
+/// Normals of the vertices of some triangles of a surface. A vertex is a point of the surface.
 class SmoothNormals {
  public:
   SmoothNormals(const WoundSurface& surface, const std::vector<std::array<int, 3>>& triangles_of_points);
 
-  /// Unit vectors, one for each vertex, with the surface's points there. Where lips lie on each other they
-  /// share theirs.
+  /// Unit vectors, one for each vertex, with the surface's points there. Coincident lips share their normals.
   void of(const std::vector<Vec3>& points, std::vector<Vec3>& normals) const;
 
-  /// From now on the normals of the vertices where `known` has one (for each point of the surface; zero:
-  /// none) are these.
+  /// Fixes the normals of vertices for which `known` (by point of the surface) is not zero.
   void fix(const std::vector<Vec3>& known);
 
   const std::vector<int>& source() const { return source_; }  ///< the surface's point of every vertex
@@ -30,8 +28,8 @@ class SmoothNormals {
  private:
   void share_with_twins(const std::vector<Vec3>& points, std::vector<Vec3>& normals) const;
   void keep_fixed(std::vector<Vec3>& normals) const;
-  /// Makes normals unit vectors, and those of added points the mean of their neighbours': where a cut has
-  /// refined large flat triangles, their facets would show.
+  /// Makes normals unit vectors, and those of added points the mean of their neighbours': otherwise the
+  /// facets of large flat triangles that a cut has refined would be visible.
   void soften(std::vector<Vec3>& normals) const;
 
   std::vector<int> source_;
@@ -41,6 +39,6 @@ class SmoothNormals {
   std::vector<std::pair<int, Vec3>> fixed_;
 };
 
-constexpr int softening_passes = 4;  ///< so many rings of neighbours a normal depends on, beside the next
+constexpr int softening_passes = 4;  ///< rings of neighbours that a normal depends on, besides the first
 
 }  // namespace cleft

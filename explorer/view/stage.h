@@ -1,4 +1,4 @@
-// Draws what a session is at into a render window: one view, or up to four cases side by side.
+// Draws the state of a session into a render window: one view, or up to four cases side by side.
 #pragma once
 
 #include <vtkRenderWindow.h>
@@ -19,24 +19,24 @@ namespace cleft {
 
 class Stage {
  public:
-  /// A pixel of the picture is `samples` of the window's wide.
+  /// A pixel of the picture is `samples` pixels of the window wide.
   explicit Stage(vtkRenderWindow* window, double samples = 1);
   ~Stage();
 
-  /// Makes everything as the session has it; what is so already is left alone.
+  /// Updates everything to the session's state; what has not changed is not rebuilt.
   void show(Session& session);
 
-  /// Draws a scene in place of the shown case's, with a scalpel in it where there is one; null: no more.
+  /// Draws a scene instead of that of the shown case, with a scalpel if one is given; null: the case again.
   void set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel);
 
   void set_samples(double samples) { samples_ = samples; }
-  /// Whether edges are smoothed; off while something moves and pictures take long.
+  /// Whether edges are smoothed; off during motions with slow pictures.
   void set_smooth(bool smooth);
 
   int views() const { return static_cast<int>(views_.size()); }
   WoundView& view(int i) { return *views_.at(i).view; }
   int view_at(int x, int y) const;  ///< pixels from the lower left; -1: none
-  /// Of a view's picture, in the plane through the middle of what it shows.
+  /// Size of a pixel in a view, mm, in the plane through the middle of its scene.
   double mm_a_pixel(int view) const;
   /// The camera of all views.
   CameraState::Pose camera() const;

@@ -1,4 +1,4 @@
-// The part of a wound's surface that is drawn in one manner: the skin, or the walls.
+// A part of a wound's surface with one appearance: the skin, or the walls.
 #pragma once
 
 #include <vtkFloatArray.h>
@@ -13,12 +13,12 @@
 
 namespace cleft {
 
-/// Has vertices of its own, so that normals are smooth within it and break at the lips. Ahead of the tip the
-/// two lips lie on each other; there they share their normal, and the cut to come stays unseen.
+/// It has its own vertices, so that normals are smooth within it and discontinuous at the lips. Ahead of the
+/// tip the two lips coincide and share their normal, so that the cut to come is invisible.
 class SurfacePart {
  public:
-  /// The triangles whose region `belongs`. Those that no point that is `moving` (WoundScene::moving) reaches
-  /// are drawn apart, so that a moment costs what moves, however large the rest.
+  /// The triangles whose region `belongs`. Triangles without a `moving` point (WoundScene::moving) are drawn
+  /// separately, so that the cost of a frame depends only on what moves.
   SurfacePart(const WoundSurface& surface, const std::function<bool(Region)>& belongs,
               const std::vector<bool>& moving = {});
 
@@ -29,7 +29,7 @@ class SurfacePart {
   void color(const std::function<double(int point)>& scalar);
 
   vtkPolyData* data() const { return moving_->data; }
-  vtkPolyData* still() const { return still_->data; }  ///< without triangles where all moves
+  vtkPolyData* still() const { return still_->data; }  ///< without triangles if all moves
 
   /// The surface's points at the corners of a cell of data() or still().
   std::array<int, 3> corners(const vtkPolyData* of, std::size_t cell) const;

@@ -24,8 +24,7 @@ class WoundView {
   WoundView();
   ~WoundView();
 
-  /// Replaces the scene and draws it at t, its end where none is given; the camera stays unless this is the
-  /// first one.
+  /// Replaces the scene and draws it at t, by default its end; the camera is reset only for the first scene.
   void show(std::shared_ptr<const WoundScene> scene, std::optional<double> t = {});
 
   /// Moves the points to the length cut t, mm (clamped). Nothing else is rewritten.
@@ -33,28 +32,29 @@ class WoundView {
   double time() const { return time_; }
   double duration() const { return scene_->duration(); }
 
-  /// The surface is coloured so; `reference` is what `difference` is taken from. Without a range: from 0 to
-  /// the largest value of all times.
+  /// Sets the colouring; `reference` is the field that `difference` is relative to. Without a range: from 0
+  /// to the largest value of all times.
   void color_by(Coloring coloring, std::shared_ptr<const Field> reference = nullptr,
                 std::optional<std::pair<double, double>> range = std::nullopt);
 
-  /// 0 to 1: what is drawn over it must be seen through the skin.
+  /// Opacity of the skin, 0 to 1, so that an overlay is visible through it.
   void set_opacity(double opacity);
 
   void aim(const CameraState& camera);
   void set_dark(bool dark);
-  /// Whether edges are smoothed: a fifth of a picture's time where it is drawn in software.
+  /// Whether edges are smoothed, which takes a fifth of a picture's time in software.
   void set_smooth(bool smooth) { renderer_->SetUseFXAA(smooth); }
-  /// Of views side by side, with the same colours, one has it.
+  /// Whether the legend is shown: in one of several views with the same colours.
   void set_legend(bool visible) { has_legend_ = visible; }
-  /// Of all times, of strain the 99th percentile: the upper end of the colours where no range is given.
+  /// The upper end of the colours without a range: the largest value of all times, for strain the 99th
+  /// percentile.
   double largest_value(Coloring coloring, const Field* reference);
 
-  /// A place of the skin, where it is at rest.
+  /// A place of the skin at rest.
   struct Place {
     Vec3 position, outward;
   };
-  /// What lies under a pixel of the window, counted from the lower left; none beside the skin.
+  /// The place under a pixel of the window, counted from the lower left; none outside the skin.
   std::optional<Place> skin_at(int x, int y);
 
   const std::vector<Vec3>& points() const { return points_; }  ///< as drawn

@@ -1,4 +1,4 @@
-// The nearest of some nodes for every node.
+// The nearest kept node for each node.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Displacements of all nodes in all frames as one array of 32-bit floats, and what an approximation of it
-// costs.
+// Displacements of all nodes in all frames as one array of 32-bit floats, and the errors of an approximation
+// of it.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ struct NodeData {
   double raw_bytes() const { return 12. * static_cast<double>(nodes * (frames + 1)); }
 };
 
-/// Over the largest displacement, and over the root of the sum of squares.
+/// Relative to the largest displacement, and to the root of the sum of squares.
 struct Errors {
   double node_error = 0, relative_l2 = 0;
 };
@@ -29,7 +29,7 @@ Errors errors_of(const NodeData& data, const std::vector<float>& approximation);
 enum class Goal { node_error, relative_l2 };
 double of(const Errors& errors, Goal goal);
 
-/// An approximation in memory as small as a method makes it within a goal.
+/// The smallest approximation of a method within a bound of the error.
 struct Compressed {
   double bytes = 0;
   Errors errors;

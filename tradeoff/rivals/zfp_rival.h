@@ -1,4 +1,4 @@
-// zfp in its fixed-accuracy mode on the node array (Lindstrom 2014). Absent where libzfp is.
+// zfp in its fixed-accuracy mode on the node array (Lindstrom 2014). Not built without libzfp.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace cleft {
 
 bool zfp_is_there();
 
-/// Ways to show the array to zfp; x varies fastest.
+/// Layouts of the array for zfp; x varies fastest.
 enum class ZfpLayout { interleaved, components, triples };
 inline constexpr ZfpLayout zfp_layouts[] = {ZfpLayout::interleaved, ZfpLayout::components,
                                             ZfpLayout::triples};
@@ -23,7 +23,7 @@ struct ZfpCost {
 
 /// Compressed and decompressed: the nodes of `order` (node order[i] is the i-th), all frames. zfp rounds its
 /// tolerance down to a power of two, so the values are divided by `step`, and the tolerance is 1.
-/// `approximation` is as long as the data; nodes that are not in `order` keep what it holds.
+/// `approximation` is as long as the data; values of nodes that are not in `order` are unchanged.
 ZfpCost through_zfp(const NodeData& data, std::span<const int> order, ZfpLayout layout, double step,
                     std::vector<float>& approximation);
 
@@ -31,7 +31,7 @@ ZfpCost through_zfp(const NodeData& data, std::span<const int> order, ZfpLayout 
 Compressed zfp_within(const NodeData& data, std::span<const int> order, Goal goal, double limit);
 
 /// Every n-th node by zfp, the others with the displacement of the nearest one kept on the same side; the n
-/// of 2, 3, 4, 6, 8, ... that takes the fewest bytes. None where no n stays within the limit.
+/// of 2, 3, 4, 6, 8, ... that takes the fewest bytes. None if no n is within the limit.
 std::optional<Compressed> decimated_within(const NodeData& data, const std::vector<Sample>& samples,
                                            Goal goal, double limit);
 
