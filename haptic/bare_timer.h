@@ -1,5 +1,5 @@
-// A loop that wakes up and does the same few microseconds' work in registers: what lateness and compute time
-// of the haptic loop are compared with. What it shows is the machine's.
+// A loop that wakes up and does the same few microseconds of work in registers, as a reference for lateness
+// and compute time of the haptic loop: its times are those of the machine.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ struct BareTimer {
   TimeHistogram compute;   ///< of the same 1,500 additions each time, by the thread's own CPU clock
 };
 
-/// Wakes at the rate (Hz) until `stop`, in the thread that calls it; with `real_time` it asks for SCHED_FIFO.
+/// Wakes at the rate (Hz) until `stop`, in the thread that calls it; with `real_time` it requests SCHED_FIFO.
 BareTimer bare_timer(double rate, bool real_time, const std::atomic<bool>& stop);
 
 }  // namespace cleft

@@ -1,5 +1,5 @@
 // A sparse uniform grid of voxels with the triangles that meet each of them: one thread changes it while
-// others read, and nobody waits. Paper, section 3.6.
+// others read, and no thread waits. Paper, section 3.6.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace cleft {
 /// it in place: a removed number becomes -1, a further one takes such a place or the end.
 class CellList {
  public:
-  static constexpr int header = 2;  ///< words before the numbers: their count, and how many words there are
+  static constexpr int header = 2;  ///< words before the numbers: their count, and the number of words
 
   CellList() = default;
   explicit CellList(const std::atomic<std::int32_t>* words) : words_(words) {}
@@ -32,9 +32,9 @@ class CellList {
 class ContactCells {
  public:
   static constexpr int bits = 3,
-                       side = 1 << bits;  ///< blocks of 8 x 8 x 8 cells, made where there is surface
+                       side = 1 << bits;  ///< blocks of 8 x 8 x 8 cells, which exist where there is surface
 
-  /// Over the box from low to high; `cell` is the edge of a voxel.
+  /// A grid over the box from low to high, mm; `cell` is the edge of a voxel, mm.
   ContactCells(const Vec3& low, const Vec3& high, double cell);
   ~ContactCells();
 
@@ -46,7 +46,7 @@ class ContactCells {
     return i <= 0 ? 0 : i >= size(axis) ? size(axis) - 1 : static_cast<int>(i);
   }
 
-  /// 8 x 8 x 8 voxels. Bit 8 j + k of occupied[i] says whether there is anything in voxel (i, j, k).
+  /// 8 x 8 x 8 voxels. Bit 8 j + k of occupied[i] is set if voxel (i, j, k) contains triangles.
   struct alignas(64) Block {
     std::atomic<std::uint64_t> occupied[side]{};
     std::atomic<std::atomic<std::int32_t>*> cell[side * side * side]{};
@@ -60,7 +60,7 @@ class ContactCells {
     const Block* block = block_at(i >> bits, j >> bits, k >> bits);
     return block ? block->at(i, j, k) : CellList();
   }
-  /// By blocks: null where there is nothing in all of one.
+  /// A block, or null if it is empty.
   const Block* block_at(int i, int j, int k) const {
     return top_[(static_cast<std::size_t>(i) * blocks_[1] + j) * blocks_[2] + k].load(
         std::memory_order_acquire);
@@ -69,12 +69,12 @@ class ContactCells {
   /// Numbers, from 0, of the voxels that the triangle meets: appended to `out`.
   void voxels_of(const Corners& corners, std::vector<std::uint64_t>& out) const;
 
-  // For the one writer.
+  // For the writer only.
   void add(std::uint64_t voxel, std::int32_t id);
   void remove(std::uint64_t voxel, std::int32_t id);
-  /// Lists replaced since the last call are used again: no reader may still see them.
+  /// Reuses lists that were replaced before the last call: no reader may still use them.
   void recycle();
-  /// Takes from the system, and touches, what the next steps will need, so that they need not.
+  /// Allocates and touches memory for the next steps in advance.
   void prepare();
 
  private:

@@ -1,5 +1,5 @@
-// What the haptic thread asks the surface, a tick at a time: first contact of a segment, nearest point, and
-// the proxy of a tip that has sunk in. Nothing here waits, allocates or calls the system.
+// Queries of the haptic thread in each tick: first contact of a segment, nearest point, and the proxy of a
+// tip inside the surface. No query waits, allocates memory or calls the system.
 #pragma once
 
 #include "haptic/contact_surface.h"
@@ -7,7 +7,7 @@
 namespace cleft {
 
 struct SurfaceHit {
-  int triangle = -1;    ///< -1: nothing was met
+  int triangle = -1;    ///< -1: no contact
   double fraction = 0;  ///< of the segment, at the contact
   Vec3 position;
   Vec3 normal;  ///< of the triangle, outward, unit
@@ -16,7 +16,7 @@ struct SurfaceHit {
 };
 
 struct NearestPoint {
-  int triangle = -1;    ///< -1: nothing within the radius
+  int triangle = -1;    ///< -1: no point within the radius
   double distance = 0;  ///< mm, from the surface: negative inside
   Vec3 position;
   Vec3 normal;  ///< outward, unit; over edges and vertices the angle-weighted one
@@ -25,9 +25,9 @@ struct NearestPoint {
 };
 
 /// The point p of the surface with x = p - depth * n(p), where n is interpolated from the vertices' normals
-/// (Kobbelt et al. 1999): p, n and depth change continuously as x moves over the triangles' seams.
+/// (Kobbelt et al. 1999): p, n and depth change continuously as x moves over edges of triangles.
 struct SurfaceProxy {
-  int triangle = -1;  ///< -1: there is none near
+  int triangle = -1;  ///< -1: there is none nearby
   double depth = 0;   ///< mm, along the normal; positive inside
   Vec3 position, normal;
   bool wall = false;
@@ -38,20 +38,20 @@ enum class Facing { front, back, any };  ///< into the surface, out of it
 
 class ContactReader {
  public:
-  /// Throws InputError where all readers of the surface are taken.
+  /// Throws InputError if the surface has no free reader.
   explicit ContactReader(const ContactSurface& surface);
   ~ContactReader();
   ContactReader(const ContactReader&) = delete;
   ContactReader& operator=(const ContactReader&) = delete;
 
-  /// Between begin() and end() all answers are about one step of the surface. Wait-free.
+  /// Between begin() and end() all queries refer to one step of the surface. Wait-free.
   void begin();
   void end() { says_->store(ContactSurface::idle, std::memory_order_release); }
   std::uint64_t version() const { return version_; }
 
   SurfaceHit first_contact(const Vec3& from, const Vec3& to, Facing facing) const;
   NearestPoint nearest(const Vec3& x, double radius) const;
-  /// Of x, beginning from the proxy of a moment ago, and never far from it; from skin it stays on skin.
+  /// The proxy of x, searched near the previous proxy; a proxy on skin stays on skin.
   SurfaceProxy proxy(const Vec3& x, const SurfaceProxy& before) const;
 
  private:
@@ -72,7 +72,7 @@ class ContactReader {
   std::uint64_t version_ = 0;
 };
 
-/// One tick's look at the surface.
+/// Calls begin() and end() for the queries of one tick.
 class ContactLook {
  public:
   explicit ContactLook(ContactReader& reader) : reader_(reader) { reader_.begin(); }

@@ -1,13 +1,12 @@
-// The surface the scalpel feels: triangles in a voxel grid, changed step by step by the thread that cuts or
-// moves them, and read by the haptic thread, which always sees one whole step: never half of it, and without
-// waiting.
+// The surface for haptic contact: triangles in a voxel grid. The cutting thread changes it in steps; the
+// haptic thread reads complete steps and never waits.
 //
 //   ContactSurface surface(points, triangles, {});
 //   surface.update(moved, changed);               one thread: a step, as long as what changed
 //   ContactReader reader(surface);                another: contact_query.h
 //
-// Vertices and triangles have two states, the one of the last step and the one before; a reader notes the
-// step it reads, and the writer waits for readers of the step before last before it writes over their state.
+// Vertices and triangles have two states, the one of the last step and the one before; a reader announces the
+// step it reads, and the writer waits for readers of the step before last before it overwrites their state.
 #pragma once
 
 #include <array>
@@ -24,7 +23,7 @@
 
 namespace cleft {
 
-/// Something that has a value now and had one a step before, in a cache line of its own.
+/// The current value of an object and its value one step before, in one cache line.
 template <class T>
 class alignas(64) TwoStates {
  public:
@@ -48,12 +47,12 @@ class alignas(64) TwoStates {
 };
 
 struct ContactTriangle {
-  std::array<int, 3> vertex{-1, -1, -1};  ///< counter-clockwise from outside; -1: there is none
+  std::array<int, 3> vertex{-1, -1, -1};  ///< counter-clockwise seen from outside; -1: no triangle
   bool wall = false;                      ///< of a wound, not skin
 };
 
-/// A triangle as it is kept: with its plane n . x = d, rounded, which most triangles near a segment are ruled
-/// out by. Both states fit into a cache line.
+/// A stored triangle with its rounded plane n . x = d, which rules out most triangles near a segment. Both
+/// states fit into one cache line.
 class FeltTriangle {
  public:
   FeltTriangle() = default;
@@ -75,17 +74,17 @@ class FeltTriangle {
     for (int k = 0; k < 3; ++k) plane_[k] = static_cast<float>(n[k]);
     plane_[3] = static_cast<float>(dot(n, c[0]));
   }
-  /// Whether both ends are surely on the same side; `rounding`: of_rounding() of them.
+  /// Whether both ends are certainly on the same side; `rounding`: their of_rounding().
   bool on_one_side(const Vec3& from, const Vec3& to, double rounding) const {
     const double a = height(from), b = height(to), margin = rounding + unit * std::abs(plane_[3]);
     return (a > margin && b > margin) || (a < -margin && b < -margin);
   }
-  /// Less than the squared distance of x, surely.
+  /// A certain lower bound of the squared distance of x.
   double least_squared_distance(const Vec3& x) const {
     const double away = std::abs(height(x)) - of_rounding(x, x) - unit * std::abs(plane_[3]);
     return away > 0 ? away * away : 0;
   }
-  /// At most what n . x is off by through the rounding of n.
+  /// A bound of the error of n . x by the rounding of n.
   static double of_rounding(const Vec3& from, const Vec3& to) {
     const auto size = [](const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); };
     return unit * std::max(size(from), size(to));
@@ -103,8 +102,9 @@ static_assert(sizeof(TwoStates<FeltTriangle>) == 64);
 
 /// Lengths are mm.
 struct ContactSurfaceOptions {
-  double cell = 0;     ///< voxel's edge; 0: three quarters of the triangles' mean edge
-  double margin = -1;  ///< how far the surface may move or grow beyond its box; -1: a quarter of its diagonal
+  double cell = 0;  ///< voxel's edge; 0: three quarters of the triangles' mean edge
+  double margin =
+      -1;  ///< distance by which the surface may grow beyond its box; -1: a quarter of its diagonal
   std::size_t spare = 1 << 20;  ///< vertices and triangles that may be added
 };
 
@@ -116,28 +116,28 @@ class ContactSurface {
   };
   struct Changed {
     int triangle;
-    ContactTriangle now;  ///< vertex[0] = -1: it is gone
+    ContactTriangle now;  ///< vertex[0] = -1: it is removed
   };
 
   ContactSurface(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles,
                  const ContactSurfaceOptions& options = {});
 
-  /// One step: vertices (also new ones) and triangles that are different from now on. Work and memory are
-  /// those of what changed and its neighbours. Throws InputError where it outgrows `spare`.
+  /// One step: changed or new vertices and triangles. Work and memory are proportional to the change and its
+  /// neighbourhood. Throws InputError if the surface outgrows `spare`.
   void update(std::span<const Moved> moved, std::span<const Changed> changed);
-  /// Takes from the system what the next steps may need: when there is time for it.
+  /// Allocates memory for the next steps in advance, when there is time.
   void prepare();
 
   std::uint64_t version() const { return version_.load(std::memory_order_relaxed); }
   std::size_t vertex_count() const { return positions_.size(); }
-  std::size_t triangle_count() const { return triangles_.size(); }  ///< also those that are gone
+  std::size_t triangle_count() const { return triangles_.size(); }  ///< including removed ones
   const Vec3& position(int v) const { return positions_[v].last(); }
   const ContactCells& cells() const { return cells_; }
 
  private:
   friend class ContactReader;
   static constexpr int most_readers = 4, none = -1;
-  // What a reader says: free, idle, about to look at the version, or the version it reads plus `reading`.
+  // The state of a reader: unused, idle, about to read the version, or the version it reads plus `reading`.
   static constexpr std::uint64_t unused = 0, idle = 1, entering = 2, reading = 3;
 
   Corners corners_at(const ContactTriangle& t, std::uint64_t version) const;

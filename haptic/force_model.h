@@ -1,8 +1,8 @@
-// The force the tissue answers with, tick by tick. Paper, section 3.6: elastic along the normal before
-// puncture, viscous drag after it.
+// The force of the tissue in each tick. Paper, section 3.6: elastic along the normal before puncture, viscous
+// drag after it.
 //
-//   free      the tip is in the air or in an open wound; the blade's side may touch
-//   contact   the tip has sunk into a surface that holds: F = K depth n, on the proxy's way over the surface
+//   free      the tip is in the air or in an open wound; the side of the blade may touch
+//   contact   the tip is inside an intact surface: F = K depth n at the proxy
 //   cutting   through the surface: F = -b v - R depth e tanh(v.e / v0), until the blade is free of tissue
 //   again
 #pragma once
@@ -17,11 +17,11 @@ enum class Phase { free, contact, cutting };
 
 class ForceModel {
  public:
-  /// Stiffness and drag are held to what the device renders. `period`: s between ticks.
+  /// Stiffness and drag are limited to what the device can render. `period`: s between ticks.
   ForceModel(const ContactSurface& surface, const ForceParameters& parameters, const DeviceLimits& limits,
              double period);
 
-  /// N, on the hand, dt s after the last pose. Neither allocates nor waits.
+  /// The force on the hand, N; dt: s since the last pose. Neither allocates memory nor waits.
   Vec3 update(const ScalpelPose& pose, double dt);
 
   Phase phase() const { return phase_; }
@@ -29,9 +29,9 @@ class ForceModel {
   const Vec3& normal() const { return proxy_.normal; }
   const Vec3& proxy() const { return proxy_.position; }
   const Vec3& velocity() const { return velocity_; }  ///< mm/s, filtered
-  double stored() const { return stored_; }           ///< N mm the elastic forces can give back
+  double stored() const { return stored_; }           ///< N mm, energy of the elastic forces
   int punctures() const { return punctures_; }
-  double last_puncture_force() const { return puncture_force_; }  ///< N, elastic, when the surface gave way
+  double last_puncture_force() const { return puncture_force_; }  ///< N, elastic force at the last puncture
   double stiffness() const { return stiffness_; }
 
  private:

@@ -1,5 +1,5 @@
-// Memory in large pages, where the system gives them. A tick begins with cold caches, and what it looks at
-// lies far apart: with small pages it would wait for page tables as long as for the data.
+// Memory in large pages, if the system provides them. A tick begins with cold caches and reads scattered
+// data: with small pages it would wait for page tables as long as for the data.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace cleft {
 
-/// At least `bytes`, not touched. Throws std::bad_alloc.
+/// Allocates at least `bytes` without touching them. Throws std::bad_alloc.
 void* take_large_pages(std::size_t bytes);
 void release_large_pages(void* memory);
 

@@ -21,7 +21,7 @@
 
 namespace cleft {
 
-/// What the rest of the program may know of a tick.
+/// The state of a tick for the rest of the program.
 struct HapticState {
   std::uint64_t tick = 0;
   double time = 0;  ///< s
@@ -33,7 +33,7 @@ struct HapticState {
   int punctures = 0;
 };
 
-/// A pose as it came, for recordings.
+/// A pose with its time, for recordings.
 struct RecordedPose {
   double time;
   ScalpelPose pose;
@@ -42,9 +42,9 @@ struct RecordedPose {
 struct LoopOptions {
   double rate = 1000;      ///< Hz
   bool measure = false;    ///< compute times
-  bool real_time = false;  ///< ask for SCHED_FIFO and locked memory; refused(): what was not granted
-  bool passive = true;     ///< false: the plain model, for showing what the observer is for
-  std::size_t record = 0;  ///< poses to keep
+  bool real_time = false;  ///< request SCHED_FIFO and locked memory; refused(): what was not granted
+  bool passive = true;     ///< false: the plain force model, to demonstrate the controller
+  std::size_t record = 0;  ///< number of poses to record
 };
 
 class HapticLoop {
@@ -55,14 +55,14 @@ class HapticLoop {
   /// One tick, dt s after the one before.
   void update(double dt);
 
-  /// Ticks at absolute times until `stop` or for `seconds`. Missed times are skipped, not made up for.
+  /// Ticks at absolute times until `stop` or for `seconds`. Missed times are skipped.
   void run(const std::atomic<bool>& stop, double seconds);
 
   double rate() const { return options_.rate; }
   double period() const { return 1 / options_.rate; }
 
-  /// Every tick, for the thread that cuts: where the blade goes while that is busy is cut, too. And the
-  /// newest one for the thread that draws.
+  /// All ticks, for the cutting thread, so that it cuts the complete path of the blade even if it is late;
+  /// and the newest tick, for the drawing thread.
   TickQueue<HapticState>& for_cutting() { return for_cutting_; }
   TripleBuffer<HapticState>& for_view() { return for_view_; }
 
@@ -72,9 +72,7 @@ class HapticLoop {
   const PassivityControl& passivity() const { return passivity_; }
   const ForceModel& model() const { return model_; }
   const std::vector<RecordedPose>& recorded() const { return recorded_; }
-  const std::string& refused() const {
-    return refused_;
-  }  ///< "" where real time was granted or not asked for
+  const std::string& refused() const { return refused_; }  ///< "" if real time was granted or not requested
 
  private:
   void count(const Vec3& force);

@@ -1,11 +1,12 @@
-// Between the model and the device: no more energy than was put in, no more force than the device has, and no
-// jump one would notice. A time-domain passivity observer and controller (Hannaford and Ryu 2002).
+// The passivity controller between force model and device: the rendered force creates no energy, is within
+// the device's limit, and changes imperceptibly in each tick. A time-domain passivity observer and controller
+// (Hannaford and Ryu 2002).
 //
-// A force held through a tick does exactly the work F . (x' - x), so what the tool has given to the hand is
-// known without a model, also where the force comes late by a known latency. The rest is a tank: filled by
-// what the hand puts in, never fuller than what the tissue's springs hold plus an allowance, emptied by what
-// comes back. A force is rendered as far as the tank pays for it until it could be taken back, at the
-// permitted change a tick, and those under way.
+// A force that is held through a tick does exactly the work F . (x' - x), so the energy that the hand
+// receives is known without a model, also with a known latency. The energy tank is filled by the work of the
+// hand, never above the energy of the tissue's springs plus an allowance, and emptied by the work on the
+// hand. A force is rendered as far as the tank pays until the force, and those under way to the device, could
+// be reduced to zero at the permitted change in each tick.
 #pragma once
 
 #include <array>
@@ -19,15 +20,15 @@ class PassivityControl {
  public:
   PassivityControl(const ForceParameters& parameters, const DeviceLimits& limits, double period);
 
-  /// The force to render, N. `position` mm; `velocity` mm/s; `stored`: N mm the model's springs
-  /// hold; dt: s since the last.
+  /// The force to render, N. `position`: mm; `velocity`: mm/s; `wanted`: N, the model's force; `stored`: N
+  /// mm, energy of the model's springs; dt: s since the last call.
   Vec3 update(const Vec3& position, const Vec3& velocity, const Vec3& wanted, double stored, double dt);
 
-  /// After a gap in the poses: no work is counted over it, and the force begins from none.
+  /// After a gap in the poses: no work is counted over it, and the force starts from zero.
   void restart();
 
-  double delivered() const { return delivered_; }  ///< N mm given to the hand so far, less what it put in
-  /// Most that a contact has given beyond what was put into it: the energy created, N mm.
+  double delivered() const { return delivered_; }  ///< N mm, net work on the hand so far
+  /// Largest energy that a contact has created: work on the hand minus work of the hand, N mm.
   double created() const { return created_; }
   double tank() const { return tank_; }
 
@@ -42,7 +43,7 @@ class PassivityControl {
   double max_force_, period_;
   int late_;
   std::array<Vec3, most_late>
-      under_way_{};  ///< forces told and not yet acting, the oldest first, and the one acting
+      under_way_{};  ///< forces sent and not yet acting, the oldest first, and the one acting
   Vec3 last_position_;
   bool started_ = false;
   double tank_, delivered_ = 0, created_ = 0, contact_ = 0, idle_ = 0;

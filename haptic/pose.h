@@ -1,4 +1,4 @@
-// Where the scalpel is.
+// The pose of the scalpel.
 #pragma once
 
 #include "base/vec3.h"
@@ -9,7 +9,7 @@ namespace cleft {
 struct ScalpelPose {
   Vec3 tip;
   Vec3 axis{0, 0, 1};   ///< unit, from the tip along the blade to the handle
-  Vec3 edge{1, 0, 0};   ///< unit, the way the edge cuts
+  Vec3 edge{1, 0, 0};   ///< unit, the direction in which the edge cuts
   bool cutting = true;  ///< whether the blade may cut: a button, and false without a device
   bool present = true;  ///< whether there is a device; without one there is neither contact nor force
 

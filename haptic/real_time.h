@@ -1,4 +1,4 @@
-// Clocks, absolute sleeps, and what a thread asks of the system before it keeps time.
+// Clocks, absolute sleeps, and the system settings of a thread that keeps time.
 #pragma once
 
 #include <sched.h>
@@ -12,17 +12,17 @@ namespace cleft {
 
 inline constexpr std::int64_t clock_second = 1000000000;
 
-/// ns; of CLOCK_MONOTONIC without a system call.
+/// The time of a clock, ns; for CLOCK_MONOTONIC without a system call.
 std::int64_t clock_time(clockid_t clock);
 
-/// Until CLOCK_MONOTONIC's `time`, ns.
+/// Sleeps until `time` of CLOCK_MONOTONIC, ns.
 void sleep_until(std::int64_t time);
-/// The same, for ticks: the last 60 us are waited through awake, so that what waking up brings with it (the
-/// scheduler's and timers' own work, a slow clock of the processor) is over when the time comes.
+/// The same for ticks: the thread wakes 60 us earlier and waits actively, so that the effects of waking up
+/// (work of scheduler and timers, a slow processor clock) are over at the given time.
 void be_awake_at(std::int64_t time);
 
-/// Does `step` at once and then each `period`, ns, until `over`. One that is late is made up for by going on
-/// sooner, but by one period at most.
+/// Calls `step` at once and then each `period`, ns, until `over` is true. A late step is compensated by an
+/// earlier next one, by one period at most.
 template <class Over, class Step>
 void repeat(std::int64_t period, const Over& over, const Step& step) {
   for (std::int64_t due = clock_time(CLOCK_MONOTONIC); !over();
@@ -35,9 +35,9 @@ void repeat(std::int64_t period, const Over& over, const Step& step) {
 /// Page faults of this thread so far.
 std::int64_t page_faults();
 
-/// As long as it lives, sleeps of the thread that made it end as exactly as the system can, with `real_time`
-/// under SCHED_FIFO. The thread's stack and the program's code are touched, so that no tick waits for them;
-/// with `real_time` the program's memory is locked, and stays so.
+/// During its lifetime sleeps of the constructing thread end as precisely as the system permits, with
+/// `real_time` under SCHED_FIFO. The thread's stack and the program's code are touched, so that no tick waits
+/// for them; with `real_time` the memory of the program is locked, also afterwards.
 class TickingThread {
  public:
   explicit TickingThread(bool real_time);
@@ -45,7 +45,7 @@ class TickingThread {
   TickingThread(const TickingThread&) = delete;
   TickingThread& operator=(const TickingThread&) = delete;
 
-  const std::string& refused() const { return refused_; }  ///< "" where nothing was
+  const std::string& refused() const { return refused_; }  ///< "" if nothing was refused
 
  private:
   int slack_, policy_;

@@ -12,7 +12,7 @@
 
 namespace cleft {
 
-/// Memory for `capacity` elements is asked for once and touched as it is used. One thread grows it.
+/// Memory for `capacity` elements is reserved once and touched as it is used. One thread grows it.
 template <class T>
 class SlotArray {
  public:
@@ -37,7 +37,7 @@ class SlotArray {
     for (; size_ < size; ++size_) new (memory_ + size_) T(value...);
     ready_ = std::max(ready_, size_);
   }
-  /// Touches the memory of the next elements, so that the step that adds them need not wait for it.
+  /// Touches the memory of the next elements, so that the step that adds them does not wait for it.
   void prepare(std::size_t ahead) {
     constexpr std::size_t page = 4096;
     const std::size_t until = std::min(size_ + ahead, capacity_);

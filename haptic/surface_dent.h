@@ -1,4 +1,4 @@
-// How skin sinks beside a blade that has not gone through it, for pictures that agree with what is felt.
+// The shape of skin that sinks under a blade before puncture, so that pictures agree with the force.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@ namespace cleft {
 
 constexpr double dent_reach = 30;  ///< mm
 
-/// Over how far it sinks under the blade, as under even pressure on the disc of surface_stiffness.h; led to
-/// nothing at `reach`.
+/// The depression relative to that under the blade, for uniform pressure on the disc of surface_stiffness.h;
+/// it decreases to zero at dent_reach.
 class SurfaceDent {
  public:
   SurfaceDent();                                 ///< of a half space
   explicit SurfaceDent(const SkinLayer& layer);  ///< of skin and tissue on their foundation
-  /// Of what the field knows of its case.
+  /// For the parameters of the field's case.
   explicit SurfaceDent(const Field& field);
 
   double at(double distance) const;  ///< mm; 1 at 0

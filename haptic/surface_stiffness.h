@@ -1,4 +1,4 @@
-// How stiff a case's skin is under the blade, so that it feels as it looks.
+// The stiffness of a case's skin under the blade, so that the force agrees with the picture.
 #pragma once
 
 #include <optional>
@@ -24,21 +24,21 @@ struct SkinLayer {
   double membrane;                      ///< of the skin, E t / (1 - nu^2), N/mm
 };
 
-/// mm/MPa, of the same disc on it, so far from its middle: the Hankel transform of the layer's equations,
-/// solved for every wave number.
+/// Compliances, mm/MPa, for the same disc at distances from its middle: the Hankel transform of the layer's
+/// equations, solved for each wave number.
 std::vector<double> layer_compliances(const SkinLayer& layer, std::span<const double> distances);
 double layer_compliance(const SkinLayer& layer);  ///< in the disc's middle
 
-/// Of a half space, over that in the middle (Johnson, Contact Mechanics, 3.4).
+/// The profile of a half space relative to its middle (Johnson, Contact Mechanics, 3.4).
 double half_space_profile(double distance);
 
-/// N/mm, of a field's case: from its quantity "compliance" at the middle of the cut where it has one; else of
-/// its skin, tissue and foundation as a layer, within about 2 % of the solver's; else, where the field knows
-/// its tissue alone, of a half space 2 a (1 - nu^2) / E (Johnson, Contact Mechanics, 3.4). Throws InputError
-/// where the field tells none of them.
+/// The stiffness of a field's case, N/mm: from its quantity "compliance" at the middle of the cut if it has
+/// one; else from its skin, tissue and foundation as a layer, within about 2 % of the solver's; else from its
+/// tissue alone as a half space, 2 a (1 - nu^2) / E (Johnson, Contact Mechanics, 3.4). Throws InputError if
+/// the field has none of these parameters.
 double surface_stiffness(const Field& field);
 
-/// A field's skin, tissue and foundation, where it knows them all.
+/// A field's skin, tissue and foundation, if it has all their parameters.
 std::optional<SkinLayer> skin_layer(const Field& field);
 
 }  // namespace cleft

@@ -1,5 +1,5 @@
-// Values from one thread to another, every one of them in order: neither waits. Where the reader is so late
-// that it is full, the writer leaves values out.
+// All values from one thread to another, in order; neither thread waits. If the reader is so late that the
+// queue is full, the writer drops values.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@
 
 namespace cleft {
 
-/// One writer, one reader. T is copied; all memory is taken, and touched, at the beginning.
+/// One writer, one reader. T is copied; all memory is allocated and touched at the beginning.
 template <class T>
 class TickQueue {
  public:
@@ -20,7 +20,7 @@ class TickQueue {
     values_[at % values_.size()] = value;
     written_.store(at + 1, std::memory_order_release);
   }
-  /// False where there is none.
+  /// False if there is none.
   bool pop(T& value) {
     const std::size_t at = read_.load(std::memory_order_relaxed);
     if (at == written_.load(std::memory_order_acquire)) return false;

@@ -20,9 +20,9 @@ struct Passage {
   Vec3 normal;                          ///< of the triangle, not scaled
 };
 
-/// Most triangles near a short segment have both ends on one side: that is asked first. An edge belongs to
-/// both triangles that share it, exactly, and an end to one of the two segments that meet in it: nothing
-/// slips through.
+/// Most triangles near a short segment have both of its ends on one side, which is tested first. An edge
+/// belongs exactly to both triangles that share it, and an end to one of the two segments that meet in it: no
+/// contact is missed.
 inline Passage pass_through(const Vec3& from, const Vec3& to, const Corners& c) {
   const Vec3 normal = scaled_normal(c);
   const double before = dot(normal, from - c[0]), after = dot(normal, to - c[0]);
@@ -40,7 +40,7 @@ struct ClosestPoint {
   int corner = 0;  ///< of a vertex: which
 };
 
-/// No more than the squared distance from p to the triangle: that to its box.
+/// A lower bound of the squared distance from p to the triangle: that to its box.
 inline double least_squared_distance(const Vec3& p, const Corners& c) {
   const auto beside = [](double x, double a, double b, double d) {
     return std::max({0., std::min({a, b, d}) - x, x - std::max({a, b, d})});
@@ -70,8 +70,9 @@ inline ClosestPoint closest_point(const Vec3& p, const Corners& c) {
   return {A + vb * whole * ab + vc * whole * ac, ClosestPoint::face};
 }
 
-/// Whether the triangle's plane meets the box about `middle`. With the triangle's own box this is all that is
-/// asked: the axes of the edges would cost a cut more than the few boxes they spare would cost a query.
+/// Whether the triangle's plane meets the box around `middle`. Together with the test of the triangle's own
+/// box this is sufficient: testing the axes of the edges would cost a cut more than the few extra boxes cost
+/// a query.
 inline bool plane_meets_box(const Corners& c, const Vec3& normal, const Vec3& middle, double half) {
   const Vec3 to = c[0] - middle;
   return std::abs(dot(normal, to)) <= half * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));

@@ -1,4 +1,4 @@
-// The newest value from one thread to another: neither waits, and nobody sees half a value.
+// The newest value from one thread to another: neither thread waits, and values are never torn.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ class TripleBuffer {
     value_[back_] = value;
     back_ = middle_.exchange(back_ | fresh, std::memory_order_acq_rel) & index;
   }
-  /// The value written last; the same again where nothing was written since.
+  /// The value written last, which is the same again if none was written since.
   const T& read() {
     if (middle_.load(std::memory_order_relaxed) & fresh)
       front_ = middle_.exchange(front_, std::memory_order_acq_rel) & index;

@@ -1,5 +1,5 @@
-// Triangles of a voxel, and voxels about a point, nearest first: for contact_query.cpp and surface_proxy.cpp
-// alone.
+// Triangles of a voxel, and voxels around a point, nearest first. Private to contact_query.cpp and
+// surface_proxy.cpp.
 #pragma once
 
 #include <bit>
@@ -9,8 +9,8 @@
 
 namespace cleft {
 
-/// Squared distances from x to the eight slabs of voxels of a block, along one axis. What lies outside the
-/// grid is in its outermost voxels.
+/// Squared distances from x to the eight slabs of voxels of a block, along one axis. Points outside the grid
+/// are in its outermost voxels.
 inline void squared_gaps(const ContactCells& cells, int axis, int block, double x, double* gap) {
   constexpr int side = ContactCells::side;
   for (int n = 0; n < side; ++n) {
@@ -60,8 +60,8 @@ void visit_block(const ContactCells& cells, const ContactCells::Block& block, co
   });
 }
 
-/// Those triangles of a list of which `may` says that they matter. The thread that cuts has just written over
-/// what the last tick looked at: the corners of all are asked for before any is waited for.
+/// The triangles of a list that `may` accepts. The cutting thread may have overwritten the data of the last
+/// tick: the corners of all triangles are prefetched before the first is used.
 template <class May, class Look>
 void ContactReader::each_of(const CellList& list, const May& may, const Look& look) const {
   constexpr int most = 16;
@@ -85,8 +85,8 @@ void ContactReader::each_of(const CellList& list, const May& may, const Look& lo
   }
 }
 
-/// Voxels about x, block after block in shells of growing distance. `visit` takes a list and returns the
-/// distance beyond which nothing more is wanted.
+/// Voxels around x, block by block in shells of growing distance. `visit` takes a list and returns the
+/// distance beyond which the search ends.
 template <class Visit>
 void ContactReader::visit_voxels(const Vec3& x, double radius, const Visit& visit) const {
   constexpr int bits = ContactCells::bits;

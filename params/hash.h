@@ -9,7 +9,7 @@ namespace cleft {
 /// 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
-/// The same of a file's content; throws FileError where it cannot be read.
+/// The same for the content of a file; throws FileError if it cannot be read.
 std::string sha256_of_file(const std::string& path);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// A surface mesh with all the cuts that were made in it, one after another.
+// A surface mesh with all its cuts, made one after another.
 #pragma once
 
 #include <memory>
@@ -8,11 +8,11 @@
 
 namespace cleft {
 
-/// Never changes once made: to add or take back a cut another one is made.
+/// Immutable: adding or undoing a cut makes a new object.
 class CutSurface {
  public:
-  /// Cuts along all paths to their ends; lengths in mm. Throws InputError naming the cut where a path does
-  /// not meet the mesh or cannot go on.
+  /// Cuts along all paths to their ends; lengths in mm. Throws InputError naming the cut if a path does not
+  /// meet the mesh or cannot continue.
   CutSurface(const SurfaceMesh& mesh, const std::vector<ScalpelPath>& paths);
 
   const CutMesh& mesh() const { return mesh_; }

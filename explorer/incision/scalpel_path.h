@@ -10,12 +10,12 @@
 namespace cleft {
 
 /// The blade's orthonormal frame at s. Right-handed (u, v, w): along = T made perpendicular to N, outward =
-/// N, across = N x T. Left of the cut is where the component along `across` is negative.
+/// N, across = N x T. Left of the cut the component along `across` is negative.
 struct PathFrame {
   Vec3 position, along, across, outward;
 };
 
-/// Where a point lies beside the path: x = C(s) + v B(s) + w N(s), all in the path's units.
+/// Coordinates of a point relative to the path: x = C(s) + v B(s) + w N(s), all in the path's units.
 struct PathCoordinates {
   double s = 0, v = 0, w = 0;
 };
@@ -30,25 +30,25 @@ class ScalpelPath {
   /// Needs at least two different positions; steps of no length are merged. Throws InputError.
   explicit ScalpelPath(const std::vector<Point>& points);
 
-  /// Columns x, y, z, nx, ny, nz and, where present, depth; all in the mesh's units. Others must be among
-  /// `further` and are left alone. Throws InputError naming `name` and the row.
+  /// Columns x, y, z, nx, ny, nz and, where present, depth; all in the mesh's units. Other columns must be
+  /// among `further` and are ignored. Throws InputError naming `name` and the row.
   static ScalpelPath from_table(const NumberTable& table, const std::string& name,
                                 const std::vector<std::string>& further = {});
 
   double length() const { return samples_.back().s; }
 
-  /// For a blade whose way is not known before: keeps the path up to s, goes from there smoothly to `next`,
-  /// and straight on for `beyond`. Returns the arc length of `next`. Throws InputError where the direction
-  /// runs along the path, and leaves it as it was.
+  /// For a path that is not known in advance: keeps the path up to s, continues from there smoothly to
+  /// `next`, and straight for `beyond`. Returns the arc length of `next`. Throws InputError if the direction
+  /// is tangential to the path, which is then unchanged.
   double lead_on(double s, const Point& next, double beyond);
 
   /// Its part up to s, within it.
   ScalpelPath until(double s) const;
 
-  /// The frame at arc length s; before 0 and beyond length() straight on along T.
+  /// The frame at arc length s; before 0 and beyond length() it is extended straight along T.
   PathFrame at(double s) const;
 
-  /// 0 where no depth is known.
+  /// The depth at s; 0 if the path has none.
   double depth(double s) const;
   double largest_depth() const;
   double smallest_depth() const;
@@ -59,8 +59,8 @@ class ScalpelPath {
   PathCoordinates coordinates(const Vec3& x, double from, double to) const;
   PathCoordinates coordinates(const Vec3& x) const;
 
-  /// How far beside C(s), to the left or the right of it, places have C(s) as the nearest of the path: where
-  /// the path bends, up to the middle of the bend; infinite beside a straight one.
+  /// The distance from C(s), to the left or the right, up to which C(s) is the nearest point of the path: in
+  /// a bend up to its centre of curvature; infinite for a straight path.
   double room_beside(double s, bool right) const;
 
  private:

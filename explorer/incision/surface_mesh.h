@@ -1,4 +1,4 @@
-// A triangle mesh as read from a file: what cuts begin with and pictures are drawn from.
+// A triangle mesh as read from a file, for cuts and pictures.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// Snapshots as the time series that ParaView and VTK read everywhere: NAME.pvd, and a .vtu file a frame in
-// NAME/.
+// Snapshots as time series for ParaView and VTK: NAME.pvd, and a .vtu file for each frame in NAME/.
 #pragma once
 
 #include <array>
@@ -22,14 +21,14 @@ struct ExportFigures {
 
 /// Writes folder/NAME.pvd and folder/NAME/frame_0000.vtu, ... In each: the points at their stress-free
 /// positions, the displacement and all further arrays of the points in this frame, on cells `part` (0 skin, 1
-/// tissue), and t as TimeValue. `progress` is told the frame. Throws FileError where the snapshot is damaged,
-/// std::runtime_error where the disk is full. What is written before an exception stays: `folder` is a
+/// tissue), and t as TimeValue. `progress` is called with the frame. Throws FileError if the snapshot is
+/// damaged, std::runtime_error if the disk is full. Files written before an exception remain: `folder` is a
 /// temporary one.
 ExportFigures write_paraview_series(const SnapshotReader& reader, const std::string& folder,
                                     const std::string& name,
                                     const std::function<void(std::size_t)>& progress = {});
 
-/// A surface that moves, of which no snapshot is needed: T triangles of N points at rest.
+/// A moving surface without a snapshot: T triangles of N points at rest.
 struct SurfaceSeries {
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;
@@ -38,15 +37,14 @@ struct SurfaceSeries {
   std::function<std::vector<Vec3>(double t)> displacement;  ///< N, from the points at rest
 };
 
-/// The same files of a surface, with the displacement alone.
+/// The same files for a surface, with the displacement only.
 ExportFigures write_paraview_series(const SurfaceSeries& series, const std::string& folder,
                                     const std::string& name);
 
-/// Throws InputError where folder/NAME.pvd or folder/NAME is there and is not what write_paraview_series
-/// wrote.
+/// Throws InputError if folder/NAME.pvd or folder/NAME exists and was not written by write_paraview_series.
 void refuse_to_replace_series(const std::string& folder, const std::string& name);
 
-/// The same for a folder of series, and nothing else.
+/// The same for a folder that must contain series only.
 void refuse_to_replace_folder_of_series(const std::string& folder);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// Between VTK's polygons and a SurfaceMesh: for the files of this folder, which see VTK.
+// Conversion between VTK's polygons and a SurfaceMesh. Private to this folder.
 #pragma once
 
 #include <vtkPointData.h>

@@ -1,4 +1,4 @@
-// The mesh under the scalpel at one moment, as the thread that draws is given it.
+// A snapshot of the mesh under the scalpel, for the drawing thread.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,14 @@
 
 namespace cleft {
 
-/// The cutting at a moment, in mesh units; the surface is shared by those between which nothing was cut.
+/// The state of the cutting, in mesh units; consecutive states without a cut between them share the surface.
 struct CuttingMoment {
   std::shared_ptr<const WoundSurface> surface;
   std::vector<Vec3> points;
   double cut_length = 0;  ///< mm
   int cuts = 0;           ///< CuttingFigures::cuts as of the surface
 };
-/// `before`: the moment before, or null.
+/// `before`: the previous state, or null.
 std::shared_ptr<const CuttingMoment> moment_of(const ScalpelCutting& cutting, const CuttingMoment* before);
 
 }  // namespace cleft

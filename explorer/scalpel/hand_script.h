@@ -1,4 +1,4 @@
-// What a simulated hand does with a scalpel along a path: down, through the skin, along, and out.
+// The motion of a simulated hand along a path: down, through the skin, along the path, and up.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,12 @@ namespace cleft {
 /// mm; `height` above the path's place s. `scale`: mm per unit of the path, here and below.
 ScalpelPose pose_over(const ScalpelPath& path, double scale, double s, double height);
 
-/// Down onto the path's start, through the skin, along the path at `speed` mm/s at its depth, and up again.
+/// The motion down to the start of the path, through the skin, along the path at its depth with `speed`,
+/// mm/s, and up.
 std::vector<HandTarget> hand_along(const ScalpelPath& path, double scale, double speed,
                                    const HandParameters& hand, const ForceParameters& force);
 
-/// 10 mm over the highest place above the mesh's middle.
+/// A place 10 mm above the highest point over the middle of the mesh.
 ScalpelPose pose_above(const SurfaceMesh& mesh, double scale);
 
 }  // namespace cleft

@@ -1,5 +1,5 @@
-// A scalpel that is felt, beside whatever draws: the loop of 1 kHz on one thread, the mesh that it cuts on
-// another, and what both are at for a third.
+// A haptic scalpel on threads of its own: the loop at 1 kHz on one, the mesh that it cuts on another; a third
+// thread may draw their state.
 #pragma once
 
 #include <atomic>
@@ -14,20 +14,20 @@ class LiveScalpel {
  public:
   using Places = std::vector<ScalpelPath::Point>;
 
-  /// Begins at once. The device must outlive it. Throws InputError where a cut of the setup cannot be made.
+  /// Starts at once. The device must outlive it. Throws InputError if a cut of the setup cannot be made.
   LiveScalpel(const SurfaceMesh& mesh, ScalpelCutting::Setup setup, Device& device,
               const ForceParameters& force);
   ~LiveScalpel();
 
-  // For the one thread that draws.
+  // For the drawing thread only.
   const HapticState& state() { return loop_.for_view().read(); }
-  /// As of the last call or later; asks for the next.
+  /// The state as of the last call or later; requests the next one.
   std::shared_ptr<const CuttingMoment> moment();
-  /// The cuts that were ended since the last call, mesh units.
+  /// The cuts that ended since the last call, mesh units.
   std::vector<Places> ended_cuts();
-  /// Ends both threads, and the cut that goes on: returns what ended_cuts() would.
+  /// Ends both threads and the current cut, and returns ended_cuts().
   std::vector<Places> stop();
-  /// Why the cut could not go on, once.
+  /// Why the cut could not continue; reported once.
   std::string stopped();
   const ContactSurface& surface() const { return cutting_.surface(); }
 

@@ -1,4 +1,4 @@
-// From a field to what replays read: the histories of active vertices, each contracted once.
+// From a field to the histories of active vertices, which replays evaluate; each is contracted once.
 #pragma once
 
 #include <limits>
@@ -12,17 +12,17 @@ namespace cleft {
 
 class Contractor {
  public:
-  /// The field's own fields must outlive it. `scale` is mm per mesh unit.
+  /// The fields that `field` refers to must outlive it. `scale` is mm per mesh unit.
   Contractor(VaryingField field, double scale);
 
   const VaryingField& field() const { return field_; }
 
-  /// In the order that contract() asks for: of time offsets, and of memory.
+  /// Sorts into the order that contract() needs: by time offsets, then by memory.
   static void sort(std::vector<ActiveVertex>& active);
 
   /// The histories in the mesh's space, weighted and in its units, to within the field's
-  /// contraction_tolerance(). A vertex of the cut has a second one for the time before the blade has passed
-  /// it. The displacement of vertex v goes to number v + `shift`. `reach`: that of ReplayPieces.
+  /// contraction_tolerance(). A vertex of the cut has a second history for the time before the blade passes
+  /// it. The displacement of vertex v is written to number v + `shift`. `reach`: that of ReplayPieces.
   ReplayPieces contract(const std::vector<ActiveVertex>& sorted, int shift = 0,
                         double reach = std::numeric_limits<double>::infinity()) const;
 

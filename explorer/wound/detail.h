@@ -1,4 +1,4 @@
-// The level of detail: what never moves by more than that is left at rest, and not evaluated.
+// The level of detail: vertices that never move by more stay at rest and are not evaluated.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@ struct Detail {
   bool pixels = false;
 };
 
-/// "10um" or "0.25px", and back. Throws InputError where a text is neither.
+/// "10um" or "0.25px", and back. Throws InputError for any other text.
 std::string text_of(const Detail& detail);
 Detail detail_of(const std::string& text);
 
-/// What a scene leaves out.
+/// The vertices that a scene leaves out.
 struct LeftOut {
-  std::size_t vertices = 0, of = 0;  ///< that a field moves, counted for every cut
-  double error = 0;                  ///< mm by which they are off at most
+  std::size_t vertices = 0, of = 0;  ///< among those that a field moves, counted for every cut
+  double error = 0;                  ///< bound of their error, mm
 };
 
 }  // namespace cleft

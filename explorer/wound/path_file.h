@@ -1,4 +1,4 @@
-// The path of a cut as commands are given it.
+// The path file of a cut.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,12 @@
 
 namespace cleft {
 
-/// A path file in the mesh's units, with a depth: `depth` mm where that is above 0, else the file's own, else
-/// that of `field`, if given. `scale` is mm per mesh unit. Throws FileError where none of them knows one.
+/// A path file in the mesh's units, with a depth: `depth`, mm, if that is above 0, else that of the file,
+/// else that of `field`, if given. `scale` is mm per mesh unit. Throws FileError if none of them has a depth.
 ScalpelPath read_path(const std::string& file, double depth, double scale, const Field* field);
 
-/// The file's columns skin.prestress_u, _v and _uv, MPa in the path's own frame, where it has any of them; a
-/// missing one is 0. `path` is what read_path made of the file.
+/// The file's columns skin.prestress_u, _v and _uv, MPa in the path's own frame, if it has any of them; a
+/// missing one is 0. `path` is the result of read_path().
 std::optional<PathPrestress> read_prestress(const std::string& file, const ScalpelPath& path, double scale);
 
 }  // namespace cleft

@@ -1,6 +1,6 @@
 // The histories of many vertices over one grid of times, in the order of memory in which a frame reads them:
-// all vertices' pieces of one span of time stand together, so a frame streams through those of its own span.
-// Where one cubic is not enough (the tip passes), a short list of exceptions holds several.
+// the pieces of all vertices for one span of time are contiguous, so that a frame streams through those of
+// its span. Where one cubic is not sufficient (the tip passes), a short list of exceptions holds several.
 #pragma once
 
 #include <array>
@@ -21,33 +21,32 @@ std::vector<double> replay_times(std::span<const Field* const> fields, double to
 
 class ReplayPieces {
  public:
-  /// Room for the histories over `times` (the first and last of the field included) of vertices whose own
-  /// time is the blade's plus their offset, clamped. `offsets` never decrease. The blade
-  /// goes from 0 to `reach`, as far as bounds know.
+  /// Allocates the histories over `times` (the first and last of the field included) of vertices whose own
+  /// time is the blade's plus their offset, clamped. `offsets` never decrease. Bounds are for positions of
+  /// the blade from 0 to `reach`.
   ReplayPieces(std::vector<double> times, std::vector<double> offsets, std::vector<int> vertices,
                double reach = std::numeric_limits<double>::infinity());
 
   /// The history of vertices[i], with breaks at all times of the grid. In the order of i.
   void append(const History& history);
-  /// Two of them: `closed` as long as the blade is not beyond s, `open` from there on.
+  /// Two histories: `closed` until the blade is at s, `open` from there on.
   void append(const History& closed, const History& open, double s);
 
-  /// out[vertices[i]] = rest[vertices[i]] + displacement, with the blade at s. Allocates nothing.
+  /// out[vertices[i]] = rest[vertices[i]] + displacement, with the blade at s. Allocates no memory.
   void positions(double s, const Vec3* rest, Vec3* out) const {
     positions(s, 0, vertices_.size(), rest, out);
   }
-  /// The same of those alone that are not at rest while the blade goes from `before` to s: their numbers i
-  /// are the range returned.
+  /// The same only for vertices that move while the blade goes from `before` to s; returns the range of their
+  /// numbers i.
   std::pair<std::size_t, std::size_t> positions(double before, double s, const Vec3* rest, Vec3* out) const;
 
-  /// The same histories of vertices[chosen[k]] alone; `chosen` ascends.
+  /// The histories of vertices[chosen[k]] only; `chosen` ascends.
   ReplayPieces of(const std::vector<std::size_t>& chosen) const;
 
   const std::vector<int>& vertices() const { return vertices_; }
-  /// vertices[i] is never displaced by more, with the blade within its reach: the longest of its control
-  /// points.
+  /// A bound of the displacement of vertices[i] with the blade within its reach: its longest control point.
   double bound(std::size_t i) const { return bounds_[i]; }
-  /// From now on the displacement of vertices[i] goes to another.
+  /// From now on the displacement of vertices[i] is written to another vertex.
   void redirect(std::size_t i, int vertex) { vertices_[i] = vertex; }
 
   std::size_t exceptions() const { return exception_count_; }  ///< pairs of a vertex and a span of time

@@ -1,4 +1,4 @@
-// The surface of a mesh with its cuts, as scenes draw it. Knows nothing of fields or VTK.
+// The surface of a mesh with its cuts, as scenes draw it, without fields and VTK.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace cleft {
 
-/// A surface with an incision, fully cut; at t = 0 its lips lie on each other. Lengths in mm.
+/// A surface with an incision, fully cut; at t = 0 its lips coincide. Lengths in mm.
 struct WoundSurface {
   std::vector<Vec3> points;                       ///< at rest
   std::vector<std::array<int, 3>> triangles;      ///< counter-clockwise seen from outside

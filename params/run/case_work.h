@@ -1,4 +1,4 @@
-// What is done for a case: solve, encode, check, publish, each by the command of that name.
+// The work for a case: solve, encode, check, publish, each by the command of that name.
 #pragma once
 
 #include <optional>
@@ -13,43 +13,44 @@ namespace cleft {
 /// Why a case was not published.
 struct Failure {
   std::string reason;
-  bool again = false;  ///< by no fault of its own: another run may try it without being asked to
+  bool again = false;  ///< not by its own fault: the next run tries it again
 };
 
-/// A case on its way.
+/// A case that is being made.
 struct CaseOnItsWay {
-  std::size_t number;  ///< among the study's cases
+  std::size_t number;  ///< index among the study's cases
   const Case* one;
   std::string hash;
   Attempt attempt;
   nlohmann::ordered_json manifest = {};
-  double seconds = 0, memory = 0;  ///< bytes that its solver held at most
+  double seconds = 0, memory = 0;  ///< largest number of bytes that its solver held
   std::optional<Failure> failure = {};
 
   std::string file(const std::string& name) const { return attempt.folder + "/" + name; }
 };
 
-/// Thrown where the run is asked to stop.
+/// Thrown if the run is requested to stop.
 struct Interrupted {};
 
 class CaseWork {
  public:
   struct Settings {
-    int ranks = 1, threads = 1;             ///< of each process
-    std::vector<std::string> mpi_launcher;  ///< what starts the ranks, its options for their number included
+    int ranks = 1, threads = 1;  ///< of each process
+    std::vector<std::string>
+        mpi_launcher;  ///< the command that starts the ranks, with the option for their number
   };
   CaseWork(const StudyFolder& folder, const Study& study, Settings settings, const StopCount& stop);
 
-  /// To snapshots, all in one process where they are several: they share a stiffness. Sets `failure` of those
-  /// that have none at the end.
+  /// Solves cases with the same stiffness matrix in one process. Sets `failure` of those that have no
+  /// snapshot afterwards.
   void solve(const std::vector<CaseOnItsWay*>& cases) const;
   void encode(CaseOnItsWay& one) const;
   void check(const std::vector<CaseOnItsWay*>& cases) const;
-  /// False where another run has published it first.
+  /// False if another run has published it first.
   bool publish(CaseOnItsWay& one) const;
 
-  /// Takes a published snapshot of what the solver would see again, where there is a sound one, as the same
-  /// file, or as a copy where links are not possible.
+  /// Reuses an intact published snapshot with the same solver input, if there is one, by a hard link or a
+  /// copy.
   bool reuse(CaseOnItsWay& one, const std::string& published) const;
 
  private:

@@ -1,11 +1,12 @@
-// Locks between processes: on the attempt that one of them works in, and on a study for a moment.
+// Locks between processes: on an attempt, and on a study.
 #pragma once
 
 #include <string>
 
 namespace cleft {
 
-/// A file that is locked (flock) while its owner lives, so that a killed run is told from a running one.
+/// A file that is locked (flock) during the lifetime of its owner, which distinguishes a running process from
+/// a killed one.
 class Lock {
  public:
   explicit Lock(const std::string& path);
@@ -18,8 +19,8 @@ class Lock {
   int file_;
 };
 
-/// Held for the moment in which attempts come, go, are published or looked at, by all processes of a study;
-/// or, with another file, in which something else is done by one of them at a time. Waits for it.
+/// A mutex between all processes of a study, held while attempts are created, removed, published or listed,
+/// or, with another file, for another exclusive operation. Waits for the lock.
 class Moment {
  public:
   explicit Moment(const std::string& study, const std::string& file = "/.lock");
@@ -31,8 +32,8 @@ class Moment {
   int file_;
 };
 
-/// Throws InputError where the file system under a folder does not do what publishing relies on: a lock keeps
-/// others out, and a folder does not take the place of one that is not empty.
+/// Throws InputError if the file system of a folder does not satisfy the requirements of publishing: a lock
+/// excludes others, and a rename does not replace a folder that is not empty.
 void check_file_system(const std::string& folder);
 
 }  // namespace cleft

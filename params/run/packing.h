@@ -1,4 +1,4 @@
-// study.dffd, while cases are published and when a run ends.
+// Writes study.dffd during a run and at its end.
 #pragma once
 
 #include <condition_variable>
@@ -12,23 +12,22 @@
 namespace cleft {
 
 /// Packs the published fields of a study into its study.dffd (cleft pack), after any other run of the study
-/// that does so just now. What is to be said of it goes to stderr. Throws std::runtime_error where it fails;
-/// the earlier file is then as it was, as it is where a signal ends this process.
+/// that is packing. Messages go to stderr. Throws std::runtime_error if it fails; the earlier file is then
+/// unchanged, also if a signal ends this process.
 void pack_study(const std::string& study);
 
-/// Keeps study.dffd up to date while a run goes on: each time the whole file anew, and only where the last
-/// packing, by whatever run of the study, is twenty times as long ago as it took. So all packing takes a
-/// twentieth of a core's time at most, and the file is behind by some seconds, of thousands of cases by
-/// minutes.
+/// Keeps study.dffd up to date during a run: rewrites the file if the time since the last packing, by any run
+/// of the study, is twenty times what that took. Packing thus takes at most a twentieth of a core, and the
+/// file is late by some seconds, for thousands of cases by minutes.
 class Packing {
  public:
-  /// `stop`: of the run; it ends what is under way too.
+  /// `stop`: that of the run; it also ends a packing in progress.
   Packing(std::string study, const StopCount& stop);
   ~Packing();
   Packing(const Packing&) = delete;
   Packing& operator=(const Packing&) = delete;
 
-  /// There are cases that the file may lack. To be called by any thread.
+  /// Announces cases that the file may lack. May be called by any thread.
   void published();
 
  private:

@@ -1,4 +1,4 @@
-// What a run tells while it goes on: lines, and on a terminal a table below them that is kept up to date.
+// The output during a run: lines, and on a terminal a table below them that is updated.
 #pragma once
 
 #include <condition_variable>
@@ -12,13 +12,13 @@ namespace cleft {
 
 class RunTable {
  public:
-  /// `rows` is asked for the table's lines twice a second, from a thread of its own.
+  /// `rows` returns the lines of the table; it is called twice a second from a thread of its own.
   explicit RunTable(std::function<std::vector<std::string>()> rows);
   ~RunTable();
   RunTable(const RunTable&) = delete;
   RunTable& operator=(const RunTable&) = delete;
 
-  /// A line that stays.
+  /// Prints a permanent line.
   void say(const std::string& line);
 
  private:
@@ -34,7 +34,7 @@ class RunTable {
   std::thread thread_;
 };
 
-/// "1:02:03" or "2:03", of seconds.
+/// Seconds as "1:02:03" or "2:03".
 std::string as_clock(double seconds);
 
 }  // namespace cleft

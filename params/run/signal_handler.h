@@ -1,4 +1,4 @@
-// What signals do while a study runs.
+// The handling of signals while a study runs.
 #pragma once
 
 #include <csignal>
@@ -7,7 +7,7 @@
 
 namespace cleft {
 
-/// While it lives, the signals call `handler`; then they do what they did before.
+/// During its lifetime the signals call `handler`; destruction restores the former handlers.
 class SignalHandler {
  public:
   SignalHandler(std::initializer_list<int> signals, void (*handler)(int)) {

@@ -1,4 +1,4 @@
-// Which cases are solved in one go.
+// The groups of cases that one process solves together.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace cleft {
 
-/// So many cases at most, so that no more than these are lost with a process.
+/// Largest number of cases in a group, which bounds the loss if a process is killed.
 inline constexpr std::size_t most_solved_together = 32;
 
-/// Cases (by index) of one stiffness, whose factorisation is made once for all of them; at most so many
-/// together, and fewer where that keeps `workers` busy.
+/// Groups of cases (by index) with one stiffness matrix, which share its factorisation; groups are smaller if
+/// this keeps all `workers` busy.
 std::vector<std::vector<std::size_t>> solve_groups(const std::vector<Case>& cases, int workers,
                                                    std::size_t most = most_solved_together);
 

@@ -19,10 +19,10 @@ std::string to_text(CaseState state);
 struct CaseStatus {
   CaseState state = CaseState::missing;
   std::string reason;  ///< of a failure
-  bool again = false;  ///< it failed by no fault of its own (a killed process, a full disk): it is run again
+  bool again = false;  ///< it did not fail by its own fault (a killed process, a full disk): it is run again
 };
 
-/// A case on its way: a folder of its own, that becomes the published one or stays behind with its logs.
+/// An attempt to make a case: a folder that becomes the published one or remains with its logs.
 struct Attempt {
   std::string folder, token;
   Lock lock;

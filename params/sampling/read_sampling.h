@@ -10,7 +10,7 @@
 
 namespace cleft {
 
-/// Reads both into the study; what is wrong goes to the mistakes. `path` is the file's.
+/// Reads both into the study; errors are added to `mistakes`. `path`: of the file, for messages.
 void read_sampling(const toml::table& file, const std::string& path, Study& study, Mistakes& mistakes);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// How a study's variations become cases. A method is one file, and one line in sampling.cpp.
+// Sampling: from a study's variations to its cases. A method is one file, and one line in sampling.cpp.
 #pragma once
 
 #include <string>
@@ -19,30 +19,30 @@ struct SamplingMethod {
 /// Finds a method by name; throws InputError "<where>: unknown sampling method ...".
 const SamplingMethod& find_sampling(const std::string& name, const std::string& where);
 
-/// Every combination of the values; the last variation changes fastest.
+/// All combinations of the values; the last variation changes fastest.
 std::vector<Case> sample_grid(const Study& study);
 
 /// The n-th case takes the n-th value of every variation; the lists must be equally long.
 std::vector<Case> sample_list(const Study& study);
 
-/// Every range is cut into as many equal strata as there are cases; each stratum holds one case, at a random
-/// place (McKay, Beckman, Conover, Technometrics 21, 1979).
+/// Each range is divided into as many equal strata as there are cases; each stratum contains one case at a
+/// random place (McKay, Beckman, Conover, Technometrics 21, 1979).
 std::vector<Case> sample_latin_hypercube(const Study& study);
 
 /// The first points of the Sobol sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30,
 /// 2008), its origin included: more cases keep the earlier ones. A seed other than 0 shifts it digitally.
 std::vector<Case> sample_sobol(const Study& study);
 
-/// The variations of a study whose method draws, by name: how a name is spelt in the file (dotted or quoted)
-/// changes their order in the study, and must not change what is drawn.
+/// The variations of a study with a random method, sorted by name: the spelling of a name in the file (dotted
+/// or quoted) changes their order in the study and must not change the drawn values.
 std::vector<Variation> ranges_by_name(const Study& study);
 
-/// A uniform number in [0, 1) from 64 random bits; the same everywhere, which the standard's distributions do
-/// not promise.
+/// A uniform number in [0, 1) from 64 random bits; equal on all platforms, unlike the standard's
+/// distributions.
 double unit_fraction(std::uint64_t bits);
 
 /// Sets the parameter to the value `part` of `whole` steps along its range, rounded to 12 digits, so that
-/// another processor's last bit does not make it another case.
+/// differences of processors in the last bit do not change the case.
 void set_drawn(Case& one, const Variation& variation, double part, double whole);
 
 }  // namespace cleft
