@@ -60,7 +60,7 @@ int opened(const std::string& path) {
 /// In the child: what may be called between fork and exec in a process with threads, and no more.
 [[noreturn]] void become(char** argv, char** variables, int out, int log, pid_t parent, int failure) {
   setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);     // mpirun, asked to end while it starts up, may lock up instead
+  prctl(PR_SET_PDEATHSIG, SIGKILL);     // mpirun may hang if it is requested to end while it starts
   if (getppid() != parent) _exit(127);  // it has died already
   sigset_t none;
   sigemptyset(&none);
@@ -74,7 +74,7 @@ int opened(const std::string& path) {
   _exit(127);
 }
 
-/// Waits for the child's end, and passes on what `stop` says.
+/// Waits for the child's end, and forwards `stop`.
 int awaited(pid_t child, const StopCount* stop, rusage& usage) {
   const Descriptor end(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));
   int status = 0, told = 0;
@@ -87,7 +87,7 @@ int awaited(pid_t child, const StopCount* stop, rusage& usage) {
       kill(told == 1 ? child : -child, told == 1 ? SIGTERM : SIGKILL);
     }
     pollfd ending{end, POLLIN, 0};
-    poll(&ending, 1, end < 0 ? 10 : 50);  // without pidfd (Linux before 5.3) it is asked now and then
+    poll(&ending, 1, end < 0 ? 10 : 50);  // without pidfd (Linux before 5.3) it is polled
   }
 }
 

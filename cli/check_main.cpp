@@ -41,8 +41,8 @@ void check_file(const std::string& file) {
     throw FileError(file, "is neither a snapshot nor a field nor a study");
 }
 
-/// Control points are the same, to the last bit; those of a sum of modes stand on finer knots, and it is off
-/// by no more than it says, but for what lies between a mesh's nodes.
+/// Control points are equal bit for bit; those of a sum of modes are on finer knots, and its error at nodes
+/// is at most its modes/error.
 bool same_field(const Field& packed, const Field& published, double modes_error) {
   if (modes_error == 0) return packed.coefficients() == published.coefficients();
   const auto& domain = published.parametrization().domain();

@@ -1,4 +1,4 @@
-// cleft: runs the subcommand that stands beside it, cleft solve -> cleft-solve.
+// cleft: runs the subcommand's executable in the same folder, cleft solve -> cleft-solve.
 #include <unistd.h>
 
 #include <iostream>

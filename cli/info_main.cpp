@@ -61,7 +61,7 @@ Json list_of(const Interpolation& made) {
           {"outside", made.outside}};
 }
 
-/// Of a study's published case: what its manifest says. Empty elsewhere.
+/// The manifest of a study's published case. Empty for other files.
 Json manifest_beside(const std::string& field) {
   const std::string manifest = (std::filesystem::path(field).parent_path() / "manifest.json").string();
   return std::filesystem::exists(manifest) ? read_sealed(manifest) : Json::object();

@@ -18,11 +18,11 @@ namespace cleft {
 
 namespace {
 
-// What of the tolerance fits of single frames and of all frames may use up, and what steps of the
-// coefficients would in the worst case.
+// Shares of the tolerance for fits of single frames, for the fit of all frames, and for rounding to the
+// nearest quantum in the worst case.
 constexpr double share_of_space = 0.9, share_of_fit = 0.97, share_of_steps = 0.07;
-constexpr double farthest = 0.625;  // steps a coefficient may be moved to be cheaper
-constexpr double finest = 1e-9;     // bound that steps are made for, over the largest displacement
+constexpr double farthest = 0.625;  // quanta that a coefficient may be moved to need fewer bytes
+constexpr double finest = 1e-9;     // least bound for quanta, over the largest displacement
 
 class Encoder {
  public:
@@ -50,8 +50,7 @@ class Encoder {
       return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit), {}};
     }
     const std::vector<Rung> rungs = supported(ladder_of(*parametrization_), series_, *parametrization_);
-    // The smallest that single frames say will do; where none does, a residual makes up for what a good one
-    // leaves.
+    // The smallest rung that is sufficient for single frames; if there is none, a good rung with a residual.
     const std::size_t good = parametrization_->moves() ? rungs.size() / 2 : rungs.size() - 1;
     const std::size_t within = first_within(rungs);
     progress_("fitting all frames");
@@ -82,7 +81,7 @@ class Encoder {
     return field;
   }
 
-  /// A bound, mm, that costs little beside the error there is.
+  /// A bound, mm, slightly above the error of the fit.
   static double above(const Misfit& misfit) { return 1.02 * misfit.largest; }
 
   /// The field and its report, with steps of its coefficients that keep `bound`, mm.
@@ -110,7 +109,7 @@ class Encoder {
   double scale_ = 1, limit_ = 0;
 };
 
-/// Where nothing moves, knots are those that further quantities need.
+/// If nothing moves, the knots are those of the further quantities.
 std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions& options,
                                        const std::function<void(const std::string&)>& progress) {
   std::optional<Rung> largest;

@@ -42,7 +42,7 @@ Json figures_of(const Field& field, const std::string& out) {
   return figures;
 }
 
-/// Spans of bases with about so many control points: as many as asked for where nothing is tied.
+/// Spans of bases with about so many control points: as many as requested if nothing is tied.
 Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   if (counts.size() != 4) throw InputError("--control-points: expected four whole numbers U,V,W,T");
   check_control_points({counts[0], counts[1], counts[2], counts[3]}, follows_tip ? "tip" : "fixed",
@@ -60,7 +60,7 @@ Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   return rung;
 }
 
-/// What was measured is what stands in the file; else there is none.
+/// The report is that of the file's content; otherwise no file is written.
 void verify_written(const std::string& out, const Encoded& encoded) {
   const auto same = [](const std::optional<NodeResidual>& kept, const std::optional<NodeResidual>& residual) {
     return kept.has_value() == residual.has_value() &&
@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
                        ": must be at least 1e-9 and less than 1");
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
     refuse_to_overwrite(out, {snapshot});
-    const OutputFile probe(out);  // a bad name is told before the work
+    const OutputFile probe(out);  // reports a bad name before the work
     Progress progress("encoding");
     const SnapshotReader reader(snapshot);
     progress("reading");

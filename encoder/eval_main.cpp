@@ -72,7 +72,7 @@ std::string evaluate_rows(const Field& field, const NumberTable& table, const st
   return text;
 }
 
-/// Throws InputError where the field is not made from this snapshot, as far as it can be told.
+/// Throws InputError if the field is detectably not made from this snapshot.
 void check_fit(const Field& field, const std::optional<NodeResidual>& residual, const Snapshot& s,
                const std::string& file, const std::string& nodes) {
   const auto need = [&](bool good, const std::string& what) {
@@ -94,7 +94,7 @@ void check_fit(const Field& field, const std::optional<NodeResidual>& residual, 
        "ends at t = " + shortest(s.times.back()) + ", and the field at t = " + shortest(field.duration()));
 }
 
-/// The displacements as the file holds them: the spline's, and what it leaves where that is kept.
+/// The displacements of the file: those of the spline, plus the residual if there is one.
 std::string evaluate_nodes(const Field& field, const std::string& file, const std::string& nodes, int frame) {
   const SnapshotReader reader(nodes);
   const Snapshot& s = reader.snapshot();

@@ -10,8 +10,8 @@ namespace cleft {
 
 namespace {
 
-constexpr std::size_t probes = 6;  // frames that stand for all
-constexpr double few = 5e-5;       // nodes that a residual mends for less than the next rung costs
+constexpr std::size_t probes = 6;  // frames that represent all
+constexpr double few = 5e-5;       // share of nodes for which a residual costs less than the next rung
 
 class KnotSearch {
  public:
@@ -29,8 +29,8 @@ class KnotSearch {
   }
 
   /// From a rung on: the first that is off by more than the limit at a share `most` of the nodes at most. The
-  /// last frame, where the cut is longest, is the hardest one and nearly always decides; the others are asked
-  /// once it is satisfied.
+  /// last frame, where the cut is longest, is the hardest one and nearly always decides; the others are
+  /// tested once it is satisfied.
   std::size_t first(std::size_t from, double most) {
     std::size_t low = from, high = rungs_.size();
     while (low < high) {  // two candidates at a time, side by side

@@ -17,7 +17,7 @@ const std::vector<double> across_order = {0.5, 0.25, 0.875, 0.625, 0.1875, 0.968
 const std::vector<double> above_order = {0.5, 0.25, 0.75};
 const std::vector<double> below_order = {0.25};
 
-/// The first `count` of an order, which goes on with all halves, quarters, eighths, ... it does not have;
+/// The first `count` of an order, which continues with all halves, quarters, eighths, ... that it lacks;
 /// sorted.
 std::vector<double> first_of(std::vector<double> order, int count) {
   for (int denominator = 2; static_cast<int>(order.size()) < count; denominator *= 2)

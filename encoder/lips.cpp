@@ -38,7 +38,8 @@ class Jumps {
       }
   }
 
-  /// What the opening at (u, 0, w) and t is made of. The first control points in t stay: 0 is 0.
+  /// The opening at (u, 0, w) and t as a sum over free pairs of control points. The first control points in t
+  /// remain 0.
   Bound bound(const Vec3& uvw, double t) const {
     const Parametrization& p = field_.parametrization();
     const auto along = field_.basis(0).evaluate(p.along(uvw.x, t).value),
@@ -85,7 +86,7 @@ class Jumps {
 
 namespace {
 
-/// What is missing at released pairs and frames.
+/// The violated bounds at released pairs and frames.
 std::vector<Bound> bounds_of(const Field& field, const Jumps& jumps, const Series& series, double margin) {
   std::vector<Bound> bounds;
   for (std::size_t j = 1; j < series.times.size(); ++j)
@@ -144,8 +145,8 @@ Field with_lips_apart(const Field& field, const Series& series, double margin, d
   if (series.pairs.empty() || series.largest_displacement == 0) return field;
   const Jumps jumps(field);
   std::vector<Bound> bounds = bounds_of(field, jumps, series, margin);
-  // Where control points hardly answer for a pair, next to the tip, they would have to go far for it: such
-  // pairs are given up first.
+  // Next to the tip, control points have little influence on a pair and would have to move far: such pairs
+  // are dropped first.
   for (const double least : {0., 0.01, 0.1, 0.5}) {
     std::erase_if(bounds, [&](const Bound& bound) { return bound.squares < least; });
     if (bounds.empty()) break;

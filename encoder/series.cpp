@@ -60,13 +60,13 @@ FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
     throw InputError("the tip stands between u = " + shortest(*nearest) + " and " + shortest(*farthest) +
                      " mm, and the nodes between " + shortest(g.domain[0].front) + " and " +
                      shortest(g.domain[0].back) + " mm: mend /cut/position, and /cut's start and length");
-  // The tip stands at `position`; frame 0 is closed, and then it grows with the blade.
+  // The tip is at `position`; frame 0 is closed, and then it grows with the blade.
   for (std::size_t j = 0; j < s.times.size(); ++j) {
     const bool closed = j == 0 && g.cut.start != s.cut_start && s.position.front() != s.position.back();
     const double at = closed ? g.cut.start : std::clamp(s.position[j], g.domain[0].front, g.domain[0].back);
     g.tip.times.push_back(s.times[j]), g.tip.positions.push_back(at);
   }
-  // What lies on a straight line needs no place of its own.
+  // Points on a straight line are left out.
   TipPath few;
   for (std::size_t j = 0; j < g.tip.times.size(); ++j) {
     const bool end = j == 0 || j + 1 == g.tip.times.size();

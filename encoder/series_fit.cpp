@@ -12,16 +12,17 @@ namespace cleft {
 
 namespace {
 
-// Of the regularisation: what is tried, from the strongest to the weakest, beginning with the usual one; what
-// costs the data nothing; and what knots are compared with.
+// Strengths of the regularisation: the candidates, from the strongest to the weakest, and the first one
+// tried; one that does not affect the fit; the one for the search of knots; the one for refinement.
 constexpr double strengths[] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
 constexpr int usual = 1;
 constexpr double hardly_any = 1e-10, of_search = 1e-6, weakest_strength = 1e-8;
 constexpr double regularisation_cost = 1.05;  // of the data's error, at most
-constexpr double of_first = 0.02;             // and of the first frame, of which one column tells little
-constexpr double residual_bound = 1e-6;       // of the right-hand side, where iterations stop
-// Data may be a spline of the space where the fit is off by no more than `nearly` of them, or fits of single
-// frames next to nothing. It is then looked for, and found where it is off by no more than `found`.
+constexpr double of_first = 0.02;  // and of the first frame, which one column of nodes determines poorly
+constexpr double residual_bound = 1e-6;  // of the right-hand side, where iterations stop
+// Data may be a spline of the space if the relative residual of the fit is at most `nearly`, or that of
+// single frames at most `next_to_nothing`. The fit is then refined, and accepted as that spline if its
+// residual is at most `found`.
 constexpr double nearly = 1e-3, next_to_nothing = 1e-5, found = 1e-11;
 constexpr int most_refinements = 40;
 

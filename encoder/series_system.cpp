@@ -28,9 +28,9 @@ Eigen::MatrixXd roughness_in_time(int size, bool from_zero) {
   return roughness;
 }
 
-/// R with R^T (B^T B + hold) R = 1, such that each transformed control point sees as much as it can of one
-/// frame and nothing of the others: rows of (B, H) R, hold = H^T H, as many as there are control points and
-/// as independent as can be, come near to the identity.
+/// R with R^T (B^T B + hold) R = 1, such that each transformed control point depends as far as possible on
+/// one frame only: rows of (B, H) R, hold = H^T H, as many as there are control points and as independent as
+/// can be, come near to the identity.
 Eigen::MatrixXd one_frame_each(const Eigen::MatrixXd& in_time, const Eigen::MatrixXd& hold) {
   const auto frames = in_time.rows(), T = in_time.cols();
   const Eigen::MatrixXd root =

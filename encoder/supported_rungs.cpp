@@ -8,7 +8,7 @@ namespace cleft {
 
 namespace {
 
-/// Do values at these places determine a spline? Schoenberg and Whitney: one place for each function, in
+/// Whether values at these places determine a spline. Schoenberg and Whitney: one place for each function, in
 /// order, where it does not vanish.
 bool determined(const BSplineBasis& basis, const std::vector<double>& places) {
   const auto& knots = basis.knots();
@@ -45,14 +45,14 @@ std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& serie
     std::sort(on_axis.begin(), on_axis.end());
     on_axis.erase(std::unique(on_axis.begin(), on_axis.end()), on_axis.end());
   }
-  // The first rung stands whatever the data are, but for knots in height, of which levels of nodes are few.
+  // The first rung is always allowed, except for knots in height, where levels of nodes are few.
   Rung least = ladder.front();
   while (least.above > 1 && !determined(bases_of(least, parametrization, 2)[2], places[2])) --least.above;
   const auto bases_of_least = bases_of(least, parametrization, 2);
   bool thorough = true;
   for (std::size_t axis = 0; axis < 3; ++axis)
     thorough = thorough && determined(bases_of_least[axis], places[axis]);
-  // For a control point; along an axis on which all nodes have one place, one is what they say.
+  // Nodes for each control point; an axis on which all nodes have one place counts as one control point.
   const bool passes = parametrization.moves() && !parametrization.geometry().tip.still();
   const std::size_t nodes_each = passes ? 6 : thorough ? 0 : 2;
   std::vector<Rung> rungs = {least};

@@ -8,7 +8,7 @@ namespace cleft {
 
 namespace {
 constexpr double folded = 0.25;   // of the sum of normals: walls that meet at less than 29 degrees
-constexpr double overlap = 0.02;  // mm, of walls that lie through each other
+constexpr double overlap = 0.02;  // mm, of walls that overlap
 }  // namespace
 
 ContactReader::ContactReader(const ContactSurface& surface) : surface_(surface), cells_(surface.cells()) {
@@ -24,7 +24,7 @@ ContactReader::ContactReader(const ContactSurface& surface) : surface_(surface),
 ContactReader::~ContactReader() { says_->store(ContactSurface::unused, std::memory_order_release); }
 
 void ContactReader::begin() {
-  // A writer that sees `entering` waits the few nanoseconds until the version is told; one that has not seen
+  // A writer that sees `entering` waits the few nanoseconds until the version is set; one that has not seen
   // it has published its step before, and it is that step that is read.
   says_->store(ContactSurface::entering, std::memory_order_seq_cst);
   version_ = surface_.version_.load(std::memory_order_seq_cst);
@@ -160,9 +160,9 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
     return std::sqrt(least);
   });
   if (!best) return best;
-  // The walls of a cut that is closed, or hardly open, lie on each other, and what is left of their normals
-  // may point anywhere: beside them, below them and ahead of them is tissue. In a gap so narrow a point is
-  // nearest to a wall, never to where walls meet.
+  // The walls of a closed or nearly closed cut coincide, and the normals of their sum may have any direction:
+  // next to them, below them and ahead of them is tissue. In a gap so narrow a point is nearest to a wall,
+  // never to where walls meet.
   const bool along_fold = norm(normal) < (only_walls && shared > 1 ? folded : 1e-6) * weights;
   const bool before = dot(x - best.position, normal) >= 0;
   const bool tissue = along_fold || !before || (only_walls && through_each_other(x, best.position));

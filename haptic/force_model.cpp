@@ -84,7 +84,8 @@ Vec3 ForceModel::in_the_air(const ScalpelPose& pose) {
   return in_contact(pose);
 }
 
-/// The blade lies across an edge of the surface: its deepest place is taken for the middle of what is inside.
+/// The blade crosses an edge of the surface: its deepest place is approximated by the middle of the part
+/// inside.
 Vec3 ForceModel::side_contact(const ScalpelPose& pose) {
   const Vec3 end = pose.tip + p_.blade_length * pose.axis;
   const SurfaceHit in = reader_.first_contact(pose.tip, end, Facing::front);
@@ -136,7 +137,7 @@ void ForceModel::follow_skin(const Vec3& tip) {
 }
 
 /// Whether the tip is in tissue after all the skin that it has passed since the last tick. Walls do not
-/// count: those of a wound that is hardly open lie on each other, and the blade has just made them.
+/// count: those of a nearly closed wound coincide, and the blade has just made them.
 double ForceModel::after_leap(const Vec3& tip) const {
   constexpr int most = 8;
   const Vec3 way = tip - last_tip_;

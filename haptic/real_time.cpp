@@ -40,7 +40,7 @@ std::int64_t page_faults() {
 
 namespace {
 
-/// Reads a byte of every page of code, of the program and of the libraries beside it that are not large.
+/// Reads a byte of every page of code, of the program and of its smaller libraries.
 int touch_code(dl_phdr_info* object, std::size_t, void*) {
   constexpr std::size_t page = 4096, large = 8 << 20;
   for (int k = 0; k < object->dlpi_phnum; ++k) {

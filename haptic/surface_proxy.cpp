@@ -59,7 +59,7 @@ SurfaceProxy ContactReader::proxy(const Vec3& x, const SurfaceProxy& before) con
   const Vec3 guess = before.position + moved - dot(moved, before.normal) * before.normal;
   const double radius = 2 * norm(moved) + cells_.cell() / 2;
   double least = radius, least_clamped = radius;
-  SurfaceProxy clamped;  // where no normal leads to x: beside a boundary or a sharp edge
+  SurfaceProxy clamped;  // if no normal points to x: next to a boundary or a sharp edge
   visit_voxels(guess, radius, [&](const CellList& list) {
     const int count = list.count();
     for (int k = 0; k < count; ++k) {

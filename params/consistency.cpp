@@ -1,4 +1,4 @@
-// check_consistency: what no single range can say.
+// check_consistency: conditions between several parameters.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

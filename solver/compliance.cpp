@@ -16,7 +16,7 @@ namespace cleft {
 
 namespace {
 
-/// The skin as seen from above, to find in which triangle a point lies.
+/// The skin seen from above, to find the triangle of a point.
 class Skin {
  public:
   explicit Skin(const PatchMesh& mesh) : mesh_(mesh) {}
@@ -26,7 +26,7 @@ class Skin {
     std::array<double, 3> weights;  // barycentric
   };
 
-  /// The triangles that a square about a centre touches, in bins, so that few are looked at for a point.
+  /// The triangles that a square around a centre touches, in bins, so that few are tested for a point.
   class Near {
    public:
     Near(const Skin& skin, const Vec3& center, double radius)
@@ -189,7 +189,7 @@ class Quarter {
  private:
   int node(int i, int j) const { return j * mesh_.grid[0] + i; }
 
-  /// The line beside the middle one.
+  /// The line next to the middle one.
   static int beside(const std::vector<int>& lines) { return lines.front() - 1; }
 
   void free_of_alternation(std::vector<double>& sampled) const {
@@ -211,7 +211,7 @@ class Quarter {
 
   const PatchMesh& mesh_;
   std::vector<int> us_, vs_;  // lines
-  std::vector<int> nodes_;    // all of us by vs, then what lies beside the middle
+  std::vector<int> nodes_;    // all of us by vs, then those next to the middle
 };
 
 }  // namespace

@@ -155,8 +155,8 @@ CondensedFactor::CondensedFactor(const PatchSystem& system, PatchSystem::Entries
 }
 
 CondensedFactor::~CondensedFactor() {
-  // Ending MUMPS is collective: while an exception unwinds this rank, the others stand elsewhere and would
-  // not join.
+  // Ending MUMPS is collective: while an exception unwinds this rank, the others are elsewhere and would not
+  // join.
   if (std::uncaught_exceptions() > exceptions_at_birth_) return;
   mumps_->id.job = -2;
   dmumps_c(&mumps_->id);

@@ -25,7 +25,7 @@ std::vector<Triplet> gather(const PatchSystem& system, const std::vector<Triplet
   return all;
 }
 
-/// One triplet for those of the same place, which are added in the order in which they stand.
+/// Sums triplets of the same place, in their order.
 std::vector<Triplet> summed(std::vector<Triplet> all) {
   std::stable_sort(all.begin(), all.end(), [](const Triplet& a, const Triplet& b) {
     return std::pair(a.row(), a.col()) < std::pair(b.row(), b.col());
@@ -85,7 +85,7 @@ PatchSystem::Entries DirectSolver::stiffness_with_jumps() {
       entries.row[others] = row, entries.column[others] = column, entries.value[others++] = value;
       continue;
     }
-    const bool diagonal = row == column;  // any other entry stands for its mirror image too
+    const bool diagonal = row == column;  // any other entry also represents its mirror image
     for (const int a : terms(row))
       for (const int b : terms(column))
         if (!diagonal || a <= b)

@@ -40,7 +40,7 @@ Block rigid_body_modes(const PatchSystem& system) {
 /// are added to those of the first of their group, and become those of the unit matrix.
 class Multigrid {
  public:
-  /// `first`: by local column of K, the global unknown that stands for it.
+  /// `first`: by local column of K, the global unknown that represents it.
   Multigrid(const PatchSystem& system, const std::vector<int>& stands_for, Block modes)
       : modes_(std::move(modes)), tied_(Copy, system.stiffness().RowMap(), 60) {
     const Epetra_CrsMatrix& k = system.stiffness();

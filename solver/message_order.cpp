@@ -21,7 +21,7 @@ struct Message {
   std::vector<char> bytes;
 };
 
-/// What goes on in one communicator.
+/// The state of one communicator.
 class Rounds {
  public:
   explicit Rounds(MPI_Comm communicator) : communicator_(communicator) {
@@ -43,7 +43,7 @@ class Rounds {
     }
   }
 
-  /// The first message to be handed out; rounds go by until there is one. None if nobody will send any.
+  /// The first message to deliver; rounds pass until there is one. None if no rank will send one.
   const Message* next() {
     while (handed_.empty() && !all_have_left()) {
       mark(end_of_round);

@@ -88,8 +88,8 @@ class PatchMesher {
 
   using Place = std::pair<int, int>;  // u line, v line
 
-  /// The node at a place of the grid as the elements of a square see it; the square's first corner tells on
-  /// which side of the cuts they lie.
+  /// The node at a place of the grid for the elements of a square; the square's first corner determines their
+  /// side of the cuts.
   int seen(Place place, int k, Place square) const {
     const auto [i, j] = place;
     const int n = square.second == j ? right_of_[node(i, j, k)] : node(i, j, k);
@@ -163,7 +163,7 @@ std::size_t nearest(const std::vector<double>& lines, double place) {
 class Releaser {
  public:
   Releaser(const PatchMesh& mesh, const Parameters& p) : mesh_(mesh), p_(p) {
-    // Where the case's ends lie half-way between nodes, rounding must not leave it without a node to open.
+    // If the ends of the case are half-way between nodes, rounding must not leave it without a node to open.
     const std::vector<double>& lines = mesh.lines_along[0];
     const std::size_t skipped = std::min(nearest(lines, -p.cut.length / 2), (lines.size() - 3) / 2);
     r_.start = lines[skipped];

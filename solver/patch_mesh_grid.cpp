@@ -8,7 +8,7 @@ namespace cleft {
 
 namespace {
 
-enum class Cut { before, after, both };  // on which side of a stretch of lines the cut lies
+enum class Cut { before, after, both };  // the side of a range of lines on which the cut is
 
 /// Continues the lines to `to`, by the fewest elements that fit. Their nominal size is `step` at the cut, and
 /// `growth` times more from one to the next away from it; all are scaled down alike to fit.
@@ -45,7 +45,7 @@ struct Shape {
     return 2 * radius * s * s;
   }
 
-  /// The tilted plane goes on below the cut's bottom and becomes upright over `tilt_reach`.
+  /// The tilted plane continues below the cut's bottom and becomes upright over `tilt_reach`.
   double tilt_shift(double below_skin) const {
     const double x = std::clamp(below_skin - depth, 0.0, tilt_reach);
     return std::tan(tilt) * (std::min(below_skin, depth) + x - x * x / (2 * tilt_reach));
@@ -83,7 +83,8 @@ class GridMaker {
     add_stretch(grid_.u, end, step, Cut::before, p_.mesh.grading);
   }
 
-  /// The elements beside the outermost cuts are made so much smaller as moving the nodes stretches them.
+  /// The elements next to the outermost cuts are reduced by the factor by which moving the nodes stretches
+  /// them.
   void add_v_lines() {
     const double half = p_.patch.width / 2, step = p_.mesh.element_size;
     const double first = (1 - p_.cut.count) / 2 * p_.cut.spacing;

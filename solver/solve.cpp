@@ -334,7 +334,7 @@ class SharedStiffness::Batch {
     of_case = std::max(of_case, largest);
   }
 
-  /// Whether the case goes on.
+  /// Whether the case continues.
   bool add_figures(Member& member, const std::vector<FrameFigures>& figures) {
     SolveReport& report = shared_.reports_[member.number];
     for (const FrameFigures& f : figures) {
@@ -420,7 +420,7 @@ std::vector<SolveReport> solve_cases(const std::vector<CaseToSolve>& cases, cons
   std::vector<std::size_t> all;
   for (std::size_t c = 0; c < cases.size(); ++c) {
     check_options(cases[c].parameters, options, cases[c].out);
-    const OutputFile probe(cases[c].out);  // a bad name is told before the work, on every rank
+    const OutputFile probe(cases[c].out);  // reports a bad name before the work, on every rank
     reports[c].out = cases[c].out;
     all.push_back(c);
   }

@@ -19,10 +19,10 @@ constexpr double margins[] = {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 6, 8};  // over 
 constexpr double elements_in_patches = 16;                              // of the meshes of patches
 constexpr double least_tip_order = 0.5;  // of a square root that a mesh cannot follow
 constexpr double widest = 16;
-constexpr double safety = 1.05;         // what was measured beside estimates lay up to 8 % above them
+constexpr double safety = 1.05;         // measured errors were up to 8 % above estimates
 constexpr double most_of_patch = 0.05;  // its error, where meshes are compared
 // Tolerance over the error. Of displacements, about half of the opening, it bounds the error at nodes; what
-// coarse meshes tell of a looser one does not hold in others, where other knots keep it.
+// coarse meshes show for a looser one does not hold in others, where other knots satisfy it.
 constexpr double loosest = 0.5;
 constexpr double details[] = {0, 0.01, 0.02, 0.05, 0.1, 0.25};  // over the error and the opening
 constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};

@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
         throw InputError(path + ": [vary] " + v.name + ": is what would be chosen; remove it");
     if (!out.empty()) {
       refuse_to_overwrite(out, {path});
-      const OutputFile probe(out);  // a bad name is told before the work
+      const OutputFile probe(out);  // reports a bad name before the work
     }
     Progress progress("advising");
     const OutputFolder work(std::filesystem::temp_directory_path().string(), "cleft-advise");

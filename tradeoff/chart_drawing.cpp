@@ -1,4 +1,4 @@
-// The picture, by gnuplot: panels in rows of three, series labelled beside their lines.
+// The picture, by gnuplot: panels in rows of three, series labelled next to their lines.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 constexpr int panels_a_row = 3, panel_width = 520, panel_height = 430, heading_height = 70;
 constexpr double axes_width = 410, axes_height = 325;  // about, of a panel
 
-/// Okabe and Ito's colours, which the colour-blind tell apart.
+/// Okabe and Ito's colours, which colour-blind people can distinguish.
 constexpr std::array<const char*, 6> colors = {"#0072B2", "#D55E00", "#009E73",
                                                "#CC79A7", "#E69F00", "#56B4E9"};
 
@@ -176,7 +176,7 @@ class PanelScript {
     return out;
   }
 
-  /// Each beside a point of its line, where it hides least and is nearest to its own.
+  /// Each is next to a point of its line, where it hides least and is nearest to its own line.
   std::string names() {
     constexpr double letter = 8, half = 8, beside = 9, above = 14;
     std::string out;

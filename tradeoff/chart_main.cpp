@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path path(out);
     if (path.extension() != ".svg") throw InputError("--out " + out + ": must end in .svg");
     const std::string stem = (path.parent_path() / path.stem()).string();
-    const OutputFile probe(out);  // a bad name is told before the work
+    const OutputFile probe(out);  // reports a bad name before the work
     const ChartedCase charted = charted_case(StudyFolder(study), wanted);
     Progress progress("charting");
     options.progress = [&](const std::string& state) { progress(state); };

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double tolerances[] = {0.08, 0.04, 0.02, 0.01, 0.005, 0.001, 1e-4};
 
-/// Of the spline at all nodes, as they stand, in a frame: ns a point, the least of some times, and the median
-/// over the frames.
+/// Time of the spline at all nodes, in their order, in a frame: ns a point, the least of some times, and the
+/// median over the frames.
 double point_nanoseconds(const Field& field, const Series& series) {
   std::vector<Place> places;
   std::vector<double> times;

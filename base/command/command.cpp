@@ -53,7 +53,7 @@ CLI::Validator bounded(double least, bool open) {
             try {
               const double value = parse_number(text, "option");
               if (open ? value > least : value >= least) return {};
-            } catch (const InputError&) {  // said below
+            } catch (const InputError&) {  // reported below
             }
             return "'" + text + "' must be a number " + (open ? "above " : "of at least ") + shortest(least);
           },

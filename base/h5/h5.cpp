@@ -177,7 +177,7 @@ namespace {
 
 constexpr double little = 64e6;  // bytes: never worth a question
 
-/// Whether so many elements can have come from what is stored: asked before memory is taken for them. Deflate
+/// Whether the stored bytes can contain this number of elements, checked before memory is allocated. Deflate
 /// makes at most 1032 bytes of one; what was never written is read as zeros, of which no reader needs many.
 bool can_be_stored(hid_t dataset, const Shape& shape, double unasked = little) {
   constexpr double most_inflated = 1032;

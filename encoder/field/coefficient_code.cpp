@@ -15,7 +15,7 @@ namespace {
 
 using namespace code;
 
-/// Where the values come from: a decoder has none, an encoder knows them, and a rounder chooses among some.
+/// The source of the values: a decoder reads them, an encoder has them, and a rounder chooses them.
 struct Known {
   std::span<const std::int64_t> values;
 };
@@ -69,7 +69,7 @@ class Model {
     std::int64_t *const error = own.error.data(), *const earlier = own.earlier.data();
     std::int8_t* const residual = own.residual.data();
     for (const Place& place : state_.places(half)) {
-      // Neighbours, as they lie in memory
+      // Neighbours, in the order of memory
       std::int32_t* const d = innovation + place.at;
       const Inputs in(code::four_inputs(d - A - B - 1, d - A - 1), code::four_inputs(d - B - 1, d[-2], d[-1]),
                       FourInputs{d[-B + 1], d[-2 * A], known->near_innovation, known->far_innovation},
@@ -198,7 +198,7 @@ class Model {
     }
   }
 
-  /// The second half where it mirrors the first: one decision a value says that it does.
+  /// The second half if it mirrors the first: one decision for each value confirms it.
   void copy_half(int slice, int c) {
     const std::size_t first = state_.first(c, slice);
     const std::int64_t sign = c == 1 ? -1 : 1;

@@ -12,7 +12,7 @@ namespace cleft {
 struct CoefficientGrid {
   int along = 0, across = 0, height = 0;
   std::vector<std::int32_t> unknown;  ///< of place (i across + j) height + k; -1: a place without one
-  int unknowns = 0;                   ///< each stands at one place
+  int unknowns = 0;                   ///< each is at one place
 };
 
 /// Values are numbered (component * slices + slice) * unknowns + unknown: three components, and slices of

@@ -4,7 +4,7 @@
 
 namespace cleft::code {
 
-// What follows stands here, not in the header: within the coder's one long loop compilers no longer see that
+// These functions are here, not in the header: within the coder's one long loop compilers no longer see that
 // these are loops over a vector.
 
 std::int64_t Inputs::inverse_size() const {

@@ -40,8 +40,8 @@ struct Net {
   }
 };
 
-/// The cubic through four values, of which the inner ones stand where its error to a quartic is least among
-/// all cubics that keep the ends: s = (1 -+ (sqrt(2) - 1)) / 2. Its error there is h^4 f'''' / 2237.
+/// The cubic through four values, of which the inner ones are where its error to a quartic is least among all
+/// cubics that keep the ends: s = (1 -+ (sqrt(2) - 1)) / 2. Its error there is h^4 f'''' / 2237.
 Piece through(const Net& net, double from, double to) {
   constexpr double q = 0.41421356237309504880 / 2;
   const double h = to - from, middle = from + h / 2;
@@ -66,7 +66,7 @@ double error_of(const Piece& piece, const Net& net, double from, double to, doub
 
 /// Pieces from one break to another, each as long as it may be: the error goes with the length to the fourth.
 void fit(const Net& net, double from, const double to, double tolerance, History& out) {
-  const double aim = 0.6 * tolerance;  // between the points looked at, beside knots, it may be larger
+  const double aim = 0.6 * tolerance;  // between the sampled points, next to knots, it may be larger
   const double shortest = 1e-14 * std::max(std::abs(from), std::abs(to));
   double length = to - from;
   while (from < to) {

@@ -26,7 +26,7 @@ std::vector<double> breaks_of(const BSplineBasis& basis) {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// A knot more, where it stands `knots` fewer times than the degree.
+/// Inserts a knot whose multiplicity is `knots` below the degree.
 void insert(std::vector<double>& knots, Rows& points, int degree, double x) {
   const auto k = std::upper_bound(knots.begin(), knots.end(), x) - knots.begin() - 1;
   const auto least = k - degree + 1, last = k - multiplicity(knots, x);

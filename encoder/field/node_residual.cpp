@@ -129,7 +129,7 @@ std::vector<std::uint8_t> encode_residual(const NodeResidual& residual, std::spa
               static_cast<std::size_t>(residual.components) * residual.nodes *
                   static_cast<std::size_t>(residual.frames));
   code::Encoder coder;
-  // The model gives back what it was given.
+  // The model returns its input.
   std::vector<std::int32_t> values = residual.values;
   code_nodes(coder, residual.nodes, residual.components, residual.frames, values.data(), order);
   return coder.finish();

@@ -27,7 +27,7 @@ struct TipPath {
   double at(double t) const;     ///< position, constant outside the times
   double speed(double t) const;  ///< of the piece that begins at t or contains it
   double passes(
-      double u) const;  ///< first time at which the tip stands at u or beyond; infinity if it never does
+      double u) const;  ///< first time at which the tip is at u or beyond; infinity if it never does
 };
 
 struct Interval {

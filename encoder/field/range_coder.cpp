@@ -8,8 +8,8 @@
 
 namespace cleft::code {
 
-// No entry lies so near to the middle between two whole numbers that the last digits of exp and log could
-// matter; a test asserts it.
+// No entry is so near to the middle between two integers that the last digits of exp and log could matter; a
+// test asserts it.
 Tables::Tables() {
   for (int p = 0; p < 4096; ++p)
     stretch[p] = static_cast<std::int16_t>(std::lround(256 * std::log((p + 0.5) / (4095.5 - p))));

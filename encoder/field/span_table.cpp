@@ -67,7 +67,7 @@ SpanTable::SpanTable(const BSplineBasis& basis)
     ends_.push_back(knots[i + 1]);
   }
   ends_.back() = std::numeric_limits<double>::infinity();
-  // Twice as many buckets as the narrowest span asks for: then at most one span ends in most of them.
+  // Twice as many buckets as the narrowest span needs: then at most one span ends in most of them.
   const double buckets = std::clamp(2 * std::ceil((back_ - front_) / narrowest), 1., 2048.);
   scale_ = buckets / (back_ - front_);
   last_bucket_ = buckets - 1;

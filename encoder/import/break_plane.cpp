@@ -50,7 +50,7 @@ class Search {
     return plane;
   }
 
-  /// The plane given, or the one near it in which coincident nodes lie exactly.
+  /// The given plane, or a nearby one that contains the coincident nodes exactly.
   Plane given(const std::string& text) const {
     Plane plane = parse_plane(text);
     if (flat_) plane = upright(plane, text);

@@ -62,7 +62,7 @@ class VtuFile {
  public:
   explicit VtuFile(const std::string& path) : path_(path), reading_(reader_.Get()) {
     if (!std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
     reader_->SetFileName(path.c_str());
     reader_->UpdateInformation();
     refuse_errors();

@@ -35,7 +35,7 @@ class Opening {
     return order;
   }
 
-  /// Frame 0 is closed, whatever stands open there.
+  /// Frame 0 counts as closed.
   std::vector<std::int32_t> released() const {
     std::vector<std::int32_t> count(s_.frames());
     for (std::size_t j = 1; j < count.size(); ++j)

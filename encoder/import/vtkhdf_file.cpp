@@ -53,7 +53,7 @@ class VtkHdfFile : public FrameFiles {
   }
 
  private:
-  /// A whole number a step, or `otherwise` where the file says none.
+  /// An integer for each step, or `otherwise` if the file has none.
   hsize_t step(const std::string& name, std::size_t frame, hsize_t otherwise) const {
     const std::string dataset = "/VTKHDF/Steps/" + name;
     if (!file_.has(dataset)) return otherwise;

@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", json, "print the figures as JSON");
   return run_command(app, argc, argv, [&] {
     refuse_to_overwrite(out, {study});
-    const OutputFile probe(out);  // a bad name is told before the work
+    const OutputFile probe(out);  // reports a bad name before the work
     const CaseParameters values = values_of(assignments);
     Progress progress("interpolating");
     progress("reading the study");

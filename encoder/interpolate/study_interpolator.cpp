@@ -70,8 +70,8 @@ StudyInterpolator::StudyInterpolator(CommonCases cases, const ToldPart& told)
   }
 }
 
-/// Where cases are many, some tell which method serves and how far it is off; and what lies between them
-/// needs no derivatives.
+/// If there are many cases, some determine the method and its error; and fields between them needs no
+/// derivatives.
 CaseSamples StudyInterpolator::samples() const {
   constexpr int most_compared = 128;
   constexpr std::size_t most_rows = 512;

@@ -155,7 +155,7 @@ struct Coded {
   Eigen::MatrixXd samples;
 };
 
-/// Each mode as large as what it holds of a case in the mean; without those that are smaller than a step.
+/// Scales each mode to its mean contribution to a case, and drops modes below one quantum.
 Coded code(const ScaledCases& cases, const Eigen::MatrixXd& vectors, double error) {
   const double quantum = share_of_steps * error * std::sqrt(12. / static_cast<double>(vectors.cols()));
   Coded coded;

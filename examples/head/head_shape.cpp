@@ -53,7 +53,7 @@ double mouth(double d, const Vec3& p) {
 }
 
 double ear(double d, const Vec3& p) {
-  // In the ear's own frame: a across it outwards, b up, c forward; it leans back and stands off the skull.
+  // In the ear's own frame: a across it outwards, b up, c forward; it leans back and away from the skull.
   const Vec3 q = p - Vec3{73, -12, -14};
   const double lean = 0.2, off = 0.42;
   const double b = std::cos(lean) * q.y - std::sin(lean) * q.z,

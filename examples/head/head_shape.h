@@ -1,6 +1,6 @@
 // A stylised human head as an implicit surface: smooth blends of ellipsoids and capsules.
 //
-// Lengths in mm. The eyes stand at y = 0; x points to the head's left, y up and z forward.
+// Lengths in mm. The eyes are at y = 0; x points to the head's left, y up and z forward.
 #pragma once
 
 #include <vector>

@@ -71,7 +71,7 @@ class Marcher {
     return found->second;
   }
 
-  /// Oriented away from a node that lies inside.
+  /// Oriented away from a node inside.
   void triangle(std::size_t inside, int a, int b, int c) {
     const std::vector<Vec3>& x = mesh_.points;
     const Vec3 normal = cross(x[b] - x[a], x[c] - x[a]);
@@ -92,7 +92,7 @@ TriangleMesh march(const std::function<double(const Vec3&)>& distance, const Box
   for (int axis = 0; axis < 3; ++axis)
     grid.size[axis] = static_cast<int>(std::ceil((box.high[axis] - box.low[axis]) / spacing)) + 1;
   std::vector<double> values = sample(distance, grid);
-  // A crossing near a node would make needles: the node is taken to lie a little off the surface.
+  // A crossing near a node would make needles: the node is treated as slightly off the surface.
   const double least = 0.02 * spacing;
   for (double& v : values)
     if (std::abs(v) < least) v = v < 0 ? -least : least;

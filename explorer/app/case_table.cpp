@@ -129,7 +129,7 @@ void CaseTable::find_next_figures() {
   try {
     session_.figures(next_);
     model_.row_changed(next_);
-  } catch (const std::exception& e) {  // told when somebody looks at the case
+  } catch (const std::exception& e) {  // reported when the case is shown
   }
   ++next_;
 }

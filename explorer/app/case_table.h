@@ -1,4 +1,5 @@
-// The cases of the study, a row each: parameters that differ, and figures, filled in as time allows.
+// The cases of the study, one row each: parameters that differ, and figures, which are computed when there is
+// time.
 #pragma once
 
 #include <QAbstractTableModel>

@@ -1,4 +1,4 @@
-// What went wrong, or what a command has answered: in full, to be copied or put away.
+// Errors and answers of commands in full; they can be copied and dismissed.
 #pragma once
 
 #include <QFrame>
@@ -9,7 +9,7 @@ namespace cleft {
 class MessageBar : public QFrame {
  public:
   MessageBar();
-  /// A message in place of the one before; none is shown where it is empty.
+  /// Replaces the message; an empty one hides the bar.
   void tell(const QString& message);
   /// A further line of an answer.
   void answer(const QString& line);
@@ -19,7 +19,7 @@ class MessageBar : public QFrame {
   void show_as(const char* paper, const char* edge, const char* ink);
 
   QLabel* text_;
-  QString paper_;  ///< as it was styled last
+  QString paper_;  ///< the last style
 };
 
 }  // namespace cleft

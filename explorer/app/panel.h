@@ -1,4 +1,4 @@
-// A part of the window: it says lines to the session and follows what they change.
+// A part of the window: it sends commands to the session and follows their changes.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace cleft {
 
-/// Says a line; where it is refused the message is shown, and false comes back.
+/// Sends a command; if it is refused, shows the message and returns false.
 using Say = std::function<bool(const std::string& line)>;
 
 class Panel {

@@ -1,5 +1,6 @@
-// All cases as lines over parallel axes, one for every parameter that differs and every figure. Dragging
-// along an axis keeps the cases in that range and fades the others; a click on an axis' name lifts it.
+// All cases as lines over parallel axes, one for each parameter that differs and each figure. Dragging along
+// an axis keeps the cases in that range and fades the others; a click on the name of an axis removes the
+// range.
 #pragma once
 
 #include <QPixmap>
@@ -17,7 +18,7 @@ class ParallelCoordinates : public QWidget, public Panel {
  public:
   ParallelCoordinates(Session& session, Say say);
   void follow(const Changes& changes) override;
-  /// Figures that were not known before are now.
+  /// To be called when further figures are known.
   void take_figures();
 
  protected:

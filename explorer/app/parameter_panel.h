@@ -1,4 +1,4 @@
-// A slider for every parameter that varies in the study, and what of it is shown.
+// A slider for each parameter that varies in the study, and the case that is shown.
 #pragma once
 
 #include <QHBoxLayout>
@@ -38,7 +38,7 @@ class ParameterPanel : public QWidget, public Panel {
   QVBoxLayout* column_;
   QWidget* rows_widget_ = nullptr;
   QLabel* note_;
-  QTimer waiting_;  ///< for what lies between the cases
+  QTimer waiting_;  ///< for fields between the cases
   QWidget* preparing_;
   QProgressBar* prepared_;
   std::vector<Row> rows_;

@@ -20,7 +20,7 @@
 namespace cleft {
 
 namespace {
-/// Okabe and Ito's, which colour-blind people tell apart.
+/// Okabe and Ito's colours, which colour-blind people can distinguish.
 constexpr unsigned char colors[][3] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}};
 constexpr int milliseconds_a_plot = 150;
 }  // namespace

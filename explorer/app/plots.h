@@ -1,4 +1,4 @@
-// Curves of the shown case beside those compared: gape over the length cut, and the opening along the cut.
+// Curves of the shown case and of those compared: gape over the length cut, and the opening along the cut.
 #pragma once
 
 #include <QVTKOpenGLNativeWidget.h>

@@ -5,8 +5,8 @@
 
 namespace cleft {
 
-/// Opens a window of that size in pixels, says a line in it where there is one, and reacts until it is
-/// closed. Throws InputError where there is no display.
+/// Opens a window of this size in pixels, runs a first command if one is given, and returns when the window
+/// is closed. Throws InputError if there is no display.
 void run_window(Session& session, int width, int height, const std::string& line);
 
 }  // namespace cleft

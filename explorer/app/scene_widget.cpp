@@ -187,7 +187,7 @@ bool SceneWidget::points(QEvent* event) {
 bool SceneWidget::press(int x, int y) {
   view_ = stage_->view_at(x, y);
   blade_.clear();
-  if (view_ < 0 || !add_point(x, y)) return false;  // beside the skin the picture is turned
+  if (view_ < 0 || !add_point(x, y)) return false;  // outside the skin dragging turns the picture
   keep_camera();
   since_drawn_.start();
   return pressed_ = true;
@@ -210,7 +210,7 @@ bool SceneWidget::add_point(int x, int y) {
 
 void SceneWidget::drag(int x, int y) {
   if (!add_point(x, y) || blade_.size() < 3) return;
-  // The place before the last: what smooths it comes from both sides.
+  // The place before the last: smoothing uses both neighbours.
   const CutState cut = smoothed();
   ScalpelPath::Point place = cut.points[cut.points.size() - 2];
   if (place.depth <= 0) place.depth = session_.depth_of_case(session_.state().shown);

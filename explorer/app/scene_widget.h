@@ -26,31 +26,31 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   /// Whether pressing and dragging cuts rather than turns the picture.
   void set_cutting(bool on);
   bool cutting() const { return cutting_; }
-  /// What a click on the skin of the patch says: "probe" or "zoom", with the place; empty: nothing.
+  /// The command of a click on the skin of the patch: "probe" or "zoom", with the place; empty: none.
   void set_picking(const std::string& command);
   const std::string& picking() const { return picking_; }
-  /// In a motion (turning, scrubbing, sliders, a cut) pictures that take longer than half of this are drawn
-  /// without smoothed edges, and at half the resolution where that does not bring them below it. Once all
-  /// rests the picture is whole again.
+  /// In a motion (turning, scrubbing, sliders, a cut) pictures that take longer than half of this time are
+  /// drawn without smoothed edges, and at half the resolution if that is not sufficient. At rest the picture
+  /// has full quality again.
   void set_slowest(double seconds) { slowest_ = seconds; }
   bool coarse() const { return coarse_; }
-  /// Draws the whole picture now, if the last one was not.
+  /// Draws the picture in full quality now, if the last one was not.
   void rest();
-  /// mm; 0: as deep as the shown case. Of the cuts to come.
+  /// Depth of the next cuts, mm; 0: that of the shown case.
   void set_depth(double depth) { depth_ = depth; }
   /// Degrees that the blade leans to its left.
   void set_tilt(double tilt) { tilt_ = tilt; }
-  /// Of the last picture, points and drawing.
+  /// Time of the last picture, points and drawing.
   double frame_seconds() const { return frame_seconds_; }
-  /// Cuts do not turn the picture from now on: angles count from the first cut.
+  /// From now on cuts do not turn the picture: angles are relative to the first cut.
   void keep_camera() {
     if (!session_.state().camera.pose) say_camera();
   }
   std::function<void()> drawn;  ///< called after every picture
-  /// Where there is one it is told which place of the skin the mouse is over, and whether it is pressed.
+  /// If set, it is called with the place of the skin under the mouse, and whether the button is pressed.
   std::function<void(const std::optional<WoundView::Place>& place, bool pressed)> pointed;
 
-  /// Draws a scene in place of the shown case's, with a scalpel where there is one; null: no more.
+  /// Draws a scene instead of that of the shown case, with a scalpel if one is given; null: the case again.
   void show_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel);
 
   Stage& stage() { return *stage_; }

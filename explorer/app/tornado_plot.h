@@ -1,4 +1,4 @@
-// What each parameter does to the gape: a bar from its least to its greatest value, the widest first.
+// The effect of each parameter on the gape: a bar from its least to its greatest value, the widest first.
 #pragma once
 
 #include <QWidget>

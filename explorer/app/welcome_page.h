@@ -1,4 +1,4 @@
-// What stands where the picture will be as long as nothing is open: the studies opened last.
+// The page instead of the picture while nothing is open: the studies opened last.
 #pragma once
 
 #include <QListWidget>

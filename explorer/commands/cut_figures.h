@@ -1,4 +1,4 @@
-// What `cleft cut` reports, and of it `cleft haptic`.
+// The figures that `cleft cut` reports, and in part `cleft haptic`.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ Json figures_of(const std::vector<const Incision*>& cuts, const SurfaceMesh& bef
 Json figures_of(const Incision& cut, double scale);
 Json figures_of(const Validity& validity);
 
-/// All warnings, said on stderr too, as those of `command`.
+/// All warnings, also printed on stderr as those of `command`.
 Json warnings_of(const std::vector<Validity>& validity, const char* command);
 
 }  // namespace cleft

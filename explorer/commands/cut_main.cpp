@@ -66,7 +66,7 @@ void check_files(const Options& options) {
   if (is_volume(options.mesh) != is_volume(options.out))
     throw InputError("--mesh " + options.mesh + " and --out " + options.out +
                      ": a mesh of volume, .vtu, becomes a .vtu, and a surface a .vtp, .obj or .stl");
-  if (!is_volume(options.out)) check_mesh_ending(options.out);  // a bad name is told before the work
+  if (!is_volume(options.out)) check_mesh_ending(options.out);  // reports a bad name before the work
   std::vector<std::string> inputs = options.paths;
   inputs.insert(inputs.end(), {options.mesh, options.field});
   refuse_to_overwrite(options.out, inputs);

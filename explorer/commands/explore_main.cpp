@@ -1,4 +1,4 @@
-// cleft explore: looks at a study, case by case, on its patch or as wounds in a surface mesh.
+// cleft explore: shows a study, case by case, on its patch or as wounds in a surface mesh.
 #include <iostream>
 
 #include "base/command/command.h"

@@ -30,7 +30,7 @@ struct Options {
   std::vector<int> size{640, 360};
 };
 
-/// Where the output stands: `out`, `out/` and, for a series, `out.pvd` mean the same.
+/// The path of the output: `out`, `out/` and, for a series, `out.pvd` are equivalent.
 struct Place {
   std::string folder, name;
 };
@@ -79,7 +79,7 @@ void export_study(const Options& o, Progress& progress, Json& figures) {
   fs::create_directory(folder);
 
   const auto snapshot = [&](const std::string& hash) { return study.published(hash) + "/case.h5"; };
-  Mistakes mistakes;  // told at once, before the long part
+  Mistakes mistakes;  // reported together, before the long part
   for (const std::string& hash : cases)
     mistakes.collect([&] {
       if (study.manifest(hash).value("snapshot", "kept") == "dropped")

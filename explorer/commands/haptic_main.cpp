@@ -109,7 +109,7 @@ struct Beside {
 void haptic(const Options& o) {
   refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.snapshot, o.trajectory});
   std::optional<OutputFile> probe;
-  if (!o.record.empty()) probe.emplace(o.record);  // a bad name is told before the work
+  if (!o.record.empty()) probe.emplace(o.record);  // reports a bad name before the work
   std::optional<CutFields> fields;
   if (!o.field.empty()) fields = read_cut_fields(o.field, o.tension.direction, o.tension.prestresses);
   const Field* field = fields ? &fields->shape() : nullptr;

@@ -126,8 +126,7 @@ void check_stl(const std::string& path) {
 
 void check_obj(const std::string& path) {
   std::ifstream file(path);
-  long count[3] = {0, 0,
-                   0};  // of v, vt, vn so far; a face may name later ones, so it is looked at afterwards
+  long count[3] = {0, 0, 0};  // of v, vt, vn so far; a face may name later ones, so it is checked afterwards
   struct Face {
     long line;
     std::string text;
@@ -135,7 +134,7 @@ void check_obj(const std::string& path) {
   std::vector<Face> faces;
   std::string line;
   for (long number = 1; std::getline(file, line); ++number) {
-    while (!line.empty() && line.back() == '\\' && !file.eof()) {  // goes on in the next line
+    while (!line.empty() && line.back() == '\\' && !file.eof()) {  // continues in the next line
       std::string more;
       std::getline(file, more);
       line.pop_back();

@@ -58,7 +58,7 @@ void check_corners(const std::string& path, vtkPolyData* data) {
 
 template <class Reader>
 vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   const VtkListener reading(reader.Get());

@@ -79,7 +79,7 @@ vtkNew<vtkUnstructuredGrid> mesh_of(const Snapshot& s) {
 
 /// The text of a .vtu file. In memory: VTK 9.1 crashes where it writes to a full disk.
 std::string vtu(vtkUnstructuredGrid* grid) {
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   const VtkListener writing(writer.Get());
   writer->SetInputData(grid);

@@ -96,7 +96,7 @@ struct VolumeMesh::Grid {
 
 VolumeMesh::VolumeMesh(const std::string& path) : path_(path), grid_(std::make_unique<Grid>()) {
   if (!std::filesystem::exists(path)) throw FileError(path, "cannot be opened: does it exist?");
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
   const VtkListener reading(reader.Get());

@@ -8,7 +8,7 @@ namespace cleft {
 
 namespace {
 
-// Okabe and Ito's, which colour-blind people tell apart.
+// Okabe and Ito's colours, which colour-blind people can distinguish.
 constexpr Ink blue{0, 0.447, 0.698}, vermilion{0.835, 0.369, 0}, green{0, 0.62, 0.451},
     grey{0.35, 0.35, 0.38};
 

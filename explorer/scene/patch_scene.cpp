@@ -104,7 +104,7 @@ void PatchScene::add_walls(const std::vector<double>& us) {
   }
 }
 
-/// Uncut tissue is closed, whatever the fit says.
+/// Uncut tissue is closed, whatever the fit is.
 Place PatchScene::place(std::size_t point, double t) const {
   const Vec3& x = surface_.points[point];
   return {x, x.x >= field_.cut().start + t ? side_of(x.y) : sides_[point], t};

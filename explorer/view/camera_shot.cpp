@@ -46,7 +46,7 @@ void write_png(vtkImageData* image, const std::string& path, const std::string& 
 
 namespace {
 
-/// What is seen before black and before white tells both its colour and how far it covers the background.
+/// The pictures on black and on white determine both colour and opacity.
 vtkSmartPointer<vtkImageData> without_background(vtkImageData* black, vtkImageData* white) {
   const auto image = vtkSmartPointer<vtkImageData>::New();
   int size[3];

@@ -48,7 +48,7 @@ void each_frame(Session& session, const MovieFormat& format,
 
 void write_ogg(Session& session, const std::string& path, const MovieFormat& format) {
   OutputFile file(path);
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are ours to tell
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
   vtkNew<vtkOggTheoraWriter> writer;
   const VtkListener writing(writer.Get());
   const auto check = [&] {

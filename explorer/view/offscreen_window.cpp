@@ -81,7 +81,7 @@ class EglWindow : public vtkGenericOpenGLRenderWindow {
   }
   bool IsCurrent() override { return context_.is_current(); }
 
-  /// GLEW asks for a GLX display after it has loaded all of OpenGL; that there is none does no harm here.
+  /// GLEW requests a GLX display after it has loaded all of OpenGL; that there is none is harmless here.
   void OpenGLInitContext() override {
     ContextCreationTime.Modified();
     if (Initialized) return;

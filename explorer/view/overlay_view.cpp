@@ -47,7 +47,7 @@ vtkSmartPointer<vtkLookupTable> colors_between(const Ink& none, const Ink& most,
   return table;
 }
 
-/// Towards the eye, in units of the depth buffer: over what they lie on, or over everything.
+/// Offset towards the eye, in units of the depth buffer: in front of their surface, or of everything.
 void lift(vtkActor* actor, bool in_front) {
   constexpr double a_little = -4, all_of_it = -1e5;
   auto* mapper = static_cast<vtkPolyDataMapper*>(actor->GetMapper());

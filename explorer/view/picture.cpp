@@ -23,7 +23,7 @@ void check_ending(const std::string& path) {
 
 void write_picture(WoundView& view, int width, int height, const std::string& path) {
   check_ending(path);
-  const OutputFile probe(path);  // a bad name is told before the work
+  const OutputFile probe(path);  // reports a bad name before the work
   const vtkSmartPointer<vtkRenderWindow> window = double_window(width, height);
   window->AddRenderer(view.renderer());
   write_png(read_half(window), path, "");
@@ -33,7 +33,7 @@ void write_picture(WoundView& view, int width, int height, const std::string& pa
 
 void write_picture(Session& session, int width, int height, const std::string& path, bool transparent) {
   check_ending(path);
-  const OutputFile probe(path);  // a bad name is told before the work
+  const OutputFile probe(path);  // reports a bad name before the work
   CameraShot shot(width, height);
   write_png(shot.take(session, transparent), path, state_to_json(session.state()));
 }

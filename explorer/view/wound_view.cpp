@@ -62,7 +62,7 @@ void WoundView::add_lights() {
     renderer_->AddLight(light);
   };
   add(-0.7, 0.9, 1.0, 0.80, 1.0, 0.95);   // key, from above left
-  add(0.5, -0.25, 1.0, 0.50, 0.97, 1.0);  // fill, from beside the eye: looks into the wound
+  add(0.5, -0.25, 1.0, 0.50, 0.97, 1.0);  // fill light, next to the eye: lights the inside of the wound
   add(0.2, 1.0, -0.8, 0.25, 1.0, 1.0);    // rim, from behind
 }
 
@@ -98,7 +98,7 @@ double WoundView::largest_value(Coloring coloring, const Field* reference) {
   double largest = 0;
   for (int i = 1; i <= samples; ++i) {
     scene_->values(coloring, reference, scene_->duration() * i / samples, values);
-    std::erase_if(values, [](double v) { return !std::isfinite(v); });  // errors that nobody knows
+    std::erase_if(values, [](double v) { return !std::isfinite(v); });  // unknown errors
     if (values.empty()) continue;
     // Strain has no bound at the ends of the cut: the highest values there would leave no colour for the
     // rest.
@@ -213,7 +213,7 @@ void WoundView::aim(const CameraState& state) {
   }
   const WoundSurface& surface = scene_->surface();
   const Vec3 &middle = surface.middle, normal = normalized(surface.outward);
-  // Heads and patches stand with y upwards; a cut that faces up or down turns the picture along itself.
+  // Heads and patches have y upwards; for a cut that faces up or down the picture is aligned with the cut.
   const Vec3 up = std::abs(normal.y) < 0.9 ? Vec3{0, 1, 0} : surface.along;
   constexpr double view_angle = 24;
   const Vec3 eye = middle + normal;

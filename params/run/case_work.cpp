@@ -33,7 +33,7 @@ std::string line_with(const std::string& text, const std::string& what) {
   return text.substr(begin, text.find('\n', at) - begin);
 }
 
-/// The last line that says anything: mpirun frames its words by dashes.
+/// The last line with a message: mpirun frames its messages by dashes.
 std::string last_words(const std::string& text) {
   std::istringstream lines(text);
   std::string last;
@@ -42,7 +42,7 @@ std::string last_words(const std::string& text) {
   return last;
 }
 
-/// What a command has said of its own failure, "cleft solve: error: ..." (base/command/command.h): empty
+/// The message of a command about its own failure, "cleft solve: error: ..." (base/command/command.h): empty
 /// where it came to none, and something else has failed, as mpirun or the log.
 std::string own_words(const std::string& log, const std::string& command) {
   for (const char* kind : {": error: ", ": failed: "}) {
@@ -136,7 +136,7 @@ CaseWork::CaseWork(const StudyFolder& folder, const Study& study, Settings setti
       stop_(stop),
       bin_(executable_folder()) {}
 
-/// Its output stands in NAME.json of the teller's attempt, its errors in NAME.log, its progress in progress.
+/// Its output is in NAME.json of the reporting attempt, its errors in NAME.log, its progress in progress.
 ProcessResult CaseWork::child(const std::string& command, const std::vector<std::string>& arguments,
                               const CaseOnItsWay& teller, const std::string& name) const {
   std::vector<std::string> argv;

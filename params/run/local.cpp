@@ -116,7 +116,7 @@ class LocalRun {
       } catch (const Interrupted&) {
         for (const CasePointer& one : task.cases)
           if (one) folder_.abandon(one->attempt);
-      } catch (const std::exception& e) {  // a full disk, say: these cases' failure, not the others'
+      } catch (const std::exception& e) {  // such as a full disk: these cases fail, others do not
         for (const CasePointer& one : task.cases)
           if (one) fail(*one, {e.what(), true});
       }
@@ -264,7 +264,7 @@ class LocalRun {
     std::string where = " (log: " + one.attempt.folder + ")";
     try {
       folder_.fail(one.attempt, failure.reason, failure.again);
-    } catch (const std::exception&) {  // where nothing can be written, it is told here only
+    } catch (const std::exception&) {  // if nothing can be written, it is reported here only
       where.clear();
     }
     count(&RunReport::failed, one.number, "failed: " + failure.reason + where);

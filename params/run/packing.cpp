@@ -35,7 +35,7 @@ void remove_parts(const std::string& study) {
   }
 }
 
-/// By whoever holds the lock. What cleft pack says stands in `log` at its end.
+/// Called by the holder of the lock. The messages of cleft pack are in `log` at its end.
 bool pack(const std::string& study, const std::string& log, const StopCount* stop) {
   const Stopwatch watch;
   remove_parts(study);
@@ -103,8 +103,8 @@ void Packing::keep_up() {
     try {
       const Lock lock(study_ + record);
       done = pack(study_, log_of(study_), &stop_);
-    } catch (
-        const std::exception&) {  // another one packs, or nothing can be written: the run's end will tell
+    } catch (const std::exception&) {  // another process packs, or nothing can be written: reported at the
+                                       // end of the run
     }
     std::error_code ignored;
     fs::remove(log_of(study_), ignored);

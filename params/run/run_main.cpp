@@ -62,7 +62,7 @@ Json figures_of(const RunReport& r) {
           {"failed", r.failed},       {"interrupted", r.interrupted}};
 }
 
-/// What the command line says, over what the study file says.
+/// Options of the command line override those of the study file.
 SlurmSettings over(SlurmSettings settings, const SlurmSettings& said) {
   if (!said.partition.empty()) settings.partition = said.partition;
   if (!said.account.empty()) settings.account = said.account;

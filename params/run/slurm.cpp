@@ -31,7 +31,7 @@ namespace {
 
 constexpr int most_submissions = 3;       // of a case, by one run
 constexpr int usual_cases_per_task = 32;  // a task takes Slurm a tenth of a second
-constexpr int seconds_before_limit = 60;  // in which a task gives up and asks to be queued again
+constexpr int seconds_before_limit = 60;  // in which a task stops and requests to be queued again
 constexpr double shortest_poll = 0.5, longest_poll = 10;
 
 volatile std::sig_atomic_t leave = 0;
@@ -64,7 +64,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// Tasks of whole groups of one stiffness, as many cases in each as asked for, or a little fewer.
+/// Tasks of whole groups of one stiffness, with as many cases in each as requested, or slightly fewer.
 Tasks tasks_of(const std::vector<Case>& cases, int cases_per_task) {
   Tasks tasks;
   const std::size_t most = cases_per_task;

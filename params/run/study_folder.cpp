@@ -69,7 +69,7 @@ Attempt new_attempt(const std::string& attempts) {
   return {folder, token, Lock(folder + "/lock")};
 }
 
-/// What the attempts of a case say, in a Moment of the study.
+/// The state of a case by its attempts; needs a Moment of the study.
 CaseStatus status_of_attempts(const std::string& attempts) {
   CaseStatus status;
   for (const std::string& token : folders_in(attempts)) {
@@ -211,7 +211,7 @@ bool StudyFolder::publish(const Attempt& attempt, const std::string& hash, Json 
     if (!keep) fs::remove_all(entry.path());
   }
   flush_to_disk(attempt.folder);
-  const Moment moment(path_);  // with it, that a folder takes no other's place is relied on by nobody
+  const Moment moment(path_);  // within it, no operation relies on rename failing for an existing folder
   std::error_code taken;
   bool won = !is_published(hash);
   if (won) {

@@ -76,7 +76,7 @@ void write_index(const std::string& file, const std::map<std::string, IndexedCas
   std::ofstream out(part, std::ios::binary);
   out << sealed_text({{"format", "cleft-index"}, {"version", version}, {"cases", cases}});
   out.close();
-  std::error_code ignored;  // a study may be looked at where it cannot be written
+  std::error_code ignored;  // a study may be read where it cannot be written
   if (out) fs::rename(part, file, ignored);
   if (!out || ignored) fs::remove(part, ignored);
 }
@@ -104,7 +104,7 @@ std::map<std::string, IndexedCase> study_index(const std::string& study) {
       read_manifest(cases + "/" + hash + "/manifest.json", entry);
       index[hash] = entry;
       changed = true;
-    } catch (const std::exception&) {  // cleft check says so
+    } catch (const std::exception&) {  // cleft check reports it
     }
   }
   if (changed || index.size() != written.size()) write_index(file, index);

@@ -53,7 +53,7 @@ class SamplingReader {
     }
   }
 
-  /// Leaves no method where it is unknown; rules that depend on it then wait until it is mended.
+  /// No method if it is unknown; rules that depend on it are then not checked.
   void read_method(const toml::table& table) {
     if (const toml::node* node = table.get("method")) {
       const auto text = node->value<std::string>();

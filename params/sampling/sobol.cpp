@@ -7,7 +7,7 @@ namespace cleft {
 
 namespace {
 
-/// What each coordinate's digits are xored with: any shift keeps how evenly 2^k points lie.
+/// What each coordinate's digits are xored with: any shift keeps the evenness of 2^k points.
 std::vector<std::uint64_t> digital_shifts(std::size_t dimensions, std::uint64_t seed) {
   std::vector<std::uint64_t> shifts(dimensions, 0);
   std::mt19937_64 random(seed);

@@ -27,7 +27,7 @@ std::vector<std::array<std::int32_t, K>> read_table(const h5::File& file, const 
   return rows;
 }
 
-/// The checks that make the rest of the program safe: sizes agree and indices lie in range.
+/// The checks that make the rest of the program safe: sizes agree and indices are in range.
 class SnapshotCheck {
  public:
   SnapshotCheck(const std::string& path, const Snapshot& snapshot) : path_(path), s_(snapshot) {}
@@ -83,7 +83,7 @@ class SnapshotCheck {
   /// A pair of nodes that earlier pairs join already, or of one node, would close nothing, and leave some
   /// other node without its side.
   void check_pairs() const {
-    std::vector<std::int32_t> joined(s_.points.size());  // toward a node that stands for all joined ones
+    std::vector<std::int32_t> joined(s_.points.size());  // toward the representative of all joined nodes
     std::iota(joined.begin(), joined.end(), 0);
     const auto find = [&](std::int32_t node) {
       const auto next = [&](std::int32_t n) -> std::int32_t& { return joined[n]; };

@@ -45,7 +45,7 @@ std::vector<int> nearest_kept(const std::vector<Sample>& samples, const std::vec
     const Sample& sample = samples[n];
     const auto [i, j, k] = box_of(sample.uvw);
     double least = std::numeric_limits<double>::infinity();
-    // Shells of boxes: what lies beyond shell r is farther than r edges.
+    // Shells of boxes: points beyond shell r are farther than r edges.
     for (int r = 0; r <= most && least > (r - 1) * edge * std::max(0, r - 1) * edge; ++r)
       for (int a = std::max(0, i - r); a <= std::min(boxes[0] - 1, i + r); ++a)
         for (int b = std::max(0, j - r); b <= std::min(boxes[1] - 1, j + r); ++b)

@@ -29,7 +29,7 @@ CodedPoints coded_points(std::span<const Vec3> points, const ControlTies& ties,
 /// The last `count` bytes, which are then taken off. Throws InputError where there are fewer.
 std::span<const std::uint8_t> take_bytes(std::span<const std::uint8_t>& bytes, std::size_t count);
 
-/// What a field holds beside its displacement: further quantities, and derivatives by parameters.
+/// The contents of a field besides its displacement: further quantities, and derivatives by parameters.
 struct Beside {
   std::vector<Quantity> quantities;
   std::vector<ParameterDerivative> by_parameter;

@@ -1,4 +1,4 @@
-// Many headers of fields as columns, so that what they share is told once.
+// Many headers of fields as columns, so that common entries are stored once.
 #pragma once
 
 #include <vector>

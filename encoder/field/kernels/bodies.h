@@ -21,7 +21,7 @@ CLEFT_INLINE void store(const Four& sum, Vec3& out) {
 
 using Spans = std::array<const BasisSpan*, 4>;
 
-/// The spans in which a place lies, all four axes at once.
+/// The spans of a place, on all four axes at once.
 CLEFT_INLINE void find(const Axes& axes, const BasisPlace& place, Spans& spans) {
   alignas(32) double bucket[4];
   four(bucket) =
@@ -34,7 +34,7 @@ CLEFT_INLINE void find(const Axes& axes, const BasisPlace& place, Spans& spans) 
   if (place.at[1] == axes.break_at) spans[1] = axes.at_break[static_cast<int>(place.side) + 1];
 }
 
-/// Weights on the first `count` axes, and where asked for their derivatives by the parameter.
+/// Weights on the first `count` axes, and on request their derivatives by the parameter.
 template <int count, bool with_slopes>
 CLEFT_INLINE void weigh(const Spans& spans, const BasisPlace& place, double (&weight)[4][4],
                         double (*slope)[4], int (&first)[4]) {

@@ -15,7 +15,7 @@ double from_end(double r, double l, double a) { return r * (l + a) / (l * (r + a
 
 }  // namespace
 
-/// Over what distance from the start and the tip knots lie as close as they are there.
+/// The distance from the start and the tip over which knots keep their density.
 double TipParametrization::scale() const {
   const CanonicalCut& cut = geometry().cut;
   return cut.depth > 0 ? 3 * cut.depth : cut.length;
