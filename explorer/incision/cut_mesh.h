@@ -6,65 +6,27 @@
 // stay paired vertex by vertex.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "encoder/field/field.h"
+#include "explorer/incision/cut_mesh_parts.h"
 #include "explorer/incision/surface_mesh.h"
 
 namespace cleft {
-
-enum class Region : std::uint8_t { skin, left_wall, right_wall };
-
-/// What a vertex is for the first cut that reached it. `shared` vertices belong to both sides: the start and
-/// the tip with the columns of wall below them, and the bottom of the walls.
-enum class VertexKind : std::uint8_t { skin, left_lip, right_lip, left_wall, right_wall, shared };
-
-inline Side side_of(VertexKind kind) {
-  const bool left = kind == VertexKind::left_lip || kind == VertexKind::left_wall;
-  return left                                                     ? Side::left
-         : kind == VertexKind::skin || kind == VertexKind::shared ? Side::both
-                                                                  : Side::right;
-}
 
 class CutMesh {
  public:
   static constexpr int boundary = -1;      ///< neighbour across an edge with one triangle
   static constexpr int non_manifold = -2;  ///< across an edge with more than two, or whose two disagree
 
-  struct Triangle {
-    std::array<int, 3> vertex;
-    std::array<int, 3> neighbor;  ///< [i] lies across the edge vertex[i], vertex[i + 1]
-    Region region = Region::skin;
-    int sheet = -1;  ///< of a wall
-
-    int corner(int v) const { return vertex[0] == v ? 0 : vertex[1] == v ? 1 : vertex[2] == v ? 2 : -1; }
-  };
-
-  struct Vertex {
-    Vec3 position;
-    Vec3 original;  ///< where it stood before it was moved onto the path
-    int triangle;   ///< one of those around it, of the skin where there is one
-    VertexKind kind = VertexKind::skin;
-    /// Along the path; only lips, walls and ends have one.
-    double s = std::numeric_limits<double>::quiet_NaN();
-    double depth_fraction = 0;  ///< 0 at the skin, 1 at the bottom of the wall
-    int cut = -1;               ///< the cut that kind, s and depth_fraction speak of
-    double depth = 0;           ///< below the skin, at rest
-    /// The vertices that it was made between, or hangs from; -1: of the mesh as it was given.
-    std::array<int, 3> parents{-1, -1, -1};
-  };
-
-  /// A triangle of the left wall with its twin of the right one; its corners 0, 1, 2 are the twin's 0, 2, 1.
-  struct Sheet {
-    int left, right;
-    int cut;
-    std::array<double, 3> s, depth_fraction;  ///< of the left triangle's corners, for its own cut
-  };
+  using Triangle = CutTriangle;
+  using Vertex = CutVertex;
+  using Sheet = CutSheet;
+  using Undone = UndoneChanges;
 
   /// Throws InputError for an index out of range.
   explicit CutMesh(const SurfaceMesh& surface);
@@ -139,15 +101,7 @@ class CutMesh {
   int euler_change_since(const Checkpoint& checkpoint) const;
   void roll_back(const Checkpoint& to);
 
-  /// What undo took back, to be made again.
-  struct Undone {
-    std::vector<Triangle> triangles;
-    std::vector<Vertex> vertices;
-    std::vector<Sheet> sheets;
-    std::vector<std::pair<int, Triangle>> triangle_log;
-    std::vector<std::pair<int, Vertex>> vertex_log;
-    std::vector<std::pair<int, Sheet>> sheet_log;
-  };
+  /// Returns what it took back, to be made again.
   Undone undo(const Checkpoint& to);
   /// To be called on the mesh exactly as undo left it.
   void redo(const Undone& undone);

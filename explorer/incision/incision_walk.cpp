@@ -1,6 +1,5 @@
-// How the path goes on: the decisions of the cut. Where the blade's line pierces the surface is a curve that
-// is followed from triangle to triangle of the tip's fan, by the exact sides on which the line passes the
-// triangles' edges. Nothing is changed here.
+#include "explorer/incision/incision_walk.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +7,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "explorer/incision/blade.h"
-#include "explorer/incision/incision.h"
+#include "explorer/incision/incision_places.h"
 #include "explorer/incision/predicates.h"
 
 namespace cleft {
@@ -38,12 +37,18 @@ std::vector<int> on_the_same_place(const CutMesh& mesh, int v) {
   return found;
 }
 
-}  // namespace
+/// Where the blade's line is after a while: in a triangle of the tip's fan, or crossing its edge.
+struct Track {
+  int triangle = -1;  ///< -1: the line does not go on over the surface
+  int edge = -1;      ///< -1: it has reached the s asked for
+  double s = 0;
+};
 
-Incision::Track Incision::entered(const std::vector<int>& fan, double size, double limit) const {
-  // A little ahead of the tip the line is in the triangle that the path enters; how little, depends on how
-  // far the path was drawn aside to a vertex.
-  const double tip = chain_.back().s;
+/// The triangle of a fan that the line is in just behind the tip.
+Track entered(const IncisionState& cut, const std::vector<int>& fan, double size, double limit) {
+  // A little ahead of the tip the line is in the triangle that the path enters; how little, depends on
+  // how far away from the tip the path is that was snapped to it.
+  const double tip = cut.chain.back().s;
   constexpr int halvings = Limits::entry_halvings;
   double ahead = Limits::entry_step * size;
   for (int k = 0; k < Limits::entry_attempts; ++k) {
@@ -52,38 +57,36 @@ Incision::Track Incision::entered(const std::vector<int>& fan, double size, doub
               : k > halvings ? Limits::entry_growth * ahead
                              : ahead / 2;
     const double s = std::min(tip + ahead, limit);
-    const int triangle = pierced(mesh_, fan, path_.at(s));
+    const int triangle = pierced(cut.mesh, fan, cut.path.at(s));
     if (triangle >= 0) return {triangle, -1, s};
   }
   return {};
 }
 
-/// That the path enters from the tip; -1: none.
-int Incision::triangle_ahead() const {
-  const std::vector<int> fan = mesh_.skin_fan(tip_vertex());
-  return entered(fan, mean_spoke(mesh_, fan, tip_vertex()), path_.length()).triangle;
-}
-
-Incision::Track Incision::follow(int vertex, double limit) const {
-  const std::vector<int> fan = mesh_.skin_fan(vertex);
-  const double size = mean_spoke(mesh_, fan, vertex);
-  Track track = entered(fan, size, limit);
+/// From a vertex on through its fan, to the edge by which the line leaves the fan or to `limit`: where the
+/// line pierces the surface is a curve that is followed by the exact sides on which it passes the triangles'
+/// edges.
+Track follow(const IncisionState& cut, int vertex, double limit) {
+  const std::vector<int> fan = cut.mesh.skin_fan(vertex);
+  const double size = mean_spoke(cut.mesh, fan, vertex);
+  Track track = entered(cut, fan, size, limit);
   if (track.triangle < 0) return track;
-  const double step = std::min(Limits::follow_step * size, path_.length() / Limits::follow_parts);
+  const double step = std::min(Limits::follow_step * size, cut.path.length() / Limits::follow_parts);
   const int rounds = Limits::turns_around_fan * static_cast<int>(fan.size());
   for (int round = 0; track.s < limit;) {
     const double to = std::min(track.s + step, limit);
-    const PathFrame frame = path_.at(to);
+    const PathFrame frame = cut.path.at(to);
     const Vec3 head = frame.position + frame.outward;
     // Over which of its edges the line has gone first, if any.
-    const CutMesh::Triangle& triangle = mesh_.triangle(track.triangle);
+    const CutMesh::Triangle& triangle = cut.mesh.triangle(track.triangle);
     int edge = -1;
     double first = to;
     for (int i = 0; i < 3; ++i) {
-      const Vec3 &a = mesh_.position(triangle.vertex[i]), &b = mesh_.position(triangle.vertex[(i + 1) % 3]);
+      const Vec3 &a = cut.mesh.position(triangle.vertex[i]),
+                 &b = cut.mesh.position(triangle.vertex[(i + 1) % 3]);
       if (line_beside_edge(frame.position, head, a, b) >= 0) continue;
       const double s = zero_between(track.s, to, [&](double x) {
-        const PathFrame f = path_.at(x);
+        const PathFrame f = cut.path.at(x);
         return dot(f.outward, cross(a - f.position, b - f.position));
       });
       if (edge < 0 || s < first) first = s, edge = i;
@@ -94,7 +97,7 @@ Incision::Track Incision::follow(int vertex, double limit) const {
     }
     const int across = triangle.neighbor[edge];
     const bool spoke = edge != (triangle.corner(vertex) + 1) % 3;
-    if (!spoke || across < 0 || mesh_.is_wall(across) || ++round > rounds) {
+    if (!spoke || across < 0 || cut.mesh.is_wall(across) || ++round > rounds) {
       track.edge = edge, track.s = first;
       return track;
     }
@@ -104,110 +107,38 @@ Incision::Track Incision::follow(int vertex, double limit) const {
   return track;
 }
 
-const Incision::Step& Incision::next_step() {
-  if (next_) return *next_;
-  const double s = chain_.back().s,
-               too_short = Limits::shortest_rest * path_.length();  // a rest not worth a vertex
-  if (state_.arrived && state_.from < 0 && !go_on_from_wound()) {
-    if (path_.length() - s >= too_short) report_end();
-    next_ = Step{Step::vertex, -1, -1, {}, std::numeric_limits<double>::infinity()};
-    return *next_;
-  }
-  const int tip = tip_vertex();
-  const Track track = follow(tip, path_.length());
-  if (track.triangle < 0) report_end();
-  Step step = step_at(track);
-  const bool rest = track.edge < 0 && path_.length() - s < too_short;
-  if (rest) step.s = std::numeric_limits<double>::infinity();
-  double within =
-      step.s - s;  // the piece's length, halved as often as a vertex ahead draws it to itself again
-  for (int k = 0; k < Limits::piece_halvings && !rest && within > Limits::same_place * path_.length(); ++k) {
-    const double error = chord_error(mesh_.position(tip), step.place, s, step.s);
-    if (step.s - s > Limits::longer_piece * longest_step_)
-      within = std::min(within, longest_step_);
-    else if (too_soon_at_wound(step))
-      within /= 2;
-    else if (error > chord_tolerance_)
-      within /= std::max(2.0, std::ceil(std::sqrt(error / chord_tolerance_)));
-    else
-      break;
-    const double before = step.s;
-    step = shorter(step, s + within);
-    within = step.s < before ? std::min(within, step.s - s) : within / 2;
-  }
-  next_ = step;
-  return *next_;
-}
-
-Incision::Step Incision::shorter(const Step& step, double to) const {
-  const Track track = follow(tip_vertex(), to);
-  if (track.triangle < 0) return step;
-  const Step next = step_at(track);
-  if (track.edge < 0 || next.kind != Step::vertex || next.s <= to) return next;
-  // Behind the edge the path bends before it comes to the vertex: no straight piece leads there.
-  const Step plain = crossing(track);
-  return snapped(plain, to).value_or(plain);
-}
-
-Incision::Step Incision::step_at(const Track& track) const {
-  if (track.edge < 0)
-    return placed(track.triangle, piercing_point(mesh_, track.triangle, path_.at(track.s)), track.s);
-  const Step step = crossing(track);
-  return snapped(step, std::numeric_limits<double>::infinity()).value_or(step);
-}
-
-bool Incision::too_soon_at_wound(const Step& step) const {
-  // A piece between two wounds, or behind one, needs a vertex that opens.
-  const bool first = state_.from >= 0 || chain_.size() == state_.piece + 1;
-  if (!first || (state_.from < 0 && state_.start == End::boundary)) return false;
-  if (state_.from >= 0 && step.s == path_.length()) return true;
-  if (step.kind == Step::vertex) return mesh_.on_wound(step.index);
-  return step.kind == Step::edge && mesh_.is_wall(mesh_.triangle(step.triangle).neighbor[step.index]);
-}
-
-bool Incision::wounds_cross_at(int v) const {
-  const std::vector<int> places = on_the_same_place(mesh_, v);
-  return std::count_if(places.begin(), places.end(), [&](int place) {
-           return mesh_.is_skin(mesh_.vertex(place).triangle);
-         }) >= Limits::corners_where_wounds_cross;
-}
-
-bool Incision::go_on_from_wound() {
-  const std::vector<int> places = on_the_same_place(mesh_, chain_.back().left);
-  for (const double part : Limits::steps_over_wound)
-    for (const int v : places) {
-      if (mesh_.triangle(mesh_.vertex(v).triangle).region != Region::skin) continue;
-      const std::vector<int> fan = mesh_.skin_fan(v);
-      const double s = chain_.back().s + part * mean_spoke(mesh_, fan, v);
-      if (s > path_.length() || pierced(mesh_, fan, path_.at(s)) < 0) continue;
-      state_.from = v;
-      return true;
-    }
-  return false;
-}
-
-Incision::Step Incision::crossing(const Track& track) const {
-  const CutMesh::Triangle& t = mesh_.triangle(track.triangle);
+PathStep crossing(const IncisionState& cut, const Track& track) {
+  const CutMesh::Triangle& t = cut.mesh.triangle(track.triangle);
   const int across = t.neighbor[track.edge];
   if (across == CutMesh::non_manifold) {
     throw InputError("the path meets an edge that more than two triangles share at arc length " +
-                     shortest(track.s) + ", near " + place_of(mesh_.position(t.vertex[track.edge])) +
+                     shortest(track.s) + ", near " + place_of(cut.mesh.position(t.vertex[track.edge])) +
                      "; end it before, or repair the mesh there");
   }
-  const Vec3 &a = mesh_.position(t.vertex[track.edge]), &b = mesh_.position(t.vertex[(track.edge + 1) % 3]);
-  const PathFrame frame = path_.at(track.s);
+  const Vec3 &a = cut.mesh.position(t.vertex[track.edge]),
+             &b = cut.mesh.position(t.vertex[(track.edge + 1) % 3]);
+  const PathFrame frame = cut.path.at(track.s);
   // Against the plane of the line that stands most upright on the edge.
   const Vec3 edge = b - a, upright = edge - dot(edge, frame.outward) * frame.outward;
   const double part = std::clamp(dot(frame.position - a, upright) / dot(edge, upright), 0.0, 1.0);
-  return {Step::edge, track.triangle, track.edge, lerp(a, b, part), track.s};
+  return {PathStep::edge, track.triangle, track.edge, lerp(a, b, part), track.s};
 }
 
-double Incision::chord_error(const Vec3& from, const Vec3& to, double s_from, double s_to) const {
+PathStep step_at(const IncisionState& cut, const Track& track) {
+  if (track.edge < 0)
+    return placed(cut, track.triangle, piercing_point(cut.mesh, track.triangle, cut.path.at(track.s)),
+                  track.s);
+  const PathStep step = crossing(cut, track);
+  return snapped(cut, step, std::numeric_limits<double>::infinity()).value_or(step);
+}
+
+/// How far the piece between two places strays from the blade.
+double chord_error(const IncisionState& cut, const Vec3& from, const Vec3& to, double s_from, double s_to) {
   const Vec3 chord = to - from;
   double largest = 0;
   constexpr int samples = Limits::chord_samples;
   for (int k = 1; k < samples; ++k) {
-    const PathFrame frame = path_.at(s_from + (s_to - s_from) * k / samples);
+    const PathFrame frame = cut.path.at(s_from + (s_to - s_from) * k / samples);
     const Vec3 across = cross(frame.outward, chord);
     const double length = norm(across);
     if (length == 0) continue;
@@ -221,19 +152,105 @@ double Incision::chord_error(const Vec3& from, const Vec3& to, double s_from, do
   return largest;
 }
 
-double Incision::chord_error() const {
-  double largest = 0;
-  for (std::size_t i = 1; i < chain_.size(); ++i)
-    if (chain_[i].s > chain_[i - 1].s)
-      largest = std::max(largest, chord_error(mesh_.position(chain_[i - 1].left),
-                                              mesh_.position(chain_[i].left), chain_[i - 1].s, chain_[i].s));
-  return largest;
+bool too_soon_at_wound(const IncisionState& cut, const PathStep& step) {
+  // A piece between two wounds, or behind one, needs a vertex that opens.
+  const bool first = cut.tip.from >= 0 || cut.chain.size() == cut.tip.piece + 1;
+  if (!first || (cut.tip.from < 0 && cut.tip.start == PathEnd::boundary)) return false;
+  if (cut.tip.from >= 0 && step.s == cut.path.length()) return true;
+  if (step.kind == PathStep::vertex) return cut.mesh.on_wound(step.index);
+  return step.kind == PathStep::edge &&
+         cut.mesh.is_wall(cut.mesh.triangle(step.triangle).neighbor[step.index]);
 }
 
-void Incision::report_end() const {
-  throw InputError("the path leaves the surface near " + place_of(mesh_.position(tip_vertex())) +
-                   ", at arc length " + shortest(chain_.back().s) +
+bool go_on_from_wound(IncisionState& cut) {
+  const std::vector<int> places = on_the_same_place(cut.mesh, cut.chain.back().left);
+  for (const double part : Limits::steps_over_wound)
+    for (const int v : places) {
+      if (cut.mesh.triangle(cut.mesh.vertex(v).triangle).region != Region::skin) continue;
+      const std::vector<int> fan = cut.mesh.skin_fan(v);
+      const double s = cut.chain.back().s + part * mean_spoke(cut.mesh, fan, v);
+      if (s > cut.path.length() || pierced(cut.mesh, fan, cut.path.at(s)) < 0) continue;
+      cut.tip.from = v;
+      return true;
+    }
+  return false;
+}
+
+[[noreturn]] void report_end(const IncisionState& cut) {
+  throw InputError("the path leaves the surface near " + place_of(cut.mesh.position(cut.tip_vertex())) +
+                   ", at arc length " + shortest(cut.chain.back().s) +
                    ": its directions (nx, ny, nz) must point out of the surface there");
+}
+
+}  // namespace
+
+/// That the path enters from the tip; -1: none.
+int triangle_ahead(const IncisionState& cut) {
+  const std::vector<int> fan = cut.mesh.skin_fan(cut.tip_vertex());
+  return entered(cut, fan, mean_spoke(cut.mesh, fan, cut.tip_vertex()), cut.path.length()).triangle;
+}
+
+const PathStep& next_step(IncisionState& cut) {
+  if (cut.next) return *cut.next;
+  const double s = cut.chain.back().s,
+               too_short = Limits::shortest_rest * cut.path.length();  // a rest not worth a vertex
+  if (cut.tip.arrived && cut.tip.from < 0 && !go_on_from_wound(cut)) {
+    if (cut.path.length() - s >= too_short) report_end(cut);
+    cut.next = PathStep{PathStep::vertex, -1, -1, {}, std::numeric_limits<double>::infinity()};
+    return *cut.next;
+  }
+  const int tip = cut.tip_vertex();
+  const Track track = follow(cut, tip, cut.path.length());
+  if (track.triangle < 0) report_end(cut);
+  PathStep step = step_at(cut, track);
+  const bool rest = track.edge < 0 && cut.path.length() - s < too_short;
+  if (rest) step.s = std::numeric_limits<double>::infinity();
+  double within =
+      step.s - s;  // the piece's length, halved as often as a vertex ahead draws it to itself again
+  for (int k = 0; k < Limits::piece_halvings && !rest && within > Limits::same_place * cut.path.length();
+       ++k) {
+    const double error = chord_error(cut, cut.mesh.position(tip), step.place, s, step.s);
+    if (step.s - s > Limits::longer_piece * cut.longest_piece)
+      within = std::min(within, cut.longest_piece);
+    else if (too_soon_at_wound(cut, step))
+      within /= 2;
+    else if (error > cut.chord_tolerance)
+      within /= std::max(2.0, std::ceil(std::sqrt(error / cut.chord_tolerance)));
+    else
+      break;
+    const double before = step.s;
+    step = shorter(cut, step, s + within);
+    within = step.s < before ? std::min(within, step.s - s) : within / 2;
+  }
+  cut.next = step;
+  return *cut.next;
+}
+
+PathStep shorter(const IncisionState& cut, const PathStep& step, double to) {
+  const Track track = follow(cut, cut.tip_vertex(), to);
+  if (track.triangle < 0) return step;
+  const PathStep next = step_at(cut, track);
+  if (track.edge < 0 || next.kind != PathStep::vertex || next.s <= to) return next;
+  // Behind the edge the path bends before it comes to the vertex: no straight piece leads there.
+  const PathStep plain = crossing(cut, track);
+  return snapped(cut, plain, to).value_or(plain);
+}
+
+bool wounds_cross_at(const IncisionState& cut, int v) {
+  const std::vector<int> places = on_the_same_place(cut.mesh, v);
+  return std::count_if(places.begin(), places.end(), [&](int place) {
+           return cut.mesh.is_skin(cut.mesh.vertex(place).triangle);
+         }) >= Limits::corners_where_wounds_cross;
+}
+
+double chord_error(const IncisionState& cut) {
+  double largest = 0;
+  for (std::size_t i = 1; i < cut.chain.size(); ++i)
+    if (cut.chain[i].s > cut.chain[i - 1].s)
+      largest = std::max(
+          largest, chord_error(cut, cut.mesh.position(cut.chain[i - 1].left),
+                               cut.mesh.position(cut.chain[i].left), cut.chain[i - 1].s, cut.chain[i].s));
+  return largest;
 }
 
 }  // namespace cleft

@@ -1,32 +1,24 @@
-// The shape of triangles, and mending the skin's where a cut has left slivers.
+// The shape of triangles.
 #pragma once
-
-#include <array>
-#include <vector>
 
 #include "explorer/incision/cut_mesh.h"
 
 namespace cleft {
 
 /// Twice the inscribed over the circumscribed radius: 1 equilateral, 0 degenerate.
-double radius_ratio(const Vec3& a, const Vec3& b, const Vec3& c);
-double radius_ratio(const CutMesh& mesh, int triangle);
+inline double radius_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double x = norm(b - a), y = norm(c - b), z = norm(a - c);
+  const double product = (x + y + z) * x * y * z;
+  return product > 0 ? 4 * squared_norm(cross(b - a, c - a)) / product : 0;
+}
+inline double radius_ratio(const CutMesh& mesh, int t) {
+  const auto& v = mesh.triangle(t).vertex;
+  return radius_ratio(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]));
+}
 
 /// The smallest of all triangles of the skin.
 double smallest_radius_ratio(const CutMesh& mesh);
 /// Of those that are still as the mesh was given; 1 where none is.
 double smallest_given_radius_ratio(const CutMesh& mesh);
-
-/// Mends the skin's triangles among `triangles`, and those made on the way, whose radius ratio is below
-/// `target`: by flipping an edge where that moves the surface by no more than `bend`, else by splitting the
-/// longest edge. Stops after a number of changes in proportion to the triangles given. Returns whether the
-/// surface has moved at all. The edge `kept` is left whole.
-using KeptEdge = std::array<int, 2>;
-bool mend_slivers(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend = 0,
-                  const KeptEdge& kept = {-1, -1});
-/// The same for the few that are still below `target` then: by the splits that, with what can be mended after
-/// them, leave the best triangles. Each is tried, so this costs more.
-bool mend_needles(CutMesh& mesh, const std::vector<int>& triangles, double target, double bend = 0,
-                  const KeptEdge& kept = {-1, -1});
 
 }  // namespace cleft

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "explorer/incision/mend_slivers.h"
 #include "tests/incision/meshes.h"
 
 namespace cleft {

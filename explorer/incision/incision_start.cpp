@@ -1,0 +1,77 @@
+#include "explorer/incision/incision_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "explorer/incision/blade.h"
+#include "explorer/incision/incision_places.h"
+
+namespace cleft {
+
+namespace {
+
+/// The place nearest to C(0) where the blade pierces the skin.
+std::optional<PathStep> start_on_face(const IncisionState& cut, double reach) {
+  std::optional<PathStep> best;
+  const PathFrame frame = cut.path.at(0);
+  for (int t = 0; t < static_cast<int>(cut.mesh.triangles().size()); ++t) {
+    if (cut.mesh.is_wall(t) || !pierces(cut.mesh, t, frame)) continue;
+    const Vec3 place = piercing_point(cut.mesh, t, frame);
+    const double height = std::abs(dot(place - frame.position, frame.outward));
+    if (height > reach) continue;
+    reach = height;
+    best = PathStep{PathStep::face, t, 0, place, 0};
+  }
+  if (best) best = placed(cut, best->triangle, best->place, 0);
+  return best;
+}
+
+/// Where the path first comes in over the boundary.
+std::optional<PathStep> start_on_boundary(const IncisionState& cut, double reach) {
+  std::optional<PathStep> best;
+  for (int t = 0; t < static_cast<int>(cut.mesh.triangles().size()); ++t)
+    for (int i = 0; i < 3; ++i) {
+      if (cut.mesh.is_wall(t) || cut.mesh.triangle(t).neighbor[i] != CutMesh::boundary) continue;
+      const Vec3 &a = cut.mesh.position(cut.mesh.triangle(t).vertex[i]),
+                 &b = cut.mesh.position(cut.mesh.triangle(t).vertex[(i + 1) % 3]);
+      // The path comes in where the boundary, followed with the surface on its left, passes from left to
+      // right.
+      if (cut.path.coordinates(a).v < 0 || cut.path.coordinates(b).v > 0) continue;
+      const double part = zero_between(0, 1, [&](double x) { return cut.path.coordinates(lerp(a, b, x)).v; });
+      const Vec3 place = lerp(a, b, part);
+      const PathCoordinates at = cut.path.coordinates(place);
+      if (std::abs(at.w) > reach || at.s < 0 || at.s >= cut.path.length() || (best && best->s <= at.s))
+        continue;
+      best = PathStep{PathStep::edge, t, i, place, at.s};
+    }
+  if (best) best = placed(cut, best->triangle, best->place, best->s);
+  return best;
+}
+
+}  // namespace
+
+PathStep find_start(const IncisionState& cut) {
+  const double reach = cut.path.length() / IncisionTolerances::start_height_parts;
+  if (const auto start = start_on_face(cut, reach)) return *start;
+  if (const auto start = start_on_boundary(cut, reach)) return *start;
+  const Vec3 c = cut.path.at(0).position;
+  double least = std::numeric_limits<double>::infinity();
+  for (const CutMesh::Vertex& v : cut.mesh.vertices()) least = std::min(least, norm(v.position - c));
+  throw InputError("the path never touches the mesh: it begins at " + place_of(c) + ", " + shortest(least) +
+                   " from the nearest vertex. It must lie within " + shortest(reach) +
+                   " of a surface that faces along its directions (nx, ny, nz), in the mesh's own " +
+                   "units: divide a path in mm by the mm per unit given as --scale");
+}
+
+std::vector<int> triangles_at(const IncisionState& cut, const PathStep& start) {
+  if (start.kind == PathStep::vertex) return cut.mesh.skin_fan(start.index);
+  if (start.kind == PathStep::face) return {start.triangle};
+  return {start.triangle, cut.mesh.triangle(start.triangle).neighbor[start.index]};
+}
+
+/// At a vertex of the edge that is crossed, which the path passes so closely, no later than at `to` but where
+/// it is near.
+}  // namespace cleft

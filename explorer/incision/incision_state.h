@@ -1,0 +1,85 @@
+// What the parts of a growing cut share: the mesh, the path, the lengths to keep, and how far the cut has
+// come. incision_places decides where vertices of the path are put, incision_walk how the path goes on,
+// incision_change changes the mesh, incision_advance repeats these up to where the blade is. Inside
+// explorer/incision only.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "explorer/incision/incision.h"
+#include "explorer/incision/incision_tolerances.h"
+#include "explorer/incision/walls.h"
+
+namespace cleft {
+
+/// How the path goes on from the last vertex of the chain.
+struct PathStep {
+  enum Kind { vertex, edge, face } kind;
+  int triangle;  ///< edge, face
+  int index;     ///< the vertex, or the number of the edge
+  Vec3 place;
+  double s;
+  bool inside = false;  ///< not where the path crosses an edge, but between two such places
+};
+
+/// Where the piece of the path between two wounds that the tip is in begins.
+enum class PathEnd { closed, boundary, wound };
+
+/// What the next step of a cut starts from; restored where a step is taken back.
+struct IncisionTip {
+  PathEnd start = PathEnd::closed;
+  std::size_t piece = 0;         ///< the first vertex of the path's piece between two wounds, in the chain
+  bool pending = false;          ///< the piece's first segment is not sewn in yet: both its ends are closed
+  bool arrived = false;          ///< the tip's vertex is on a wound
+  int from = -1;                 ///< where the path goes on from that wound
+  std::optional<Column> column;  ///< below the tip
+  std::vector<int> below;        ///< below the wound where the path came to it
+  /// Triangles that were left worse than asked, and how often they were tried: a step next to them may make
+  /// it possible to mend them.
+  std::vector<std::pair<int, int>> poor;
+  bool left_mesh = false;
+};
+
+/// Lengths in the mesh's units.
+struct IncisionState {
+  /// `number` is that of the cut in its mesh.
+  IncisionState(CutMesh& mesh, ScalpelPath path, int number, const IncisionOptions& options);
+
+  CutMesh& mesh;
+  ScalpelPath path;
+  int number;
+  double snap;  ///< IncisionOptions::snap
+  double chord_tolerance, longest_piece;
+  double worst_before;  ///< smallest radius ratio of the skin before the cut
+  double asked;         ///< radius ratio of triangles that the cut makes, at least
+  int rows = static_cast<int>(IncisionTolerances::fewest_rows);  ///< of triangles in the walls
+  bool bent = false;                                             ///< see Incision::bent()
+  std::vector<Incision::ChainVertex> chain;                      ///< see Incision::chain()
+  IncisionTip tip;
+  std::optional<PathStep> next;  ///< found already, not made yet
+
+  double tip_s() const { return chain.back().s; }
+  /// The vertex from which the path goes on: the chain's last, or behind a wound that of the opposite lip.
+  int tip_vertex() const { return tip.from >= 0 ? tip.from : chain.back().left; }
+  /// From the skin to the bottom of the cut.
+  Vec3 down(double s) const { return -path.depth(s) * path.at(s).outward; }
+
+  /// What is needed to take steps back.
+  struct Before {
+    CutMesh::Checkpoint mesh;
+    std::size_t chain;
+    std::vector<Incision::ChainVertex> last;
+    IncisionTip tip;
+  };
+  Before before() const;
+  void roll_back(const Before& to);
+
+  /// The vertex at the tip is provisional: it is taken back before the blade goes on, so that the places
+  /// where the blade stopped leave no trace.
+  std::optional<Before> provisional;
+  void drop_provisional();
+};
+
+}  // namespace cleft
