@@ -62,7 +62,7 @@ Json list_of(const Interpolation& made) {
 }
 
 /// The manifest of a study's published case. Empty for other files.
-Json manifest_beside(const std::string& field) {
+Json manifest_of(const std::string& field) {
   const std::string manifest = (std::filesystem::path(field).parent_path() / "manifest.json").string();
   return std::filesystem::exists(manifest) ? read_sealed(manifest) : Json::object();
 }
@@ -97,7 +97,7 @@ Json info_of_field(const std::string& file) {
   if (field.report.raw_bytes() > 0)
     info["ratio_to_32_bit"] =
         field.report.raw_bytes() / static_cast<double>(std::filesystem::file_size(file));
-  if (const Json manifest = manifest_beside(file); !manifest.empty()) {
+  if (const Json manifest = manifest_of(file); !manifest.empty()) {
     info["raw_data"] = manifest.value("snapshot", "kept");
     for (const char* figure : {"fit_seconds", "measure_seconds"})
       if (manifest.contains("encoder") && manifest["encoder"].contains(figure))

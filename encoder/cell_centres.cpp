@@ -22,7 +22,7 @@ CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& sa
     }
     if ((least == 0) == (greatest == 0)) continue;
     centres.samples.push_back({centre, side_of(centre.y)});
-    centres.beside_plane.push_back(beside);
+    centres.touches_plane.push_back(beside);
     centres.nodes.insert(centres.nodes.end(), begin, end);
     centres.first.push_back(centres.nodes.size());
   }
@@ -44,7 +44,7 @@ CellCentres CellCentres::only(const std::vector<std::size_t>& some) const {
   result.first = {0};
   for (const std::size_t c : some) {
     result.samples.push_back(samples[c]);
-    result.beside_plane.push_back(beside_plane[c]);
+    result.touches_plane.push_back(touches_plane[c]);
     for (std::size_t k = first[c]; k < first[c + 1]; ++k) result.nodes.push_back(nodes[k]);
     result.first.push_back(result.nodes.size());
   }

@@ -14,7 +14,7 @@ namespace cleft {
 /// Cells in or across the plane v = 0 are left out, because their side is unknown.
 struct CellCentres {
   std::vector<Sample> samples;      ///< M
-  std::vector<bool> beside_plane;   ///< M: the cell has a node on v = 0
+  std::vector<bool> touches_plane;  ///< M: the cell has a node on v = 0
   std::vector<std::int64_t> nodes;  ///< of one cell after another
   std::vector<std::size_t> first;   ///< M + 1: where each begins there
 

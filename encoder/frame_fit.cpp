@@ -59,13 +59,13 @@ FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
       for (std::size_t c = 0; c < inside.size(); ++c)
         if (const double at = series.centres.samples[c].uvw.x; front < at && at < back) inside[c] = true;
     }
-  std::vector<std::size_t> beside, others;
+  std::vector<std::size_t> at_plane, others;
   for (std::size_t c = 0; c < inside.size(); ++c)
-    if (series.centres.beside_plane[c])
-      beside.push_back(c);
+    if (series.centres.touches_plane[c])
+      at_plane.push_back(c);
     else if (inside[c])
       others.push_back(c);
-  if (series.geometry.cut.length > 0) add_group(beside, std::vector<bool>(sparse.size(), true));
+  if (series.geometry.cut.length > 0) add_group(at_plane, std::vector<bool>(sparse.size(), true));
   add_group(others, sparse);
 }
 

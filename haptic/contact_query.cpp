@@ -12,27 +12,27 @@ constexpr double overlap = 0.02;  // mm, of walls that overlap
 }  // namespace
 
 ContactReader::ContactReader(const ContactSurface& surface) : surface_(surface), cells_(surface.cells()) {
-  for (auto& says : surface.readers_) {
+  for (auto& state : surface.readers_) {
     std::uint64_t expected = ContactSurface::unused;
-    if (!says.compare_exchange_strong(expected, ContactSurface::idle)) continue;
-    says_ = &says;
+    if (!state.compare_exchange_strong(expected, ContactSurface::idle)) continue;
+    state_ = &state;
     return;
   }
   throw InputError("the surface has " + std::to_string(ContactSurface::most_readers) + " readers already");
 }
 
-ContactReader::~ContactReader() { says_->store(ContactSurface::unused, std::memory_order_release); }
+ContactReader::~ContactReader() { state_->store(ContactSurface::unused, std::memory_order_release); }
 
 void ContactReader::begin() {
   // A writer that sees `entering` waits the few nanoseconds until the version is set; one that has not seen
   // it has published its step before, and it is that step that is read.
-  says_->store(ContactSurface::entering, std::memory_order_seq_cst);
+  state_->store(ContactSurface::entering, std::memory_order_seq_cst);
   version_ = surface_.version_.load(std::memory_order_seq_cst);
-  says_->store(ContactSurface::reading + version_, std::memory_order_release);
+  state_->store(ContactSurface::reading + version_, std::memory_order_release);
 }
 
 bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& t) const {
-  const FeltTriangle& now = felt(triangle);
+  const StoredTriangle& now = stored(triangle);
   if (!now.exists()) return false;
   t = now.triangle();
   for (int i = 0; i < 3; ++i) corners[i] = surface_.positions_[t.vertex[i]].at(version_);
@@ -41,8 +41,8 @@ bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& 
 
 void ContactReader::meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing,
                          SurfaceHit& best) const {
-  const double rounding = FeltTriangle::of_rounding(from, to);
-  const auto may_meet = [&](const FeltTriangle& t) { return !t.on_one_side(from, to, rounding); };
+  const double rounding = StoredTriangle::of_rounding(from, to);
+  const auto may_meet = [&](const StoredTriangle& t) { return !t.on_one_side(from, to, rounding); };
   each_of(list, may_meet, [&](int id, const ContactTriangle& t, const Corners& corners) {
     const Passage passage = pass_through(from, to, corners);
     if (!passage.passes || (best && passage.fraction >= best.fraction)) return;
@@ -126,7 +126,9 @@ NearestPoint ContactReader::nearest(const Vec3& x, double radius) const {
   bool only_walls = true;
   int sharing[24], shared = 0;
   const double tie = 1e-9 * cells_.cell();
-  const auto near = [&](const FeltTriangle& t) { return t.least_squared_distance(x) <= least * (1 + 1e-9); };
+  const auto near = [&](const StoredTriangle& t) {
+    return t.least_squared_distance(x) <= least * (1 + 1e-9);
+  };
   visit_voxels(x, radius, [&](const CellList& list) {
     each_of(list, near, [&](int id, const ContactTriangle& t, const Corners& c) {
       if (least_squared_distance(x, c) > least * (1 + 1e-9)) return;

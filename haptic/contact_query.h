@@ -46,7 +46,7 @@ class ContactReader {
 
   /// Between begin() and end() all queries refer to one step of the surface. Wait-free.
   void begin();
-  void end() { says_->store(ContactSurface::idle, std::memory_order_release); }
+  void end() { state_->store(ContactSurface::idle, std::memory_order_release); }
   std::uint64_t version() const { return version_; }
 
   SurfaceHit first_contact(const Vec3& from, const Vec3& to, Facing facing) const;
@@ -55,7 +55,7 @@ class ContactReader {
   SurfaceProxy proxy(const Vec3& x, const SurfaceProxy& before) const;
 
  private:
-  const FeltTriangle& felt(int triangle) const { return surface_.triangles_[triangle].at(version_); }
+  const StoredTriangle& stored(int triangle) const { return surface_.triangles_[triangle].at(version_); }
   template <class May, class Look>
   void each_of(const CellList& list, const May& may, const Look& look) const;
   bool corners_of(int triangle, Corners& corners, ContactTriangle& t) const;
@@ -68,7 +68,7 @@ class ContactReader {
 
   const ContactSurface& surface_;
   const ContactCells& cells_;
-  std::atomic<std::uint64_t>* says_ = nullptr;
+  std::atomic<std::uint64_t>* state_ = nullptr;
   std::uint64_t version_ = 0;
 };
 

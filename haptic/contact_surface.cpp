@@ -99,11 +99,11 @@ void ContactSurface::update(std::span<const Moved> moved, std::span<const Change
 
 /// Into the voxels it has come to, at once; out of those it has left in the next step.
 void ContactSurface::rebin(int id, std::uint64_t next) {
-  TwoStates<FeltTriangle>& triangle = triangles_[id];
+  TwoStates<StoredTriangle>& triangle = triangles_[id];
   old_voxels_.clear(), new_voxels_.clear();
-  if (const FeltTriangle& old = triangle.at(next - 1); old.exists())
+  if (const StoredTriangle& old = triangle.at(next - 1); old.exists())
     cells_.voxels_of(corners_at(old.triangle(), next - 1), old_voxels_);
-  if (FeltTriangle now = triangle.last(); now.exists()) {
+  if (StoredTriangle now = triangle.last(); now.exists()) {
     const Corners corners = corners_at(now.triangle(), next);
     now.set_plane(corners);
     triangle.set(now, next);
@@ -167,7 +167,7 @@ void ContactSurface::set_triangle(int id, const ContactTriangle& now, std::uint6
     next_corner(3 * id + i) = first;
     first = 3 * id + i;
   }
-  triangles_[t].set(FeltTriangle(now), version);
+  triangles_[t].set(StoredTriangle(now), version);
 }
 
 void ContactSurface::unlink(int triangle, int corner, int vertex) {

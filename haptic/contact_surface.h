@@ -19,8 +19,8 @@
 
 #include "base/vec3.h"
 #include "haptic/contact_cells.h"
-#include "haptic/felt_triangle.h"
 #include "haptic/slot_array.h"
+#include "haptic/stored_triangle.h"
 
 namespace cleft {
 
@@ -79,7 +79,7 @@ class ContactSurface {
   ContactCells cells_;
   SlotArray<TwoStates<Vec3>> positions_;
   SlotArray<TwoStates<Vec3>> normals_;  // of the triangles around a vertex, weighted by area; unit, or 0
-  SlotArray<TwoStates<FeltTriangle>> triangles_;
+  SlotArray<TwoStates<StoredTriangle>> triangles_;
   std::atomic<std::uint64_t> version_{1};
   mutable std::array<std::atomic<std::uint64_t>, most_readers> readers_{};
 

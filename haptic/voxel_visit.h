@@ -71,7 +71,7 @@ void ContactReader::each_of(const CellList& list, const May& may, const Look& lo
     for (; n < count && kept < most; ++n) {
       const int id = list[n];
       if (id < 0) continue;
-      const FeltTriangle& t = felt(id);
+      const StoredTriangle& t = stored(id);
       if (!t.exists() || !may(t)) continue;
       for (const int v : t.triangle().vertex) __builtin_prefetch(&surface_.positions_[v]);
       ids[kept++] = id;

@@ -44,7 +44,7 @@ void LiveScalpel::tell() {
   std::shared_ptr<const CuttingMoment> next;
   if (wanted_.exchange(false)) next = moment_of(cutting_, moment_.get());
   if (!next && ended == ended_count_ && stopped == stopped_before_) return;
-  const std::lock_guard lock(told_);
+  const std::lock_guard lock(mutex_);
   if (next) moment_ = std::move(next);
   ended_.insert(ended_.end(), cutting_.led().begin() + static_cast<std::ptrdiff_t>(ended_count_),
                 cutting_.led().begin() + static_cast<std::ptrdiff_t>(ended));
@@ -53,18 +53,18 @@ void LiveScalpel::tell() {
 }
 
 std::shared_ptr<const CuttingMoment> LiveScalpel::moment() {
-  const std::lock_guard lock(told_);
+  const std::lock_guard lock(mutex_);
   wanted_ = true;
   return moment_;
 }
 
 std::vector<LiveScalpel::Places> LiveScalpel::ended_cuts() {
-  const std::lock_guard lock(told_);
+  const std::lock_guard lock(mutex_);
   return std::exchange(ended_, {});
 }
 
 std::string LiveScalpel::stopped() {
-  const std::lock_guard lock(told_);
+  const std::lock_guard lock(mutex_);
   return std::exchange(stopped_, {});
 }
 

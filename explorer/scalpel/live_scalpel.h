@@ -38,7 +38,7 @@ class LiveScalpel {
   ScalpelCutting cutting_;
   HapticLoop loop_;
   std::atomic<bool> stop_{false}, wanted_{true};
-  std::mutex told_;  // between the thread that cuts and the one that draws
+  std::mutex mutex_;  // between the thread that cuts and the one that draws
   std::shared_ptr<const CuttingMoment> moment_;
   std::vector<Places> ended_;
   std::string stopped_, stopped_before_;

@@ -52,7 +52,7 @@ TEST(BetweenNodes, CentresOfCellsAreMeansOnTheirSide) {
       for (int k = 0; k < nw; ++k, ++c) {
         const Vec3 at{12 * (i + 0.5) / nu - 6, 10 * (j + 0.5) / nv - 5, 2.5 * (k + 0.5) / nw - 2.5};
         EXPECT_LT(norm(centres.samples[c].uvw - at), 1e-12);
-        EXPECT_EQ(centres.beside_plane[c], j == nv / 2 - 1 || j == nv / 2);
+        EXPECT_EQ(centres.touches_plane[c], j == nv / 2 - 1 || j == nv / 2);
         Vec3 mean;
         for (int corner = 0; corner < 8; ++corner) {
           const Vec3 p{12. * (i + corner / 4) / nu - 6, 10. * (j + corner / 2 % 2) / nv - 5,

@@ -42,10 +42,10 @@ struct ContactTriangle {
 
 /// A stored triangle with its rounded plane n . x = d, which rules out most triangles near a segment. Both
 /// states fit into one cache line.
-class FeltTriangle {
+class StoredTriangle {
  public:
-  FeltTriangle() = default;
-  explicit FeltTriangle(const ContactTriangle& t) : vertex_(t.vertex) {
+  StoredTriangle() = default;
+  explicit StoredTriangle(const ContactTriangle& t) : vertex_(t.vertex) {
     if (t.wall) vertex_[2] |= wall_bit;
   }
   ContactTriangle triangle() const {
@@ -87,6 +87,6 @@ class FeltTriangle {
   std::array<int, 3> vertex_{-1, -1, -1};
   float plane_[4]{};
 };
-static_assert(sizeof(TwoStates<FeltTriangle>) == 64);
+static_assert(sizeof(TwoStates<StoredTriangle>) == 64);
 
 }  // namespace cleft
