@@ -13,10 +13,10 @@ namespace cleft {
 /// Whether the blade pierces a triangle that faces along N: exact for the frame's numbers.
 bool pierces(const CutMesh& mesh, int t, const PathFrame& frame);
 
-/// The first of some triangles that it pierces, or -1.
+/// The first of `triangles` that the blade pierces, or -1.
 int pierced(const CutMesh& mesh, const std::vector<int>& triangles, const PathFrame& frame);
 
-/// Where it pierces a triangle that it does pierce.
+/// The place where the blade pierces a triangle, which it must pierce.
 Vec3 piercing_point(const CutMesh& mesh, int t, const PathFrame& frame);
 
 /// Zero of a function that is at least 0 at lo and negative at hi: secant kept inside its bracket (Illinois).

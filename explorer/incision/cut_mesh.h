@@ -1,9 +1,9 @@
-// A triangle mesh that is cut and refined in place: every change updates its neighbourhood only, is
-// remembered, and can be taken back and made again bit for bit.
+// A triangle mesh that is cut and refined in place: every change affects its neighbourhood only, is logged,
+// and can be undone and redone bit for bit.
 //
 // The walls of a cut are sheets of two layers: every triangle of the left wall has a twin of the right wall
 // on the same three places. An edge of a wall or of a lip is split on both sides at once, so that the lips
-// stay paired vertex by vertex.
+// remain paired vertex by vertex.
 #pragma once
 
 #include <array>
@@ -41,10 +41,10 @@ class CutMesh {
   const Vec3& position(int v) const { return vertices_[v].position; }
   SurfaceMesh surface() const;
 
-  /// The skin triangles around v, counter-clockwise; where the fan is open it begins at its clockwise end.
-  /// Throws InputError where the mesh is not a manifold there.
+  /// The skin triangles around v, counter-clockwise; an open fan begins at its clockwise end. Throws
+  /// InputError if the mesh is not a manifold there.
   std::vector<int> skin_fan(int v) const;
-  /// All triangles around v, walls too.
+  /// All triangles around v, including walls.
   std::vector<int> fan(int v) const { return fan(v, vertices_[v].triangle); }
   std::vector<int> fan(int v, int first) const;  ///< the fan that triangle `first` belongs to
   bool on_boundary(int v) const;                 ///< whether v's skin ends at a free edge
@@ -60,7 +60,7 @@ class CutMesh {
 
   /// The wall triangle of the other side on the same place; -1 for skin.
   int twin(int t) const;
-  /// The twin's corner that lies on corner i, and the twin's edge on edge i.
+  /// The twin's corner at the place of corner i, and the twin's edge at that of edge i.
   static int twin_corner(int i) { return (3 - i) % 3; }
   static int twin_edge(int i) { return 2 - i; }
   /// s and depth of corner i of a wall's triangle, in the parameters of the cut it belongs to.
@@ -68,7 +68,7 @@ class CutMesh {
   double wall_depth_fraction(int t, int i) const;
 
   /// A new vertex at `place` on edge i of t: two triangles become four. On a lip or a wall the same happens
-  /// on the other side. `part` of the way along the edge the walls' s and depth are taken; s may be given.
+  /// on the other side. The walls' s and depth are interpolated at `part` of the edge; s may be given.
   int split_edge(int t, int i, const Vec3& place, std::optional<double> s = std::nullopt);
   /// A new vertex inside t, of the skin: one triangle becomes three.
   int split_face(int t, const Vec3& place);
@@ -87,8 +87,8 @@ class CutMesh {
   void unlink(int t, int from, int to);
   void set_neighbor(int t, int from, int to, int neighbor);
 
-  /// A new cut's number, counted from 0. Takes memory for what the cut will add, so that no step of it has to
-  /// carry the mesh to another place.
+  /// A new cut's number, counted from 0. Reserves memory for the triangles of the cut, so that no step has to
+  /// move the mesh in memory.
   int begin_cut();
 
   struct Checkpoint {
@@ -101,14 +101,14 @@ class CutMesh {
   int euler_change_since(const Checkpoint& checkpoint) const;
   void roll_back(const Checkpoint& to);
 
-  /// Returns what it took back, to be made again.
+  /// Returns the undone changes, for redo().
   Undone undo(const Checkpoint& to);
-  /// To be called on the mesh exactly as undo left it.
+  /// Must be called on the mesh exactly as undo() left it.
   void redo(const Undone& undone);
 
-  /// The numbers of the triangles that were changed, added, or taken away again (those are no longer in
-  /// range) since the last forget_changes(): each once, in no order. A triangle counts as changed when one of
-  /// its corners moved too.
+  /// The numbers of the triangles that were changed, added, or removed (those are no longer in range) since
+  /// the last forget_changes(): each once, in no order. A triangle counts as changed also if one of its
+  /// corners moved.
   const std::vector<int>& changed() const { return changed_; }
   void forget_changes();
 

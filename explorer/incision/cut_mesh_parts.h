@@ -1,4 +1,4 @@
-// What a mesh with cuts is made of: triangles of the skin and of walls, vertices, and sheets of walls.
+// The parts of a mesh with cuts: triangles of the skin and of walls, vertices, and sheets of walls.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace cleft {
 
 enum class Region : std::uint8_t { skin, left_wall, right_wall };
 
-/// What a vertex is for the first cut that reached it. `shared` vertices belong to both sides: the start and
-/// the tip with the columns of wall below them, and the bottom of the walls.
+/// The role of a vertex in the first cut that reached it. `shared` vertices belong to both sides: the start
+/// and the tip with the columns of wall below them, and the bottom of the walls.
 enum class VertexKind : std::uint8_t { skin, left_lip, right_lip, left_wall, right_wall, shared };
 
 inline Side side_of(VertexKind kind) {
@@ -28,25 +28,25 @@ inline Side side_of(VertexKind kind) {
 /// A triangle with its neighbours.
 struct CutTriangle {
   std::array<int, 3> vertex;
-  std::array<int, 3> neighbor;  ///< [i] lies across the edge vertex[i], vertex[i + 1]
+  std::array<int, 3> neighbor;  ///< [i] is the neighbour across the edge vertex[i], vertex[i + 1]
   Region region = Region::skin;
   int sheet = -1;  ///< of a wall
 
   int corner(int v) const { return vertex[0] == v ? 0 : vertex[1] == v ? 1 : vertex[2] == v ? 2 : -1; }
 };
 
-/// A vertex, and what it is for the cut that made it.
+/// A vertex, and its role in the cut that made it.
 struct CutVertex {
   Vec3 position;
-  Vec3 original;  ///< where it stood before it was moved onto the path
-  int triangle;   ///< one of those around it, of the skin where there is one
+  Vec3 original;  ///< its position before it was moved onto the path
+  int triangle;   ///< one of the triangles around it, of the skin if there is one
   VertexKind kind = VertexKind::skin;
   /// Along the path; only lips, walls and ends have one.
   double s = std::numeric_limits<double>::quiet_NaN();
   double depth_fraction = 0;  ///< 0 at the skin, 1 at the bottom of the wall
-  int cut = -1;               ///< the cut that kind, s and depth_fraction speak of
+  int cut = -1;               ///< the cut that kind, s and depth_fraction refer to
   double depth = 0;           ///< below the skin, at rest
-  /// The vertices that it was made between, or hangs from; -1: of the mesh as it was given.
+  /// The vertices between or below which it was made; -1: a vertex of the input.
   std::array<int, 3> parents{-1, -1, -1};
 };
 
@@ -57,7 +57,7 @@ struct CutSheet {
   std::array<double, 3> s, depth_fraction;  ///< of the left triangle's corners, for its own cut
 };
 
-/// Changes that were taken back: what was added, and the values that changed, newest first.
+/// Undone changes: what was added, and the values that changed, newest first.
 struct UndoneChanges {
   std::vector<CutTriangle> triangles;
   std::vector<CutVertex> vertices;

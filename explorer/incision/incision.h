@@ -4,9 +4,9 @@
 //   incision.advance_to(path.length());
 //
 // The blade's path splits one triangle after another; behind the tip every vertex of the path is doubled into
-// two lips, from which walls reach down along -N(s). Start and tip stay closed, so that the mesh stays
-// watertight where it was. Where the path crosses the mesh's boundary the cut is open. Where it meets a wound
-// (of an earlier cut in the same mesh, or its own) it ends in its wall, and goes on from the opposite lip.
+// two lips, from which walls reach down along -N(s). Start and tip remain closed, so that a watertight mesh
+// remains watertight. Where the path crosses the mesh's boundary the cut is open. Where it meets a wound (of
+// an earlier cut in the same mesh, or its own) it ends in its wall, and continues from the opposite lip.
 #pragma once
 
 #include <limits>
@@ -28,17 +28,18 @@ struct IncisionOptions {
   std::optional<double> chord_tolerance;
   /// A vertex nearer to the path than this part of its room is moved onto it.
   double snap = IncisionTolerances::snap;
-  /// How far over the skin beside the path, and beyond its ends, a field may move vertices: the less, the
-  /// sooner the cut begins. 0: nothing will be moved.
+  /// Distance over the skin, from the path and beyond its ends, in which a field may move vertices: a smaller
+  /// one shortens the preparation. 0: no vertex will be moved.
   double reach = std::numeric_limits<double>::infinity();
-  double refined = std::numeric_limits<double>::infinity();  ///< how much of the path, from its start
+  double refined =
+      std::numeric_limits<double>::infinity();  ///< length of the path that is refined, from its start
 };
 
 struct IncisionState;
 
 class Incision {
  public:
-  /// Finds the start, and refines the mesh near the path where asked. Throws InputError where the path has no
+  /// Finds the start, and refines the mesh near the path on request. Throws InputError if the path has no
   /// depth or does not meet the mesh. The first form cuts a mesh of its own, the second one that may have
   /// been cut before; it must outlive the incision, and only the last of several may advance, or be undone.
   Incision(const SurfaceMesh& surface, ScalpelPath path, const IncisionOptions& options = {});
@@ -46,19 +47,19 @@ class Incision {
   Incision(Incision&&) noexcept;
   ~Incision();
 
-  /// Cuts on to arc length s, clamped to the path; backwards is no step at all. Cutting to s in one step or
-  /// in many gives the same mesh. Throws InputError where the path cannot go on (a place that is not a
-  /// manifold, a surface that turns away from N) and leaves the mesh as cut until there.
+  /// Cuts to arc length s, clamped to the path; a smaller s has no effect. Cutting to s in one step or in
+  /// many gives the same mesh. Throws InputError if the path cannot continue (a place that is not a manifold,
+  /// a surface that turns away from N); the mesh then remains cut up to there.
   void advance_to(double s);
 
-  /// For a blade whose way is found as it goes. The path leads to `next` from where it led to before, and
-  /// straight on; triangles there become small, what lies beside it is found again as far as `ahead` beyond,
-  /// and the blade cuts on to `next`. Errors as advance_to; where the direction is none the path stays.
+  /// For a path that is not known in advance: extends the path to `next` and straight beyond it, refines the
+  /// triangles there, searches the surroundings again up to `ahead` beyond, and cuts to `next`. Errors as
+  /// advance_to; if the direction is invalid the path is unchanged.
   void lead_on(const ScalpelPath::Point& next, double ahead);
-  /// Where the path leads by now, beyond which it goes straight on.
+  /// Arc length up to which the path was extended; beyond it the path is straight.
   double led() const { return led_; }
 
-  /// Takes the whole cut back, refinement included, and makes it again: both bit for bit.
+  /// Undoes and redoes the whole cut, including refinement: both bit for bit.
   void undo();
   void redo();
   bool undone() const { return undone_.has_value(); }
@@ -73,22 +74,22 @@ class Incision {
   bool left_mesh() const;
   int original_triangles() const { return original_triangles_; }
   int moved_vertices() const;
-  /// Whether slivers were mended across a bend, which moves the surface by up to chord_tolerance / 10.
+  /// Whether slivers were repaired across a bend, which moves the surface by up to chord_tolerance / 10.
   bool bent() const;
 
-  /// The triangles that the last advance_to, undo or redo has changed, added or taken away (the latter are
-  /// out of range), in no order: what a structure over the mesh's triangles has to take in again.
+  /// The triangles that the last advance_to, undo or redo has changed, added or removed (the latter are out
+  /// of range), in no order: those that a structure over the mesh's triangles must update.
   const std::vector<int>& changed_triangles() const { return mesh_.changed(); }
 
-  /// The path's vertices from start to tip: left and right are the same where the cut is closed. Where the
-  /// path crosses a wound there are two of the same s, one on either lip.
+  /// The path's vertices from start to tip: left and right are equal where the cut is closed. Where the path
+  /// crosses a wound there are two with the same s, one on either lip.
   struct ChainVertex {
     int left, right;
     double s;
   };
   const std::vector<ChainVertex>& chain() const;
 
-  /// How far the straight pieces between the chain's vertices stray from the blade, at most.
+  /// The largest distance of the straight pieces between the chain's vertices from the blade.
   double chord_error() const;
 
  private:

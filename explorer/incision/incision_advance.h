@@ -1,15 +1,15 @@
-// How far to cut: the steps of the path up to where the blade is. Inside explorer/incision only.
+// The steps of a cut up to the position of the blade. Inside explorer/incision only.
 #pragma once
 
 #include "explorer/incision/incision_state.h"
 
 namespace cleft {
 
-/// Cuts on to arc length s, clamped to the path, as Incision::advance_to.
+/// Cuts to arc length s, clamped to the path, as Incision::advance_to.
 void cut_on_to(IncisionState& cut, double s);
 
-/// Cuts the first segment and takes it back. The search for the start has driven everything else out of the
-/// caches: so the blade finds there what its first steps read and write, instead of waiting for it.
+/// Cuts the first segment and undoes it. The search for the start has evicted all other data from the caches;
+/// this loads the data of the blade's first steps again.
 void rehearse(IncisionState& cut);
 
 }  // namespace cleft

@@ -1,5 +1,5 @@
 // One step of the cut changes the mesh: a vertex of the path is made there, walls are sewn in below it, and
-// slivers next to it are mended. Inside explorer/incision only.
+// slivers next to it are repaired. Inside explorer/incision only.
 #pragma once
 
 #include "explorer/incision/incision_state.h"
@@ -9,17 +9,17 @@ namespace cleft {
 /// Makes the step's vertex; returns it.
 int realise(IncisionState& cut, const PathStep& step);
 
-/// The chain goes on to vertex `next` at s: walls open behind it.
+/// Extends the chain to vertex `next` at s: walls open behind it.
 void grow(IncisionState& cut, int next, double s);
 
-/// Mends slivers among the triangles changed since then. Throws InputError where one without area is left.
+/// Repairs slivers among the triangles changed since then. Throws InputError if one without area remains.
 void mend(IncisionState& cut, const CutMesh::Checkpoint& since);
 
-/// All of a step. Throws InputError where the mesh would become another surface.
+/// All of a step. Throws InputError if the topology of the mesh would change.
 void take(IncisionState& cut, const PathStep& step);
 
-/// Makes triangles smaller where the step would end in one much larger than itself. Returns whether it has,
-/// so that the step has to be found again.
+/// Refines triangles if the step would end in one much larger than itself. Returns whether it did, so that
+/// the step must be searched again.
 bool made_room(IncisionState& cut, const PathStep& step);
 
 }  // namespace cleft

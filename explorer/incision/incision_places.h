@@ -11,8 +11,8 @@ namespace cleft {
 /// A place in a triangle: at one of its vertices, on one of its edges, or inside it.
 PathStep placed(const IncisionState& cut, int triangle, const Vec3& place, double s);
 
-/// At a vertex of the edge that is crossed, where the path passes the vertex so closely; no later than at
-/// `to` but where the vertex is near.
+/// At a vertex of the edge that is crossed, if the path passes the vertex closely enough; no later than at
+/// `to`, unless the vertex is near.
 std::optional<PathStep> snapped(const IncisionState& cut, const PathStep& crossing, double to);
 
 }  // namespace cleft

@@ -7,8 +7,8 @@
 
 namespace cleft {
 
-/// Where the path begins: on the skin at C(0), or where it enters over the boundary. Throws InputError where
-/// it does not meet the mesh.
+/// Where the path begins: on the skin at C(0), or where it enters over the boundary. Throws InputError if it
+/// does not meet the mesh.
 PathStep find_start(const IncisionState& cut);
 
 /// The skin's triangles at the start.

@@ -1,6 +1,6 @@
-// What the parts of a growing cut share: the mesh, the path, the lengths to keep, and how far the cut has
-// come. incision_places decides where vertices of the path are put, incision_walk how the path goes on,
-// incision_change changes the mesh, incision_advance repeats these up to where the blade is. Inside
+// The state that the parts of a growing cut share: the mesh, the path, lengths, and the progress of the cut.
+// incision_places decides where vertices of the path are put, incision_walk how the path continues,
+// incision_change changes the mesh, incision_advance repeats these up to the position of the blade. Inside
 // explorer/incision only.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace cleft {
 
-/// How the path goes on from the last vertex of the chain.
+/// The continuation of the path from the last vertex of the chain.
 struct PathStep {
   enum Kind { vertex, edge, face } kind;
   int triangle;  ///< edge, face
@@ -27,17 +27,17 @@ struct PathStep {
 /// Where the piece of the path between two wounds that the tip is in begins.
 enum class PathEnd { closed, boundary, wound };
 
-/// What the next step of a cut starts from; restored where a step is taken back.
+/// The state before the next step of a cut, which is restored when a step is undone.
 struct IncisionTip {
   PathEnd start = PathEnd::closed;
   std::size_t piece = 0;         ///< the first vertex of the path's piece between two wounds, in the chain
   bool pending = false;          ///< the piece's first segment is not sewn in yet: both its ends are closed
   bool arrived = false;          ///< the tip's vertex is on a wound
-  int from = -1;                 ///< where the path goes on from that wound
+  int from = -1;                 ///< where the path continues from that wound
   std::optional<Column> column;  ///< below the tip
   std::vector<int> below;        ///< below the wound where the path came to it
-  /// Triangles that were left worse than asked, and how often they were tried: a step next to them may make
-  /// it possible to mend them.
+  /// Triangles that remained below the required ratio, and the number of attempts: a step next to them may
+  /// make a repair possible.
   std::vector<std::pair<int, int>> poor;
   bool left_mesh = false;
 };
@@ -61,12 +61,12 @@ struct IncisionState {
   std::optional<PathStep> next;  ///< found already, not made yet
 
   double tip_s() const { return chain.back().s; }
-  /// The vertex from which the path goes on: the chain's last, or behind a wound that of the opposite lip.
+  /// The vertex from which the path continues: the chain's last, or behind a wound that of the opposite lip.
   int tip_vertex() const { return tip.from >= 0 ? tip.from : chain.back().left; }
   /// From the skin to the bottom of the cut.
   Vec3 down(double s) const { return -path.depth(s) * path.at(s).outward; }
 
-  /// What is needed to take steps back.
+  /// Data for undoing steps.
   struct Before {
     CutMesh::Checkpoint mesh;
     std::size_t chain;
@@ -76,8 +76,8 @@ struct IncisionState {
   Before before() const;
   void roll_back(const Before& to);
 
-  /// The vertex at the tip is provisional: it is taken back before the blade goes on, so that the places
-  /// where the blade stopped leave no trace.
+  /// The vertex at the tip is provisional: it is undone before the blade continues, so that the places where
+  /// the blade stopped leave no trace.
   std::optional<Before> provisional;
   void drop_provisional();
 };

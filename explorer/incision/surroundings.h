@@ -1,5 +1,5 @@
-// How the skin lies about a path before it is cut: what the incision parametrisation volume needs of the
-// surface. It is found once, before the blade begins, so that no step of the cut changes it.
+// The skin around a path before it is cut: the data of the surface for the incision parametrisation volume.
+// They are computed once, before the blade starts, so that no step of the cut changes them.
 #pragma once
 
 #include <vector>
@@ -14,37 +14,37 @@ class Surroundings {
  public:
   Surroundings() = default;  ///< of nothing: no vertex is reached
 
-  /// Follows the path's trace over the skin from one of `seeds`, triangles at the path's start, and from
-  /// there the skin beside it and `reach` beyond its ends, as far as `reach` over the surface. Wounds that
-  /// are there already are closed at rest: they are no obstacle.
+  /// Follows the path's trace over the skin from one of `seeds`, triangles at the path's start, and searches
+  /// the skin next to it and beyond its ends up to `reach` over the surface. Existing wounds are closed at
+  /// rest and no obstacle.
   Surroundings(const CutMesh& mesh, const ScalpelPath& path, const std::vector<int>& seeds, double reach);
 
-  /// For a blade whose way is found as it goes: the path, until `from` as it was, leads elsewhere from there,
-  /// and passes the triangle `seed` next. What lies beside the path from there to
-  /// `from` + `ahead` is found again, and nothing else is looked at.
+  /// For a path that is not known in advance: the path has changed from `from` on, and passes the triangle
+  /// `seed` there. Searches again the skin next to the path from `from` to `from` + `ahead`, and nothing
+  /// else.
   void lead_on(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed);
 
-  /// Where the path's trace passes a triangle: a piece of it, about s.
+  /// A piece of the path's trace, in one triangle, around s.
   struct Station {
-    double s, length;  ///< its middle, and how long it is along the path
+    double s, length;  ///< its middle, and its length along the path
     double height;     ///< of the skin over C(s)
     Vec3 normal;       ///< unit, of the skin
   };
   const std::vector<Station>& stations() const { return stations_; }  ///< s increases
 
-  /// How a vertex lies beside the path. The way over the surface, measured across the path, is its straight
-  /// distance |v| and `detour`.
+  /// The position of a vertex relative to the path. Its distance over the surface, measured across the path,
+  /// is the straight distance |v| plus `detour`.
   struct Label {
     double detour = 0;
-    float s = 0;             ///< of the path's place beside it
-    Side side = Side::both;  ///< from which it is reached; both: it lies in the blade's way
+    float s = 0;             ///< of the nearest place of the path
+    Side side = Side::both;  ///< from which it is reached; both: it is on the path of the blade
     bool reached = false;
   };
-  /// Of the vertices that were there before the cut, or when the path was led on.
+  /// Labels of the vertices that existed before the cut, or when the path was extended.
   const std::vector<Label>& labels() const { return labels_; }
-  /// The vertices whose labels the last lead_on() has made or taken away: each once, sorted.
+  /// The vertices whose labels the last extension of the path has made or removed: each once, sorted.
   const std::vector<int>& relabelled() const { return relabelled_; }
-  /// The label of a vertex that came later: the mean of those it was made between.
+  /// The label of a later vertex: the mean of those of its parents.
   static Label of_parents(const CutMesh& mesh, int vertex, const std::vector<Label>& labels);
   double reach() const { return reach_; }
 
