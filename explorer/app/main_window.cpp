@@ -7,7 +7,6 @@
 #include <QMimeData>
 #include <QStatusBar>
 #include <QVBoxLayout>
-#include <filesystem>
 
 #include "base/error.h"
 #include "explorer/app/case_table.h"
@@ -16,6 +15,7 @@
 #include "explorer/app/parameter_panel.h"
 #include "explorer/app/plots.h"
 #include "explorer/app/time_bar.h"
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/session/command_table.h"
 
 namespace cleft {
@@ -191,8 +191,8 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 void MainWindow::open_any(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  const bool mesh = ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".vtp";
+  const std::string ending = ending_of(path);
+  const bool mesh = is_mesh(path, MeshKind::surface);
   const bool state = ending == ".json" || ending == ".png";
   say((mesh ? "mesh " : state ? "load " : ending == ".csv" ? "cut-file " : "open ") + quoted(path));
 }

@@ -6,6 +6,7 @@
 #include <QSettings>
 #include <QVBoxLayout>
 
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/session/command_table.h"
 
 namespace cleft {
@@ -41,10 +42,14 @@ WelcomePage::WelcomePage(Say say, const std::function<void()>& choose_folder,
   open_study->setObjectName("open_study");
   auto* open_file = new QPushButton("Open a study.dffd or case.dffd ...");
   open_file->setObjectName("open_file");
+  const QString meshes = QString::fromStdString(mesh_endings(MeshKind::surface, MeshUse::read));
   auto* hint = new QLabel(
       "No study yet? <code>examples/demo.sh</code> makes one; it is then in "
-      "<code>out/demo/study</code>.<br>Studies, field files, meshes (.stl .obj .ply .vtp) and "
+      "<code>out/demo/study</code>.<br>Studies, field files, meshes (" +
+      meshes +
+      ") and "
       "pictures taken here can be dropped onto this window. <b>F1</b> shows all commands.");
+  hint->setObjectName("hint");
   hint->setWordWrap(true);
   recent_ = new QListWidget;
   recent_->setObjectName("recent");

@@ -11,6 +11,7 @@
 #include "explorer/commands/cut_figures.h"
 #include "explorer/commands/cut_volume.h"
 #include "explorer/commands/tension_options.h"
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/path_file.h"
@@ -31,7 +32,7 @@ struct Options {
   TensionOptions tension;
 };
 
-bool is_volume(const std::string& path) { return path.ends_with(".vtu"); }
+bool is_volume(const std::string& path) { return is_mesh(path, MeshKind::volume); }
 
 /// A surface, or a volume with its surface.
 struct Skin {
@@ -64,9 +65,12 @@ std::vector<PointArray> point_arrays(const std::vector<const Incision*>& cuts, c
 
 void check_files(const Options& options) {
   if (is_volume(options.mesh) != is_volume(options.out))
-    throw InputError("--mesh " + options.mesh + " and --out " + options.out +
-                     ": a mesh of volume, .vtu, becomes a .vtu, and a surface a .vtp, .obj or .stl");
-  if (!is_volume(options.out)) check_mesh_ending(options.out);  // reports a bad name before the work
+    throw InputError("--mesh " + options.mesh + " and --out " + options.out + ": a mesh of volume, " +
+                     mesh_endings(MeshKind::volume, MeshUse::read) + ", becomes one, " +
+                     mesh_endings(MeshKind::volume, MeshUse::write) + ", and a surface a surface, " +
+                     mesh_endings(MeshKind::surface, MeshUse::write));
+  if (!is_volume(options.out))
+    surface_format(options.out, MeshUse::write);  // reports a bad name before the work
   std::vector<std::string> inputs = options.paths;
   inputs.insert(inputs.end(), {options.mesh, options.field});
   refuse_to_overwrite(options.out, inputs);
@@ -178,7 +182,9 @@ int main(int argc, char** argv) {
   CLI::App app("Cuts a mesh along paths, one after the other, and opens the cuts as a field says.",
                "cleft cut");
   Options o;
-  app.add_option("--mesh", o.mesh, "surface mesh: .stl .obj .ply .vtp; or a mesh of volume: .vtu")
+  app.add_option("--mesh", o.mesh,
+                 "surface mesh: " + mesh_endings(MeshKind::surface, MeshUse::read) +
+                     "; or a mesh of volume: " + mesh_endings(MeshKind::volume, MeshUse::read))
       ->required();
   app.add_option(
          "--path", o.paths,
@@ -191,7 +197,11 @@ int main(int argc, char** argv) {
                      "prestress, for a tension that turns against the path");
   auto* rest = app.add_flag("--rest", o.rest, "leave the cut closed");
   field->excludes(rest);
-  app.add_option("--out", o.out, "the cut mesh: .vtp (with point arrays) .obj .stl, or .vtu")->required();
+  app.add_option("--out", o.out,
+                 "the cut mesh: " + mesh_endings(MeshKind::surface, MeshUse::write) + ", or of volume " +
+                     mesh_endings(MeshKind::volume, MeshUse::write) +
+                     "; with point arrays: " + mesh_endings_with_arrays())
+      ->required();
   app.add_option("--depth", o.depth, "depth of the cut, mm [the path's column, else the field's]")
       ->check(above(0));
   app.add_option("--progress", o.progress, "how far the blade of the last cut has come, mm [the whole path]")

@@ -18,30 +18,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_checks.h"
 #include "explorer/io/polygons.h"
 
 namespace cleft {
 
 namespace {
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 /// VTK's filters trust the corners that a file names.
 void check_corners(const std::string& path, vtkPolyData* data) {
@@ -80,20 +69,6 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   return clean->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> read_any(const std::string& path, int& merged) {
-  const std::string ending = ending_of(path);
-  const bool known = ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".vtp";
-  if (known && !std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
-  if (ending == ".ply") check_ply(path);
-  if (ending == ".stl") check_stl(path);
-  if (ending == ".obj") check_obj(path);
-  if (ending == ".stl") return read_with<vtkSTLReader>(path, merged);
-  if (ending == ".obj") return read_with<vtkOBJReader>(path, merged);
-  if (ending == ".ply") return read_with<vtkPLYReader>(path, merged);
-  if (ending == ".vtp") return read_with<vtkXMLPolyDataReader>(path, merged);
-  throw InputError(path + ": unknown ending '" + ending + "' of a mesh; known are .stl .obj .ply .vtp");
-}
-
 vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -120,6 +95,56 @@ void write_with(const vtkNew<Writer>& writer, vtkPolyData* data, const std::stri
     throw std::runtime_error(path + ": could not be written: " + writing.reason());
   file.commit();
 }
+
+void write_stl(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>&) {
+  vtkNew<vtkSTLWriter> writer;
+  writer->SetFileTypeToBinary();
+  write_with(writer, to_vtk(mesh, {}), path);
+}
+
+void write_obj(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>&) {
+  write_with(vtkNew<vtkOBJWriter>(), to_vtk(mesh, {}), path);
+}
+
+void write_vtp(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetDataModeToBinary();  // raw appended data are no XML: ParaView with a strict parser cannot read
+                                  // them
+  write_with(writer, to_vtk(mesh, arrays), path);
+}
+
+/// What reads and writes a row of the table of formats.
+struct SurfaceFile {
+  std::string_view ending;
+  void (*check)(const std::string& path);  ///< what VTK's reader would crash on; null: it reports all errors
+  vtkSmartPointer<vtkPolyData> (*read)(const std::string& path, int& merged);
+  void (*write)(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays);
+};
+
+constexpr SurfaceFile surface_files[] = {
+    {".stl", check_stl, read_with<vtkSTLReader>, write_stl},
+    {".obj", check_obj, read_with<vtkOBJReader>, write_obj},
+    {".ply", check_ply, read_with<vtkPLYReader>, nullptr},
+    {".vtp", nullptr, read_with<vtkXMLPolyDataReader>, write_vtp},
+};
+
+constexpr const SurfaceFile* file_of(std::string_view ending) {
+  for (const SurfaceFile& file : surface_files)
+    if (file.ending == ending) return &file;
+  return nullptr;
+}
+
+constexpr bool every_surface_has_its_files() {
+  std::size_t surfaces = 0;
+  for (const MeshFormat& format : mesh_formats) {
+    if (format.kind != MeshKind::surface) continue;
+    const SurfaceFile* file = file_of(format.ending);
+    if (!file || !file->read || (file->write != nullptr) != format.written) return false;
+    ++surfaces;
+  }
+  return surfaces == std::size(surface_files);
+}
+static_assert(every_surface_has_its_files(), "a surface of mesh_formats.h lacks its row in surface_files");
 
 }  // namespace
 
@@ -166,34 +191,18 @@ void add_arrays(const std::vector<PointArray>& arrays, vtkPointData* to, std::si
 }
 
 SurfaceMesh read_mesh(const std::string& path, MeshReport* told) {
+  const SurfaceFile& file = *file_of(surface_format(path, MeshUse::read).ending);
+  if (!std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
+  if (file.check) file.check(path);
   MeshReport report;
-  const auto data = read_any(path, report.merged_points);
+  const auto data = file.read(path, report.merged_points);
   SurfaceMesh mesh = mesh_of_polygons(data, path, &report);
   if (told) *told = report;
   return mesh;
 }
 
-void check_mesh_ending(const std::string& path) {
-  const std::string ending = ending_of(path);
-  if (ending != ".vtp" && ending != ".obj" && ending != ".stl")
-    throw InputError(path + ": unknown ending '" + ending + "' of a mesh to write; known are .vtp .obj .stl");
-}
-
 void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
-  check_mesh_ending(path);
-  const std::string ending = ending_of(path);
-  if (ending == ".vtp") {
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetDataModeToBinary();  // raw appended data are no XML: ParaView with a strict parser cannot read
-                                    // them
-    write_with(writer, to_vtk(mesh, arrays), path);
-  } else if (ending == ".obj") {
-    write_with(vtkNew<vtkOBJWriter>(), to_vtk(mesh, {}), path);
-  } else {
-    vtkNew<vtkSTLWriter> writer;
-    writer->SetFileTypeToBinary();
-    write_with(writer, to_vtk(mesh, {}), path);
-  }
+  file_of(surface_format(path, MeshUse::write).ending)->write(path, mesh, arrays);
 }
 
 }  // namespace cleft

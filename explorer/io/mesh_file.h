@@ -1,4 +1,5 @@
-// Surface meshes from and to files, through VTK. Its own types stay out of here.
+// Surface meshes from and to files, through VTK, in the formats of explorer/io/formats/mesh_formats.h. VTK's
+// own types stay out of here.
 #pragma once
 
 #include <string>
@@ -8,10 +9,10 @@
 
 namespace cleft {
 
-/// Reads .stl, .obj, .ply or .vtp: polygons become triangles, points at the same place one point, and
-/// triangles without area, duplicate triangles or points without triangles are dropped, and triangles that
-/// disagree with most of their component are turned over; `report` tells, where given. Throws InputError for
-/// another ending and FileError for a file that is missing, damaged or has no triangles.
+/// Reads a surface of any format of the table: polygons become triangles, points at the same place one point,
+/// and triangles without area, duplicate triangles or points without triangles are dropped, and triangles
+/// that disagree with most of their component are turned over; `report` tells, where given. Throws InputError
+/// for another ending and FileError for a file that is missing, damaged or has no triangles.
 SurfaceMesh read_mesh(const std::string& path, MeshReport* report = nullptr);
 
 /// Numbers that belong to the points of a mesh.
@@ -21,10 +22,8 @@ struct PointArray {
   std::vector<double> values;  ///< components for each point
 };
 
-/// Throws InputError where write_mesh knows no format for the ending: to be asked before long work.
-void check_mesh_ending(const std::string& path);
-
-/// Writes .vtp, .obj or .stl by the ending of `path`, whole or not at all. Only .vtp keeps the arrays.
+/// Writes the format of the ending of `path`, whole or not at all; the table says which of them keep the
+/// arrays. Throws InputError for an ending that Cleft does not write: ask surface_format() before long work.
 void write_mesh(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays = {});
 
 }  // namespace cleft

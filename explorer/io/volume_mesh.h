@@ -1,5 +1,5 @@
-// A mesh of volume cells from and to .vtu, through VTK, and its cells split at a cut. VTK's types stay out of
-// here.
+// A mesh of volume cells from and to a .vtu file, through VTK, and its cells split at a cut. VTK's types stay
+// out of here.
 #pragma once
 
 #include <functional>

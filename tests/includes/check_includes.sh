@@ -29,11 +29,12 @@ explorer/study:base|base/h5|params|solver/snapshot|encoder/field|encoder/field/f
 explorer/wound:base|base/h5|encoder/field|encoder/field/file|explorer/incision|explorer/study
 explorer/scalpel:base|encoder/field|haptic|haptic/devices|explorer/incision|explorer/wound
 explorer/scene:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel
-explorer/session:base|params|params/run|encoder/field|explorer/incision|explorer/study|explorer/wound|explorer/scene
-explorer/io:base|explorer/incision|solver/snapshot
+explorer/session:base|params|params/run|encoder/field|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scene|explorer/io/formats
+explorer/io:base|explorer/incision|explorer/io/formats|solver/snapshot
+explorer/io/formats:base
 explorer/view:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|explorer/scene|explorer/session|explorer/io
-explorer/app:base|params|encoder/field|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|explorer/scene|explorer/session|explorer/view
-explorer/commands:base|base/command|base/h5|params|params/run|encoder/field|encoder/field/file|haptic|haptic/devices|solver/snapshot|explorer/[a-z]+
+explorer/app:base|params|encoder/field|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|explorer/scene|explorer/session|explorer/io/formats|explorer/view
+explorer/commands:base|base/command|base/h5|params|params/run|encoder/field|encoder/field/file|haptic|haptic/devices|solver/snapshot|explorer/[a-z]+|explorer/io/formats
 tradeoff/rivals:base|encoder|encoder/field|solver/snapshot
 tradeoff/replays:base|encoder/field|solver/snapshot|explorer/incision|explorer/wound
 tradeoff:base|base/command|params|params/run|solver/snapshot|encoder|encoder/field|encoder/field/file|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|tradeoff/rivals|tradeoff/replays
@@ -60,7 +61,7 @@ forbid() {
 }
 forbid "deal.II or Trilinos" 'deal\.II/|Epetra|ml_|Teuchos|dmumps' base params solver/snapshot encoder haptic explorer tradeoff cli examples
 forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer tradeoff cli examples
-except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session tradeoff cli
+except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session explorer/io/formats tradeoff cli
 forbid "Qt" 'Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session explorer/io explorer/view tradeoff cli examples
 forbid "Eigen" 'Eigen/' base params encoder/field haptic
 forbid "HDF5" 'hdf5|H5' params solver encoder haptic explorer tradeoff cli examples
