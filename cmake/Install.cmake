@@ -12,6 +12,9 @@ foreach(folder base base/h5 encoder/field encoder/field/file encoder/field/param
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cleft/${folder})
 endforeach()
 
+# The C header of device plug-ins; they are found in lib/cleft/devices next to bin, whatever the libraries' folder is called.
+install(FILES ${PROJECT_SOURCE_DIR}/haptic/devices/plugin.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cleft/haptic/devices)
+
 configure_package_config_file(cmake/CleftConfig.cmake.in ${PROJECT_BINARY_DIR}/CleftConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/CleftConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/CleftConfig.cmake ${PROJECT_BINARY_DIR}/CleftConfigVersion.cmake DESTINATION ${package_folder})

@@ -2,6 +2,8 @@
 // a TripleBuffer: read() and command() are called from the haptic thread, and neither wait nor allocate.
 #pragma once
 
+#include <limits>
+
 #include "haptic/force_parameters.h"
 #include "haptic/pose.h"
 
@@ -16,6 +18,8 @@ class Device {
   /// The force from now on, N, never above limits().max_force.
   virtual void command(const Vec3& force) = 0;
   virtual DeviceLimits limits() const = 0;
+  /// s until its motion ends; infinite where a hand moves it.
+  virtual double duration() const { return std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace cleft

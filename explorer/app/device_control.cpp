@@ -40,21 +40,20 @@ DeviceControl::DeviceControl(Session& session, SceneWidget& scene, Say say,
 DeviceControl::~DeviceControl() { scalpel_.reset(); }
 
 std::unique_ptr<Device> DeviceControl::make(const std::string& name, const std::string& file) {
-  if (name == "mouse") return std::make_unique<Mouse>();
+  const DeviceKind kind = find_device(name);
+  if (kind.input && file.empty())
+    throw InputError("the device " + name + " plays a file: say device " + name + " " + kind.input->argument);
   DeviceRequest request;
   request.start = pose_above(*session_.mesh(), 1);
   request.trajectory = file;
-  if (name == "hand") {
-    if (file.empty()) throw InputError("the simulated hand follows a path: say device hand PATH.csv");
+  if (kind.input == &path_input) {
     const auto field = session_.field();
     const double scale = session_.state().scale;
     const ScalpelPath path =
         read_path(file, field ? 0 : session_.depth_of_case(session_.state().shown), scale, field.get());
     request.script = hand_along(path, scale, hand_speed, request.hand, forces(field));
   }
-  if (name == "recorded" && file.empty())
-    throw InputError("the recorded device plays a file: say device recorded POSES.csv");
-  return make_device(name, request);
+  return kind.make(request);
 }
 
 void DeviceControl::take(const std::string& name, const std::string& file) {
@@ -64,12 +63,13 @@ void DeviceControl::take(const std::string& name, const std::string& file) {
   device_ = std::move(device);
   name_ = name;
   present_ = true;
-  if (name == "mouse")
+  const bool pointer = dynamic_cast<Mouse*>(device_.get()) != nullptr;
+  if (pointer)
     widget_.pointed = [this](const std::optional<WoundView::Place>& place, bool pressed) {
       if (place) place_ = place;
       pressed_ = pressed;
     };
-  widget_.setMouseTracking(name == "mouse");
+  widget_.setMouseTracking(pointer);
   widget_.keep_camera();
   begin();
 }
@@ -141,7 +141,8 @@ void DeviceControl::say_cuts(const std::vector<LiveScalpel::Places>& cuts) {
 /// `again`: what was told has been wiped away by a line.
 void DeviceControl::watch_presence(bool again) {
   const bool changed = state_.pose.present != present_;
-  if (state_.tick == 0 || name_ == "mouse" || !(changed || (again && !present_))) return;
+  const bool pointer = dynamic_cast<Mouse*>(device_.get()) != nullptr;
+  if (state_.tick == 0 || pointer || !(changed || (again && !present_))) return;
   present_ = state_.pose.present;
   tell_(present_ ? "" : "the " + name_ + " is gone: nothing is cut until it is plugged in again");
 }

@@ -17,6 +17,7 @@
 #include "explorer/app/panel.h"
 #include "explorer/app/scene_widget.h"
 #include "explorer/app/welcome_page.h"
+#include "haptic/devices/device_kind.h"
 
 namespace cleft {
 
@@ -42,6 +43,8 @@ class MainWindow : public QMainWindow {
   void make_actions();
   void make_tools();
   void make_device_menu(QMenu* menu);
+  void add_device(const DeviceKind& kind);
+  void add_plugins();
   void make_closer_actions(QMenu* menu);
   void make_detail_menu(QMenu* menu);
   void pick(const std::string& command);

@@ -8,15 +8,15 @@
 #include <QStyle>
 #include <QToolBar>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "explorer/app/main_window.h"
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/session/command_table.h"
+#include "haptic/devices/list.h"
+#include "haptic/devices/plugins.h"
 
 namespace cleft {
-
-namespace {
-constexpr const char* meshes = "Surface meshes (*.stl *.obj *.ply *.vtp)";
-}
 
 QAction* MainWindow::add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
                                 std::function<void()> run) {
@@ -32,8 +32,9 @@ void MainWindow::make_actions() {
   const auto line = [this](const std::string& text) { return [this, text] { say(text); }; };
   QMenu* file = menuBar()->addMenu("&File");
   add_action(file, "open", "&Open a study ...", QKeySequence("Ctrl+O"), [this] { choose_study(); });
-  add_action(file, "open_mesh", "Open a &mesh to cut ...", QKeySequence("Ctrl+M"),
-             [this] { choose("Open a mesh", meshes, "mesh", false); });
+  add_action(file, "open_mesh", "Open a &mesh to cut ...", QKeySequence("Ctrl+M"), [this] {
+    choose("Open a mesh", QString::fromStdString(surface_filter(MeshUse::read)), "mesh", false);
+  });
   add_action(file, "open_path", "Cut along a &path file ...", {},
              [this] { choose("Open a path", "Paths (*.csv)", "cut-file", false); });
   recent_ = file->addMenu("&Recent");
@@ -53,8 +54,9 @@ void MainWindow::make_actions() {
   });
   add_action(file, "movie", "M&ovie ...", {},
              [this] { choose("Save a movie", "Movies (*.ogv)", "movie", true); });
-  add_action(file, "export", "&Export the cut mesh ...", {},
-             [this] { choose("Export the mesh", "Surface meshes (*.vtp *.stl *.obj)", "export", true); });
+  add_action(file, "export", "&Export the cut mesh ...", {}, [this] {
+    choose("Export the mesh", QString::fromStdString(surface_filter(MeshUse::write)), "export", true);
+  });
   add_action(file, "record", "&Write the commands so far ...", {},
              [this] { choose("Write the commands", "Scripts (*.txt)", "record", true); });
   file->addSeparator();
@@ -143,21 +145,39 @@ void MainWindow::pick(const std::string& command) {
 
 void MainWindow::make_device_menu(QMenu* menu) {
   device_menu_ = menu;
-  const auto device = [this, menu](const char* name, const char* text, const char* filter) {
-    add_action(menu, (std::string("device_") + name).c_str(), text, {}, [this, name, text, filter] {
-      if (*filter)
-        choose(text, filter, std::string("device ") + name, false);
-      else
-        say(std::string("device ") + name);
-    })->setCheckable(true);
-  };
-  device("off", "&None", "");
-  device("mouse", "&Mouse: press to sink the blade", "");
-  device("hand", "Simulated &hand along a path ...", "Paths (*.csv)");
-  device("recorded", "&Recording ...", "Recordings (*.csv)");
-  device("spacemouse", "&SpaceMouse", "");
-  device("gamepad", "&Gamepad", "");
-  device("phantom", "&PHANToM or Touch", "");
+  menu->setToolTipsVisible(true);
+  add_action(menu, "device_off", "&None", {}, [this] { say("device off"); })->setCheckable(true);
+  for (const DeviceKind& kind : built_in_devices()) add_device(kind);
+  // Plug-ins are code of others: they are loaded when somebody looks for them, and not with the window.
+  connect(menu, &QMenu::aboutToShow, this, [this] { add_plugins(); });
+}
+
+void MainWindow::add_device(const DeviceKind& kind) {
+  const QString title = QString::fromStdString(kind.title);
+  QAction* action = add_action(device_menu_, ("device_" + kind.name).c_str(), title, {}, [this, kind, title] {
+    if (kind.input)
+      choose(title, kind.input->filter, "device " + kind.name, false);
+    else
+      say("device " + kind.name);
+  });
+  action->setCheckable(true);
+  action->setToolTip(QString::fromStdString(kind.help));
+}
+
+/// Those that cannot be used are there, too, with the reason.
+void MainWindow::add_plugins() {
+  for (const std::string& file : plugin_files()) {
+    const std::string name = "device_" + plugin_name(file);
+    if (findChild<QAction*>(QString::fromStdString(name))) continue;
+    try {
+      add_device(plugin_device(file));
+    } catch (const InputError& e) {
+      QAction* action = add_action(device_menu_, name.c_str(), QString::fromStdString(file), {}, [] {});
+      action->setEnabled(false);
+      action->setToolTip(e.what());
+    }
+  }
+  follow_tools();
 }
 
 void MainWindow::make_tools() {

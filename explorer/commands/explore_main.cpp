@@ -8,6 +8,7 @@
 #include "explorer/session/command_table.h"
 #include "explorer/session/session.h"
 #include "explorer/view/picture.h"
+#include "haptic/devices/list.h"
 
 using namespace cleft;
 
@@ -37,7 +38,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--state", o.state, "Begin with a saved session: .json, or a .png written here");
   app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
   app.add_option("--device", o.device,
-                 "Cut the mesh in the window with mouse, hand, recorded, spacemouse, gamepad or phantom")
+                 "Cut the mesh in the window with a haptic device: " + device_choices(true))
       ->needs(mesh);
   app.add_option("--device-file", o.device_file, "The hand's path, or the recording that is played");
   app.add_option("--case", o.shown_case, "The case to begin with, from 1")->capture_default_str();

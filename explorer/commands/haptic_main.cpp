@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iostream>
 #include <optional>
 #include <thread>
 
@@ -11,6 +12,7 @@
 #include "base/text.h"
 #include "explorer/commands/cut_figures.h"
 #include "explorer/commands/tension_options.h"
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/scalpel/hand_script.h"
 #include "explorer/scalpel/scalpel_cutting.h"
@@ -28,7 +30,7 @@ namespace {
 using namespace cleft;
 
 struct Options {
-  std::string mesh, path, field, snapshot, device = "hand", trajectory, record;
+  std::string mesh, path, field, snapshot, device = default_device(), trajectory, record;
   double scale = 1, rate = 1000, speed = 30;
   double depth = 0, seconds = 0, stiffness = 0;  // 0: not given
   double delay = 0;                              // ms
@@ -106,7 +108,16 @@ struct Beside {
   }
 };
 
+/// Throws InputError for a device that only the explorer's window has.
+DeviceKind device_of(const Options& o) {
+  DeviceKind kind = find_device(o.device);
+  if (!kind.in_window) return kind;
+  throw InputError("--device " + o.device + ": it needs the window of cleft explore --device " + o.device +
+                   "; here there are " + device_choices(false));
+}
+
 void haptic(const Options& o) {
+  const DeviceKind kind = device_of(o);
   refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.snapshot, o.trajectory});
   std::optional<OutputFile> probe;
   if (!o.record.empty()) probe.emplace(o.record);  // reports a bad name before the work
@@ -125,10 +136,9 @@ void haptic(const Options& o) {
   request.hand.period = 1 / o.rate;
   request.start = path ? pose_over(*path, o.scale, 0, 10) : pose_above(mesh, o.scale);
   if (path) request.script = hand_along(*path, o.scale, o.speed, request.hand, force);
-  const std::unique_ptr<Device> device = make_device(o.device, request);
-  double seconds = o.seconds > 0 ? o.seconds : 10;
-  if (o.seconds <= 0 && o.device == "hand") seconds = request.script.back().time;
-  if (o.seconds <= 0 && o.device == "recorded") seconds = static_cast<Recorded&>(*device).duration();
+  const std::unique_ptr<Device> device = kind.make(request);
+  const double moving = std::isfinite(device->duration()) ? device->duration() : 10;
+  const double seconds = o.seconds > 0 ? o.seconds : moving;
 
   ScalpelCutting cutting(mesh, {path, {}, fields, o.scale, o.depth});
   LoopOptions options;
@@ -168,9 +178,17 @@ void haptic(const Options& o) {
 int main(int argc, char** argv) {
   CLI::App app("Feels and cuts a mesh with a haptic device, and reports what the loop did.", "cleft haptic");
   Options o;
-  app.add_option("--mesh", o.mesh, "surface mesh: .stl .obj .ply .vtp")->required();
-  app.add_option("--device", o.device, "hand (simulated), recorded, spacemouse, gamepad or phantom")
-      ->capture_default_str();
+  app.add_option("--mesh", o.mesh, "surface mesh: " + mesh_endings(MeshKind::surface, MeshUse::read))
+      ->required();
+  app.add_option("--device", o.device, device_choices(false))->capture_default_str();
+  app.add_flag_callback(
+         "--list-devices",
+         [] {
+           std::cout << device_sheet();
+           throw CLI::Success();
+         },
+         "list the devices and plug-ins there are, with what they need, and end")
+      ->trigger_on_parse();
   app.add_option("--path", o.path,
                  "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where the cut goes "
                  "[wherever the scalpel does]");

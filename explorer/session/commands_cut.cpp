@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/session/commands.h"
 #include "explorer/session/session.h"
+#include "haptic/devices/list.h"
 
 namespace cleft {
 
@@ -82,7 +84,7 @@ void undo(Session& session, CommandWords&) { session.undo(); }
 void redo(Session& session, CommandWords&) { session.redo(); }
 
 void export_mesh(Session& session, CommandWords& words) {
-  const std::string file = words.text("a file .vtp, .stl or .obj");
+  const std::string file = words.text("a file " + mesh_endings(MeshKind::surface, MeshUse::write));
   words.expect_end();
   const auto scene = session.scene();
   SurfaceMesh out;
@@ -96,7 +98,8 @@ void export_mesh(Session& session, CommandWords& words) {
 
 std::span<const Command> cut_commands() {
   static const std::vector<Command> commands{
-      {"mesh", "FILE [MM_PER_UNIT]", "a surface mesh to cut: .stl .obj .ply .vtp", mesh},
+      {"mesh", "FILE [MM_PER_UNIT]",
+       "a surface mesh to cut: " + mesh_endings(MeshKind::surface, MeshUse::read), mesh},
       {"patch", "", "back to the patch that was simulated", patch},
       {"cut", "X,Y,Z,NX,NY,NZ[,DEPTH] ... [depth MM]", "cut along places with outward normals, mm", cut},
       {"recut", "X,Y,Z,NX,NY,NZ[,DEPTH] ... [depth MM]", "the last cut goes there instead", recut,
@@ -104,14 +107,15 @@ std::span<const Command> cut_commands() {
       {"cut-file", "PATH.csv", "cut along a path file: x,y,z,nx,ny,nz[,depth], in the mesh's units",
        cut_file},
       {"device", "NAME [FILE] | off",
-       "cut with a haptic device: mouse, hand PATH.csv, recorded POSES.csv, spacemouse, gamepad, phantom",
-       device, Command::none},
+       "cut with a haptic device: " + device_usages() + ", or the name of a plug-in", device, Command::none},
       {"tension", "X,Y,Z LARGER,SMALLER | none",
        "the skin's larger tension and its direction, prestresses in MPa: cuts turn against it", tension},
       {"undo", "", "take the last cut or tension back", undo},
       {"redo", "", "make it again", redo},
-      {"export", "FILE", "write the surface as it is shown: .vtp .stl .obj, in the mesh's units", export_mesh,
-       Command::none},
+      {"export", "FILE",
+       "write the surface as it is shown, in the mesh's units: " +
+           mesh_endings(MeshKind::surface, MeshUse::write),
+       export_mesh, Command::none},
   };
   return commands;
 }

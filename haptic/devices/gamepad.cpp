@@ -9,13 +9,14 @@
 namespace cleft {
 
 namespace {
+constexpr const char* name = "gamepad";
 constexpr auto look_every = std::chrono::milliseconds(4), retry = std::chrono::milliseconds(200);
 constexpr double dead = 0.08;    // of a stick's way: worn sticks do not come back to their middle
 constexpr int rumble_for = 250;  // ms, renewed before they are over
 }  // namespace
 
 struct Gamepad::Library {
-  SharedLibrary library{"gamepad", "libSDL2-2.0.so.0", "install the package libsdl2-2.0-0"};
+  SharedLibrary library{name, "libSDL2-2.0.so.0", "install the package libsdl2-2.0-0"};
   decltype(SDL_InitSubSystem)* init;
   decltype(SDL_QuitSubSystem)* quit;
   decltype(SDL_SetHint)* hint;
@@ -118,6 +119,17 @@ void Gamepad::rumble() {
   rumbling_ = strength;
   const auto motor = static_cast<Uint16>(65535 * strength);
   sdl_->rumble(sdl_->pad, motor, motor, rumble_for);
+}
+
+DeviceKind gamepad_device() {
+  return {.name = name,
+          .title = "&Gamepad",
+          .help =
+              "the left stick moves the blade, the right stick lifts and turns it, A cuts; contact is felt "
+              "as rumble",
+          .make = [](const DeviceRequest& request) -> std::unique_ptr<Device> {
+            return std::make_unique<Gamepad>(request.start);
+          }};
 }
 
 }  // namespace cleft

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "haptic/device.h"
+#include "haptic/devices/device_kind.h"
 #include "haptic/devices/rate_control.h"
 #include "haptic/triple_buffer.h"
 
@@ -38,5 +39,7 @@ class Gamepad : public Device {
   std::atomic<bool> stop_{false};
   std::thread watcher_;
 };
+
+DeviceKind gamepad_device();
 
 }  // namespace cleft

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "haptic/devices/device_kind.h"
 
 namespace cleft {
 
@@ -78,5 +79,18 @@ ScalpelPose Hand::read(double time) {
 }
 
 void Hand::command(const Vec3& force) { under_way_[late_] = force; }
+
+DeviceKind hand_device() {
+  return {.name = "hand",
+          .title = "Simulated &hand along a path ...",
+          .help = "a simulated hand that cuts along a path and feels the forces; needs no hardware",
+          .input = &path_input,
+          .make = [](const DeviceRequest& request) -> std::unique_ptr<Device> {
+            if (request.script.empty())
+              throw InputError(std::string("the simulated hand follows the path of a cut: give ") +
+                               path_input.option);
+            return std::make_unique<Hand>(request.hand, request.script);
+          }};
+}
 
 }  // namespace cleft

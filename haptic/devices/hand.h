@@ -27,6 +27,9 @@ struct HandTarget {
   bool press = false;
 };
 
+struct DeviceKind;
+DeviceKind hand_device();
+
 class Hand : public Device {
  public:
   /// Throws InputError for parameters out of range, no targets or times that do not grow.
@@ -36,8 +39,8 @@ class Hand : public Device {
   void command(const Vec3& force) override;
   DeviceLimits limits() const override;
 
-  double duration() const { return script_.back().time; }  ///< at most: a press may end early
-  const Vec3& velocity() const { return velocity_; }       ///< mm/s
+  double duration() const override { return script_.back().time; }  ///< at most: a press may end early
+  const Vec3& velocity() const { return velocity_; }                ///< mm/s
   /// N mm the force has done on the hand, with the motion as it was: the truth an observer is compared with.
   double work() const { return work_; }
 

@@ -1,7 +1,8 @@
-// A device without a device: whoever has a pointer, a window or a script, sets the pose. It feels nothing.
+// A device without hardware: whoever has a pointer, a window or a script, sets the pose. It feels nothing.
 #pragma once
 
 #include "haptic/device.h"
+#include "haptic/devices/device_kind.h"
 #include "haptic/triple_buffer.h"
 
 namespace cleft {
@@ -23,5 +24,13 @@ class Mouse : public Device {
   TripleBuffer<ScalpelPose> pose_;
   TripleBuffer<Vec3> force_;
 };
+
+inline DeviceKind mouse_device() {
+  return {.name = "mouse",
+          .title = "&Mouse: press to sink the blade",
+          .help = "the pointer moves the blade over the skin, pressing sinks it",
+          .in_window = true,
+          .make = [](const DeviceRequest&) { return std::make_unique<Mouse>(); }};
+}
 
 }  // namespace cleft

@@ -8,6 +8,8 @@ namespace cleft {
 
 namespace {
 
+constexpr const char* name = "phantom";
+
 // OpenHaptics Toolkit, API Reference: types and names of the HD interface.
 using HHD = unsigned int;
 using HDenum = unsigned int;
@@ -57,8 +59,8 @@ struct Phantom::Library {
   HHD device = HD_INVALID_HANDLE;
   HDSchedulerHandle job = 0;
 
-  explicit Library(const std::string& name)
-      : library("phantom", name, "install OpenHaptics and the driver of your device, from its maker") {
+  explicit Library(const std::string& file)
+      : library(name, file, "install OpenHaptics and the driver of your device, from its maker") {
     library.find(init, "hdInitDevice");
     library.find(disable_device, "hdDisableDevice");
     library.find(make_current, "hdMakeCurrentDevice");
@@ -179,6 +181,15 @@ void Phantom::watch() {
     } catch (const InputError&) {  // not yet
     }
   }
+}
+
+DeviceKind phantom_device() {
+  return {.name = name,
+          .title = "&PHANToM or Touch",
+          .help = "a force feedback arm; needs its maker's OpenHaptics",
+          .make = [](const DeviceRequest& request) -> std::unique_ptr<Device> {
+            return std::make_unique<Phantom>(request.start);
+          }};
 }
 
 }  // namespace cleft

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "haptic/device.h"
+#include "haptic/devices/device_kind.h"
 #include "haptic/triple_buffer.h"
 
 namespace cleft {
@@ -43,5 +44,7 @@ class Phantom : public Device {
   std::atomic<bool> lost_{false}, stop_{false};
   std::thread watcher_;
 };
+
+DeviceKind phantom_device();
 
 }  // namespace cleft

@@ -62,4 +62,17 @@ void write_recording(const std::string& path, const std::vector<RecordedPose>& p
   write_text_file(path, text);
 }
 
+DeviceKind recorded_device() {
+  return {
+      .name = "recorded",
+      .title = "&Recording ...",
+      .help = "poses of a file, as cleft haptic --record writes them",
+      .input = &recording_input,
+      .make = [](const DeviceRequest& request) -> std::unique_ptr<Device> {
+        if (request.trajectory.empty())
+          throw InputError(std::string("the recorded device plays a file: give ") + recording_input.option);
+        return std::make_unique<Recorded>(request.trajectory);
+      }};
+}
+
 }  // namespace cleft

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "haptic/device.h"
+#include "haptic/devices/device_kind.h"
 #include "haptic/loop.h"
 
 namespace cleft {
@@ -22,7 +23,7 @@ class Recorded : public Device {
   ScalpelPose read(double time) override;
   void command(const Vec3&) override {}
   DeviceLimits limits() const override { return {}; }
-  double duration() const { return poses_.back().time; }
+  double duration() const override { return poses_.back().time; }
 
  private:
   std::vector<RecordedPose> poses_;
@@ -31,5 +32,7 @@ class Recorded : public Device {
 
 /// Writes what Recorded reads, whole or not at all; numbers come back as they were, to the last bit.
 void write_recording(const std::string& path, const std::vector<RecordedPose>& poses);
+
+DeviceKind recorded_device();
 
 }  // namespace cleft

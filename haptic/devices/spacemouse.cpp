@@ -13,6 +13,7 @@ namespace cleft {
 
 namespace {
 
+constexpr const char* name = "spacemouse";
 constexpr double full = 350;  // counts of a 3Dconnexion device pushed all the way
 constexpr int patience = 20;  // ms between looks at whether to stop
 constexpr auto retry = std::chrono::milliseconds(200);
@@ -26,7 +27,7 @@ Vec3 part(int x, int y, int z) {
 }  // namespace
 
 struct SpaceMouse::Library {
-  SharedLibrary library{"spacemouse", "libspnav.so.0", "install the package libspnav0"};
+  SharedLibrary library{name, "libspnav.so.0", "install the package libspnav0"};
   decltype(spnav_open)* open;
   decltype(spnav_close)* close;
   decltype(spnav_fd)* fd;
@@ -102,6 +103,16 @@ bool SpaceMouse::handle_events(Deflection& d) {
     }
   }
   return true;
+}
+
+DeviceKind spacemouse_device() {
+  return {
+      .name = name,
+      .title = "&SpaceMouse",
+      .help = "pushing moves the blade, twisting turns it, button 1 cuts; through spacenavd, without forces",
+      .make = [](const DeviceRequest& request) -> std::unique_ptr<Device> {
+        return std::make_unique<SpaceMouse>(request.start);
+      }};
 }
 
 }  // namespace cleft

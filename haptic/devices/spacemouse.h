@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "haptic/device.h"
+#include "haptic/devices/device_kind.h"
 #include "haptic/devices/rate_control.h"
 #include "haptic/triple_buffer.h"
 
@@ -35,5 +36,7 @@ class SpaceMouse : public Device {
   std::atomic<bool> stop_{false};
   std::thread watcher_;
 };
+
+DeviceKind spacemouse_device();
 
 }  // namespace cleft

@@ -6,18 +6,24 @@
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
+#include <QFileDialog>
 #include <QLabel>
+#include <QMenu>
 #include <QMimeData>
 #include <QPushButton>
 #include <QSlider>
 #include <QTableView>
 #include <QTest>
 #include <QTextBrowser>
+#include <QTimer>
 #include <QToolButton>
+#include <cstdlib>
 #include <fstream>
 
 #include "base/text.h"
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/session/command_table.h"
+#include "haptic/devices/list.h"
 #include "tests/app/window_fixture.h"
 
 namespace cleft {
@@ -242,11 +248,53 @@ TEST_F(WindowTest, FilesAreDropped) {
   EXPECT_EQ(now().study, study());
   drop(mesh());
   EXPECT_EQ(now().mesh, mesh());
+  const std::string capitals = folder_ / "HEAD.STL";
+  write_mesh(capitals, flat_plate());
+  drop(capitals);
+  EXPECT_EQ(now().mesh, capitals) << "endings are compared without regard to case";
+  drop(mesh());
   tell("time 0");
   tell("screenshot " + folder_ / "a.png 320 200");
   tell("close");
   drop(folder_ / "a.png");
   EXPECT_EQ(now().mesh, mesh()) << "a picture holds its session";
+}
+
+TEST_F(WindowTest, DialogsAndTheWelcomePageNameTheFormatsOfTheTable) {
+  EXPECT_NE(widget<QLabel>("hint").text().toStdString().find(
+                "(" + mesh_endings(MeshKind::surface, MeshUse::read) + ")"),
+            std::string::npos);
+  tell("mesh " + mesh());
+  for (const auto& [action, use] : {std::pair{"open_mesh", MeshUse::read}, {"export", MeshUse::write}}) {
+    QStringList filters;
+    QTimer::singleShot(300, [&filters] {
+      auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+      if (!dialog) return;
+      filters = dialog->nameFilters();
+      dialog->reject();
+    });
+    widget<QAction>(action).trigger();
+    ASSERT_EQ(filters.size(), 1) << action;
+    EXPECT_EQ(filters[0].toStdString(), surface_filter(use)) << action;
+  }
+}
+
+TEST_F(WindowTest, TheMenuHasEveryDeviceOfTheTable) {
+  for (const DeviceKind& kind : built_in_devices()) {
+    const auto& action = widget<QAction>(("device_" + kind.name).c_str());
+    EXPECT_EQ(action.text().toStdString(), kind.title);
+    EXPECT_EQ(action.toolTip().toStdString(), kind.help);
+  }
+  // Plug-ins are looked for when the menu opens; one that cannot be used is there with the reason.
+  std::ofstream(folder_ / "torn.so") << "no library";
+  setenv("CLEFT_DEVICES", (folder_ / "").c_str(), 1);
+  auto* menu = qobject_cast<QMenu*>(widget<QAction>("device_off").associatedWidgets().front());
+  ASSERT_TRUE(menu);
+  emit menu->aboutToShow();
+  unsetenv("CLEFT_DEVICES");
+  const auto& torn = widget<QAction>("device_torn");
+  EXPECT_FALSE(torn.isEnabled());
+  EXPECT_GE(torn.toolTip().indexOf("cannot be loaded"), 0) << torn.toolTip().toStdString();
 }
 
 TEST_F(WindowTest, TheHelpSheetNamesEveryCommand) {

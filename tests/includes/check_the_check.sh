@@ -45,4 +45,16 @@ encoder/import|"explorer/io/mesh_file.h"
 encoder/import|<hdf5.h>
 encoder|"encoder/import/series.h"
 CASES
-echo "every forbidden include was found"
+# The same for lists by hand of what a table states.
+"$here/check_tables.sh" "$copy" || { echo "the copy itself fails"; exit 1; }
+while IFS='|' read -r folder line; do
+  printf '%s\n' "$line" > "$copy/$folder/forbidden.cpp"
+  if "$here/check_tables.sh" "$copy" > /dev/null; then echo "not found: $line in $folder"; exit 1; fi
+  rm "$copy/$folder/forbidden.cpp"
+done <<'LISTS'
+explorer/app|const char* meshes = "Surface meshes (*.stl *.obj)";
+explorer/commands|bool is_volume(const std::string& path) { return path.ends_with(".vtu"); }
+explorer/app|if (name == "hand") return;
+explorer/commands|app.add_option("--device", device, "a spacemouse or a gamepad");
+LISTS
+echo "every forbidden include and list was found"

@@ -9,6 +9,9 @@
 #include "base/text.h"
 #include "encoder/field/file/field_file.h"
 #include "explorer/io/mesh_file.h"
+#include "explorer/session/command_table.h"
+#include "haptic/devices/list.h"
+#include "haptic/devices/mouse.h"
 #include "tests/incision/meshes.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"
@@ -163,6 +166,24 @@ TEST_F(HapticCommand, RefusesWhatItCannotDo) {
       {"--path", in.write("far.csv", "x,y,z,nx,ny,nz\n0,900,0,0,0,1\n9,900,0,0,0,1\n"), "--depth", "4"},
       "never touches the mesh");
   EXPECT_EQ(out.entries(), 0);
+}
+
+TEST_F(HapticCommand, DevicesAndPlugInsAreListed) {
+  const Outcome outcome = expect_success(run_cleft("haptic", {"--list-devices"}));
+  const std::string help = run_cleft("haptic", {"--help"}).output, sheet = help_sheet();
+  EXPECT_NE(help.find(device_choices(false)), std::string::npos) << help;
+  EXPECT_NE(sheet.find(device_usages()), std::string::npos) << sheet;
+  for (const DeviceKind& kind : built_in_devices()) {
+    EXPECT_NE(outcome.output.find(kind.name + " "), std::string::npos) << kind.name;
+    EXPECT_NE(outcome.output.find(kind.help), std::string::npos) << kind.name;
+  }
+  setenv("CLEFT_DEVICES", (in / "").c_str(), 1);
+  const std::string torn = in.write("torn.so", "no library");
+  EXPECT_NE(expect_success(run_cleft("haptic", {"--list-devices"})).output.find(torn + " cannot be loaded"),
+            std::string::npos);
+  expect_refused({"--device", "torn"}, "torn.so cannot be loaded");
+  expect_refused({"--device", mouse_device().name}, "it needs the window");
+  unsetenv("CLEFT_DEVICES");
 }
 
 }  // namespace

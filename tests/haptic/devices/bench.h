@@ -26,6 +26,7 @@ class Bench {
 std::unique_ptr<Bench> spacemouse_bench();
 std::unique_ptr<Bench> gamepad_bench();
 std::unique_ptr<Bench> phantom_bench();
+std::unique_ptr<Bench> plugin_bench();
 
 /// Asks until it is true, for two seconds at most.
 template <class Condition>

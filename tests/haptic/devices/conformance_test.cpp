@@ -124,7 +124,8 @@ TEST_P(Conformance, AbsenceIsToldWithARemedy) {
 INSTANTIATE_TEST_SUITE_P(Devices, Conformance,
                          ::testing::Values(Kind{"spacemouse", testing::spacemouse_bench},
                                            Kind{"gamepad", testing::gamepad_bench},
-                                           Kind{"phantom", testing::phantom_bench}),
+                                           Kind{"phantom", testing::phantom_bench},
+                                           Kind{"plugin", testing::plugin_bench}),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace
