@@ -1,5 +1,6 @@
-// What every device is to the loop. A device that blocks reads on a thread of its own and hands poses over in
-// a TripleBuffer: read() and command() are called from the haptic thread, and neither wait nor allocate.
+// The interface of devices for the loop. A device that blocks reads on a thread of its own and passes poses
+// through a TripleBuffer: read() and command() are called from the haptic thread, and neither wait nor
+// allocate memory.
 #pragma once
 
 #include <limits>
@@ -15,10 +16,10 @@ class Device {
 
   /// The pose at `time`, s since the loop began; `present` is false while the device is unplugged.
   virtual ScalpelPose read(double time) = 0;
-  /// The force from now on, N, never above limits().max_force.
+  /// Sets the force, N, never above limits().max_force.
   virtual void command(const Vec3& force) = 0;
   virtual DeviceLimits limits() const = 0;
-  /// s until its motion ends; infinite where a hand moves it.
+  /// s until its motion ends; infinite if a hand moves it.
   virtual double duration() const { return std::numeric_limits<double>::infinity(); }
 };
 

@@ -13,12 +13,13 @@ namespace cleft {
 
 class VolumeMesh {
  public:
-  /// Reads .vtu. Throws FileError where the file is missing, damaged or has no cells of volume.
+  /// Reads .vtu. Throws FileError if the file is missing, damaged or has no volume cells.
   explicit VolumeMesh(const std::string& path);
   ~VolumeMesh();
   VolumeMesh(VolumeMesh&&) noexcept;
 
-  /// The outside of the cells, triangles counter-clockwise from there. Throws FileError where there is none.
+  /// The boundary of the cells, triangles counter-clockwise seen from outside. Throws FileError if there is
+  /// none.
   SurfaceMesh surface(MeshReport* report = nullptr) const;
 
   std::vector<Vec3> points() const;
@@ -31,15 +32,15 @@ class VolumeMesh {
   };
   std::vector<Nearest> nearest(const SurfaceMesh& surface) const;  ///< of every point
 
-  /// Splits cells where `beside`, a number for each point, changes its sign: those that `is_cut` says so of,
-  /// told by the cell's points. Parts have points of their own. Others stay as they are, whole.
+  /// Splits cells where `beside`, a number for each point, changes its sign, if `is_cut` is true for the
+  /// cell's points. The parts have points of their own. Other cells are unchanged.
   void split(const std::vector<double>& beside, const std::function<bool(const std::vector<int>&)>& is_cut);
-  /// The same without opening anything: no side is told of the parts, and no split counted.
+  /// The same for parts that remain connected: they have no sides, and no split is counted.
   void slice(const std::vector<double>& beside, const std::function<bool(const std::vector<int>&)>& is_cut);
-  /// For each point, of the number-th split -1 or 1, in a part where `beside` was so, or 0.
+  /// For each point, the sign of `beside` in its part in the number-th split: -1 or 1, or 0.
   std::vector<int> parts(int number) const;
 
-  /// Writes .vtu with the file's own arrays and further ones of the points, whole or not at all.
+  /// Writes .vtu with the file's own arrays and further ones of the points, completely or not at all.
   void write(const std::string& path, const std::vector<Vec3>& points,
              const std::vector<PointArray>& arrays) const;
 

@@ -1,5 +1,5 @@
 // A gamepad through SDL2 (loaded at run time): the left stick moves, the right stick lifts and turns, A cuts.
-// Contact is felt as rumble, as strong as the force.
+// Contact is rendered as rumble proportional to the force.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@ namespace cleft {
 
 class Gamepad : public Device {
  public:
-  /// Throws InputError where SDL2 or a gamepad is missing.
+  /// Throws InputError if SDL2 or a gamepad is missing.
   explicit Gamepad(const ScalpelPose& start);
   ~Gamepad() override;
 

@@ -1,5 +1,5 @@
 // A simulated hand: a mass held by a spring and a damper to a target that follows a script. It closes the
-// force loop without hardware, with a delay where one is wanted.
+// force loop without hardware, optionally with a delay.
 #pragma once
 
 #include <array>
@@ -11,19 +11,19 @@ namespace cleft {
 
 struct HandParameters {
   double mass = 0.1;       ///< kg, of hand and device
-  double stiffness = 0.3;  ///< N/mm, of the grip about its target
+  double stiffness = 0.3;  ///< N/mm, of the grip around its target
   double damping = 0.008;  ///< N s/mm
-  double delay = 0;        ///< s from a pose to the force that answers it, beyond the tick
+  double delay = 0;        ///< s from a pose to its force, in addition to the tick
   double period = 1e-3;    ///< s between ticks of the loop that drives it
-  DeviceLimits limits;     ///< but for the latency, which is the delay
+  DeviceLimits limits;     ///< without the latency, which is the delay
 };
 
-/// Where the hand wants to be: straight from one place to the next.
+/// A target of the hand, which moves straight from one to the next.
 struct HandTarget {
   double time;  ///< s
   ScalpelPose pose;
-  /// The way to it is a press: where the force falls to half of what it was, something gave way, and the hand
-  /// goes on to the next target from where it is.
+  /// Whether the motion to it is a press: when the force falls to half, the surface has been punctured, and
+  /// the hand continues to the next target from its position.
   bool press = false;
 };
 
@@ -32,16 +32,16 @@ DeviceKind hand_device();
 
 class Hand : public Device {
  public:
-  /// Throws InputError for parameters out of range, no targets or times that do not grow.
+  /// Throws InputError for parameters out of range, no targets or times that do not increase.
   Hand(const HandParameters& parameters, std::vector<HandTarget> script);
 
   ScalpelPose read(double time) override;
   void command(const Vec3& force) override;
   DeviceLimits limits() const override;
 
-  double duration() const override { return script_.back().time; }  ///< at most: a press may end early
+  double duration() const override { return script_.back().time; }  ///< upper bound: a press may end early
   const Vec3& velocity() const { return velocity_; }                ///< mm/s
-  /// N mm the force has done on the hand, with the motion as it was: the truth an observer is compared with.
+  /// Work of the force on the hand, N mm, from the actual motion, as a reference for the observer.
   double work() const { return work_; }
 
  private:

@@ -9,14 +9,14 @@ namespace cleft {
 /// The devices that are part of this program, in the order of menus and help texts.
 const std::vector<DeviceKind>& built_in_devices();
 
-/// The device of `cleft haptic` where none is named: the first that needs no window.
+/// The default device of `cleft haptic`: the first that needs no window.
 const std::string& default_device();
 
-/// The device of that name, built in or a plug-in. Throws InputError where there is none, naming those there
-/// are, and where its plug-in cannot be used.
+/// The device of that name, built in or a plug-in. Throws InputError if there is none, naming the existing
+/// ones, or if its plug-in cannot be used.
 DeviceKind find_device(const std::string& name);
 
-/// Throws InputError for an unknown name, and where a driver, the device or what it is made from is missing.
+/// Throws InputError for an unknown name, or if a driver, the device or one of its parameters is missing.
 std::unique_ptr<Device> make_device(const std::string& name, const DeviceRequest& request);
 
 /// Names as help texts list them: "hand, recorded, ..., or the name of a plug-in".

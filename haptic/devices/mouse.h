@@ -1,4 +1,4 @@
-// A device without hardware: whoever has a pointer, a window or a script, sets the pose. It feels nothing.
+// A device without hardware and force: a window or a script sets the pose.
 #pragma once
 
 #include "haptic/device.h"
@@ -13,7 +13,7 @@ class Mouse : public Device {
 
   /// From one thread, at any time.
   void set(const ScalpelPose& pose) { pose_.write(pose); }
-  /// The force as it was told last; the same thread.
+  /// The last force; called from the same thread.
   const Vec3& force() { return force_.read(); }
 
   ScalpelPose read(double) override { return pose_.read(); }

@@ -1,8 +1,8 @@
 // The paper's device: a PHANToM (Touch, Omni, Desktop, Premium) through OpenHaptics' HD interface. The
 // library is loaded at run time and its functions are declared from its public documentation (OpenHaptics
-// Toolkit, API Reference): nothing proprietary is needed to build.
+// Toolkit, API Reference): building needs nothing proprietary.
 //
-// The device's own servo thread reads the pose and sets the force; it answers a tick late.
+// The device's own servo thread reads the pose and sets the force, one tick late.
 #pragma once
 
 #include <atomic>
@@ -18,8 +18,8 @@ namespace cleft {
 
 class Phantom : public Device {
  public:
-  /// The middle of the device's workspace is `start`'s tip. Throws InputError where the library or the device
-  /// is missing, or the device is not calibrated.
+  /// The middle of the device's workspace is `start`'s tip. Throws InputError if the library or the device is
+  /// missing, or the device is not calibrated.
   explicit Phantom(const ScalpelPose& start, const std::string& library = "libHD.so");
   ~Phantom() override;
 

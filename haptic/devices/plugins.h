@@ -18,8 +18,8 @@ std::vector<std::string> plugin_files();
 /// NAME of a file .../NAME.so.
 std::string plugin_name(const std::string& file);
 
-/// Loads the file. Throws InputError where it cannot be loaded, lacks the entry point, was made for another
-/// version of the interface, lacks a function or names itself unlike its file.
+/// Loads the file. Throws InputError if it cannot be loaded, lacks the entry point or a function, was made
+/// for another version of the interface, or has another name than its file.
 DeviceKind plugin_device(const std::string& file);
 
 }  // namespace cleft

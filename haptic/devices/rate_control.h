@@ -1,4 +1,4 @@
-// Devices that are pushed and spring back tell how fast, not where: their pose is the sum of what they told.
+// Rate control: devices that spring back report velocities; their pose is the integral.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A trajectory file as a device: what was recorded comes again, bit for bit.
+// A trajectory file as a device: a recording is repeated bit for bit.
 //
 //   CSV with the columns time (s), x, y, z (tip, mm), ax, ay, az (axis), ex, ey, ez (edge), cutting, present
 //   (0 or 1)
@@ -15,7 +15,7 @@ namespace cleft {
 
 class Recorded : public Device {
  public:
-  /// Throws FileError naming the row of what is missing or out of order.
+  /// Throws FileError naming the row that is incomplete or out of order.
   explicit Recorded(const std::string& path);
   explicit Recorded(std::vector<RecordedPose> poses) : poses_(std::move(poses)) {}
 
@@ -30,7 +30,7 @@ class Recorded : public Device {
   std::size_t at_ = 0;
 };
 
-/// Writes what Recorded reads, whole or not at all; numbers come back as they were, to the last bit.
+/// Writes a file for Recorded, completely or not at all; numbers are read back bit for bit.
 void write_recording(const std::string& path, const std::vector<RecordedPose>& poses);
 
 DeviceKind recorded_device();

@@ -1,5 +1,5 @@
-// A driver's library, loaded when its device is asked for: nobody needs all of them installed. It stays
-// loaded: drivers keep memory and threads that do not survive their code.
+// A driver's library, loaded when its device is requested, so that not all drivers must be installed. It
+// remains loaded, because drivers keep memory and threads that need its code.
 #pragma once
 
 #include <dlfcn.h>
@@ -27,7 +27,7 @@ class SharedLibrary {
   SharedLibrary(const SharedLibrary&) = delete;
   SharedLibrary& operator=(const SharedLibrary&) = delete;
 
-  /// Fills a pointer to a function; throws InputError where the library has none of that name.
+  /// Fills a pointer to a function; throws InputError if the library has none of that name.
   template <class Function>
   void find(Function*& function, const char* name) const {
     function = reinterpret_cast<Function*>(dlsym(handle_, name));

@@ -1,5 +1,5 @@
 // A SpaceMouse through spacenavd (libspnav, loaded at run time): pushing moves, twisting turns, button 1
-// cuts. It has no motors and feels nothing. The daemon's socket is that of SPNAV_SOCKET, else its own
+// cuts. It has no motors and renders no force. The daemon's socket is that of SPNAV_SOCKET, else its own
 // default.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace cleft {
 
 class SpaceMouse : public Device {
  public:
-  /// Throws InputError where libspnav or the daemon is missing. One SpaceMouse at a time: libspnav has one
+  /// Throws InputError if libspnav or the daemon is missing. One SpaceMouse at a time: libspnav has one
   /// connection.
   explicit SpaceMouse(const ScalpelPose& start);
   ~SpaceMouse() override;

@@ -7,8 +7,8 @@ import textwrap
 HEAD = """# Stability: where methods fail
 
 Each section is a test that takes a method to the point where it fails. The numbers are those that the test
-measured, rounded. `tests/stability/table.sh` makes this page; `tests/stability/limits.txt` lists the order and
-the tests.
+measured, rounded. `tests/stability/table.sh` makes this page; `tests/stability/limits.txt` lists the order
+and the tests.
 """
 NAMES = ["Limit", "Measured", "Detected", "Consequence", "Test"]
 

@@ -1,6 +1,6 @@
 // The table of mesh formats. Help texts, error messages, file dialogs and dropped files take their endings
-// from here. This header sees no VTK: explorer/io/mesh_file.cpp adds to every row of a surface its reader and
-// writer, and does not compile where one is missing.
+// from here. This header does not include VTK: explorer/io/mesh_file.cpp adds a reader and a writer to each
+// row of a surface, and does not compile if one is missing.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace cleft {
 enum class MeshKind { surface, volume };
 enum class MeshUse { read, write };
 
-/// Cleft reads every format of the table and writes some of them.
+/// Cleft reads all formats of the table and writes some of them.
 struct MeshFormat {
   std::string_view ending;  ///< in lower case, with its dot
   MeshKind kind;
@@ -31,8 +31,8 @@ std::string ending_of(const std::string& path);
 /// Whether a path has the ending of a mesh of this kind.
 bool is_mesh(const std::string& path, MeshKind kind);
 
-/// The row of a surface's path. Throws InputError, with the known endings, where its ending has none or where
-/// it is to be written and Cleft only reads it.
+/// The row of a surface's path. Throws InputError with the known endings if its ending has none, or if it is
+/// to be written and Cleft only reads it.
 const MeshFormat& surface_format(const std::string& path, MeshUse use);
 
 /// Endings as texts list them: ".stl .obj .ply .vtp".
