@@ -1,8 +1,36 @@
 #include "params/sensitivities.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace cleft {
+
+namespace {
+
+std::string group_of(const Parameter& row) { return row.name.substr(0, row.name.find('.')); }
+
+/// Groups of what K and f depend on smoothly: materials and springs. With patch, cut and mesh the mesh
+/// changes in steps.
+std::vector<std::string> smooth_groups() {
+  std::vector<std::string> groups;
+  for (const Parameter& row : parameter_table()) {
+    const std::string group = group_of(row);
+    if (group != "patch" && group != "cut" && group != "mesh" &&
+        std::find(groups.begin(), groups.end(), group) == groups.end())
+      groups.push_back(group);
+  }
+  return groups;
+}
+
+/// "a, b or c".
+std::string either(const std::vector<std::string>& names) {
+  std::string text = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i) text += (i + 1 < names.size() ? ", " : " or ") + names[i];
+  return text;
+}
+
+}  // namespace
 
 void check_sensitivities(const std::vector<std::string>& names, const Parameters& parameters,
                          const std::string& where) {
@@ -10,11 +38,11 @@ void check_sensitivities(const std::vector<std::string>& names, const Parameters
     throw InputError(where +
                      ": the series has no derivative where lips begin to touch; set "
                      "cut.contact to false");
+  const std::vector<std::string> groups = smooth_groups();
   for (const std::string& name : names) {
     const Parameter& row = find_parameter(name, where);
-    const std::string part = name.substr(0, name.find('.'));
-    if (row.is_text() || (part != "skin" && part != "tissue" && part != "foundation"))
-      throw InputError(where + " " + name + ": must be a number of skin, tissue or foundation");
+    if (row.is_text() || std::find(groups.begin(), groups.end(), group_of(row)) == groups.end())
+      throw InputError(where + " " + name + ": must be a number of " + either(groups));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "solver/block_rows.h"
 
 namespace cleft {
 

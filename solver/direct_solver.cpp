@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "solver/block_rows.h"
 #include "solver/elimination_order.h"
 
 namespace cleft {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/block_rows.h"
+
 namespace cleft {
 
 FrameResidual::FrameResidual(const PatchMesh& mesh, const PatchSystem& system)

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "base/text.h"
+#include "solver/block_rows.h"
 #include "solver/cut_nodes.h"
 #include "solver/spectrum.h"
 

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "solver/block_rows.h"
 #include "solver/frame_solver.h"
 
 namespace cleft {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "params/material/isotropic.h"
+
 namespace cleft {
 
 namespace {
@@ -27,17 +29,15 @@ double linear(const std::vector<double>& x, const std::vector<double>& y, double
 
 /// Skin and tissue as a field's case has them.
 struct Stiffness {
-  double thickness, skin_young, skin_poisson, shear, lame;  // the last two of the tissue
+  double thickness;     // of the skin
+  IsotropicSheet skin;  // N/mm
+  Isotropic tissue;     // MPa
 
   explicit Stiffness(const Field& field)
       : thickness(parameter_of(field, "skin.thickness")),
-        skin_young(parameter_of(field, "skin.young_modulus")),
-        skin_poisson(parameter_of(field, "skin.poisson_ratio")) {
-    const double young = parameter_of(field, "tissue.young_modulus"),
-                 poisson = parameter_of(field, "tissue.poisson_ratio");
-    shear = young / (2 * (1 + poisson));
-    lame = 2 * shear * poisson / (1 - 2 * poisson);
-  }
+        skin(thickness * parameter_of(field, "skin.young_modulus"),
+             parameter_of(field, "skin.poisson_ratio")),
+        tissue(parameter_of(field, "tissue.young_modulus"), parameter_of(field, "tissue.poisson_ratio")) {}
 };
 
 /// What another cut's field changes of the force across a line with normal `n`, N for each mm of it: in the
@@ -59,12 +59,11 @@ double change_across(const CutInTension& other, const Stiffness& is, const Activ
                       ww};  // across the line, in plane, upright
   };
   const auto [across, in_plane, upright] = strains(0);
-  const double nu = is.skin_poisson;
-  double force = is.thickness * is.skin_young / (1 - nu * nu) * ((1 - nu) * across + nu * in_plane);
+  double force = is.skin.normal_stress(across, in_plane);
   constexpr int layers = 6;
   for (int i = 0; i < layers; ++i) {
     const auto [nn, plane, up] = strains(-cut.depth * (i + 0.5) / layers);
-    force += cut.depth / layers * (2 * is.shear * nn + is.lame * (plane + up));
+    force += cut.depth / layers * is.tissue.normal_stress(nn, plane + up);
   }
   return force;
 }

@@ -1,32 +1,23 @@
-// Linear isotropic elasticity of the tissue.
+// Tissue that is as stiff in every direction.
 #pragma once
 
-#include <deal.II/base/tensor.h>
-
-#include "params/parameters.h"
+#include "params/material/isotropic.h"
+#include "solver/material/tissue_material.h"
 
 namespace cleft {
 
-/// Moduli in MPa.
 struct LinearIsotropic {
-  double bulk, shear;
+  Isotropic moduli;  ///< MPa
 
-  explicit LinearIsotropic(const Parameters::Tissue& t)
-      : bulk(t.young_modulus / (3 * (1 - 2 * t.poisson_ratio))),
-        shear(t.young_modulus / (2 * (1 + t.poisson_ratio))) {}
-
-  /// Contribution of a point to the stiffness between two shape functions with gradients a and b, without the
-  /// change of volume: mu (b_i a_j + a.b delta_ij - 2/3 a_i b_j).
-  dealii::Tensor<2, 3> deviatoric(const dealii::Tensor<1, 3>& a, const dealii::Tensor<1, 3>& b) const {
-    dealii::Tensor<2, 3> k = shear * outer_product(b, a) - 2. / 3 * shear * outer_product(a, b);
-    const double both = shear * (a * b);
+  /// mu (b_i a_j + a.b delta_ij - 2/3 a_i b_j) of the gradients of the strain, and kappa a_i b_j of those of
+  /// the change of volume.
+  dealii::Tensor<2, 3> stiffness(const ShapeGradient& a, const ShapeGradient& b) const {
+    const double mu = moduli.shear;
+    dealii::Tensor<2, 3> k =
+        mu * outer_product(b.strain, a.strain) - 2. / 3 * mu * outer_product(a.strain, b.strain);
+    const double both = mu * (a.strain * b.strain);
     for (unsigned d = 0; d < 3; ++d) k[d][d] += both;
-    return k;
-  }
-
-  /// Contribution of the change of volume: kappa a_i b_j.
-  dealii::Tensor<2, 3> volumetric(const dealii::Tensor<1, 3>& a, const dealii::Tensor<1, 3>& b) const {
-    return bulk * outer_product(a, b);
+    return k + moduli.bulk * outer_product(a.dilatation, b.dilatation);
   }
 };
 

@@ -13,9 +13,10 @@ base:base
 base/command:base
 base/h5:base
 params:base
+params/material:base
 params/run:base|base/command|params
 solver/snapshot:base|base/h5
-solver:base|base/command|base/h5|params|solver/snapshot
+solver:base|base/command|base/h5|params|params/material|solver/snapshot
 encoder/field:base
 encoder/field/file:base|base/h5|encoder/field
 encoder:base|base/command|base/h5|params|encoder/field|encoder/field/file|solver/snapshot
@@ -26,7 +27,7 @@ haptic:base|encoder/field
 haptic/devices:base|haptic
 explorer/incision:base|encoder/field
 explorer/study:base|base/h5|params|solver/snapshot|encoder/field|encoder/field/file|encoder/interpolate
-explorer/wound:base|base/h5|encoder/field|encoder/field/file|explorer/incision|explorer/study
+explorer/wound:base|base/h5|params/material|encoder/field|encoder/field/file|explorer/incision|explorer/study
 explorer/scalpel:base|encoder/field|haptic|haptic/devices|explorer/incision|explorer/wound
 explorer/scene:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel
 explorer/session:base|params|params/run|encoder/field|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scene|explorer/io/formats

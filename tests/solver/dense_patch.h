@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "solver/block_rows.h"
 #include "solver/frame_solver.h"
 #include "tests/solver/small_patch.h"
 

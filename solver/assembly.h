@@ -1,0 +1,38 @@
+// Stiffness and loads of the patch's elements: tissue, skin, and the springs that hold them.
+#pragma once
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solver/patch_elements.h"
+
+namespace cleft {
+
+/// A matrix and columns of loads over the unknowns of some elements.
+class Assembly {
+ public:
+  Assembly() = default;
+  /// All 0.
+  Assembly(const PatchElements& elements, int loads);
+
+  /// Adds factor K to the matrix, and factor times the unit loads, combined by columns, to the loads.
+  void add(const PatchElements& elements, const Parameters& parameters, double factor,
+           const Eigen::Matrix3Xd& combination);
+  /// After the last add(). Collective.
+  void finish();
+  /// The loads have been taken.
+  void forget_loads() { loads_.clear(); }
+
+  const dealii::TrilinosWrappers::SparseMatrix& stiffness() const { return stiffness_; }
+  /// N, a column each.
+  Block loads() const;
+
+ private:
+  dealii::TrilinosWrappers::SparseMatrix stiffness_;
+  std::vector<dealii::TrilinosWrappers::MPI::Vector> loads_;
+};
+
+}  // namespace cleft

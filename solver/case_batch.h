@@ -1,0 +1,62 @@
+// Cases of one K and one release: solved together, and each written to its snapshot.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/case_loads.h"
+#include "solver/shared_stiffness.h"
+#include "solver/snapshot_output.h"
+
+namespace cleft {
+
+/// All calls are collective.
+class CaseBatch {
+ public:
+  /// `members`: numbers of the job's cases. Keeps references to all but these.
+  CaseBatch(SharedStiffness& shared, const Release& release, const std::vector<std::size_t>& members);
+
+  /// Solves and writes block after block of frames. Cases whose figures are bad are reported and not written.
+  void solve();
+
+ private:
+  struct Member {
+    std::size_t number;                       // among all cases
+    const CaseLoads::Case* loads;             // the loads that it is a sum of
+    std::unique_ptr<SnapshotOutput> writing;  // none once the case has failed
+    std::vector<Vec3> closed;                 // frame 0, this rank's nodes
+  };
+
+  /// Some loads' frames of a block, load after load.
+  struct LoadFrames {
+    std::size_t begin, end;  // the loads
+    Block displacements, left_over;
+  };
+
+  const Parameters& parameters(const Member& member) const;
+  SolveReport& report(const Member& member) const;
+  std::vector<Vec3> at_nodes(const double* column) const;
+  std::vector<std::string> derivatives() const;
+  void open(Member& member);
+  void solve_block(int first, int count);
+  void solve_block(int first, int count, std::size_t part);
+  void finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads);
+  Block sensitivity(const Member& member, const std::string& name, std::vector<FrameSolver::Column> columns,
+                    const Block& frames);
+  void write_derivative(Member& member, const std::string& name, int first, const Block& frames);
+  void add_largest(const Member& member, const std::vector<Vec3>& nodes) const;
+  bool add_figures(Member& member, const std::vector<FrameFigures>& figures);
+
+  SharedStiffness& shared_;
+  const SolveOptions& options_;
+  const PatchSystem& system_;
+  FrameSolver& solver_;
+  const Release& release_;
+  const CaseLoads loads_;
+  std::vector<Member> members_;
+  std::map<std::string, std::unique_ptr<PatchSystem::Derivative>> derivatives_;
+};
+
+}  // namespace cleft

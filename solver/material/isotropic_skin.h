@@ -1,0 +1,20 @@
+// A skin that is as stiff in every direction of its plane.
+#pragma once
+
+#include "params/material/isotropic.h"
+#include "params/parameters.h"
+#include "solver/material/skin_material.h"
+
+namespace cleft {
+
+inline SkinMaterial isotropic_skin(const Parameters::Skin& skin) {
+  const auto moduli = IsotropicSheet(skin.young_modulus, skin.poisson_ratio).elasticity();
+  SkinMaterial material;
+  material.thickness = skin.thickness;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) material.elasticity(i, j) = moduli[i][j];
+  material.prestress << skin.prestress_u, skin.prestress_uv, skin.prestress_uv, skin.prestress_v;
+  return material;
+}
+
+}  // namespace cleft

@@ -1,0 +1,135 @@
+#include "solver/patch_elements.h"
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_wedge_p.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "solver/material/regions.h"
+
+namespace cleft {
+
+using namespace dealii;
+
+namespace {
+
+void partition(Triangulation<3>& triangulation, unsigned ranks, Partitioner partitioner) {
+  if (partitioner == Partitioner::zorder)
+    GridTools::partition_triangulation_zorder(ranks, triangulation);
+  else
+    GridTools::partition_triangulation(ranks, triangulation,
+                                       partitioner == Partitioner::metis
+                                           ? SparsityTools::Partitioner::metis
+                                           : SparsityTools::Partitioner::zoltan);
+}
+
+Vec3 to_vec3(const Point<3>& p) { return {p[0], p[1], p[2]}; }
+
+/// What a face at the boundary of the patch is.
+types::boundary_id boundary_of(const Parameters& p, const Vec3& center) {
+  const double small = 1e-9 * p.patch.length;
+  const auto near = [&](double a, double b) { return std::abs(a - b) < small; };
+  if (near(center.z, 0)) return BoundaryId::skin + region_at(skin_regions(), p, center);
+  if (near(center.z, -p.patch.height)) return BoundaryId::bottom;
+  if (near(std::abs(center.x), p.patch.length / 2) || near(std::abs(center.y), p.patch.width / 2))
+    return BoundaryId::side;
+  return BoundaryId::other;  // a wall of the cut
+}
+
+/// The whole mesh, each element with its region.
+void make_whole(const PatchMesh& mesh, const Parameters& parameters, Triangulation<3>& whole) {
+  std::vector<Point<3>> vertices;
+  for (const Vec3& p : mesh.points) vertices.emplace_back(p.x, p.y, p.z);
+  std::vector<CellData<3>> cells;
+  for (const auto& wedge : mesh.wedges) {
+    CellData<3>& cell = cells.emplace_back(6);
+    Vec3 center;
+    for (unsigned i = 0; i < 6; ++i) {
+      cell.vertices[i] = wedge[i];
+      center = center + 1. / 6 * mesh.points[wedge[i]];
+    }
+    cell.material_id = region_at(tissue_regions(), parameters, center);
+  }
+  whole.create_triangulation(vertices, cells, SubCellData());
+  for (const auto& cell : whole.active_cell_iterators())
+    for (const unsigned f : cell->face_indices())
+      if (cell->face(f)->at_boundary())
+        cell->face(f)->set_boundary_id(boundary_of(parameters, to_vec3(cell->face(f)->center())));
+}
+
+}  // namespace
+
+PatchElements::PatchElements(const PatchMesh& patch, const Parameters& parameters, MPI_Comm comm,
+                             const Discretization& d, std::vector<unsigned> division)
+    : communicator(comm),
+      mesh(patch),
+      discretization(d),
+      rank_of_cell(std::move(division)),
+      triangulation(comm),
+      element(FE_WedgeP<3>(1), 3),
+      mapping(FE_WedgeP<3>(1)),
+      dofs(triangulation) {
+  create_triangulation(parameters);
+  distribute_unknowns();
+  make_pattern();
+}
+
+void PatchElements::forget() {
+  dofs.clear();
+  triangulation.clear();
+  pattern.clear();
+}
+
+/// Rank 0 makes the whole mesh, divides it and hands out the parts.
+void PatchElements::create_triangulation(const Parameters& parameters) {
+  const unsigned ranks = Utilities::MPI::n_mpi_processes(communicator);
+  triangulation.create_triangulation(
+      TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<3, 3>(
+          [&](Triangulation<3>& whole) { make_whole(mesh, parameters, whole); },
+          [&](Triangulation<3>& whole, const MPI_Comm&, unsigned) {
+            if (rank_of_cell.empty()) partition(whole, ranks, discretization.partitioner);
+            rank_of_cell.resize(whole.n_active_cells(), numbers::invalid_subdomain_id);
+            for (const auto& cell : whole.active_cell_iterators()) {
+              unsigned& owner = rank_of_cell[cell->active_cell_index()];
+              if (owner == numbers::invalid_subdomain_id) owner = cell->subdomain_id();
+              cell->set_subdomain_id(owner);
+            }
+          },
+          communicator, static_cast<int>(ranks)));
+}
+
+void PatchElements::distribute_unknowns() {
+  dofs.distribute_dofs(element);
+  offsets = {0};
+  for (const IndexSet& owned : Utilities::MPI::all_gather(communicator, dofs.locally_owned_dofs())) {
+    CLEFT_CHECK(owned.is_contiguous(), ==, true);
+    offsets.push_back(offsets.back() + static_cast<int>(owned.n_elements()));
+  }
+  rank = static_cast<int>(Utilities::MPI::this_mpi_process(communicator));
+  std::vector<int> known(mesh.points.size(), -1);
+  for (const auto& cell : dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    const auto& wedge = mesh.wedges[cell->id().get_coarse_cell_id()];
+    for (const unsigned v : cell->vertex_indices()) {
+      const Vec3& at = mesh.points[wedge[v]];
+      CLEFT_CHECK(cell->vertex(v).distance({at.x, at.y, at.z}), ==, 0);
+      known[wedge[v]] = static_cast<int>(cell->vertex_dof_index(v, 0));
+      CLEFT_CHECK(cell->vertex_dof_index(v, 2), ==, cell->vertex_dof_index(v, 0) + 2);
+    }
+  }
+  first_unknown.resize(known.size());
+  MPI_Allreduce(known.data(), first_unknown.data(), static_cast<int>(known.size()), MPI_INT, MPI_MAX,
+                communicator);
+}
+
+void PatchElements::make_pattern() {
+  const IndexSet& owned = dofs.locally_owned_dofs();
+  pattern.reinit(owned, owned, communicator, 60);
+  DoFTools::make_sparsity_pattern(dofs, pattern, AffineConstraints<double>(), true,
+                                  triangulation.locally_owned_subdomain());
+  pattern.compress();
+}
+
+}  // namespace cleft

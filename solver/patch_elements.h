@@ -1,0 +1,54 @@
+// The patch's elements in deal.II, distributed over the ranks, and the numbers of their unknowns.
+#pragma once
+
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <vector>
+
+#include "params/parameters.h"
+#include "solver/patch_mesh.h"
+#include "solver/patch_system.h"
+
+namespace cleft {
+
+/// What the faces on the surface are. A face of the skin has the number `skin` plus its region's row in
+/// skin_regions().
+struct BoundaryId {
+  static constexpr dealii::types::boundary_id other = 0, bottom = 1, side = 2, skin = 3;
+};
+
+/// A cell's material id is its region's row in tissue_regions().
+class PatchElements {
+ public:
+  /// `division`: rank_of_cell of earlier elements, to get the same numbers of the unknowns; Zoltan's is never
+  /// the same. Keeps a reference to the mesh.
+  PatchElements(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
+                const Discretization& discretization, std::vector<unsigned> division = {});
+
+  /// The elements have done their work; a factor will want their memory. Numbers of unknowns stay.
+  void forget();
+
+  MPI_Comm communicator;
+  const PatchMesh& mesh;
+  const Discretization discretization;
+  std::vector<unsigned> rank_of_cell;  ///< on rank 0
+  dealii::parallel::fullydistributed::Triangulation<3> triangulation;
+  dealii::FESystem<3> element;
+  dealii::MappingFE<3> mapping;
+  dealii::DoFHandler<3> dofs;
+  dealii::TrilinosWrappers::SparsityPattern pattern;
+  std::vector<int> first_unknown;  ///< by node: of its three
+  std::vector<int> offsets;        ///< by rank: its first unknown; then their number
+  int rank = 0;
+
+ private:
+  void create_triangulation(const Parameters& parameters);
+  void distribute_unknowns();
+  void make_pattern();
+};
+
+}  // namespace cleft

@@ -1,0 +1,54 @@
+#include "solver/shared_stiffness.h"
+
+#include <algorithm>
+
+#include "solver/case_batch.h"
+
+namespace cleft {
+
+SharedStiffness::SharedStiffness(SolveJob& job, const std::vector<std::size_t>& members)
+    : job_(job), phases_(job.communicator) {
+  const Parameters& parameters = job.cases[members.front()].parameters;
+  job.progress("meshing and assembling");
+  mesh_ = make_patch_mesh(parameters);
+  system_.emplace(mesh_, parameters, job.communicator, job.options.discretization);
+  residual_.emplace(mesh_, *system_);
+  phases_.end("assemble");
+  chosen_ = make_frame_solver(mesh_, *system_, job.options.method, job.progress);
+  phases_.end(chosen_.method == Method::direct ? "factor" : "set up");
+  for (const std::size_t c : members) {
+    SolveReport& report = job.reports[c];
+    MPI_Comm_size(system_->communicator(), &report.ranks);
+    report.nodes = static_cast<int>(mesh_.points.size());
+    report.unknowns = system_->size();
+    report.method = chosen_.method == Method::direct ? "direct" : "iterative";
+    report.reason = chosen_.reason;
+    report.cases_sharing = static_cast<int>(members.size());
+  }
+  job.reports[members.front()].first_of_sharing = true;
+}
+
+void SharedStiffness::solve(const std::vector<std::size_t>& members) {
+  const Release release = make_release(mesh_, job_.cases[members.front()].parameters);
+  chosen_.solver->set_release(release);
+  if (compliance_.at_node.empty() && compliance_.dent.size() == 0) {
+    check_rounding(*system_, chosen_);
+    job_.progress("compliance of the skin");
+    compliance_ = compliance_of(mesh_, *system_, *chosen_.solver);
+    phases_.end("compliance");
+  }
+  const std::size_t iterations_before = chosen_.solver->iterations().size();
+  // Few enough files open at a time.
+  constexpr std::size_t at_once = 64;
+  for (std::size_t first = 0; first < members.size(); first += at_once) {
+    const std::size_t end = std::min(members.size(), first + at_once);
+    CaseBatch batch(*this, release,
+                    {members.begin() + static_cast<long>(first), members.begin() + static_cast<long>(end)});
+    batch.solve();
+  }
+  const std::vector<int> iterations = chosen_.solver->iterations();
+  job_.reports[members.front()].iterations.assign(iterations.begin() + static_cast<long>(iterations_before),
+                                                  iterations.end());
+}
+
+}  // namespace cleft

@@ -1,0 +1,51 @@
+// All cases of one K: the mesh, the system and its factor are made once.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/compliance.h"
+#include "solver/frame_figures.h"
+#include "solver/phases.h"
+#include "solver/solve.h"
+
+namespace cleft {
+
+/// What solve_cases() was called with, and its reports.
+struct SolveJob {
+  const std::vector<CaseToSolve>& cases;
+  const SolveOptions& options;
+  MPI_Comm communicator;
+  const std::function<void(const std::string&)>& progress;
+  std::vector<SolveReport>& reports;
+};
+
+class SharedStiffness {
+ public:
+  /// `members`: numbers of the job's cases of this K. Keeps a reference to the job. Collective, as all calls.
+  SharedStiffness(SolveJob& job, const std::vector<std::size_t>& members);
+
+  /// Members whose cut opens alike: solves them and writes their snapshots. Throws SolveError.
+  void solve(const std::vector<std::size_t>& members);
+
+  SolveJob& job() { return job_; }
+  Phases& phases() { return phases_; }
+  const PatchMesh& mesh() const { return mesh_; }
+  const PatchSystem& system() const { return *system_; }
+  const FrameResidual& residual() const { return *residual_; }
+  const ChosenSolver& chosen() const { return chosen_; }
+  const Compliance& compliance() const { return compliance_; }  ///< known once solve() has begun
+
+ private:
+  SolveJob& job_;
+  Phases phases_;
+  PatchMesh mesh_;
+  std::optional<PatchSystem> system_;
+  std::optional<FrameResidual> residual_;
+  ChosenSolver chosen_;
+  Compliance compliance_;
+};
+
+}  // namespace cleft
