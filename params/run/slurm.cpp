@@ -20,12 +20,12 @@
 #include "base/text.h"
 #include "params/run/packing.h"
 #include "params/run/signal_handler.h"
+#include "params/run/slurm_task.h"
 #include "params/run/solve_groups.h"
 
 namespace cleft {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -36,18 +36,11 @@ constexpr double shortest_poll = 0.5, longest_poll = 10;
 
 volatile std::sig_atomic_t leave = 0;
 
-using Tasks = std::vector<std::vector<std::string>>;  // hashes of cases
-
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
-}
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
 }
 
 std::string new_name() {
@@ -65,21 +58,13 @@ std::string quoted(const std::string& word) {
 }
 
 /// Tasks of whole groups of one stiffness, with as many cases in each as requested, or slightly fewer.
-Tasks tasks_of(const std::vector<Case>& cases, int cases_per_task) {
-  Tasks tasks;
+SlurmTasks tasks_of(const std::vector<Case>& cases, int cases_per_task) {
+  SlurmTasks tasks;
   const std::size_t most = cases_per_task;
   for (const auto& group : solve_groups(cases, 1, most)) {
     if (tasks.empty() || tasks.back().size() + group.size() > most) tasks.emplace_back();
     for (const std::size_t member : group) tasks.back().push_back(cases[member].hash());
   }
-  return tasks;
-}
-
-Tasks read_tasks(const std::string& file) {
-  Tasks tasks;
-  const Json list = read_sealed(file);
-  if (!list.contains("tasks")) throw FileError(file, "holds no tasks");
-  for (const Json& task : list["tasks"]) tasks.push_back(task.get<std::vector<std::string>>());
   return tasks;
 }
 
@@ -146,7 +131,7 @@ class SlurmRun {
       const std::string name = line.substr(0, bar), file = place_ + "/" + name + "/tasks.json";
       if (bar == std::string::npos || name.rfind("cleft-", 0) != 0 || !fs::exists(file)) continue;
       auto& tasks = tasks_[name];
-      if (tasks.empty()) tasks = read_tasks(file);
+      if (tasks.empty()) tasks = read_slurm_tasks(file);
       const std::size_t number = parse_number(line.substr(bar + 1), "squeue");
       if (number < tasks.size()) cases.insert(tasks[number].begin(), tasks[number].end());
     }
@@ -205,7 +190,7 @@ class SlurmRun {
   }
 
   void submit(const std::vector<Case>& missing) {
-    const Tasks tasks =
+    const SlurmTasks tasks =
         tasks_of(missing, settings_.cases_per_task > 0 ? settings_.cases_per_task : usual_cases_per_task);
     const std::size_t most = most_in_array();
     for (std::size_t begin = 0; begin < tasks.size() && !leave; begin += most) {
@@ -216,7 +201,7 @@ class SlurmRun {
   }
 
   /// The record of an array is written before it is submitted: its name leads from the queue to its cases.
-  void submit_array(const Tasks& tasks) {
+  void submit_array(const SlurmTasks& tasks) {
     const std::string name = new_name(), record = place_ + "/" + name;
     fs::create_directory(record);
     write_text_file(record + "/tasks.json",
@@ -266,7 +251,7 @@ class SlurmRun {
   const std::string place_;
   std::vector<std::string> hashes_;
   std::vector<CaseStatus> states_;
-  std::map<std::string, Tasks> tasks_;  // by the name of their job
+  std::map<std::string, SlurmTasks> tasks_;  // by the name of their job
   std::map<std::size_t, int> submissions_;
   std::set<std::size_t> ended_;
   bool silent_ = false;  // Slurm did not answer
@@ -280,37 +265,6 @@ RunReport run_slurm(const StudyFolder& folder, const Study&, const std::vector<C
                     const LocalOptions& options, const SlurmSettings& settings) {
   const SignalHandler handler({SIGINT, SIGTERM}, [](int) { leave = 1; });
   return SlurmRun(folder, cases, options, settings).run();
-}
-
-RunReport run_slurm_task(const StudyFolder& folder, const Study& study, const std::vector<Case>& cases,
-                         const LocalOptions& options, const std::string& tasks_file) {
-  const std::string number = environment("SLURM_ARRAY_TASK_ID");
-  const Tasks tasks = read_tasks(tasks_file);
-  const auto index =
-      static_cast<std::size_t>(parse_number(number.empty() ? "0" : number, "SLURM_ARRAY_TASK_ID"));
-  if (index >= tasks.size()) throw InputError(tasks_file + ": has no task " + number);
-  const std::set<std::string> own(tasks[index].begin(), tasks[index].end());
-  std::vector<Case> mine;  // a study that has been edited since may lack some
-  for (const Case& one : cases)
-    if (own.contains(one.hash())) mine.push_back(one);
-  LocalOptions task_options = options;
-  task_options.jobs = 1;
-  if (options.ranks > 1)
-    task_options.mpi_launcher = {"srun", "--mpi=pmix", "--kill-on-bad-exit=1", "-n",
-                                 std::to_string(options.ranks)};
-  const RunReport report = run_local(folder, study, mine, task_options);
-  if (report.stopped_by != SIGUSR1) return report;
-  if (report.published == 0)
-    for (const Case& one : mine)
-      if (CaseStatus state; const auto attempt = folder.begin(one.hash(), StudyFolder::Retry::never, state)) {
-        folder.fail(*attempt,
-                    "did not end within the job's time limit; raise it (slurm.time, --time), or make the "
-                    "case smaller");
-        break;
-      }
-  const std::string job = environment("SLURM_ARRAY_JOB_ID") + "_" + number;
-  run_process({"scontrol", "requeue", job}, tasks_file + "." + number + ".requeue.log", {});
-  return report;
 }
 
 }  // namespace cleft
