@@ -3,6 +3,7 @@
 
 namespace cleft {
 
+/// All combinations of the values; the last variation changes fastest.
 std::vector<Case> sample_grid(const Study& study) {
   std::vector<Case> cases = {study.base};
   for (const Variation& variation : study.vary) {

@@ -17,6 +17,8 @@ std::vector<std::size_t> random_order(std::size_t count, std::mt19937_64& random
 
 }  // namespace
 
+/// Each range is divided into as many equal strata as there are cases; each stratum contains one case at a
+/// random place (McKay, Beckman, Conover, Technometrics 21, 1979).
 std::vector<Case> sample_latin_hypercube(const Study& study) {
   std::mt19937_64 random(study.sampling.seed);
   std::vector<Case> cases(study.sampling.count, study.base);

@@ -3,6 +3,7 @@
 
 namespace cleft {
 
+/// The n-th case takes the n-th value of every variation; the lists must be equally long.
 std::vector<Case> sample_list(const Study& study) {
   std::vector<Case> cases(study.vary.empty() ? 1 : study.vary.front().values.size(), study.base);
   for (const Variation& variation : study.vary) {

@@ -72,7 +72,7 @@ class SamplingReader {
     if (takes_values())
       throw InputError(where(*node) + ": sampling." + key + ": method '" + method_->name +
                        "' takes the values under [vary]; remove " + key +
-                       ", or set method = \"latin-hypercube\" or \"sobol\"");
+                       ", or set method = " + drawing_methods());
     const auto given = node->value<std::int64_t>();
     if (!given || *given < least || *given > most)
       throw InputError(where(*node) + ": sampling." + key + (given ? " = " + std::to_string(*given) : "") +

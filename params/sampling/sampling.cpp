@@ -5,6 +5,12 @@
 
 namespace cleft {
 
+// Each in the file of its name.
+std::vector<Case> sample_grid(const Study& study);
+std::vector<Case> sample_list(const Study& study);
+std::vector<Case> sample_latin_hypercube(const Study& study);
+std::vector<Case> sample_sobol(const Study& study);
+
 namespace {
 
 const SamplingMethod methods[] = {{"grid", sample_grid, false},
@@ -24,6 +30,13 @@ const SamplingMethod& find_sampling(const std::string& name, const std::string& 
   for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
   throw InputError(where + ": unknown sampling method '" + name + "'" + did_you_mean(name, names) +
                    "; known: " + list);
+}
+
+std::string drawing_methods() {
+  std::string list;
+  for (const SamplingMethod& method : methods)
+    if (method.draws) list += (list.empty() ? "\"" : " or \"") + method.name + "\"";
+  return list;
 }
 
 }  // namespace cleft

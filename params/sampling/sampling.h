@@ -1,4 +1,5 @@
-// Sampling: from a study's variations to its cases. A method is one file, and one line in sampling.cpp.
+// Sampling: from a study's variations to its cases. A method is one file in this folder, and two lines in
+// sampling.cpp.
 #pragma once
 
 #include <string>
@@ -19,19 +20,8 @@ struct SamplingMethod {
 /// Finds a method by name; throws InputError "<where>: unknown sampling method ...".
 const SamplingMethod& find_sampling(const std::string& name, const std::string& where);
 
-/// All combinations of the values; the last variation changes fastest.
-std::vector<Case> sample_grid(const Study& study);
-
-/// The n-th case takes the n-th value of every variation; the lists must be equally long.
-std::vector<Case> sample_list(const Study& study);
-
-/// Each range is divided into as many equal strata as there are cases; each stratum contains one case at a
-/// random place (McKay, Beckman, Conover, Technometrics 21, 1979).
-std::vector<Case> sample_latin_hypercube(const Study& study);
-
-/// The first points of the Sobol sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30,
-/// 2008), its origin included: more cases keep the earlier ones. A seed other than 0 shifts it digitally.
-std::vector<Case> sample_sobol(const Study& study);
+/// Names of the methods that draw, in quotes: "a" or "b".
+std::string drawing_methods();
 
 /// The variations of a study with a random method, sorted by name: the spelling of a name in the file (dotted
 /// or quoted) changes their order in the study and must not change the drawn values.

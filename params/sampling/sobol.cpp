@@ -18,6 +18,8 @@ std::vector<std::uint64_t> digital_shifts(std::size_t dimensions, std::uint64_t 
 
 }  // namespace
 
+/// The first points of the Sobol sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30,
+/// 2008), its origin included: more cases keep the earlier ones. A seed other than 0 shifts it digitally.
 std::vector<Case> sample_sobol(const Study& study) {
   const std::vector<Variation> ranges = ranges_by_name(study);
   const std::vector<std::uint64_t> shifts = digital_shifts(ranges.size(), study.sampling.seed);
