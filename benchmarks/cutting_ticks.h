@@ -13,8 +13,8 @@ namespace cleft {
 SurfaceMesh hills_to_cut(int squares);
 std::shared_ptr<const Field> field_of_the_cut();
 
-/// How the thread that cuts goes beside the ticks: in turns with them, sixteen a step, as fast as both can;
-/// or both by the clock, a thousand ticks and sixty steps a second, whatever the other does.
+/// How the cutting thread runs relative to the ticks: in turns with them, sixteen a step, as fast as both
+/// can; or both by the clock, a thousand ticks and sixty steps a second, whatever the other does.
 enum class Beside { in_turns, by_the_clock };
 
 /// Nanoseconds of the thread's own clock for every tick of a cut of 66 mm; of each the least of `repeats`

@@ -1,4 +1,4 @@
-// Our encoder beside others on one snapshot: bytes at equal errors, times, and errors where no node is.
+// Our encoder next to others on one snapshot: bytes at equal errors, times, and errors where no node is.
 // cleft-benchmark-encoder CASE.h5 [TOLERANCE...]: default 0.042 0.017 0.011 0.001.
 #include <algorithm>
 #include <cstdio>

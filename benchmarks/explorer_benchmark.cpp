@@ -1,5 +1,5 @@
 // What the explorer's window costs: xvfb-run cleft-benchmark-explorer STUDY [MESH PATH.csv [MM_PER_UNIT]]
-// Of a study: the first picture; from a slider to the picture of what lies between the cases; brushing. Of a
+// Of a study: the first picture; from a slider to the picture of a field between the cases; brushing. Of a
 // mesh with a cut: pictures of the wound while it opens, processor and wall time. 1280 x 720. And the same at
 // levels of detail, from afar and near, in a picture of 1280 x 720.
 #include <QApplication>

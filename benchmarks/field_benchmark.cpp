@@ -1,4 +1,4 @@
-// What a field costs to evaluate, measured within one run: medians, every figure beside what it is compared
+// What a field costs to evaluate, measured within one run: medians, every figure next to what it is compared
 // with. cleft-benchmark-field
 #include <chrono>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // What the ticks of the haptic loop compute while a mesh is cut, whatever else the machine does:
 //   cleft-benchmark-ticks [REPEATS]
-// Both in turns, and by the clock beside each other.
+// Both in turns, and simultaneously by the clock.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -1,4 +1,4 @@
-// Looking closer in the window: picking points, plots, progress, what is said of a study.
+// Looking closer in the window: picking points, plots, progress, messages about a study.
 #include <QAction>
 #include <QLabel>
 #include <QProgressDialog>

@@ -1,4 +1,4 @@
-// A haptic device in the window: what it cuts becomes the session's, and what goes wrong is told.
+// A haptic device in the window: what it cuts becomes the session's, and errors are reported.
 #include <QAction>
 #include <cstdlib>
 

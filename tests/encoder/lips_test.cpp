@@ -1,4 +1,4 @@
-// The lips of a fit beside those of its data.
+// The lips of a fit next to those of its data.
 #include "encoder/lips.h"
 
 #include <gtest/gtest.h>

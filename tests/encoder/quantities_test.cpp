@@ -1,4 +1,4 @@
-// Stresses and temperatures beside the displacement, or alone.
+// Stresses and temperatures in addition to the displacement, or alone.
 #include <gtest/gtest.h>
 
 #include <random>

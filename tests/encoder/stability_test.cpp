@@ -88,7 +88,7 @@ TEST(Stability, HoleInTheCloud) {
   };
   const Series series = data.series();
   // Of knots that are given, too. With fewer in time what follows the tip errs by up to 3 times as much in
-  // the hole as beside it, by 3 % and less: there the knots' own limit is met, not the data's.
+  // the hole as next to it, by 3 % and less: there the knots' own limit is met, not the data's.
   expect_no_worse_inside(encoded_on(series, "fixed", {2, 8, 2, 5, 2, 1, 2}));
   expect_no_worse_inside(encoded_on(series, "tip", {2, 12, 2, 7, 2, 2, 4}));
   for (const char* parametrization : {"fixed", "tip"})

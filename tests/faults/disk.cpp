@@ -41,7 +41,7 @@ std::optional<DiskReport> fill_the_disk(const StudyUnderFault& study, int runs, 
     const std::string folder = mounted + "/study";
     std::exception_ptr broken;
     try {
-      // The words of the run stand on the full disk too, beside the study: they are said elsewhere.
+      // The messages of the run would be on the full disk too: they go to another file.
       const std::string log = study.place() + "/full.log";
       const ProcessResult result = run_process(study.command(folder), log, {});
       if (!result.success()) {

@@ -56,7 +56,7 @@ std::vector<Process> descendants(pid_t of) {
 
 bool is_gone(pid_t id) { return !process_of(std::to_string(id)); }
 
-/// A run that goes on beside this program.
+/// A run in parallel with this program.
 class Driver {
  public:
   Driver(std::vector<std::string> command, const std::string& log) : id_(fork()) {

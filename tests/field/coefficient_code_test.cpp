@@ -14,7 +14,7 @@ namespace cleft {
 
 namespace {
 
-/// Every place an unknown, but for some of the middle columns where `holes` says so.
+/// Every place an unknown, but for some of the middle columns where `holes` is set.
 CoefficientGrid grid_of(int along, int across, int height, bool holes = false) {
   CoefficientGrid grid{along, across, height, {}, 0};
   for (int i = 0; i < along; ++i)
@@ -28,7 +28,7 @@ CoefficientGrid grid_of(int along, int across, int height, bool holes = false) {
 
 using Values = std::vector<std::int64_t>;
 
-/// A field that grows with the cut beside a plane that it opens, quantised; `skew` breaks the symmetry.
+/// A field that grows with the cut next to a plane that it opens, quantised; `skew` breaks the symmetry.
 std::vector<double> opening(const CoefficientGrid& grid, int slices, double size, double skew) {
   std::vector<double> values(static_cast<std::size_t>(3) * slices * grid.unknowns);
   for (int i = 0; i < grid.along; ++i)

@@ -106,8 +106,8 @@ TEST(Derivatives, OfAPolynomialAreExact) {
 }
 
 TEST(Derivatives, AreTheLimitsOfDifferences) {
-  // Central differences of step h: wrong by h^2 / 6 times the third derivative, at most about 1e4 here beside
-  // the cut's start, and 1e-15 / h.
+  // Central differences of step h: wrong by h^2 / 6 times the third derivative, at most about 1e4 here next
+  // to the cut's start, and 1e-15 / h.
   const double h = 1e-5;
   for (const Field& field : {random_field(), tip_field()}) {
     const TipPath& tip = field.parametrization().geometry().tip;

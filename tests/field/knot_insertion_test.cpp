@@ -10,7 +10,7 @@ namespace cleft {
 
 namespace {
 
-/// Knots in every axis: some twice, some beside others, some at the kinks of the tip and the bottom.
+/// Knots in every axis: some twice, some next to others, some at the kinks of the tip and the bottom.
 std::array<BSplineBasis, 4> finer_tip_bases() {
   auto bases = tip_bases();
   const std::array<std::vector<double>, 4> more = {std::vector<double>{0.1, 0.4, 0.4, 1.31, 1.5, 1.99, 2.9},

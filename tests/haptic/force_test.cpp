@@ -296,7 +296,7 @@ TEST(Force, ThinPartsHold) {
 }
 
 TEST(Force, BladesSideFindsTheEdge) {
-  // The tip hangs in the air beside a cube-like sheet's end while the blade lies across it.
+  // The tip hangs in the air next to a cube-like sheet's end while the blade lies across it.
   const auto s = testing::ball(16, 10);
   const ContactSurface surface(s.points, s.triangles);
   Led led(surface);

@@ -1,5 +1,5 @@
 // On simulated hands: no energy made, no force above the clamp, no limit cycle; and the plain model fails
-// where theory says it does. haptic-stability runs 10^7 ticks of the same.
+// where theory predicts it. haptic-stability runs 10^7 ticks of the same.
 #include "tests/haptic/stability.h"
 
 #include <gtest/gtest.h>

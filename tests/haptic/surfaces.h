@@ -1,4 +1,4 @@
-// Surfaces for the haptic tests, and what brute force says of them.
+// Surfaces for the haptic tests, and answers of brute force.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Heat in a bar without any cut: where (u, v, w) lies then.
+// Heat in a bar without any cut: where (u, v, w) is then.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Which coincident nodes are a break, which are not, and where (u, v, w) lies then.
+// Which coincident nodes are a break, which are not, and where (u, v, w) is then.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -226,7 +226,7 @@ TEST(Incision, SaysWhyItCannotGoOn) {
   const SurfaceMesh plane = grid(20, 20, -10, -10, 1);
   EXPECT_THROW(Incision(plane, path_through({{-5, 0, 90}, {5, 0, 90}}, up, depth)), InputError);  // far off
   EXPECT_THROW(Incision(plane, path_through({{-50, 0, 0}, {-55, 0, 0}}, up, depth)),
-               InputError);                                                                 // beside it
+               InputError);                                                                 // next to it
   EXPECT_THROW(Incision(plane, path_through({{-5, 0, 0}, {5, 0, 0}}, up, 0)), InputError);  // no depth
   const auto down = [](const Vec3&) { return Vec3{0, 0, -1}; };
   EXPECT_THROW(Incision(plane, path_through({{-5, 0, 0}, {5, 0, 0}}, down, depth)), InputError);

@@ -1,4 +1,4 @@
-// cleft export of fields: surfaces moved as the field says, and pictures for every case, time and camera.
+// cleft export of fields: surfaces moved as the field predicts, and pictures for every case, time and camera.
 #include <gtest/gtest.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>

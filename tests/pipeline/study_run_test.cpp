@@ -132,7 +132,7 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   EXPECT_NE(found.output.find(encoded), std::string::npos) << found.output;
 }
 
-/// Of all published files but the manifests, which tell times, and logs, where libraries may tell of the
+/// Of all published files but the manifests, which contain times, and logs, where libraries may name the
 /// machine.
 std::map<std::string, std::string> study_bytes(const std::string& folder) {
   std::map<std::string, std::string> files = published_bytes(folder);
@@ -237,7 +237,7 @@ TEST(StudyRun, WithoutItsSnapshotsIsSound) {
 
 TEST(StudyRun, AFailedCaseKeepsItsLogAndStopsNoOther) {
   const TemporaryFolder place;
-  // Without springs the patch floats: K is singular, and the factorisation says so.
+  // Without springs the patch floats: K is singular, and the factorisation is set.
   std::string text = study;
   const std::string varied = "\"skin.prestress_v\" = [0.02, 0.04]";
   text.replace(text.find(varied), varied.size(), "\"foundation.stiffness\" = [0.005, 1e-300]");
@@ -256,7 +256,7 @@ TEST(StudyRun, AFailedCaseKeepsItsLogAndStopsNoOther) {
     EXPECT_TRUE(fs::exists(attempt + "/case.toml") && fs::exists(attempt + "/failed.txt"));
   }
 
-  // It is tried again only where that is asked for.
+  // It is tried again only on request.
   const std::string file = place / "study.toml";
   const Outcome again = run_cleft("run", {file, "--out", place / "out"});
   EXPECT_EQ(again.exit_code, 1);
@@ -291,7 +291,7 @@ TEST(StudyRun, ATerminatedRunGivesUpAtOnceAndSaysSo) {
 TEST(StudyRun, ASecondInterruptKillsWhatIgnoresTheFirst) {
   const TemporaryFolder place;
   const std::string file = place.write("study.toml", "[vary]\n'skin.thickness' = [1, 2]\n");
-  // Sister commands stand beside cleft-run: here a solver that cannot be asked to stop.
+  // Other commands are in the folder of cleft-run: here a solver that cannot be asked to stop.
   const std::string bin = place / "bin", started = place / "started";
   fs::create_directory(bin);
   fs::copy_file(CLEFT_BIN "/cleft-run", bin + "/cleft-run");

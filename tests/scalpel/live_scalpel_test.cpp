@@ -1,4 +1,4 @@
-// The scalpel beside what draws: threads of its own, moments to draw, cuts when they have ended.
+// The scalpel next to what draws: threads of its own, moments to draw, cuts when they have ended.
 #include "explorer/scalpel/live_scalpel.h"
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 
 namespace cleft {
 
-/// /VTKHDF/PointData/<name> of shape {rows} or {rows, components}; of integers where the type says so.
+/// /VTKHDF/PointData/<name> of shape {rows} or {rows, components}; of integers where the type is set.
 inline void add_point_array(const std::string& snapshot, const std::string& name,
                             const std::vector<double>& values, const h5::Shape& shape,
                             hid_t type = H5T_NATIVE_DOUBLE) {

@@ -1,4 +1,4 @@
-// What the direct solver says it needs against what it takes.
+// The estimated memory of the direct solver against what it takes.
 #include "base/memory.h"
 
 #include <gtest/gtest.h>

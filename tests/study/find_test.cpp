@@ -32,7 +32,7 @@ TEST(Expression, BindsAsInMathematics) {
   EXPECT_FALSE(holds("a != b", {std::nan(""), 3, 5}));
 }
 
-/// A random condition as text, with all brackets, beside what it is worth.
+/// A random condition as text, with all brackets, next to what it is worth.
 struct Random {
   std::mt19937 generator{7};
   std::vector<double> values{2, -1, 0.5};

@@ -25,7 +25,7 @@ tolerance = 0.1
 )";
 
 /// Of the files of all published cases by their names in the study's folder; but the manifests, which tell
-/// times, and logs, in which libraries may tell of the machine.
+/// times, and logs, in which libraries may name the machine.
 inline std::map<std::string, std::string> published_bytes(const std::string& folder) {
   namespace fs = std::filesystem;
   std::map<std::string, std::string> files;

@@ -95,7 +95,7 @@ TEST(ChartCommand, DrawsAStudysOwnCase) {
     const double asked[] = {0.08, 0.04, 0.02, 0.01, 0.005, 0.001, 1e-4};
     for (std::size_t i = 0; i < 7; ++i) EXPECT_LE(all[i], asked[i]) << series;
   }
-  // Nothing but the three files is left beside the study.
+  // Nothing but the three files is left next to the study.
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     files += entry.path().filename().string().starts_with("chart") ||

@@ -51,7 +51,7 @@ void parallel_cuts(const std::string& common) {
 }
 
 /// A cut that begins on the lip of another, in its middle. Where skin is pulled less along the first cut than
-/// across, the branch's lips press on each other beside it.
+/// across, the branch's lips press on each other next to it.
 void branches(const std::string& common) {
   const TruthCases cases(common + "\npatch.width = 70\nmesh.grading = 1.15");
   const PrestressFields fields = cases.prestresses();

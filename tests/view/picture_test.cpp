@@ -81,7 +81,7 @@ TEST_F(Picture, TheBottomOfTheWoundIsRed) {
 }
 
 TEST_F(Picture, TheCutToComeIsNotSeen) {
-  // Along the row of the cut, the picture before the cut is as even as the skin beside it.
+  // Along the row of the cut, the picture before the cut is as even as the skin next to it.
   const auto closed = draw(0);
   for (int x = width / 2 - 20; x <= width / 2 + 20; ++x)
     EXPECT_LE(difference(pixel(closed, x, height / 2), pixel(closed, x, height / 2 + 6)), 6) << x;

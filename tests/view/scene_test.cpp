@@ -1,4 +1,5 @@
-// The surfaces that are drawn: closed at t = 0, open as the field says, and the same whichever way time runs.
+// The surfaces that are drawn: closed at t = 0, open as the field predicts, and the same whichever way time
+// runs.
 #include <gtest/gtest.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>

@@ -1,4 +1,4 @@
-// A PHANToM whose driver is the stub beside it.
+// A PHANToM whose driver is the stub next to it.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 

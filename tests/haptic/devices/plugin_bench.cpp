@@ -1,4 +1,4 @@
-// The sample plug-in as a device, found in its folder; and what is said of plug-ins that cannot be used.
+// The sample plug-in as a device, found in its folder; and messages about plug-ins that cannot be used.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 

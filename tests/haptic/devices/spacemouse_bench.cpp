@@ -62,7 +62,7 @@ class Daemon : public Bench {
       std::int32_t hello = 0;
       if (read(client, &hello, sizeof hello) != sizeof hello) continue;
       if (write(client, &hello, sizeof hello) != sizeof hello)
-        continue;  // the version asked for is the one spoken
+        continue;  // the requested version is the one used
       const std::lock_guard lock(mutex_);
       client_ = client;
     }

@@ -77,7 +77,7 @@ Points walk(const Ground& ground, const Start& start, PathKind kind, double leng
       points.push_back({walker.place() + 0.5 * edge * walker.heading(), walker.normal(), depth});
     break;
   }
-  if (kind == PathKind::off_surface) {  // beside the surface, tilted, and of varying depth
+  if (kind == PathKind::off_surface) {  // next to the surface, tilted, and of varying depth
     const Vec3 tilt{uniform(random, -.3, .3), uniform(random, -.3, .3), uniform(random, -.3, .3)};
     const double off = uniform(random, -0.2, 0.2) * edge;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -89,7 +89,7 @@ Points walk(const Ground& ground, const Start& start, PathKind kind, double leng
   return points;
 }
 
-/// From vertex to vertex along edges; or beside them, by a little or by nothing that rounding would keep.
+/// From vertex to vertex along edges; or next to them, by a little or by nothing that rounding would keep.
 Points along_edges(const Ground& ground, PathKind kind, std::mt19937_64& random) {
   const Start start = random_start(ground, random);
   const double edge = ground.edge_length(start.triangle), depth = edge * uniform(random, 0.2, 2);

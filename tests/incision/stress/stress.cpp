@@ -95,7 +95,8 @@ class Stress {
     lies_down_ = false;
     IncisionOptions options;
     if (random() % 4 != 0) options.max_edge = 0;
-    if (options.max_edge) options.reach = 0;  // no field: what lies beside the path is looked at now and then
+    if (options.max_edge)
+      options.reach = 0;  // no field: what lies next to the path is looked at now and then
     std::unique_ptr<Incision> cut;
     const auto check = [&] {
       ++tally_.steps;
@@ -146,7 +147,7 @@ class Stress {
     double lip = 0;
     bool closed_again = false;
     const auto& chain = cut.chain();
-    // Where it ended because the blade lies along the surface, its last piece climbs along the blade.
+    // Where it ended because the blade is parallel to the surface, its last piece climbs along the blade.
     const std::size_t upright = chain.size() - (lies_down_ ? 1 : 0);
     for (std::size_t i = 1; i < chain.size(); ++i) {
       if (i < upright) lip += norm(mesh_.position(chain[i].left) - mesh_.position(chain[i - 1].left));
@@ -272,7 +273,7 @@ class Stress {
   Soundness soundness_;
   std::mt19937_64 random_;
   double worst_before_ = 1;
-  bool lies_down_ = false;             // the last path ended where the blade lies along the surface
+  bool lies_down_ = false;             // the last path ended where the blade is parallel to the surface
   bool large_ = false, idle_ = false;  // idle: on the way to a path that is asked for
   Tally tally_;
 };
