@@ -1,4 +1,4 @@
-// Study and case files (TOML), and the cases they stand for.
+// Study and case files (TOML), and their cases.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct EncodeSettings {
   std::optional<std::array<int, 4>>
       control_points;  ///< along u, v (both sides together), w, t, instead of the tolerance
 
-  /// As cleft encode takes them: --parametrization, and --tolerance or --control-points.
+  /// The options of cleft encode: --parametrization, and --tolerance or --control-points.
   std::vector<std::string> arguments() const;
 };
 
@@ -30,7 +30,7 @@ struct Case {
 
   /// Identity of the snapshot: solve_hash(parameters), and the sensitivities that it holds.
   std::string snapshot_hash() const;
-  /// Identity of the case as encoded, of which that is the solver's half.
+  /// Identity of the encoded case, which includes that of the snapshot.
   std::string hash() const;
 };
 
@@ -43,7 +43,7 @@ struct Range {
   double at(double part, double whole) const;
 };
 
-/// What one parameter takes: values in the order of the file, or, where the sampling method draws, a range.
+/// The variation of one parameter: values in the order of the file, or a range if the sampling method draws.
 struct Variation {
   std::string name;
   std::vector<Value> values;
@@ -57,7 +57,7 @@ struct SamplingSettings {
   std::uint64_t seed = 0;
 };
 
-/// [slurm]: how jobs are asked for; what is empty or 0 is left to the site.
+/// [slurm]: the requests of jobs; entries that are empty or 0 are left to the site.
 struct SlurmSettings {
   std::string partition, account, time;  ///< time: a limit as sbatch takes it, "2:30:00"
   std::vector<std::string> options;      ///< further options of sbatch

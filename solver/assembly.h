@@ -1,4 +1,4 @@
-// Stiffness and loads of the patch's elements: tissue, skin, and the springs that hold them.
+// Stiffness and loads of the patch's elements: tissue, skin and springs.
 #pragma once
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -15,19 +15,19 @@ namespace cleft {
 class Assembly {
  public:
   Assembly() = default;
-  /// All 0.
+  /// Sets all to 0.
   Assembly(const PatchElements& elements, int loads);
 
   /// Adds factor K to the matrix, and factor times the unit loads, combined by columns, to the loads.
   void add(const PatchElements& elements, const Parameters& parameters, double factor,
            const Eigen::Matrix3Xd& combination);
-  /// After the last add(). Collective.
+  /// To be called after the last add(). Collective.
   void finish();
-  /// The loads have been taken.
+  /// Frees the loads.
   void forget_loads() { loads_.clear(); }
 
   const dealii::TrilinosWrappers::SparseMatrix& stiffness() const { return stiffness_; }
-  /// N, a column each.
+  /// Loads, N, one in each column.
   Block loads() const;
 
  private:

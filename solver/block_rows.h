@@ -13,7 +13,7 @@ double dot(const PatchSystem& system, const Eigen::VectorXd& a, const Eigen::Vec
 
 /// Rows of a distributed block, by number of the unknown: on rank 0, empty elsewhere. Collective.
 Eigen::MatrixXd gather_rows(const PatchSystem& system, const Block& block, const std::vector<int>& unknowns);
-/// The same on every rank.
+/// The same on all ranks.
 Eigen::MatrixXd all_gather_rows(const PatchSystem& system, const Block& block,
                                 const std::vector<int>& unknowns);
 /// Sets the rows that this rank owns.

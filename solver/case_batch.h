@@ -29,7 +29,7 @@ class CaseBatch {
     std::vector<Vec3> closed;                 // frame 0, this rank's nodes
   };
 
-  /// Some loads' frames of a block, load after load.
+  /// Frames of a block for a range of loads, load by load.
   struct LoadFrames {
     std::size_t begin, end;  // the loads
     Block displacements, left_over;

@@ -1,4 +1,4 @@
-// Which loads are solved for several cases of one K and one release, so that every case is a sum of them.
+// The loads that are solved for several cases of one K and one release, such that each case is a sum of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,10 @@ inline constexpr int most_units = 3;  ///< series of unit prestresses: uu, vv, u
 inline constexpr const char* prestress_names[] = {"skin.prestress_u", "skin.prestress_v",
                                                   "skin.prestress_uv"};
 
-/// With `by_units`, unit prestresses, of which the frames of every case are sums; with contact a series is
-/// not linear, and the case is solved for itself. Without, every case's own load.
+/// With `by_units` the loads are unit prestresses, and the frames of each case are sums; with contact a
+/// series is not linear, and the case is solved separately. Without it the loads are those of the cases.
 struct CaseLoads {
-  /// `every_unit`: solve all three unit prestresses, whatever the cases need. Collective.
+  /// `every_unit`: solve all three unit prestresses, even if the cases do not need them. Collective.
   CaseLoads(const PatchSystem& system, const std::vector<const Parameters*>& cases, bool by_units,
             bool every_unit);
 
@@ -32,7 +32,7 @@ struct CaseLoads {
   Block loads;                                             ///< N, a column each
   std::vector<int> units;                                  ///< directions of the first loads
   std::vector<bool> contact;                               ///< by load
-  std::vector<std::pair<std::size_t, std::size_t>> parts;  ///< ranges of the loads: each solved in one go
+  std::vector<std::pair<std::size_t, std::size_t>> parts;  ///< ranges of the loads, each solved together
   std::vector<Case> cases;                                 ///< in the order in which they were given
 };
 

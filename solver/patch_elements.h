@@ -15,7 +15,7 @@
 
 namespace cleft {
 
-/// What the faces on the surface are. A face of the skin has the number `skin` plus its region's row in
+/// Kinds of the faces on the surface. A face of the skin has the number `skin` plus its region's row in
 /// skin_regions().
 struct BoundaryId {
   static constexpr dealii::types::boundary_id other = 0, bottom = 1, side = 2, skin = 3;
@@ -24,12 +24,12 @@ struct BoundaryId {
 /// A cell's material id is its region's row in tissue_regions().
 class PatchElements {
  public:
-  /// `division`: rank_of_cell of earlier elements, to get the same numbers of the unknowns; Zoltan's is never
-  /// the same. Keeps a reference to the mesh.
+  /// `division`: rank_of_cell of earlier elements, for equal numbers of the unknowns, because Zoltan's
+  /// division is not reproducible. Keeps a reference to the mesh.
   PatchElements(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
                 const Discretization& discretization, std::vector<unsigned> division = {});
 
-  /// The elements have done their work; a factor will want their memory. Numbers of unknowns stay.
+  /// Frees the elements, whose memory the factor needs. Numbers of unknowns remain.
   void forget();
 
   MPI_Comm communicator;

@@ -48,7 +48,7 @@ struct PatchMesh {
 /// u > 0). Nodes move in v only onto a curved or tilted cut, and the patch stays a box. An upright straight
 /// cut's triangles are mirrored in v = 0 (several cuts: where the squares between them are even in number);
 /// those of a chess board (diagonal_rises) in u = 0 too where the squares along u are even in number. Throws
-/// InputError where moving the nodes would flatten an element.
+/// InputError if moving the nodes would flatten an element.
 PatchMesh make_patch_mesh(const Parameters& parameters);
 
 /// Whether square (i, j), counted along u and v from the first cut's start, is halved by the diagonal that

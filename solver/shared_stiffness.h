@@ -13,7 +13,7 @@
 
 namespace cleft {
 
-/// What solve_cases() was called with, and its reports.
+/// The arguments of solve_cases(), and its reports.
 struct SolveJob {
   const std::vector<CaseToSolve>& cases;
   const SolveOptions& options;
@@ -27,7 +27,7 @@ class SharedStiffness {
   /// `members`: numbers of the job's cases of this K. Keeps a reference to the job. Collective, as all calls.
   SharedStiffness(SolveJob& job, const std::vector<std::size_t>& members);
 
-  /// Members whose cut opens alike: solves them and writes their snapshots. Throws SolveError.
+  /// Solves members whose cut opens in the same order, and writes their snapshots. Throws SolveError.
   void solve(const std::vector<std::size_t>& members);
 
   SolveJob& job() { return job_; }
@@ -36,7 +36,7 @@ class SharedStiffness {
   const PatchSystem& system() const { return *system_; }
   const FrameResidual& residual() const { return *residual_; }
   const ChosenSolver& chosen() const { return chosen_; }
-  const Compliance& compliance() const { return compliance_; }  ///< known once solve() has begun
+  const Compliance& compliance() const { return compliance_; }  ///< valid once solve() has begun
 
  private:
   SolveJob& job_;

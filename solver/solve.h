@@ -42,7 +42,7 @@ struct SolveReport {
 /// Throws InputError if these options do not permit a case; `where` names its source in the message.
 void check_options(const Parameters& parameters, const SolveOptions& options, const std::string& where);
 
-/// Solves cases and writes their snapshots, each of which appears whole or not at all. Cases of the same K
+/// Solves cases and writes their snapshots, each of which appears complete or not at all. Cases of the same K
 /// share its factorisation; among these, cases that differ only in the prestress also share the frames, which
 /// are linear in it. A case that fails does not affect the others. Collective; the reports, in the order of
 /// the cases, are the same on every rank. `progress` is called with the current step.

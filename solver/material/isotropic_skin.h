@@ -1,4 +1,4 @@
-// A skin that is as stiff in every direction of its plane.
+// A skin with isotropic elasticity in its plane.
 #pragma once
 
 #include "params/material/isotropic.h"

@@ -1,4 +1,4 @@
-// Tissue that is as stiff in every direction.
+// Tissue with linear isotropic elasticity.
 #pragma once
 
 #include "params/material/isotropic.h"

@@ -1,4 +1,4 @@
-// Which part of the patch is made of what.
+// The regions of the patch and their materials.
 #pragma once
 
 #include <vector>
@@ -17,11 +17,11 @@ struct Region {
   Material (*material)(const Parameters&);
 };
 
-/// All regions. The first row holds every element; a later row takes its own from those before it.
+/// All regions. The first row contains all elements; a later row takes its elements from the rows before it.
 const std::vector<Region<TissueMaterial>>& tissue_regions();
 const std::vector<Region<SkinMaterial>>& skin_regions();
 
-/// The row that an element with this centroid belongs to.
+/// The row of the element with this centroid.
 template <class Material>
 unsigned region_at(const std::vector<Region<Material>>& regions, const Parameters& parameters,
                    const Vec3& centroid) {

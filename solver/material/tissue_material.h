@@ -1,4 +1,4 @@
-// What a region of cells is made of: any law of linear elasticity, as a value.
+// The material of a region of cells: a law of linear elasticity, as a value.
 #pragma once
 
 #include <deal.II/base/tensor.h>
@@ -18,7 +18,7 @@ struct ShapeGradient {
   dealii::Tensor<1, 3> strain, dilatation;
 };
 
-/// A point of a cell's quadrature, and the cell's volume that it stands for, mm^3.
+/// A quadrature point of a cell and its weight, mm^3.
 struct CellPoint {
   std::array<ShapeGradient, 6> vertices;
   double volume;
@@ -33,7 +33,8 @@ concept TissueLaw = requires(const Law& law, const ShapeGradient& a) {
 
 class TissueMaterial {
  public:
-  /// The loop over the points and the pairs of vertices is compiled for each law: one indirect call a cell.
+  /// The loop over the points and the pairs of vertices is compiled for each law: one indirect call for each
+  /// cell.
   template <TissueLaw Law>
   TissueMaterial(const Law& law)
       : add_stiffness_([law](std::span<const CellPoint> points, dealii::FullMatrix<double>& matrix) {
