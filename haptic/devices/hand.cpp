@@ -83,7 +83,7 @@ void Hand::command(const Vec3& force) { under_way_[late_] = force; }
 DeviceKind hand_device() {
   return {.name = "hand",
           .title = "Simulated &hand along a path ...",
-          .help = "a simulated hand that cuts along a path and feels the forces; needs no hardware",
+          .help = "a simulated hand without hardware, that cuts along a path and feels the forces",
           .input = &path_input,
           .make = [](const DeviceRequest& request) -> std::unique_ptr<Device> {
             if (request.script.empty())
