@@ -33,7 +33,7 @@ namespace cleft {
 
 namespace {
 
-constexpr const char* beside_name = "cleft beside the cut";
+constexpr const char* level_name = "cleft beside the cut";
 
 std::string part_name(int split) { return "cleft part " + std::to_string(split); }
 
@@ -51,7 +51,7 @@ std::vector<int> corners_of(vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdList
   return {list->begin(), list->end()};
 }
 
-/// The cells of the grid in the list, with points of their own where `clip` splits them at `beside` = 0.
+/// The cells of the grid in the list, with points of their own where `clip` splits them at `level` = 0.
 void append_cells(vtkUnstructuredGrid* grid, vtkIdList* cells, int part, const std::string& name,
                   vtkAppendFilter* all) {
   if (cells->GetNumberOfIds() == 0) return;
@@ -65,7 +65,7 @@ void append_cells(vtkUnstructuredGrid* grid, vtkIdList* cells, int part, const s
   } else {
     vtkNew<vtkTableBasedClipDataSet> clip;
     clip->SetInputData(some->GetOutput());
-    clip->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, beside_name);
+    clip->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, level_name);
     clip->SetValue(0);
     clip->SetInsideOut(part < 0);
     clip->Update();
@@ -185,30 +185,30 @@ std::vector<VolumeMesh::Nearest> VolumeMesh::nearest(const SurfaceMesh& surface)
   return result;
 }
 
-void VolumeMesh::split(const std::vector<double>& beside,
+void VolumeMesh::split(const std::vector<double>& level,
                        const std::function<bool(const std::vector<int>&)>& is_cut) {
-  clip(beside, is_cut, part_name(splits_));
+  clip(level, is_cut, part_name(splits_));
   ++splits_;
 }
 
-void VolumeMesh::slice(const std::vector<double>& beside,
+void VolumeMesh::slice(const std::vector<double>& level,
                        const std::function<bool(const std::vector<int>&)>& is_cut) {
-  clip(beside, is_cut, "");
+  clip(level, is_cut, "");
 }
 
-void VolumeMesh::clip(const std::vector<double>& beside,
+void VolumeMesh::clip(const std::vector<double>& level,
                       const std::function<bool(const std::vector<int>&)>& is_cut, const std::string& sides) {
-  CLEFT_CHECK(beside.size(), ==, static_cast<std::size_t>(grid_->cells->GetNumberOfPoints()));
+  CLEFT_CHECK(level.size(), ==, static_cast<std::size_t>(grid_->cells->GetNumberOfPoints()));
   vtkNew<vtkDoubleArray> values;
-  values->SetName(beside_name);
-  for (const double value : beside) values->InsertNextValue(value);
+  values->SetName(level_name);
+  for (const double value : level) values->InsertNextValue(value);
   grid_->cells->GetPointData()->AddArray(values);
   vtkNew<vtkIdList> whole, parted, list;
   for (vtkIdType c = 0; c < grid_->cells->GetNumberOfCells(); ++c) {
     const std::vector<int> corners = corners_of(grid_->cells, c, list);
     const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
-                                                 [&](int a, int b) { return beside[a] < beside[b]; });
-    const bool crossed = beside[*low] < 0 && beside[*high] > 0;
+                                                 [&](int a, int b) { return level[a] < level[b]; });
+    const bool crossed = level[*low] < 0 && level[*high] > 0;
     (crossed && is_cut(corners) ? parted : whole)->InsertNextId(c);
   }
   vtkNew<vtkAppendFilter> all;
@@ -217,7 +217,7 @@ void VolumeMesh::clip(const std::vector<double>& beside,
   append_cells(grid_->cells, parted, 1, sides, all);
   all->Update();
   grid_->cells = all->GetOutput();
-  grid_->cells->GetPointData()->RemoveArray(beside_name);
+  grid_->cells->GetPointData()->RemoveArray(level_name);
 }
 
 std::vector<int> VolumeMesh::parts(int number) const {

@@ -32,12 +32,12 @@ class VolumeMesh {
   };
   std::vector<Nearest> nearest(const SurfaceMesh& surface) const;  ///< of every point
 
-  /// Splits cells where `beside`, a number for each point, changes its sign, if `is_cut` is true for the
+  /// Splits cells where `level`, a number for each point, changes its sign, if `is_cut` is true for the
   /// cell's points. The parts have points of their own. Other cells are unchanged.
-  void split(const std::vector<double>& beside, const std::function<bool(const std::vector<int>&)>& is_cut);
+  void split(const std::vector<double>& level, const std::function<bool(const std::vector<int>&)>& is_cut);
   /// The same for parts that remain connected: they have no sides, and no split is counted.
-  void slice(const std::vector<double>& beside, const std::function<bool(const std::vector<int>&)>& is_cut);
-  /// For each point, the sign of `beside` in its part in the number-th split: -1 or 1, or 0.
+  void slice(const std::vector<double>& level, const std::function<bool(const std::vector<int>&)>& is_cut);
+  /// For each point, the sign of `level` in its part in the number-th split: -1 or 1, or 0.
   std::vector<int> parts(int number) const;
 
   /// Writes .vtu with the file's own arrays and further ones of the points, completely or not at all.
@@ -46,7 +46,7 @@ class VolumeMesh {
 
  private:
   struct Grid;
-  void clip(const std::vector<double>& beside, const std::function<bool(const std::vector<int>&)>& is_cut,
+  void clip(const std::vector<double>& level, const std::function<bool(const std::vector<int>&)>& is_cut,
             const std::string& sides);
   std::string path_;
   std::unique_ptr<Grid> grid_;

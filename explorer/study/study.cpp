@@ -59,8 +59,8 @@ void PublishedStudy::name_and_sort() {
 }
 
 std::string PublishedStudy::snapshot(int i) const {
-  const fs::path beside(path_);
-  return (packed_ ? beside.parent_path() / "cases" / file(i) : fs::path(file(i)).parent_path()) / "case.h5";
+  const fs::path opened(path_);
+  return (packed_ ? opened.parent_path() / "cases" / file(i) : fs::path(file(i)).parent_path()) / "case.h5";
 }
 
 Field PublishedStudy::read(int i) const {
