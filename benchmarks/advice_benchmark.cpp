@@ -11,6 +11,7 @@
 
 #include "base/output_folder.h"
 #include "base/quantiles.h"
+#include "params/consistency.h"
 #include "tradeoff/advice.h"
 #include "tradeoff/chain.h"
 
@@ -25,7 +26,7 @@ Parameters drawn(std::mt19937& random) {
   Parameters p;
   p.tissue.young_modulus = 0.005 * std::pow(16, between(0, 1));
   p.skin.young_modulus = 0.06 * std::pow(6, between(0, 1));
-  p.skin.prestress_v = between(0.02, 0.05), p.skin.prestress_u = between(0.005, 0.02);
+  p.skin.prestress.vv = between(0.02, 0.05), p.skin.prestress.uu = between(0.005, 0.02);
   p.skin.thickness = between(1, 2.5);
   p.cut.length = std::round(between(15, 50)), p.cut.depth = between(2, 5);
   p.foundation.stiffness = p.foundation.side_stiffness = 0.002 * std::pow(10, between(0, 1));

@@ -39,8 +39,9 @@ Field varied(const Field& base, int number) {
               std::move(points));
   field.parameters = base.parameters, field.report = base.report;
   field.case_hash = "case" + std::to_string(100000 + number);
-  field.parameters["tissue.young_modulus"] *= std::pow(4, x - 0.5);
-  field.parameters["skin.prestress_v"] *= 0.5 + y;
+  RecordedParameters& p = field.parameters;
+  p.set(p->tissue.young_modulus, p->tissue.young_modulus * std::pow(4, x - 0.5));
+  p.set(p->skin.prestress.vv, p->skin.prestress.vv * (0.5 + y));
   field.report.largest_displacement *= size;
   // As tied control points as the given ones; neighbours of a step's size code alike.
   Field stepped = quantised(field, base.quantum * size, 0.625);
@@ -59,7 +60,8 @@ std::vector<StudyCase> make_study(const Field& base, const std::string& folder, 
     write_text_file(
         place + "/manifest.json",
         sealed_text({{"format", "cleft-case"}, {"version", 2}, {"parameters", {{"cut.contact", "false"}}}}));
-    cases.push_back({field.case_hash, place + "/case.dffd", {{"cut.contact", "false"}}});
+    cases.push_back({field.case_hash, place + "/case.dffd"});
+    cases.back().choices.set("cut.contact", "false");
   }
   return cases;
 }

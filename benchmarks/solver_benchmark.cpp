@@ -95,7 +95,7 @@ void sharing(Parameters p) {
   std::filesystem::create_directories(folder);
   p.mesh.cut_length = p.cut.length, p.mesh.cut_depth = p.cut.depth;
   Parameters tense = p, shorter = p;
-  tense.skin.prestress_v *= 1.3;
+  tense.skin.prestress.vv *= 1.3;
   shorter.cut.length *= 0.7;
   const auto file = [&](const char* name) { return (folder / name).string(); };
   const auto seconds = [&](const std::vector<CaseToSolve>& cases) {
@@ -105,7 +105,7 @@ void sharing(Parameters p) {
   std::vector<CaseToSolve> three, many;
   for (int i = 0; i < 11; ++i) {
     Parameters other = p;
-    other.skin.prestress_v *= 1 + 0.1 * i;
+    other.skin.prestress.vv *= 1 + 0.1 * i;
     (i < 3 ? three : many).push_back({other, file((std::to_string(i) + ".h5").c_str())});
   }
   many.insert(many.begin(), three.begin(), three.end());
@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
   }
   Parameters p;
   p.mesh.element_size = argc > 1 ? std::atof(argv[1]) : 0.87;
-  p.cut.frames = "pair";
+  p.cut.frames = FrameEvery::pair;
   series(p);
   marching(124);
   sharing(p);

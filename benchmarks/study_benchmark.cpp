@@ -39,7 +39,7 @@ int main(int argc, char** argv) try {
     const StudyFile study(file);
     double checked = 0;
     for (int i = 0; i < study.size(); ++i)
-      checked += static_cast<double>(study.parameters(i).size() + study.case_hash(i).size()) +
+      checked += static_cast<double>(study.parameters(i).empty() + study.case_hash(i).size()) +
                  study.report(i).node_error;
     open.push_back(watch.seconds());
     if (!(checked > 0)) return 1;

@@ -16,9 +16,9 @@ using namespace cleft;
 
 namespace {
 
-Json parameters_of(const std::map<std::string, std::variant<double, std::string>>& parameters) {
+Json parameters_of(const RecordedParameters& parameters) {
   Json list = Json::object();
-  for (const auto& [name, value] : parameters)
+  for (const auto& [name, value] : parameters.all())
     std::visit([&, &key = name](const auto& v) { list[key] = v; }, value);
   return list;
 }
@@ -84,7 +84,7 @@ Json info_of_field(const std::string& file) {
       {"cut", {{"start", field.cut().start}, {"length", field.cut().length}, {"depth", field.cut().depth}}},
       {"report", shown(field.report)},
       {"bytes", std::filesystem::file_size(file)},
-      {"parameters", field.parameters}};
+      {"parameters", field.parameters.numbers()}};
   for (const Quantity& quantity : field.quantities)
     info["quantities"].push_back({{"name", quantity.name},
                                   {"components", quantity.components},
@@ -116,7 +116,7 @@ Json info_of_study(const std::string& file) {
                      {"bytes", study.coefficient_bytes(i)},
                      {"modes_error", study.modes_error(i)},
                      {"report", shown(study.report(i))},
-                     {"parameters", study.parameters(i)}});
+                     {"parameters", study.parameters(i).numbers()}});
   return {{"format", "cleft-study"},
           {"cases", study.size()},
           {"modes", study.modes()},

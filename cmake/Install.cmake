@@ -2,10 +2,10 @@
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Cleft)
-install(TARGETS cleft_base cleft_h5 cleft_field cleft_field_file cleft_snapshot EXPORT CleftTargets
+install(TARGETS cleft_base cleft_parameters cleft_h5 cleft_field cleft_field_file cleft_snapshot EXPORT CleftTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT CleftTargets NAMESPACE Cleft:: DESTINATION ${package_folder})
-foreach(folder base base/h5 encoder/field encoder/field/file encoder/field/parametrization solver/snapshot)
+foreach(folder base base/h5 params/parameters encoder/field encoder/field/file encoder/field/parametrization solver/snapshot)
   file(GLOB headers ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   list(REMOVE_ITEM headers ${PROJECT_SOURCE_DIR}/base/vtk_listener.h
     ${PROJECT_SOURCE_DIR}/encoder/field/file/columns.h)

@@ -120,8 +120,7 @@ int main(int argc, char** argv) {
     const Series series(reader);
     Encoded encoded = encode(series, options, [&](const std::string& state) { progress(state); });
     Field& field = encoded.field;
-    for (const auto& [name, value] : reader.snapshot().parameters)
-      if (const double* number = std::get_if<double>(&value)) field.parameters[name] = *number;
+    field.parameters = reader.snapshot().parameters;
     field.case_hash = reader.snapshot().case_hash;
     progress("writing");
     write_field(out, field, encoded.residual ? &*encoded.residual : nullptr, {}, encoded.of_quantities);

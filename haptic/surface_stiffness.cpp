@@ -69,11 +69,6 @@ double sinking(const SkinLayer& layer, double x) {
   return -x * w;
 }
 
-double parameter(const Field& field, const char* name) {
-  const auto found = field.parameters.find(name);
-  return found == field.parameters.end() ? std::nan("") : found->second;
-}
-
 }  // namespace
 
 double half_space_profile(double distance) {
@@ -122,8 +117,7 @@ double surface_stiffness(const Field& field) {
     field.quantity(i, {cut.start + cut.length / 2, 0, 0}, Side::both, 0, std::span(&compliance, 1));
     return stiffness_from_compliance(compliance);
   }
-  const double modulus = parameter(field, "tissue.young_modulus"),
-               nu = parameter(field, "tissue.poisson_ratio");
+  const double modulus = field.parameters->tissue.young_modulus, nu = field.parameters->tissue.poisson_ratio;
   if (std::isnan(modulus) || std::isnan(nu))
     throw InputError("the field knows neither a compliance nor its tissue's modulus: give --stiffness");
   const auto layer = skin_layer(field);
@@ -131,11 +125,11 @@ double surface_stiffness(const Field& field) {
 }
 
 std::optional<SkinLayer> skin_layer(const Field& field) {
-  const double skin_nu = parameter(field, "skin.poisson_ratio"),
-               thickness = parameter(field, "skin.thickness");
-  const SkinLayer layer{parameter(field, "tissue.young_modulus"), parameter(field, "tissue.poisson_ratio"),
-                        parameter(field, "patch.height"), parameter(field, "foundation.stiffness"),
-                        parameter(field, "skin.young_modulus") * thickness / (1 - skin_nu * skin_nu)};
+  const Parameters& p = *field.parameters;  // what is not recorded is NaN
+  const double skin_nu = p.skin.poisson_ratio;
+  const SkinLayer layer{p.tissue.young_modulus, p.tissue.poisson_ratio, p.patch.height,
+                        p.foundation.stiffness,
+                        p.skin.young_modulus * p.skin.thickness / (1 - skin_nu * skin_nu)};
   const bool known = layer.young_modulus > 0 && !std::isnan(layer.poisson_ratio) && layer.height > 0 &&
                      layer.foundation > 0 && !std::isnan(layer.membrane);
   return known ? std::optional(layer) : std::nullopt;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "params/parameters/table.h"
 
 namespace cleft {
 
@@ -34,7 +35,7 @@ std::string either(const std::vector<std::string>& names) {
 
 void check_sensitivities(const std::vector<std::string>& names, const Parameters& parameters,
                          const std::string& where) {
-  if (!names.empty() && parameters.cut.contact == "true")
+  if (!names.empty() && parameters.cut.contact)
     throw InputError(where +
                      ": the series has no derivative where lips begin to touch; set "
                      "cut.contact to false");

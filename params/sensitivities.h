@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 

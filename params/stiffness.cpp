@@ -1,10 +1,11 @@
 #include "params/stiffness.h"
 
+#include "params/parameters/table.h"
+
 namespace cleft {
 
 std::string stiffness_key(Parameters p) {
-  if (p.skin.initial_stress_stiffness != "true")
-    p.skin.prestress_u = p.skin.prestress_v = p.skin.prestress_uv = 0;
+  if (!p.skin.initial_stress_stiffness) p.skin.prestress = {};
   if (p.mesh.cut_length == 0) p.mesh.cut_length = p.cut.length;
   if (p.mesh.cut_depth == 0) p.mesh.cut_depth = p.cut.depth;
   const Parameters defaults;

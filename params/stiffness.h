@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 

@@ -11,11 +11,13 @@
 #include "base/error.h"
 #include "base/file_versions.h"
 #include "base/text.h"
+#include "params/consistency.h"
 #include "params/encode_limits.h"
 #include "params/hash.h"
 #include "params/sampling/read_sampling.h"
 #include "params/sampling/sampling.h"
 #include "params/sensitivities.h"
+#include "params/solve_hash.h"
 #include "params/toml_value.h"
 
 namespace cleft {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "params/parameters.h"
+#include "params/parameters/table.h"
 
 namespace cleft {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "params/parameters.h"
+#include "params/parameters/table.h"
 
 namespace cleft {
 

@@ -93,8 +93,8 @@ Assembly::Assembly(const PatchElements& elements, int loads) {
 void Assembly::add(const PatchElements& elements, const Parameters& p, double factor,
                    const Eigen::Matrix3Xd& combination) {
   const Materials materials(p);
-  const bool mean_dilatation = p.tissue.formulation == "mean-dilatation";
-  const bool initial_stress_stiffness = p.skin.initial_stress_stiffness == "true";
+  const bool mean_dilatation = p.tissue.formulation == TissueFormulation::mean_dilatation;
+  const bool initial_stress_stiffness = p.skin.initial_stress_stiffness;
   FEValues<3> values(elements.mapping, elements.element, wedge_rule(elements.discretization.rule),
                      update_gradients | update_JxW_values);
   const QGaussSimplex<2> triangle(2);

@@ -84,7 +84,7 @@ std::vector<Vec3> CaseBatch::at_nodes(const double* column) const {
 std::vector<std::string> CaseBatch::derivatives() const {
   std::vector<std::string> names = options_.sensitivities;
   if (options_.unit_prestress)
-    names.insert(names.end(), std::begin(prestress_names), std::end(prestress_names));
+    for (const std::string& name : prestress_names()) names.push_back(name);
   return names;
 }
 
@@ -130,7 +130,7 @@ void CaseBatch::solve_block(int first, int count, std::size_t part) {
 void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads) {
   std::vector<FrameSolver::Column> columns;
   for (Eigen::Index j = first; j < first + count; ++j)
-    columns.push_back({0, release_.released[j], parameters(member).cut.contact == "true", 1e-10});
+    columns.push_back({0, release_.released[j], parameters(member).cut.contact, 1e-10});
   const auto combined = [&](const Block& block) {
     Block sum = Block::Zero(block.rows(), count);
     for (std::size_t load = loads.begin; load < loads.end; ++load)
@@ -150,7 +150,7 @@ void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, cons
     member.writing->write_vectors("displacement", static_cast<std::size_t>(first + j), nodes);
   }
   for (std::size_t i = 0; options_.unit_prestress && i < loads_.units.size(); ++i)
-    write_derivative(member, prestress_names[loads_.units[i]], first,
+    write_derivative(member, prestress_names()[loads_.units[i]], first,
                      loads.displacements.middleCols(static_cast<Eigen::Index>(i) * count, count));
   shared_.phases().end("write");
   for (const std::string& name : options_.sensitivities) {

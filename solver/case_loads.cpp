@@ -1,16 +1,24 @@
 #include "solver/case_loads.h"
 
+#include "params/parameters/table.h"
+
 namespace cleft {
 
 namespace {
 
 Eigen::Vector3d prestress(const Parameters& p) {
-  return {p.skin.prestress_u, p.skin.prestress_v, p.skin.prestress_uv};
+  return {p.skin.prestress.uu, p.skin.prestress.vv, p.skin.prestress.uv};
 }
 
-bool is_linear(const Parameters& p) { return p.cut.contact != "true"; }
+bool is_linear(const Parameters& p) { return !p.cut.contact; }
 
 }  // namespace
+
+std::array<std::string, 3> prestress_names() {
+  const Parameters p;
+  const Prestress& sigma = p.skin.prestress;
+  return {row_of(p, sigma.uu).name, row_of(p, sigma.vv).name, row_of(p, sigma.uv).name};
+}
 
 CaseLoads::CaseLoads(const PatchSystem& system, const std::vector<const Parameters*>& parameters,
                      bool with_units, bool every_unit)

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,8 +14,7 @@ namespace cleft {
 inline constexpr int most_units = 3;  ///< series of unit prestresses: uu, vv, uv
 
 /// The parameters skin.prestress_... of a direction.
-inline constexpr const char* prestress_names[] = {"skin.prestress_u", "skin.prestress_v",
-                                                  "skin.prestress_uv"};
+std::array<std::string, 3> prestress_names();
 
 /// With `by_units` the loads are unit prestresses, and the frames of each case are sums; with contact a
 /// series is not linear, and the case is solved separately. Without it the loads are those of the cases.

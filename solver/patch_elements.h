@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "solver/patch_mesh.h"
 #include "solver/patch_system.h"
 

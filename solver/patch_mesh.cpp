@@ -202,7 +202,7 @@ class Releaser {
     const double cut_before = first.incision * r_.length;  // a branch is the second incision
     for (std::size_t m = 1; m <= column.size(); ++m) {
       r_.order.push_back(column[m - 1]);
-      if (m < column.size() && p_.cut.frames != "pair") continue;
+      if (m < column.size() && p_.cut.frames != FrameEvery::pair) continue;
       const double part = static_cast<double>(m) / static_cast<double>(column.size());
       r_.released.push_back(static_cast<int>(r_.order.size()));
       r_.position.push_back(first.along + (next - first.along) * part);
@@ -219,8 +219,8 @@ class Releaser {
 
 }  // namespace
 
-bool diagonal_rises(const std::string& formulation, int i, int j) {
-  return (formulation == "mean-dilatation" ? i + j : j) % 2 == 0;
+bool diagonal_rises(TissueFormulation formulation, int i, int j) {
+  return (formulation == TissueFormulation::mean_dilatation ? i + j : j) % 2 == 0;
 }
 
 PatchMesh make_patch_mesh(const Parameters& parameters) { return PatchMesher(parameters).mesh(); }

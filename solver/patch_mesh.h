@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 
@@ -58,7 +58,7 @@ PatchMesh make_patch_mesh(const Parameters& parameters);
 /// nodes of four triangles between two straight lines, whose volumes are not independent. Nodes of four
 /// triangles are next to nodes of eight, whose compliance differs, so that every other frame differs
 /// slightly.
-bool diagonal_rises(const std::string& formulation, int i, int j);
+bool diagonal_rises(TissueFormulation formulation, int i, int j);
 
 /// How the cut of a case opens in its mesh.
 struct Release {

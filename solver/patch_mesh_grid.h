@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 

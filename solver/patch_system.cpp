@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "params/parameters/table.h"
 #include "solver/assembly.h"
 
 namespace cleft {
@@ -13,7 +14,7 @@ namespace cleft {
 namespace {
 
 Eigen::Vector3d directions(const Parameters::Skin& skin) {
-  return {skin.prestress_u, skin.prestress_v, skin.prestress_uv};
+  return {skin.prestress.uu, skin.prestress.vv, skin.prestress.uv};
 }
 
 /// Trilinos applies a matrix to memory that Eigen owns.

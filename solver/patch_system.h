@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "solver/patch_mesh.h"
 
 class Epetra_CrsMatrix;

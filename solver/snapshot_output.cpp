@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include "params/solve_hash.h"
+
 namespace cleft {
 
 namespace {
@@ -34,7 +36,7 @@ Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Rel
   s.cut_start = release.start;
   s.cut_length = release.length;
   s.cut_depth = release.depth;
-  for (const Parameter& row : parameter_table()) s.parameters[row.name] = get_parameter(parameters, row);
+  s.parameters = RecordedParameters(parameters);
   s.case_hash = solve_hash(parameters);
   return s;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "solver/frame_figures.h"
 #include "solver/patch_mesh.h"
 #include "solver/snapshot/snapshot.h"

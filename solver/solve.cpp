@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "params/parameters/table.h"
 #include "params/sensitivities.h"
 #include "params/stiffness.h"
 #include "solver/shared_stiffness.h"
@@ -15,7 +16,7 @@ namespace {
 
 /// How the cut opens in a given mesh.
 std::string release_key(const Parameters& p) {
-  return shortest(p.cut.length) + ";" + shortest(p.cut.depth) + ";" + p.cut.frames;
+  return shortest(p.cut.length) + ";" + shortest(p.cut.depth) + ";" + text_of(p, p.cut.frames);
 }
 
 /// Indices of the cases, together where their keys are equal.
@@ -36,10 +37,10 @@ std::vector<std::vector<std::size_t>> grouped(const std::vector<std::size_t>& ca
 }  // namespace
 
 void check_options(const Parameters& p, const SolveOptions& options, const std::string& where) {
-  const bool contact = p.cut.contact == "true", tense = p.skin.initial_stress_stiffness == "true";
+  const bool contact = p.cut.contact, tense = p.skin.initial_stress_stiffness;
   if (options.unit_prestress && (contact || tense))
     throw InputError(where + ": --unit-prestress: the series is not linear in the prestress with " +
-                     (contact ? "cut.contact" : "skin.initial_stress_stiffness") +
+                     (contact ? row_of(p, p.cut.contact) : row_of(p, p.skin.initial_stress_stiffness)).name +
                      " = true; set it to false");
   if (options.method == Method::iterative && contact)
     throw InputError(where +

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "solver/frame_solver.h"
 #include "solver/phases.h"
 

@@ -10,6 +10,7 @@
 #include "base/h5/h5.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "params/parameters/table.h"
 #include "params/study.h"
 #include "solver/mpi_session.h"
 #include "solver/solve.h"

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "params/consistency.h"
 #include "tradeoff/chain.h"
 #include "tradeoff/replays/frame_time.h"
 
@@ -53,7 +54,7 @@ Parameters applied(const Setting& setting, Parameters p) {
   p.mesh.element_size = setting.element_size, p.mesh.grading = advised_grading;
   // A frame for every pair costs 1.2 to 2.2 times as much, and takes 3 to 9 % off the error: a finer mesh
   // takes off more.
-  p.cut.frames = "column";
+  p.cut.frames = FrameEvery::column;
   p.patch.length = p.cut.length + 2 * setting.margin, p.patch.width = 2 * setting.margin;
   return p;
 }

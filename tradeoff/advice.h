@@ -26,7 +26,7 @@
 
 #include "base/vec3.h"
 #include "encoder/field/field.h"
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 

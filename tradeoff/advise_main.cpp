@@ -8,6 +8,7 @@
 #include "base/output_file.h"
 #include "base/output_folder.h"
 #include "base/text.h"
+#include "params/parameters/table.h"
 #include "params/study.h"
 #include "tradeoff/advice.h"
 
@@ -89,7 +90,8 @@ int main(int argc, char** argv) {
           {"mesh.grading", p.mesh.grading},
           {"patch.length", p.patch.length},
           {"patch.width", p.patch.width}};
-      if (study.base.parameters.cut.frames != p.cut.frames) chosen.emplace_back("cut.frames", p.cut.frames);
+      if (study.base.parameters.cut.frames != p.cut.frames)
+        chosen.emplace_back("cut.frames", text_of(p, p.cut.frames));
       write_text_file(out, with_settings(study, chosen, setting.tolerance));
     }
     double frame_ms = 0;
@@ -98,7 +100,7 @@ int main(int argc, char** argv) {
                     {"mesh.grading", p.mesh.grading},
                     {"patch.length_mm", p.patch.length},
                     {"patch.width_mm", p.patch.width},
-                    {"cut.frames", p.cut.frames},
+                    {"cut.frames", text_of(p, p.cut.frames)},
                     {"frames", e.frames},
                     {"control_points", models.front().control_points(setting.tolerance)},
                     {"tolerance", setting.tolerance},

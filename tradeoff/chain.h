@@ -4,7 +4,7 @@
 #include <string>
 
 #include "encoder/field/field.h"
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "tradeoff/opening.h"
 
 namespace cleft {

@@ -9,6 +9,7 @@
 #include "base/output_file.h"
 #include "base/output_folder.h"
 #include "base/text.h"
+#include "params/parameters/table.h"
 #include "params/run/study_folder.h"
 #include "solver/snapshot/snapshot.h"
 #include "tradeoff/measures.h"
@@ -38,7 +39,7 @@ ChartedCase charted_case(const StudyFolder& folder, const std::string& wanted) {
     charted.tolerance = study.base.encode.tolerance,
     charted.parametrization = study.base.encode.parametrization;
     const SnapshotReader reader(snapshot);
-    for (const auto& [name, value] : reader.snapshot().parameters)
+    for (const auto& [name, value] : reader.snapshot().parameters.all())
       set_parameter(charted.parameters, name, value, snapshot);
     return charted;
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "tradeoff/chart.h"
 
 namespace cleft {

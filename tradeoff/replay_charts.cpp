@@ -29,11 +29,11 @@ Parameters canonical(Parameters p) {
 /// The same cut under three independent prestresses, from which any other is superposed. (Shear alone would
 /// compress the skin.)
 PrestressFields prestress_fields(const ChartedCase& charted, const WorkFolder& work) {
-  const double pull = std::max({charted.parameters.skin.prestress_u, charted.parameters.skin.prestress_v});
+  const double pull = std::max({charted.parameters.skin.prestress.uu, charted.parameters.skin.prestress.vv});
   std::vector<StudyRecord> records;
   for (const auto& [u, v, uv] : {std::array{pull, 0., 0.}, {0., pull, 0.}, {pull, pull, pull}}) {
     Parameters p = canonical(charted.parameters);
-    p.skin.prestress_u = u, p.skin.prestress_v = v, p.skin.prestress_uv = uv;
+    p.skin.prestress = {u, v, uv};
     const Chain::Encoded encoded = Chain(p, work).encoded(charted.tolerance);
     records.push_back({"prestress" + std::to_string(records.size()), record_of(encoded.field)});
   }
@@ -88,7 +88,7 @@ class ReplayPanels {
       const SnapshotReader truth(Chain(parameters, work_).snapshot());
       if (parameters.cut.count > 1) return put("the case's field", parallel_error(truth, *field_));
       put("the case's field", replay_error(truth, *field_));
-      if (charted_.parameters.skin.prestress_uv == 0) put("tension turned", replay_error(truth, *fields_));
+      if (charted_.parameters.skin.prestress.uv == 0) put("tension turned", replay_error(truth, *fields_));
     } catch (const std::runtime_error& e) {
       options_.progress("left out, a cut of " + setting + ": " + e.what());
     }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "params/consistency.h"
 #include "tradeoff/chain.h"
 #include "tradeoff/measures.h"
 #include "tradeoff/opening.h"
@@ -43,7 +44,7 @@ Parameters slit(double half_length, double size) {
   p.patch = {40 * half_length, 40 * half_length, 2};
   p.cut.length = 2 * half_length, p.cut.depth = 1;
   p.mesh = {.element_size = size, .grading = 1.15};
-  p.skin.prestress_u = p.skin.prestress_v = 0.01;
+  p.skin.prestress.uu = p.skin.prestress.vv = 0.01;
   p.tissue.young_modulus = 1e-6, p.foundation = {1e-9, 100};
   return p;
 }
@@ -54,7 +55,7 @@ void add_slit(Panels& panels, const ChartOptions& options, const WorkFolder& wor
     options.progress("solving a slit with elements of " + shortest(a / parts) + " mm");
     const Parameters p = slit(a, a / parts);
     const Chain solved(p, work);
-    const double expected = 4 * a * p.skin.prestress_v / p.skin.young_modulus;
+    const double expected = 4 * a * p.skin.prestress.vv / p.skin.young_modulus;
     panels.add("slit, closed form", a / parts, solved,
                std::abs(norm(solved.opening().at(a, 2 * a)) / expected - 1), false);
   }

@@ -45,7 +45,7 @@ void open_and_list_study(benchmark::State& state) {
     for (auto _ : state) {
       const StudyFile study(file);
       for (int i = 0; i < study.size(); ++i)
-        benchmark::DoNotOptimize(static_cast<double>(study.parameters(i).size()) +
+        benchmark::DoNotOptimize(static_cast<double>(study.parameters(i).empty()) +
                                  study.report(i).node_error);
     }
   }

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +19,7 @@
 #include "encoder/field/kernels.h"
 #include "encoder/field/parametrization.h"
 #include "encoder/field/place.h"
+#include "params/parameters/recorded.h"
 
 namespace cleft {
 
@@ -142,7 +142,7 @@ class Field {
   double quantum = 0;  ///< mm: unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
   std::vector<Quantity> quantities;
   std::vector<ParameterDerivative> by_parameter;
-  std::map<std::string, double> parameters;  ///< of the case, by dotted name
+  RecordedParameters parameters;  ///< of the case; field files hold the numbers alone
   std::string case_hash;
   FitReport report;
   std::optional<Interpolation> interpolation;

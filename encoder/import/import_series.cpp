@@ -30,16 +30,16 @@ std::vector<Vec3> placed_points(const SourceMesh& mesh, const Placement& placeme
   return points;
 }
 
-std::map<std::string, std::variant<double, std::string>> parse_parameters(
-    const std::vector<std::string>& list) {
-  std::map<std::string, std::variant<double, std::string>> parameters;
+RecordedParameters parse_parameters(const std::vector<std::string>& list) {
+  RecordedParameters parameters;
   for (const std::string& text : list) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == text.npos)
       throw InputError("--set " + text + ": is not NAME=VALUE, such as skin.thickness=1.5");
     const std::string name = text.substr(0, equals);
-    if (!parameters.emplace(name, parse_number(text.substr(equals + 1), "--set " + name)).second)
-      throw InputError("--set " + name + " is given twice");
+    const double value = parse_number(text.substr(equals + 1), "--set " + name);
+    if (parameters.find(name)) throw InputError("--set " + name + " is given twice");
+    parameters.set(name, value);
   }
   return parameters;
 }

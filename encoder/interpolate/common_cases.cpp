@@ -18,6 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+StudyMember member_of(const std::string& name, Field field, const RecordedParameters& choices) {
+  for (const auto& [choice, value] : choices.texts()) field.parameters.set(choice, value);
+  return {name, std::move(field)};
+}
+
 void for_each_member(const std::string& study, const std::function<void(StudyMember)>& take,
                      const ToldPart& told = {}) {
   const auto begin = [&](std::size_t i, std::size_t count) {
@@ -27,7 +32,7 @@ void for_each_member(const std::string& study, const std::function<void(StudyMem
     const std::vector<StudyCase> cases = published_study_cases(study);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       begin(i, cases.size());
-      take({cases[i].name, read_field(cases[i].field_file), cases[i].choices});
+      take(member_of(cases[i].name, read_field(cases[i].field_file), cases[i].choices));
     }
     return;
   }
@@ -35,21 +40,19 @@ void for_each_member(const std::string& study, const std::function<void(StudyMem
   const StudyFile file(study);
   for (int i = 0; i < file.size(); ++i) {
     begin(static_cast<std::size_t>(i), static_cast<std::size_t>(file.size()));
-    take({file.name(i), file.field(i), file.choices(i)});
+    take({file.name(i), file.field(i)});
   }
 }
 
 /// The cut ends at nodes: where the mesh was made for another one, not where it was asked to.
-std::map<std::string, double> parameters_as_solved(const Field& field) {
-  auto parameters = field.parameters;
-  const auto put = [&](const char* mesh, const char* cut, double solved) {
-    const auto of_mesh = parameters.find(mesh);
-    if (of_mesh != parameters.end() && of_mesh->second > 0 && parameters.contains(cut))
-      parameters[cut] = solved;
+RecordedParameters parameters_as_solved(const Field& field) {
+  RecordedParameters p = field.parameters;
+  const auto put = [&](const double& of_mesh, const double& of_cut, double solved) {
+    if (of_mesh > 0 && p.has(of_cut)) p.set(of_cut, solved);
   };
-  put("mesh.cut_length", "cut.length", field.cut().length);
-  put("mesh.cut_depth", "cut.depth", field.cut().depth);
-  return parameters;
+  put(p->mesh.cut_length, p->cut.length, field.cut().length);
+  put(p->mesh.cut_depth, p->cut.depth, field.cut().depth);
+  return p;
 }
 
 /// A map of an axis onto one that is the same in all cases: linear, on each side of the cut across it.
@@ -104,8 +107,7 @@ std::string both(const std::string& a, const std::string& b) { return "the cases
 
 struct CommonCases::Own {
   CommonCase kept;
-  std::map<std::string, double> parameters;  // as asked for
-  std::map<std::string, std::string> choices;
+  RecordedParameters parameters;  // as asked for
   std::string parametrization;
   std::array<BSplineBasis, 4> bases;
   std::vector<float> points;
@@ -121,7 +123,6 @@ CommonCases::Own CommonCases::own_of(const StudyMember& member) {
   const Field& field = member.field;
   Own own{{member.name, parameters_as_solved(field), field.parametrization().geometry(), field.report},
           field.parameters,
-          member.choices,
           field.parametrization().name(),
           normal_bases(field),
           floats_of(field.coefficients()),
@@ -142,15 +143,17 @@ void CommonCases::check_alike(const Own& a, const Own& b) {
   if (a.parametrization != b.parametrization)
     throw InputError(pair + " are encoded with different parametrisations ('" + a.parametrization +
                      "' and '" + b.parametrization + "'); encode all cases with the same");
-  for (const auto& [name, value] : a.choices)
-    if (const auto other = b.choices.find(name); other != b.choices.end() && other->second != value)
+  const auto texts = b.parameters.texts();
+  for (const auto& [name, value] : a.parameters.texts())
+    if (const auto other = texts.find(name); other != texts.end() && other->second != value)
       throw InputError(pair + " differ in " + name + " (\"" + value + "\" and \"" + other->second +
                        "\"), between which nothing lies; make a study of each");
-  for (const auto& [name, value] : a.parameters)
-    if (!b.parameters.contains(name))
+  const auto numbers = a.parameters.numbers();
+  for (const auto& [name, value] : numbers)
+    if (!b.parameters.number(name))
       throw InputError("case " + b.kept.name + " has no parameter " + name + ", which case " + a.kept.name +
                        " has");
-  if (a.parameters.size() != b.parameters.size()) check_alike(b, a);
+  if (numbers.size() != b.parameters.numbers().size()) check_alike(b, a);
 }
 
 std::array<BSplineBasis, 4> CommonCases::common_bases(const std::vector<Own>& all) {
@@ -175,11 +178,11 @@ std::array<BSplineBasis, 4> CommonCases::common_bases(const std::vector<Own>& al
 std::vector<bool> CommonCases::distinct(const std::vector<Own>& all) {
   std::map<std::map<std::string, double>, const Own*> best;
   for (const Own& own : all) {
-    const Own*& kept = best[own.kept.parameters];
+    const Own*& kept = best[own.kept.parameters.numbers()];
     if (!kept || own.kept.report.spline_error < kept->kept.report.spline_error) kept = &own;
   }
   std::vector<bool> list;
-  for (const Own& own : all) list.push_back(best[own.kept.parameters] == &own);
+  for (const Own& own : all) list.push_back(best[own.kept.parameters.numbers()] == &own);
   return list;
 }
 
@@ -200,7 +203,7 @@ CommonCases CommonCases::of_records(const std::vector<const StudyRecord*>& recor
   std::vector<Own> all;
   for (const StudyRecord* one : records)
     told_of_file("cases/" + one->name + "/case.dffd", [&] {
-      all.push_back(own_of({one->name, cleft::field_of(one->record), one->choices}));
+      all.push_back(own_of(member_of(one->name, cleft::field_of(one->record), one->choices)));
     });
   return CommonCases(std::move(all));
 }
@@ -209,7 +212,6 @@ CommonCases::CommonCases(const std::vector<StudyMember>& members) : CommonCases(
 
 CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all)) {
   parametrization_ = all.front().parametrization;
-  choices_ = all.front().choices;
   const std::vector<bool> is_kept = distinct(all);
   for (std::size_t i = 0; i < all.size(); ++i) {
     Own own = std::move(all[i]);

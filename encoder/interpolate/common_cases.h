@@ -3,7 +3,6 @@
 
 #include <array>
 #include <functional>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,11 +12,10 @@
 
 namespace cleft {
 
-/// A case as read: its field, and its parameters that are not numbers (unknown for imported data).
+/// A case as read: its field, whose parameters hold switches and choices too (unknown for imported data).
 struct StudyMember {
   std::string name;
   Field field;
-  std::map<std::string, std::string> choices;
 };
 
 /// The published cases of a study folder, or the fields of a study.dffd. Throws InputError if there are none,
@@ -31,7 +29,7 @@ using ToldPart = std::function<void(double part)>;
 struct CommonCase {
   std::string name;
   /// cut.length and cut.depth are those of the cut in the mesh, if the mesh was made for another cut.
-  std::map<std::string, double> parameters;
+  RecordedParameters parameters;
   FieldGeometry geometry;
   FitReport report;
 };
@@ -57,7 +55,6 @@ class CommonCases {
   const std::vector<CommonCase>& cases() const { return cases_; }
   int size() const { return static_cast<int>(cases_.size()); }
   const std::string& parametrization() const { return parametrization_; }
-  const std::map<std::string, std::string>& choices() const { return choices_; }
 
   /// Bases in parameters that are the same in all cases: "fixed" has them scaled to -1 .. 1 across and 0
   /// .. 1.
@@ -84,7 +81,6 @@ class CommonCases {
 
   std::vector<CommonCase> cases_;
   std::string parametrization_;
-  std::map<std::string, std::string> choices_;
   std::array<BSplineBasis, 4> bases_;
   std::vector<std::vector<float>> points_;
   std::vector<CommonDerivative> derivatives_;

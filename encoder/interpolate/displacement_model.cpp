@@ -37,7 +37,7 @@ Eigen::MatrixXd few_of(const Eigen::MatrixXd& samples) {
 
 }  // namespace
 
-std::vector<int> representative_cases(const std::vector<CaseParameters>& cases, int most) {
+std::vector<int> representative_cases(const std::vector<RecordedParameters>& cases, int most) {
   const int n = static_cast<int>(cases.size());
   std::vector<int> list(cases.size());
   std::iota(list.begin(), list.end(), 0);
@@ -59,13 +59,13 @@ std::vector<int> representative_cases(const std::vector<CaseParameters>& cases, 
   return list;
 }
 
-DisplacementModel::DisplacementModel(const std::vector<CaseParameters>& cases, const CaseSamples& samples,
+DisplacementModel::DisplacementModel(const std::vector<RecordedParameters>& cases, const CaseSamples& samples,
                                      Loading loading)
     : features_(cases, loading), derivatives_(samples.derivatives.cols()) {
   const auto n = static_cast<Eigen::Index>(cases.size());
   places_.resize(n, features_.size()), loads_.resize(n, features_.load(cases[0]).size()), scales_.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const CaseParameters& one = cases[i];
+    const RecordedParameters& one = cases[i];
     places_.row(i) = features_.at(one).transpose(), loads_.row(i) = features_.load(one).transpose();
     const double scale = features_.scale(one);
     scales_[i] = scale > 0 ? scale : 1;
@@ -99,13 +99,13 @@ DisplacementModel::DisplacementModel(const std::vector<CaseParameters>& cases, c
 
 /// Derivatives by parameters that change what stays the same in all cases say nothing of what is between
 /// them.
-void DisplacementModel::add_ways(const std::vector<CaseParameters>& cases, const CaseSamples& samples) {
+void DisplacementModel::add_ways(const std::vector<RecordedParameters>& cases, const CaseSamples& samples) {
   constexpr double nothing = 1e-9;  // of a change of the parameter by its step
   for (Eigen::Index d = 0; d < derivatives_; ++d) {
     const Eigen::Index of = samples.derivative_of[d];
-    const CaseParameters& one = cases[of];
+    const RecordedParameters& one = cases[of];
     const std::string& name = samples.parameter[d];
-    if (!one.contains(name) || !(features_.scale(one) > 0)) continue;
+    if (!one.number(name) || !(features_.scale(one) > 0)) continue;
     Way way{d, of, features_.slope(one, name), 0, 0};
     way.size = std::hypot(way.slope.features.norm(), way.slope.load.norm());
     if (way.slope.leaves || way.size * way.slope.step < nothing) continue;
@@ -181,7 +181,7 @@ bool DisplacementModel::sees_curvature() const {
   return true;
 }
 
-DisplacementModel::Prediction DisplacementModel::at(const CaseParameters& parameters) const {
+DisplacementModel::Prediction DisplacementModel::at(const RecordedParameters& parameters) const {
   const Eigen::VectorXd place = features_.at(parameters), load = features_.load(parameters);
   const double scale = features_.scale(parameters) * std::exp(exponents_.dot(place));
   const Eigen::VectorXd weights = scale * regression_->weights(place, load);
@@ -204,7 +204,7 @@ DisplacementModel::Prediction DisplacementModel::at(const CaseParameters& parame
   return prediction;
 }
 
-double DisplacementModel::outside(const CaseParameters& parameters) const {
+double DisplacementModel::outside(const RecordedParameters& parameters) const {
   const Eigen::VectorXd load = features_.load(parameters);
   Eigen::MatrixXd loads = loads_.transpose();
   if (uses_derivatives()) {

@@ -24,7 +24,7 @@ struct CaseSamples {
 };
 
 /// At most `most` cases that are farthest from one another; in order.
-std::vector<int> representative_cases(const std::vector<CaseParameters>& cases, int most);
+std::vector<int> representative_cases(const std::vector<RecordedParameters>& cases, int most);
 
 /// The regression is for displacements divided by the scale of their load (Features) and by a power law of
 /// the features that is fitted to their norms. The method is the one with the least leave-one-out error at
@@ -32,7 +32,8 @@ std::vector<int> representative_cases(const std::vector<CaseParameters>& cases, 
 class DisplacementModel {
  public:
   /// Derivatives are given for all cases or for none.
-  DisplacementModel(const std::vector<CaseParameters>& cases, const CaseSamples& samples, Loading loading);
+  DisplacementModel(const std::vector<RecordedParameters>& cases, const CaseSamples& samples,
+                    Loading loading);
 
   struct Prediction {
     Eigen::VectorXd weights;  ///< of the cases, for everything that is linear in their displacements
@@ -40,11 +41,11 @@ class DisplacementModel {
         derivatives;  ///< of the derivatives, in units of their parameter; empty without derivatives
     double error;     ///< mm: estimate of the largest error at any place
   };
-  Prediction at(const CaseParameters& parameters) const;
+  Prediction at(const RecordedParameters& parameters) const;
 
   /// Distance of parameters from the cases: that of the features from their convex hull, where the spread of
   /// each is 1, and that of the load's direction from the span of the cases' directions.
-  double outside(const CaseParameters& parameters) const;
+  double outside(const RecordedParameters& parameters) const;
 
   const Features& features() const { return features_; }
   const KernelRegression& regression() const { return *regression_; }
@@ -69,7 +70,7 @@ class DisplacementModel {
     Features::Slope slope;
     double log_scale, size;  ///< of scales_; of the slope
   };
-  void add_ways(const std::vector<CaseParameters>& cases, const CaseSamples& samples);
+  void add_ways(const std::vector<RecordedParameters>& cases, const CaseSamples& samples);
   TrainingCases training(const std::vector<int>& cases, bool with_ways) const;
   void choose(const std::vector<int>& cases, const Eigen::MatrixXd& normal);
   bool sees_curvature() const;

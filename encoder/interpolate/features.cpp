@@ -2,75 +2,107 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 namespace cleft {
 
 namespace {
 
-const std::vector<std::string> prestress = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
-// What the ratios are made of; a case that lacks one is none of the solver's.
-const std::vector<std::string> needed = {
-    "skin.prestress_u",     "skin.prestress_v",          "skin.prestress_uv",
-    "skin.thickness",       "skin.young_modulus",        "tissue.young_modulus",
-    "foundation.stiffness", "foundation.side_stiffness", "cut.length"};
-// Measured in lengths of the cut.
-const std::vector<std::string> lengths = {
-    "cut.depth",   "patch.length", "patch.width",       "patch.height",    "cut.radius",
-    "cut.spacing", "cut.branch",   "mesh.element_size", "mesh.cut_length", "mesh.cut_depth"};
+constexpr double Prestress::*const prestress[] = {&Prestress::uu, &Prestress::vv, &Prestress::uv};
 
-bool is_in(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+/// What the ratios are made of; a case that lacks one is none of the solver's.
+std::array<const double*, 9> needed(const Parameters& p) {
+  const Prestress& sigma = p.skin.prestress;
+  return {&sigma.uu,
+          &sigma.vv,
+          &sigma.uv,
+          &p.skin.thickness,
+          &p.skin.young_modulus,
+          &p.tissue.young_modulus,
+          &p.foundation.stiffness,
+          &p.foundation.side_stiffness,
+          &p.cut.length};
+}
+
+/// Measured in lengths of the cut.
+std::array<const double*, 10> lengths(const Parameters& p) {
+  return {&p.cut.depth,   &p.patch.length, &p.patch.width,       &p.patch.height,    &p.cut.radius,
+          &p.cut.spacing, &p.cut.branch,   &p.mesh.element_size, &p.mesh.cut_length, &p.mesh.cut_depth};
+}
+
+template <class List>
+bool is_in(const List& members, const void* member) {
+  return std::find(members.begin(), members.end(), member) != members.end();
+}
+
+/// The member of a name; null where the name is none of the table's.
+const void* member_of(const RecordedParameters& p, const std::string& name) {
+  const Parameter* row = find_parameter(name);
+  return row ? row->address(*p) : nullptr;
 }
 
 }  // namespace
 
-std::vector<std::string> varying_parameters(const std::vector<CaseParameters>& cases) {
+bool is_prestress(const RecordedParameters& p, const void* member) {
+  const Prestress& sigma = p->skin.prestress;
+  return std::any_of(std::begin(prestress), std::end(prestress),
+                     [&](double Prestress::*component) { return &(sigma.*component) == member; });
+}
+
+std::vector<std::string> varying_parameters(const std::vector<RecordedParameters>& cases) {
   std::vector<std::string> names;
-  for (const auto& [name, value] : cases.front())
-    if (std::any_of(cases.begin(), cases.end(),
-                    [&, &n = name, v = value](const CaseParameters& one) { return one.at(n) != v; }))
+  for (const auto& [name, value] : cases.front().numbers())
+    if (std::any_of(cases.begin(), cases.end(), [&, &n = name, v = value](const RecordedParameters& one) {
+          return one.number(n).value() != v;
+        }))
       names.push_back(name);
   return names;
 }
 
-std::vector<Features::Raw> Features::raw(const CaseParameters& p) const {
+std::vector<Features::Raw> Features::raw(const RecordedParameters& p) const {
   std::vector<Raw> list;
   if (ours_) {
-    const double E = p.at("tissue.young_modulus"), L = p.at("cut.length"), t = p.at("skin.thickness");
-    list.push_back({"skin.young_modulus skin.thickness / (tissue.young_modulus cut.length)",
-                    p.at("skin.young_modulus") * t / (E * L), true});
-    for (const char* name : {"foundation.stiffness", "foundation.side_stiffness"})
-      list.push_back({std::string(name) + " cut.length / tissue.young_modulus", p.at(name) * L / E, true});
-    for (const std::string& name : lengths)
-      if (p.contains(name)) list.push_back({name + " / cut.length", p.at(name) / L, true});
+    const double E = p->tissue.young_modulus, L = p->cut.length, t = p->skin.thickness;
+    const std::string tissue = p.name_of(p->tissue.young_modulus), cut = p.name_of(p->cut.length),
+                      skin = p.name_of(p->skin.thickness), over = " / (" + tissue + " " + cut + ")";
+    list.push_back(
+        {p.name_of(p->skin.young_modulus) + " " + skin + over, p->skin.young_modulus * t / (E * L), true});
+    for (const double* k : {&p->foundation.stiffness, &p->foundation.side_stiffness})
+      list.push_back({p.name_of(*k) + " " + cut + " / " + tissue, *k * L / E, true});
+    for (const double* length : lengths(*p))
+      if (p.has(*length)) list.push_back({p.name_of(*length) + " / " + cut, *length / L, true});
     if (loading_ == Loading::general)
-      for (const std::string& name : prestress)
-        list.push_back(
-            {name + " skin.thickness / (tissue.young_modulus cut.length)", p.at(name) * t / (E * L), true});
+      for (const auto component : prestress) {
+        const double& sigma = p->skin.prestress.*component;
+        list.push_back({p.name_of(sigma) + " " + skin + over, sigma * t / (E * L), true});
+      }
     for (const std::string& name : varying_)
-      if (!is_in(needed, name) && !is_in(lengths, name)) list.push_back({name, p.at(name), false});
+      if (const void* member = member_of(p, name); !is_in(needed(*p), member) && !is_in(lengths(*p), member))
+        list.push_back({name, p.number(name).value(), false});
   } else {
-    for (const std::string& name : varying_) list.push_back({name, p.at(name), true});
+    for (const std::string& name : varying_) list.push_back({name, p.number(name).value(), true});
   }
   return list;
 }
 
-Features::Features(const std::vector<CaseParameters>& cases, Loading loading)
+Features::Features(const std::vector<RecordedParameters>& cases, Loading loading)
     : loading_(loading), varying_(varying_parameters(cases)) {
-  ours_ = std::all_of(needed.begin(), needed.end(),
-                      [&](const std::string& name) { return cases.front().contains(name); });
+  const auto list = needed(*cases.front());
+  ours_ =
+      std::all_of(list.begin(), list.end(), [&](const double* member) { return cases.front().has(*member); });
   if (!ours_) loading_ = Loading::general;
   if (loading_ == Loading::superposed)
-    for (const std::string& name : prestress)
+    for (const auto component : prestress)
       if (std::any_of(cases.begin(), cases.end(),
-                      [&](const CaseParameters& one) { return one.at(name) != 0; }))
-        components_.push_back(name);
+                      [&](const RecordedParameters& one) { return one->skin.prestress.*component != 0; }))
+        components_.push_back(component);
 
   const auto first = raw(cases.front());
   const auto count = static_cast<Eigen::Index>(first.size()), n = static_cast<Eigen::Index>(cases.size());
   positive_.assign(first.size(), true);
-  for (const CaseParameters& one : cases) {
+  for (const RecordedParameters& one : cases) {
     const auto values = raw(one);
     for (std::size_t f = 0; f < values.size(); ++f)
       positive_[f] = positive_[f] && values[f].logarithm && values[f].value > 0;
@@ -105,7 +137,7 @@ Features::Features(const std::vector<CaseParameters>& cases, Loading loading)
     follows_.row(static_cast<Eigen::Index>(f)).head(combinations[f].size()) = combinations[f].transpose();
 }
 
-Eigen::VectorXd Features::normalised(const CaseParameters& parameters) const {
+Eigen::VectorXd Features::normalised(const RecordedParameters& parameters) const {
   const auto values = raw(parameters);
   Eigen::VectorXd result(static_cast<Eigen::Index>(values.size()));
   for (std::size_t f = 0; f < values.size(); ++f) {
@@ -116,11 +148,11 @@ Eigen::VectorXd Features::normalised(const CaseParameters& parameters) const {
   return result;
 }
 
-Eigen::VectorXd Features::at(const CaseParameters& parameters) const {
+Eigen::VectorXd Features::at(const RecordedParameters& parameters) const {
   return normalised(parameters)(chosen_);
 }
 
-double Features::off(const CaseParameters& parameters) const {
+double Features::off(const RecordedParameters& parameters) const {
   if (left_out_.empty()) return 0;
   const Eigen::VectorXd all = normalised(parameters);
   Eigen::VectorXd kept(follows_.cols());
@@ -129,23 +161,25 @@ double Features::off(const CaseParameters& parameters) const {
   return distance > 1e-6 ? distance : 0;
 }
 
-Eigen::VectorXd Features::load(const CaseParameters& p) const {
+Eigen::VectorXd Features::load(const RecordedParameters& p) const {
   if (components_.empty()) return Eigen::VectorXd::Ones(1);
   Eigen::VectorXd q(static_cast<Eigen::Index>(components_.size()));
-  for (std::size_t k = 0; k < components_.size(); ++k) q[static_cast<Eigen::Index>(k)] = p.at(components_[k]);
+  for (std::size_t k = 0; k < components_.size(); ++k)
+    q[static_cast<Eigen::Index>(k)] = p->skin.prestress.*components_[k];
   return q.norm() > 0 ? Eigen::VectorXd(q / q.norm()) : q;
 }
 
-Features::Slope Features::slope(const CaseParameters& parameters, const std::string& name) const {
+Features::Slope Features::slope(const RecordedParameters& parameters, const std::string& name) const {
   // Central differences of closed forms: off by 1e-8 or so, far below any fit.
   constexpr double part = 1e-4;
-  double unit = std::abs(parameters.at(name));
-  if (unit == 0 && is_in(prestress, name))
-    for (const std::string& other : prestress) unit = std::max(unit, std::abs(parameters.at(other)));
+  const double at_case = parameters.number(name).value();
+  double unit = std::abs(at_case);
+  if (unit == 0 && is_prestress(parameters, member_of(parameters, name)))
+    for (const auto other : prestress) unit = std::max(unit, std::abs(parameters->skin.prestress.*other));
   Slope slope;
   slope.step = part * (unit > 0 ? unit : 1);
-  CaseParameters less = parameters, more = parameters;
-  less[name] -= slope.step, more[name] += slope.step;
+  RecordedParameters less = parameters, more = parameters;
+  less.set(name, at_case - slope.step), more.set(name, at_case + slope.step);
   const double width = 2 * slope.step;
   slope.features = (at(more) - at(less)) / width, slope.load = (load(more) - load(less)) / width;
   slope.log_scale = std::log(scale(more) / scale(less)) / width;
@@ -153,11 +187,11 @@ Features::Slope Features::slope(const CaseParameters& parameters, const std::str
   return slope;
 }
 
-double Features::scale(const CaseParameters& p) const {
+double Features::scale(const RecordedParameters& p) const {
   if (!ours_) return 1;
-  Eigen::Vector3d q;
-  for (int k = 0; k < 3; ++k) q[k] = p.at(prestress[k]) * p.at("skin.thickness");
-  return q.norm() / p.at("tissue.young_modulus");
+  const auto [uu, vv, uv] = p->skin.prestress;
+  const Eigen::Vector3d q = p->skin.thickness * Eigen::Vector3d(uu, vv, uv);
+  return q.norm() / p->tissue.young_modulus;
 }
 
 }  // namespace cleft

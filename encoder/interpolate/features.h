@@ -12,13 +12,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
 #include <string>
 #include <vector>
 
-namespace cleft {
+#include "params/parameters/recorded.h"
 
-using CaseParameters = std::map<std::string, double>;
+namespace cleft {
 
 /// How the prestress enters: its components superpose, or they are features like others.
 enum class Loading { superposed, general };
@@ -27,7 +26,7 @@ class Features {
  public:
   /// Features of cases that all have the same parameters. Parameters that are not the solver's (imported
   /// data) are features themselves, or their logarithms if all values are positive.
-  Features(const std::vector<CaseParameters>& cases, Loading loading);
+  Features(const std::vector<RecordedParameters>& cases, Loading loading);
 
   int size() const { return static_cast<int>(chosen_.size()); }
   const std::vector<std::string>& names() const { return names_; }
@@ -35,12 +34,12 @@ class Features {
 
   /// Features of a case, from -1 to 1 in the study. Of features that follow linearly from one another in
   /// all cases only the first are kept.
-  Eigen::VectorXd at(const CaseParameters& parameters) const;
+  Eigen::VectorXd at(const RecordedParameters& parameters) const;
   /// Distance of the features that were left out from their linear dependence on those kept, in halves of
   /// their range.
-  double off(const CaseParameters& parameters) const;
+  double off(const RecordedParameters& parameters) const;
   /// Components of the prestress over its norm; (1) if it does not superpose.
-  Eigen::VectorXd load(const CaseParameters& parameters) const;
+  Eigen::VectorXd load(const RecordedParameters& parameters) const;
   /// Derivatives of these by a parameter; `leaves`: off() grows with it.
   struct Slope {
     Eigen::VectorXd features, load;  ///< of at() and load(), per unit of the parameter
@@ -48,9 +47,9 @@ class Features {
     bool leaves = false;
     double step = 0;  ///< step of the finite difference, units of the parameter
   };
-  Slope slope(const CaseParameters& parameters, const std::string& name) const;
+  Slope slope(const RecordedParameters& parameters, const std::string& name) const;
   /// mm: q / E, or 1 for imported data.
-  double scale(const CaseParameters& parameters) const;
+  double scale(const RecordedParameters& parameters) const;
 
  private:
   struct Raw {
@@ -58,22 +57,25 @@ class Features {
     double value;
     bool logarithm;
   };
-  std::vector<Raw> raw(const CaseParameters& parameters) const;
+  std::vector<Raw> raw(const RecordedParameters& parameters) const;
   /// All of raw() from -1 to 1.
-  Eigen::VectorXd normalised(const CaseParameters& parameters) const;
+  Eigen::VectorXd normalised(const RecordedParameters& parameters) const;
 
   Loading loading_;
-  bool ours_ = false;                    // parameters of the solver
-  std::vector<std::string> varying_;     // parameters
-  std::vector<std::string> components_;  // of the prestress
-  std::vector<bool> positive_;           // of raw(), in all cases: a logarithm exists
+  bool ours_ = false;                            // parameters of the solver
+  std::vector<std::string> varying_;             // parameters
+  std::vector<double Prestress::*> components_;  // of the prestress
+  std::vector<bool> positive_;                   // of raw(), in all cases: a logarithm exists
   Eigen::VectorXd middle_, half_;
   std::vector<int> chosen_, left_out_;
   Eigen::MatrixXd follows_;  // left out = follows_ * (1, chosen)
   std::vector<std::string> names_;
 };
 
+/// Whether `member` is the address of a component of these parameters' prestress.
+bool is_prestress(const RecordedParameters& p, const void* member);
+
 /// Names of the parameters in which cases differ, sorted.
-std::vector<std::string> varying_parameters(const std::vector<CaseParameters>& cases);
+std::vector<std::string> varying_parameters(const std::vector<RecordedParameters>& cases);
 
 }  // namespace cleft

@@ -73,8 +73,8 @@ std::vector<Place> sample_places(const FieldGeometry& g, double spacing) {
 }
 
 double node_spacing(const CommonCase& one) {
-  const auto size = one.parameters.find("mesh.element_size");
-  if (size != one.parameters.end()) return size->second;
+  const RecordedParameters& p = one.parameters;
+  if (p.has(p->mesh.element_size)) return p->mesh.element_size;
   const auto [front, back] = one.geometry.domain[0];
   return (one.geometry.cut.length > 0 ? one.geometry.cut.length : back - front) / 24;
 }

@@ -59,7 +59,7 @@ FieldGeometry geometry_of(const Eigen::VectorXd& m, const std::vector<double>& t
 
 }  // namespace
 
-GeometryModel::GeometryModel(const std::vector<CaseParameters>& parameters,
+GeometryModel::GeometryModel(const std::vector<RecordedParameters>& parameters,
                              const std::vector<FieldGeometry>& geometries)
     : varying_(varying_parameters(parameters)), times_(common_times(geometries)) {
   const auto n = static_cast<Eigen::Index>(parameters.size()), d = static_cast<Eigen::Index>(varying_.size());
@@ -79,14 +79,14 @@ GeometryModel::GeometryModel(const std::vector<CaseParameters>& parameters,
     if ((measures.col(k).array() != constant_[k]).any()) constant_[k] = std::nan("");
 }
 
-Eigen::VectorXd GeometryModel::place_of(const CaseParameters& parameters) const {
+Eigen::VectorXd GeometryModel::place_of(const RecordedParameters& parameters) const {
   Eigen::VectorXd place(static_cast<Eigen::Index>(varying_.size()));
   for (Eigen::Index k = 0; k < place.size(); ++k)
-    place[k] = (parameters.at(varying_[k]) - middle_[k]) / half_[k];
+    place[k] = (parameters.number(varying_[k]).value() - middle_[k]) / half_[k];
   return place;
 }
 
-FieldGeometry GeometryModel::at(const CaseParameters& parameters) const {
+FieldGeometry GeometryModel::at(const RecordedParameters& parameters) const {
   const Eigen::VectorXd place = place_of(parameters);
   Eigen::VectorXd row(place.size() + 1);
   row << 1, place;

@@ -15,11 +15,12 @@ namespace cleft {
 /// (rounding to the mesh) is interpolated by inverse distances (Shepard 1968).
 class GeometryModel {
  public:
-  GeometryModel(const std::vector<CaseParameters>& parameters, const std::vector<FieldGeometry>& geometries);
-  FieldGeometry at(const CaseParameters& parameters) const;
+  GeometryModel(const std::vector<RecordedParameters>& parameters,
+                const std::vector<FieldGeometry>& geometries);
+  FieldGeometry at(const RecordedParameters& parameters) const;
 
  private:
-  Eigen::VectorXd place_of(const CaseParameters& parameters) const;
+  Eigen::VectorXd place_of(const RecordedParameters& parameters) const;
 
   std::vector<std::string> varying_;
   Eigen::VectorXd middle_, half_;

@@ -7,14 +7,15 @@
 #include "base/quantiles.h"
 #include "base/text.h"
 #include "encoder/interpolate/field_samples.h"
-#include "params/parameters.h"
+#include "params/consistency.h"
+#include "params/parameters/table.h"
 
 namespace cleft {
 
 namespace {
 
-std::vector<CaseParameters> parameters_of(const CommonCases& cases) {
-  std::vector<CaseParameters> list;
+std::vector<RecordedParameters> parameters_of(const CommonCases& cases) {
+  std::vector<RecordedParameters> list;
   for (const CommonCase& one : cases.cases()) list.push_back(one.parameters);
   return list;
 }
@@ -27,14 +28,9 @@ std::vector<FieldGeometry> geometries_of(const CommonCases& cases) {
 
 /// What is known of the prestress: it superposes, it does not, or the data must say. By default it does: only
 /// a much better prediction of cases left out speaks against it.
-std::vector<Loading> loadings_of(const CommonCases& cases) {
-  const auto& choices = cases.choices();
-  const auto is = [&](const char* name, const char* value) {
-    const auto found = choices.find(name);
-    return found != choices.end() && found->second == value;
-  };
-  if (is("cut.contact", "true") || is("skin.initial_stress_stiffness", "true")) return {Loading::general};
-  if (!choices.empty()) return {Loading::superposed};
+std::vector<Loading> loadings_of(const RecordedParameters& p) {
+  if (p->cut.contact || p->skin.initial_stress_stiffness) return {Loading::general};
+  if (!p.texts().empty()) return {Loading::superposed};
   return {Loading::superposed, Loading::general};
 }
 
@@ -56,14 +52,15 @@ StudyInterpolator::StudyInterpolator(CommonCases cases, const ToldPart& told)
       parameters_(parameters_of(cases_)),
       geometry_(parameters_, geometries_of(cases_)) {
   for (const std::string& name : varying_parameters(parameters_)) {
-    Range& range = varying_.emplace_back(Range{name, parameters_[0].at(name), parameters_[0].at(name)});
-    for (const CaseParameters& one : parameters_)
-      range.least = std::min(range.least, one.at(name)),
-      range.greatest = std::max(range.greatest, one.at(name));
+    Range& range = varying_.emplace_back(Range{name, HUGE_VAL, -HUGE_VAL});
+    for (const RecordedParameters& one : parameters_) {
+      const double value = one.number(name).value();
+      range.least = std::min(range.least, value), range.greatest = std::max(range.greatest, value);
+    }
   }
   if (told) told(0);
   const CaseSamples samples = this->samples();
-  for (const Loading loading : loadings_of(cases_)) {
+  for (const Loading loading : loadings_of(parameters_.front())) {
     if (told) told(time_to_sample);
     DisplacementModel model(parameters_, samples, loading);
     if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));
@@ -102,7 +99,7 @@ double StudyInterpolator::fit_error(const DisplacementModel::Prediction& predict
   return std::max(median(fits), largest > 0 ? std::sqrt(squares) / largest : 0);
 }
 
-CaseParameters StudyInterpolator::complete(const CaseParameters& values) const {
+RecordedParameters StudyInterpolator::complete(const CaseParameters& values) const {
   const auto list = [&] {
     std::string text;
     for (const Range& range : varying_)
@@ -110,29 +107,31 @@ CaseParameters StudyInterpolator::complete(const CaseParameters& values) const {
               shortest(range.greatest) + ")";
     return text;
   };
-  CaseParameters parameters = parameters_.front();
+  RecordedParameters parameters = parameters_.front();
   std::vector<std::string> names;
-  for (const auto& [name, value] : parameters) names.push_back(name);
-  const auto known = parameter_names();
+  for (const auto& [name, value] : parameters.numbers()) names.push_back(name);
+  // Switches and choices are known: then so is whether prestresses superpose.
+  const bool superpose = features().loading() == Loading::superposed && !parameters.texts().empty();
   Mistakes mistakes;
   for (const auto& [name, value] : values)
     mistakes.collect([&, &n = name, v = value] {
-      const auto found = parameters.find(n);
-      if (found == parameters.end())
+      const std::optional<double> own = parameters.number(n);
+      if (!own)
         throw InputError("unknown parameter '" + n + "'" + did_you_mean(n, names) + "; in this study vary " +
                          list());
-      if (std::find(known.begin(), known.end(), n) != known.end())
-        check_value(find_parameter(n, n), v, "no such case");
+      const Parameter* row = find_parameter(n);
+      if (row)
+        check_value(*row, v, "no such case");
       else if (!std::isfinite(v))
         throw InputError(n + " = " + shortest(v) + ": must be a number");
       const bool varies =
           std::any_of(varying_.begin(), varying_.end(), [&](const Range& r) { return r.name == n; });
-      const bool superposes = n.starts_with("skin.prestress_") && found->second != 0 &&
-                              features().loading() == Loading::superposed && !cases_.choices().empty();
-      if (!varies && !superposes && v != found->second)
-        throw InputError(n + " = " + shortest(v) + ": it is " + shortest(found->second) +
+      const bool superposes =
+          superpose && row && is_prestress(parameters, row->address(*parameters)) && *own != 0;
+      if (!varies && !superposes && v != *own)
+        throw InputError(n + " = " + shortest(v) + ": it is " + shortest(*own) +
                          " in all cases; in this study vary " + list());
-      found->second = v;
+      parameters.set(n, v);
     });
   for (const Range& range : varying_)
     if (!values.contains(range.name))
@@ -141,16 +140,15 @@ CaseParameters StudyInterpolator::complete(const CaseParameters& values) const {
   mistakes.throw_if_any();
 
   Parameters whole;
-  for (const auto& [name, value] : parameters)
-    if (std::find(known.begin(), known.end(), name) != known.end())
-      set_parameter(whole, name, value, "no such case");
-  if (parameters.contains("cut.length") && parameters.contains("patch.length"))
+  for (const auto& [name, value] : parameters.all())
+    if (find_parameter(name)) set_parameter(whole, name, value, "no such case");
+  if (parameters.has(parameters->cut.length) && parameters.has(parameters->patch.length))
     check_consistency(whole, "no such case");
   return parameters;
 }
 
 Field StudyInterpolator::at(const CaseParameters& values) const {
-  const CaseParameters parameters = complete(values);
+  const RecordedParameters parameters = complete(values);
   const DisplacementModel::Prediction prediction = model_->at(parameters);
 
   std::vector<Summand> summands;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "encoder/interpolate/geometry_model.h"
 
 namespace cleft {
+
+/// Numbers by the names of their parameters, as a user gives them.
+using CaseParameters = std::map<std::string, double>;
 
 /// Reads a study once; at() then takes milliseconds and is const (several threads may call it).
 class StudyInterpolator {
@@ -41,13 +45,13 @@ class StudyInterpolator {
   Field at(const CaseParameters& values) const;
 
  private:
-  CaseParameters complete(const CaseParameters& values) const;
+  RecordedParameters complete(const CaseParameters& values) const;
   /// Of the sum of the cases' fields, from their own errors, over its largest displacement.
   double fit_error(const DisplacementModel::Prediction& prediction, double largest) const;
   CaseSamples samples() const;
 
   CommonCases cases_;
-  std::vector<CaseParameters> parameters_;  // of the cases
+  std::vector<RecordedParameters> parameters_;  // of the cases
   std::vector<Range> varying_;
   GeometryModel geometry_;
   std::optional<DisplacementModel> model_;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "params/parameters.h"
+#include "params/parameters/table.h"
 
 namespace cleft {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "params/parameters.h"
+#include "params/parameters/table.h"
 
 namespace cleft {
 
@@ -56,8 +56,8 @@ void ParameterPanel::make_rows() {
     const Parameter& row = find_parameter(name, "parameters");
     double least = HUGE_VAL, greatest = -HUGE_VAL;
     for (int i = 0; i < study.size(); ++i)
-      if (const auto found = study.parameters(i).find(name); found != study.parameters(i).end())
-        least = std::min(least, found->second), greatest = std::max(greatest, found->second);
+      if (const auto value = study.parameters(i).number(name))
+        least = std::min(least, *value), greatest = std::max(greatest, *value);
     if (!(greatest > least)) continue;
     auto* text = new QLabel(rows_widget_);
     auto* slider = new QSlider(Qt::Horizontal, rows_widget_);
@@ -89,16 +89,16 @@ void ParameterPanel::show_values() {
   const auto& shown = session_.study()->parameters(s.shown);
   for (const Row& row : rows_) {
     const auto asked = s.parameters.find(row.name);
-    const auto value = shown.find(row.name);
-    if (asked == s.parameters.end() || value == shown.end()) continue;
+    const auto value = shown.number(row.name);
+    if (asked == s.parameters.end() || !value) continue;
     const QSignalBlocker quiet(row.slider);
     row.slider->setValue(
         static_cast<int>(std::lround(steps * (asked->second - row.least) / (row.greatest - row.least))));
     QString text = QString("%1: <b>%2</b> %3")
                        .arg(QString::fromStdString(row.name))
-                       .arg(session_.between() ? asked->second : value->second, 0, 'g', 4)
+                       .arg(session_.between() ? asked->second : *value, 0, 'g', 4)
                        .arg(QString::fromStdString(row.unit));
-    if (!session_.between() && asked->second != value->second)
+    if (!session_.between() && asked->second != *value)
       text += QString(" (asked: %1)").arg(asked->second, 0, 'g', 4);
     row.text->setText(text);
   }

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "explorer/session/commands.h"
 #include "explorer/session/session.h"
-#include "params/parameters.h"
+#include "params/parameters/table.h"
 
 namespace cleft {
 
@@ -34,12 +34,11 @@ void set(Session& session, CommandWords& words) {
   const std::vector<std::string>& varying = study.varying();
   if (std::find(varying.begin(), varying.end(), name) == varying.end()) {
     const Parameter& row = find_parameter(name, "set");
-    const auto& values = study.parameters(session.state().shown);
-    const auto found = values.find(name);
+    const auto value = study.parameters(session.state().shown).number(name);
     std::string list;
     for (const std::string& v : varying) list += (list.empty() ? "" : ", ") + v;
     words.wrong(name + " is the same in all cases of this study" +
-                (found == values.end() ? "" : " (" + shortest(found->second) + " " + row.unit + ")") +
+                (value ? " (" + shortest(*value) + " " + row.unit + ")" : "") +
                 (varying.empty() ? "" : "; those that differ: " + list));
   }
   session.ask_for(name, words.number(name));

@@ -28,10 +28,8 @@ std::string error_of_interpolation(const Field& field) {
 
 void Session::take_parameters() {
   state_.parameters.clear();
-  for (const std::string& name : study_->varying()) {
-    const auto& values = study_->parameters(state_.shown);
-    if (const auto found = values.find(name); found != values.end()) state_.parameters[name] = found->second;
-  }
+  for (const std::string& name : study_->varying())
+    if (const auto value = study_->parameters(state_.shown).number(name)) state_.parameters[name] = *value;
 }
 
 void Session::show_case(int i) {
@@ -63,9 +61,9 @@ std::map<std::string, std::pair<double, double>> Session::parameter_ranges() con
   std::map<std::string, std::pair<double, double>> ranges;
   for (int i = 0; i < study_->size(); ++i)
     for (const std::string& name : study_->varying())
-      if (const auto found = study_->parameters(i).find(name); found != study_->parameters(i).end()) {
-        auto& range = ranges.try_emplace(name, found->second, found->second).first->second;
-        range = {std::min(range.first, found->second), std::max(range.second, found->second)};
+      if (const auto value = study_->parameters(i).number(name)) {
+        auto& range = ranges.try_emplace(name, *value, *value).first->second;
+        range = {std::min(range.first, *value), std::max(range.second, *value)};
       }
   return ranges;
 }
@@ -77,11 +75,10 @@ int Session::nearest_case() const {
   for (int i = 0; i < study_->size(); ++i) {
     double distance = 0;
     for (const auto& [name, value] : state_.parameters) {
-      const auto found = study_->parameters(i).find(name);
+      const auto own = study_->parameters(i).number(name);
       const auto range = ranges.find(name);
       const double spread = range == ranges.end() ? 0 : range->second.second - range->second.first;
-      if (found != study_->parameters(i).end() && spread > 0)
-        distance += std::pow((found->second - value) / spread, 2);
+      if (own && spread > 0) distance += std::pow((*own - value) / spread, 2);
     }
     if (distance < least) least = distance, nearest = i;
   }
@@ -159,8 +156,7 @@ bool Session::shows_exactly() const {
   if (!study_) return true;
   const auto& values = study_->parameters(state_.shown);
   return std::all_of(state_.parameters.begin(), state_.parameters.end(), [&](const auto& asked) {
-    const auto found = values.find(asked.first);
-    return found == values.end() || found->second == asked.second;
+    return values.number(asked.first).value_or(asked.second) == asked.second;
   });
 }
 
@@ -180,9 +176,7 @@ std::vector<std::string> Session::column_names() const {
 double Session::column_value(int i, const std::string& name) {
   for (const FigureText& f : figure_texts())
     if (f.name == name) return f.value(figures(i));
-  const auto& values = open_study().parameters(i);
-  const auto found = values.find(name);
-  return found == values.end() ? std::nan("") : found->second;
+  return open_study().parameters(i).number(name).value_or(std::nan(""));
 }
 
 void Session::find(const std::string& condition) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "explorer/study/case_figures.h"
-#include "params/parameters.h"
+#include "params/parameters/table.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft {
@@ -29,8 +29,7 @@ std::vector<double> values_of(const Field& field) {
   values[error_name] = 100 * field.report.node_error;
   values[displacement_name] = field.report.largest_displacement;
   for (std::size_t i = displacement_name + 1; i < values.size(); ++i)
-    if (const auto found = field.parameters.find(names()[i]); found != field.parameters.end())
-      values[i] = found->second;
+    values[i] = field.parameters.number(names()[i]).value_or(std::nan(""));
   return values;
 }
 

@@ -18,40 +18,38 @@ PublishedStudy::PublishedStudy(const std::string& path) : path_(path) {
   if (fs::is_regular_file(path) && format_of(path) == "cleft-study") {
     packed_.emplace(path);
     for (int i = 0; i < packed_->size(); ++i)
-      cases_.push_back({packed_->name(i), "", packed_->parameters(i), packed_->choices(i), i});
+      cases_.push_back({packed_->name(i), "", packed_->parameters(i), i});
     if (cases_.empty()) throw InputError(path + ": holds no case; run `cleft pack` again");
     name_and_sort();
     return;
   }
   folder_ = fs::is_directory(path);
   for (const StudyCase& one :
-       folder_ ? published_study_cases(path, &older_) : std::vector<StudyCase>{{"", path}})
-    cases_.push_back({one.field_file, "", read_field_parameters(one.field_file), one.choices, -1});
+       folder_ ? published_study_cases(path, &older_) : std::vector<StudyCase>{{"", path}}) {
+    Case& added = cases_.emplace_back(Case{one.field_file, "", read_field_parameters(one.field_file), -1});
+    for (const auto& [name, value] : one.choices.texts()) added.parameters.set(name, value);
+  }
   name_and_sort();
 }
 
 void PublishedStudy::name_and_sort() {
-  for (const auto& [name, value] : cases_.front().parameters) {
+  for (const auto& [name, value] : cases_.front().parameters.numbers()) {
     const auto differs = [&name = name, value = value](const Case& c) {
-      const auto found = c.parameters.find(name);
-      return found == c.parameters.end() || found->second != value;
+      return c.parameters.number(name) != value;
     };
     if (std::any_of(cases_.begin(), cases_.end(), differs)) varying_.push_back(name);
   }
   const auto values = [this](const Case& c) {
     std::vector<double> row;
-    for (const std::string& name : varying_) {
-      const auto found = c.parameters.find(name);
-      row.push_back(found == c.parameters.end() ? -HUGE_VAL : found->second);
-    }
+    for (const std::string& name : varying_) row.push_back(c.parameters.number(name).value_or(-HUGE_VAL));
     return row;
   };
   std::stable_sort(cases_.begin(), cases_.end(),
                    [&](const Case& a, const Case& b) { return values(a) < values(b); });
   for (Case& c : cases_) {
     for (const std::string& name : varying_)
-      if (const auto found = c.parameters.find(name); found != c.parameters.end())
-        c.name += (c.name.empty() ? "" : " ") + name + "=" + shortest(found->second);
+      if (const auto value = c.parameters.number(name))
+        c.name += (c.name.empty() ? "" : " ") + name + "=" + shortest(*value);
     const fs::path file(c.file);
     if (c.name.empty())
       c.name = (cases_.size() > 1 && !packed_ ? file.parent_path() : file).filename().string();

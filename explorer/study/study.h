@@ -2,7 +2,6 @@
 #pragma once
 
 #include <list>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,9 +26,8 @@ class PublishedStudy {
   const std::string& name(int i) const { return cases_.at(i).name; }
   /// Names of the parameters in which the cases differ.
   const std::vector<std::string>& varying() const { return varying_; }
-  const std::map<std::string, double>& parameters(int i) const { return cases_.at(i).parameters; }
-  /// The parameters that are text, if the study holds them.
-  const std::map<std::string, std::string>& choices(int i) const { return cases_.at(i).choices; }
+  /// With switches and choices, if the study records them.
+  const RecordedParameters& parameters(int i) const { return cases_.at(i).parameters; }
   const std::string& file(int i) const { return cases_.at(i).file; }
   /// The path of its simulation, if that was kept.
   std::string snapshot(int i) const;
@@ -49,8 +47,7 @@ class PublishedStudy {
  private:
   struct Case {
     std::string file, name;
-    std::map<std::string, double> parameters;
-    std::map<std::string, std::string> choices;
+    RecordedParameters parameters;
     int packed = -1;  // its number in the study file
   };
   void name_and_sort();

@@ -34,10 +34,11 @@ struct Stiffness {
   Isotropic tissue;     // MPa
 
   explicit Stiffness(const Field& field)
-      : thickness(parameter_of(field, "skin.thickness")),
-        skin(thickness * parameter_of(field, "skin.young_modulus"),
-             parameter_of(field, "skin.poisson_ratio")),
-        tissue(parameter_of(field, "tissue.young_modulus"), parameter_of(field, "tissue.poisson_ratio")) {}
+      : thickness(parameter_of(field, field.parameters->skin.thickness)),
+        skin(thickness * parameter_of(field, field.parameters->skin.young_modulus),
+             parameter_of(field, field.parameters->skin.poisson_ratio)),
+        tissue(parameter_of(field, field.parameters->tissue.young_modulus),
+               parameter_of(field, field.parameters->tissue.poisson_ratio)) {}
 };
 
 /// What another cut's field changes of the force across a line with normal `n`, N for each mm of it: in the
@@ -91,7 +92,7 @@ std::vector<Amplitude> mutual_relief(const std::vector<CutInTension>& cuts, doub
         const Incision& other = *cuts[j].incision;  // one that was led ends where its blade left it
         const double whole = other.led() > 0 ? other.tip() : other.path().length(),
                      there = last ? blade : whole * cuts[j].volume->scale();
-        const double tension = cut.field->load("skin.prestress_v", s);
+        const double tension = cut.field->prestress(&Prestress::vv, s);
         if (!(tension > 0)) continue;
         const Stiffness stiffness(cuts[j].field->shape());
         const double change = change_across(cuts[j], stiffness, *at, normal, there);

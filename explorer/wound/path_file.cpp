@@ -4,18 +4,24 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "params/parameters/table.h"
 
 namespace cleft {
 
 namespace {
 
-const std::vector<std::string> prestress_columns{"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
+/// The prestress's components have the names of the parameters.
+std::vector<std::string> prestress_columns() {
+  const Parameters p;
+  const Prestress& sigma = p.skin.prestress;
+  return {row_of(p, sigma.uu).name, row_of(p, sigma.vv).name, row_of(p, sigma.uv).name};
+}
 
 }  // namespace
 
 ScalpelPath read_path(const std::string& file, double depth, double scale, const Field* field) {
   const NumberTable table = read_csv(file);
-  ScalpelPath path = ScalpelPath::from_table(table, file, prestress_columns);
+  ScalpelPath path = ScalpelPath::from_table(table, file, prestress_columns());
   if (depth > 0)
     path.set_depth(depth / scale);
   else if (table.column("depth") < 0 && field)
@@ -28,7 +34,7 @@ ScalpelPath read_path(const std::string& file, double depth, double scale, const
 std::optional<PathPrestress> read_prestress(const std::string& file, const ScalpelPath& path, double scale) {
   const NumberTable table = read_csv(file);
   int column[3];
-  for (int i = 0; i < 3; ++i) column[i] = table.column(prestress_columns[i]);
+  for (int i = 0; i < 3; ++i) column[i] = table.column(prestress_columns()[i]);
   if (std::max({column[0], column[1], column[2]}) < 0) return std::nullopt;
   const int x = table.column("x"), y = table.column("y"), z = table.column("z");
   PathPrestress result;

@@ -10,24 +10,16 @@ namespace cleft {
 
 namespace {
 
-const char* const names[3] = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
-
-Vec3 prestress_of(const std::map<std::string, double>& parameters) {
-  Vec3 result;
-  for (int i = 0; i < 3; ++i)
-    if (const auto found = parameters.find(names[i]); found != parameters.end()) result[i] = found->second;
-  return result;
-}
-
 /// The first parameter but prestresses in which two cases differ; "" where there is none.
 std::string difference(const PublishedStudy& study, int i, int j) {
-  auto a = study.parameters(i), b = study.parameters(j);
-  for (const char* name : names) a.erase(name), b.erase(name);
-  for (const auto& [name, value] : a)
-    if (const auto found = b.find(name); found == b.end() || found->second != value) return name;
-  const auto c = study.choices(i), d = study.choices(j);
-  for (const auto& [name, value] : c)
-    if (const auto found = d.find(name); found == d.end() || found->second != value) return name;
+  RecordedParameters a = study.parameters(i);
+  const RecordedParameters& b = study.parameters(j);
+  const Prestress& sigma = a->skin.prestress;
+  for (const double* component : {&sigma.uu, &sigma.vv, &sigma.uv}) a.erase(a.name_of(*component));
+  for (const auto& [name, value] : a.numbers())
+    if (b.number(name) != value) return name;
+  for (const auto& [name, value] : a.texts())
+    if (b.find(name) != Value(value)) return name;
   return "";
 }
 
@@ -40,6 +32,11 @@ PublishedStudy all_alike(PublishedStudy study) {
 }
 
 }  // namespace
+
+Prestress prestress_of(const RecordedParameters& p) {
+  const Prestress& sigma = p->skin.prestress;
+  return {p.value_or(sigma.uu, 0.), p.value_or(sigma.vv, 0.), p.value_or(sigma.uv, 0.)};
+}
 
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension) {
   PathPrestress result;
@@ -64,18 +61,16 @@ PrestressFields::PrestressFields(const std::string& study_file)
     : PrestressFields(all_alike(PublishedStudy(study_file)), 0) {}
 
 PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
-  const auto chosen = [&](const char* name) {
-    const auto found = study.choices(like).find(name);
-    return found != study.choices(like).end() && found->second == "true";
-  };
-  if (chosen("cut.contact") || chosen("skin.initial_stress_stiffness"))
-    throw InputError(study.path() +
-                     ": fields do not superpose with cut.contact or skin.initial_stress_stiffness");
+  const RecordedParameters& own = study.parameters(like);
+  if (own->cut.contact || own->skin.initial_stress_stiffness)
+    throw InputError(study.path() + ": fields do not superpose with " + own.name_of(own->cut.contact) +
+                     " or " + own.name_of(own->skin.initial_stress_stiffness));
   Vec3 p[3];
   for (int i = 0; i < study.size() && fields_.size() < 3; ++i) {
     if (!difference(study, like, i).empty()) continue;
     const std::size_t n = fields_.size();
-    p[n] = prestress_of(study.parameters(i));
+    const auto [uu, vv, uv] = prestress_of(study.parameters(i));
+    p[n] = {uu, vv, uv};
     const double size = norm(p[n]);
     const double independent = n == 0   ? size
                                : n == 1 ? norm(cross(p[0], p[1])) / norm(p[0])

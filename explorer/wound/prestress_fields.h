@@ -8,14 +8,11 @@
 #include "explorer/study/study.h"
 #include "explorer/wound/ipv.h"
 #include "explorer/wound/varying_field.h"
+#include "params/parameters/recorded.h"
 
 namespace cleft {
 
-/// MPa, in the path's own frame: along it, across it, shear (skin.prestress_u, _v, _uv).
-struct Prestress {
-  double uu = 0, vv = 0, uv = 0;
-};
-
+/// The skin's prestress in the path's own frame: along it, across it, and shear.
 struct PathPrestress {
   std::vector<double> stations;  ///< mm along the path, increasing
   std::vector<Prestress> values;
@@ -27,6 +24,9 @@ struct SkinTension {
   Vec3 direction;
   double larger = 0, smaller = 0;
 };
+
+/// A case's prestress, MPa; components that are not recorded are 0.
+Prestress prestress_of(const RecordedParameters& parameters);
 
 /// In the frame of the skin under the path. Throws InputError where the direction stands upright on the skin.
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension);

@@ -77,9 +77,9 @@ std::vector<Junction> junctions_of(const std::vector<CutInTension>& cuts, std::s
     for (std::size_t j = 0; j < cuts.size(); ++j) {
       if (j == i || vertex.cut != cuts[j].incision->cut()) continue;
       const double s = vertex.s * cuts[j].volume->scale();
-      const double across = cuts[j].field->load("skin.prestress_v", s);
+      const double across = cuts[j].field->prestress(&Prestress::vv, s);
       const Vec3 along = cuts[j].incision->path().at(vertex.s).along;
-      found.push_back({j, across > 0 ? cuts[j].field->load("skin.prestress_u", s) / across : infinity,
+      found.push_back({j, across > 0 ? cuts[j].field->prestress(&Prestress::uu, s) / across : infinity,
                        norm(cross(along, own.path().at(c.s).along))});
     }
   }
@@ -102,12 +102,8 @@ double distance(const CutInTension& a, const CutInTension& b) {
 }
 
 bool pulled_alike(const Field& field) {
-  const auto value = [&](const char* name) {
-    const auto found = field.parameters.find(name);
-    return found == field.parameters.end() ? 0 : found->second;
-  };
-  const double u = value("skin.prestress_u"), v = value("skin.prestress_v");
-  return std::abs(u - v) + 2 * std::abs(value("skin.prestress_uv")) <= 0.05 * (u + v);
+  const auto [uu, vv, uv] = prestress_of(field.parameters);
+  return std::abs(uu - vv) + 2 * std::abs(uv) <= 0.05 * (uu + vv);
 }
 
 }  // namespace

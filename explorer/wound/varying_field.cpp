@@ -20,15 +20,14 @@ bool same_cut_and_patch(const Field& a, const Field& b) {
 
 }  // namespace
 
-double parameter_of(const Field& field, const std::string& name) {
-  const auto found = field.parameters.find(name);
-  if (found == field.parameters.end())
-    throw InputError(
-        "the field does not tell " + name +
-        ", from which it follows how cuts relieve each other; take the field of a simulated case, give it "
-        "to cleft import as --set " +
-        name + "=VALUE and encode again, or make one cut");
-  return found->second;
+double parameter_of(const Field& field, const double& member) {
+  if (field.parameters.has(member)) return member;
+  const std::string& name = field.parameters.name_of(member);
+  throw InputError(
+      "the field does not tell " + name +
+      ", from which it follows how cuts relieve each other; take the field of a simulated case, give it "
+      "to cleft import as --set " +
+      name + "=VALUE and encode again, or make one cut");
 }
 
 VaryingField::VaryingField(std::vector<const Field*> fields, std::vector<double> stations,
@@ -88,10 +87,11 @@ Derivatives VaryingField::derivatives(const Vec3& uvw, Side side, double t, doub
   return sum;
 }
 
-double VaryingField::load(const std::string& parameter, double s) const {
+double VaryingField::prestress(double Prestress::*component, double s) const {
   const std::vector<double> weights = weights_at(s);
   double sum = 0;
-  for (std::size_t k = 0; k < fields_.size(); ++k) sum += weights[k] * parameter_of(*fields_[k], parameter);
+  for (std::size_t k = 0; k < fields_.size(); ++k)
+    sum += weights[k] * parameter_of(*fields_[k], fields_[k]->parameters->skin.prestress.*component);
   return sum;
 }
 

@@ -4,15 +4,15 @@
 
 #include <array>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "encoder/field/field.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 
-/// A parameter of the field's case. Throws InputError where it does not tell it.
-double parameter_of(const Field& field, const std::string& name);
+/// A member of field.parameters. Throws InputError where it is not recorded.
+double parameter_of(const Field& field, const double& member);
 
 class VaryingField {
  public:
@@ -35,9 +35,9 @@ class VaryingField {
   Vec3 displacement(const Vec3& uvw, Side side, double t, double s) const;
   /// Field::derivatives at s mm of the path.
   Derivatives derivatives(const Vec3& uvw, Side side, double t, double s) const;
-  /// What the fields' cases have as a load, such as skin.prestress_v, superposed. Throws InputError where one
-  /// of them does not tell it.
-  double load(const std::string& parameter, double s) const;
+  /// A component of the fields' prestresses at s mm of the path, superposed, MPa. Throws InputError where a
+  /// field does not record it.
+  double prestress(double Prestress::*component, double s) const;
 
  private:
   std::vector<double> weights_at(double s) const;

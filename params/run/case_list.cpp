@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "params/parameters/table.h"
+
 namespace cleft {
 
 using Json = nlohmann::ordered_json;

@@ -14,6 +14,7 @@
 #include "base/sealed_json.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "params/parameters/table.h"
 #include "params/run/estimates.h"
 
 namespace cleft {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "params/consistency.h"
+
 namespace cleft {
 
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "params/run/study_index.h"
 
 namespace cleft {

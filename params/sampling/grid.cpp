@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "params/parameters/table.h"
 #include "params/sampling/sampling.h"
 
 namespace cleft {

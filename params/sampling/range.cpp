@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "params/parameters/table.h"
 #include "params/sampling/sampling.h"
 
 namespace cleft {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "params/parameters/table.h"
 #include "params/sampling/sampling.h"
 #include "params/toml_value.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "params/material/isotropic.h"
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "solver/material/skin_material.h"
 
 namespace cleft {
@@ -13,7 +13,7 @@ inline SkinMaterial isotropic_skin(const Parameters::Skin& skin) {
   material.thickness = skin.thickness;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) material.elasticity(i, j) = moduli[i][j];
-  material.prestress << skin.prestress_u, skin.prestress_uv, skin.prestress_uv, skin.prestress_v;
+  material.prestress << skin.prestress.uu, skin.prestress.uv, skin.prestress.uv, skin.prestress.vv;
   return material;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 #include "solver/material/skin_material.h"
 #include "solver/material/tissue_material.h"
 

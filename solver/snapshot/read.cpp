@@ -173,9 +173,9 @@ Snapshot read_all_but_displacements(const h5::File& file) {
   s.case_hash = file.read_text("/", "case");
   for (const std::string& name : file.attribute_names("/parameters")) {
     try {
-      s.parameters[name] = file.read_number("/parameters", name);
+      s.parameters.set(name, file.read_number("/parameters", name));
     } catch (const FileError&) {
-      s.parameters[name] = file.read_text("/parameters", name);
+      s.parameters.set(name, file.read_text("/parameters", name));
     }
   }
   const h5::Shape shape = file.shape(displacements);

@@ -4,17 +4,16 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "base/h5/h5.h"
 #include "base/output_file.h"
 #include "base/vec3.h"
+#include "params/parameters/recorded.h"
 
 namespace cleft {
 
@@ -51,7 +50,7 @@ struct Snapshot {
   std::vector<double> smallest_gap;                            ///< F
   std::vector<double> residual_equilibrium, residual_closure;  ///< F each; none in imported data
 
-  std::map<std::string, std::variant<double, std::string>> parameters;
+  RecordedParameters parameters;
   std::string case_hash;
   std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs and have no residuals
 

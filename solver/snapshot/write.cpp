@@ -84,7 +84,7 @@ void write_cut(h5::File& file, const Snapshot& s) {
 
 void write_parameters(h5::File& file, const Snapshot& s) {
   file.create_group("/parameters");
-  for (const auto& [name, value] : s.parameters)
+  for (const auto& [name, value] : s.parameters.all())
     if (const double* number = std::get_if<double>(&value))
       file.write_number("/parameters", name, *number);
     else

@@ -74,13 +74,13 @@ TEST_F(WindowTest, ASliderForEveryParameterThatVaries) {
   auto& slider = widget<QSlider>("skin.prestress_v");
   EXPECT_EQ(window_.findChild<QSlider*>("cut.depth"), nullptr) << "all cases have the same";
   slider.setValue(slider.maximum());
-  EXPECT_EQ(real_.study()->parameters(now().shown).at("skin.prestress_v"), 0.05);
+  EXPECT_EQ(real_.study()->parameters(now().shown).number("skin.prestress_v"), 0.05);
   EXPECT_TRUE(real_.shows_exactly());
   slider.setValue(slider.maximum() * 2 / 3);
-  EXPECT_EQ(real_.study()->parameters(now().shown).at("skin.prestress_v"), 0.05) << "the nearest case";
+  EXPECT_EQ(real_.study()->parameters(now().shown).number("skin.prestress_v"), 0.05) << "the nearest case";
   for (int tries = 0; tries < 200 && !real_.between(); ++tries) settle(20);
   ASSERT_TRUE(real_.between()) << real_.why_nearest();
-  EXPECT_NEAR(real_.between()->parameters.at("skin.prestress_v"), 0.04, 0.03 / 1000)
+  EXPECT_NEAR(real_.between()->parameters->skin.prestress.vv, 0.04, 0.03 / 1000)
       << "as near as the slider can be put";
   EXPECT_NE(widget<QLabel>("parameter_note").text().indexOf("interpolated, not simulated"), -1);
   tell("between off");

@@ -45,7 +45,8 @@ inline Snapshot cut_in(std::vector<Vec3> points, const std::vector<double>& time
   s.cell_offsets = {0};
   s.smallest_gap = s.residual_equilibrium = s.residual_closure = times;
   s.case_hash = "0123456789abcdef";
-  s.parameters = {{"skin.thickness", 1.5}, {"cut.frames", "column"}};
+  s.parameters.set("skin.thickness", 1.5);
+  s.parameters.set("cut.frames", "column");
   return s;
 }
 

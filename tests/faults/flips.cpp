@@ -35,7 +35,7 @@ std::string content_of_snapshot(const std::string& file) {
   add(all, s.foundation_triangles), add(all, s.foundation_quads), add(all, s.pairs), add(all, s.released);
   add(all, s.position), add(all, s.times), add(all, s.smallest_gap);
   add(all, s.residual_equilibrium), add(all, s.residual_closure);
-  for (const auto& [name, value] : s.parameters) {
+  for (const auto& [name, value] : s.parameters.all()) {
     all += name;
     std::visit([&](const auto& v) { all += (std::ostringstream() << v).str(); }, value);
   }
@@ -62,8 +62,7 @@ std::string content_of_study(const std::string& file) {
   std::string all;
   for (int i = 0; i < study.size(); ++i) {
     all += study.name(i) + study.case_hash(i);
-    for (const auto& [name, value] : study.parameters(i)) all += name + shortest(value);
-    for (const auto& [name, value] : study.choices(i)) all += name + value;
+    for (const auto& [name, value] : study.parameters(i).all()) all += name + to_text(value);
     write_field(file + ".again.dffd", study.field(i));
     all += read_text_file(file + ".again.dffd");
   }

@@ -26,8 +26,8 @@ bool same(const Field& a, const Field& b) {
   for (int axis = 0; axis < 4; ++axis)
     if (a.basis(axis).knots() != b.basis(axis).knots() || a.basis(axis).degree() != b.basis(axis).degree())
       return false;
-  return a.coefficients() == b.coefficients() && a.parameters == b.parameters && a.case_hash == b.case_hash &&
-         a.cut().start == b.cut().start && a.cut().length == b.cut().length &&
+  return a.coefficients() == b.coefficients() && a.parameters.numbers() == b.parameters.numbers() &&
+         a.case_hash == b.case_hash && a.cut().start == b.cut().start && a.cut().length == b.cut().length &&
          a.cut().depth == b.cut().depth && a.report.node_error == b.report.node_error &&
          a.quantum == b.quantum && a.parametrization().name() == b.parametrization().name() &&
          a.parametrization().geometry().tip.positions == b.parametrization().geometry().tip.positions;

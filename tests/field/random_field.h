@@ -5,6 +5,7 @@
 
 #include "encoder/field/field.h"
 #include "encoder/field/unknowns.h"
+#include "tests/support/recorded.h"
 
 namespace cleft {
 
@@ -23,7 +24,7 @@ inline Field random_field() {
       BSplineBasis::uniform(3, 7, -30, 30), BSplineBasis::broken(3, 10, -20, 0, 20),
       BSplineBasis::uniform(3, 5, -8, 0), BSplineBasis::uniform(3, 6, 0, 24)};
   Field field(bases[0], bases[1], bases[2], bases[3], random_coefficients(bases), {-12, 24, 3});
-  field.parameters = {{"tissue.young_modulus", 0.02}, {"skin.thickness", 1.5}};
+  field.parameters = recorded({{"tissue.young_modulus", 0.02}, {"skin.thickness", 1.5}});
   field.case_hash = "0123456789abcdef";
   field.report.node_error = 0.0625;
   return field;
@@ -155,9 +156,10 @@ inline Field following_field(int variant = 0) {
                          "tissue.poisson_ratio",
                          "tissue.young_modulus"};
   double value = 1;
-  for (const char* name : names) field.parameters[name] = value /= 1.7;
-  field.parameters["skin.prestress_v"] = 0.01 + 0.001 * (variant % 40);
-  field.parameters["tissue.young_modulus"] = 0.01 + 0.0003 * (variant / 40);
+  for (const char* name : names) field.parameters.set(name, value /= 1.7);
+  RecordedParameters& p = field.parameters;
+  p.set(p->skin.prestress.vv, 0.01 + 0.001 * (variant % 40));
+  p.set(p->tissue.young_modulus, 0.01 + 0.0003 * (variant / 40));
   for (int n = 0; n < 64; ++n) field.case_hash += "0123456789abcdef"[random() % 16];
   std::uniform_real_distribution<double> figure(0.001, 0.02);
   FitReport& r = field.report;

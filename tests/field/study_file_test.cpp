@@ -72,15 +72,16 @@ TEST(StudyFile, HoldsEveryFieldAsItsOwnFileDoes) {
 
 TEST(StudyFile, KeepsParametersThatAreText) {
   Packed packed(different_fields());
-  packed.cases[0].choices = {{"cut.contact", "true"}, {"tissue.formulation", "displacement"}};
-  packed.cases[3].choices = {{"cut.contact", "false"}};
+  packed.cases[0].choices.set("cut.contact", "true");
+  packed.cases[0].choices.set("tissue.formulation", "displacement");
+  packed.cases[3].choices.set("cut.contact", "false");
   write_study(packed.file(), study_records(packed.cases));
   const StudyFile study(packed.file());
-  EXPECT_EQ(study.choices(0), packed.cases[0].choices);
-  EXPECT_TRUE(study.choices(1).empty());
-  EXPECT_EQ(study.choices(3), packed.cases[3].choices);
+  EXPECT_EQ(study.parameters(0).texts(), packed.cases[0].choices.texts());
+  EXPECT_TRUE(study.parameters(1).texts().empty());
+  EXPECT_EQ(study.parameters(3).texts(), packed.cases[3].choices.texts());
   EXPECT_TRUE(same(study.field(0), packed.fields[0]));
-  EXPECT_EQ(study.parameters(3), packed.fields[3].parameters);
+  EXPECT_EQ(study.parameters(3).numbers(), packed.fields[3].parameters.numbers());
 }
 
 TEST(StudyFile, IsLittleMoreThanItsCoefficients) {

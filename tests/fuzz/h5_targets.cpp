@@ -193,9 +193,9 @@ std::string write_sound_study() {
   const FieldRecord sum =
       record_of_sum(own.header, {field.basis(0), field.basis(1), field.basis(2), field.basis(3)}, slices);
   const CodedModes modes{{1e-3}, {own.coefficients}};
-  write_study(
-      path, {{"a", own, {{"cut.contact", "false"}}}, {"b", sum, {}, {0.5}, 0.01}, {"c", sum, {}, {2}, 0.01}},
-      modes);
+  RecordedParameters choices;
+  choices.set("cut.contact", "false");
+  write_study(path, {{"a", own, choices}, {"b", sum, {}, {0.5}, 0.01}, {"c", sum, {}, {2}, 0.01}}, modes);
   return path;
 }
 
@@ -288,7 +288,7 @@ void read_edited_study(const std::uint8_t* data, std::size_t size) {
   read_or_refuse(path, [](const std::string& file) {
     const StudyFile study(file);
     for (int i = 0; i < study.size(); ++i) {
-      study.case_hash(i), study.parameters(i), study.choices(i), study.report(i);
+      study.case_hash(i), study.parameters(i), study.report(i);
       study.field(i);
     }
   });

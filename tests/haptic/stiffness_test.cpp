@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "haptic/surface_dent.h"
 #include "haptic/surface_stiffness.h"
+#include "tests/support/recorded.h"
 #include "tests/wound/fields.h"
 
 namespace cleft {
@@ -40,17 +41,19 @@ TEST(Stiffness, SkinThatCannotSlipIsAsStiffAsTheory) {
 TEST(Stiffness, OfAFieldGrowsWithTheSkinAndTheBed) {
   Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
   EXPECT_THROW(surface_stiffness(field), InputError);
-  field.parameters = {{"tissue.young_modulus", 0.02}, {"tissue.poisson_ratio", 0.4}};
+  std::map<std::string, double> known = {{"tissue.young_modulus", 0.02}, {"tissue.poisson_ratio", 0.4}};
+  field.parameters = recorded(known);
   const double half_space = surface_stiffness(field);
   EXPECT_NEAR(half_space, pi * a * 0.02 / (2 * (1 - 0.16)), 1e-12);
-  field.parameters.insert({{"patch.height", 8},
-                           {"foundation.stiffness", 0.005},
-                           {"skin.young_modulus", 0.13},
-                           {"skin.poisson_ratio", 0.4},
-                           {"skin.thickness", 1.5}});
+  known.insert({{"patch.height", 8},
+                {"foundation.stiffness", 0.005},
+                {"skin.young_modulus", 0.13},
+                {"skin.poisson_ratio", 0.4},
+                {"skin.thickness", 1.5}});
+  field.parameters = recorded(known);
   const double layer = surface_stiffness(field);
   EXPECT_GT(layer, half_space);
-  field.parameters["foundation.stiffness"] = 0.5;
+  field.parameters.set(field.parameters->foundation.stiffness, 0.5);
   EXPECT_GT(surface_stiffness(field), layer);
 }
 

@@ -62,9 +62,9 @@ TEST_P(ImportPlate, WhatItDoesNotTellMayBeGiven) {
   options.parameters = {"skin.thickness=1.5", "skin.prestress_v=0.03"};
   import_series(options, [](const std::string&) {});
   const auto parameters = SnapshotReader(options.out).snapshot().parameters;
-  ASSERT_EQ(parameters.size(), 2u);
-  EXPECT_EQ(std::get<double>(parameters.at("skin.thickness")), 1.5);
-  EXPECT_EQ(std::get<double>(parameters.at("skin.prestress_v")), 0.03);
+  ASSERT_EQ(parameters.all().size(), 2u);
+  EXPECT_EQ(parameters->skin.thickness, 1.5);
+  EXPECT_EQ(parameters->skin.prestress.vv, 0.03);
 }
 
 TEST_P(ImportPlate, TheSourceIsTold) {

@@ -38,12 +38,13 @@ std::vector<StudyMember> sums_of_three(int cases) {
     for (std::size_t k = 0; k < points.size(); ++k)
       points[k] = size * ((1 - x) * motion[0][k] + x * (1 - y) * motion[1][k] + x * y * motion[2][k]);
     Field field(make_parametrization("tip", geometry_with(p)), tip_bases(), points);
-    field.parameters = p, field.case_hash = "case" + std::to_string(n), field.report.spline_error = 1e-6;
+    field.parameters = recorded(p), field.case_hash = "case" + std::to_string(n),
+    field.report.spline_error = 1e-6;
     for (const Place& place : nodes_of_millimetres())
       field.report.largest_displacement = std::max(field.report.largest_displacement,
                                                    norm(field.displacement(place.uvw, place.side, place.t)));
     const Field own = n % 3 == 1 ? finer(field, 0, 1.5) : n % 3 == 2 ? finer(field, 2, -0.7) : field;
-    members.push_back({"case" + std::to_string(n), own, {}});
+    members.push_back({"case" + std::to_string(n), own});
     members.back().field.case_hash = field.case_hash;
   }
   return members;
@@ -52,7 +53,7 @@ std::vector<StudyMember> sums_of_three(int cases) {
 PackedStudy packed_of(const std::vector<StudyMember>& members, const TemporaryFolder& folder) {
   std::vector<StudyCase> cases;
   for (const StudyMember& member : members) {
-    cases.push_back({member.name, folder / (member.name + ".dffd"), member.choices});
+    cases.push_back({member.name, folder / (member.name + ".dffd"), member.field.parameters});
     write_field(cases.back().field_file, member.field);
   }
   return {study_records(cases)};
@@ -98,9 +99,9 @@ TEST(CommonModes, ACaseWithFurtherQuantitiesStandsByItself) {
   for (Vec3& point : points)
     for (int c = 0; c < 3; ++c) point[c] = static_cast<float>(point[c]);  // as files hold it
   Field other(make_parametrization("tip", geometry_with(p)), tip_bases(), points);
-  other.parameters = p, other.report.largest_displacement = 1;
+  other.parameters = recorded(p), other.report.largest_displacement = 1;
   other.quantities.push_back({"stress", 1, std::vector<double>(points.size(), 0.5), 0.5, 0});
-  members.push_back({"other", other, {}});
+  members.push_back({"other", other});
   const PackedStudy own = packed_of(members, folder), study = with_common_modes(own, 0.005);
   EXPECT_GT(study.modes.quanta.size(), 0u);
   const std::string path = folder / "study.dffd";

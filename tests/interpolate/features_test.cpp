@@ -8,13 +8,13 @@ namespace cleft {
 
 namespace {
 
-std::vector<CaseParameters> varied() {
-  std::vector<CaseParameters> cases;
+std::vector<RecordedParameters> varied() {
+  std::vector<RecordedParameters> cases;
   for (const double E : {0.01, 0.02, 0.04})
     for (const double depth : {2., 3., 5.})
       for (const double v : {0.02, 0.05})
-        cases.push_back(
-            parameters_with({{"tissue.young_modulus", E}, {"cut.depth", depth}, {"skin.prestress_v", v}}));
+        cases.push_back(recorded(
+            parameters_with({{"tissue.young_modulus", E}, {"cut.depth", depth}, {"skin.prestress_v", v}})));
   return cases;
 }
 
@@ -34,10 +34,11 @@ TEST(Features, AreWithoutDimension) {
       const bool ratio = name.find("poisson") != std::string::npos || name == "mesh.grading";
       value *= modulus ? stress : spring ? stress / length : ratio ? 1 : length;
     }
-    EXPECT_LT((features.at(q) - features.at(p)).norm(), 1e-12);
-    EXPECT_LT((features.load(q) - features.load(p)).norm(), 1e-12);
-    EXPECT_NEAR(features.scale(q), length * features.scale(p), 1e-12);
-    EXPECT_EQ(features.off(q), 0);
+    const RecordedParameters scaled = recorded(q), own = recorded(p);
+    EXPECT_LT((features.at(scaled) - features.at(own)).norm(), 1e-12);
+    EXPECT_LT((features.load(scaled) - features.load(own)).norm(), 1e-12);
+    EXPECT_NEAR(features.scale(scaled), length * features.scale(own), 1e-12);
+    EXPECT_EQ(features.off(scaled), 0);
   }
 }
 
@@ -47,7 +48,7 @@ TEST(Features, FollowTheParametersThatVary) {
   ASSERT_EQ(features.size(), 2);
   EXPECT_NE(features.names()[0].find("skin.young_modulus"), std::string::npos);
   EXPECT_NE(features.names()[1].find("cut.depth"), std::string::npos);
-  for (const CaseParameters& one : varied()) {
+  for (const RecordedParameters& one : varied()) {
     EXPECT_LE(features.at(one).cwiseAbs().maxCoeff(), 1 + 1e-12);
     EXPECT_EQ(features.off(one), 0);
   }
@@ -56,24 +57,43 @@ TEST(Features, FollowTheParametersThatVary) {
 
 TEST(Features, KnowWhatTheStudyNeverVariedAlone) {
   // Springs as stiff as the tissue in all cases: their ratio to it is always the same.
-  std::vector<CaseParameters> cases;
+  std::vector<RecordedParameters> cases;
   for (const double E : {0.01, 0.02, 0.04})
-    cases.push_back(parameters_with({{"tissue.young_modulus", E}, {"foundation.stiffness", E / 4}}));
+    cases.push_back(
+        recorded(parameters_with({{"tissue.young_modulus", E}, {"foundation.stiffness", E / 4}})));
   const Features features(cases, Loading::superposed);
-  EXPECT_EQ(features.off(parameters_with({{"tissue.young_modulus", 0.03}, {"foundation.stiffness", 0.0075}})),
+  EXPECT_EQ(features.off(recorded(
+                parameters_with({{"tissue.young_modulus", 0.03}, {"foundation.stiffness", 0.0075}}))),
             0);
-  EXPECT_GT(features.off(parameters_with({{"tissue.young_modulus", 0.03}, {"foundation.stiffness", 0.005}})),
+  EXPECT_GT(features.off(
+                recorded(parameters_with({{"tissue.young_modulus", 0.03}, {"foundation.stiffness", 0.005}}))),
             0.1);
 }
 
+TEST(Features, EveryLengthIsMeasuredInLengthsOfTheCut) {
+  for (const Parameter& row : parameter_table()) {
+    if (row.unit != "mm" || row.name == "cut.length" || row.name == "skin.thickness") continue;
+    SCOPED_TRACE(row.name);
+    std::vector<RecordedParameters> cases;
+    for (const double value : {2., 4., 8.}) cases.push_back(recorded(parameters_with({{row.name, value}})));
+    const Features features(cases, Loading::superposed);
+    ASSERT_EQ(features.names(), std::vector<std::string>{row.name + " / cut.length"});
+    EXPECT_NEAR(features.at(cases[1])[0], 0, 1e-12) << "the middle of the logarithms";
+    const double length = *cases[0].number("cut.length");
+    const auto other = recorded(parameters_with({{row.name, 2 * 1.5}, {"cut.length", 1.5 * length}}));
+    EXPECT_NEAR(features.at(other)[0], features.at(cases[0])[0], 1e-12);
+  }
+}
+
 TEST(Features, OfImportedDataAreTheirParameters) {
-  std::vector<CaseParameters> cases;
+  std::vector<RecordedParameters> cases;
   for (const double speed : {1., 10., 100.})
-    cases.push_back({{"speed", speed}, {"angle", speed - 10}, {"size", 2}});
+    cases.push_back(recorded({{"speed", speed}, {"angle", speed - 10}, {"size", 2}}));
   const Features features(cases, Loading::superposed);
   EXPECT_EQ(features.loading(), Loading::general);
   EXPECT_EQ(features.names(), (std::vector<std::string>{"angle", "speed"}));
-  EXPECT_NEAR(features.at({{"speed", 10}, {"angle", 0}, {"size", 2}})[1], 0, 1e-12);  // the middle of decades
+  EXPECT_NEAR(features.at(recorded({{"speed", 10}, {"angle", 0}, {"size", 2}}))[1], 0,
+              1e-12);  // the middle of decades
   EXPECT_EQ(features.scale(cases[0]), 1);
 }
 

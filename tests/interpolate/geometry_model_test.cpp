@@ -18,6 +18,12 @@ std::vector<CaseParameters> varied() {
   return cases;
 }
 
+std::vector<RecordedParameters> all_recorded(const std::vector<CaseParameters>& cases) {
+  std::vector<RecordedParameters> list;
+  for (const CaseParameters& one : cases) list.push_back(recorded(one));
+  return list;
+}
+
 std::vector<FieldGeometry> geometries(const std::vector<CaseParameters>& cases) {
   std::vector<FieldGeometry> list;
   for (const CaseParameters& one : cases) list.push_back(geometry_with(one));
@@ -39,10 +45,10 @@ void expect_alike(const FieldGeometry& a, const FieldGeometry& b) {
 }  // namespace
 
 TEST(GeometryModel, IsLinearInWhatABodyIsMeasuredBy) {
-  const GeometryModel model(varied(), geometries(varied()));
+  const GeometryModel model(all_recorded(varied()), geometries(varied()));
   for (const double length : {16., 17.3, 29., 40.}) {
     const auto p = parameters_with({{"cut.length", length}, {"cut.depth", 3.3}, {"skin.prestress_v", 0.03}});
-    expect_alike(model.at(p), geometry_with(p));
+    expect_alike(model.at(recorded(p)), geometry_with(p));
   }
 }
 
@@ -55,11 +61,11 @@ TEST(GeometryModel, GivesEachCaseItsOwnHoweverItsMeshRounds) {
     const double l = list[i].cut.length, bend = 0.3 + 0.02 * static_cast<double>(i);
     list[i].tip = {{0, bend * l, l}, {list[i].cut.start, list[i].cut.start + 0.5 * l, list[i].cut.start + l}};
   }
-  const GeometryModel model(varied(), list);
-  for (std::size_t i = 0; i < list.size(); ++i) expect_alike(model.at(varied()[i]), list[i]);
+  const GeometryModel model(all_recorded(varied()), list);
+  for (std::size_t i = 0; i < list.size(); ++i) expect_alike(model.at(recorded(varied()[i])), list[i]);
   // In between, tips still only advance.
-  const auto g =
-      model.at(parameters_with({{"cut.length", 18}, {"cut.depth", 3.3}, {"skin.prestress_v", 0.03}}));
+  const auto g = model.at(
+      recorded(parameters_with({{"cut.length", 18}, {"cut.depth", 3.3}, {"skin.prestress_v", 0.03}})));
   EXPECT_TRUE(std::is_sorted(g.tip.positions.begin(), g.tip.positions.end()));
   EXPECT_TRUE(std::is_sorted(g.tip.times.begin(), g.tip.times.end()));
   EXPECT_EQ(g.tip.times.back(), g.domain[3].back);

@@ -21,9 +21,9 @@ const Field& nearest_to(const StudyInterpolator& study, const std::vector<StudyM
   for (const StudyMember& member : members) {
     double distance = 0;
     for (const auto& range : study.varying())
-      distance += std::pow(
-          (member.field.parameters.at(range.name) - values.at(range.name)) / (range.greatest - range.least),
-          2);
+      distance += std::pow((member.field.parameters.number(range.name).value() - values.at(range.name)) /
+                               (range.greatest - range.least),
+                           2);
     if (distance < least) least = distance, nearest = &member;
   }
   return nearest->field;
@@ -65,7 +65,7 @@ std::vector<HeldOut> compare_held_out(const StudyInterpolator& study, const std:
     const Field own = read_field(one.field_file);
     const Series series{SnapshotReader(one.field_file.substr(0, one.field_file.size() - 4) + "h5")};
     CaseParameters values;
-    for (const auto& range : study.varying()) values[range.name] = own.parameters.at(range.name);
+    for (const auto& range : study.varying()) values[range.name] = own.parameters.number(range.name).value();
     const auto start = std::chrono::steady_clock::now();
     const Field field = study.at(values);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;

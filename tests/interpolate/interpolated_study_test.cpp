@@ -137,7 +137,7 @@ TEST_F(InterpolatedStudy, FolderAndStudyFileGiveTheSameField) {
   for (std::size_t n = 0; n < a.coefficients().size(); ++n)
     ASSERT_EQ(a.coefficients()[n], b.coefficients()[n]);
   EXPECT_NEAR(a.cut().depth, 2, 1e-12);
-  EXPECT_EQ(a.parameters.at("skin.prestress_v"), 0.03);
+  EXPECT_EQ(a.parameters->skin.prestress.vv, 0.03);
   EXPECT_NE(expect_success(run_cleft("info", {*place_ / "a.dffd"})).output.find("estimated_error"),
             std::string::npos);
   expect_success(run_cleft("check", {*place_ / "a.dffd"}));

@@ -6,6 +6,7 @@
 #include "encoder/field/knot_insertion.h"
 #include "encoder/interpolate/common_cases.h"
 #include "tests/field/random_field.h"
+#include "tests/support/recorded.h"
 
 namespace cleft {
 
@@ -73,18 +74,18 @@ inline std::vector<Vec3> made_points(const CaseParameters& p) {
 inline Field made_field(const CaseParameters& values) {
   const CaseParameters p = parameters_with(values);
   Field field(make_parametrization("tip", geometry_with(p)), tip_bases(), made_points(p));
-  field.parameters = p, field.report.spline_error = 1e-6;
+  field.parameters = recorded(p), field.report.spline_error = 1e-6;
   return field;
 }
 
 /// With its derivative by a parameter.
 inline Field with_derivative(Field field, const std::string& name) {
-  CaseParameters less = field.parameters, more = field.parameters;
-  const double step = 1e-5 * field.parameters.at(name);
+  const double value = field.parameters.number(name).value(), step = 1e-5 * value;
+  CaseParameters less = field.parameters.numbers(), more = less;
   less[name] -= step, more[name] += step;
   const std::vector<Vec3> a = made_points(less), b = made_points(more);
   ParameterDerivative& one = field.by_parameter.emplace_back();
-  one.parameter = name, one.error = 1e-6, one.largest = 1 / field.parameters.at(name);
+  one.parameter = name, one.error = 1e-6, one.largest = 1 / value;
   for (std::size_t n = 0; n < a.size(); ++n) one.control_points.push_back((1 / (2 * step)) * (b[n] - a[n]));
   return field;
 }
@@ -108,8 +109,9 @@ inline std::vector<StudyMember> made_study(const std::vector<CaseParameters>& li
   std::vector<StudyMember> members;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Field field = made_field(list[i]);
-    const Field own = i % 3 == 1 ? finer(field, 0, 1.5) : i % 3 == 2 ? finer(field, 2, -0.7) : field;
-    members.push_back({"case" + std::to_string(i), own, {{"cut.contact", "false"}}});
+    Field own = i % 3 == 1 ? finer(field, 0, 1.5) : i % 3 == 2 ? finer(field, 2, -0.7) : field;
+    own.parameters.set("cut.contact", "false");
+    members.push_back({"case" + std::to_string(i), own});
   }
   return members;
 }

@@ -91,7 +91,7 @@ TEST(StudyInterpolator, LipsThatTouchDoNotSuperpose) {
   // What is told of the cases decides, and then prestress is a feature like others.
   for (const char* name : {"cut.contact", "skin.initial_stress_stiffness"}) {
     auto members = made_study(three_varied(24));
-    for (StudyMember& member : members) member.choices[name] = "true";
+    for (StudyMember& member : members) member.field.parameters.set(name, "true");
     const StudyInterpolator study{CommonCases(members)};
     EXPECT_EQ(study.features().loading(), Loading::general);
     EXPECT_EQ(study.features().size(), 3);
@@ -149,8 +149,8 @@ double error_of_cases(const std::string& name, const std::vector<double>& values
   for (std::size_t i = 0; i < values.size(); ++i) {
     Field field = made_field({{name, values[i]}});
     if (derivatives) field = with_derivative(field, name);
-    members.push_back(
-        {"case" + std::to_string(i), i == 1 ? finer(field, 2, -0.7) : field, {{"cut.contact", "false"}}});
+    field.parameters.set("cut.contact", "false");
+    members.push_back({"case" + std::to_string(i), i == 1 ? finer(field, 2, -0.7) : field});
   }
   const StudyInterpolator study{CommonCases(members)};
   EXPECT_EQ(study.regression().covariance().name.ends_with(" with derivatives"), derivatives);
@@ -182,7 +182,7 @@ TEST(StudyInterpolator, UncutTissueStaysClosedToTheLastBit) {
   // All cases are closed where nothing is cut; so is what lies between, also as it is written.
   auto members = made_study(three_varied(8));
   for (StudyMember& member : members) {
-    Field closed = quantised(made_field(member.field.parameters), 1e-4, 0.5);
+    Field closed = quantised(made_field(member.field.parameters.numbers()), 1e-4, 0.5);
     closed.parameters = member.field.parameters, closed.quantum = 0;
     member.field = closed;
   }
@@ -219,8 +219,10 @@ TEST(StudyInterpolator, MeshesThatRoundTheCutStandForTheCutTheyHave) {
     CaseParameters solved = list[i];
     solved["cut.depth"] = std::round(solved["cut.depth"]);
     Field field = made_field(solved);
-    field.parameters["cut.depth"] = list[i]["cut.depth"], field.parameters["mesh.cut_depth"] = 6;
-    members.push_back({"case" + std::to_string(i), field, {{"cut.contact", "false"}}});
+    RecordedParameters& p = field.parameters;
+    p.set(p->cut.depth, list[i]["cut.depth"]), p.set(p->mesh.cut_depth, 6);
+    p.set("cut.contact", "false");
+    members.push_back({"case" + std::to_string(i), field});
   }
   const StudyInterpolator study{CommonCases(members)};
   const Field field = study.at(values_at(0.4, 0.5, 0.6));
@@ -262,7 +264,7 @@ TEST(CommonCases, WhatCannotBeCombinedIsRefused) {
   auto other = members;
   other[1].field = random_field();
   refuses(other, "different parametrisations");
-  other = members, other[1].choices["cut.contact"] = "true";
+  other = members, other[1].field.parameters.set("cut.contact", "true");
   refuses(other, "differ in cut.contact");
   other = members, other[2].field.parameters.erase("cut.depth");
   refuses(other, "no parameter cut.depth");
@@ -289,11 +291,11 @@ TEST(CommonCases, FixedBodiesOfOtherSizesShareTheirKnots) {
       points = insert_knots(
           points, {BSplineBasis::uniform(3, 7, -30 * size, 30 * size), bases[1], bases[2], bases[3]}, bases);
     Field field(bases[0], bases[1], bases[2], bases[3], points, {-12 * size, 24 * size, 3 * size});
-    field.parameters = {{"size", size}};
+    field.parameters = recorded({{"size", size}});
     return field;
   };
   for (const double size : {1., 1.1, 1.7, 2.})
-    members.push_back({std::to_string(size), body(size, size > 1.5 ? 11 : 7), {}});
+    members.push_back({std::to_string(size), body(size, size > 1.5 ? 11 : 7)});
   const StudyInterpolator study{CommonCases(members)};
   const Field field = study.at({{"size", 1.3}}), truth = body(1.3, 7);
   EXPECT_EQ(field.basis(0).size(), 11);

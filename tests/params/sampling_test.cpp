@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "params/parameters/table.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {

@@ -18,7 +18,7 @@ std::vector<Case> cases_of(int moduli, int prestresses) {
     for (int m = 0; m < moduli; ++m) {
       cases.emplace_back();
       cases.back().parameters.tissue.young_modulus = 0.01 * (m + 1);
-      cases.back().parameters.skin.prestress_v = 0.001 * (p + 1);
+      cases.back().parameters.skin.prestress.vv = 0.001 * (p + 1);
     }
   return cases;
 }

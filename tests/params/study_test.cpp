@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "params/solve_hash.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
@@ -41,7 +42,7 @@ control_points = [20, 12, 8, 10]
   std::set<std::string> hashes;
   for (const Case& one : cases) {
     EXPECT_EQ(one.parameters.skin.thickness, 2);
-    seen.insert({one.parameters.tissue.young_modulus, one.parameters.skin.prestress_v});
+    seen.insert({one.parameters.tissue.young_modulus, one.parameters.skin.prestress.vv});
     hashes.insert(one.hash());
   }
   EXPECT_EQ(seen.size(), 15u);
@@ -134,7 +135,7 @@ TEST(Case, ItsFileResolvesToTheSameCase) {
   const TemporaryFolder folder;
   Case one;
   one.parameters.tissue.young_modulus = 1.0 / 3;
-  one.parameters.cut.frames = "pair";
+  one.parameters.cut.frames = FrameEvery::pair;
   one.encode.control_points = {20, 12, 8, 10};
   const Case again = read_case(folder.write("case.toml", case_file_text(one)), {});
   EXPECT_EQ(again.hash(), one.hash());

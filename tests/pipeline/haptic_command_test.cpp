@@ -14,6 +14,7 @@
 #include "haptic/devices/mouse.h"
 #include "tests/incision/meshes.h"
 #include "tests/pipeline/commands.h"
+#include "tests/support/recorded.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/wound/fields.h"
 
@@ -51,7 +52,7 @@ class HapticCommand : public ::testing::Test {
   }
   std::string field() {
     Field opening = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
-    opening.parameters = {{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}};
+    opening.parameters = recorded({{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}});
     write_field(in / "case.dffd", opening);
     return in / "case.dffd";
   }

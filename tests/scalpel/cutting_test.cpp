@@ -9,6 +9,7 @@
 #include "haptic/surface_stiffness.h"
 #include "tests/haptic/surfaces.h"
 #include "tests/incision/meshes.h"
+#include "tests/support/recorded.h"
 #include "tests/wound/fields.h"
 
 namespace cleft {
@@ -148,7 +149,7 @@ TEST(Cutting, TheHandCutsTheWholePathOfSoftAndStiffTissue) {
   for (const double gape : {4., 1e-3, -4e-3})
     for (const double modulus : {0.004, 0.01, 1.}) {
       auto field = std::make_shared<Field>(testing::opening_field({-20, 40, 5}, 80, 60, 10, gape));
-      field->parameters = {{"tissue.young_modulus", modulus}, {"tissue.poisson_ratio", 0.45}};
+      field->parameters = recorded({{"tissue.young_modulus", modulus}, {"tissue.poisson_ratio", 0.45}});
       ForceParameters force;
       force.stiffness = surface_stiffness(*field);
       const HandParameters of_the_hand;
@@ -174,9 +175,12 @@ TEST(Cutting, TheHandCutsTheWholePathOfSoftAndStiffTissue) {
 
 TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
   Field opens = testing::opening_field({-15, 30, 3}, 50, 50, 6, 3);
-  opens.parameters = {{"skin.prestress_v", 0.03},     {"skin.thickness", 1.5},
-                      {"skin.young_modulus", 0.2},    {"skin.poisson_ratio", 0.4},
-                      {"tissue.young_modulus", 0.02}, {"tissue.poisson_ratio", 0.4}};
+  opens.parameters = recorded({{"skin.prestress_v", 0.03},
+                               {"skin.thickness", 1.5},
+                               {"skin.young_modulus", 0.2},
+                               {"skin.poisson_ratio", 0.4},
+                               {"tissue.young_modulus", 0.02},
+                               {"tissue.poisson_ratio", 0.4}});
   const auto field = std::make_shared<const Field>(opens);
   const SurfaceMesh mesh = testing::grid(40, 40, -30, -30, 1.5);
   const auto at = [](double y) { return testing::path_through({{-15, y, 0}, {15, y, 0}}, testing::up, 2); };

@@ -6,6 +6,7 @@
 #include "encoder/interpolate/study_interpolator.h"
 #include "explorer/study/case_figures.h"
 #include "tests/session/session_fixture.h"
+#include "tests/support/recorded.h"
 
 namespace cleft {
 namespace {
@@ -27,22 +28,22 @@ class Between : public SessionTest {
           const std::string place = folder / ("study/cases/" + name);
           std::filesystem::create_directories(place);
           Field field = synthetic_field(gape_of(prestress, modulus));
-          field.parameters = {{"skin.prestress_v", prestress},
-                              {"skin.prestress_u", 0},
-                              {"skin.prestress_uv", 0},
-                              {"tissue.young_modulus", modulus},
-                              {"cut.depth", 6},
-                              {"cut.length", 30},
-                              {"patch.length", 60},
-                              {"patch.width", 40},
-                              {"patch.height", 12},
-                              {"skin.thickness", 1.5},
-                              {"skin.young_modulus", 0.5},
-                              {"skin.poisson_ratio", 0.4},
-                              {"tissue.poisson_ratio", 0.45},
-                              {"foundation.stiffness", 0.005},
-                              {"foundation.side_stiffness", 0.005},
-                              {"mesh.element_size", 2}};
+          field.parameters = recorded({{"skin.prestress_v", prestress},
+                                       {"skin.prestress_u", 0},
+                                       {"skin.prestress_uv", 0},
+                                       {"tissue.young_modulus", modulus},
+                                       {"cut.depth", 6},
+                                       {"cut.length", 30},
+                                       {"patch.length", 60},
+                                       {"patch.width", 40},
+                                       {"patch.height", 12},
+                                       {"skin.thickness", 1.5},
+                                       {"skin.young_modulus", 0.5},
+                                       {"skin.poisson_ratio", 0.4},
+                                       {"tissue.poisson_ratio", 0.45},
+                                       {"foundation.stiffness", 0.005},
+                                       {"foundation.side_stiffness", 0.005},
+                                       {"mesh.element_size", 2}});
           field.case_hash = name;
           field.report.largest_displacement = gape_of(prestress, modulus) / 2;
           write_field(place + "/case.dffd", field);
@@ -73,7 +74,7 @@ TEST_F(Between, TheFieldIsInterpolatedAndMarkedAsSuch) {
     EXPECT_NEAR(shown_gape(), expected, (superposed ? 1e-4 : 0.015) * expected)
         << prestress << " " << modulus;
     EXPECT_NE(session_.note_of(state().shown).find("interpolated, estimated error"), std::string::npos);
-    EXPECT_EQ(session_.between()->parameters.at("tissue.young_modulus"), modulus);
+    EXPECT_EQ(session_.between()->parameters.number("tissue.young_modulus"), modulus);
   }
   say("case 2");
   EXPECT_FALSE(session_.between());

@@ -7,6 +7,7 @@
 
 #include "encoder/field/file/field_file.h"
 #include "solver/snapshot/snapshot.h"
+#include "tests/support/recorded.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/view/synthetic_field.h"
 
@@ -38,7 +39,7 @@ inline Snapshot raw_snapshot() {
   s.cell_offsets = {0};
   s.smallest_gap = s.residual_equilibrium = s.residual_closure = s.times;
   s.case_hash = "case0";
-  s.parameters = {{"skin.prestress_v", 0.02}};
+  s.parameters = recorded({{"skin.prestress_v", 0.02}});
   return s;
 }
 
@@ -49,7 +50,7 @@ inline const std::string& raw_study() {
       const std::string name = "case" + std::to_string(number), place = folder / ("study/cases/" + name);
       std::filesystem::create_directories(place);
       Field field = synthetic_field(3 + number);
-      field.parameters = {{"skin.prestress_v", 0.02 + 0.01 * number}, {"cut.depth", 6}};
+      field.parameters = recorded({{"skin.prestress_v", 0.02 + 0.01 * number}, {"cut.depth", 6}});
       field.case_hash = name;
       write_field(place + "/case.dffd", field);
       std::ofstream(place + "/manifest.json") << "{}";

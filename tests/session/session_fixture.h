@@ -10,6 +10,7 @@
 #include "encoder/field/file/field_file.h"
 #include "explorer/session/session.h"
 #include "tests/support/flat_plate.h"
+#include "tests/support/recorded.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/view/synthetic_field.h"
 
@@ -26,10 +27,13 @@ inline const std::string& shared_study() {
         const std::string place = folder / ("study/cases/" + name);
         std::filesystem::create_directories(place);
         Field field = synthetic_field(gape + 10 * modulus);
-        field.parameters = {
-            {"skin.prestress_v", gape / 100}, {"tissue.young_modulus", modulus}, {"cut.depth", 6},
-            {"skin.thickness", 1.5},          {"skin.young_modulus", 0.5},       {"skin.poisson_ratio", 0.4},
-            {"tissue.poisson_ratio", 0.45}};
+        field.parameters = recorded({{"skin.prestress_v", gape / 100},
+                                     {"tissue.young_modulus", modulus},
+                                     {"cut.depth", 6},
+                                     {"skin.thickness", 1.5},
+                                     {"skin.young_modulus", 0.5},
+                                     {"skin.poisson_ratio", 0.4},
+                                     {"tissue.poisson_ratio", 0.45}});
         field.case_hash = name;
         write_field(place + "/case.dffd", field);
         write_text_file(place + "/manifest.json", "{}");

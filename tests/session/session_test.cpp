@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "tests/session/session_fixture.h"
+#include "tests/support/recorded.h"
 
 namespace cleft {
 namespace {
@@ -25,12 +26,12 @@ TEST_F(SessionTest, OpensAStudyAtItsEnd) {
 TEST_F(SessionTest, AParameterChoosesTheNearestCaseAndKeepsTheOthers) {
   open();
   say("set skin.prestress_v 0.05");
-  EXPECT_EQ(session_.study()->parameters(state().shown).at("skin.prestress_v"), 0.05);
-  EXPECT_EQ(session_.study()->parameters(state().shown).at("tissue.young_modulus"), 0.01);
+  EXPECT_EQ(session_.study()->parameters(state().shown).number("skin.prestress_v"), 0.05);
+  EXPECT_EQ(session_.study()->parameters(state().shown).number("tissue.young_modulus"), 0.01);
   EXPECT_TRUE(session_.shows_exactly());
   say("set tissue.young_modulus 0.03");
-  EXPECT_EQ(session_.study()->parameters(state().shown).at("skin.prestress_v"), 0.05);
-  EXPECT_EQ(session_.study()->parameters(state().shown).at("tissue.young_modulus"), 0.04);
+  EXPECT_EQ(session_.study()->parameters(state().shown).number("skin.prestress_v"), 0.05);
+  EXPECT_EQ(session_.study()->parameters(state().shown).number("tissue.young_modulus"), 0.04);
   EXPECT_FALSE(session_.shows_exactly());
   say("case 2");
   EXPECT_TRUE(session_.shows_exactly());
@@ -149,10 +150,14 @@ TEST_F(SessionTest, CutsTurnAgainstATension) {
     const std::string place = folder / ("study/cases/case" + std::to_string(number));
     std::filesystem::create_directories(place);
     Field field = synthetic_field(5 - number);
-    field.parameters = {{"skin.prestress_u", p.x},      {"skin.prestress_v", p.y},
-                        {"skin.prestress_uv", p.z},     {"skin.thickness", 1.5},
-                        {"skin.young_modulus", 0.5},    {"skin.poisson_ratio", 0.4},
-                        {"tissue.young_modulus", 0.01}, {"tissue.poisson_ratio", 0.45}};
+    field.parameters = recorded({{"skin.prestress_u", p.x},
+                                 {"skin.prestress_v", p.y},
+                                 {"skin.prestress_uv", p.z},
+                                 {"skin.thickness", 1.5},
+                                 {"skin.young_modulus", 0.5},
+                                 {"skin.poisson_ratio", 0.4},
+                                 {"tissue.young_modulus", 0.01},
+                                 {"tissue.poisson_ratio", 0.45}});
     field.case_hash = "case" + std::to_string(number++);
     write_field(place + "/case.dffd", field);
     write_text_file(place + "/manifest.json", "{}");

@@ -31,7 +31,8 @@ Snapshot small_snapshot() {
   s.times = {0, 1, 2};
   s.smallest_gap = {0, 0, 0.25}, s.residual_equilibrium = {1e-15, 2e-15, 3e-15},
   s.residual_closure = {0, 0, 0};
-  s.parameters = {{"skin.thickness", 1.5}, {"cut.frames", "column"}};
+  s.parameters.set("skin.thickness", 1.5);
+  s.parameters.set("cut.frames", "column");
   s.case_hash = "0123456789abcdef";
   return s;
 }
@@ -73,11 +74,25 @@ TEST(Snapshot, ReadsBackWhatWasWritten) {
   EXPECT_EQ(folder.entries(), 1);
 }
 
+TEST(Snapshot, ParametersOfUnknownNamesAreKept) {
+  const TemporaryFolder folder;
+  Snapshot s = small_snapshot();
+  s.parameters.set("speed", 3.);
+  s.parameters.set("cut.contact", "maybe");
+  s.parameters.set("skin.initial_stress_stiffness", "true");
+  s.parameters.set("skin.prestress_uv", 0.25);
+  const RecordedParameters read = SnapshotReader(write(folder, s)).snapshot().parameters;
+  EXPECT_EQ(read, s.parameters);
+  EXPECT_EQ(read.find("cut.contact"), Value("maybe"));
+  EXPECT_TRUE(read->skin.initial_stress_stiffness);
+  EXPECT_EQ(read->skin.prestress.uv, 0.25);
+}
+
 TEST(Snapshot, ImportedDataNeedNoCutNorResiduals) {
   const TemporaryFolder folder;
   Snapshot s = small_snapshot();
   s.cell_types = {5, 73};  // a type that no other part knows
-  s.foundation_triangles.clear(), s.foundation_quads.clear(), s.pairs.clear(), s.parameters.clear();
+  s.foundation_triangles.clear(), s.foundation_quads.clear(), s.pairs.clear(), s.parameters = {};
   s.released = {0, 0, 0};
   s.cut_start = s.cut_length = s.cut_depth = 0;
   s.residual_equilibrium.clear(), s.residual_closure.clear();

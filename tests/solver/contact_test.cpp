@@ -89,12 +89,12 @@ void expect_the_touching_set(const DensePatch& patch, int open, const Eigen::Vec
 std::vector<DenseCase> pressed_cases() {
   std::vector<DenseCase> cases;
   for (DenseCase c : dense_cases()) {
-    c.parameters.cut.frames = "column";
+    c.parameters.cut.frames = FrameEvery::column;
     // At most twelve pairs: 4096 sets.
     if (std::string(c.name) != "ShearedByPairs") cases.push_back(c);
     if (std::string(c.name) == "BranchInAMeshOfALargerCut" || std::string(c.name) == "TiltedArc") {
-      c.parameters.skin.prestress_u = 0.2, c.parameters.skin.prestress_v = 0.01;
-      c.parameters.skin.prestress_uv = 0.02;
+      c.parameters.skin.prestress.uu = 0.2, c.parameters.skin.prestress.vv = 0.01;
+      c.parameters.skin.prestress.uv = 0.02;
       c.name = std::string(c.name) == "TiltedArc" ? "TiltedArcPulledAlong" : "BranchPulledAlong";
       cases.push_back(c);
     }
@@ -121,7 +121,7 @@ TEST(Contact, FramesAreThoseOfTheOneSetOfTouchingPairsThatFits) {
 
 TEST(Contact, APushedCutStaysClosedAlongItsNormal) {
   Parameters p = dense_patch_case();
-  p.cut.depth = 1, p.skin.prestress_uv = 0.02;
+  p.cut.depth = 1, p.skin.prestress.uv = 0.02;
   const DensePatch patch(p);
   const Eigen::MatrixXd frames = solve_frames(patch, -patch.load, true);
   for (std::size_t j = 1; j < patch.release.released.size(); ++j) {

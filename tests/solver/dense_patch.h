@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "params/consistency.h"
 #include "solver/block_rows.h"
 #include "solver/frame_solver.h"
 #include "tests/solver/small_patch.h"
@@ -103,7 +104,7 @@ inline Parameters dense_patch_case() {
   Parameters p;
   p.patch.length = 8, p.patch.width = 4, p.patch.height = 3;
   p.cut.length = 6, p.cut.depth = 2;
-  p.skin.prestress_u = 0.02, p.skin.prestress_v = 0.03, p.skin.prestress_uv = 0.012;
+  p.skin.prestress = {0.02, 0.03, 0.012};
   return p;
 }
 
@@ -121,20 +122,21 @@ inline std::vector<DenseCase> dense_cases() {
     check_consistency(p, name);
     cases.push_back({name, p});
   };
-  add("Plain", [](Parameters& p) { p.skin.prestress_uv = 0; });
-  add("ShearedByPairs", [](Parameters& p) { p.cut.frames = "pair"; });
+  add("Plain", [](Parameters& p) { p.skin.prestress.uv = 0; });
+  add("ShearedByPairs", [](Parameters& p) { p.cut.frames = FrameEvery::pair; });
   add("TiltedArc", [](Parameters& p) { p.cut.radius = 12, p.cut.tilt = 15; });
   add("ParallelCuts", [](Parameters& p) { p.cut.count = 2, p.cut.spacing = 1.6, p.cut.length = 4; });
-  add("Branch", [](Parameters& p) { p.cut.branch = 1, p.cut.length = 4, p.cut.frames = "pair"; });
+  add("Branch", [](Parameters& p) { p.cut.branch = 1, p.cut.length = 4, p.cut.frames = FrameEvery::pair; });
   add("MeshOfALargerCut",
       [](Parameters& p) { p.mesh.cut_length = 6, p.mesh.cut_depth = 2, p.cut.length = 4, p.cut.depth = 1; });
   add("BranchInAMeshOfALargerCut", [](Parameters& p) {
-    p.cut.branch = 1, p.cut.length = 3, p.mesh.cut_length = 6, p.cut.frames = "pair";
+    p.cut.branch = 1, p.cut.length = 3, p.mesh.cut_length = 6, p.cut.frames = FrameEvery::pair;
   });
   add("Graded", [](Parameters& p) { p.mesh.grading = 1.5, p.patch.length = 11, p.patch.width = 6; });
-  add("MeanDilatation",
-      [](Parameters& p) { p.tissue.formulation = "mean-dilatation", p.tissue.poisson_ratio = 0.495; });
-  add("InitialStressStiffness", [](Parameters& p) { p.skin.initial_stress_stiffness = "true"; });
+  add("MeanDilatation", [](Parameters& p) {
+    p.tissue.formulation = TissueFormulation::mean_dilatation, p.tissue.poisson_ratio = 0.495;
+  });
+  add("InitialStressStiffness", [](Parameters& p) { p.skin.initial_stress_stiffness = true; });
   return cases;
 }
 

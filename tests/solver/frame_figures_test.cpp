@@ -54,7 +54,7 @@ std::pair<double, double> gaps_of(const Frames& f, std::size_t j) {
 
 Parameters sheared_by_pairs() {
   Parameters p = dense_patch_case();
-  p.cut.frames = "pair";
+  p.cut.frames = FrameEvery::pair;
   return p;
 }
 

@@ -80,7 +80,7 @@ TEST(FrameSolver, AnotherCutOfTheSameMeshNeedsNoOtherSolver) {
   Parameters longer = dense_patch_case(), shorter = longer;
   longer.mesh.cut_length = shorter.mesh.cut_length = 6;
   longer.mesh.cut_depth = shorter.mesh.cut_depth = 2;
-  shorter.cut.length = 4, shorter.cut.depth = 1, shorter.cut.frames = "pair";
+  shorter.cut.length = 4, shorter.cut.depth = 1, shorter.cut.frames = FrameEvery::pair;
   const DensePatch patch(longer);
   Solvers solvers(patch);
   for (const Parameters& p : {longer, shorter, longer})

@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "params/consistency.h"
+#include "params/parameters/table.h"
 #include "solver/patch_mesh.h"
 #include "tests/solver/patch_mesh_shapes.h"
 
@@ -13,9 +15,9 @@ namespace cleft {
 
 TEST(Release, OpensIncisionByIncisionAndColumnByColumnFromTheSkin) {
   for (auto [name, p] : shapes())
-    for (const char* frames : {"column", "pair"}) {
-      SCOPED_TRACE(name + ", " + frames);
+    for (const FrameEvery frames : {FrameEvery::column, FrameEvery::pair}) {
       p.cut.frames = frames;
+      SCOPED_TRACE(name + ", " + text_of(p, p.cut.frames));
       const PatchMesh mesh = make_patch_mesh(p);
       const Release r = make_release(mesh, p);
       ASSERT_EQ(r.order.size(), mesh.pairs.size());
@@ -41,7 +43,7 @@ TEST(Release, OpensIncisionByIncisionAndColumnByColumnFromTheSkin) {
         columns += is_open && pair.depth == 0;
       }
       EXPECT_EQ(r.released.back(), open);
-      EXPECT_EQ(static_cast<int>(r.released.size()) - 1, p.cut.frames == "pair" ? open : columns);
+      EXPECT_EQ(static_cast<int>(r.released.size()) - 1, p.cut.frames == FrameEvery::pair ? open : columns);
     }
 }
 
@@ -66,7 +68,7 @@ TEST(Release, ThePositionIsThatOfTheFirstColumnStillClosedAndTimeItsWay) {
 
 TEST(Release, WithAFrameForEveryPairTheTipMovesByFractionsOfAColumn) {
   Parameters p = small_patch();  // lines at -3, -2, ..., 3; two pairs in a column
-  p.cut.frames = "pair";
+  p.cut.frames = FrameEvery::pair;
   const Release r = make_release(make_patch_mesh(p), p);
   ASSERT_EQ(r.position.size(), 11u);
   EXPECT_EQ(r.position[1], -1.5);

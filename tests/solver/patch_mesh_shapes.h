@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "params/consistency.h"
 #include "tests/solver/small_patch.h"
 
 namespace cleft {

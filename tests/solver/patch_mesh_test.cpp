@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "params/consistency.h"
 #include "tests/solver/patch_mesh_shapes.h"
 
 namespace cleft {
@@ -304,8 +305,9 @@ TEST(PatchMesh, TheSkinOfAStraightCutIsItsOwnMirrorImage) {
   graded.mesh.grading = 1.3;
   two.cut.count = 2, two.cut.spacing = 2;
   odd.cut.length = 4.7;
-  for (const char* formulation : {"displacement", "mean-dilatation"}) {
-    const bool stripes = std::string(formulation) == "displacement";
+  for (const TissueFormulation formulation :
+       {TissueFormulation::displacement, TissueFormulation::mean_dilatation}) {
+    const bool stripes = formulation == TissueFormulation::displacement;
     int even = 0;
     for (Parameters p : {small_patch(), graded, two, odd}) {
       p.tissue.formulation = formulation;
@@ -335,10 +337,11 @@ TEST(PatchMesh, TheSkinOfAStraightCutIsItsOwnMirrorImage) {
 TEST(PatchMesh, DiagonalsMakeStripesOrAChessBoard) {
   Parameters p = awkward_patch();
   p.mesh.grading = 1.3;
-  for (const char* formulation : {"displacement", "mean-dilatation"})
+  for (const TissueFormulation formulation :
+       {TissueFormulation::displacement, TissueFormulation::mean_dilatation})
     for (const double tilt : {0., 20.}) {
       p.tissue.formulation = formulation, p.cut.tilt = tilt;
-      const bool stripes = p.tissue.formulation == "displacement";
+      const bool stripes = p.tissue.formulation == TissueFormulation::displacement;
       const PatchMesh mesh = make_patch_mesh(p);
       const std::vector<int> first = glued(mesh);
       std::map<int, int> met;
@@ -365,7 +368,8 @@ TEST(PatchMesh, DiagonalsMakeStripesOrAChessBoard) {
       for (const auto& [square, directions] : rises) {
         const auto [i, j] = square;
         const bool expected = ((stripes ? 0 : i - i0) + j - j0) % 2 == 0;
-        EXPECT_EQ(directions, std::set<bool>{expected}) << formulation << ", square " << i << ", " << j;
+        EXPECT_EQ(directions, std::set<bool>{expected})
+            << static_cast<int>(formulation) << ", square " << i << ", " << j;
       }
       for (const auto& [n, count] : met) {
         const Vec3& at = mesh.points[n];

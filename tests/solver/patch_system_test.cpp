@@ -15,7 +15,7 @@ Parameters bare_patch() {
   Parameters p = small_patch();
   p.tissue.young_modulus = p.skin.young_modulus = p.foundation.stiffness = none;
   p.foundation.side_stiffness = 0;
-  p.skin.prestress_u = p.skin.prestress_v = p.skin.prestress_uv = 0;
+  p.skin.prestress = {};
   return p;
 }
 
@@ -90,7 +90,7 @@ TEST(PatchSystem, SkinHasTheEnergyOfPlaneStress) {
 
 TEST(PatchSystem, PrestressDoesTheWorkOfItsStress) {
   Parameters p = bare_patch();
-  p.skin.prestress_u = 0.011, p.skin.prestress_v = 0.03, p.skin.prestress_uv = 0.007;
+  p.skin.prestress = {0.011, 0.03, 0.007};
   const Assembled patch(p);
   const Eigen::VectorXd u = linear(patch.mesh, patch.system, stretch);
   const Eigen::RowVector3d strain(stretch[0].x, stretch[1].y, stretch[0].y + stretch[1].x);

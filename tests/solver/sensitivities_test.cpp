@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "params/parameters/table.h"
 #include "tests/solver/small_patch.h"
 #include "tests/solver/solved_snapshot.h"
 
@@ -36,7 +37,7 @@ const std::vector<std::string> of_the_prestress = {"skin.prestress_u", "skin.pre
 
 Parameters sheared() {
   Parameters p = small_patch();
-  p.skin.prestress_uv = 0.012, p.skin.poisson_ratio = 0.3, p.tissue.poisson_ratio = 0.35;
+  p.skin.prestress.uv = 0.012, p.skin.poisson_ratio = 0.3, p.tissue.poisson_ratio = 0.35;
   return p;
 }
 
@@ -66,7 +67,7 @@ TEST(Sensitivities, AreTheDerivativesOfTheSeries) {
   Parameters first = sheared(), second = sheared();
   first.mesh.cut_length = second.mesh.cut_length = 6;
   first.cut.length = second.cut.length = 4;
-  second.skin.prestress_u = 0.05, second.skin.prestress_v = 0.06;
+  second.skin.prestress.uu = 0.05, second.skin.prestress.vv = 0.06;
   std::vector<std::string> names = of_the_stiffness;
   names.insert(names.end(), of_the_prestress.begin(), of_the_prestress.end());
   expect_derivatives({first, second}, names);
@@ -74,7 +75,7 @@ TEST(Sensitivities, AreTheDerivativesOfTheSeries) {
 
 TEST(Sensitivities, KnowThatPrestressMayStiffenTheSkin) {
   Parameters p = sheared();
-  p.skin.initial_stress_stiffness = "true";
+  p.skin.initial_stress_stiffness = true;
   std::vector<std::string> names = of_the_prestress;
   names.push_back("skin.thickness");
   expect_derivatives({p}, names);
@@ -82,7 +83,7 @@ TEST(Sensitivities, KnowThatPrestressMayStiffenTheSkin) {
 
 TEST(Sensitivities, OfMeanDilatation) {
   Parameters p = sheared();
-  p.tissue.formulation = "mean-dilatation", p.tissue.poisson_ratio = 0.49;
+  p.tissue.formulation = TissueFormulation::mean_dilatation, p.tissue.poisson_ratio = 0.49;
   expect_derivatives({p}, {"tissue.poisson_ratio", "tissue.young_modulus"});
 }
 
@@ -108,10 +109,11 @@ TEST(Sensitivities, ToThePrestressAreTheUnitSeries) {
 /// More frames than are solved together, and more loads of derivatives than are.
 TEST(Sensitivities, OfManyFrames) {
   Parameters p = sheared();
-  p.patch.length = 20, p.cut.length = 16, p.cut.depth = 3, p.patch.height = 4, p.cut.frames = "pair";
+  p.patch.length = 20, p.cut.length = 16, p.cut.depth = 3, p.patch.height = 4,
+  p.cut.frames = FrameEvery::pair;
   p.patch.width = 4;
   Parameters q = p;
-  q.skin.prestress_v = 0.05;  // three loads a frame: 21 frames at a time
+  q.skin.prestress.vv = 0.05;  // three loads a frame: 21 frames at a time
   expect_derivatives({p, q}, {"skin.young_modulus"});
 }
 

@@ -1,7 +1,7 @@
 // A small case: two layers of elements cut, a few hundred unknowns.
 #pragma once
 
-#include "params/parameters.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 

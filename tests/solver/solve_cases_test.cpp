@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/text.h"
+#include "params/parameters/table.h"
+#include "params/solve_hash.h"
 #include "solver/compliance.h"
 #include "tests/solver/dense_patch.h"
 #include "tests/solver/solved_snapshot.h"
@@ -53,7 +55,7 @@ void expect_as_alone(const SolveReport& report, const Parameters& p) {
   EXPECT_EQ(s.case_hash, solve_hash(p));
   EXPECT_TRUE(read_text_file(report.out) == read_text_file(alone.out)) << report.out;
   const Eigen::MatrixXd u = displacement_of(report.out);
-  if (p.skin.prestress_v > 0) {
+  if (p.skin.prestress.vv > 0) {
     EXPECT_GT(u.cwiseAbs().maxCoeff(), 1e-3);
   } else {
     EXPECT_EQ(u.cwiseAbs().maxCoeff(), 0);
@@ -155,12 +157,12 @@ TEST(SolveCases, OfOneStiffnessAreAsAloneByIterations) {
   const TemporaryFolder folder;
   std::vector<Parameters> cases;
   for (const Parameters& p : cases_of_one_stiffness())
-    if (p.cut.contact == "false") cases.push_back(p);
+    if (!p.cut.contact) cases.push_back(p);
   const std::vector<SolveReport> reports = solve_into(folder, cases, options);
   for (std::size_t c = 0; c < cases.size(); ++c) {
     EXPECT_EQ(reports[c].method, "iterative");
     ASSERT_EQ(reports[c].failure, "");
-    if (cases[c].skin.prestress_v == 0) continue;
+    if (cases[c].skin.prestress.vv == 0) continue;
     EXPECT_EQ(displacement_of(reports[c].out), solved_alone(cases[c], options));
     // Residuals of 1e-10, times the condition.
     EXPECT_LT(difference(displacement_of(reports[c].out), solved_alone(cases[c])), 1e-7);
@@ -174,8 +176,8 @@ TEST(SolveCases, ManyAreAsAlone) {
   std::vector<Parameters> cases;
   for (int c = 0; c < 67; ++c) {
     cases.push_back(base());
-    cases.back().skin.prestress_u = 0.01 + 0.001 * c;
-    if (c % 4 == 0) cases.back().cut.contact = "true";
+    cases.back().skin.prestress.uu = 0.01 + 0.001 * c;
+    if (c % 4 == 0) cases.back().cut.contact = true;
   }
   const std::vector<SolveReport> reports = solve_into(folder, cases);
   for (const SolveReport& report : reports) {
@@ -219,7 +221,7 @@ TEST(SolveCases, UnitSeriesAddUpToAnyPrestress) {
     };
     for (const auto& [u, v, uv] : {std::array{0.02, 0.05, -0.01}, {0., 0.03, 0.}, {0.04, 0.02, 0.02}}) {
       Parameters other = cases[c];
-      other.skin.prestress_u = u, other.skin.prestress_v = v, other.skin.prestress_uv = uv;
+      other.skin.prestress = {u, v, uv};
       EXPECT_LT(difference(u * unit("u") + v * unit("v") + uv * unit("uv"), solved_alone(other)), rounding);
     }
     EXPECT_EQ(difference(displacement_of(reports[c].out), solved_alone(cases[c])), 0);

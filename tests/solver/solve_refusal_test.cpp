@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "params/parameters/table.h"
 #include "solver/solve.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"

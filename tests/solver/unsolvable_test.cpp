@@ -13,8 +13,8 @@ namespace {
 Parameters buckling_patch(double compression, double cut_length) {
   Parameters p = small_patch();
   p.cut.length = cut_length, p.cut.depth = 1;
-  p.skin.prestress_u = p.skin.prestress_v = -compression;
-  p.skin.initial_stress_stiffness = "true";
+  p.skin.prestress.uu = p.skin.prestress.vv = -compression;
+  p.skin.initial_stress_stiffness = true;
   return p;
 }
 

@@ -90,10 +90,11 @@ constexpr double rounding = 1e-10;
 
 TEST(Balance, SpringsBearNoForceAndNoMomentInAnyFrame) {
   for (const double tilt : {0., 25.})
-    for (const char* formulation : {"displacement", "mean-dilatation"}) {
+    for (const TissueFormulation formulation :
+         {TissueFormulation::displacement, TissueFormulation::mean_dilatation}) {
       Parameters p = small_patch();
       p.cut.tilt = tilt, p.tissue.formulation = formulation;
-      p.skin.prestress_uv = 0.013;
+      p.skin.prestress.uv = 0.013;
       p.foundation.stiffness = 0.007, p.foundation.side_stiffness = 0.002;
       const Solved s(p);
       ASSERT_GT(s.frames.cols(), 4);
@@ -107,7 +108,7 @@ TEST(Balance, SpringsBearNoForceAndNoMomentInAnyFrame) {
 }
 
 TEST(Balance, StraightCutStaysSymmetric) {
-  for (const char* own_stiffness : {"false", "true"}) {
+  for (const bool own_stiffness : {false, true}) {
     Parameters p = small_patch();
     p.skin.initial_stress_stiffness = own_stiffness;
     const Solved s(p);

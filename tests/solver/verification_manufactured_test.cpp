@@ -91,7 +91,7 @@ struct Errors {
   double l2 = 0, h1 = 0;
 };
 
-Errors solve_cube(int n, double nu, const char* formulation, const Waves& waves) {
+Errors solve_cube(int n, double nu, TissueFormulation formulation, const Waves& waves) {
   Parameters p;
   p.tissue.young_modulus = 1, p.tissue.poisson_ratio = nu, p.tissue.formulation = formulation;
   const double lambda = nu / ((1 + nu) * (1 - 2 * nu)), mu = 1 / (2 * (1 + nu));
@@ -133,46 +133,49 @@ const Waves swelling = {{1, 1, 1}}, isochoric = {{1, 1, -2}};
 }  // namespace
 
 TEST(Manufactured, ErrorsFallWithTheSquareOfTheElementSize) {
-  for (const char* formulation : {"displacement", "mean-dilatation"}) {
+  for (const TissueFormulation formulation :
+       {TissueFormulation::displacement, TissueFormulation::mean_dilatation}) {
     const Errors coarse = solve_cube(4, 0.3, formulation, swelling);
     const Errors fine = solve_cube(8, 0.3, formulation, swelling);
-    EXPECT_GT(std::log2(coarse.l2 / fine.l2), 1.95) << formulation;
-    EXPECT_GT(std::log2(coarse.h1 / fine.h1), 0.98) << formulation;
+    EXPECT_GT(std::log2(coarse.l2 / fine.l2), 1.95) << static_cast<int>(formulation);
+    EXPECT_GT(std::log2(coarse.h1 / fine.h1), 0.98) << static_cast<int>(formulation);
     // A program of its own (sums over 28 points a wedge) found these for plain displacements, on stripes and
     // on the chess board; the quadrature here errs by 1e-4. Mean dilatation is another element: near by, not
     // equal.
-    const bool plain = std::string(formulation) == "displacement";
+    const bool plain = formulation == TissueFormulation::displacement;
     const double l2 = plain ? 0.021627 : 0.021071, h1 = plain ? 0.579199 : 0.573417;
-    EXPECT_NEAR(fine.l2, l2, (plain ? 1e-3 : 0.05) * l2) << formulation;
-    EXPECT_NEAR(fine.h1, h1, (plain ? 1e-3 : 0.01) * h1) << formulation;
+    EXPECT_NEAR(fine.l2, l2, (plain ? 1e-3 : 0.05) * l2) << static_cast<int>(formulation);
+    EXPECT_NEAR(fine.h1, h1, (plain ? 1e-3 : 0.01) * h1) << static_cast<int>(formulation);
   }
 }
 
 TEST(Manufactured, FinerMeshesKeepTheRate) {
-  const Errors coarse = solve_cube(6, 0.3, "displacement", swelling);
-  const Errors fine = solve_cube(12, 0.3, "displacement", swelling);
+  const Errors coarse = solve_cube(6, 0.3, TissueFormulation::displacement, swelling);
+  const Errors fine = solve_cube(12, 0.3, TissueFormulation::displacement, swelling);
   EXPECT_GT(std::log2(coarse.l2 / fine.l2), 1.95);
   EXPECT_GT(std::log2(coarse.h1 / fine.h1), 0.98);
 }
 
 TEST(Manufactured, MeanDilatationDoesNotLock) {
-  const auto errors = [](int n, double nu, const char* formulation) {
+  const auto errors = [](int n, double nu, TissueFormulation formulation) {
     return solve_cube(n, nu, formulation, isochoric).l2;
   };
-  const double coarse = errors(4, 0.499, "mean-dilatation"), fine = errors(8, 0.499, "mean-dilatation");
+  const double coarse = errors(4, 0.499, TissueFormulation::mean_dilatation),
+               fine = errors(8, 0.499, TissueFormulation::mean_dilatation);
   // On meshes as coarse as these, the rate at nu = 0.3 is 1.91: no less here. (On stripes it is 1.62, and the
   // errors are half as large again at 0.4999.)
   EXPECT_GT(std::log2(coarse / fine), 1.9);
   // The answer does not depend on nu, and so the errors do not either.
-  EXPECT_NEAR(errors(8, 0.4999, "mean-dilatation") / fine, 1, 0.01);
+  EXPECT_NEAR(errors(8, 0.4999, TissueFormulation::mean_dilatation) / fine, 1, 0.01);
   // Without it the elements are far too stiff, and refining them once hardly helps; less so at 0.49, which is
   // still allowed.
-  const double locked[] = {errors(8, 0.49, "displacement"), errors(8, 0.499, "displacement"),
-                           errors(8, 0.4999, "displacement")};
+  const double locked[] = {errors(8, 0.49, TissueFormulation::displacement),
+                           errors(8, 0.499, TissueFormulation::displacement),
+                           errors(8, 0.4999, TissueFormulation::displacement)};
   EXPECT_LT(locked[0], locked[1]);
   EXPECT_GT(locked[2], 3 * fine);
   EXPECT_GT(locked[1], 3 * fine);
-  EXPECT_LT(std::log2(errors(4, 0.499, "displacement") / locked[1]), 1);
+  EXPECT_LT(std::log2(errors(4, 0.499, TissueFormulation::displacement) / locked[1]), 1);
   Parameters p;
   p.tissue.poisson_ratio = 0.491;
   record_limit({.method = "linear wedges, displacement formulation",
@@ -182,7 +185,7 @@ TEST(Manufactured, MeanDilatationDoesNotLock) {
                          rounded(locked[2] / fine) + " times that of mean dilatation",
                 .noticed = "refused: " + quoted(refusal_of(p), "tissue.poisson_ratio"),
                 .then = "`mean-dilatation` keeps its error at 0.4999 to within " +
-                        rounded(100 * (errors(8, 0.4999, "mean-dilatation") / fine - 1)) +
+                        rounded(100 * (errors(8, 0.4999, TissueFormulation::mean_dilatation) / fine - 1)) +
                         " % of that at 0.499"});
 }
 

@@ -26,7 +26,7 @@ struct Slit {
   double opening() const {
     Parameters sheet = p;
     sheet.foundation.stiffness = none, sheet.foundation.side_stiffness = 0;
-    sheet.skin.prestress_u = sheet.skin.prestress_v = tension;
+    sheet.skin.prestress.uu = sheet.skin.prestress.vv = tension;
     const PatchSystem system(mesh, sheet, MPI_COMM_WORLD);
     Conditions conditions(system);
     const int count = static_cast<int>(mesh.points.size()) / 2;
@@ -53,7 +53,7 @@ Parameters bare() {
   Parameters p;
   p.tissue.young_modulus = p.skin.young_modulus = p.foundation.stiffness = none;
   p.foundation.side_stiffness = 0;
-  p.skin.prestress_u = p.skin.prestress_v = p.skin.prestress_uv = 0;
+  p.skin.prestress = {};
   return p;
 }
 
@@ -93,7 +93,7 @@ TEST(Skin, LongCutOnConsistentSpringsGapesAsDerived) {
   //   (c + k h / 3) u_0 - (c - k h / 6) u_1 = N,   u_m = u_0 exp(-m theta),
   // and inside 2 (c + k h / 3) u_m - (c - k h / 6) (u_(m-1) + u_(m+1)) = 0.
   Parameters p = bare();
-  p.skin.young_modulus = 0.13, p.foundation.stiffness = 0.005, p.skin.prestress_v = tension;
+  p.skin.young_modulus = 0.13, p.foundation.stiffness = 0.005, p.skin.prestress.vv = tension;
   p.patch.height = 1;
   const double h = 0.6, k = p.foundation.stiffness, t = p.skin.thickness;
   constexpr int length = 400;  // elements: over 35 decay lengths
@@ -127,8 +127,8 @@ TEST(Skin, LongCutOnConsistentSpringsGapesAsDerived) {
 TEST(Skin, PrestressHoldsAStringUnderLoad) {
   // w = q x (L - x) / (2 N) at the nodes: linear elements are exact there.
   Parameters p = bare();
-  p.skin.prestress_u = tension, p.skin.prestress_v = 0.5 * tension, p.skin.prestress_uv = 0.3 * tension;
-  p.skin.initial_stress_stiffness = "true";
+  p.skin.prestress = {tension, 0.5 * tension, 0.3 * tension};
+  p.skin.initial_stress_stiffness = true;
   p.patch.height = 1;
   constexpr int length = 12;
   const PatchMesh mesh = box_mesh(p.tissue.formulation, even_lines(0, length, length), {0, 1}, {-1, 0});
@@ -153,10 +153,10 @@ TEST(Skin, PrestressHoldsAStringUnderLoad) {
 TEST(Skin, PrestressHasTheEnergyOfASlope) {
   Parameters p = bare();
   p.patch = {10, 6, 3}, p.cut.length = 6, p.cut.depth = 2;
-  p.skin.prestress_u = 0.011, p.skin.prestress_v = 0.03, p.skin.prestress_uv = 0.007;
+  p.skin.prestress = {0.011, 0.03, 0.007};
   const PatchMesh mesh = make_patch_mesh(p);
   const PatchSystem without(mesh, p, MPI_COMM_WORLD);
-  p.skin.initial_stress_stiffness = "true";
+  p.skin.initial_stress_stiffness = true;
   const PatchSystem with(mesh, p, MPI_COMM_WORLD);
   const double a = 0.3, b = -0.7;
   const double energy = p.skin.thickness * 10 * 6 / 2 * (0.011 * a * a + 2 * 0.007 * a * b + 0.03 * b * b);

@@ -16,7 +16,7 @@ std::vector<double> even_lines(double from, double to, int count) {
   return lines;
 }
 
-PatchMesh box_mesh(const std::string& formulation, const std::vector<double>& u, const std::vector<double>& v,
+PatchMesh box_mesh(TissueFormulation formulation, const std::vector<double>& u, const std::vector<double>& v,
                    const std::vector<double>& w) {
   const int nu = static_cast<int>(u.size()), nv = static_cast<int>(v.size()), nw = static_cast<int>(w.size());
   PatchMesh mesh;

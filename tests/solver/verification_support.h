@@ -17,7 +17,7 @@ std::vector<double> even_lines(double from, double to, int count);
 
 /// A box of wedges without a cut, its squares halved as the solver halves them for a formulation. Lines
 /// increase; w ends at the skin.
-PatchMesh box_mesh(const std::string& formulation, const std::vector<double>& u, const std::vector<double>& v,
+PatchMesh box_mesh(TissueFormulation formulation, const std::vector<double>& u, const std::vector<double>& v,
                    const std::vector<double>& w);
 
 /// One layer of wedges under the skin of a mesh, its open cut going through; the skin's nodes keep their

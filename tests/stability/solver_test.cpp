@@ -155,9 +155,9 @@ TEST(SolverLimits, NoFoundation) {
 
 TEST(SolverLimits, CompressivePrestress) {
   Parameters p = tiny_patch();
-  p.skin.initial_stress_stiffness = "true";
+  p.skin.initial_stress_stiffness = true;
   const auto smallest = [&](double compression) {
-    p.skin.prestress_u = p.skin.prestress_v = -compression;
+    p.skin.prestress.uu = p.skin.prestress.vv = -compression;
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(DensePatch(p).stiffness, Eigen::EigenvaluesOnly)
         .eigenvalues()
         .minCoeff();

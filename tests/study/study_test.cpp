@@ -9,6 +9,7 @@
 #include "base/output_file.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/study_file.h"
+#include "tests/support/recorded.h"
 #include "tests/view/synthetic_field.h"
 
 namespace cleft {
@@ -26,12 +27,12 @@ class StudyTest : public testing::Test {
   }
   ~StudyTest() override { fs::remove_all(folder_); }
 
-  std::string add_case(const std::string& name, std::map<std::string, double> parameters,
+  std::string add_case(const std::string& name, const std::map<std::string, double>& parameters,
                        bool published = true) {
     const fs::path folder = folder_ / "cases" / name;
     fs::create_directories(folder);
     Field field = synthetic_field(3);
-    field.parameters = std::move(parameters);
+    field.parameters = recorded(parameters);
     field.case_hash = name;
     write_field((folder / "case.dffd").string(), field);
     if (published) write_text_file((folder / "manifest.json").string(), "{}");
@@ -73,7 +74,7 @@ TEST_F(StudyTest, FieldsAreReadWhenAskedForAndKept) {
   const std::shared_ptr<const Field> kept = study.field(1);
   fs::remove(second);
   EXPECT_EQ(study.field(1), kept);
-  EXPECT_EQ(study.field(0)->parameters.at("cut.depth"), 6);
+  EXPECT_EQ(study.field(0)->parameters->cut.depth, 6);
 }
 
 TEST_F(StudyTest, OnlyTheCasesLookedAtLastAreKept) {

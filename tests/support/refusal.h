@@ -4,7 +4,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "params/parameters.h"
+#include "params/consistency.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 

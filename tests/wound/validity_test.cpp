@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/incision/meshes.h"
+#include "tests/support/recorded.h"
 #include "tests/wound/fields.h"
 
 namespace cleft {
@@ -14,8 +15,7 @@ using namespace testing;
 
 Field pulled(double along, double across) {
   Field field = opening_field({-15, 30, 3}, 80, 60, 6, 0.5);
-  field.parameters["skin.prestress_u"] = along;
-  field.parameters["skin.prestress_v"] = across;
+  field.parameters = recorded({{"skin.prestress_u", along}, {"skin.prestress_v", across}});
   return field;
 }
 

@@ -16,10 +16,9 @@ namespace cleft {
 
 ScalpelPath path_of(const Snapshot& s, int cut) {
   std::vector<ScalpelPath::Point> points;
-  const auto number = [&](const char* name) { return std::get<double>(s.parameters.at(name)); };
-  const double radius = number("cut.radius"), length = s.cut_length,
-               tilt = number("cut.tilt") * std::numbers::pi / 180;
-  const double aside = (cut - (number("cut.count") - 1) / 2) * number("cut.spacing");
+  const Parameters::Cut& p = s.parameters->cut;
+  const double radius = p.radius, length = s.cut_length, tilt = p.tilt * std::numbers::pi / 180;
+  const double aside = (cut - (p.count - 1) / 2) * p.spacing;
   // An arc has its middle at the origin, along u there, and bends toward +v.
   for (int i = 0; i <= 60; ++i) {
     const double along = -length / 2 + length * i / 60, angle = radius > 0 ? along / radius : 0;
@@ -34,22 +33,20 @@ ScalpelPath path_of(const Snapshot& s, int cut) {
 
 namespace {
 
-double number(const Snapshot& s, const char* name) { return std::get<double>(s.parameters.at(name)); }
-
 /// From the lip of the first cut toward +v; it begins so little beyond it that it begins on it.
 ScalpelPath branch_of(const Snapshot& s) {
   std::vector<ScalpelPath::Point> points;
   constexpr int pieces = 60;
-  const double length = number(s, "cut.branch");
+  const double length = s.parameters->cut.branch;
   for (int i = 0; i <= pieces; ++i)
     points.push_back({{0, i == 0 ? 1e-6 : length * i / pieces, 0}, {0, 0, 1}, s.cut_depth});
   return ScalpelPath(points);
 }
 
 SkinTension tension_of(const Snapshot& s) {
-  const double u = number(s, "skin.prestress_u"), v = number(s, "skin.prestress_v");
-  CLEFT_CHECK(number(s, "skin.prestress_uv"), ==, 0);
-  return {u > v ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, std::max(u, v), std::min(u, v)};
+  const auto [uu, vv, uv] = s.parameters->skin.prestress;
+  CLEFT_CHECK(uv, ==, 0);
+  return {uu > vv ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, std::max(uu, vv), std::min(uu, vv)};
 }
 
 VaryingField along(const PrestressFields& fields, const Incision& incision, const SkinTension& tension) {

@@ -95,7 +95,7 @@ bool is_older_field(const std::string& path) {
          file.read_number("/", "version") < format.version;
 }
 
-std::map<std::string, double> read_field_parameters(const std::string& path) {
+RecordedParameters read_field_parameters(const std::string& path) {
   return told_of_file(path, [&] {
     const h5::File file = h5::File::open(path);
     require_format(file, format);

@@ -1,7 +1,6 @@
 // The field file case.dffd (docs/formats.md): read and write.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,8 +23,8 @@ Field read_field(const std::string& path);
 /// Throws FileError where it is no HDF5 file.
 bool is_older_field(const std::string& path);
 
-/// The case's parameters alone, by dotted name: coefficients stay on disk.
-std::map<std::string, double> read_field_parameters(const std::string& path);
+/// The case's parameters alone: coefficients stay on disk.
+RecordedParameters read_field_parameters(const std::string& path);
 
 /// What the field leaves at the nodes of its snapshot; none where the file holds none. The order is the one
 /// it was written with.

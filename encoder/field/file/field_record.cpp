@@ -93,7 +93,8 @@ Json header_of(const Field& field, int slices) {
   header["cut"] = {
       {"start", geometry.cut.start}, {"length", geometry.cut.length}, {"depth", geometry.cut.depth}};
   header["tip"] = {{"times", geometry.tip.times}, {"positions", geometry.tip.positions}};
-  header["parameters"] = field.parameters.empty() ? Json::object() : Json(field.parameters);
+  header["parameters"] = Json::object();
+  for (const auto& [name, value] : field.parameters.numbers()) header["parameters"][name] = value;
   for (const Figure& figure : figures) header["report"][figure.name] = field.report.*figure.value;
   if (field.interpolation) {
     header["interpolation"]["method"] = field.interpolation->method;
@@ -271,12 +272,18 @@ Field field_of(const FieldRecord& record, std::span<const double> unknowns) {
   });
 }
 
-std::map<std::string, double> parameters_of(const Json& header) {
+RecordedParameters parameters_of(const Json& header) {
   return reading([&] {
-    std::map<std::string, double> parameters;
-    for (const auto& [name, value] : header.at("parameters").items()) parameters[name] = number(value);
+    RecordedParameters parameters;
+    for (const auto& [name, value] : header.at("parameters").items()) parameters.set(name, number(value));
+    if (header.contains("choices")) record_texts(header.at("choices"), parameters);
     return parameters;
   });
+}
+
+void record_texts(const Json& object, RecordedParameters& parameters) {
+  for (const auto& [name, value] : object.items())
+    if (value.is_string()) parameters.set(name, value.get<std::string>());
 }
 
 FitReport report_of(const Json& header) {

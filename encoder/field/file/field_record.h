@@ -36,7 +36,10 @@ struct UnknownPlaces {
   int slices;
 };
 UnknownPlaces unknown_places(const Json& header, std::size_t bytes);
-std::map<std::string, double> parameters_of(const Json& header);
+/// The numbers of its "parameters", and the texts of its "choices" where it has any.
+RecordedParameters parameters_of(const Json& header);
+/// Records the members of an object that are text.
+void record_texts(const Json& object, RecordedParameters& parameters);
 FitReport report_of(const Json& header);
 
 /// All figures of a report as commands show them, with their units in their names.

@@ -21,14 +21,6 @@ namespace fs = std::filesystem;
 const FileFormat format{"cleft-study", 3, "study file", "cleft pack"};
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
 
-/// The members of an object that are text.
-std::map<std::string, std::string> texts_of(const Json& object) {
-  std::map<std::string, std::string> texts;
-  for (const auto& [name, value] : object.items())
-    if (value.is_string()) texts[name] = value.get<std::string>();
-  return texts;
-}
-
 std::vector<double> numbers_of(const Json& object, const char* name) {
   if (!object.is_object() || !object.contains(name) || !object[name].is_array())
     throw InputError(std::string(name) + " of the modes are missing");
@@ -40,10 +32,11 @@ std::vector<double> numbers_of(const Json& object, const char* name) {
   return numbers;
 }
 
-std::map<std::string, std::string> choices_of_manifest(const std::string& file) {
+RecordedParameters choices_of_manifest(const std::string& file) {
   const Json manifest = read_sealed(file);
-  return manifest.contains("parameters") ? texts_of(manifest["parameters"])
-                                         : std::map<std::string, std::string>();
+  RecordedParameters choices;
+  if (manifest.contains("parameters")) record_texts(manifest["parameters"], choices);
+  return choices;
 }
 
 Json header_of_study(const h5::File& file) {
@@ -134,16 +127,11 @@ std::string StudyFile::case_hash(int i) const {
   });
 }
 
-std::map<std::string, double> StudyFile::parameters(int i) const {
+RecordedParameters StudyFile::parameters(int i) const {
   return told_of_file(parts_->file.path(), [&] {
-    return parameters_of(parts_->columns.group("parameters", static_cast<std::size_t>(i)));
-  });
-}
-
-std::map<std::string, std::string> StudyFile::choices(int i) const {
-  return told_of_file(parts_->file.path(), [&] {
-    const Json header = parts_->columns.group("choices", static_cast<std::size_t>(i));
-    return header.contains("choices") ? texts_of(header["choices"]) : std::map<std::string, std::string>();
+    Json header = parts_->columns.group("parameters", static_cast<std::size_t>(i));
+    header.update(parts_->columns.group("choices", static_cast<std::size_t>(i)));
+    return parameters_of(header);
   });
 }
 
@@ -245,7 +233,7 @@ void write_study(const std::string& path, const std::vector<StudyRecord>& cases,
     bytes.push_back(record.coefficients.size());
     coefficients.insert(coefficients.end(), record.coefficients.begin(), record.coefficients.end());
     Json& header = headers.emplace_back(record.header);
-    for (const auto& [name, value] : one.choices) header["choices"][name] = value;
+    for (const auto& [name, value] : one.choices.texts()) header["choices"][name] = value;
     if (!one.weights.empty()) header["modes"] = {{"weights", one.weights}, {"error", one.modes_error}};
   }
   Json header{{"names", names}, {"bytes", bytes}, {"columns", columns_of(headers)}};

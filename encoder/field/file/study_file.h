@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,11 +19,10 @@ class StudyFile {
   ~StudyFile();
   StudyFile(StudyFile&&) noexcept;
 
-  int size() const;                                         ///< cases
-  const std::string& name(int i) const;                     ///< of the case's folder
-  std::string case_hash(int i) const;                       ///< the snapshot's
-  std::map<std::string, double> parameters(int i) const;    ///< numeric ones, by dotted name
-  std::map<std::string, std::string> choices(int i) const;  ///< those that are text; none in older files
+  int size() const;                            ///< cases
+  const std::string& name(int i) const;        ///< of the case's folder
+  std::string case_hash(int i) const;          ///< the snapshot's
+  RecordedParameters parameters(int i) const;  ///< without switches and choices in older files
   /// Where the case is a sum of modes, node_error, spline_error and frame_error hold what that costs too.
   FitReport report(int i) const;
   std::size_t coefficient_bytes(int i) const;  ///< as coded
@@ -41,11 +39,11 @@ class StudyFile {
   std::unique_ptr<Parts> parts_;
 };
 
-/// A case that goes into a study file: the name of its folder, its field file, and its parameters that are
-/// text.
+/// A case that goes into a study file: the name of its folder, its field file, and its switches and
+/// choices.
 struct StudyCase {
   std::string name, field_file;
-  std::map<std::string, std::string> choices = {};
+  RecordedParameters choices = {};
 };
 
 /// The published cases of a study folder, by name, without those whose fields are of an older format: their
@@ -68,7 +66,7 @@ struct CodedModes {
 struct StudyRecord {
   std::string name;
   FieldRecord record;
-  std::map<std::string, std::string> choices = {};
+  RecordedParameters choices = {};
   std::vector<double> weights =
       {};                  ///< of the modes, over its largest displacement; none: it stands by itself
   double modes_error = 0;  ///< see StudyFile

@@ -1,0 +1,47 @@
+// The parameters of a case: what the solver is given. Their names in files, units and ranges are stated in
+// params/parameters/table.cpp.
+#pragma once
+
+namespace cleft {
+
+/// A frame of the series for every released column of node pairs, or for every pair.
+enum class FrameEvery { column, pair };
+
+/// How the tissue's elements are made: of displacements alone, or with one mean dilatation for each element.
+enum class TissueFormulation { displacement, mean_dilatation };
+
+/// A plane stress of the skin, MPa: along the cut, across it, and shear.
+struct Prestress {
+  double uu = 0, vv = 0, uv = 0;
+};
+
+/// Lengths in mm, stresses in MPa, springs in N/mm^3, angles in degrees.
+struct Parameters {
+  struct Patch {
+    double length = 60, width = 40, height = 8;
+  } patch;
+  struct Cut {
+    double length = 30, depth = 3;
+    bool contact = false;
+    double radius = 0, tilt = 0, count = 1, spacing = 5, branch = 0;
+    FrameEvery frames = FrameEvery::column;
+  } cut;
+  struct Mesh {
+    double element_size = 1, grading = 1;
+    double cut_length = 0, cut_depth = 0;
+  } mesh;
+  struct Skin {
+    double thickness = 1.5, young_modulus = 0.13, poisson_ratio = 0.4;
+    Prestress prestress{0.01, 0.03, 0};
+    bool initial_stress_stiffness = false;
+  } skin;
+  struct Tissue {
+    double young_modulus = 0.02, poisson_ratio = 0.4;
+    TissueFormulation formulation = TissueFormulation::displacement;
+  } tissue;
+  struct Foundation {
+    double stiffness = 0.005, side_stiffness = 0.005;
+  } foundation;
+};
+
+}  // namespace cleft

@@ -1,0 +1,74 @@
+// The parameters that a file records of a case: typed, as far as the table knows them.
+#pragma once
+
+#include <bitset>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "params/parameters/table.h"
+
+namespace cleft {
+
+/// Older files and imported data record some of the parameters only; and a file may have values that no row
+/// of the table describes (an unknown name, a text that is none of the choices): those are extras, which are
+/// kept and written again as they are.
+///
+/// Physics reads members: `p->skin.thickness`, which is NaN where the file lacks it, after p.has() where that
+/// matters. What goes over all parameters, or is given a name by the user, reads them by name.
+class RecordedParameters {
+ public:
+  RecordedParameters();  ///< nothing is recorded
+  explicit RecordedParameters(const Parameters& parameters);
+
+  /// Numbers that are not recorded are NaN, switches and choices as they are by default.
+  const Parameters* operator->() const { return &values_; }
+  const Parameters& operator*() const { return values_; }
+
+  /// Of a member of this object: p.has(p->cut.length).
+  template <class Member>
+  bool has(const Member& member) const {
+    return recorded_[index_of(row_of(values_, member))];
+  }
+  /// The member, or `otherwise` where it is not recorded.
+  template <class Member>
+  Member value_or(const Member& member, Member otherwise) const {
+    return has(member) ? member : otherwise;
+  }
+  /// The name of a member of this object.
+  template <class Member>
+  const std::string& name_of(const Member& member) const {
+    return row_of(values_, member).name;
+  }
+  /// Records another value of a number of this object: p.set(p->cut.length, 12).
+  void set(const double& member, double value);
+
+  /// Records a value by name: in the row's member, or as an extra where no row takes it. Ranges are not
+  /// checked.
+  void set(const std::string& name, const Value& value);
+  void erase(const std::string& name);
+  /// By name, an extra's too; none where it is not recorded.
+  std::optional<Value> find(const std::string& name) const;
+  /// The same of a number; none where it is a text.
+  std::optional<double> number(const std::string& name) const;
+
+  /// All that is recorded, extras too, sorted by name; and the numbers and texts among them.
+  std::map<std::string, Value> all() const;
+  std::map<std::string, double> numbers() const;
+  std::map<std::string, std::string> texts() const;
+  bool empty() const { return recorded_.none() && extras_.empty(); }
+
+  friend bool operator==(const RecordedParameters& a, const RecordedParameters& b) {
+    return a.all() == b.all();
+  }
+
+ private:
+  static constexpr std::size_t most_rows = 64;
+  static std::size_t index_of(const Parameter& row) { return &row - parameter_table().data(); }
+
+  Parameters values_;
+  std::bitset<most_rows> recorded_;  // by row of the table
+  std::map<std::string, Value> extras_;
+};
+
+}  // namespace cleft

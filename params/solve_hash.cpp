@@ -1,0 +1,22 @@
+#include "params/solve_hash.h"
+
+#include "params/hash.h"
+#include "params/parameters/table.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr int hash_version =
+    3;  // raise when the same parameters no longer give the same snapshot, or its format changes
+
+}  // namespace
+
+std::string solve_hash(const Parameters& parameters) {
+  std::string text = "cleft case " + std::to_string(hash_version) + "\n";
+  for (const Parameter& row : parameter_table())
+    text += row.name + "=" + to_text(get_parameter(parameters, row)) + "\n";
+  return sha256(text).substr(0, 16);
+}
+
+}  // namespace cleft

@@ -1,0 +1,13 @@
+// The identity of a case for the solver.
+#pragma once
+
+#include <string>
+
+#include "params/parameters/parameters.h"
+
+namespace cleft {
+
+/// A hash (16 hexadecimal digits) of every parameter as resolved, and of the snapshot format's version.
+std::string solve_hash(const Parameters& parameters);
+
+}  // namespace cleft
