@@ -10,8 +10,8 @@ bool pierces(const CutMesh& mesh, int t, const PathFrame& frame) {
   const Vec3 head = frame.position + frame.outward;
   int sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const int side = line_beside_edge(frame.position, head, mesh.position(mesh.triangle(t).vertex[i]),
-                                      mesh.position(mesh.triangle(t).vertex[(i + 1) % 3]));
+    const int side = side_of_line(frame.position, head, mesh.position(mesh.triangle(t).vertex[i]),
+                                  mesh.position(mesh.triangle(t).vertex[(i + 1) % 3]));
     if (side < 0) return false;
     sum += side;
   }

@@ -39,7 +39,8 @@ IncisionState::IncisionState(CutMesh& m, ScalpelPath p, int n, const IncisionOpt
       chord_tolerance(options.chord_tolerance.value_or(path.length() / Limits::chord_parts)),
       longest_piece(path.length() / Limits::longest_piece_parts),
       worst_before(smallest_radius_ratio(mesh)),
-      asked(Limits::asked_part * std::min(Limits::fair_ratio, smallest_given_radius_ratio(mesh))) {}
+      least_ratio(Limits::least_ratio_part *
+                  std::min(Limits::fair_ratio, smallest_given_radius_ratio(mesh))) {}
 
 IncisionState::Before IncisionState::before() const {
   constexpr std::size_t most =

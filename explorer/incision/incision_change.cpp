@@ -61,17 +61,17 @@ void mend(IncisionState& cut, const CutMesh::Checkpoint& since) {
   std::erase_if(cut.tip.poor, [&](const auto& left) {
     return left.second == Limits::tries || left.first >= static_cast<int>(cut.mesh.triangles().size());
   });
-  mend_slivers(cut.mesh, slivers(), std::min(Limits::flat_target, Limits::flat_target_factor * cut.asked), 0,
-               kept);
-  cut.bent |= mend_slivers(cut.mesh, slivers(), Limits::bent_target_factor * cut.asked, bend, kept);
-  cut.bent |= mend_needles(cut.mesh, cut.mesh.changed_since(since), Limits::trial_target_factor * cut.asked,
-                           bend, kept);
+  mend_slivers(cut.mesh, slivers(),
+               std::min(Limits::flat_target, Limits::flat_target_factor * cut.least_ratio), 0, kept);
+  cut.bent |= mend_slivers(cut.mesh, slivers(), Limits::bent_target_factor * cut.least_ratio, bend, kept);
+  cut.bent |= mend_needles(cut.mesh, cut.mesh.changed_since(since),
+                           Limits::trial_target_factor * cut.least_ratio, bend, kept);
   for (auto& [t, tried] : cut.tip.poor) ++tried;
   const double least = Limits::no_area_part * std::min(Limits::fair_ratio, cut.worst_before);
   for (const int t : cut.mesh.changed_since(since)) {
     if (!cut.mesh.is_skin(t)) continue;
     const double ratio = radius_ratio(cut.mesh, t);
-    if (ratio < cut.asked) cut.tip.poor.emplace_back(t, 0);
+    if (ratio < cut.least_ratio) cut.tip.poor.emplace_back(t, 0);
     if (ratio < least)
       throw InputError("the path comes too close to a wound or an edge of the surface near " +
                        place_of(cut.mesh.position(cut.mesh.triangle(t).vertex[0])) + ", at arc length " +

@@ -93,7 +93,7 @@ bool snapped_along_edge(const IncisionState& cut, int v, double s) {
   for (const int w : {first.vertex[(first.corner(v) + 1) % 3], last.vertex[(last.corner(v) + 2) % 3]}) {
     // The wedge's breadth at w, and how far the path comes nearer to or farther from the edge by itself.
     const double breadth = std::abs(aside(w)), by_itself = std::abs(aside(w) - at_vertex),
-                 least = cut.asked * norm(cut.mesh.position(w) - cut.mesh.position(v));
+                 least = cut.least_ratio * norm(cut.mesh.position(w) - cut.mesh.position(v));
     if (breadth < least && by_itself >= std::max(least / 2, Limits::snapped_wedge * breadth)) return true;
   }
   return false;
@@ -161,7 +161,7 @@ std::optional<PathStep> snapped(const IncisionState& cut, const PathStep& crossi
           snapped_along_edge(cut, v, crossing.s))
         continue;
       // No third wound can be sewn in there; nearer, it would leave needles beside the place.
-      if (to_crossing > cut.asked * room && wounds_cross_at(cut, v)) continue;
+      if (to_crossing > cut.least_ratio * room && wounds_cross_at(cut, v)) continue;
       least = Limits::path_snap_parts * to_crossing / room;
       if (cut.mesh.on_wound(v))  // not to turn back from there
         step.s = std::clamp(beside(cut, position, crossing.s), crossing.s, cut.path.length());

@@ -36,8 +36,8 @@ struct IncisionTip {
   int from = -1;                 ///< where the path continues from that wound
   std::optional<Column> column;  ///< below the tip
   std::vector<int> below;        ///< below the wound where the path came to it
-  /// Triangles that remained below the required ratio, and the number of attempts: a step next to them may
-  /// make a repair possible.
+  /// Triangles that remained below the least ratio, and the number of attempts: a step next to them may make
+  /// a repair possible.
   std::vector<std::pair<int, int>> poor;
   bool left_mesh = false;
 };
@@ -53,7 +53,7 @@ struct IncisionState {
   double snap;  ///< IncisionOptions::snap
   double chord_tolerance, longest_piece;
   double worst_before;  ///< smallest radius ratio of the skin before the cut
-  double asked;         ///< radius ratio of triangles that the cut makes, at least
+  double least_ratio;   ///< radius ratio that triangles made by the cut should reach
   int rows = static_cast<int>(IncisionTolerances::fewest_rows);  ///< of triangles in the walls
   bool bent = false;                                             ///< see Incision::bent()
   std::vector<Incision::ChainVertex> chain;                      ///< see Incision::chain()

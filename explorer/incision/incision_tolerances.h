@@ -14,7 +14,7 @@
 // Words used below. A piece is the straight segment between two neighbouring vertices of the path. The room
 // of a vertex is its least height over an opposite edge of its fan, or the longest piece where that is less.
 // A spoke is an edge that leaves a vertex; "mean spoke" is their mean length. The radius ratio of a triangle
-// is 1 for an equilateral one and 0 for one without area. "asked" is the radius ratio that the cut's
+// is 1 for an equilateral one and 0 for one without area. The least ratio is the radius ratio that the cut's
 // triangles should reach.
 #pragma once
 
@@ -147,22 +147,22 @@ struct IncisionTolerances {
 
   // Shape of triangles: radius ratios, and factors of them.
 
-  /// "asked": this part of the worst triangle that the mesh came with, as far as that counts (fair_ratio).
+  /// The least ratio: this part of the worst triangle of the given mesh, as far as that counts (fair_ratio).
   /// The stress test holds all cuts to it.
-  static constexpr double asked_part = 0.05;
-  /// Radius ratio from which on a given triangle is good: a better mesh does not raise what is asked.
+  static constexpr double least_ratio_part = 0.05;
+  /// Radius ratio from which on a given triangle is good: a better mesh does not raise the least ratio.
   static constexpr double fair_ratio = 0.1;
   /// A triangle of less than this part of the worst before (or of fair_ratio) has no area for whoever uses
   /// the mesh, and the step that makes it is refused.
   static constexpr double no_area_part = 1e-4;
-  /// Slivers are first mended, without moving the surface, up to this many times the asked ratio, and at most
-  /// to flat_target (which asked_part and fair_ratio do not let it reach): such changes cost the surface
-  /// nothing, and margin is left for what later steps do to them.
+  /// Slivers are first mended, without moving the surface, up to this many times the least ratio, and at most
+  /// to flat_target (which least_ratio_part and fair_ratio do not let it reach): such changes cost the
+  /// surface nothing, and margin is left for what later steps do to them.
   static constexpr double flat_target_factor = 5, flat_target = 0.03;
-  /// Then across slight bends up to this many times the asked ratio: these move the surface, so the margin is
+  /// Then across slight bends up to this many times the least ratio: these move the surface, so the margin is
   /// smaller.
   static constexpr double bent_target_factor = 2;
-  /// Then by trials, which cost time: only what is, or soon will be, below what is asked.
+  /// Then by trials, which cost time: only what is, or soon will be, below the least ratio.
   static constexpr double trial_target_factor = 1.2;
   /// How far mending may move the surface: the chord tolerance divided by this, so that it is lost beside
   /// what lips stray by anyway. The same length decides whether a vertex on the outline of what the blade

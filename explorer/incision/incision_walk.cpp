@@ -40,7 +40,7 @@ std::vector<int> on_the_same_place(const CutMesh& mesh, int v) {
 /// Where the blade's line is after a while: in a triangle of the tip's fan, or crossing its edge.
 struct Track {
   int triangle = -1;  ///< -1: the line does not go on over the surface
-  int edge = -1;      ///< -1: it has reached the s asked for
+  int edge = -1;      ///< -1: it has reached the given s
   double s = 0;
 };
 
@@ -84,7 +84,7 @@ Track follow(const IncisionState& cut, int vertex, double limit) {
     for (int i = 0; i < 3; ++i) {
       const Vec3 &a = cut.mesh.position(triangle.vertex[i]),
                  &b = cut.mesh.position(triangle.vertex[(i + 1) % 3]);
-      if (line_beside_edge(frame.position, head, a, b) >= 0) continue;
+      if (side_of_line(frame.position, head, a, b) >= 0) continue;
       const double s = zero_between(track.s, to, [&](double x) {
         const PathFrame f = cut.path.at(x);
         return dot(f.outward, cross(a - f.position, b - f.position));

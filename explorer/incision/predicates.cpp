@@ -12,7 +12,7 @@ Kernel::Point_3 point(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 
-int line_beside_edge(const Vec3& foot, const Vec3& head, const Vec3& a, const Vec3& b) {
+int side_of_line(const Vec3& foot, const Vec3& head, const Vec3& a, const Vec3& b) {
   return CGAL::orientation(point(foot), point(head), point(a), point(b));
 }
 

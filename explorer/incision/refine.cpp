@@ -14,7 +14,7 @@ namespace {
 
 using Limits = IncisionTolerances;
 
-/// The longest edge; of equally long ones always the same, whichever triangle is asked.
+/// The longest edge; of equally long ones always the same, for both triangles.
 int longest_edge(const CutMesh& mesh, int t) {
   const auto rank = [&](int i) {
     const int a = mesh.triangle(t).vertex[i], b = mesh.triangle(t).vertex[(i + 1) % 3];
