@@ -1,4 +1,4 @@
-// What no single parameter's range can state.
+// Conditions between several parameters.
 #pragma once
 
 #include <string>
@@ -7,10 +7,12 @@
 
 namespace cleft {
 
-/// The cut lies within the patch, the mesh has a node to open, ... Throws InputError that names the values.
+/// Checks that the cut is within the patch, the mesh has a node to open, ... Throws InputError that names the
+/// values.
 void check_consistency(const Parameters& parameters, const std::string& where);
 
-/// Nodes of the mesh, about, before it is made. Throws InputError as check_consistency() does.
+/// The approximate number of nodes of the mesh, before it is made. Throws InputError as check_consistency()
+/// does.
 double estimated_nodes(const Parameters& parameters);
 
 }  // namespace cleft

@@ -8,9 +8,9 @@
 
 namespace cleft {
 
-/// Throws InputError where one of the names is none by which the solver differentiates: a number of a
-/// material or of the foundation (any group but patch, cut and mesh), without contact of the lips. `where`:
-/// the option or the file's entry that holds them.
+/// Throws InputError unless the solver can differentiate by each of the names: numbers of a material or of
+/// the foundation (any group but patch, cut and mesh), without contact of the lips. `where`: the option or
+/// the file's entry that holds them.
 void check_sensitivities(const std::vector<std::string>& names, const Parameters& parameters,
                          const std::string& where);
 

@@ -7,7 +7,7 @@
 
 namespace cleft {
 
-/// A hash (16 hexadecimal digits) of every parameter as resolved, and of the snapshot format's version.
+/// A hash (16 hexadecimal digits) of all resolved parameters, and of the snapshot format's version.
 std::string solve_hash(const Parameters& parameters);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// Which cases have the same stiffness matrix.
+// The identity of a case's stiffness matrix.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace cleft {
 
-/// What K depends on, as text: equal texts, equal K, and one factorisation for all such cases.
+/// The parameters on which K depends, as text: cases with equal texts have equal K and share its
+/// factorisation.
 std::string stiffness_key(Parameters parameters);
 
 }  // namespace cleft

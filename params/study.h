@@ -78,8 +78,8 @@ struct Study {
 /// names, the nearest one: throws InputError.
 Study read_study(const std::string& path);
 
-/// The one case of a file without [vary]; `assignments` are NAME=VALUE from --set. Throws InputError where
-/// the file varies.
+/// The one case of a file without [vary]; `assignments` are NAME=VALUE from --set. Throws InputError if the
+/// file has [vary].
 Case read_case(const std::string& path, const std::vector<std::string>& assignments);
 
 /// The cases of a study by its sampling method, each checked for consistency; throws InputError naming every

@@ -1,4 +1,4 @@
-// What the readers of a study file share.
+// Common functions of the readers of a study file.
 #pragma once
 
 #include <toml++/toml.h>
@@ -12,8 +12,8 @@ namespace cleft {
 /// "<path>, line <n>"
 std::string place_of(const std::string& path, const toml::node& node);
 
-/// The value that a file gives to the parameter `name`, unchecked; throws InputError where there is no such
-/// parameter, or what stands there is neither number, text nor switch.
+/// The value that a file gives to the parameter `name`, unchecked; throws InputError if there is no such
+/// parameter, or the value is neither number, text nor switch.
 Value value_of(const toml::node& node, const std::string& name, const std::string& where);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// The parameters of a case: what the solver is given. Their names in files, units and ranges are stated in
+// The parameters of a case: the input of the solver. Their names in files, units and ranges are stated in
 // params/parameters/table.cpp.
 #pragma once
 

@@ -10,27 +10,27 @@
 
 namespace cleft {
 
-/// Older files and imported data record some of the parameters only; and a file may have values that no row
-/// of the table describes (an unknown name, a text that is none of the choices): those are extras, which are
-/// kept and written again as they are.
+/// Older files and imported data record only some of the parameters; and a file may have values that no row
+/// of the table describes (an unknown name, a text that is none of the choices): these are extras, which are
+/// kept and written unchanged.
 ///
-/// Physics reads members: `p->skin.thickness`, which is NaN where the file lacks it, after p.has() where that
-/// matters. What goes over all parameters, or is given a name by the user, reads them by name.
+/// Physics reads members: `p->skin.thickness`, which is NaN if the file lacks it; p.has() tests that. Loops
+/// over all parameters, and names from the user, read by name.
 class RecordedParameters {
  public:
   RecordedParameters();  ///< nothing is recorded
   explicit RecordedParameters(const Parameters& parameters);
 
-  /// Numbers that are not recorded are NaN, switches and choices as they are by default.
+  /// Numbers that are not recorded are NaN; switches and choices have their defaults.
   const Parameters* operator->() const { return &values_; }
   const Parameters& operator*() const { return values_; }
 
-  /// Of a member of this object: p.has(p->cut.length).
+  /// Whether a member of this object is recorded: p.has(p->cut.length).
   template <class Member>
   bool has(const Member& member) const {
     return recorded_[index_of(row_of(values_, member))];
   }
-  /// The member, or `otherwise` where it is not recorded.
+  /// The member, or `otherwise` if it is not recorded.
   template <class Member>
   Member value_or(const Member& member, Member otherwise) const {
     return has(member) ? member : otherwise;
@@ -43,16 +43,16 @@ class RecordedParameters {
   /// Records another value of a number of this object: p.set(p->cut.length, 12).
   void set(const double& member, double value);
 
-  /// Records a value by name: in the row's member, or as an extra where no row takes it. Ranges are not
+  /// Records a value by name: in the row's member, or as an extra if no row accepts it. Ranges are not
   /// checked.
   void set(const std::string& name, const Value& value);
   void erase(const std::string& name);
-  /// By name, an extra's too; none where it is not recorded.
+  /// The value of a name, also of an extra; none if it is not recorded.
   std::optional<Value> find(const std::string& name) const;
-  /// The same of a number; none where it is a text.
+  /// The same for a number; none if it is a text.
   std::optional<double> number(const std::string& name) const;
 
-  /// All that is recorded, extras too, sorted by name; and the numbers and texts among them.
+  /// All recorded values including extras, sorted by name; and the numbers and texts among them.
   std::map<std::string, Value> all() const;
   std::map<std::string, double> numbers() const;
   std::map<std::string, std::string> texts() const;

@@ -12,7 +12,7 @@
 
 namespace cleft {
 
-/// As files, commands and expressions have it: a number, or the text of a choice ("false" or "true" of a
+/// A value as in files, commands and expressions: a number, or the text of a choice ("false" or "true" of a
 /// switch).
 using Value = std::variant<double, std::string>;
 
@@ -44,7 +44,7 @@ const std::vector<Parameter>& parameter_table();
 /// The row of a name; throws InputError "<where>: unknown parameter ... (did you mean ...?)".
 const Parameter& find_parameter(const std::string& name, const std::string& where);
 
-/// The same, or null where there is no such row.
+/// The same, or null if there is no such row.
 const Parameter* find_parameter(const std::string& name);
 
 /// The row of a member: row_of(p, p.skin.thickness). `address` is that of a member of `parameters`.
@@ -65,7 +65,7 @@ void check_value(const Parameter& parameter, const Value& value, const std::stri
 void set_parameter(Parameters& parameters, const std::string& name, const Value& value,
                    const std::string& where);
 
-/// The same where the row is known, and that it takes the value.
+/// The same for a known row and a value that it accepts.
 void put_parameter(Parameters& parameters, const Parameter& row, const Value& value);
 
 /// "NAME=VALUE" as given to --set.
@@ -76,13 +76,13 @@ Value get_parameter(const Parameters& parameters, const Parameter& row);
 /// Text of a value, numbers in their shortest form.
 std::string to_text(const Value& value);
 
-/// The same of a member: text_of(p, p.cut.frames).
+/// The same for a member: text_of(p, p.cut.frames).
 template <class Member>
 std::string text_of(const Parameters& parameters, const Member& member) {
   return to_text(get_parameter(parameters, row_of(parameters, member)));
 }
 
-/// All parameters with defaults, units and help: a line each, for --help.
+/// All parameters with defaults, units and help: one line each, for --help.
 std::string parameter_help();
 
 }  // namespace cleft

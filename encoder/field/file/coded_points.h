@@ -12,9 +12,9 @@
 
 namespace cleft {
 
-/// 32-bit floats as four planes of bytes, the least significant first: they pack better.
+/// 32-bit floats as four planes of bytes, the least significant first, which compresses better.
 void append_planes(std::vector<std::uint8_t>& bytes, std::span<const float> numbers);
-/// The floats of the last bytes, which are then taken off.
+/// The floats in the last bytes, which are removed.
 std::vector<float> take_planes(std::span<const std::uint8_t>& bytes, std::size_t count);
 
 /// Slices of t that are stored, and their code.
@@ -22,11 +22,10 @@ struct CodedPoints {
   int slices = 0;
   std::vector<std::uint8_t> bytes;
 };
-/// Of control points that are what their unknowns give, which are multiples of `quantum`; anything else is a
-/// bug.
+/// Codes control points that follow from unknowns, which are multiples of `quantum`; anything else is a bug.
 CodedPoints coded_points(std::span<const Vec3> points, const ControlTies& ties,
                          const std::array<BSplineBasis, 4>& bases, double quantum);
-/// The last `count` bytes, which are then taken off. Throws InputError where there are fewer.
+/// The last `count` bytes, which are removed. Throws InputError if there are fewer.
 std::span<const std::uint8_t> take_bytes(std::span<const std::uint8_t>& bytes, std::size_t count);
 
 /// The contents of a field besides its displacement: further quantities, and derivatives by parameters.
@@ -34,9 +33,9 @@ struct Beside {
   std::vector<Quantity> quantities;
   std::vector<ParameterDerivative> by_parameter;
 };
-/// Puts them into the header, and their bytes behind those of the displacement.
+/// Adds them to the header, and their bytes after those of the displacement.
 void append_beside(nlohmann::ordered_json& header, std::vector<std::uint8_t>& bytes, const Field& field);
-/// Takes their bytes off the end. Throws InputError or a JSON error where they are damaged.
+/// Removes their bytes from the end. Throws InputError or a JSON error if they are damaged.
 Beside take_beside(const nlohmann::ordered_json& header, std::span<const std::uint8_t>& bytes,
                    const std::array<BSplineBasis, 4>& bases);
 

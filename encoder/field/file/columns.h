@@ -7,12 +7,12 @@
 
 namespace cleft {
 
-/// One column for every entry of the headers ("quantum", "parameters/skin.thickness"), of one of three kinds:
+/// One column for each entry of the headers ("quantum", "parameters/skin.thickness"), of one of three kinds:
 /// {"all": value}, {"values": [...], "of": [index of each case]}, {"each": [value of each case]}. A case
 /// without the entry has the text "absent".
 Json columns_of(const std::vector<Json>& headers);
 
-/// The reverse, a case at a time. Throws InputError where the columns are none of `cases` cases.
+/// The inverse, one case at a time. Throws InputError if the columns are not those of `cases` cases.
 class Columns {
  public:
   Columns(Json columns, std::size_t cases);

@@ -10,8 +10,8 @@
 
 namespace cleft {
 
-/// Writes the field whole or not at all: coefficients as multiples of its quantum, or as 32-bit floats where
-/// it has none; and the residuals, of the displacement and of the quantities, where there are some.
+/// Writes the field, completely or not at all: coefficients as multiples of its quantum, or as 32-bit floats
+/// if it has none; and the residuals of the displacement and of the quantities, if any.
 void write_field(const std::string& path, const Field& field, const NodeResidual* residual = nullptr,
                  std::span<const std::int32_t> residual_order = {},
                  std::span<const std::optional<NodeResidual>> of_quantities = {});
@@ -19,18 +19,18 @@ void write_field(const std::string& path, const Field& field, const NodeResidual
 /// Reads and checks a field file; throws FileError naming what is missing, damaged or out of range.
 Field read_field(const std::string& path);
 
-/// Whether it is of a format that an earlier version of this program wrote, and this one does not read.
-/// Throws FileError where it is no HDF5 file.
+/// Whether it has a format of an earlier version of this program that this version does not read. Throws
+/// FileError if it is not an HDF5 file.
 bool is_older_field(const std::string& path);
 
-/// The case's parameters alone: coefficients stay on disk.
+/// Only the case's parameters: coefficients stay on disk.
 RecordedParameters read_field_parameters(const std::string& path);
 
-/// What the field leaves at the nodes of its snapshot; none where the file holds none. The order is the one
-/// it was written with.
+/// The residual of the field at the nodes of its snapshot, in the order of writing; none if the file holds
+/// none.
 std::optional<NodeResidual> read_residual(const std::string& path,
                                           std::span<const std::int32_t> residual_order = {});
-/// The same of the field's quantities[index].
+/// The same for the field's quantities[index].
 std::optional<NodeResidual> read_quantity_residual(const std::string& path, std::size_t index,
                                                    std::span<const std::int32_t> residual_order = {});
 
