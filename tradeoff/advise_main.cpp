@@ -19,8 +19,11 @@ namespace {
 constexpr std::size_t most_models = 3;
 
 /// Names that advice sets, which no study may vary.
-const std::vector<std::string> advised = {"mesh.element_size", "mesh.grading", "patch.length", "patch.width",
-                                          "cut.frames"};
+std::vector<std::string> advised_names() {
+  const Parameters p;
+  return {row_of(p, p.mesh.element_size).name, row_of(p, p.mesh.grading).name, row_of(p, p.patch.length).name,
+          row_of(p, p.patch.width).name, row_of(p, p.cut.frames).name};
+}
 
 /// The first, the middle and the last case: of a grid its corners.
 std::vector<Parameters> representatives(const Study& study) {
@@ -68,6 +71,7 @@ int main(int argc, char** argv) {
     if (!(goals.error > 0 && goals.error < 1))
       throw InputError("--error " + shortest(goals.error) + ": must be above 0 and less than 1");
     const Study study = read_study(path);
+    const std::vector<std::string> advised = advised_names();
     for (const Variation& v : study.vary)
       if (std::find(advised.begin(), advised.end(), v.name) != advised.end())
         throw InputError(path + ": [vary] " + v.name + ": is what would be chosen; remove it");
@@ -86,12 +90,12 @@ int main(int argc, char** argv) {
     const Parameters p = applied(setting, study.base.parameters);
     if (!out.empty()) {
       std::vector<std::pair<std::string, Value>> chosen = {
-          {"mesh.element_size", rounded(p.mesh.element_size)},
-          {"mesh.grading", p.mesh.grading},
-          {"patch.length", p.patch.length},
-          {"patch.width", p.patch.width}};
+          {row_of(p, p.mesh.element_size).name, rounded(p.mesh.element_size)},
+          {row_of(p, p.mesh.grading).name, p.mesh.grading},
+          {row_of(p, p.patch.length).name, p.patch.length},
+          {row_of(p, p.patch.width).name, p.patch.width}};
       if (study.base.parameters.cut.frames != p.cut.frames)
-        chosen.emplace_back("cut.frames", text_of(p, p.cut.frames));
+        chosen.emplace_back(row_of(p, p.cut.frames).name, text_of(p, p.cut.frames));
       write_text_file(out, with_settings(study, chosen, setting.tolerance));
     }
     double frame_ms = 0;

@@ -248,6 +248,22 @@ TEST(StudyInterpolator, WrongParametersAreNamed) {
             std::string::npos);
 }
 
+TEST(StudyInterpolator, CasesAreCheckedWithTheFormulationOfTheStudy) {
+  const CaseParameters values = {{"tissue.young_modulus", 0.015}};
+  const std::pair<const char*, const char*> expected[] = {{"displacement", "above 0.49 linear wedges lock"},
+                                                          {"mean-dilatation", ""}};
+  for (const auto& [formulation, message] : expected) {
+    std::vector<CaseParameters> list;
+    for (const double E : {0.01, 0.02, 0.04})
+      list.push_back({{"tissue.young_modulus", E}, {"tissue.poisson_ratio", 0.495}});
+    auto members = made_study(list);
+    for (StudyMember& member : members) member.field.parameters.set("tissue.formulation", formulation);
+    const std::string found = message_of(StudyInterpolator(CommonCases(members)), values);
+    EXPECT_EQ(found.empty(), std::string(message).empty()) << found;
+    EXPECT_NE(found.find(message), std::string::npos) << found;
+  }
+}
+
 TEST(CommonCases, WhatCannotBeCombinedIsRefused) {
   const auto refuses = [](const std::vector<StudyMember>& members, const std::string& part) {
     try {
