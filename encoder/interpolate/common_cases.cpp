@@ -24,9 +24,9 @@ StudyMember member_of(const std::string& name, Field field, const RecordedParame
 }
 
 void for_each_member(const std::string& study, const std::function<void(StudyMember)>& take,
-                     const ToldPart& told = {}) {
+                     const ReportPart& report = {}) {
   const auto begin = [&](std::size_t i, std::size_t count) {
-    if (told) told(static_cast<double>(i) / static_cast<double>(count));
+    if (report) report(static_cast<double>(i) / static_cast<double>(count));
   };
   if (fs::is_directory(study)) {
     const std::vector<StudyCase> cases = published_study_cases(study);
@@ -192,10 +192,10 @@ std::vector<StudyMember> read_members(const std::string& study) {
   return members;
 }
 
-CommonCases CommonCases::of_study(const std::string& study, const ToldPart& told) {
+CommonCases CommonCases::of_study(const std::string& study, const ReportPart& report) {
   std::vector<Own> all;
   for_each_member(
-      study, [&](const StudyMember& member) { all.push_back(own_of(member)); }, told);
+      study, [&](const StudyMember& member) { all.push_back(own_of(member)); }, report);
   return CommonCases(std::move(all));
 }
 

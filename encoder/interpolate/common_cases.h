@@ -23,7 +23,7 @@ struct StudyMember {
 std::vector<StudyMember> read_members(const std::string& study);
 
 /// Called repeatedly with the completed part of the work, 0 to 1; an exception from it ends the work.
-using ToldPart = std::function<void(double part)>;
+using ReportPart = std::function<void(double part)>;
 
 /// Data of a case besides its control points.
 struct CommonCase {
@@ -48,7 +48,7 @@ class CommonCases {
   /// differ, or if one cut reaches an edge of the patch that another does not.
   explicit CommonCases(const std::vector<StudyMember>& members);
   /// The same for a study folder or a study.dffd, of which one field at a time is in memory.
-  static CommonCases of_study(const std::string& study, const ToldPart& told = {});
+  static CommonCases of_study(const std::string& study, const ReportPart& report = {});
   /// The same for the records of a study.dffd.
   static CommonCases of_records(const std::vector<const StudyRecord*>& records);
 

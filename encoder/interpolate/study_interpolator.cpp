@@ -36,18 +36,18 @@ std::vector<Loading> loadings_of(const RecordedParameters& p) {
 
 constexpr double time_to_read = 0.4, time_to_sample = 0.3;  // of the whole, and of the rest
 
-ToldPart share_of(const ToldPart& told, double begin, double end) {
-  if (!told) return {};
-  return [=](double part) { told(begin + part * (end - begin)); };
+ReportPart share_of(const ReportPart& report, double begin, double end) {
+  if (!report) return {};
+  return [=](double part) { report(begin + part * (end - begin)); };
 }
 
 }  // namespace
 
-StudyInterpolator::StudyInterpolator(const std::string& study, const ToldPart& told)
-    : StudyInterpolator(CommonCases::of_study(study, share_of(told, 0, time_to_read)),
-                        share_of(told, time_to_read, 1)) {}
+StudyInterpolator::StudyInterpolator(const std::string& study, const ReportPart& report)
+    : StudyInterpolator(CommonCases::of_study(study, share_of(report, 0, time_to_read)),
+                        share_of(report, time_to_read, 1)) {}
 
-StudyInterpolator::StudyInterpolator(CommonCases cases, const ToldPart& told)
+StudyInterpolator::StudyInterpolator(CommonCases cases, const ReportPart& report)
     : cases_(std::move(cases)),
       parameters_(parameters_of(cases_)),
       geometry_(parameters_, geometries_of(cases_)) {
@@ -58,10 +58,10 @@ StudyInterpolator::StudyInterpolator(CommonCases cases, const ToldPart& told)
       range.least = std::min(range.least, value), range.greatest = std::max(range.greatest, value);
     }
   }
-  if (told) told(0);
+  if (report) report(0);
   const CaseSamples samples = this->samples();
   for (const Loading loading : loadings_of(parameters_.front())) {
-    if (told) told(time_to_sample);
+    if (report) report(time_to_sample);
     DisplacementModel model(parameters_, samples, loading);
     if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));
   }

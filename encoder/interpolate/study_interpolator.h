@@ -26,9 +26,9 @@ class StudyInterpolator {
   };
 
   /// Of a study folder or a study.dffd; throws InputError as read_members() and CommonCases do, and the
-  /// exceptions of `told`.
-  explicit StudyInterpolator(const std::string& study, const ToldPart& told = {});
-  explicit StudyInterpolator(CommonCases cases, const ToldPart& told = {});
+  /// exceptions of `report`.
+  explicit StudyInterpolator(const std::string& study, const ReportPart& report = {});
+  explicit StudyInterpolator(CommonCases cases, const ReportPart& report = {});
 
   const std::vector<Range>& varying() const { return varying_; }
   const CommonCases& cases() const { return cases_; }

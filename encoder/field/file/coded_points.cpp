@@ -164,7 +164,7 @@ CodedPoints coded_points(std::span<const Vec3> points, const ControlTies& ties,
   return {unknowns.slices, encode_coefficients(places, unknowns.slices, values)};
 }
 
-void append_beside(Json& header, std::vector<std::uint8_t>& bytes, const Field& field) {
+void append_extras(Json& header, std::vector<std::uint8_t>& bytes, const Field& field) {
   if (field.quantities.empty() && field.by_parameter.empty()) return;
   const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
   const ControlTies ties = ties_of(field.parametrization().name(), bases);
@@ -182,10 +182,10 @@ void append_beside(Json& header, std::vector<std::uint8_t>& bytes, const Field& 
   }
 }
 
-Beside take_beside(const Json& header, std::span<const std::uint8_t>& bytes,
-                   const std::array<BSplineBasis, 4>& bases) {
-  Beside beside;
-  if (!header.contains("quantities") && !header.contains("by_parameter")) return beside;
+FieldExtras take_extras(const Json& header, std::span<const std::uint8_t>& bytes,
+                        const std::array<BSplineBasis, 4>& bases) {
+  FieldExtras extras;
+  if (!header.contains("quantities") && !header.contains("by_parameter")) return extras;
   const ControlTies ties = ties_of(header.at("parametrization").get<std::string>(), bases);
   const auto reversed = [&](const char* name, const auto& take) {
     if (!header.contains(name)) return;
@@ -193,17 +193,17 @@ Beside take_beside(const Json& header, std::span<const std::uint8_t>& bytes,
     for (std::size_t n = list.size(); n-- > 0;) take(list.at(n));
   };
   reversed("by_parameter", [&](const Json& entry) {
-    ParameterDerivative& one = beside.by_parameter.emplace_back();
+    ParameterDerivative& one = extras.by_parameter.emplace_back();
     one.parameter = entry.at("parameter").get<std::string>(), one.quantum = positive(entry, "quantum");
     one.largest = finite(entry, "largest"), one.error = finite(entry, "error");
     one.control_points = decoded(take_bytes(bytes, static_cast<std::size_t>(count_from(entry.at("bytes")))),
                                  count_from(entry.at("slices")), one.quantum, bases, ties);
   });
   reversed("quantities",
-           [&](const Json& entry) { beside.quantities.push_back(take_quantity(entry, bytes, ties, bases)); });
-  std::reverse(beside.quantities.begin(), beside.quantities.end());
-  std::reverse(beside.by_parameter.begin(), beside.by_parameter.end());
-  return beside;
+           [&](const Json& entry) { extras.quantities.push_back(take_quantity(entry, bytes, ties, bases)); });
+  std::reverse(extras.quantities.begin(), extras.quantities.end());
+  std::reverse(extras.by_parameter.begin(), extras.by_parameter.end());
+  return extras;
 }
 
 }  // namespace cleft

@@ -29,14 +29,14 @@ CodedPoints coded_points(std::span<const Vec3> points, const ControlTies& ties,
 std::span<const std::uint8_t> take_bytes(std::span<const std::uint8_t>& bytes, std::size_t count);
 
 /// The contents of a field besides its displacement: further quantities, and derivatives by parameters.
-struct Beside {
+struct FieldExtras {
   std::vector<Quantity> quantities;
   std::vector<ParameterDerivative> by_parameter;
 };
 /// Adds them to the header, and their bytes after those of the displacement.
-void append_beside(nlohmann::ordered_json& header, std::vector<std::uint8_t>& bytes, const Field& field);
+void append_extras(nlohmann::ordered_json& header, std::vector<std::uint8_t>& bytes, const Field& field);
 /// Removes their bytes from the end. Throws InputError or a JSON error if they are damaged.
-Beside take_beside(const nlohmann::ordered_json& header, std::span<const std::uint8_t>& bytes,
-                   const std::array<BSplineBasis, 4>& bases);
+FieldExtras take_extras(const nlohmann::ordered_json& header, std::span<const std::uint8_t>& bytes,
+                        const std::array<BSplineBasis, 4>& bases);
 
 }  // namespace cleft

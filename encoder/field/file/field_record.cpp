@@ -202,7 +202,7 @@ FieldRecord record_of(const Field& field) {
     CodedPoints coded = coded_points(field.coefficients(), ties, bases, field.quantum);
     record = {header_of(field, coded.slices), std::move(coded.bytes)};
   }
-  append_beside(record.header, record.coefficients, field);
+  append_extras(record.header, record.coefficients, field);
   return record;
 }
 
@@ -241,14 +241,14 @@ Field field_of(const Json& header, Points&& points_of) {
 
 Field field_of(const FieldRecord& record) {
   const Json& header = record.header;
-  Beside beside;
+  FieldExtras extras;
   double quantum = 0;
   Field field = field_of(header, [&](const std::array<BSplineBasis, 4>& bases, const ControlTies& ties) {
     quantum = finite(header, "quantum");
     if (quantum < 0) throw InputError("quantum is negative");
     const std::size_t size = count_of(bases, record.coefficients.size());
     std::span<const std::uint8_t> bytes = record.coefficients;
-    beside = take_beside(header, bytes, bases);
+    extras = take_extras(header, bytes, bases);
     if (quantum > 0) {
       const auto [places, slices] = unknown_places(header, record.coefficients.size());
       return control_points(ties, bases, decode_coefficients(places, slices, bytes), quantum);
@@ -258,7 +258,7 @@ Field field_of(const FieldRecord& record) {
     return points;
   });
   field.quantum = quantum;
-  field.quantities = std::move(beside.quantities), field.by_parameter = std::move(beside.by_parameter);
+  field.quantities = std::move(extras.quantities), field.by_parameter = std::move(extras.by_parameter);
   return field;
 }
 
