@@ -129,7 +129,7 @@ void check_all(const std::vector<std::string>& places) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  CommandLine app(
       "Reads every byte of files, or of a study's published cases, and verifies checksums and schemas.",
       "cleft check");
   std::vector<std::string> places;

@@ -194,7 +194,7 @@ Json info_of(const std::string& file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Shows what a snapshot, a field or a study file holds.", "cleft info");
+  CommandLine app("Shows what a snapshot, a field or a study file holds.", "cleft info");
   std::string file;
   bool json = false;
   app.add_option("FILE", file, "case.h5, case.dffd or study.dffd")->required();

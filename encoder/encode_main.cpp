@@ -84,7 +84,7 @@ void verify_written(const std::string& out, const Encoded& encoded) {
 
 int main(int argc, char** argv) {
   keep_freed_blocks();
-  CLI::App app("Fits a discontinuous free-form deformation to a snapshot.", "cleft encode");
+  CommandLine app("Fits a discontinuous free-form deformation to a snapshot.", "cleft encode");
   std::string snapshot, out;
   std::vector<int> counts;
   bool json = false;
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
       ->excludes(tolerance);
   app.add_option("--parametrization", options.parametrization,
                  "tip: knots follow the tip of the cut; fixed: they stay (the paper's)")
-      ->check(CLI::IsMember(parametrization_names()))
+      ->check(one_of(parametrization_names()))
       ->capture_default_str();
   app.add_flag("--json", json, "print the figures as JSON");
 

@@ -136,8 +136,9 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Displacements (mm, from the closed frame) of a field at points, or at its snapshot's nodes.",
-               "cleft eval");
+  CommandLine app(
+      "Displacements (mm, from the closed frame) of a field at points, or at its snapshot's nodes.",
+      "cleft eval");
   std::string file, points = "/dev/stdin", nodes, out;
   int frame = 0;
   app.add_option("CASE.dffd", file, "field")->required();
@@ -153,7 +154,7 @@ int main(int argc, char** argv) {
           ->excludes(points_option);
   auto* frame_option = app.add_option("--frame", frame, "with --nodes: the frame, 0 is closed")
                            ->needs(nodes_option)
-                           ->check(CLI::NonNegativeNumber);
+                           ->check(nonnegative());
   nodes_option->needs(frame_option);
   app.add_option(
       "--out", out,

@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
   const bool root = mpi.rank() == 0;
   if (!root) mpi.silence();  // one voice for all ranks
 
-  CLI::App app(
+  CommandLine app(
       "Solves a growing cut and writes its time series. Cases of the same stiffness share its factorisation. "
       "Runs under mpirun too.",
       "cleft solve");
@@ -125,10 +125,10 @@ int main(int argc, char** argv) {
          "--method", method,
          "direct: one factorisation for all frames; iterative: conjugate gradients, for what does not fit "
          "into memory; auto: direct where it fits")
-      ->check(CLI::IsMember({"auto", "direct", "iterative"}))
+      ->check(one_of({"auto", "direct", "iterative"}))
       ->capture_default_str();
   app.add_option("--partitioner", partitioner, "who divides the elements among ranks")
-      ->check(CLI::IsMember({"metis", "zorder", "zoltan"}))
+      ->check(one_of({"metis", "zorder", "zoltan"}))
       ->capture_default_str();
   app.add_flag(
       "--unit-prestress", options.unit_prestress,

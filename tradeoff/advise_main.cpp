@@ -49,8 +49,8 @@ Json shown(const Expectation& e) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("The cheapest settings that keep the whole chain, from mesh to code, within an error.",
-               "cleft advise");
+  CommandLine app("The cheapest settings that keep the whole chain, from mesh to code, within an error.",
+                  "cleft advise");
   std::string path, out;
   Goals goals;
   bool json = false;

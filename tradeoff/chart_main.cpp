@@ -58,7 +58,7 @@ std::string machine() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Charts of size and speed against accuracy, measured on a case of a study.", "cleft chart");
+  CommandLine app("Charts of size and speed against accuracy, measured on a case of a study.", "cleft chart");
   std::string study, out = "chart.svg", wanted;
   std::vector<std::string> only = links;
   bool json = false;
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   app.add_option("--case", wanted, "hash of the case [the first that has kept its snapshot]");
   app.add_option("--only", only, "links of the chain: encoder, solver, replay, haptic")
       ->delimiter(',')
-      ->check(CLI::IsMember(links));
+      ->check(one_of(links));
   app.add_option("--most-nodes", options.most_nodes, "of the finest mesh, which the others are compared with")
       ->check(above(100))
       ->capture_default_str();

@@ -14,56 +14,29 @@ namespace cleft {
 namespace {
 
 /// In one piece, so that a log has all of it or, where it cannot be written, nothing.
-void complain(const CLI::App& app, const char* kind, const std::string& what) {
-  std::cerr << app.get_name() + ": " + kind + ": " + what + '\n';
+void complain(const CommandLine& line, const char* kind, const std::string& what) {
+  std::cerr << line.name() + ": " + kind + ": " + what + '\n';
 }
 
 }  // namespace
 
-int run_command(CLI::App& app, int argc, char** argv, const std::function<void()>& body) {
-  app.set_version_flag("--version", producer());
-  app.get_formatter()->column_width(34);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
-    complain(app, "error", e.what() + (" (see " + app.get_name() + " --help)"));
-    return 2;
-  }
+int run_command(CommandLine& line, int argc, char** argv, const std::function<void()>& body) {
+  if (const int code = line.parse(argc, argv, producer()); code >= 0) return code;
   try {
     body();
     if (!std::cout.flush()) throw std::runtime_error("standard output could not be written");
     return 0;
   } catch (const InputError& e) {
-    complain(app, "error", e.what());
+    complain(line, "error", e.what());
     return 2;
   } catch (const std::exception& e) {
-    complain(app, "failed", e.what());
+    complain(line, "failed", e.what());
     return 1;
   } catch (...) {  // Trilinos throws numbers
-    complain(app, "failed", "an error without a message");
+    complain(line, "failed", "an error without a message");
     return 1;
   }
 }
-
-namespace {
-
-CLI::Validator bounded(double least, bool open) {
-  return {[=](const std::string& text) -> std::string {
-            try {
-              const double value = parse_number(text, "option");
-              if (open ? value > least : value >= least) return {};
-            } catch (const InputError&) {  // reported below
-            }
-            return "'" + text + "' must be a number " + (open ? "above " : "of at least ") + shortest(least);
-          },
-          std::string(open ? "> " : ">= ") + shortest(least)};
-}
-
-}  // namespace
-
-CLI::Validator at_least(double least) { return bounded(least, false); }
-CLI::Validator above(double least) { return bounded(least, true); }
 
 void print_figures(const Json& figures, bool as_json) {
   if (as_json) {

@@ -1,10 +1,11 @@
 // What all commands share: exit codes, --version, progress, and figures as text or JSON.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "base/command/command_line.h"
 
 namespace cleft {
 
@@ -12,11 +13,7 @@ using Json = nlohmann::ordered_json;
 
 /// Parses the command line and runs `body`. Exit codes: 0 done, 1 failed, 2 wrong usage or input.
 /// Messages go to stderr as "cleft solve: error: ...".
-int run_command(CLI::App& app, int argc, char** argv, const std::function<void()>& body);
-
-/// Validators for options: a finite number of at least `least`, or above it.
-CLI::Validator at_least(double least);
-CLI::Validator above(double least);
+int run_command(CommandLine& line, int argc, char** argv, const std::function<void()>& body);
 
 /// Prints figures on stdout: one JSON object with `as_json`, else a line "name: value" for each.
 void print_figures(const Json& figures, bool as_json);

@@ -37,8 +37,8 @@ Json figures_of(const ImportReport& report) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Takes another program's time series as a snapshot, and finds its discontinuity.",
-               "cleft import");
+  CommandLine app("Takes another program's time series as a snapshot, and finds its discontinuity.",
+                  "cleft import");
   ImportOptions o;
   std::string plane, box = "smaller";
   bool json = false;
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   app.add_option("--box", box,
                  "without a break: along the axes (aligned), the nodes' principal ones (principal), or "
                  "those where they save a fifth (smaller)")
-      ->check(CLI::IsMember(boxes))
+      ->check(one_of(boxes))
       ->capture_default_str();
   app.add_option("--set", o.parameters,
                  "NAME=VALUE, as often as needed: what the series does not tell of skin, tissue and load, "

@@ -51,8 +51,8 @@ Json figures_of(const Field& field, const StudyInterpolator& study, const std::s
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes the field of a case that was never simulated from those of a study.",
-               "cleft interpolate");
+  CommandLine app("Makes the field of a case that was never simulated from those of a study.",
+                  "cleft interpolate");
   std::string study, out;
   std::vector<std::string> assignments;
   bool json = false;

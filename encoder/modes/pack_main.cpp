@@ -14,7 +14,8 @@ using namespace cleft;
 namespace fs = std::filesystem;
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes the fields of a study's published cases into one file, DIR/study.dffd.", "cleft pack");
+  CommandLine app("Writes the fields of a study's published cases into one file, DIR/study.dffd.",
+                  "cleft pack");
   std::string folder;
   double error = 0;
   bool json = false;

@@ -50,13 +50,13 @@ void write_path(const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes a stylised human head as a closed triangle mesh, in mm", "make-head");
+  CommandLine app("Writes a stylised human head as a closed triangle mesh, in mm", "make-head");
   std::string out, path;
   int triangles = 12000;
   app.add_option("--out", out, "The head, binary STL")->required();
   app.add_option("--path", path, "A scalpel's path over the cheek, CSV: x,y,z,nx,ny,nz");
   app.add_option("--triangles", triangles, "How many triangles")
-      ->check(CLI::Range(4000, 20000))
+      ->check(in_range(4000, 20000))
       ->capture_default_str();
   return run_command(app, argc, argv, [&] {
     write_stl(out, head::mesh_head(triangles));

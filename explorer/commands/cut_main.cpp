@@ -179,8 +179,8 @@ void cut(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Cuts a mesh along paths, one after the other, and opens the cuts as a field says.",
-               "cleft cut");
+  CommandLine app("Cuts a mesh along paths, one after the other, and opens the cuts as a field says.",
+                  "cleft cut");
   Options o;
   app.add_option("--mesh", o.mesh,
                  "surface mesh: " + mesh_endings(MeshKind::surface, MeshUse::read) +

@@ -25,10 +25,10 @@ struct Options {
   std::string device, device_file;
 };
 
-void add_options(CLI::App& app, Options& o) {
+void add_options(CommandLine& app, Options& o) {
   app.add_option("study", o.study, "A study folder, a study.dffd or a case.dffd");
-  CLI::Option* mesh = app.add_option("--mesh", o.mesh, "A surface mesh to cut instead of the patch");
-  CLI::Option* path = app.add_option("--path", o.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
+  Option* mesh = app.add_option("--mesh", o.mesh, "A surface mesh to cut instead of the patch");
+  Option* path = app.add_option("--path", o.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
   path->needs(mesh);
   app.add_option("--scale", o.scale, "mm in a unit of the mesh and the path")
       ->needs(mesh)
@@ -48,17 +48,17 @@ void add_options(CLI::App& app, Options& o) {
       ->expected(2)
       ->check(at_least(-360));
   app.add_option("--zoom", o.zoom, "1: everything is in the picture")
-      ->check(CLI::Range(0.1, 100.))
+      ->check(in_range(0.1, 100.))
       ->capture_default_str();
   app.add_option("--size", o.size, "WIDTH,HEIGHT in pixels, default 1280,720")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(16, 8192));
+      ->check(in_range(16, 8192));
   app.footer("Commands, for --script and in the window:\n\n" + help_sheet());
 }
 
 /// The options as commands.
-void begin(Session& session, const CLI::App& app, const Options& o) {
+void begin(Session& session, const CommandLine& app, const Options& o) {
   if (!o.state.empty()) session.say("load " + quoted(o.state));
   if (!o.study.empty()) session.say("open " + quoted(o.study));
   if (app.count("--case")) session.say("case " + std::to_string(o.shown_case));
@@ -69,7 +69,7 @@ void begin(Session& session, const CLI::App& app, const Options& o) {
     session.say("camera " + shortest(o.view[0]) + " " + shortest(o.view[1]) + " " + shortest(o.zoom));
 }
 
-void explore(const CLI::App& app, const Options& o) {
+void explore(const CommandLine& app, const Options& o) {
   Session session(session_services([](const std::string& text) { std::cout << text << '\n'; }));
   begin(session, app, o);
   if (!o.script.empty()) session.run_script(o.script);
@@ -85,7 +85,7 @@ void explore(const CLI::App& app, const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Looks at a study: every case, at every length cut", "cleft explore");
+  CommandLine app("Looks at a study: every case, at every length cut", "cleft explore");
   Options options;
   add_options(app, options);
   return run_command(app, argc, argv, [&] { explore(app, options); });

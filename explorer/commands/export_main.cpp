@@ -189,7 +189,7 @@ void export_files(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes snapshots and fields as files of other programs.", "cleft export");
+  CommandLine app("Writes snapshots and fields as files of other programs.", "cleft export");
   Options o;
   app.add_option("CASE.h5|CASE.dffd|DIR", o.input,
                  "a snapshot, a field, or a study (folder or study.dffd): all its published cases")
@@ -199,17 +199,17 @@ int main(int argc, char** argv) {
       "for ParaView and VTK: OUT.pvd, and a .vtu file a frame in OUT/; of a study, OUT/<case>.pvd");
   app.add_flag("--decoded", o.decoded,
                "of a study, the fields rather than the simulations: skin and walls of the wound");
-  app.add_option("--frames", o.frames, "of a field")->check(CLI::Range(2, 100000))->capture_default_str();
+  app.add_option("--frames", o.frames, "of a field")->check(in_range(2, 100000))->capture_default_str();
   app.add_option(
       "--cinema", o.cinema,
       "OUT.cdb, a Cinema database (Spec D): a picture for every case, length cut and of two cameras");
   app.add_option("--times", o.grid.times, "lengths cut in a Cinema database")
-      ->check(CLI::Range(2, 1000))
+      ->check(in_range(2, 1000))
       ->capture_default_str();
   app.add_option("--size", o.size, "WIDTH,HEIGHT of its pictures, pixels")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(16, 8192))
+      ->check(in_range(16, 8192))
       ->capture_default_str();
   app.add_option("--color", o.color, "what its surfaces are coloured by")->capture_default_str();
   app.add_flag("--json", o.json, "figures as JSON");

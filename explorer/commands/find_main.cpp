@@ -59,7 +59,7 @@ void find(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Finds cases of a study, lengths cut and places where a condition holds.", "cleft find");
+  CommandLine app("Finds cases of a study, lengths cut and places where a condition holds.", "cleft find");
   Options o;
   app.add_option("STUDY", o.study, "a study folder, a study.dffd or a case.dffd")->required();
   app.add_option(

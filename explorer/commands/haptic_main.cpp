@@ -176,19 +176,14 @@ void haptic(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Feels and cuts a mesh with a haptic device, and reports what the loop did.", "cleft haptic");
+  CommandLine app("Feels and cuts a mesh with a haptic device, and reports what the loop did.",
+                  "cleft haptic");
   Options o;
   app.add_option("--mesh", o.mesh, "surface mesh: " + mesh_endings(MeshKind::surface, MeshUse::read))
       ->required();
   app.add_option("--device", o.device, device_choices(false))->capture_default_str();
-  app.add_flag_callback(
-         "--list-devices",
-         [] {
-           std::cout << device_sheet();
-           throw CLI::Success();
-         },
-         "list the devices and plug-ins there are, with what they need, and end")
-      ->trigger_on_parse();
+  app.add_report("--list-devices", device_sheet,
+                 "list the devices and plug-ins there are, with what they need, and end");
   app.add_option("--path", o.path,
                  "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where the cut goes "
                  "[wherever the scalpel does]");

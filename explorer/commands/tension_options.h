@@ -10,7 +10,7 @@ namespace cleft {
 struct TensionOptions {
   std::vector<double> direction, prestresses;  ///< three numbers; two, MPa; empty: not given
 
-  void add_to(CLI::App& app) {
+  void add_to(CommandLine& app) {
     auto* tension =
         app.add_option("--tension", direction, "X,Y,Z: direction of the skin's larger tension, in space")
             ->delimiter(',')

@@ -75,8 +75,8 @@ SlurmSettings over(SlurmSettings settings, const SlurmSettings& said) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Runs every case of a study and publishes it. Run again, it finishes what is missing.",
-               "cleft run");
+  CommandLine app("Runs every case of a study and publishes it. Run again, it finishes what is missing.",
+                  "cleft run");
   std::string file, out, launcher = "local";
   LocalOptions options;
   options.jobs = 0;
@@ -87,20 +87,20 @@ int main(int argc, char** argv) {
   app.add_option("STUDY.toml", file, "study file")->required();
   app.add_option("--out", out, "study folder")->required();
   app.add_option("--jobs", options.jobs, "cases at a time (default: as many as there are cores)")
-      ->check(CLI::Range(1, 4096));
+      ->check(in_range(1, 4096));
   app.add_option("--ranks", options.ranks, "MPI ranks of each solve")
-      ->check(CLI::Range(1, 4096))
+      ->check(in_range(1, 4096))
       ->capture_default_str();
   app.add_option(
          "--threads", options.threads,
          "threads of each process; a study's numbers are the same, bit for bit, for equal ranks and threads")
-      ->check(CLI::Range(1, 4096))
+      ->check(in_range(1, 4096))
       ->capture_default_str();
   app.add_option("--memory", memory,
                  "GB that cases may take together, as estimated (default: nine tenths of what is free)")
       ->check(above(0));
   app.add_option("--launcher", launcher, "where cases run")
-      ->check(CLI::IsMember({"local", "slurm"}))
+      ->check(one_of({"local", "slurm"}))
       ->capture_default_str();
   app.add_option("--partition", slurm.partition, "Slurm: partition");
   app.add_option("--account", slurm.account, "Slurm: account");
@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_option("--cases-per-task", slurm.cases_per_task,
                  "Slurm: cases in a task of the array (default: 32)")
-      ->check(CLI::Range(1, 10000));
+      ->check(in_range(1, 10000));
   app.add_option("--task", task, "")->group("");  // what a task of the array is called with
   app.add_flag("--retry-failed", options.retry_failed, "run cases again that have failed before");
   app.add_flag("--dry-run", dry_run,

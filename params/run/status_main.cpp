@@ -38,7 +38,7 @@ void print_table(const Json& status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Shows which cases of a study are published, running, failed or missing.", "cleft status");
+  CommandLine app("Shows which cases of a study are published, running, failed or missing.", "cleft status");
   std::string folder;
   bool json = false;
   app.add_option("DIR", folder, "study folder")->required();

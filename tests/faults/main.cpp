@@ -46,12 +46,12 @@ void run(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Breaks what a study relies on, at random, and ends at the first promise that is not kept.",
-               "cleft-faults");
+  CommandLine app("Breaks what a study relies on, at random, and ends at the first promise that is not kept.",
+                  "cleft-faults");
   Options o;
   app.add_option("PLACE", o.place, "a folder for what is made; it must not exist")
       ->required()
-      ->check(CLI::NonexistentPath);
+      ->check(nonexistent_path());
   app.add_option("--seed", o.seed, "of the random choices")->capture_default_str();
   app.add_option("--kills", o.kills, "kill -9 of drivers, workers and ranks")->capture_default_str();
   app.add_option("--flips", o.flips, "bits flipped and files cut")->capture_default_str();

@@ -42,8 +42,9 @@ Json figures_of(const StudyInterpolator& study, const std::vector<HeldOut>& list
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Interpolates a study at cases of another one and compares with their simulations (medians).",
-               "cross_validate");
+  CommandLine app(
+      "Interpolates a study at cases of another one and compares with their simulations (medians).",
+      "cross_validate");
   std::string folder, held;
   bool json = false;
   app.add_option("STUDY", folder, "study folder or study.dffd")->required();

@@ -115,8 +115,8 @@ void run(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Cuts meshes along random paths and checks after every step what must hold.",
-               "cleft-stress-incision");
+  CommandLine app("Cuts meshes along random paths and checks after every step what must hold.",
+                  "cleft-stress-incision");
   Options o;
   app.add_option("--seed", o.plan.seed, "seed of the paths")->capture_default_str();
   app.add_option("--paths", o.plan.paths, "paths in all")->capture_default_str();
