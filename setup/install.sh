@@ -1,12 +1,26 @@
 #!/usr/bin/env bash
-# install.sh: installs the Debian packages of packages.txt that are missing, and nothing else. Says what it will do;
-# works as root or through sudo; does nothing when all is there.
+# install.sh [SECTION...]: installs the Debian packages of packages.txt that are missing, and nothing else: what building
+# needs, and the sections that are named: solver, explorer, tests, benchmarks, docs. `demo`, and no argument: solver and
+# explorer; `tests` adds both too, and `benchmarks` adds the tests. Says what it will do; works as root or through sudo;
+# does nothing when all is there.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 
-missing=()
+sections=" build "
+for section in "${@:-demo}"; do
+  case $section in
+    demo) sections+="solver explorer " ;;
+    tests) sections+="solver explorer tests " ;;
+    benchmarks) sections+="solver explorer tests benchmarks " ;;
+    build | solver | explorer | docs) sections+="$section " ;;
+    *) echo "install.sh: error: unknown section '$section': build, solver, explorer, demo, tests, benchmarks or docs" >&2; exit 2 ;;
+  esac
+done
+
+missing=() section=
 while read -r package; do
-  case $package in '' | '#'*) continue ;; esac
+  case $package in '' | '#'*) continue ;; '['*) section=${package//[\[\]]/}; continue ;; esac
+  [[ $sections == *" $section "* ]] || continue
   [ "$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)" = "install ok installed" ] || missing+=("$package")
 done < "$here/packages.txt"
 [ ${#missing[@]} -gt 0 ] || exit 0

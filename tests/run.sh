@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 preset=${PRESET:-release}
-./setup/install.sh
-cmake --preset "$preset" > /dev/null
+./setup/install.sh tests
+cmake --preset "$preset" -DCLEFT_TESTS=ON > /dev/null
 cmake --build --preset "$preset"
 ctest --preset "$preset" "$@"

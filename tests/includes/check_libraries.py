@@ -5,6 +5,7 @@ libraries are compiled twice, with either HDF5: h5 and snapshot, whose second na
 main functions belong to no library. Prints what breaks the rule and exits with 1.
 """
 
+import glob
 import os
 import re
 import sys
@@ -37,6 +38,9 @@ def violations(root):
             lists = {}
             for name, values in re.findall(r"set\(\s*(\w+)\s+([^)]*)\)", text):
                 lists[name] = lists.get(name, "") + " " + values
+            for name, pattern in re.findall(r"file\(\s*GLOB\s+(\w+)\s+(?:CONFIGURE_DEPENDS\s+)?(\S+?)\s*\)", text):
+                found = glob.glob(os.path.join(folder, pattern))
+                lists[name] = lists.get(name, "") + " " + " ".join(os.path.relpath(path, folder) for path in found)
             for name, values in lists.items():
                 text = text.replace("${%s}" % name, values)
             for name, arguments in LIBRARY.findall(text):

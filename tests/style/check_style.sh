@@ -16,7 +16,7 @@ set -eu
 root=$1; build=$2
 most_files=24; most_seconds=120; commits_back=20
 for tool in clang-format clang-tidy; do
-  command -v $tool > /dev/null || { echo "$tool is missing; ./setup/install.sh installs it"; exit 1; }
+  command -v $tool > /dev/null || { echo "$tool is missing; ./setup/install.sh tests installs it"; exit 1; }
 done
 [ -f "$build/compile_commands.json" ] || { echo "$build has no compile_commands.json; configure it with CMake"; exit 1; }
 cd "$root"
