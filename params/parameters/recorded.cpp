@@ -43,12 +43,13 @@ void RecordedParameters::set(const double& member, double value) {
 }
 
 void RecordedParameters::set(const std::string& name, const Value& value) {
-  erase(name);
   const Parameter* row = find_parameter(name);
   if (row && takes(*row, value)) {
+    extras_.erase(name);
     put_parameter(values_, *row, value);
     recorded_.set(index_of(*row));
   } else {
+    erase(name);
     extras_[name] = value;
   }
 }
@@ -70,8 +71,10 @@ std::optional<Value> RecordedParameters::find(const std::string& name) const {
 }
 
 std::optional<double> RecordedParameters::number(const std::string& name) const {
-  const std::optional<Value> value = find(name);
-  const double* number = value ? std::get_if<double>(&*value) : nullptr;
+  if (const Parameter* row = find_parameter(name); row && recorded_[index_of(*row)])
+    return row->is_text() ? std::nullopt : std::optional(*static_cast<const double*>(row->address(values_)));
+  const auto extra = extras_.find(name);
+  const double* number = extra == extras_.end() ? nullptr : std::get_if<double>(&extra->second);
   return number ? std::optional(*number) : std::nullopt;
 }
 
