@@ -36,7 +36,8 @@ void measure_frames() {
   options.max_edge = 0;
   Incision incision(mesh, ScalpelPath({{{-15, 0.1, 0}, {0, 0, 1}, 2}, {{15, 0.1, 0}, {0, 0, 1}, 2}}),
                     options);
-  LiveReplay live(field, incision, 1);
+  Wound wound(incision, field, 1);
+  LiveReplay live(wound);
   std::vector<double> follow, move;
   for (double s = 0.25; s < 30; s += 0.25) {
     incision.advance_to(s);

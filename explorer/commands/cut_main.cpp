@@ -15,7 +15,7 @@
 #include "explorer/io/mesh_file.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/path_file.h"
-#include "explorer/wound/wounds.h"
+#include "explorer/wound/replayed_wounds.h"
 
 namespace {
 
@@ -114,26 +114,26 @@ struct Cuts {
   }
 };
 
-std::unique_ptr<Wounds> open(const Options& options, const CutFields& fields, const Cuts& cuts) {
-  std::vector<Wounds::Cut> opened;
+std::unique_ptr<ReplayedWounds> open(const Options& options, const CutFields& fields, const Cuts& cuts) {
+  std::vector<Wound> opened;
   for (std::size_t k = 0; k < cuts.list.size(); ++k) {
     const Incision& cut = *cuts.list[k];
     const auto own = read_prestress(options.paths[k], cut.path(), options.scale);
     try {
-      opened.push_back({&cut, fields.along(cut, options.scale, own)});
+      opened.push_back(fields.wound(cut, options.scale, own));
     } catch (const InputError& e) {
       throw FileError(options.paths[k], e.what());
     }
   }
-  return std::make_unique<Wounds>(std::move(opened), options.scale);
+  return std::make_unique<ReplayedWounds>(std::move(opened));
 }
 
 /// Moves the mesh as the wounds say, and tells of that.
-void move(const Wounds& wounds, const CutFields& fields, const Options& options, double t,
+void move(const ReplayedWounds& wounds, const CutFields& fields, const Options& options, double t,
           std::vector<Vec3>& positions, Json& figures) {
-  std::optional<Wounds::Level> some;
+  std::optional<ReplayedWounds::Level> some;
   if (options.detail > 0) some = wounds.level(1e-3 * options.detail);
-  const Wounds::Level& level = some ? *some : wounds.whole();
+  const ReplayedWounds::Level& level = some ? *some : wounds.whole();
   wounds.positions(t, level, positions);  // the second frame is timed: memory is warm then
   const Stopwatch frame;
   wounds.positions(t, level, positions);
@@ -163,7 +163,7 @@ void cut(const Options& options) {
   figures["cut_ms"] = 1e3 * cuts.making;
   figures["us_per_step"] = 1e6 * cuts.stepping / figures["steps"].get<double>();
   for (const Incision* one : cuts.list) figures["cuts"].push_back(figures_of(*one, options.scale));
-  std::unique_ptr<Wounds> wounds;
+  std::unique_ptr<ReplayedWounds> wounds;
   if (fields) {
     wounds = open(options, *fields, cuts);
     move(*wounds, *fields, options, cuts.t, result.points, figures);

@@ -111,7 +111,7 @@ void split(VolumeMesh& volume, const SurfaceMesh& surface, const Incision& cut) 
 }  // namespace
 
 int write_cut_volume(VolumeMesh& volume, const SurfaceMesh& surface, const std::vector<const Incision*>& cuts,
-                     const Wounds* wounds, double scale, double t, const std::string& out) {
+                     const ReplayedWounds* wounds, double scale, double t, const std::string& out) {
   const int before = volume.cells();
   for (const Incision* cut : cuts) split(volume, surface, *cut);
   std::vector<std::vector<int>> parts;
@@ -125,7 +125,8 @@ int write_cut_volume(VolumeMesh& volume, const SurfaceMesh& surface, const std::
     for (const auto& part : parts) sides.push_back(side_of(part[i]));
     Vec3 d;
     if (wounds)
-      d = wounds->displacement_below(rest[i], nearest[i].distance * scale, nearest[i].vertex, sides, t);
+      d = wounds->displacement_below(rest[i], nearest[i].distance * scale, nearest[i].vertex, sides,
+                                     wounds->blade(t));
     moved[i] += d;
     displacement.values.insert(displacement.values.end(), {d.x, d.y, d.z});
     depth.values.push_back(nearest[i].distance * scale);

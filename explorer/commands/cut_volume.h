@@ -6,7 +6,7 @@
 
 #include "explorer/incision/incision.h"
 #include "explorer/io/volume_mesh.h"
-#include "explorer/wound/wounds.h"
+#include "explorer/wound/replayed_wounds.h"
 
 namespace cleft {
 
@@ -14,6 +14,6 @@ namespace cleft {
 /// writes `out`. `surface` is the volume's, uncut. Without `wounds` nothing moves. Returns how many cells
 /// there are more than before.
 int write_cut_volume(VolumeMesh& volume, const SurfaceMesh& surface, const std::vector<const Incision*>& cuts,
-                     const Wounds* wounds, double scale, double t, const std::string& out);
+                     const ReplayedWounds* wounds, double scale, double t, const std::string& out);
 
 }  // namespace cleft

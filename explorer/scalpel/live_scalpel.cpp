@@ -8,7 +8,9 @@ namespace cleft {
 
 namespace {
 constexpr double for_ever = 1e9;  // s
-}
+/// Steps of the mesh a second: a picture each.
+constexpr int steps_a_second = 60;
+}  // namespace
 
 LiveScalpel::LiveScalpel(const SurfaceMesh& mesh, ScalpelCutting::Setup setup, Device& device,
                          const ForceParameters& force)
@@ -31,7 +33,7 @@ std::vector<LiveScalpel::Places> LiveScalpel::stop() {
 
 void LiveScalpel::follow() {
   repeat(
-      clock_second / 60, [this] { return stop_.load(); },
+      clock_second / steps_a_second, [this] { return stop_.load(); },
       [this] {
         cutting_.step(loop_.for_cutting());
         tell();

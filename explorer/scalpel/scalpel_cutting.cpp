@@ -16,31 +16,32 @@ constexpr double told = 2e-3;        // mm: smaller motions of the skin are not 
 constexpr double piece = 0.7;        // mm, of a way that is found as the scalpel goes
 constexpr double sharpest = 0.5;     // cosine of the turn from one piece to the next: an edge cuts ahead
 constexpr double least_depth = 0.5;  // mm, of a cut as deep as the scalpel is
+/// The cosine of the angle between the blade and the skin's normal, at least: a blade that lies flatter would
+/// meet the skin that is felt at a place far from its tip.
+constexpr double least_upright = 0.2;
+/// How much of its deviation from the way so far the path takes up in one piece.
+constexpr double taken_up = 0.5;
 constexpr std::size_t most_entering = 2000;  // vertices that a cut begins to move in a step
 constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
-constexpr double relieved_each = 1;  // mm of a cut, after which the others' relief is found anew
-constexpr double far = 30;           // mm, how far ahead a cut without a field is taken to go
+constexpr double far = 30;  // mm, how far ahead a cut without a field is taken to go
 }  // namespace
 
 ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
     : setup_(std::move(setup)), mesh_(mesh), original_points_(static_cast<int>(mesh.points.size())) {
   for (const ScalpelPath& path : setup_.made) {
-    add_wound(path, {}, all);
-    wounds_.back().incision->advance_to(path.length());
-    for (Wound& wound : wounds_)
-      if (wound.opening) wound.opening->follow();
-    if (wounds_.back().opening) wounds_.back().opening->move_to(setup_.scale * path.length());
+    add_cut(path, {}, all);
+    cuts_.back()->advance_to(path.length());
+    wounds_.follow();
+    wounds_.complete_newest();
   }
-  made_ = wounds_.size();
-  if (setup_.path) add_wound(*setup_.path, {}, most_entering);
-  for (std::size_t k = 0; k < made_; ++k)
-    if (wounds_[k].opening) wounds_[k].opening->follow();
+  made_ = cuts_.size();
+  if (setup_.path) add_cut(*setup_.path, {}, most_entering);
+  wounds_.follow(std::min(made_, wounds_.size()));
   displacements_.resize(mesh_.vertices().size());
-  relieve();
-  untold_.clear(), is_untold_.clear();
+  wounds_.relieve();
   SurfaceMesh felt = mesh_.surface();
   for (std::size_t v = 0; v < felt.points.size(); ++v) {
-    displacements_[v] = displacement(static_cast<int>(v));
+    displacements_[v] = wounds_.displacement(static_cast<int>(v));
     felt.points[v] = setup_.scale * felt.points[v] + displacements_[v];
   }
   surface_ = std::make_unique<ContactSurface>(felt.points, felt.triangles);
@@ -51,32 +52,21 @@ ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
   reader_.emplace(*surface_);
 }
 
-void ScalpelCutting::add_wound(const ScalpelPath& path, const IncisionOptions& options,
-                               std::size_t entering) {
-  Wound& wound = wounds_.emplace_back();
-  try {
-    wound.incision = std::make_unique<Incision>(mesh_, path, options);
-    if (setup_.fields)
-      wound.opening = std::make_unique<LiveReplay>(setup_.fields->along(*wound.incision, setup_.scale),
-                                                   *wound.incision, setup_.scale, entering);
-  } catch (...) {
-    wounds_.pop_back();
-    throw;
-  }
+void ScalpelCutting::add_cut(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering) {
+  auto cut = std::make_unique<Incision>(mesh_, path, options);
+  if (setup_.fields) wounds_.add(setup_.fields->wound(*cut, setup_.scale), entering);
+  cuts_.push_back(std::move(cut));
 }
 
 double ScalpelCutting::cut_length() const {
   double length = 0;
-  for (std::size_t k = made_; k < wounds_.size(); ++k)
-    length += setup_.scale * (wounds_[k].incision->tip() - wounds_[k].incision->start());
+  for (std::size_t k = made_; k < cuts_.size(); ++k)
+    length += setup_.scale * (cuts_[k]->tip() - cuts_[k]->start());
   return length;
 }
 
 std::vector<Validity> ScalpelCutting::validity() const {
-  std::vector<CutInTension> cuts;
-  for (const Wound& wound : wounds_)
-    if (wound.opening) cuts.push_back(wound.opening->in_tension());
-  return cuts.empty() ? std::vector<Validity>{} : validity_of(cuts, setup_.fields->turning());
+  return wounds_.empty() ? std::vector<Validity>{} : wounds_.validity(setup_.fields->turning());
 }
 
 void ScalpelCutting::step(TickQueue<HapticState>& ticks) {
@@ -96,8 +86,7 @@ void ScalpelCutting::step(const HapticState& scalpel) {
 /// Along the path that was given, by more than `least`.
 void ScalpelCutting::follow_path(const HapticState& scalpel, double least) {
   const double s = reached(scalpel);
-  if (s > incision()->tip() + least && figures_.stopped.empty())
-    cut([&] { wounds_.back().incision->advance_to(s); });
+  if (s > incision()->tip() + least && figures_.stopped.empty()) cut([&] { cuts_.back()->advance_to(s); });
 }
 
 /// Arc length of the path, mesh units, that the blade has come to; 0 where it does not cut.
@@ -113,7 +102,7 @@ double ScalpelCutting::reached(const HapticState& scalpel) const {
 /// it is in a wound.
 std::optional<ScalpelPath::Point> ScalpelCutting::contact(const HapticState& scalpel) {
   const Vec3& axis = scalpel.pose.axis;
-  const double upright = std::max(0.2, dot(axis, scalpel.normal));
+  const double upright = std::max(least_upright, dot(axis, scalpel.normal));
   const Vec3 skin = scalpel.pose.tip + scalpel.depth / upright * axis;
   const ContactLook look(*reader_);
   const SurfaceHit hit = reader_->first_contact(skin + beside * axis, skin - beside * axis, Facing::front);
@@ -173,9 +162,9 @@ void ScalpelCutting::cut_on_to(const ScalpelPath::Point& at) {
 /// Half of what the scalpel is beside the way so far: at the tip the skin is torn aside, and which lip the
 /// blade meets there is chance. From piece to piece a lasting deviation is halved.
 void ScalpelCutting::lead_on(ScalpelPath::Point next) {
-  Incision& incision = *wounds_.back().incision;
+  Incision& incision = *cuts_.back();
   const PathFrame end = incision.path().at(incision.led());
-  next.position -= 0.5 * dot(next.position - end.position, end.across) * end.across;
+  next.position -= (1 - taken_up) * dot(next.position - end.position, end.across) * end.across;
   next.outward = normalized(next.outward + end.outward);
   // The field moves vertices from half its cut's length ahead of the blade on.
   const double beyond = (setup_.fields ? setup_.fields->shape().cut().length / 2 : far) / setup_.scale;
@@ -190,13 +179,13 @@ void ScalpelCutting::begin_cut(const ScalpelPath::Point& first, const ScalpelPat
   IncisionOptions options;
   options.reach = setup_.fields ? reach_of(setup_.fields->shape(), setup_.scale) : 0;
   options.refined = norm(next.position - first.position);
-  add_wound(ScalpelPath({first, end}), options, most_entering);
+  add_cut(ScalpelPath({first, end}), options, most_entering);
   led_.push_back({first});
   cutting_ = true;
 }
 
 bool ScalpelCutting::leads_on(const ScalpelPath::Point& next) const {
-  const Incision& incision = *wounds_.back().incision;
+  const Incision& incision = *cuts_.back();
   const PathFrame end = incision.path().at(incision.led());
   const Vec3 way = next.position - end.position;
   const double distance = setup_.scale * norm(way);
@@ -215,10 +204,8 @@ void ScalpelCutting::cut(const Change& change) {
   }
   figures_.cut.add(watch.lap());
   take_in_changes();
-  for (Wound& wound : wounds_)
-    if (wound.opening) wound.opening->follow();
-  for (const Wound& wound : wounds_)
-    if (wound.opening) tell(wound.opening->touched());
+  wounds_.follow();
+  tell_touched();
 }
 
 void ScalpelCutting::take_in_changes() {
@@ -246,20 +233,19 @@ void ScalpelCutting::take_in_changes() {
 void ScalpelCutting::open() {
   ++figures_.steps;
   surface_->prepare();
-  if (!setup_.fields || wounds_.empty()) return;
+  if (wounds_.empty()) return;
   Stopwatch watch;
-  for (Wound& wound : wounds_)
-    if (wound.opening) wound.opening->move_to(wound.incision->tip() * setup_.scale);
-  for (const Wound& wound : wounds_)
-    if (wound.opening) tell(wound.opening->touched());
-  relieve();
+  wounds_.move_to_tips();
+  tell_touched();
+  if (wounds_.relieve())
+    for (const LiveReplay& replay : wounds_.replays()) tell(replay.entered());
   moved_.clear();
   for (; !untold_.empty() && moved_.size() < most_moved; untold_.pop_front()) {
     const int v = untold_.front();
     is_untold_[v] = false;
     if (static_cast<std::size_t>(v) >= mesh_.vertices().size()) continue;
     Vec3& d = displacements_[v];
-    d = displacement(v);
+    d = wounds_.displacement(v);
     moved_.push_back({v, setup_.scale * mesh_.position(v) + d});
   }
   figures_.waiting = untold_.size();
@@ -267,38 +253,8 @@ void ScalpelCutting::open() {
   figures_.open.add(watch.lap());
 }
 
-/// How far each wound opens in the tension that the others leave. The newest has its blade at its tip.
-void ScalpelCutting::relieve() {
-  std::vector<CutInTension> cuts;
-  double length = 0;
-  for (const Wound& wound : wounds_) {
-    if (!wound.opening) return;
-    cuts.push_back(wound.opening->in_tension());
-    length += setup_.scale * wound.incision->tip();
-  }
-  if (cuts.size() < 2) return;
-  const Incision& newest = *wounds_.back().incision;
-  const bool complete = newest.tip() == newest.path().length() && length > relieved_at_;
-  if (amplitudes_.size() == cuts.size() && length < relieved_at_ + relieved_each && !complete) return;
-  try {
-    amplitudes_ = mutual_relief(cuts, setup_.scale * newest.tip());
-  } catch (const InputError&) {  // the field does not tell the tension: they add
-    amplitudes_.assign(cuts.size(), {{0}, {1}});
-  }
-  relieved_at_ = length;
-  for (const Wound& wound : wounds_) tell(wound.opening->entered());
-}
-
-/// By all wounds, mm.
-Vec3 ScalpelCutting::displacement(int vertex) const {
-  Vec3 sum;
-  for (std::size_t k = 0; k < wounds_.size(); ++k) {
-    const LiveReplay* opening = wounds_[k].opening.get();
-    if (!opening) continue;
-    const double amplitude = k < amplitudes_.size() ? amplitudes_[k].at(opening->station(vertex)) : 1;
-    sum += setup_.scale * amplitude * opening->displacement(vertex);
-  }
-  return sum;
+void ScalpelCutting::tell_touched() {
+  for (const LiveReplay& replay : wounds_.replays()) tell(replay.touched());
 }
 
 /// Takes note of those that have moved so far that it can be felt.
@@ -306,7 +262,7 @@ void ScalpelCutting::tell(const std::vector<int>& vertices) {
   is_untold_.resize(std::max(is_untold_.size(), displacements_.size()));
   for (const int v : vertices) {
     const std::size_t i = v;
-    if (is_untold_[i] || squared_norm(displacement(v) - displacements_[i]) <= told * told) continue;
+    if (is_untold_[i] || squared_norm(wounds_.displacement(v) - displacements_[i]) <= told * told) continue;
     is_untold_[i] = true;
     untold_.push_back(v);
   }

@@ -14,8 +14,7 @@
 
 #include "explorer/incision/incision.h"
 #include "explorer/wound/cut_fields.h"
-#include "explorer/wound/live_replay.h"
-#include "explorer/wound/validity.h"
+#include "explorer/wound/live_wounds.h"
 #include "haptic/contact_query.h"
 #include "haptic/loop.h"
 
@@ -43,16 +42,16 @@ class ScalpelCutting {
   /// Throws InputError where a path does not meet the mesh.
   ScalpelCutting(const SurfaceMesh& mesh, Setup setup);
 
-  const ContactSurface& surface() const { return *surface_; }       ///< in mm
-  std::size_t incisions() const { return wounds_.size() - made_; }  ///< but those made before
-  double cut_length() const;                                        ///< mm, of all cuts but those made before
+  const ContactSurface& surface() const { return *surface_; }     ///< in mm
+  std::size_t incisions() const { return cuts_.size() - made_; }  ///< but those made before
+  double cut_length() const;                                      ///< mm, of all cuts but those made before
   const CuttingFigures& figures() const { return figures_; }
   /// Of every cut, those made before too; none without a field.
   std::vector<Validity> validity() const;
   const CutMesh& mesh() const { return mesh_; }
   int original_points() const { return original_points_; }
   /// The newest cut's; null where there is none.
-  const Incision* incision() const { return wounds_.empty() ? nullptr : wounds_.back().incision.get(); }
+  const Incision* incision() const { return cuts_.empty() ? nullptr : cuts_.back().get(); }
   /// Places of the cuts that the scalpel has made without a path, as they were led.
   const std::vector<std::vector<ScalpelPath::Point>>& led() const { return led_; }
   bool cutting() const { return cutting_; }  ///< whether the last of them may go on
@@ -70,12 +69,8 @@ class ScalpelCutting {
  private:
   /// Most vertices that are told to move in one step: the others wait, so that no step takes long.
   static constexpr std::size_t most_moved = 4000;
-  struct Wound {
-    std::unique_ptr<Incision> incision;
-    std::unique_ptr<LiveReplay> opening;  // null without a field
-  };
 
-  void add_wound(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering);
+  void add_cut(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering);
   double reached(const HapticState& scalpel) const;
   std::optional<ScalpelPath::Point> contact(const HapticState& scalpel);
   void follow_path(const HapticState& scalpel, double least);
@@ -88,24 +83,22 @@ class ScalpelCutting {
   void cut(const Change& change);
   void take_in_changes();
   void open();
-  void relieve();
+  void tell_touched();
   void tell(const std::vector<int>& vertices);
-  Vec3 displacement(int vertex) const;
 
   Setup setup_;
   CutMesh mesh_;
   int original_points_;
-  std::vector<Wound> wounds_;
-  std::size_t made_ = 0;  // wounds that were there before
+  std::vector<std::unique_ptr<Incision>> cuts_;
+  LiveWounds wounds_;     // of all cuts; none without a field
+  std::size_t made_ = 0;  // cuts that were there before
   std::unique_ptr<ContactSurface> surface_;
   std::optional<ContactReader> reader_;
   bool cutting_ = false;
   std::optional<ScalpelPath::Point> entered_;  // where the skin gave way
   std::vector<std::vector<ScalpelPath::Point>> led_;
-  std::vector<Amplitude> amplitudes_;  // of every wound; none where one is alone, or their tension unknown
-  double relieved_at_ = 0;             // mm: the length of all cuts for which these were found
-  std::vector<Vec3> displacements_;    // mm, of vertices, as told to the surface
-  std::deque<int> untold_;             // vertices that have moved since
+  std::vector<Vec3> displacements_;  // mm, of vertices, as told to the surface
+  std::deque<int> untold_;           // vertices that have moved since
   std::vector<bool> is_untold_;
   std::vector<ContactSurface::Moved> moved_;
   std::vector<ContactSurface::Changed> changed_;

@@ -6,12 +6,12 @@ namespace cleft {
 
 MeshScene::MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<CutFields>& fields)
     : cut_(std::move(cut)), fields_(fields) {
-  std::vector<Wounds::Cut> cuts;
+  std::vector<Wound> wounds;
   for (const auto& incision : cut_->cuts()) {
-    if (fields_) cuts.push_back({incision.get(), fields_->along(*incision, 1)});
+    if (fields_) wounds.push_back(fields_->wound(*incision, 1));
     duration_ += incision->path().length();
   }
-  if (!cuts.empty()) wounds_ = std::make_shared<Wounds>(std::move(cuts), 1);
+  if (!wounds.empty()) wounds_ = std::make_shared<ReplayedWounds>(std::move(wounds));
   WoundSurface surface = wound_surface_of(cut_->mesh(), cut_->original_points());
   aim_at_cuts(surface);
   surface_ = std::make_shared<const WoundSurface>(std::move(surface));
@@ -52,7 +52,7 @@ std::vector<bool> MeshScene::moving() const {
 std::shared_ptr<const WoundScene> MeshScene::with_detail(double mm) const {
   if (!wounds_) return nullptr;
   auto scene = std::shared_ptr<MeshScene>(new MeshScene(*this));
-  scene->level_ = std::make_shared<const Wounds::Level>(wounds_->level(mm));
+  scene->level_ = std::make_shared<const ReplayedWounds::Level>(wounds_->level(mm));
   return scene;
 }
 
@@ -74,8 +74,8 @@ void MeshScene::values(Coloring coloring, const Field* reference, double t, std:
   if (coloring == Coloring::tissue || !wounds_) return;
   const Wounds::Blade now = wounds_->blade(t);
   for (std::size_t k = 0; k <= now.cut; ++k) {
-    const VaryingField& field = wounds_->field(k);
-    const double s = k == now.cut ? now.s : cut_->cuts()[k]->path().length();
+    const VaryingField& field = (*wounds_)[k].field;
+    const double s = k == now.cut ? now.s : (*wounds_)[k].complete();
     for (const ActiveVertex& a : wounds_->active(k)) {
       const bool closed = a.on_cut && a.s >= s;
       const double own_time = std::clamp(s + a.time_offset, 0., field.shape().cut().length);

@@ -7,7 +7,7 @@
 #include "explorer/incision/cut_surface.h"
 #include "explorer/scene/wound_scene.h"
 #include "explorer/wound/cut_fields.h"
-#include "explorer/wound/wounds.h"
+#include "explorer/wound/replayed_wounds.h"
 
 namespace cleft {
 
@@ -29,13 +29,13 @@ class MeshScene : public WoundScene {
 
  private:
   MeshScene(const MeshScene&) = default;
-  const Wounds::Level& level() const { return level_ ? *level_ : wounds_->whole(); }
+  const ReplayedWounds::Level& level() const { return level_ ? *level_ : wounds_->whole(); }
   void aim_at_cuts(WoundSurface& surface) const;
 
   std::shared_ptr<const CutSurface> cut_;
   std::optional<CutFields> fields_;
-  std::shared_ptr<const Wounds> wounds_;        // none without fields or cuts
-  std::shared_ptr<const Wounds::Level> level_;  // none: whole
+  std::shared_ptr<const ReplayedWounds> wounds_;        // none without fields or cuts
+  std::shared_ptr<const ReplayedWounds::Level> level_;  // none: whole
   double duration_ = 0;
   std::shared_ptr<const WoundSurface> surface_;
 };

@@ -13,18 +13,23 @@ constexpr const char* three_cases =
     "a study.dffd of three cases that differ in skin.prestress_u, _v and _uv alone";
 }
 
-VaryingField CutFields::along(const Incision& cut, double scale,
-                              const std::optional<PathPrestress>& own) const {
+Wound CutFields::wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own) const {
   if (one_ && own)
     throw InputError(std::string("the path has prestresses along it: they need ") + three_cases);
-  if (one_) return *one_;
-  if (own) return three_->along(*own);
+  if (one_) return {cut, *one_, scale};
+  if (own) return {cut, three_->along(*own), scale};
   if (!tension_)
     throw InputError(
         "the field file holds several cases: give --tension and --prestress, or the path columns "
         "skin.prestress_u, _v, _uv, or one case.dffd");
-  const IncisionVolume volume(cut, shape(), scale);
-  return three_->along(prestress_along(volume, cut.path().length(), *tension_));
+  return wound_in_tension(cut, *three_, *tension_, scale);
+}
+
+Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,
+                       double scale) {
+  IncisionVolume volume(cut, fields.shape(), scale);
+  VaryingField field = fields.along(prestress_along(volume, cut.path().length(), tension));
+  return {cut, std::move(field), std::move(volume)};
 }
 
 CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "explorer/wound/prestress_fields.h"
+#include "explorer/wound/wound.h"
 
 namespace cleft {
 
@@ -19,16 +20,20 @@ class CutFields {
   const Field& shape() const { return one_ ? *one_ : three_->shape(); }
   bool turning() const { return !one_; }
 
-  /// For a cut whose surroundings are known; must not outlive this. `own`: prestresses along its path, where
-  /// they are known better than by the tension. Throws InputError where one field is asked to turn, or three
-  /// are not told how.
-  VaryingField along(const Incision& cut, double scale, const std::optional<PathPrestress>& own = {}) const;
+  /// The wound of a cut whose surroundings are known; neither the cut nor this must end before it. `own`:
+  /// prestresses along its path, where they are known better than by the tension. Throws InputError where one
+  /// field is asked to turn, or three are not told how.
+  Wound wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own = {}) const;
 
  private:
   std::shared_ptr<const Field> one_;
   std::shared_ptr<const PrestressFields> three_;
   std::optional<SkinTension> tension_;
 };
+
+/// The wound of a cut in skin under one tension, which turns against the path; the fields must outlive it.
+Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,
+                       double scale);
 
 /// Of a field file, or of a study.dffd of three cases of other prestress. `direction` (three numbers) and
 /// `prestresses` (two, MPa, in either order) tell the tension, where they are not empty. Throws InputError

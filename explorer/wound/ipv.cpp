@@ -4,12 +4,29 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/error.h"
+
 namespace cleft {
 
 namespace {
 
+/// Next to the patch, where the field knows nothing, displacements fall to nothing over this part of its
+/// width.
+constexpr double margin = 1. / 4;
+/// Of the path's length: a place nearer to the blade's surface than this is on it, but for rounding.
+constexpr double rounding = 1e-9;
+/// In how many equal pieces of the path the room next to it is sampled.
+constexpr int room_pieces = 128;
+/// The tilt of the line between the lips over the tilt of the blade, and over how many depths of the cut it
+/// falls by a factor of e across it: what the solver's tilted cuts show (tests/truth).
+constexpr double lips_tilt = 2. / 3, tilt_reach = 1.5;
+/// Of the path's length: the skin's normal is a mean over at least this much of it, however shallow the cut.
+constexpr double least_mean = 1e-3;
+/// The weight of a station's own normal where it is the only one within reach.
+constexpr double own_normal = 1e-9;
+
 /// How far beside the patch, mm, displacements fall to nothing.
-double margin_of(const Field& field) { return (field.domain(1).back - field.domain(1).front) / 4; }
+double margin_of(const Field& field) { return (field.domain(1).back - field.domain(1).front) * margin; }
 
 }  // namespace
 
@@ -49,10 +66,10 @@ void IncisionVolume::follow_path() {
 
 void IncisionVolume::find_room() {
   for (auto& side : room_) side.clear();
-  constexpr int pieces = 128;
-  for (int i = 0; i <= pieces; ++i)
+  for (int i = 0; i <= room_pieces; ++i)
     for (const bool right : {false, true})
-      room_[right].push_back(incision_.path().room_beside(incision_.path().length() * i / pieces, right));
+      room_[right].push_back(
+          incision_.path().room_beside(incision_.path().length() * i / room_pieces, right));
 }
 
 /// Falls smoothly from 1 in the path's half of its room to 0 at the end of it.
@@ -81,9 +98,9 @@ void IncisionVolume::take_in(const std::vector<int>& vertices) {
 void IncisionVolume::find_normals() {
   const auto& stations = incision_.surroundings().stations();
   station_.clear(), normal_.clear();
-  const double reach = std::max(field_.cut().depth / scale_, 1e-3 * incision_.path().length());
+  const double reach = std::max(field_.cut().depth / scale_, least_mean * incision_.path().length());
   for (const auto& at : stations) {
-    Vec3 sum = 1e-9 * at.length * at.normal;
+    Vec3 sum = own_normal * at.length * at.normal;
     const auto from = std::partition_point(stations.begin(), stations.end(),
                                            [&](const auto& other) { return other.s < at.s - reach; });
     for (auto other = from; other != stations.end() && other->s < at.s + reach; ++other)
@@ -140,7 +157,7 @@ std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const Surroundings::Label& label = labels_[v];
   if (!label.reached) return std::nullopt;
   const PathCoordinates at = incision_.path().coordinates(vertex.position);
-  const double straight = std::abs(at.v) <= 1e-9 * incision_.path().length() ? 0 : at.v;
+  const double straight = std::abs(at.v) <= rounding * incision_.path().length() ? 0 : at.v;
   const auto [wound, on_wall] = side_of_wound(v);
   Side side = wound == Side::both ? label.side : wound;
   if (side == Side::both) side = side_of(straight);
@@ -165,7 +182,7 @@ std::optional<ActiveVertex> IncisionVolume::locate_below(const Vec3& place, doub
   const Surroundings::Label& label = labels_[nearest];
   if (!label.reached) return std::nullopt;
   const PathCoordinates at = incision_.path().coordinates(place);
-  const double straight = std::abs(at.v) <= 1e-9 * incision_.path().length() ? 0 : at.v;
+  const double straight = std::abs(at.v) <= rounding * incision_.path().length() ? 0 : at.v;
   if (side == Side::both) side = side_of(straight);
   // As deep as the blade is as deep as the canonical cut; below, depths differ by the same.
   const double own = incision_.path().depth(at.s) * scale_, canonical = field_.cut().depth;
@@ -194,14 +211,14 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
 /// thirds of the tilt, as the solver's tilted cuts show (tests/truth), and the more the nearer to the cut.
 double IncisionVolume::lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const {
   const double tilt = std::atan2(-dot(blade, skin.across), dot(blade, skin.outward));
-  return std::tan(2. / 3 * tilt) * std::exp(-v / (1.5 * field_.cut().depth));
+  return std::tan(lips_tilt * tilt) * std::exp(-v / (tilt_reach * field_.cut().depth));
 }
 
-std::vector<ActiveVertex> active_vertices(const Incision& incision, const Field& field, double scale) {
-  const IncisionVolume volume(incision, field, scale);
+std::vector<ActiveVertex> IncisionVolume::active() const {
+  CLEFT_CHECK(incision_.mesh().vertices().size(), <=, labels_.size());
   std::vector<ActiveVertex> active;
-  for (std::size_t v = 0; v < incision.mesh().vertices().size(); ++v)
-    if (const auto one = volume.locate(static_cast<int>(v))) active.push_back(*one);
+  for (std::size_t v = 0; v < incision_.mesh().vertices().size(); ++v)
+    if (const auto one = locate(static_cast<int>(v))) active.push_back(*one);
   return active;
 }
 

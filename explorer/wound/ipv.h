@@ -69,6 +69,8 @@ class IncisionVolume {
   /// At s, mesh units: T of the path made perpendicular to the skin's mean normal there, and that.
   PathFrame skin_frame(double s) const;
   double scale() const { return scale_; }
+  /// All vertices that the field can move, in the order of their numbers. take_in() must know all of them.
+  std::vector<ActiveVertex> active() const;
 
  private:
   struct Place {
@@ -98,8 +100,5 @@ class IncisionVolume {
   std::vector<double> station_;              // s of the surroundings' stations
   std::vector<Vec3> normal_;                 // of the skin there, a mean
 };
-
-/// All vertices the field can move.
-std::vector<ActiveVertex> active_vertices(const Incision& incision, const Field& field, double scale);
 
 }  // namespace cleft

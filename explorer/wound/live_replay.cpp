@@ -6,14 +6,18 @@
 
 namespace cleft {
 
-LiveReplay::LiveReplay(const VaryingField& field, const Incision& incision, double scale,
-                       std::size_t most_entering)
-    : incision_(incision),
-      scale_(scale),
+namespace {
+/// Vertices of the chain's end that every step looks at, whether their triangles have changed or not: the
+/// tip, which is provisional, and the one before it, each of them two where the path crosses a wound.
+constexpr std::size_t chain_end = 4;
+}  // namespace
+
+LiveReplay::LiveReplay(Wound& wound, std::size_t most_entering)
+    : incision_(*wound.incision),
+      volume_(wound.volume),
       most_entering_(most_entering),
       undone_(true),
-      contractor_(field, scale),
-      volume_(incision, field.shape(), scale),
+      contractor_(wound.field, wound.scale()),
       rest_(1),
       position_(1) {
   follow();
@@ -26,7 +30,7 @@ std::vector<int> LiveReplay::changed_vertices() {
   std::vector<int> vertices = std::move(chain_end_);
   chain_end_.clear();
   const auto& chain = incision_.chain();
-  for (std::size_t i = chain.size() - std::min<std::size_t>(chain.size(), 4); i < chain.size(); ++i)
+  for (std::size_t i = chain.size() - std::min(chain.size(), chain_end); i < chain.size(); ++i)
     for (const int v : {chain[i].left, chain[i].right}) chain_end_.push_back(v);
   vertices.insert(vertices.end(), chain_end_.begin(), chain_end_.end());
   for (const int t : incision_.changed_triangles())
@@ -79,7 +83,7 @@ void LiveReplay::follow_path(const std::vector<int>& changed) {
     const Placed& was = placed_[number];
     if (at.has_value() == was.anywhere &&
         (!at || (at->side == was.side && std::hypot(at->s - was.s, at->uvw.y - was.across) < misplaced &&
-                 norm(at->along - was.along) < 0.1)))
+                 norm(at->along - was.along) < turned)))
       continue;
     leave(v);
     position_[number] = rest_[number];

@@ -10,20 +10,17 @@
 #include <queue>
 #include <vector>
 
-#include "explorer/incision/incision.h"
 #include "explorer/wound/contractor.h"
-#include "explorer/wound/ipv.h"
-#include "explorer/wound/mutual_relief.h"
+#include "explorer/wound/wound.h"
 
 namespace cleft {
 
 class LiveReplay {
  public:
-  /// The field's own fields, whose displacements at t = 0 must be 0, and the incision must outlive it.
-  /// `scale`: mm per mesh unit. Of vertices that enter together no more than `most_entering` do so at once,
-  /// the others at the next calls: so long they stay at rest.
-  LiveReplay(const VaryingField& field, const Incision& incision, double scale,
-             std::size_t most_entering = std::numeric_limits<std::size_t>::max());
+  /// The wound, whose field's displacements at t = 0 must be 0, must outlive it; its volume follows the
+  /// incision here. Of vertices that enter together no more than `most_entering` do so at once, the others at
+  /// the next calls: so long they stay at rest.
+  explicit LiveReplay(Wound& wound, std::size_t most_entering = std::numeric_limits<std::size_t>::max());
 
   /// To be called after every advance_to, lead_on, undo and redo of the incision, and of later ones in its
   /// mesh. Where the path was led on, vertices stay where they were taken to lie until that was wrong by
@@ -37,8 +34,6 @@ class LiveReplay {
   Vec3 displacement(int vertex) const {
     return position(vertex) - rest_[static_cast<std::size_t>(vertex) + 1];
   }
-  /// Valid as long as this is.
-  CutInTension in_tension() const { return {&incision_, &contractor_.field(), &volume_}; }
   std::size_t vertex_count() const { return rest_.size() - 1; }
 
   /// Where along the path a vertex that has entered lies, mm.
@@ -69,7 +64,10 @@ class LiveReplay {
     double s = 0, across = 0;  // mm
     Vec3 along;
   };
-  static constexpr double misplaced = 0.25;  // mm
+  /// A vertex is placed anew where its place was wrong by so many mm, or T by so many radians. Over a quarter
+  /// of a millimetre a wound's displacements change by some hundredths of one; to place every vertex anew
+  /// with every piece of the path would contract the field for each of them many times.
+  static constexpr double misplaced = 0.25, turned = 0.1;
   struct Waiting {
     double enters;  ///< mm of the path
     int vertex;
@@ -86,11 +84,11 @@ class LiveReplay {
   void shrink(std::size_t vertices);
 
   const Incision& incision_;
-  double scale_, blade_ = 0, led_ = 0;
+  IncisionVolume& volume_;
+  double blade_ = 0, led_ = 0;
   std::size_t most_entering_;
   bool undone_ = false;
   Contractor contractor_;
-  IncisionVolume volume_;
   std::vector<Vec3> rest_, position_;  // number 0 is nobody's: it takes what is computed for those that left
   std::vector<Slot> slots_;
   std::vector<double> stations_;

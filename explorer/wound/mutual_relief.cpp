@@ -11,6 +11,20 @@ namespace cleft {
 
 namespace {
 
+/// Parts of the cut's depth, each taken in its middle: where strains fall to nothing from the skin to the
+/// bottom as a parabola does, the sum is off by less than a hundredth.
+constexpr int layers = 6;
+/// Of the fixed point, and which part of the way a round goes. Halfway: parallel cuts close together relieve
+/// each other nearly wholly, r = -1, and whole ways would swing to and fro for ever. A deviation shrinks by
+/// (1 + r) / 2 a round: where r = 0.5, by 3e-8 in all.
+constexpr int rounds = 60;
+constexpr double way = 0.5;
+/// How far a cut is taken to open at most, over what it would alone, where others add to the tension. Beyond,
+/// cuts nearly meet end to end, and the strains of their fields do not add.
+constexpr double most = 3;
+/// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
+constexpr double turned_away = 0.1;
+
 /// The tension across `cut` at one of its stations: as it is given, and what another cut's field adds.
 struct Influence {
   std::size_t cut, by;
@@ -44,16 +58,16 @@ struct Stiffness {
 /// What another cut's field changes of the force across a line with normal `n`, N for each mm of it: in the
 /// skin (plane stress), and in the tissue as deep as the cut (the tissue has no prestress, but it presses on
 /// the walls where the skin draws it together).
-double change_across(const CutInTension& other, const Stiffness& is, const ActiveVertex& at, const Vec3& n,
+double change_across(const Wound& other, const Stiffness& is, const ActiveVertex& at, const Vec3& n,
                      double blade) {
-  const CanonicalCut& cut = other.field->shape().cut();
+  const CanonicalCut& cut = other.field.shape().cut();
   const double t = std::clamp(blade + at.time_offset, 0., cut.length);
   double a = dot(n, at.along), b = dot(n, normalized(at.across));
   const double length = std::hypot(a, b);
-  if (length < 0.1) return 0;  // the surface has turned away
+  if (length < turned_away) return 0;
   a /= length, b /= length;
   const auto strains = [&](double w) {
-    const Derivatives d = other.field->derivatives({at.uvw.x, at.uvw.y, w}, at.side, t, at.s);
+    const Derivatives d = other.field.derivatives({at.uvw.x, at.uvw.y, w}, at.side, t, at.s);
     const double uu = at.weight * d.by_u.x, vv = at.weight * d.by_v.y,
                  uv = at.weight * (d.by_u.y + d.by_v.x) / 2, ww = at.weight * d.by_w.z;
     return std::array{uu * a * a + 2 * uv * a * b + vv * b * b, uu + vv,
@@ -61,7 +75,6 @@ double change_across(const CutInTension& other, const Stiffness& is, const Activ
   };
   const auto [across, in_plane, upright] = strains(0);
   double force = is.skin.normal_stress(across, in_plane);
-  constexpr int layers = 6;
   for (int i = 0; i < layers; ++i) {
     const auto [nn, plane, up] = strains(-cut.depth * (i + 0.5) / layers);
     force += cut.depth / layers * is.tissue.normal_stress(nn, plane + up);
@@ -73,42 +86,38 @@ double change_across(const CutInTension& other, const Stiffness& is, const Activ
 
 double Amplitude::at(double s) const { return linear(stations, values, s); }
 
-std::vector<Amplitude> mutual_relief(const std::vector<CutInTension>& cuts, double blade) {
+std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade) {
   std::vector<Amplitude> result(cuts.size());
   std::vector<Influence> influences;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const CutInTension& cut = cuts[i];
+    const Wound& cut = *cuts[i];
     for (const Incision::ChainVertex& c : cut.incision->chain()) {
-      const double s = c.s * cut.volume->scale();
+      const double s = c.s * cut.scale();
       if (!result[i].stations.empty() && s <= result[i].stations.back()) continue;
       const std::size_t station = result[i].stations.size();
       result[i].stations.push_back(s);
-      const Vec3 normal = cut.volume->skin_frame(c.s).across;
+      const Vec3 normal = cut.volume.skin_frame(c.s).across;
       for (std::size_t j = 0; j < cuts.size(); ++j) {
         if (j == i) continue;
-        const std::optional<ActiveVertex> at = cuts[j].volume->locate(c.left);
+        const std::optional<ActiveVertex> at = cuts[j]->volume.locate(c.left);
         if (!at) continue;
-        const bool last = j + 1 == cuts.size();
-        const Incision& other = *cuts[j].incision;  // one that was led ends where its blade left it
-        const double whole = other.led() > 0 ? other.tip() : other.path().length(),
-                     there = last ? blade : whole * cuts[j].volume->scale();
-        const double tension = cut.field->prestress(&Prestress::vv, s);
+        const double there = j + 1 == cuts.size() ? blade : cuts[j]->complete();
+        const double tension = cut.field.prestress(&Prestress::vv, s);
         if (!(tension > 0)) continue;
-        const Stiffness stiffness(cuts[j].field->shape());
-        const double change = change_across(cuts[j], stiffness, *at, normal, there);
+        const Stiffness stiffness(cuts[j]->field.shape());
+        const double change = change_across(*cuts[j], stiffness, *at, normal, there);
         influences.push_back({i, j, station, at->s, change / (stiffness.thickness * tension)});
       }
     }
     result[i].values.assign(result[i].stations.size(), 1);
   }
-  // Fixed point, halfway each time: parallel cuts close together relieve each other nearly wholly.
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     std::vector<std::vector<double>> next;
     for (const Amplitude& amplitude : result) next.emplace_back(amplitude.values.size(), 1);
     for (const Influence& x : influences) next[x.cut][x.station] += x.ratio * result[x.by].at(x.s);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (std::size_t k = 0; k < next[i].size(); ++k)
-        result[i].values[k] += 0.5 * (std::clamp(next[i][k], 0., 3.) - result[i].values[k]);
+        result[i].values[k] += way * (std::clamp(next[i][k], 0., most) - result[i].values[k]);
   }
   return result;
 }

@@ -7,19 +7,12 @@
 // skin is its plane stress in the strain of the other cut's field.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
-#include "explorer/wound/ipv.h"
-#include "explorer/wound/varying_field.h"
+#include "explorer/wound/wound.h"
 
 namespace cleft {
-
-/// What a cut needs to be told of the others. All must outlive its use.
-struct CutInTension {
-  const Incision* incision;
-  const VaryingField* field;
-  const IncisionVolume* volume;  ///< of both
-};
 
 /// Amplitude along a path, linear between stations, in mm of it; constant beyond them.
 struct Amplitude {
@@ -27,8 +20,33 @@ struct Amplitude {
   double at(double s) const;
 };
 
+/// How far each of several cuts opens while the blade makes the newest of them: their amplitudes, found with
+/// the blade at equal steps of its path, and linear between these. One step holds wherever the blade is;
+/// without any, and for cuts that it does not know, every cut opens as it would alone.
+class Relief {
+ public:
+  Relief() = default;
+  /// steps[i][k] is the amplitude of cut k with the blade at step i.
+  explicit Relief(std::vector<std::vector<Amplitude>> steps) : steps_(std::move(steps)) {}
+
+  const std::vector<std::vector<Amplitude>>& steps() const { return steps_; }
+  std::size_t cuts() const { return steps_.empty() ? 0 : steps_.front().size(); }
+  /// At s mm of a cut's path; the blade has come as far as `part` of its own.
+  double amplitude(std::size_t cut, double s, double part) const {
+    if (cut >= cuts()) return 1;
+    if (steps_.size() == 1) return steps_.front()[cut].at(s);
+    const double at = part * static_cast<double>(steps_.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(at), steps_.size() - 2);
+    const double beyond = at - static_cast<double>(i);
+    return (1 - beyond) * steps_[i][cut].at(s) + beyond * steps_[i + 1][cut].at(s);
+  }
+
+ private:
+  std::vector<std::vector<Amplitude>> steps_;
+};
+
 /// Of every cut, with the blade of the last one at `blade` mm of its path and the others complete. All 1 for
 /// a single cut. Throws InputError where a field does not tell the skin's prestress and stiffness.
-std::vector<Amplitude> mutual_relief(const std::vector<CutInTension>& cuts, double blade);
+std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade);
 
 }  // namespace cleft

@@ -10,6 +10,10 @@ namespace cleft {
 
 namespace {
 
+/// The way along the path to its next point over the straight distance, at most: nearly that of half a
+/// circle.
+constexpr double longest_arc = 1.5;
+
 /// The prestress's components have the names of the parameters.
 std::vector<std::string> prestress_columns() {
   const Parameters p;
@@ -44,7 +48,7 @@ std::optional<PathPrestress> read_prestress(const std::string& file, const Scalp
     const auto at = [&row](int i) { return i < 0 ? 0 : row[i]; };
     const Vec3 here{at(x), at(y), at(z)};
     // The path may come back to where it was: looked for from the point before.
-    if (!result.stations.empty()) s = path.coordinates(here, s, s + 1.5 * norm(here - before)).s;
+    if (!result.stations.empty()) s = path.coordinates(here, s, s + longest_arc * norm(here - before)).s;
     before = here;
     if (!result.stations.empty() && !(s * scale > result.stations.back())) continue;
     result.stations.push_back(s * scale);

@@ -10,6 +10,15 @@ namespace cleft {
 
 namespace {
 
+/// The sine of the angle between the skin's normal and a tension that stands upright on it: about one degree,
+/// within which rounding of the mesh decides its direction in the skin.
+constexpr double upright = 0.02;
+/// The part of a prestress that is no sum of the others, at least: less would make weights of a thousand, and
+/// errors of the fields as much larger.
+constexpr double independent_part = 1e-3;
+/// In how many equal pieces of the path its prestress is sampled.
+constexpr int pieces = 128;
+
 /// The first parameter but prestresses in which two cases differ; "" where there is none.
 std::string difference(const PublishedStudy& study, int i, int j) {
   RecordedParameters a = study.parameters(i);
@@ -40,13 +49,12 @@ Prestress prestress_of(const RecordedParameters& p) {
 
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension) {
   PathPrestress result;
-  constexpr int pieces = 128;
   const double mean = (tension.larger + tension.smaller) / 2, half = (tension.larger - tension.smaller) / 2;
   for (int i = 0; i <= pieces; ++i) {
     const double s = length * i / pieces;
     const PathFrame frame = volume.skin_frame(s);
     const double along = dot(tension.direction, frame.along), across = dot(tension.direction, frame.across);
-    if (std::hypot(along, across) < 0.02 * norm(tension.direction))
+    if (std::hypot(along, across) < upright * norm(tension.direction))
       throw InputError("the tension stands upright on the skin " + shortest(s) +
                        " mesh units along the path; give its direction in the skin");
     const double twice = 2 * std::atan2(across, along);
@@ -75,7 +83,7 @@ PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
     const double independent = n == 0   ? size
                                : n == 1 ? norm(cross(p[0], p[1])) / norm(p[0])
                                         : std::abs(dot(cross(p[0], p[1]), p[2])) / norm(cross(p[0], p[1]));
-    if (!(independent > 1e-3 * size)) continue;
+    if (!(independent > independent_part * size)) continue;
     fields_.push_back(study.read(i));
   }
   if (fields_.size() < 3)

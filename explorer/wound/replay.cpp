@@ -23,8 +23,7 @@ std::shared_ptr<const std::vector<Vec3>> rest_of(const CutMesh& mesh) {
 
 }  // namespace
 
-Replay::Replay(const VaryingField& field, const Incision& incision, double scale, double detail)
-    : Replay(Contractor(field, scale), incision, field.shape(), scale) {
+Replay::Replay(const Wound& wound, double detail) : Replay(wound, Contractor(wound.field, wound.scale())) {
   if (detail <= 0) return;
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < active_.size(); ++i)
@@ -32,11 +31,11 @@ Replay::Replay(const VaryingField& field, const Incision& incision, double scale
   *this = of(chosen);
 }
 
-Replay::Replay(const Contractor& contractor, const Incision& incision, const Field& shape, double scale)
-    : path_length_(incision.path().length() * scale),
-      scale_(scale),
-      rest_(rest_of(incision.mesh())),
-      active_(sorted(active_vertices(incision, shape, scale))),
+Replay::Replay(const Wound& wound, const Contractor& contractor)
+    : path_length_(wound.incision->path().length() * wound.scale()),
+      scale_(wound.scale()),
+      rest_(rest_of(wound.incision->mesh())),
+      active_(sorted(wound.volume.active())),
       pieces_(contractor.contract(active_, 0, path_length_)) {}
 
 Replay Replay::of(const std::vector<std::size_t>& chosen) const {

@@ -6,10 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "explorer/incision/incision.h"
-#include "explorer/wound/ipv.h"
 #include "explorer/wound/replay_pieces.h"
-#include "explorer/wound/varying_field.h"
+#include "explorer/wound/wound.h"
 
 namespace cleft {
 
@@ -17,9 +15,10 @@ class Contractor;
 
 class Replay {
  public:
-  /// Contracts the field once for each active vertex, to within its contraction_tolerance(). `scale` is mm
-  /// per mesh unit. Vertices that never move by more than `detail` mm stay where they are, and cost nothing.
-  Replay(const VaryingField& field, const Incision& incision, double scale, double detail = 0);
+  /// Contracts the wound's field once for each active vertex, to within its contraction_tolerance(), and does
+  /// not read the wound afterwards. Vertices that never move by more than `detail` mm stay where they are,
+  /// and cost nothing.
+  explicit Replay(const Wound& wound, double detail = 0);
 
   /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
   /// for each vertex of the incision's mesh. Allocates nothing.
@@ -37,7 +36,7 @@ class Replay {
   Replay of(const std::vector<std::size_t>& chosen) const;
 
  private:
-  Replay(const Contractor& contractor, const Incision& incision, const Field& shape, double scale);
+  Replay(const Wound& wound, const Contractor& contractor);
   Replay(const Replay& whole, ReplayPieces few)
       : path_length_(whole.path_length_), scale_(whole.scale_), rest_(whole.rest_), pieces_(std::move(few)) {}
 

@@ -10,6 +10,14 @@ namespace cleft {
 
 namespace {
 
+/// Of the longest time: times that differ by less are the same but for rounding.
+constexpr double rounding = 1e-9;
+/// The part of a sample's pieces that may be divided: a frame evaluates those one by one, and all others four
+/// at a time.
+constexpr std::size_t one_divided_in = 20;
+/// Parts of a knot's span in time at most: histories take memory in proportion.
+constexpr int most_parts = 8;
+
 std::vector<double> subdivided(const std::vector<double>& times, int parts) {
   std::vector<double> result{times.front()};
   for (std::size_t i = 1; i < times.size(); ++i) {
@@ -26,14 +34,14 @@ std::vector<double> knot_times(std::span<const Field* const> fields) {
     for (const double t : field->knot_times()) times.push_back(t);
   std::sort(times.begin(), times.end());
   const double last = std::min(fields[0]->duration(), fields[0]->cut().length);
-  const auto same = [last](double a, double b) { return b - a <= 1e-9 * last; };
+  const auto same = [last](double a, double b) { return b - a <= rounding * last; };
   times.erase(std::unique(times.begin(), times.end(), same), times.end());
-  while (times.size() > 1 && times.back() >= last * (1 - 1e-9)) times.pop_back();
+  while (times.size() > 1 && times.back() >= last * (1 - rounding)) times.pop_back();
   times.push_back(last);
   return times;
 }
 
-/// Whether one cubic a span is not enough in more than a twentieth of the spans.
+/// Whether one cubic a span is not enough in too many of the spans.
 bool are_divided(const Field& field, double tolerance, const std::vector<double>& times) {
   const Interval u = field.domain(0), v = field.domain(1);
   History history;
@@ -51,7 +59,7 @@ bool are_divided(const Field& field, double tolerance, const std::vector<double>
           divided += next != history.breaks.end() && *next < times[span + 1];
         }
       }
-  return divided > spans / 20;
+  return divided > spans / one_divided_in;
 }
 
 }  // namespace
@@ -63,7 +71,7 @@ std::vector<double> replay_times(std::span<const Field* const> fields, double to
     const bool enough = std::none_of(fields.begin(), fields.end(), [&](const Field* field) {
       return field->parametrization().moves() && are_divided(*field, tolerance, times);
     });
-    if (enough || parts == 8) return times;
+    if (enough || parts == most_parts) return times;
   }
 }
 
@@ -90,7 +98,7 @@ void ReplayPieces::append(const History& closed, const History& open, double s) 
   // Own time of the passage; what the clamping leaves at an end happens in the span there. The rounding of
   // s + offset must not decide: near the passage both histories are kept.
   const double passage = std::clamp(s + offsets_[next_], times_.front(), times_.back()),
-               close = 1e-9 * (times_.back() - times_.front());
+               close = rounding * (times_.back() - times_.front());
   const bool passes = &closed != &open;
   const double first = std::clamp(offsets_[next_], times_.front(), times_.back()),
                last = std::clamp(reach_ + offsets_[next_], times_.front(), times_.back());
@@ -185,7 +193,7 @@ Vec3 ReplayPieces::displacement(const Exception& e, const std::vector<Piece>& pi
 std::pair<std::size_t, std::size_t> ReplayPieces::positions(double before, double s, const Vec3* rest,
                                                             Vec3* out) const {
   const double from = std::min(before, s), to = std::max(before, s),
-               close = 1e-9 * (times_.back() - times_.front());
+               close = rounding * (times_.back() - times_.front());
   const auto begin = offsets_.begin(), end = begin + static_cast<std::ptrdiff_t>(vertices_.size());
   const auto first = std::partition_point(
                  begin, end, [&](double offset) { return to + offset < times_.front() - close; }),

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/text.h"
+#include "explorer/wound/prestress_fields.h"
 
 namespace cleft {
 
@@ -15,6 +16,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // In lengths of the canonical cut, of the figures in tests/truth/README.md.
 constexpr double least_radius = 2. / 3, least_radius_not_turned = 2.7, least_spacing = 0.4;
 constexpr double greatest_tilt = 45, greatest_defect = 0.1;
+/// Prestresses along, across and in shear differ by no more than this part of them where a cut opens alike
+/// whichever way it goes.
+constexpr double greatest_difference = 0.05;
+/// A path is longer than the canonical cut only by more than rounding.
+constexpr double rounding = 1e-9;
+constexpr int path_samples = 128, opening_samples = 16;  ///< of bends and tilts, and of the widest opening
 // A branch was compared at a right angle, pulled 1 : 3 and alike along the cut that it leaves and across it.
 constexpr double greatest_junction_tension = 1.01 / 3, least_junction_sine = 0.87;
 
@@ -22,9 +29,9 @@ std::string rounded(double x) { return shortest(std::round(10 * x) / 10); }
 
 double smallest_radius(const ScalpelPath& path) {
   double least = infinity;
-  for (int i = 0; i <= 128; ++i)
+  for (int i = 0; i <= path_samples; ++i)
     for (const bool right : {false, true})
-      least = std::min(least, path.room_beside(path.length() * i / 128, right));
+      least = std::min(least, path.room_beside(path.length() * i / path_samples, right));
   return least;
 }
 
@@ -33,11 +40,11 @@ ScalpelPath way_of(const Incision& incision) {
   return incision.led() > 0 ? incision.path().until(incision.led()) : incision.path();
 }
 
-double largest_tilt(const CutInTension& cut, double length) {
+double largest_tilt(const Wound& cut, double length) {
   double least = 1;  // cosine
-  for (int i = 0; i <= 128; ++i) {
-    const double s = length * i / 128;
-    least = std::min(least, dot(cut.volume->skin_frame(s).outward, cut.incision->path().at(s).outward));
+  for (int i = 0; i <= path_samples; ++i) {
+    const double s = length * i / path_samples;
+    least = std::min(least, dot(cut.volume.skin_frame(s).outward, cut.incision->path().at(s).outward));
   }
   return std::acos(least) * 180 / std::numbers::pi;
 }
@@ -45,8 +52,8 @@ double largest_tilt(const CutInTension& cut, double length) {
 /// The opening of the canonical cut at its widest, when it has come to t.
 double opening(const Field& field, double t) {
   double widest = 0;
-  for (int i = 1; i < 16; ++i) {
-    const Vec3 place{field.cut().start + t * i / 16, 0, 0};
+  for (int i = 1; i < opening_samples; ++i) {
+    const Vec3 place{field.cut().start + t * i / opening_samples, 0, 0};
     widest = std::max(
         widest, norm(field.displacement(place, Side::right, t) - field.displacement(place, Side::left, t)));
   }
@@ -69,17 +76,17 @@ struct Junction {
   double sine;     ///< of the angle between the two
 };
 
-std::vector<Junction> junctions_of(const std::vector<CutInTension>& cuts, std::size_t i) {
-  const Incision& own = *cuts[i].incision;
+std::vector<Junction> junctions_of(const std::vector<const Wound*>& cuts, std::size_t i) {
+  const Incision& own = *cuts[i]->incision;
   std::vector<Junction> found;
   for (const auto& c : own.chain()) {
     const CutMesh::Vertex& vertex = own.mesh().vertex(c.left);
     for (std::size_t j = 0; j < cuts.size(); ++j) {
-      if (j == i || vertex.cut != cuts[j].incision->cut()) continue;
-      const double s = vertex.s * cuts[j].volume->scale();
-      const double across = cuts[j].field->prestress(&Prestress::vv, s);
-      const Vec3 along = cuts[j].incision->path().at(vertex.s).along;
-      found.push_back({j, across > 0 ? cuts[j].field->prestress(&Prestress::uu, s) / across : infinity,
+      if (j == i || vertex.cut != cuts[j]->incision->cut()) continue;
+      const double s = vertex.s * cuts[j]->scale();
+      const double across = cuts[j]->field.prestress(&Prestress::vv, s);
+      const Vec3 along = cuts[j]->incision->path().at(vertex.s).along;
+      found.push_back({j, across > 0 ? cuts[j]->field.prestress(&Prestress::uu, s) / across : infinity,
                        norm(cross(along, own.path().at(c.s).along))});
     }
   }
@@ -92,40 +99,39 @@ bool crosses_squarely(const std::vector<Junction>& junctions, std::size_t other)
   });
 }
 
-double distance(const CutInTension& a, const CutInTension& b) {
+double distance(const Wound& a, const Wound& b) {
   double least = infinity;
   for (const auto& p : a.incision->chain())
     for (const auto& q : b.incision->chain())
       least =
           std::min(least, norm(a.incision->mesh().position(p.left) - b.incision->mesh().position(q.left)));
-  return least * a.volume->scale();
+  return least * a.scale();
 }
 
 bool pulled_alike(const Field& field) {
   const auto [uu, vv, uv] = prestress_of(field.parameters);
-  return std::abs(uu - vv) + 2 * std::abs(uv) <= 0.05 * (uu + vv);
+  return std::abs(uu - vv) + 2 * std::abs(uv) <= greatest_difference * (uu + vv);
 }
 
 }  // namespace
 
-std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool turned) {
+std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool turned) {
   std::vector<Validity> result;
   std::vector<std::vector<Junction>> junctions;
   for (std::size_t i = 0; i < cuts.size(); ++i) junctions.push_back(junctions_of(cuts, i));
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const Field& field = cuts[i].field->shape();
-    const ScalpelPath way = way_of(*cuts[i].incision);
-    const double scale = cuts[i].volume->scale(), canonical = field.cut().length,
-                 length = way.length() * scale;
+    const Field& field = cuts[i]->field.shape();
+    const ScalpelPath way = way_of(*cuts[i]->incision);
+    const double scale = cuts[i]->scale(), canonical = field.cut().length, length = way.length() * scale;
     Validity& v = result.emplace_back();
     v.smallest_radius = smallest_radius(way) * scale;
-    v.largest_tilt = largest_tilt(cuts[i], way.length());
+    v.largest_tilt = largest_tilt(*cuts[i], way.length());
     v.length_defect = length_defect(field);
     v.nearest_cut = infinity;
     double nearest_beside = infinity;  // cuts that meet squarely are none beside each other
     for (std::size_t j = 0; j < cuts.size(); ++j) {
       if (j == i) continue;
-      const double way = distance(cuts[i], cuts[j]);
+      const double way = distance(*cuts[i], *cuts[j]);
       v.nearest_cut = std::min(v.nearest_cut, way);
       if (!crosses_squarely(junctions[i], j) && !crosses_squarely(junctions[j], i))
         nearest_beside = std::min(nearest_beside, way);
@@ -143,7 +149,7 @@ std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool tu
            (known ? "" : " where the tension does not turn with it (give --tension)"));
     if (v.largest_tilt > greatest_tilt)
       warn("the blade is tilted by " + rounded(v.largest_tilt) + " degrees, above " + rounded(greatest_tilt));
-    if (length > canonical * (1 + 1e-9) && v.length_defect > greatest_defect)
+    if (length > canonical * (1 + rounding) && v.length_defect > greatest_defect)
       warn("the path is " + rounded(length) + " mm long, and the field's cut of " + rounded(canonical) +
            " mm is too short for its opening to have come to its width");
     if (nearest_beside < least_spacing * canonical)

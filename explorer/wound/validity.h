@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "explorer/wound/mutual_relief.h"
+#include "explorer/wound/wound.h"
 
 namespace cleft {
 
@@ -24,6 +24,6 @@ struct Validity {
 };
 
 /// Of every cut. `turned`: whether their fields follow the tension.
-std::vector<Validity> validity_of(const std::vector<CutInTension>& cuts, bool turned);
+std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool turned);
 
 }  // namespace cleft

@@ -9,8 +9,13 @@ namespace cleft {
 
 namespace {
 
+/// Of a length: lengths of two fields that differ by less are the same but for the rounding of their files.
+constexpr double rounding = 1e-9;
+
 bool same_cut_and_patch(const Field& a, const Field& b) {
-  const auto same = [](double x, double y) { return std::abs(x - y) <= 1e-9 * (std::abs(x) + std::abs(y)); };
+  const auto same = [](double x, double y) {
+    return std::abs(x - y) <= rounding * (std::abs(x) + std::abs(y));
+  };
   for (int axis = 0; axis < 4; ++axis)
     if (!same(a.domain(axis).front, b.domain(axis).front) || !same(a.domain(axis).back, b.domain(axis).back))
       return false;

@@ -4,7 +4,7 @@
 #include "explorer/scalpel/hand_script.h"
 #include "explorer/scalpel/scalpel_cutting.h"
 #include "explorer/wound/replay.h"
-#include "explorer/wound/wounds.h"
+#include "explorer/wound/replayed_wounds.h"
 #include "haptic/devices/hand.h"
 #include "haptic/surface_stiffness.h"
 #include "tests/haptic/surfaces.h"
@@ -117,7 +117,7 @@ TEST(Cutting, TheWoundThatIsFeltIsTheOneThatIsSeen) {
   while (cutting.figures().waiting > 0) cutting.step(scalpel);
   const Incision& incision = *cutting.incision();
   ASSERT_GT(incision.tip(), 20);
-  const Replay replay(*field, incision, 1);
+  const Replay replay(Wound(incision, *field, 1));
   std::vector<Vec3> seen(replay.vertex_count());
   replay.positions(incision.tip(), seen);
   double moved = 0;
@@ -197,13 +197,12 @@ TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
 
   CutMesh cut(mesh);
   std::vector<std::unique_ptr<Incision>> incisions;
-  std::vector<Wounds::Cut> cuts;
   for (const double y : {-4, 4}) {
     incisions.push_back(std::make_unique<Incision>(cut, at(y), IncisionOptions{}));
     incisions.back()->advance_to(30);
-    cuts.push_back({incisions.back().get(), CutFields(field).along(*incisions.back(), 1)});
   }
-  const Wounds wounds(std::move(cuts), 1);
+  const CutFields fields(field);
+  const ReplayedWounds wounds({fields.wound(*incisions[0], 1), fields.wound(*incisions[1], 1)});
   std::vector<Vec3> moved(wounds.vertex_count());
   wounds.positions(wounds.duration(), moved);
   double apart = 0;

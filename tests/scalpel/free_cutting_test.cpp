@@ -121,7 +121,7 @@ TEST(FreeCutting, ItOpensAsTheCutWouldHaveThatWasDrawnBefore) {
     ASSERT_GT(tip, 30);
     Incision incision(mesh, cutting.incision()->path());  // all of it known before
     incision.advance_to(tip);
-    const Replay replay(*field, incision, 1);
+    const Replay replay(Wound(incision, *field, 1));
     std::vector<Vec3> seen(replay.vertex_count());
     replay.positions(tip, seen);
     double farthest = 0, moved = 0;

@@ -34,7 +34,7 @@ ScalpelPath arc(double radius, double length) {
 /// The gaps of the whole cut, between its `ends` mm.
 std::vector<double> gaps(const Field& field, const Incision& incision, double ends = 0) {
   const double length = incision.path().length();
-  const Replay replay(field, incision, 1);
+  const Replay replay(Wound(incision, field, 1));
   std::vector<Vec3> moved(replay.vertex_count());
   replay.positions(length, moved);
   std::vector<double> result;
@@ -60,12 +60,11 @@ Bend bend(double radius, int parts) {
                     unrefined);
   incision.advance_to(incision.path().length());
   const Field field = wound();
-  const IncisionVolume volume(incision, field, 1);
-  const VaryingField varying(field);
+  const Wound wound(incision, field, 1);
   std::vector<std::optional<ActiveVertex>> places(incision.mesh().vertices().size());
   std::vector<Vec3> displacement(places.size());
   for (std::size_t v = 0; v < places.size(); ++v)
-    if ((places[v] = volume.locate(static_cast<int>(v))))
+    if ((places[v] = wound.volume.locate(static_cast<int>(v))))
       displacement[v] = places[v]->in_mesh(field.displacement(places[v]->uvw, places[v]->side, 10));
   Bend result;
   for (const CutMesh::Triangle& t : incision.mesh().triangles()) {
@@ -78,7 +77,7 @@ Bend bend(double radius, int parts) {
         result.jump = std::max(result.jump, std::abs(places[a]->uvw.x - places[b]->uvw.x));
     }
   }
-  const auto warnings = validity_of({{&incision, &varying, &volume}}, true).front().warnings;
+  const auto warnings = validity_of({&wound}, true).front().warnings;
   if (!warnings.empty()) result.warning = warnings.front();
   return result;
 }

@@ -65,7 +65,7 @@ TEST_F(Truth, DisplacementsDoNotJumpInTime) {
   for (const double length : {30., 44.}) {
     Incision cut(flat(), arc(40, length));
     cut.advance_to(length);
-    const Replay replay(*field, cut, 1);
+    const Replay replay(Wound(cut, *field, 1));
     std::vector<Vec3> now(replay.vertex_count()), before(now.size());
     const auto largest_jump = [&](int frames) {
       double largest = 0;
@@ -90,7 +90,7 @@ TEST_F(Truth, TheWoundDoesNotPassThroughItself) {
     const double length = 30;
     Incision cut(flat(), arc(radius, length));
     cut.advance_to(length);
-    const Replay replay(*field, cut, 1);
+    const Replay replay(Wound(cut, *field, 1));
     SurfaceMesh surface = cut.mesh().surface();
     for (const double part : {0.7, 1.}) {
       replay.positions(part * length, surface.points);

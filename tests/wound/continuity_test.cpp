@@ -31,7 +31,7 @@ double largest_jump(const ScalpelPath& path, int parts) {
   // Wider than the patch and its margin, so that what fades out is there too.
   Incision incision(grid(50 * parts, 40 * parts, -25 + 0.013, -20 + 0.017, h), path, options);
   incision.advance_to(path.length());
-  const Replay replay(opening_field(canonical, 20, 16, 6, 2), incision, 1);
+  const Replay replay(Wound(incision, opening_field(canonical, 20, 16, 6, 2), 1));
   std::vector<Vec3> moved(replay.vertex_count());
   double result = 0;
   replay.positions(path.length(), moved);
@@ -61,7 +61,7 @@ TEST(Continuity, AWoundThatClosesTooFarPassesThroughItself) {
   incision.advance_to(incision.path().length());
   SurfaceMesh surface = incision.mesh().surface();
   EXPECT_EQ(self_intersections(surface), 0);
-  const Replay replay(opening_field(canonical, 20, 16, 6, -1), incision, 1);
+  const Replay replay(Wound(incision, opening_field(canonical, 20, 16, 6, -1), 1));
   replay.positions(incision.path().length(), surface.points);
   EXPECT_GT(self_intersections(surface), 0);
 }

@@ -29,7 +29,7 @@ ScalpelPath winding(double from, double to) {
 }
 
 void expect_same(const LiveReplay& live, const Field& field, const Incision& incision, double s) {
-  const Replay whole(field, incision, 1);
+  const Replay whole(Wound(incision, field, 1));
   ASSERT_EQ(live.vertex_count(), whole.vertex_count());
   std::vector<Vec3> positions(whole.vertex_count());
   whole.positions(s, positions);
@@ -47,7 +47,8 @@ TEST_P(LiveReplays, AreReplaysBitForBitWhateverTheSteps) {
     IncisionOptions options;
     if (seed % 2 == 0) options.max_edge = 0;
     Incision incision(grid(60, 40, -30, -20, 1, hills), winding(-GetParam() / 2, GetParam() / 2), options);
-    LiveReplay live(field, incision, 1);
+    Wound wound(incision, field, 1);
+    LiveReplay live(wound);
     const double length = incision.path().length();
     for (int step = 0; step < 25; ++step) {
       const double dice = part(random);
@@ -77,7 +78,8 @@ TEST(LiveReplay, FollowsAPathFromVertexToVertex) {
   IncisionOptions options;
   options.max_edge = 0;
   Incision incision(grid(20, 16, -10, -8, 1), path_through({{-5, 0, 0}, {5, 0, 0}}, up, 1.5), options);
-  LiveReplay live(field, incision, 1);
+  Wound wound(incision, field, 1);
+  LiveReplay live(wound);
   for (double s = 0.5; s <= 10; s += 0.5) {
     incision.advance_to(s);
     live.follow();
@@ -90,7 +92,8 @@ TEST(LiveReplay, EntersAFewAtATimeAndIsAReplayOnceAllHave) {
   const Field field = opening_field({-5, 10, 3}, 20, 16, 6, 2);
   Incision incision(grid(60, 40, -30, -20, 1, hills), winding(-8, 8), {});
   constexpr std::size_t most = 40;
-  LiveReplay live(field, incision, 1, most);
+  Wound wound(incision, field, 1);
+  LiveReplay live(wound, most);
   for (double s = 1; s <= 10; s += 1.5) {
     incision.advance_to(s);
     live.follow();
@@ -112,7 +115,8 @@ TEST(LiveReplay, StepsCostWhatIsNewAndFramesWhatMoves) {
   options.max_edge = 0;
   Incision incision(grid(200, 40, -100, -20, 1), path_through({{-90, 0.3, 0}, {90, 0.3, 0}}, up, 1.5),
                     options);
-  LiveReplay live(field, incision, 1);
+  Wound wound(incision, field, 1);
+  LiveReplay live(wound);
   const auto advance = [&](double s) {
     incision.advance_to(s);
     live.follow();

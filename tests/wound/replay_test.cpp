@@ -41,7 +41,7 @@ TEST(Replay, IsTheFieldItselfOnAFlatPatch) {
   const Straight cut;
   const CutMesh& mesh = cut.incision.mesh();
   for (const Field& field : {opening_field(canonical, 20, 16, 6, 2), random_field(20, 16)}) {
-    const Replay replay(field, cut.incision, 1);
+    const Replay replay(Wound(cut.incision, field, 1));
     EXPECT_EQ(replay.active().size(), mesh.vertices().size());
     std::vector<Vec3> moved(mesh.vertices().size());
     for (double t = 0; t <= 10; t += 0.25) {
@@ -82,7 +82,7 @@ TEST(Replay, FollowsTheTipWithinTheToleranceOfContraction) {
   const CutMesh& mesh = cut.incision.mesh();
   const Field field = tip_field();
   EXPECT_EQ(field.contraction_tolerance(), 1e-4);
-  const Replay replay(field, cut.incision, 1);
+  const Replay replay(Wound(cut.incision, field, 1));
   std::vector<Vec3> moved(mesh.vertices().size());
   std::vector<double> times{0, 10};
   for (double t = 0; t < 10; t += 0.0371) times.push_back(t);
@@ -106,7 +106,7 @@ TEST(Replay, FollowsTheTipWithinTheToleranceOfContraction) {
 TEST(Replay, AllocatesNothing) {
   const Straight cut;
   for (const Field& field : {random_field(20, 16), tip_field()}) {
-    const Replay replay(field, cut.incision, 1);
+    const Replay replay(Wound(cut.incision, field, 1));
     std::vector<Vec3> moved(replay.vertex_count());
     const std::size_t before = allocations();
     for (double t = -1; t < 11; t += 0.1) replay.positions(t, moved);
@@ -117,12 +117,12 @@ TEST(Replay, AllocatesNothing) {
 TEST(Replay, WhatMovesLessThanTheDetailStaysAndAllElseIsAsItWas) {
   const Straight cut;
   const Field field = opening_field(canonical, 20, 16, 6, 2);
-  const Replay whole(field, cut.incision, 1);
+  const Replay whole(Wound(cut.incision, field, 1));
   std::vector<Vec3> moved(whole.vertex_count()), less(moved.size());
   EXPECT_EQ(whole.left_out(), 0u);
   std::size_t before = 0;
   for (const double detail : {1e-3, 0.05, 0.3}) {
-    const Replay replay(field, cut.incision, 1, detail);
+    const Replay replay(Wound(cut.incision, field, 1), detail);
     EXPECT_GT(replay.left_out(), before);
     EXPECT_EQ(replay.left_out() + replay.active().size(), whole.active().size());
     before = replay.left_out();
@@ -141,7 +141,7 @@ TEST(Replay, WhatMovesLessThanTheDetailStaysAndAllElseIsAsItWas) {
 
 TEST(Replay, AChosenFewMoveBitForBitAsBeforeAndNoneFurtherThanItsBound) {
   const Straight cut;
-  const Replay whole(tip_field(), cut.incision, 1);  // has exceptions where the tip passes
+  const Replay whole(Wound(cut.incision, tip_field(), 1));  // has exceptions where the tip passes
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < whole.active().size(); ++i)
     if (i % 3 == 1 || i % 7 == 0) chosen.push_back(i);
@@ -165,7 +165,7 @@ TEST(Replay, AChosenFewMoveBitForBitAsBeforeAndNoneFurtherThanItsBound) {
 
 TEST(Replay, TheChainAheadOfTheTipIsClosedAndBehindItOpen) {
   const Straight cut;
-  const Replay replay(opening_field(canonical, 20, 16, 6, 2), cut.incision, 1);
+  const Replay replay(Wound(cut.incision, opening_field(canonical, 20, 16, 6, 2), 1));
   std::vector<Vec3> moved(replay.vertex_count());
   for (const double t : {0.0, 0.5, 3.0, 7.3, 10.0}) {
     replay.positions(t, moved);
@@ -194,7 +194,7 @@ TEST(Replay, FollowsThePathsFrameAndTheMeshsUnits) {
       unrefined());
   incision.advance_to(1);
   const Field field = opening_field(canonical, 20, 16, 6, 2);
-  const Replay flat_replay(field, flat.incision, 1), replay(field, incision, 10);
+  const Replay flat_replay(Wound(flat.incision, field, 1)), replay(Wound(incision, field, 10));
   ASSERT_EQ(replay.vertex_count(), flat_replay.vertex_count());
   std::vector<Vec3> flat_moved(replay.vertex_count()), moved(replay.vertex_count());
   for (const double t : {1.5, 6.5, 10.0}) {
@@ -208,7 +208,7 @@ TEST(Replay, FollowsThePathsFrameAndTheMeshsUnits) {
 TEST(Replay, FadesOutBesideThePatch) {
   const Straight cut;
   const Field field = opening_field(canonical, 14, 8, 6, 2);  // smaller than the mesh
-  const Replay replay(field, cut.incision, 1);
+  const Replay replay(Wound(cut.incision, field, 1));
   EXPECT_LT(replay.active().size(), replay.vertex_count());
   for (const ActiveVertex& a : replay.active()) {
     const Vec3& p = replay.rest()[a.vertex];
@@ -232,7 +232,7 @@ TEST(Replay, DoesNotReachThroughSpace) {
   Incision incision(sheet, path_through({{-5, 0.3, 0}, {5, 0.3, 0}}, up, 0.5));
   incision.advance_to(10);
   const Field field = opening_field(canonical, 20, 16, 6, 2);
-  for (const ActiveVertex& a : active_vertices(incision, field, 1)) {
+  for (const ActiveVertex& a : IncisionVolume(incision, field, 1).active()) {
     if (a.vertex >= static_cast<int>(flat.points.size())) continue;
     EXPECT_LT(flat.points[a.vertex].y, 21) << "reached the lower side under the cut";
   }
@@ -264,7 +264,7 @@ TEST(Replay, OnLongPathsEveryVertexHasATimeOfItsOwn) {
   incision.advance_to(30);
   for (const Field& field : {random_field(20, 16), tip_field()}) {
     const double tolerance = field.parametrization().moves() ? 1.0001e-4 : 1e-12;
-    const Replay replay(field, incision, 1);
+    const Replay replay(Wound(incision, field, 1));
     std::vector<Vec3> moved(replay.vertex_count());
     for (double s = 0; s < 30; s += 0.617) {
       replay.positions(s, moved);
@@ -285,7 +285,7 @@ TEST(Replay, ALongCutIsEquallyWideInItsMiddle) {
   const ScalpelPath path = path_through({{-15, 0, 0}, {15, 0, 0}}, up, canonical.depth);
   Incision incision(grid(50, 16, -25, -8, 1), path, unrefined());
   incision.advance_to(30);
-  const Replay replay(opening_field(canonical, 20, 16, 6, 2), incision, 1);
+  const Replay replay(Wound(incision, opening_field(canonical, 20, 16, 6, 2), 1));
   std::vector<Vec3> moved(replay.vertex_count());
   replay.positions(30, moved);
   double width = -1;

@@ -30,9 +30,8 @@ std::vector<Validity> two_cuts(const Field& first, double to, double angle, bool
   Incision b(mesh, path_through({{0.3 - back * (8 + to) / 8, -8, 0}, {0.3, to, 0}}, up, 3), options);
   b.advance_to(b.path().length());
   const Field second = pulled(0.03, 0.01);
-  const IncisionVolume of_a(a, first, 1), of_b(b, second, 1);
-  const VaryingField along_a(first), along_b(second);
-  return validity_of({{&a, &along_a, &of_a}, {&b, &along_b, &of_b}}, turned);
+  const Wound of_a(a, first, 1), of_b(b, second, 1);
+  return validity_of({&of_a, &of_b}, turned);
 }
 
 int tells(const Validity& v, const std::string& what) {
@@ -76,9 +75,8 @@ TEST(Validity, OfAWayThatIsFoundOnTheGoOnlyWhatTheBladeHasCutIsJudged) {
   Incision cut(mesh, path_through({{0, 0, 0}, {30, 0, 0}}, up, 3), options);
   for (int k = 1; k <= 160; ++k) cut.lead_on({at(1.5 * std::numbers::pi * k / 160), {0, 0, 1}, 3}, 15);
   const Field field = pulled(0.01, 0.01);
-  const IncisionVolume volume(cut, field, 1);
-  const VaryingField along(field);
-  const Validity v = validity_of({{&cut, &along, &volume}}, true).front();
+  const Wound wound(cut, field, 1);
+  const Validity v = validity_of({&wound}, true).front();
   // The way's direction lags by a quarter of a piece's turn, e, after the first one. Looked at over a
   // twentieth of its length, d, that is a bend of 1 / (1/8 + 2 e/d).
   const double turn = 1.5 * std::numbers::pi / 160, d = 0.05 * 12 * std::numbers::pi;

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "explorer/commands/cut_volume.h"
-#include "explorer/wound/wounds.h"
+#include "explorer/wound/replayed_wounds.h"
 #include "tests/incision/meshes.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/wound/fields.h"
@@ -77,7 +77,7 @@ TEST(Volume, MovesAsItsSurfaceDoesAndGapesAsWide) {
   const Field field = opening_field({-5, 10, 3}, 20, 16, 6, 2);
   Incision cut(surface, path_through({{-5, 0, 0}, {5, 0, 0}}, up, 3));
   cut.advance_to(10);
-  const Wounds wounds({{&cut, field}}, 1);
+  const ReplayedWounds wounds({Wound(cut, field, 1)});
   write_cut_volume(volume, surface, {&cut}, &wounds, 1, 10, folder / "open.vtu");
   const std::vector<Vec3> rest = volume.points(), moved = VolumeMesh(folder / "open.vtu").points();
   ASSERT_EQ(rest.size(), moved.size());
@@ -110,7 +110,7 @@ TEST(Volume, IsSplitAsFarAsTheBladeGoesAndNoFurther) {
   const double start = -4.7, tip = 3.4, depth = 2.4;
   Incision cut(surface, path_through({{start, 0, 0}, {tip, 0, 0}}, up, depth));
   cut.advance_to(tip - start);
-  const Wounds wounds({{&cut, field}}, 1);
+  const ReplayedWounds wounds({Wound(cut, field, 1)});
   write_cut_volume(volume, surface, {&cut}, &wounds, 1, tip - start, folder / "open.vtu");
   const VolumeMesh open(folder / "open.vtu");
   const std::vector<Vec3> rest = volume.points(), moved = open.points();

@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "base/quantiles.h"
 #include "base/stopwatch.h"
-#include "explorer/wound/replay.h"
-#include "explorer/wound/wounds.h"
+#include "explorer/wound/cut_fields.h"
+#include "explorer/wound/replayed_wounds.h"
 #include "tradeoff/replays/uncut_skin.h"
 
 namespace cleft {
@@ -47,11 +47,6 @@ SkinTension tension_of(const Snapshot& s) {
   const auto [uu, vv, uv] = s.parameters->skin.prestress;
   CLEFT_CHECK(uv, ==, 0);
   return {uu > vv ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, std::max(uu, vv), std::min(uu, vv)};
-}
-
-VaryingField along(const PrestressFields& fields, const Incision& incision, const SkinTension& tension) {
-  const IncisionVolume volume(incision, fields.shape(), 1);
-  return fields.along(prestress_along(volume, incision.path().length(), tension));
 }
 
 Incision cut_as(const Snapshot& s, const UncutSkin& skin) {
@@ -113,16 +108,16 @@ class Comparison {
   std::map<int, int> right_of_;
 };
 
-ReplayError compare(const SnapshotReader& truth, const UncutSkin& skin, const Incision& incision,
-                    const VaryingField& field, double detail = 0) {
-  const Replay replay(field, incision, 1, detail);
+ReplayError compare(const SnapshotReader& truth, const UncutSkin& skin, const Wound& wound,
+                    double detail = 0) {
+  const Replay replay(wound, detail);
   Comparison comparison(truth, skin);
   std::vector<Vec3> moved(replay.vertex_count());
   std::vector<double> seconds;
   constexpr int repeats = 50;
   for (std::size_t j = 1; j < truth.snapshot().frames(); ++j) {
     seconds.push_back(least_seconds(repeats, [&] { replay.positions(truth.snapshot().times[j], moved); }));
-    comparison.add(j, incision.mesh(), {{&incision}}, moved);
+    comparison.add(j, wound.incision->mesh(), {{wound.incision}}, moved);
   }
   comparison.result.frame_seconds = median(seconds), comparison.result.vertices = moved.size();
   return comparison.result;
@@ -132,21 +127,22 @@ ReplayError compare(const SnapshotReader& truth, const UncutSkin& skin, const In
 
 ReplayError replay_error(const SnapshotReader& truth, const Field& field, double detail) {
   const UncutSkin skin = uncut_skin(truth.snapshot());
-  return compare(truth, skin, cut_as(truth.snapshot(), skin), field, detail);
+  const Incision incision = cut_as(truth.snapshot(), skin);
+  return compare(truth, skin, Wound(incision, field, 1), detail);
 }
 
 ReplayError replay_error(const SnapshotReader& truth, const PrestressFields& fields) {
   const UncutSkin skin = uncut_skin(truth.snapshot());
   const Incision incision = cut_as(truth.snapshot(), skin);
-  return compare(truth, skin, incision, along(fields, incision, tension_of(truth.snapshot())));
+  return compare(truth, skin, wound_in_tension(incision, fields, tension_of(truth.snapshot()), 1));
 }
 
 namespace {
 
 /// Two cuts of one mesh, while the second is made.
-template <class FieldOf>
+template <class WoundOf>
 ReplayError second_cut_error(const SnapshotReader& truth, const ScalpelPath& one, const ScalpelPath& other,
-                             bool turned, const FieldOf& field_of) {
+                             bool turned, const WoundOf& wound_of) {
   const Snapshot& s = truth.snapshot();
   const UncutSkin skin = uncut_skin(s);
   CutMesh mesh(skin.mesh);
@@ -156,7 +152,7 @@ ReplayError second_cut_error(const SnapshotReader& truth, const ScalpelPath& one
   first.advance_to(one.length());
   Incision second(mesh, other, options);
   second.advance_to(other.length());
-  const Wounds wounds({{&first, field_of(first)}, {&second, field_of(second)}}, 1);
+  const ReplayedWounds wounds({wound_of(first), wound_of(second)});
   Comparison comparison(truth, skin);
   std::vector<Vec3> moved(wounds.vertex_count());
   for (std::size_t j = 1; j < s.frames(); ++j) {
@@ -171,13 +167,14 @@ ReplayError second_cut_error(const SnapshotReader& truth, const ScalpelPath& one
 
 ReplayError parallel_error(const SnapshotReader& truth, const Field& field) {
   return second_cut_error(truth, path_of(truth.snapshot(), 0), path_of(truth.snapshot(), 1), false,
-                          [&](const Incision&) -> VaryingField { return field; });
+                          [&](const Incision& cut) { return Wound(cut, field, 1); });
 }
 
 ReplayError branch_error(const SnapshotReader& truth, const PrestressFields& fields) {
   const Snapshot& s = truth.snapshot();
-  return second_cut_error(truth, path_of(s), branch_of(s), true,
-                          [&](const Incision& cut) { return along(fields, cut, tension_of(s)); });
+  return second_cut_error(truth, path_of(s), branch_of(s), true, [&](const Incision& cut) {
+    return wound_in_tension(cut, fields, tension_of(s), 1);
+  });
 }
 
 }  // namespace cleft

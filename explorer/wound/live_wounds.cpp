@@ -1,0 +1,50 @@
+#include "explorer/wound/live_wounds.h"
+
+#include "base/error.h"
+
+namespace cleft {
+
+namespace {
+/// mm of a cut, after which the relief is found anew: little against the distance over which a cut's tension
+/// falls, and long against the way that a blade makes between two frames.
+constexpr double relieved_each = 1;
+}  // namespace
+
+void LiveWounds::add(Wound wound, std::size_t most_entering) {
+  scale_ = wound.scale();
+  replays_.emplace_back(Wounds::add(std::move(wound)), most_entering);
+}
+
+void LiveWounds::follow(std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) replays_[k].follow();
+}
+
+void LiveWounds::move_to_tips() {
+  for (std::size_t k = 0; k < size(); ++k) replays_[k].move_to((*this)[k].incision->tip() * scale_);
+}
+
+void LiveWounds::complete_newest() {
+  if (!empty()) replays_.back().move_to((*this)[size() - 1].complete());
+}
+
+bool LiveWounds::relieve() {
+  if (size() < 2) return false;
+  double length = 0;
+  for (std::size_t k = 0; k < size(); ++k) length += scale_ * (*this)[k].incision->tip();
+  const std::size_t last = size() - 1;
+  const Incision& newest = *(*this)[last].incision;
+  const bool complete = newest.tip() == newest.path().length() && length > relieved_at_;
+  const bool known = relief(last).cuts() == size();
+  if (known && length < relieved_at_ + relieved_each && !complete) return false;
+  std::vector<Amplitude> amplitudes;
+  try {
+    amplitudes = mutual_relief(first(size()), scale_ * newest.tip());
+  } catch (const InputError&) {  // the field does not tell the tension: they add
+    amplitudes.assign(size(), {{0}, {1}});
+  }
+  set_relief(last, Relief({std::move(amplitudes)}));
+  relieved_at_ = length;
+  return true;
+}
+
+}  // namespace cleft

@@ -1,0 +1,111 @@
+#include "explorer/wound/replayed_wounds.h"
+
+#include <algorithm>
+
+namespace cleft {
+
+namespace {
+/// Of a cut's path, in which the relief is taken as linear: a fiftieth of the path turns amplitudes by
+/// little.
+constexpr int relief_pieces = 48;
+}  // namespace
+
+ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
+  for (Wound& wound : wounds) {
+    whole_.replays.emplace_back(add(std::move(wound)));
+    begins_.push_back(begins_.back() + whole_.replays.back().path_length());
+  }
+  std::vector<Vec3> moved(size() > 1 ? vertex_count() : 0);
+  for (std::size_t k = 0; k + 1 < size(); ++k) {
+    whole_.replays[k].positions(path_length(k), moved);
+    std::vector<Vec3>& displacements = whole_.complete.emplace_back();
+    for (const ActiveVertex& a : active(k)) {
+      const std::size_t v = a.vertex;
+      displacements.push_back(moved[v] - rest()[v]);
+    }
+    std::vector<std::vector<Amplitude>> steps;
+    for (int i = 0; i <= relief_pieces; ++i)
+      steps.push_back(mutual_relief(first(k + 2), path_length(k + 1) * i / relief_pieces));
+    set_relief(k + 1, Relief(std::move(steps)));
+  }
+  bound_vertices();
+}
+
+/// A cut moves a vertex by no more than the bound of its replay, times its largest amplitude there: alone
+/// that of the first is 1, and then those of its relief, which are linear in between.
+void ReplayedWounds::bound_vertices() {
+  bounds_.assign(vertex_count(), 0);
+  for (std::size_t k = 0; k < size(); ++k) {
+    Amplitude largest;
+    for (std::size_t later = std::max<std::size_t>(k, 1); later < size(); ++later)
+      for (const std::vector<Amplitude>& at_once : relief(later).steps()) {
+        const Amplitude& one = at_once[k];
+        if (largest.values.empty())
+          largest = {one.stations, std::vector(one.values.size(), k == 0 ? 1. : 0.)};
+        for (std::size_t i = 0; i < one.values.size(); ++i)
+          largest.values[i] = std::max(largest.values[i], one.values[i]);
+      }
+    const Replay& replay = whole_.replays[k];
+    for (std::size_t i = 0; i < replay.active().size(); ++i) {
+      const ActiveVertex& a = replay.active()[i];
+      bounds_[a.vertex] += replay.bound(i) * (largest.values.empty() ? 1 : largest.at(a.s));
+    }
+  }
+}
+
+std::size_t ReplayedWounds::Level::active() const {
+  std::size_t count = 0;
+  for (const Replay& replay : replays) count += replay.active().size();
+  return count;
+}
+
+std::size_t ReplayedWounds::Level::left_out() const {
+  std::size_t count = 0;
+  for (const Replay& replay : replays) count += replay.left_out();
+  return count;
+}
+
+ReplayedWounds::Level ReplayedWounds::level(double detail) const {
+  Level level;
+  for (std::size_t k = 0; k < size(); ++k) {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < active(k).size(); ++i) {
+      const double bound = bounds_[active(k)[i].vertex];
+      if (bound > detail)
+        chosen.push_back(i);
+      else
+        level.error = std::max(level.error, bound);
+    }
+    level.replays.push_back(whole_.replays[k].of(chosen));
+    if (k + 1 == size()) break;
+    std::vector<Vec3>& complete = level.complete.emplace_back();
+    for (const std::size_t i : chosen) complete.push_back(whole_.complete[k][i]);
+  }
+  return level;
+}
+
+Wounds::Blade ReplayedWounds::blade(double t) const {
+  std::size_t cut = 0;
+  while (cut + 1 < size() && t > begins_[cut + 1]) ++cut;
+  return {cut, std::clamp(t - begins_[cut], 0., path_length(cut))};
+}
+
+void ReplayedWounds::positions(double t, const Level& level, std::span<Vec3> out) const {
+  const Blade now = blade(t);
+  const Replay& cutting = level.replays[now.cut];
+  cutting.positions(now.s, out);
+  if (now.cut == 0) return;
+  const Relief& relief = this->relief(now.cut);
+  const double part = this->part(now);
+  for (const ActiveVertex& a : cutting.active()) {
+    const std::size_t v = a.vertex;
+    out[v] = rest()[v] + relief.amplitude(now.cut, a.s, part) * (out[v] - rest()[v]);
+  }
+  for (std::size_t k = 0; k < now.cut; ++k)
+    for (std::size_t i = 0; i < level.complete[k].size(); ++i) {
+      const ActiveVertex& a = level.replays[k].active()[i];
+      out[a.vertex] += relief.amplitude(k, a.s, part) * level.complete[k][i];
+    }
+}
+
+}  // namespace cleft
