@@ -136,11 +136,12 @@ std::shared_ptr<const Field> field_of_the_cut() {
 }
 
 std::vector<double> ticks_while_cutting(const SurfaceMesh& mesh, const std::shared_ptr<const Field>& field,
-                                        int repeats, Beside beside) {
+                                        int repeats, Schedule schedule) {
   std::vector<double> least;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     Ticks ticks(mesh, field);
-    const std::vector<double> times = beside == Beside::in_turns ? ticks.in_turns() : ticks.by_the_clock();
+    const std::vector<double> times =
+        schedule == Schedule::in_turns ? ticks.in_turns() : ticks.by_the_clock();
     if (repeat == 0) least = times;
     if (times.size() != least.size()) throw std::runtime_error("the cut did not repeat");
     for (std::size_t i = 0; i < times.size(); ++i) least[i] = std::min(least[i], times[i]);

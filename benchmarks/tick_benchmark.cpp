@@ -17,9 +17,9 @@ int main(int argc, char** argv) try {
   const auto field = field_of_the_cut();
   for (const int squares : {78, 224, 708}) {
     const SurfaceMesh mesh = hills_to_cut(squares);
-    for (const auto& [beside, what] :
-         {std::pair{Beside::in_turns, "in turns"}, {Beside::by_the_clock, "by the clock"}}) {
-      const std::vector<double> ticks = ticks_while_cutting(mesh, field, repeats, beside);
+    for (const auto& [schedule, what] :
+         {std::pair{Schedule::in_turns, "in turns"}, {Schedule::by_the_clock, "by the clock"}}) {
+      const std::vector<double> ticks = ticks_while_cutting(mesh, field, repeats, schedule);
       const auto at = [&](double part) { return 1e-3 * quantile(ticks, part); };
       std::printf("%-13s %10zu %8zu %22.1f %6.1f %6.1f %6.1f\n", what, mesh.triangles.size(), ticks.size(),
                   at(.5), at(.99), at(.999), at(1));

@@ -33,7 +33,7 @@ void haptic_tick(benchmark::State& state) {
   const SurfaceMesh mesh = hills_to_cut(squares_for(state.range(0)));
   const auto field = field_of_the_cut();
   std::vector<double> ticks;
-  for (auto _ : state) ticks = ticks_while_cutting(mesh, field, repeats, Beside::in_turns);
+  for (auto _ : state) ticks = ticks_while_cutting(mesh, field, repeats, Schedule::in_turns);
   for (double& tick : ticks) tick *= 1e-3;
   state.counters["work_ticks"] = static_cast<double>(ticks.size());
   report_quantiles(state, "us_tick", ticks);
