@@ -1,4 +1,4 @@
-// A mesh of volume, cut where its surface is and moved by the same fields.
+// A volume mesh, cut together with its surface and moved by the same fields.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace cleft {
 
-/// Splits the cells that the blade has passed, moves all points as they are at t mm of all paths, and
-/// writes `out`. `surface` is the volume's, uncut. Without `wounds` nothing moves. Returns how many cells
-/// there are more than before.
+/// Splits the cells that the blade has passed, moves all points as they are at t mm of all paths, and writes
+/// `out`. `surface` is the volume's, uncut. Without `wounds` nothing moves. Returns the number of added
+/// cells.
 int write_cut_volume(VolumeMesh& volume, const SurfaceMesh& surface, const std::vector<const Incision*>& cuts,
                      const ReplayedWounds* wounds, double scale, double t, const std::string& out);
 

@@ -1,9 +1,7 @@
-// The mesh under the haptic scalpel: cut where the scalpel goes, opened as the field says, and felt as it is
-// then. It runs at the rate of graphics on a thread of its own; the haptic thread never waits for it.
-// Paper, 3.4 to 3.6.
-//
-// Along a path the scalpel says how far the cut has come. Without one it cuts where it is: from the skin
-// giving way until the blade is out again is a cut, and so on.
+// The mesh under the haptic scalpel: cut along the scalpel's motion, opened by the field, and passed to the
+// haptic surface. It runs at the rate of graphics on a thread of its own; the haptic thread never waits for
+// it. Paper, 3.4 to 3.6. With a path the scalpel determines the progress of the cut. Without one it cuts
+// where it is: a cut lasts from the puncture until the blade leaves the skin.
 #pragma once
 
 #include <deque>
@@ -20,54 +18,56 @@
 
 namespace cleft {
 
-/// Of all steps so far; times in seconds.
+/// Figures of all steps so far; times in seconds.
 struct CuttingFigures {
   int steps = 0, cuts = 0;          ///< cuts: steps in which the mesh was cut
-  std::size_t triangles_cut = 0;    ///< triangles that cuts changed or added, counted once a step
+  std::size_t triangles_cut = 0;    ///< triangles that cuts changed or added, counted once for each step
   TimeHistogram cut, open, update;  ///< the mesh; the field's displacements; the voxel grid after a cut
-  std::size_t waiting = 0;          ///< vertices that moved and are told in the next steps
-  std::string stopped;              ///< why the last cut could not go on; "" while it can
+  std::size_t waiting = 0;          ///< vertices that moved and are passed on in the next steps
+  std::string stopped;              ///< why the last cut could not continue; "" while it can
 };
 
 class ScalpelCutting {
  public:
   /// Lengths in mesh units; `scale`: mm per mesh unit. Without a field cuts stay closed.
   struct Setup {
-    std::optional<ScalpelPath> path;  ///< where alone the scalpel cuts
-    std::vector<ScalpelPath> made;    ///< cuts that are there already
+    std::optional<ScalpelPath> path;  ///< the only path that the scalpel cuts
+    std::vector<ScalpelPath> made;    ///< existing cuts
     std::optional<CutFields> fields;
     double scale = 1;
-    double depth = 0;  ///< mm, of cuts without a path; 0: as deep as the scalpel is
+    double depth = 0;  ///< mm, of cuts without a path; 0: as deep as the scalpel
   };
-  /// Throws InputError where a path does not meet the mesh.
+  /// Throws InputError if a path does not meet the mesh.
   ScalpelCutting(const SurfaceMesh& mesh, Setup setup);
 
   const ContactSurface& surface() const { return *surface_; }     ///< in mm
-  std::size_t incisions() const { return cuts_.size() - made_; }  ///< but those made before
-  double cut_length() const;                                      ///< mm, of all cuts but those made before
+  std::size_t incisions() const { return cuts_.size() - made_; }  ///< without the existing ones
+  double cut_length() const;  ///< mm, of all cuts without the existing ones
   const CuttingFigures& figures() const { return figures_; }
-  /// Of every cut, those made before too; none without a field.
+  /// The wounds of all cuts, including existing ones; none without a field.
   std::vector<Validity> validity() const;
   const CutMesh& mesh() const { return mesh_; }
   int original_points() const { return original_points_; }
-  /// The newest cut's; null where there is none.
+  /// That of the newest cut; null if there is none.
   const Incision* incision() const { return cuts_.empty() ? nullptr : cuts_.back().get(); }
-  /// Places of the cuts that the scalpel has made without a path, as they were led.
+  /// Places of the cuts that the scalpel has made without a path.
   const std::vector<std::vector<ScalpelPath::Point>>& led() const { return led_; }
-  bool cutting() const { return cutting_; }  ///< whether the last of them may go on
-  /// Of a vertex, mesh units, as it is felt.
+  bool cutting() const { return cutting_; }  ///< whether the last of them may continue
+  /// The position of a vertex in the haptic surface, mesh units.
   Vec3 position(int vertex) const { return 1 / setup_.scale * surface_->position(vertex); }
 
-  /// Cuts to where the scalpel is, if it cuts, and opens the wounds.
+  /// Cuts to the position of the scalpel, if it cuts, and opens the wounds.
   void step(const HapticState& scalpel);
-  /// The same for all that the loop has done since the last time: the way between is known.
+  /// The same for all ticks of the loop since the last call, so that the complete motion is cut.
   void step(TickQueue<HapticState>& ticks);
-  /// A place of a blade that nobody feels, of the skin at rest, mesh units: cuts there from the one before.
+  /// Cuts to a place of a blade without force feedback, on the skin at rest, mesh units, from the previous
+  /// one.
   void cut_at(const ScalpelPath::Point& place);
   void end_cut();
 
  private:
-  /// Most vertices that are told to move in one step: the others wait, so that no step takes long.
+  /// Largest number of vertices whose motion is passed on in one step: the others wait, so that no step takes
+  /// long.
   static constexpr std::size_t most_moved = 4000;
 
   void add_cut(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering);
@@ -91,14 +91,14 @@ class ScalpelCutting {
   int original_points_;
   std::vector<std::unique_ptr<Incision>> cuts_;
   LiveWounds wounds_;     // of all cuts; none without a field
-  std::size_t made_ = 0;  // cuts that were there before
+  std::size_t made_ = 0;  // existing cuts
   std::unique_ptr<ContactSurface> surface_;
   std::optional<ContactReader> reader_;
   bool cutting_ = false;
-  std::optional<ScalpelPath::Point> entered_;  // where the skin gave way
+  std::optional<ScalpelPath::Point> entered_;  // the place of the puncture
   std::vector<std::vector<ScalpelPath::Point>> led_;
-  std::vector<Vec3> displacements_;  // mm, of vertices, as told to the surface
-  std::deque<int> untold_;           // vertices that have moved since
+  std::vector<Vec3> displacements_;  // mm, of vertices, as in the haptic surface
+  std::deque<int> untold_;           // vertices that have moved since and are not passed on yet
   std::vector<bool> is_untold_;
   std::vector<ContactSurface::Moved> moved_;
   std::vector<ContactSurface::Changed> changed_;

@@ -1,4 +1,4 @@
-// What opens the cuts in a skin: one case's field, the same whichever way a cut goes; or fields of three
+// The fields that open the cuts in a skin: one case's field for all directions of a cut, or fields of three
 // prestresses, superposed as the skin's tension turns against each path.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace cleft {
 class CutFields {
  public:
   explicit CutFields(std::shared_ptr<const Field> one) : one_(std::move(one)) {}
-  /// Without `tension`, every path must have prestresses of its own.
+  /// Without `tension`, each path must have its own prestresses.
   CutFields(std::shared_ptr<const PrestressFields> three, const std::optional<SkinTension>& tension)
       : three_(std::move(three)), tension_(tension) {}
 
@@ -21,8 +21,8 @@ class CutFields {
   bool turning() const { return !one_; }
 
   /// The wound of a cut whose surroundings are known; neither the cut nor this must end before it. `own`:
-  /// prestresses along its path, where they are known better than by the tension. Throws InputError where one
-  /// field is asked to turn, or three are not told how.
+  /// prestresses along its path that override the tension. Throws InputError if a tension is given for one
+  /// field, or none for three.
   Wound wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own = {}) const;
 
  private:
@@ -35,9 +35,9 @@ class CutFields {
 Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,
                        double scale);
 
-/// Of a field file, or of a study.dffd of three cases of other prestress. `direction` (three numbers) and
-/// `prestresses` (two, MPa, in either order) tell the tension, where they are not empty. Throws InputError
-/// where one case's field is given a tension.
+/// The fields of a field file, or of a study.dffd of three cases with different prestress. `direction` (three
+/// numbers) and `prestresses` (two, MPa, in either order) are the tension, if they are not empty. Throws
+/// InputError if a tension is given for one case's field.
 CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,
                           const std::vector<double>& prestresses);
 

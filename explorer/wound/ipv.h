@@ -1,17 +1,16 @@
 // The incision parametrisation volume: the canonical (u, v, w) of every vertex near a cut, and the frame in
-// which a canonical displacement comes back. Paper, section 3.5.
+// which its canonical displacement is applied. Paper, section 3.5.
 //
 // u runs with the path's arc length; a path longer than the canonical cut keeps its first and last half, and
 // between them the steady state of the middle. v is the distance from the path over the skin, measured across
-// it. w is 0 on the skin; the walls reach from there to the canonical depth, whatever their own, along the
-// blade; where that is tilted, displacements are still those of the skin's own frame (T, across, the skin's
-// normal along the cut). On which side a vertex lies is told by the surface, from which lip it is reached
-// first, never by space: a vertex that lies opposite the cut but far along the surface takes no part.
+// it. w is 0 on the skin; the walls reach from there to the canonical depth, independent of their own depth,
+// along the blade; if the blade is tilted, displacements are still in the skin's frame (T, across, the skin's
+// normal along the cut). The side of a vertex follows from the surface (the lip from which it is reached
+// first), never from space: a vertex opposite the cut but far along the surface does not move.
 //
 // Where the path bends tighter than the patch is wide, the nearest place of the path jumps: displacements
-// fall to nothing before.
-//
-// Where a vertex lies does not depend on how far the blade has come, only on which side of the wound it is.
+// decrease to zero before. The coordinates of a vertex depend on its side of the wound, not on the position
+// of the blade.
 #pragma once
 
 #include <array>
@@ -31,14 +30,14 @@ struct ActiveVertex {
   double s = 0;                 ///< mm along the path
   double time_offset = 0;  ///< tau: with the blade at p the field's time is clamp(p + tau, 0, cut length)
   double weight =
-      1;  ///< 1 in the patch, falling to 0 over a quarter of its width beside it, and inside bends
+      1;  ///< 1 in the patch, falling to 0 over a quarter of its width outside it, and inside bends
   bool on_cut = false;  ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
 
   /// A canonical displacement here, weighted, in the directions of the mesh's space; in the same unit.
   Vec3 in_mesh(const Vec3& d) const { return weight * (d.x * along + d.y * across + d.z * outward); }
 };
 
-/// Where the place s of a path of length `length` (all mm) lies on the canonical cut.
+/// The place on the canonical cut of the place s of a path of length `length` (all mm).
 struct CanonicalPlace {
   double u, time_offset;
 };
@@ -52,21 +51,21 @@ class IncisionVolume {
   /// The incision and the field must outlive it.
   IncisionVolume(const Incision& incision, const Field& field, double scale);
 
-  /// To be told of the vertices of changed triangles, and of those that are new, sorted, after every change
-  /// of the mesh.
+  /// Must be called after each change of the mesh with the vertices of changed triangles and new vertices,
+  /// sorted.
   void take_in(const std::vector<int>& vertices);
-  /// To be told when the incision's path was led on, before take_in(): the surroundings' relabelled() lie
-  /// elsewhere.
+  /// Must be called when the incision's path was extended, before the update of vertices: the surroundings'
+  /// relabelled() have new labels.
   void follow_path();
 
-  /// Where a vertex lies, if the field reaches it.
+  /// The coordinates of a vertex, if the field reaches it.
   std::optional<ActiveVertex> locate(int vertex) const;
 
-  /// Where a place below the skin lies: `depth` mm under it, nearest to a vertex of it. `side` tells on which
-  /// side of the cut's surface a place on it is; elsewhere `both`. Its `vertex` is -1.
+  /// The coordinates of a place `depth` mm below the skin, where `nearest` is the nearest vertex of the skin.
+  /// `side`: the side of the cut's surface for a place on it; elsewhere `both`. Its `vertex` is -1.
   std::optional<ActiveVertex> locate_below(const Vec3& place, double depth, int nearest, Side side) const;
 
-  /// At s, mesh units: T of the path made perpendicular to the skin's mean normal there, and that.
+  /// The frame at s, mesh units: the skin's mean normal, and T of the path perpendicular to it.
   PathFrame skin_frame(double s) const;
   double scale() const { return scale_; }
   /// All vertices that the field can move, in the order of their numbers. take_in() must know all of them.

@@ -1,6 +1,6 @@
-// The wound while it is being cut: vertices enter when the blade comes near, each contracted once, and are
-// left alone when they have come to rest. What a step costs goes with what the cut has changed, and a frame
-// with the vertices that move. Positions are those of a Replay of the same incision, bit for bit.
+// The wound while it is being cut: vertices enter when the blade comes near, are contracted once, and are not
+// evaluated once they are at rest. The cost of a step is proportional to the change of the cut, that of a
+// frame to the number of moving vertices. Positions are those of a Replay of the same incision, bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -18,55 +18,54 @@ namespace cleft {
 class LiveReplay {
  public:
   /// The wound, whose field's displacements at t = 0 must be 0, must outlive it; its volume follows the
-  /// incision here. Of vertices that enter together no more than `most_entering` do so at once, the others at
-  /// the next calls: so long they stay at rest.
+  /// incision here. Of vertices that enter together at most `most_entering` do so at once, the others at the
+  /// next calls; until then they are at rest.
   explicit LiveReplay(Wound& wound, std::size_t most_entering = std::numeric_limits<std::size_t>::max());
 
-  /// To be called after every advance_to, lead_on, undo and redo of the incision, and of later ones in its
-  /// mesh. Where the path was led on, vertices stay where they were taken to lie until that was wrong by
-  /// `misplaced`.
+  /// Must be called after every change of the incision, and of later ones in its mesh. If the path was
+  /// extended, vertices keep their coordinates until these are wrong by `misplaced`.
   void follow();
   /// The blade is at s mm of the path.
   void move_to(double s);
 
-  /// Of a vertex of the incision's mesh, mesh units.
+  /// The position of a vertex of the incision's mesh, mesh units.
   const Vec3& position(int vertex) const { return position_[static_cast<std::size_t>(vertex) + 1]; }
   Vec3 displacement(int vertex) const {
     return position(vertex) - rest_[static_cast<std::size_t>(vertex) + 1];
   }
   std::size_t vertex_count() const { return rest_.size() - 1; }
 
-  /// Where along the path a vertex that has entered lies, mm.
+  /// The arc length of a vertex that has entered, mm.
   double station(int vertex) const { return stations_[static_cast<std::size_t>(vertex) + 1]; }
-  /// All that have entered and are still there.
+  /// All vertices that have entered and still exist.
   std::vector<int> entered() const;
 
   /// The vertices whose positions the last follow() or move_to() has computed, some perhaps twice.
   const std::vector<int>& touched() const { return touched_; }
   std::size_t active() const { return active_; }          ///< vertices that have entered
-  std::size_t late() const { return late_.size(); }       ///< that should have
+  std::size_t late() const { return late_.size(); }       ///< vertices that are waiting to enter
   std::size_t contracted() const { return contracted_; }  ///< in the last follow()
 
  private:
   /// Vertices that entered together.
   struct Batch {
     ReplayPieces pieces;
-    std::size_t left;  ///< that are still in it
+    std::size_t left;  ///< vertices that are still in it
   };
   struct Slot {
     int batch = -1, index = 0;
-    std::uint32_t version = 0;  ///< of its place: what waits for an older one is forgotten
+    std::uint32_t version = 0;  ///< of its place: requests for an older one are ignored
   };
-  /// Where a vertex was taken to lie.
+  /// The assumed coordinates of a vertex.
   struct Placed {
     bool anywhere = false;
     Side side = Side::both;
     double s = 0, across = 0;  // mm
     Vec3 along;
   };
-  /// A vertex is placed anew where its place was wrong by so many mm, or T by so many radians. Over a quarter
-  /// of a millimetre a wound's displacements change by some hundredths of one; to place every vertex anew
-  /// with every piece of the path would contract the field for each of them many times.
+  /// A vertex gets new coordinates if they are wrong by this distance, mm, or T by this angle, rad. Over a
+  /// quarter of a millimetre a wound's displacements change by some hundredths of a millimetre; updating all
+  /// vertices with each piece of the path would contract the field many times for each of them.
   static constexpr double misplaced = 0.25, turned = 0.1;
   struct Waiting {
     double enters;  ///< mm of the path
@@ -89,10 +88,10 @@ class LiveReplay {
   std::size_t most_entering_;
   bool undone_ = false;
   Contractor contractor_;
-  std::vector<Vec3> rest_, position_;  // number 0 is nobody's: it takes what is computed for those that left
+  std::vector<Vec3> rest_, position_;  // number 0 is unused: it receives the results of vertices that left
   std::vector<Slot> slots_;
   std::vector<double> stations_;
-  std::vector<Placed> placed_;  // of a path that is led on
+  std::vector<Placed> placed_;  // of a path that is extended
   std::vector<Batch> batches_;
   std::priority_queue<Waiting> waiting_;
   std::deque<Waiting> late_;

@@ -10,19 +10,18 @@ class LiveWounds : public Wounds {
  public:
   LiveWounds() = default;
 
-  /// A wound of the newest cut of the mesh. Of its vertices no more than `most_entering` begin to move at
+  /// Adds a wound of the newest cut of the mesh. At most `most_entering` of its vertices begin to move at
   /// once.
   void add(Wound wound, std::size_t most_entering);
-  /// To be called after every change of the mesh: the first `count` wounds, or all, take it in.
+  /// Must be called after each change of the mesh: updates the first `count` wounds, or all.
   void follow(std::size_t count);
   void follow() { follow(size()); }
-  /// The blade of every wound is at its tip.
+  /// Moves the blade of each wound to its tip.
   void move_to_tips();
-  /// The blade of the newest wound is at the end of its path.
+  /// Moves the blade of the newest wound to the end of its path.
   void complete_newest();
-  /// Finds how far each opens in the tension that the others leave, where cuts have grown by a millimetre
-  /// since the last time, or one is complete: returns whether it did. Where a field does not tell the tension
-  /// they add.
+  /// Updates the mutual relief if cuts have grown by a millimetre since the last update, or one is complete;
+  /// returns whether it did. If a field lacks the tension, the displacements add.
   bool relieve();
 
   /// The displacement of a vertex by all wounds, mm.
@@ -33,7 +32,7 @@ class LiveWounds : public Wounds {
       sum += scale_ * newest_relief().amplitude(k++, replay.station(vertex), 1) * replay.displacement(vertex);
     return sum;
   }
-  /// Every wound's vertices, alone.
+  /// The vertices of each wound.
   const std::deque<LiveReplay>& replays() const { return replays_; }
 
  private:

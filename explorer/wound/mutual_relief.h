@@ -1,10 +1,10 @@
-// Cuts side by side relieve each other: each opens in the tension that the others leave. So the field of each
-// is scaled along its path by A(s), the tension across it there over what it would be without the others:
+// Cuts side by side relieve each other: each opens in the tension that the others leave. The field of each is
+// scaled along its path by A(s), the tension across it relative to that without the others:
 //   A_i(s) = 1 + sum over j of A_j r_ij(s),   r_ij = (change of tension across path i that cut j alone makes)
 //   / (tension)
-// a fixed point in the amplitudes of all, which are at the same time both cause and effect (Kachanov 1987,
-// elastic solids with many cracks; his are constants, these follow the path). The change of tension in the
-// skin is its plane stress in the strain of the other cut's field.
+// a fixed point in the amplitudes of all cuts (Kachanov 1987, elastic solids with many cracks, with constant
+// amplitudes; here they vary along the path). The change of tension in the skin is its plane stress for the
+// strain of the other cut's field.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,9 @@ struct Amplitude {
   double at(double s) const;
 };
 
-/// How far each of several cuts opens while the blade makes the newest of them: their amplitudes, found with
-/// the blade at equal steps of its path, and linear between these. One step holds wherever the blade is;
-/// without any, and for cuts that it does not know, every cut opens as it would alone.
+/// The amplitudes of several cuts while the blade makes the newest of them, at equal steps of its path,
+/// linear between these. A single step holds for all positions of the blade; without steps, and for unknown
+/// cuts, the amplitude is 1.
 class Relief {
  public:
   Relief() = default;
@@ -31,7 +31,7 @@ class Relief {
 
   const std::vector<std::vector<Amplitude>>& steps() const { return steps_; }
   std::size_t cuts() const { return steps_.empty() ? 0 : steps_.front().size(); }
-  /// At s mm of a cut's path; the blade has come as far as `part` of its own.
+  /// The amplitude at s mm of a cut's path; the blade is at `part` of its own path.
   double amplitude(std::size_t cut, double s, double part) const {
     if (cut >= cuts()) return 1;
     if (steps_.size() == 1) return steps_.front()[cut].at(s);
@@ -45,8 +45,8 @@ class Relief {
   std::vector<std::vector<Amplitude>> steps_;
 };
 
-/// Of every cut, with the blade of the last one at `blade` mm of its path and the others complete. All 1 for
-/// a single cut. Throws InputError where a field does not tell the skin's prestress and stiffness.
+/// The amplitudes of all cuts, with the blade of the last one at `blade` mm of its path and the others
+/// complete. All 1 for a single cut. Throws InputError if a field lacks the skin's prestress or stiffness.
 std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade);
 
 }  // namespace cleft

@@ -1,5 +1,5 @@
 // A cut in skin whose tension turns against the path: fields of one cut that differ in the skin's prestress
-// alone, superposed at every place of the path for the prestress there.
+// alone, superposed at each place of the path for the prestress there.
 #pragma once
 
 #include <string>
@@ -28,19 +28,20 @@ struct SkinTension {
 /// A case's prestress, MPa; components that are not recorded are 0.
 Prestress prestress_of(const RecordedParameters& parameters);
 
-/// In the frame of the skin under the path. Throws InputError where the direction stands upright on the skin.
+/// The prestress in the frame of the skin along the path. Throws InputError if the direction is normal to the
+/// skin.
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension);
 
 class PrestressFields {
  public:
   /// Cases of a study that differ from case `like` in skin.prestress_u, _v and _uv alone. Throws InputError
-  /// where there are no three of them whose prestresses are independent.
+  /// if there are no three of them with independent prestresses.
   PrestressFields(const PublishedStudy& study, int like);
-  /// A study.dffd. Throws InputError too where its cases differ in anything else.
+  /// The cases of a study.dffd. Also throws InputError if its cases differ in anything else.
   explicit PrestressFields(const std::string& study_file);
 
   const Field& shape() const { return fields_.front(); }
-  /// Reads this object's fields: must not outlive it.
+  /// Refers to this object's fields, which must outlive it.
   VaryingField along(const PathPrestress& prestress) const;
 
  private:

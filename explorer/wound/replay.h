@@ -1,5 +1,5 @@
-// The wound at any position of the blade: every frame is computed from the REST positions, so that time runs
-// both ways and nothing accumulates.
+// The wound at any position of the blade: each frame is computed from the rest positions, so that time can
+// run both ways and errors do not accumulate.
 #pragma once
 
 #include <memory>
@@ -16,23 +16,23 @@ class Contractor;
 class Replay {
  public:
   /// Contracts the wound's field once for each active vertex, to within its contraction_tolerance(), and does
-  /// not read the wound afterwards. Vertices that never move by more than `detail` mm stay where they are,
-  /// and cost nothing.
+  /// not read the wound afterwards. Vertices that never move by more than `detail`, mm, stay at rest and are
+  /// not evaluated.
   explicit Replay(const Wound& wound, double detail = 0);
 
   /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
-  /// for each vertex of the incision's mesh. Allocates nothing.
+  /// for each vertex of the incision's mesh. Allocates no memory.
   void positions(double s, std::span<Vec3> out) const;
 
   double path_length() const { return path_length_; }  ///< mm
   std::size_t vertex_count() const { return rest_->size(); }
   const std::vector<ActiveVertex>& active() const { return active_; }
   std::size_t left_out() const { return left_out_; }  ///< vertices that move too little
-  /// active()[i] never moves by more, mm: control points bound it.
+  /// A bound of the motion of active()[i], mm, by its control points.
   double bound(std::size_t i) const { return scale_ * pieces_.bound(i); }
   const std::vector<Vec3>& rest() const { return *rest_; }
 
-  /// The same in which only active()[chosen[k]] move, bit for bit as before; `chosen` ascends.
+  /// The same with only active()[chosen[k]] moving, bit for bit as before; `chosen` ascends.
   Replay of(const std::vector<std::size_t>& chosen) const;
 
  private:

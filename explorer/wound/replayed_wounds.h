@@ -8,30 +8,29 @@ namespace cleft {
 
 class ReplayedWounds : public Wounds {
  public:
-  /// At least one, all in one mesh, in the order in which they were made. Throws InputError where the fields
-  /// do not tell how several cuts relieve each other.
+  /// At least one, all in one mesh, in the order in which they were made. Throws InputError if the fields
+  /// lack the parameters for the mutual relief of several cuts.
   explicit ReplayedWounds(std::vector<Wound> wounds);
 
-  /// The length of all paths, mm. The blade makes one cut after another: blade(t) is where it is when it has
-  /// come t mm.
+  /// The length of all paths, mm. The blade makes one cut after another: blade(t) is its position after t mm.
   double duration() const { return begins_.back(); }
   Blade blade(double t) const;
 
-  /// What a frame evaluates.
+  /// The data that a frame evaluates.
   struct Level {
     std::vector<Replay> replays;
-    /// Of every cut but the last: displacements of its active vertices when it is made.
+    /// For every cut but the last: displacements of its active vertices when it is complete.
     std::vector<std::vector<Vec3>> complete;
-    double error = 0;              ///< mm by which vertices left out are off at most
+    double error = 0;              ///< bound of the error of vertices left out, mm
     std::size_t active() const;    ///< vertices that a field moves, counted for every cut
     std::size_t left_out() const;  ///< those that move too little, likewise
   };
-  /// Without the vertices that all cuts together never move by more than `detail` mm: they stay at rest. The
-  /// others move bit for bit as without it.
+  /// Without the vertices that all cuts together never move by more than `detail`, mm, which stay at rest.
+  /// All others move as before, bit for bit.
   Level level(double detail) const;
   const Level& whole() const { return whole_; }
 
-  /// Positions of all vertices at t, mesh units. Allocates nothing.
+  /// Positions of all vertices at t, mesh units. Allocates no memory.
   void positions(double t, std::span<Vec3> out) const { positions(t, whole_, out); }
   void positions(double t, const Level& level, std::span<Vec3> out) const;
 
@@ -45,7 +44,7 @@ class ReplayedWounds : public Wounds {
 
   std::vector<double> begins_;  // t at which each cut begins, and the end
   Level whole_;
-  std::vector<double> bounds_;  // by how many mm all cuts together move a vertex at most
+  std::vector<double> bounds_;  // bounds of the motion of each vertex by all cuts, mm
 };
 
 }  // namespace cleft

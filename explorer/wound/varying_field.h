@@ -1,5 +1,5 @@
-// The field of a cut in skin that is not the same all along it: fields of the same canonical cut, superposed
-// with weights that vary along the path.
+// The field of a cut in skin whose prestress varies along the cut: fields of the same canonical cut,
+// superposed with weights that vary along the path.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ double parameter_of(const Field& field, const double& member);
 
 class VaryingField {
  public:
-  /// One field, the same all along. Fields must outlive this, and all that is made from it.
+  /// One field along the whole path. Fields must outlive this object and its copies.
   VaryingField(const Field& field) : fields_{&field} {}  // NOLINT(google-explicit-constructor)
 
   /// weights[i][k] is that of fields[k] at stations[i], mm along the path; linear between them. Throws
-  /// InputError where the fields are not of the same cut in the same patch.
+  /// InputError if the fields are not of the same cut in the same patch.
   VaryingField(std::vector<const Field*> fields, std::vector<double> stations,
                std::vector<std::vector<double>> weights);
 
@@ -29,7 +29,7 @@ class VaryingField {
   std::span<const Field* const> fields() const { return fields_; }
   double contraction_tolerance() const;
 
-  /// Field::contract at s mm of the path. The histories' memory is used again from call to call.
+  /// Field::contract at s mm of the path. Memory of `out` is reused from call to call.
   void contract(const Vec3& uvw, Side side, double s, std::span<const double> stops, History& out) const;
   /// Field::displacement at s mm of the path.
   Vec3 displacement(const Vec3& uvw, Side side, double t, double s) const;

@@ -1,4 +1,4 @@
-// A cut that opens: the incision, the field that opens it, and where the mesh's vertices are in that field.
+// A cut that opens: the incision, its field, and the coordinates of the mesh's vertices in that field.
 #pragma once
 
 #include "explorer/incision/incision.h"
@@ -13,13 +13,13 @@ struct Wound {
   /// must outlive the wound. `scale`: mm per mesh unit.
   Wound(const Incision& cut, const VaryingField& opened_by, double scale)
       : incision(&cut), field(opened_by), volume(cut, field.shape(), scale) {}
-  /// With a volume that was built already, of the same field's shape.
+  /// With an existing volume for a field of the same shape.
   Wound(const Incision& cut, VaryingField opened_by, IncisionVolume built)
       : incision(&cut), field(std::move(opened_by)), volume(std::move(built)) {}
 
   double scale() const { return volume.scale(); }  ///< mm per mesh unit
-  /// Where the blade is once the cut is complete, mm: at the end of the path. A path that was led on ends
-  /// where the blade has left it.
+  /// The position of the blade when the cut is complete, mm: the end of the path. An extended path ends where
+  /// the blade has left it.
   double complete() const {
     return (incision->led() > 0 ? incision->tip() : incision->path().length()) * scale();
   }

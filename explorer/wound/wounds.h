@@ -1,6 +1,6 @@
-// Several cuts in one mesh, made one after the other: each opens as its field says, in the tension that the
-// others leave. What they make of the mesh's vertices is evaluated in two ways: `ReplayedWounds` at any time
-// of cuts that are all known, `LiveWounds` at their tips while they are made.
+// Several cuts in one mesh, made one after the other: each opens as its field predicts, in the tension that
+// the others leave. The displacements of vertices are evaluated in two ways: `ReplayedWounds` at any time of
+// cuts that are all known, `LiveWounds` at their tips while they are made.
 #pragma once
 
 #include <deque>
@@ -23,35 +23,35 @@ class Wounds {
   /// In the order in which they were made.
   const Wound& operator[](std::size_t cut) const { return wounds_[cut]; }
 
-  /// The blade has come to `s` mm of the path of `cut`; those before are complete, and later ones not begun.
+  /// The blade is at `s` mm of the path of `cut`; earlier cuts are complete, later ones not begun.
   struct Blade {
     std::size_t cut;
     double s;
   };
-  /// How far a cut opens at s mm of its path, over what it would alone, with the blade there.
+  /// The amplitude of a cut at s mm of its path with the given blade: its opening relative to that without
+  /// other cuts.
   double amplitude(std::size_t cut, double s, const Blade& blade) const;
 
   /// The displacement of a place below the skin by all cuts, mesh units. `nearest` is a vertex of the skin,
-  /// `depth` in mm, and sides[k] tells where it is of cut k if on its surface.
+  /// `depth` in mm, and sides[k] is its side of cut k if it is on its surface.
   Vec3 displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,
                           const Blade& blade) const;
 
-  /// How far each cut is like those that replays were compared with. `turned`: whether the fields follow the
-  /// tension.
+  /// The validity of each cut. `turned`: whether the fields follow the tension.
   std::vector<Validity> validity(bool turned) const { return validity_of(first(size()), turned); }
 
  protected:
   Wounds() = default;
   ~Wounds() = default;
 
-  /// A further wound; those before stay where they are in memory. Until its own relief is known that of the
-  /// wound before it holds.
+  /// Adds a wound; earlier ones keep their addresses. Until its own relief is known, that of the wound before
+  /// it holds.
   Wound& add(Wound wound);
   std::vector<const Wound*> first(std::size_t count) const;
   const Relief& relief(std::size_t newest) const { return relief_[newest]; }
   const Relief& newest_relief() const { return relief_.back(); }
   void set_relief(std::size_t newest, Relief relief) { relief_[newest] = std::move(relief); }
-  /// The part of its path that the blade has come to, for Relief::amplitude().
+  /// The completed part of the blade's path, for Relief::amplitude().
   double part(const Blade& blade) const;
 
  private:
