@@ -125,11 +125,11 @@ void Incision::advance_to(double s) {
   cut_on_to(*state_, s);
 }
 
-void Incision::lead_on(const ScalpelPath::Point& next, double ahead) {
+void Incision::extend(const ScalpelPath::Point& next, double ahead) {
   CLEFT_CHECK(undone_.has_value(), ==, false);
   mesh_.forget_changes();
-  const double from = led_;
-  led_ = path_.lead_on(from, next, path_.length() - from);
+  const double from = extended_to_;
+  extended_to_ = path_.extend(from, next, path_.length() - from);
   state_->drop_provisional();  // what comes now would be taken back with it
   state_->next.reset();
   const int v = state_->tip_vertex();
@@ -137,10 +137,10 @@ void Incision::lead_on(const ScalpelPath::Point& next, double ahead) {
   const PathFrame here = path_.at(tip());
   const double height = dot(mesh_.position(v) - here.position, here.outward);
   if (max_edge_ > 0)
-    refine_along(mesh_, path_, tip(), led_ + Limits::growing_ahead_edges * max_edge_, seeds, height,
+    refine_along(mesh_, path_, tip(), extended_to_ + Limits::growing_ahead_edges * max_edge_, seeds, height,
                  max_edge_, Limits::growing_band_edges * max_edge_);
-  if (reach_ > 0) surroundings_.lead_on(mesh_, path_, tip(), ahead, triangle_ahead(*state_));
-  cut_on_to(*state_, led_);
+  if (reach_ > 0) surroundings_.extend(mesh_, path_, tip(), ahead, triangle_ahead(*state_));
+  cut_on_to(*state_, extended_to_);
 }
 
 void Incision::undo() {

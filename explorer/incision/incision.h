@@ -55,9 +55,9 @@ class Incision {
   /// For a path that is not known in advance: extends the path to `next` and straight beyond it, refines the
   /// triangles there, searches the surroundings again up to `ahead` beyond, and cuts to `next`. Errors as
   /// advance_to; if the direction is invalid the path is unchanged.
-  void lead_on(const ScalpelPath::Point& next, double ahead);
+  void extend(const ScalpelPath::Point& next, double ahead);
   /// Arc length up to which the path was extended; beyond it the path is straight.
-  double led() const { return led_; }
+  double extended_to() const { return extended_to_; }
 
   /// Undoes and redoes the whole cut, including refinement: both bit for bit.
   void undo();
@@ -103,7 +103,7 @@ class Incision {
   std::unique_ptr<IncisionState> state_;  // of the steps: incision_state.h
   ScalpelPath& path_;                     // the state's
   double max_edge_, reach_;
-  double led_ = 0;
+  double extended_to_ = 0;
   int original_triangles_;
   Surroundings surroundings_;
   std::optional<CutMesh::Undone> undone_;

@@ -131,7 +131,7 @@ ScalpelPath ScalpelPath::until(double s) const {
   return part;
 }
 
-double ScalpelPath::lead_on(double s, const Point& next, double beyond) {
+double ScalpelPath::extend(double s, const Point& next, double beyond) {
   constexpr int pieces = 4, parts = 8, pieces_beyond = 16;
   Sample from = sample_at(s);
   from.tangent = normalized(from.tangent);
@@ -172,7 +172,7 @@ double ScalpelPath::lead_on(double s, const Point& next, double beyond) {
   return s;
 }
 
-double ScalpelPath::room_beside(double s, bool right) const {
+double ScalpelPath::room(double s, bool right) const {
   // The smallest circle that touches the path at C(s) and meets it again. Very near to s that would be the
   // curvature of a hand's tremor.
   const PathFrame frame = at(s);

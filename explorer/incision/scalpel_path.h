@@ -40,7 +40,7 @@ class ScalpelPath {
   /// For a path that is not known in advance: keeps the path up to s, continues from there smoothly to
   /// `next`, and straight for `beyond`. Returns the arc length of `next`. Throws InputError if the direction
   /// is tangential to the path, which is then unchanged.
-  double lead_on(double s, const Point& next, double beyond);
+  double extend(double s, const Point& next, double beyond);
 
   /// Its part up to s, within it.
   ScalpelPath until(double s) const;
@@ -61,7 +61,7 @@ class ScalpelPath {
 
   /// The distance from C(s), to the left or the right, up to which C(s) is the nearest point of the path: in
   /// a bend up to its centre of curvature; infinite for a straight path.
-  double room_beside(double s, bool right) const;
+  double room(double s, bool right) const;
 
  private:
   struct Sample {

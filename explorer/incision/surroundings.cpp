@@ -249,8 +249,7 @@ void Surroundings::keep_until(double from) {
   reached_.clear();
 }
 
-void Surroundings::lead_on(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead,
-                           int seed) {
+void Surroundings::extend(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed) {
   const auto before = static_cast<int>(labels_.size()), now = static_cast<int>(mesh.vertices().size());
   keep_until(from);
   labels_.resize(now);

@@ -22,7 +22,7 @@ class Surroundings {
   /// For a path that is not known in advance: the path has changed from `from` on, and passes the triangle
   /// `seed` there. Searches again the skin next to the path from `from` to `from` + `ahead`, and nothing
   /// else.
-  void lead_on(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed);
+  void extend(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed);
 
   /// A piece of the path's trace, in one triangle, around s.
   struct Station {

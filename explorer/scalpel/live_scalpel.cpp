@@ -41,15 +41,15 @@ void LiveScalpel::follow() {
 }
 
 void LiveScalpel::tell() {
-  const std::size_t ended = cutting_.led().size() - (cutting_.cutting() ? 1 : 0);
+  const std::size_t ended = cutting_.free_cuts().size() - (cutting_.cutting() ? 1 : 0);
   const std::string& stopped = cutting_.figures().stopped;
   std::shared_ptr<const CuttingMoment> next;
   if (wanted_.exchange(false)) next = moment_of(cutting_, moment_.get());
   if (!next && ended == ended_count_ && stopped == stopped_before_) return;
   const std::lock_guard lock(mutex_);
   if (next) moment_ = std::move(next);
-  ended_.insert(ended_.end(), cutting_.led().begin() + static_cast<std::ptrdiff_t>(ended_count_),
-                cutting_.led().begin() + static_cast<std::ptrdiff_t>(ended));
+  ended_.insert(ended_.end(), cutting_.free_cuts().begin() + static_cast<std::ptrdiff_t>(ended_count_),
+                cutting_.free_cuts().begin() + static_cast<std::ptrdiff_t>(ended));
   ended_count_ = ended;
   if (stopped != stopped_before_) stopped_ = stopped_before_ = stopped;
 }

@@ -10,12 +10,12 @@
 namespace cleft {
 
 namespace {
-constexpr double beside = 5;         // mm: a scalpel farther from the path does not follow it
-constexpr double ahead = 10;         // mm: how far ahead of the tip the path is looked at
-constexpr double told = 2e-3;        // mm: smaller motions of the skin are not felt
-constexpr double piece = 0.7;        // mm, of a way that is found as the scalpel goes
-constexpr double sharpest = 0.5;     // cosine of the turn from one piece to the next: an edge cuts ahead
-constexpr double least_depth = 0.5;  // mm, of a cut as deep as the scalpel is
+constexpr double beside = 5;           // mm: a scalpel farther from the path does not follow it
+constexpr double ahead = 10;           // mm: how far ahead of the tip the path is looked at
+constexpr double least_motion = 2e-3;  // mm: smaller motions of the skin are imperceptible
+constexpr double piece = 0.7;          // mm, of a way that is found as the scalpel goes
+constexpr double sharpest = 0.5;       // cosine of the turn from one piece to the next: an edge cuts ahead
+constexpr double least_depth = 0.5;    // mm, of a cut as deep as the scalpel is
 /// The cosine of the angle between the blade and the skin's normal, at least: a blade that lies flatter would
 /// meet the skin that is felt at a place far from its tip.
 constexpr double least_upright = 0.2;
@@ -149,11 +149,12 @@ void ScalpelCutting::cut_on_to(const ScalpelPath::Point& at) {
   }
   if (!cutting_ && setup_.scale * norm(at.position - entered_->position) >= piece) {
     cut([&] { begin_cut(*entered_, at); });
-    if (cutting_) cut([&] { lead_on(at); });
+    if (cutting_) cut([&] { extend(at); });
   } else if (cutting_ && leads_on(at)) {
-    cut([&] { lead_on(at); });
+    cut([&] { extend(at); });
   } else if (cutting_ &&
-             setup_.scale * norm(at.position - incision()->path().at(incision()->led()).position) > beside) {
+             setup_.scale * norm(at.position - incision()->path().at(incision()->extended_to()).position) >
+                 beside) {
     end_cut();  // it has turned back, or leapt: that is another cut
     entered_ = at;
   }
@@ -161,15 +162,15 @@ void ScalpelCutting::cut_on_to(const ScalpelPath::Point& at) {
 
 /// Half of what the scalpel is beside the way so far: at the tip the skin is torn aside, and which lip the
 /// blade meets there is chance. From piece to piece a lasting deviation is halved.
-void ScalpelCutting::lead_on(ScalpelPath::Point next) {
+void ScalpelCutting::extend(ScalpelPath::Point next) {
   Incision& incision = *cuts_.back();
-  const PathFrame end = incision.path().at(incision.led());
+  const PathFrame end = incision.path().at(incision.extended_to());
   next.position -= (1 - taken_up) * dot(next.position - end.position, end.across) * end.across;
   next.outward = normalized(next.outward + end.outward);
   // The field moves vertices from half its cut's length ahead of the blade on.
   const double beyond = (setup_.fields ? setup_.fields->shape().cut().length / 2 : far) / setup_.scale;
-  incision.lead_on(next, beyond);
-  led_.back().push_back(next);
+  incision.extend(next, beyond);
+  free_cuts_.back().push_back(next);
 }
 
 void ScalpelCutting::begin_cut(const ScalpelPath::Point& first, const ScalpelPath::Point& next) {
@@ -180,19 +181,19 @@ void ScalpelCutting::begin_cut(const ScalpelPath::Point& first, const ScalpelPat
   options.reach = setup_.fields ? reach_of(setup_.fields->shape(), setup_.scale) : 0;
   options.refined = norm(next.position - first.position);
   add_cut(ScalpelPath({first, end}), options, most_entering);
-  led_.push_back({first});
+  free_cuts_.push_back({first});
   cutting_ = true;
 }
 
 bool ScalpelCutting::leads_on(const ScalpelPath::Point& next) const {
   const Incision& incision = *cuts_.back();
-  const PathFrame end = incision.path().at(incision.led());
+  const PathFrame end = incision.path().at(incision.extended_to());
   const Vec3 way = next.position - end.position;
   const double distance = setup_.scale * norm(way);
   return distance >= piece && distance < beside && dot(way, end.along) >= sharpest * norm(way);
 }
 
-/// One change of the newest incision, told to the surface and the openings.
+/// One change of the newest incision, passed on to the surface and the wounds.
 template <class Change>
 void ScalpelCutting::cut(const Change& change) {
   Stopwatch watch;
@@ -203,12 +204,12 @@ void ScalpelCutting::cut(const Change& change) {
     cutting_ = false;
   }
   figures_.cut.add(watch.lap());
-  take_in_changes();
+  collect_changes();
   wounds_.follow();
   tell_touched();
 }
 
-void ScalpelCutting::take_in_changes() {
+void ScalpelCutting::collect_changes() {
   displacements_.resize(mesh_.vertices().size());
   changed_.clear(), vertices_.clear(), moved_.clear();
   for (const int t : mesh_.changed()) {
@@ -240,15 +241,15 @@ void ScalpelCutting::open() {
   if (wounds_.relieve())
     for (const LiveReplay& replay : wounds_.replays()) tell(replay.entered());
   moved_.clear();
-  for (; !untold_.empty() && moved_.size() < most_moved; untold_.pop_front()) {
-    const int v = untold_.front();
-    is_untold_[v] = false;
+  for (; !pending_.empty() && moved_.size() < most_moved; pending_.pop_front()) {
+    const int v = pending_.front();
+    is_pending_[v] = false;
     if (static_cast<std::size_t>(v) >= mesh_.vertices().size()) continue;
     Vec3& d = displacements_[v];
     d = wounds_.displacement(v);
     moved_.push_back({v, setup_.scale * mesh_.position(v) + d});
   }
-  figures_.waiting = untold_.size();
+  figures_.waiting = pending_.size();
   if (!moved_.empty()) surface_->update(moved_, {});
   figures_.open.add(watch.lap());
 }
@@ -259,12 +260,14 @@ void ScalpelCutting::tell_touched() {
 
 /// Takes note of those that have moved so far that it can be felt.
 void ScalpelCutting::tell(const std::vector<int>& vertices) {
-  is_untold_.resize(std::max(is_untold_.size(), displacements_.size()));
+  is_pending_.resize(std::max(is_pending_.size(), displacements_.size()));
   for (const int v : vertices) {
     const std::size_t i = v;
-    if (is_untold_[i] || squared_norm(wounds_.displacement(v) - displacements_[i]) <= told * told) continue;
-    is_untold_[i] = true;
-    untold_.push_back(v);
+    if (is_pending_[i] ||
+        squared_norm(wounds_.displacement(v) - displacements_[i]) <= least_motion * least_motion)
+      continue;
+    is_pending_[i] = true;
+    pending_.push_back(v);
   }
 }
 

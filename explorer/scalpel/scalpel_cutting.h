@@ -51,7 +51,7 @@ class ScalpelCutting {
   /// That of the newest cut; null if there is none.
   const Incision* incision() const { return cuts_.empty() ? nullptr : cuts_.back().get(); }
   /// Places of the cuts that the scalpel has made without a path.
-  const std::vector<std::vector<ScalpelPath::Point>>& led() const { return led_; }
+  const std::vector<std::vector<ScalpelPath::Point>>& free_cuts() const { return free_cuts_; }
   bool cutting() const { return cutting_; }  ///< whether the last of them may continue
   /// The position of a vertex in the haptic surface, mesh units.
   Vec3 position(int vertex) const { return 1 / setup_.scale * surface_->position(vertex); }
@@ -77,11 +77,11 @@ class ScalpelCutting {
   void follow_scalpel(const HapticState& scalpel);
   void cut_on_to(const ScalpelPath::Point& at);
   void begin_cut(const ScalpelPath::Point& first, const ScalpelPath::Point& next);
-  void lead_on(ScalpelPath::Point next);
+  void extend(ScalpelPath::Point next);
   bool leads_on(const ScalpelPath::Point& next) const;
   template <class Change>
   void cut(const Change& change);
-  void take_in_changes();
+  void collect_changes();
   void open();
   void tell_touched();
   void tell(const std::vector<int>& vertices);
@@ -96,10 +96,10 @@ class ScalpelCutting {
   std::optional<ContactReader> reader_;
   bool cutting_ = false;
   std::optional<ScalpelPath::Point> entered_;  // the place of the puncture
-  std::vector<std::vector<ScalpelPath::Point>> led_;
+  std::vector<std::vector<ScalpelPath::Point>> free_cuts_;
   std::vector<Vec3> displacements_;  // mm, of vertices, as in the haptic surface
-  std::deque<int> untold_;           // vertices that have moved since and are not passed on yet
-  std::vector<bool> is_untold_;
+  std::deque<int> pending_;          // vertices that have moved since and are not passed on yet
+  std::vector<bool> is_pending_;
   std::vector<ContactSurface::Moved> moved_;
   std::vector<ContactSurface::Changed> changed_;
   std::vector<int> vertices_;

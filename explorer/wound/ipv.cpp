@@ -51,7 +51,7 @@ IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, dou
   std::iota(later.begin(), later.end(), 0);
   later.erase(later.begin(),
               later.begin() + static_cast<std::ptrdiff_t>(std::min(labels_.size(), later.size())));
-  take_in(later);
+  update(later);
   find_normals();
   find_room();
 }
@@ -68,8 +68,7 @@ void IncisionVolume::find_room() {
   for (auto& side : room_) side.clear();
   for (int i = 0; i <= room_pieces; ++i)
     for (const bool right : {false, true})
-      room_[right].push_back(
-          incision_.path().room_beside(incision_.path().length() * i / room_pieces, right));
+      room_[right].push_back(incision_.path().room(incision_.path().length() * i / room_pieces, right));
 }
 
 /// Falls smoothly from 1 in the path's half of its room to 0 at the end of it.
@@ -84,7 +83,7 @@ double IncisionVolume::inside_bend(double s, double straight) const {
   return 1 - x * x * (3 - 2 * x);
 }
 
-void IncisionVolume::take_in(const std::vector<int>& vertices) {
+void IncisionVolume::update(const std::vector<int>& vertices) {
   const CutMesh& mesh = incision_.mesh();
   labels_.resize(std::max(mesh.vertices().size(), incision_.surroundings().labels().size()));
   for (const int v : vertices) {

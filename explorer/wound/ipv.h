@@ -53,7 +53,7 @@ class IncisionVolume {
 
   /// Must be called after each change of the mesh with the vertices of changed triangles and new vertices,
   /// sorted.
-  void take_in(const std::vector<int>& vertices);
+  void update(const std::vector<int>& vertices);
   /// Must be called when the incision's path was extended, before the update of vertices: the surroundings'
   /// relabelled() have new labels.
   void follow_path();
@@ -68,7 +68,7 @@ class IncisionVolume {
   /// The frame at s, mesh units: the skin's mean normal, and T of the path perpendicular to it.
   PathFrame skin_frame(double s) const;
   double scale() const { return scale_; }
-  /// All vertices that the field can move, in the order of their numbers. take_in() must know all of them.
+  /// All vertices that the field can move, in the order of their numbers. update() must know all of them.
   std::vector<ActiveVertex> active() const;
 
  private:

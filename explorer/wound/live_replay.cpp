@@ -58,9 +58,9 @@ void LiveReplay::follow() {
   rest_.resize(count + 1), position_.resize(count + 1);
   slots_.resize(std::max(slots_.size(), count + 1));  // those of former vertices remember their versions
   stations_.resize(slots_.size());
-  const bool led = incision_.led() > led_;
-  if (led) volume_.follow_path();
-  volume_.take_in(changed);
+  const bool extended = incision_.extended_to() > extended_to_;
+  if (extended) volume_.follow_path();
+  volume_.update(changed);
   for (const int v : changed) {
     const auto at = static_cast<std::size_t>(v) + 1;
     leave(v);
@@ -68,8 +68,8 @@ void LiveReplay::follow() {
     touched_.push_back(v);
     if (!undone_) place(v);
   }
-  if (led) follow_path(changed);
-  led_ = incision_.led();
+  if (extended) follow_path(changed);
+  extended_to_ = incision_.extended_to();
   enter();
 }
 
@@ -111,7 +111,7 @@ void LiveReplay::leave(int vertex) {
 void LiveReplay::place(int vertex) { take_place(vertex, volume_.locate(vertex)); }
 
 void LiveReplay::take_place(int vertex, const std::optional<ActiveVertex>& at) {
-  if (incision_.led() > 0) {
+  if (incision_.extended_to() > 0) {
     placed_.resize(std::max(placed_.size(), slots_.size()));
     placed_[static_cast<std::size_t>(vertex) + 1] =
         at ? Placed{true, at->side, at->s, at->uvw.y, at->along} : Placed{};

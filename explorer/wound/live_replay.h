@@ -84,7 +84,7 @@ class LiveReplay {
 
   const Incision& incision_;
   IncisionVolume& volume_;
-  double blade_ = 0, led_ = 0;
+  double blade_ = 0, extended_to_ = 0;
   std::size_t most_entering_;
   bool undone_ = false;
   Contractor contractor_;

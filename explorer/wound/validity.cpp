@@ -31,13 +31,13 @@ double smallest_radius(const ScalpelPath& path) {
   double least = infinity;
   for (int i = 0; i <= path_samples; ++i)
     for (const bool right : {false, true})
-      least = std::min(least, path.room_beside(path.length() * i / path_samples, right));
+      least = std::min(least, path.room(path.length() * i / path_samples, right));
   return least;
 }
 
 /// The path, but what lies ahead of a blade whose way is found as it goes.
 ScalpelPath way_of(const Incision& incision) {
-  return incision.led() > 0 ? incision.path().until(incision.led()) : incision.path();
+  return incision.extended_to() > 0 ? incision.path().until(incision.extended_to()) : incision.path();
 }
 
 double largest_tilt(const Wound& cut, double length) {

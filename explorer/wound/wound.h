@@ -21,7 +21,7 @@ struct Wound {
   /// The position of the blade when the cut is complete, mm: the end of the path. An extended path ends where
   /// the blade has left it.
   double complete() const {
-    return (incision->led() > 0 ? incision->tip() : incision->path().length()) * scale();
+    return (incision->extended_to() > 0 ? incision->tip() : incision->path().length()) * scale();
   }
 
   const Incision* incision;

@@ -66,7 +66,7 @@ TEST(FreeCutting, TheCutIsWhereTheBladeHasBeen) {
     const ScalpelPath path = over_the_ball(-20, 20, 0, 1.2);
     cut_along(cutting, path, path.length());
     EXPECT_EQ(cutting.figures().stopped, "") << rings;
-    ASSERT_EQ(cutting.led().size(), 1u) << rings;
+    ASSERT_EQ(cutting.free_cuts().size(), 1u) << rings;
     EXPECT_GT(cutting.cut_length(), path.length() - 1.2) << "a piece and the scalpel's last step may be left";
     EXPECT_LT(cutting.cut_length(), path.length() + 0.01) << rings;
     // The ball's faces lie under the path: across it no blade that stands upright is drawn aside. What is
@@ -90,7 +90,7 @@ TEST(FreeCutting, SeveralCutsAndWhatStopsThem) {
   back.pose.cutting = false;
   take_out(cutting);
   cut_along(cutting, over_the_ball(-15, 15, 25, 0), 25);
-  EXPECT_EQ(cutting.led().size(), 2u);
+  EXPECT_EQ(cutting.free_cuts().size(), 2u);
   EXPECT_NEAR(cutting.cut_length() - first, 25, 1.2);
   take_out(cutting);
   // Across the first one: a wound is no end.
@@ -102,7 +102,7 @@ TEST(FreeCutting, SeveralCutsAndWhatStopsThem) {
   }
   const double before = cutting.cut_length();
   cut_along(cutting, ScalpelPath(across), 20);
-  EXPECT_EQ(cutting.led().size(), 3u);
+  EXPECT_EQ(cutting.free_cuts().size(), 3u);
   EXPECT_NEAR(cutting.cut_length() - before, 20, 2.2) << cutting.figures().stopped;
   EXPECT_EQ(stress::Soundness(cutting.mesh()).whole(), "");
   for (std::size_t v = 0; v < cutting.mesh().vertices().size(); ++v)

@@ -73,7 +73,7 @@ TEST(Validity, OfAWayThatIsFoundOnTheGoOnlyWhatTheBladeHasCutIsJudged) {
   IncisionOptions options;
   options.max_edge = 0;
   Incision cut(mesh, path_through({{0, 0, 0}, {30, 0, 0}}, up, 3), options);
-  for (int k = 1; k <= 160; ++k) cut.lead_on({at(1.5 * std::numbers::pi * k / 160), {0, 0, 1}, 3}, 15);
+  for (int k = 1; k <= 160; ++k) cut.extend({at(1.5 * std::numbers::pi * k / 160), {0, 0, 1}, 3}, 15);
   const Field field = pulled(0.01, 0.01);
   const Wound wound(cut, field, 1);
   const Validity v = validity_of({&wound}, true).front();
