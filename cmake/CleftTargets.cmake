@@ -2,7 +2,9 @@
 
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  # GCC's precompiled headers can be cached only if ccache may ignore their time of writing.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
 endif()
 
 # The linker: ld.bfd also searches every library that deal.II and VTK's libraries need themselves, which takes 22 s for
@@ -33,9 +35,10 @@ if(CLEFT_SANITIZE)
   target_link_options(cleft_options INTERFACE -fsanitize=${CLEFT_SANITIZE})
 endif()
 
-# cleft_library(NAME SOURCES... [LINK ...]): a static library; the target is Cleft::NAME too.
+# cleft_library(NAME SOURCES... [HEADERS GROUP] [LINK ...]): a static library; the target is Cleft::NAME too. GROUP: the
+# precompiled headers (PrecompiledHeaders.cmake), without it those of the standard library.
 function(cleft_library name)
-  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "HEADERS" "LINK" ${ARGN})
   add_library(cleft_${name} STATIC ${arg_UNPARSED_ARGUMENTS})
   add_library(Cleft::${name} ALIAS cleft_${name})
   set_target_properties(cleft_${name} PROPERTIES EXPORT_NAME ${name})
@@ -44,12 +47,14 @@ function(cleft_library name)
   target_compile_features(cleft_${name} PUBLIC cxx_std_20)
   target_link_libraries(cleft_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:cleft_warnings>)
   target_link_libraries(cleft_${name} PUBLIC $<BUILD_INTERFACE:cleft_options>)
+  cleft_use_headers(cleft_${name} "${arg_HEADERS}")
 endfunction()
 
 # cleft_command(NAME SOURCE LINK...): the executable cleft-NAME (or `cleft` itself), installed beside the others.
 function(cleft_command name source)
   add_executable(${name} ${source})
   target_link_libraries(${name} PRIVATE ${ARGN} cleft_command cleft_warnings)
+  cleft_use_headers(${name} json)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
