@@ -4,8 +4,8 @@
 
 #include "base/text.h"
 #include "explorer/io/formats/mesh_formats.h"
+#include "explorer/session/actions.h"
 #include "explorer/session/commands.h"
-#include "explorer/session/session.h"
 #include "haptic/devices/list.h"
 
 namespace cleft {
@@ -14,10 +14,10 @@ namespace {
 
 void mesh(Session& session, CommandWords& words) {
   const std::string file = words.text("a mesh file");
-  session.load_mesh(file, words.empty() ? 1 : words.number_in("mm per unit", 1e-6, 1e6));
+  load_mesh(session, file, words.empty() ? 1 : words.number_in("mm per unit", 1e-6, 1e6));
 }
 
-void patch(Session& session, CommandWords&) { session.show_patch(); }
+void patch(Session& session, CommandWords&) { show_patch(session); }
 
 /// Points in mm; `depth N` at the end is for all that have none of their own.
 CutState read_cut(CommandWords& words) {
@@ -38,8 +38,8 @@ CutState read_cut(CommandWords& words) {
   return cut;
 }
 
-void cut(Session& session, CommandWords& words) { session.cut(read_cut(words)); }
-void recut(Session& session, CommandWords& words) { session.recut(read_cut(words)); }
+void cut(Session& session, CommandWords& words) { add_cut(session, read_cut(words)); }
+void recut(Session& session, CommandWords& words) { replace_last_cut(session, read_cut(words)); }
 
 void cut_file(Session& session, CommandWords& words) {
   const std::string file = words.text("a path file");
@@ -54,7 +54,7 @@ void cut_file(Session& session, CommandWords& words) {
                           {at("nx"), at("ny"), at("nz")},
                           depth < 0 ? 0 : scale * row[depth]});
   }
-  session.cut(cut);
+  add_cut(session, cut);
 }
 
 void device(Session& session, CommandWords& words) {
@@ -71,17 +71,17 @@ void device(Session& session, CommandWords& words) {
 
 void tension(Session& session, CommandWords& words) {
   const std::string first = words.text("a direction, or none");
-  if (first == "none") return session.pull(std::nullopt);
+  if (first == "none") return set_tension(session, std::nullopt);
   CommandWords direction("tension", "X,Y,Z", {first});
   const std::vector<double> x = direction.numbers("a direction", 3, 3),
                             p = words.numbers("the larger and the smaller prestress", 2, 2);
   if (!(std::hypot(x[0], x[1], x[2]) > 0)) words.wrong("the direction of a tension has a length");
   if (!(std::min(p[0], p[1]) >= 0)) words.wrong("a prestress is not below 0 MPa");
-  session.pull(SkinTension{{x[0], x[1], x[2]}, std::max(p[0], p[1]), std::min(p[0], p[1])});
+  set_tension(session, SkinTension{{x[0], x[1], x[2]}, std::max(p[0], p[1]), std::min(p[0], p[1])});
 }
 
-void undo(Session& session, CommandWords&) { session.undo(); }
-void redo(Session& session, CommandWords&) { session.redo(); }
+void undo(Session& session, CommandWords&) { undo_last(session); }
+void redo(Session& session, CommandWords&) { redo_last(session); }
 
 void export_mesh(Session& session, CommandWords& words) {
   const std::string file = words.text("a file " + mesh_endings(MeshKind::surface, MeshUse::write));

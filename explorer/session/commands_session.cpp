@@ -4,8 +4,8 @@
 
 #include "base/output_file.h"
 #include "base/text.h"
+#include "explorer/session/actions.h"
 #include "explorer/session/commands.h"
-#include "explorer/session/session.h"
 
 namespace cleft {
 
@@ -19,7 +19,7 @@ void screenshot(Session& session, CommandWords& words) {
   if (transparent && words.text("transparent") != "transparent") words.wrong("only 'transparent' can follow");
   words.expect_end();
   session.scene();  // says what is missing
-  session.finish_preparing();
+  finish_preparing(session);
   session.services().draw(session, file, width, height, transparent);
 }
 
@@ -33,7 +33,7 @@ void movie(Session& session, CommandWords& words) {
   if (!words.empty()) format.rate = words.number_in("the pictures a second", 1, 120);
   words.expect_end();
   session.scene();  // says what is missing
-  session.finish_preparing();
+  finish_preparing(session);
   if (!session.services().film) throw InputError("there is nobody to make a movie");
   session.services().film(session, file, format);
 }
@@ -47,8 +47,8 @@ void save(Session& session, CommandWords& words) {
 void load(Session& session, CommandWords& words) {
   const std::string file = words.text("a file .json or .png");
   told_of_file(file, [&] {
-    session.restore(state_from_json(file.ends_with(".png") ? session.services().state_in_picture(file)
-                                                           : read_text_file(file)));
+    restore(session, state_from_json(file.ends_with(".png") ? session.services().state_in_picture(file)
+                                                            : read_text_file(file)));
   });
 }
 

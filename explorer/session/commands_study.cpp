@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "base/text.h"
+#include "explorer/session/actions.h"
 #include "explorer/session/commands.h"
-#include "explorer/session/session.h"
 #include "params/parameters/table.h"
 
 namespace cleft {
@@ -16,16 +16,16 @@ int read_case(Session& session, CommandWords& words) {
 }
 
 void open(Session& session, CommandWords& words) {
-  session.open(words.text("a study folder or a field file"));
+  load_study(session, words.text("a study folder or a field file"));
 }
-void close(Session& session, CommandWords&) { session.close(); }
-void show(Session& session, CommandWords& words) { session.show_case(read_case(session, words)); }
+void close(Session& session, CommandWords&) { close_all(session); }
+void show(Session& session, CommandWords& words) { show_case(session, read_case(session, words)); }
 void next(Session& session, CommandWords&) {
-  session.show_case((session.state().shown + 1) % session.open_study().size());
+  show_case(session, (session.state().shown + 1) % session.open_study().size());
 }
 void previous(Session& session, CommandWords&) {
   const int cases = session.open_study().size();
-  session.show_case((session.state().shown + cases - 1) % cases);
+  show_case(session, (session.state().shown + cases - 1) % cases);
 }
 
 void set(Session& session, CommandWords& words) {
@@ -41,12 +41,12 @@ void set(Session& session, CommandWords& words) {
                 (value ? " (" + shortest(*value) + " " + row.unit + ")" : "") +
                 (varying.empty() ? "" : "; those that differ: " + list));
   }
-  session.ask_for(name, words.number(name));
+  request_parameter(session, name, words.number(name));
 }
 
 void between(Session& session, CommandWords& words) {
   session.open_study();
-  session.interpolate(words.on_or_off());
+  interpolate(session, words.on_or_off());
 }
 
 void list_cases(Session& session, CommandWords&) {
@@ -60,13 +60,13 @@ void compare(Session& session, CommandWords& words) {
   while (!words.empty()) cases.push_back(read_case(session, words));
   if (cases.size() < 2 || cases.size() > 4) words.wrong("give two to four cases");
   session.edit().compared = cases;
-  session.interpolate(session.state().between);  // cases are compared as they are
+  interpolate(session, session.state().between);  // cases are compared as they are
   session.changes().layout = true;
 }
 
 void single(Session& session, CommandWords&) {
   session.edit().compared.clear();
-  session.interpolate(session.state().between);
+  interpolate(session, session.state().between);
   session.changes().layout = true;
 }
 
@@ -96,7 +96,7 @@ void brush(Session& session, CommandWords& words) {
 void find(Session& session, CommandWords& words) {
   if (words.empty()) words.wrong("needs a condition, or 'clear'");
   const std::string condition = words.rest();
-  session.find(condition == "clear" ? "" : condition);
+  find_cases(session, condition == "clear" ? "" : condition);
   if (condition == "clear") return;
   int count = 0;
   for (int i = 0; i < session.study()->size(); ++i) {

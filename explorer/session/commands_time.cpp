@@ -1,21 +1,21 @@
 // Time is the length cut, mm.
+#include "explorer/session/actions.h"
 #include "explorer/session/commands.h"
-#include "explorer/session/session.h"
 
 namespace cleft {
 
 namespace {
 
 void time(Session& session, CommandWords& words) {
-  session.set_time(words.number_in("the length cut", 0, 1e6));
+  set_time(session, words.number_in("the length cut", 0, 1e6));
 }
-void end(Session& session, CommandWords&) { session.set_time(session.duration()); }
+void end(Session& session, CommandWords&) { set_time(session, session.duration()); }
 void step(Session& session, CommandWords& words) {
-  session.set_time(session.state().time + (words.empty() ? 1 : words.number("the step")));
+  set_time(session, session.state().time + (words.empty() ? 1 : words.number("the step")));
 }
 
 void play(Session& session, CommandWords&) {
-  if (session.state().time >= session.duration()) session.set_time(0);
+  if (session.state().time >= session.duration()) set_time(session, 0);
   session.edit().playing = true;
   session.changes().playing = true;
 }
@@ -33,7 +33,7 @@ void speed(Session& session, CommandWords& words) {
 }
 void wait(Session& session, CommandWords& words) {
   const double seconds = words.number_in("the time to wait", 0, 3600);
-  if (session.state().playing) session.advance(seconds);
+  if (session.state().playing) advance_time(session, seconds);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Colours and camera.
+#include "explorer/session/actions.h"
 #include "explorer/session/commands.h"
-#include "explorer/session/session.h"
 
 namespace cleft {
 
@@ -10,7 +10,7 @@ void color(Session& session, CommandWords& words) {
   const Coloring coloring = coloring_of(words.text("a colouring"));
   if (coloring == Coloring::difference && session.state().reference < 0)
     words.wrong("from which case is not known (say: difference N)");
-  session.color_by(coloring);
+  color_by(session, coloring);
 }
 
 void range(Session& session, CommandWords& words) {

@@ -96,7 +96,8 @@ TEST_F(WindowTest, ReadingTheCasesIsShownAndCanBeCancelled) {
   EXPECT_FALSE(cancel.isVisible());
   auto& slider = widget<QSlider>("skin.prestress_v");
   slider.setValue(slider.maximum() / 2);
-  ASSERT_EQ(cancel.isVisible(), real_.preparing());
+  ASSERT_TRUE(real_.preparing());
+  EXPECT_TRUE(cancel.isVisible());
   cancel.click();
   EXPECT_FALSE(real_.preparing());
   EXPECT_FALSE(now().between);
@@ -107,6 +108,16 @@ TEST_F(WindowTest, ReadingTheCasesIsShownAndCanBeCancelled) {
   for (int tries = 0; tries < 200 && !real_.between(); ++tries) settle(20);
   EXPECT_TRUE(real_.between()) << real_.why_nearest();
   EXPECT_FALSE(cancel.isVisible());
+}
+
+TEST_F(WindowTest, ClosingWhileCasesAreReadEndsTheReading) {
+  tell("open " + study());
+  auto& slider = widget<QSlider>("skin.prestress_v");
+  slider.setValue(slider.maximum() / 2);
+  ASSERT_TRUE(real_.preparing());
+  tell("close");
+  EXPECT_FALSE(real_.preparing());
+  EXPECT_FALSE(widget<QPushButton>("cancel_preparing").isVisible());
 }
 
 TEST_F(WindowTest, TheListOfCasesIsSortedAndChooses) {

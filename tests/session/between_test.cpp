@@ -156,18 +156,36 @@ TEST_F(Between, CasesAreReadBesideWhereThatIsWished) {
   session_.listen([&](const Changes& changes) { told += changes.shown; });
   say("set skin.prestress_v 0.03");
   EXPECT_EQ(told, 1);
-  if (!session_.between()) {
-    EXPECT_EQ(session_.why_nearest(), "the cases are being read");
-    while (session_.take_prepared()) {
-    }
-    EXPECT_EQ(told, 2) << "listeners hear of it";
+  EXPECT_FALSE(session_.between());
+  EXPECT_TRUE(session_.preparing());
+  EXPECT_EQ(session_.why_nearest(), "the cases are being read");
+  while (session_.take_prepared()) {
   }
+  EXPECT_EQ(told, 2) << "listeners hear of it";
   EXPECT_TRUE(session_.between()) << session_.why_nearest();
   say("close");
   open_scaled();
   say("set skin.prestress_v 0.03");
   say("screenshot a.png");
   EXPECT_TRUE(session_.between()) << "a picture waits";
+}
+
+TEST_F(Between, ClosingEndsTheReadingOfCases) {
+  session_.prepare_beside(true);
+  open_scaled();
+  say("set skin.prestress_v 0.03");
+  ASSERT_TRUE(session_.preparing());
+  say("close");
+  ASSERT_FALSE(session_.preparing());
+  EXPECT_EQ(session_.prepared_part(), 1);
+  EXPECT_FALSE(session_.take_prepared());
+  EXPECT_EQ(session_.why_nearest(), "");
+  open_scaled();
+  EXPECT_FALSE(session_.preparing());
+  EXPECT_NE(refused("open /nonexistent"), "");
+  say("set skin.prestress_v 0.03");
+  EXPECT_NE(refused("open /nonexistent"), "");
+  EXPECT_TRUE(session_.preparing()) << "a refused line does not end it";
 }
 
 TEST_F(Between, ReadingTellsItsPartAndEndsWhereItIsNotWanted) {

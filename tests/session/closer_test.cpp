@@ -45,6 +45,23 @@ TEST_F(Closer, AMissingSimulationIsSaidAndNotFatal) {
   EXPECT_GT(session_.overlay().lines.size(), 20u);
 }
 
+TEST_F(Closer, ARefusedStateLeavesTheSimulationsOfItsStudyNowhere) {
+  const std::string other = folder_ / "other";
+  std::filesystem::copy(raw_study(), other, std::filesystem::copy_options::recursive);
+  say("open " + other);
+  say("color error");
+  say("compare 1 2");
+  say("save " + folder_ / "other.json");
+  say("single");
+  open_raw();
+  const auto raw = session_.raw_of(0);
+  // The first case's simulation is read, then the second one's turns out to be damaged.
+  write_text_file(other + "/cases/case1/case.h5", "torn");
+  EXPECT_NE(refused("load " + folder_ / "other.json").find("case1/case.h5"), std::string::npos);
+  EXPECT_EQ(state().study, raw_study());
+  EXPECT_EQ(session_.raw_of(0).get(), raw.get());
+}
+
 TEST_F(Closer, AProbePlotsAPointAndTheNodeBesideIt) {
   open_raw();
   say("probe 0.4,0,-0.5 left " + folder_ / "motion.csv");

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "explorer/session/actions.h"
 #include "tests/session/session_fixture.h"
 #include "tests/support/recorded.h"
 
@@ -191,7 +192,7 @@ TEST_F(SessionTest, CutsTurnAgainstATension) {
   EXPECT_EQ(points(), turned);
   say("undo");
   EXPECT_EQ(points(), across);
-  session_.restore(state_from_json(state_to_json(state())));
+  restore(session_, state_from_json(state_to_json(state())));
   say("undo");
   EXPECT_EQ(points(), as_simulated);
   EXPECT_FALSE(state().tension);

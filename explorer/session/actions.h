@@ -1,0 +1,49 @@
+// What commands do to a session. Each throws InputError where it cannot be done, and may then leave the
+// session half changed: Session::say, which runs the commands, puts the previous value back.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "explorer/session/session.h"
+
+namespace cleft {
+
+// Studies and saved sessions.
+void load_study(Session& session, const std::string& path);  ///< and shows its first case, whole
+void close_all(Session& session);
+void restore(Session& session, const SessionState& state);
+
+// Cases.
+void show_case(Session& session, int i);
+/// Shows the wound of this value, the other parameters kept.
+void request_parameter(Session& session, const std::string& parameter, double value);
+void interpolate(Session& session, bool on);
+/// Makes what is shown that of the requested parameters. `wait`: until the cases have been read that it is
+/// interpolated from; otherwise the nearest case is shown meanwhile.
+void follow_parameters(Session& session, bool wait);
+void follow_parameters(Session& session);  ///< waits unless the session reads cases in the background
+/// Waits for what is being prepared, so that pictures show it.
+void finish_preparing(Session& session);
+void find_cases(Session& session, const std::string& condition);  ///< empty: no condition
+
+// The mesh, its cuts and the tension of its skin.
+std::shared_ptr<const SurfaceMesh> read_mesh_in_mm(const Session& session, const SessionState& state);
+void load_mesh(Session& session, const std::string& file, double scale);
+void show_patch(Session& session);
+void add_cut(Session& session, const CutState& cut);
+void replace_last_cut(Session& session, const CutState& cut);
+/// The skin's tension, against which cuts turn; none: as in the shown case, whichever way a cut goes.
+void set_tension(Session& session, const std::optional<SkinTension>& tension);
+void undo_last(Session& session);  ///< the last cut or tension
+void redo_last(Session& session);
+
+// Time and colours.
+void set_time(Session& session, double t);
+void advance_time(Session& session, double seconds);  ///< as playing does
+void color_by(Session& session, Coloring coloring);
+
+/// Of a file or folder, as a saved session holds it.
+std::string absolute_path(const std::string& path);
+
+}  // namespace cleft

@@ -1,0 +1,15 @@
+// What a line has changed, for those who listen to a session.
+#pragma once
+
+namespace cleft {
+
+struct Changes {
+  bool study = false, shown = false, cuts = false, time = false, playing = false, coloring = false,
+       camera = false, layout = false, look = false, brushes = false, closer = false, detail = false;
+  void all() {
+    study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = closer = detail =
+        true;
+  }
+};
+
+}  // namespace cleft

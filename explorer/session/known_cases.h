@@ -1,0 +1,54 @@
+// The open study, and the results that have been computed from its cases so far. Results are only added,
+// never changed, so all values of Opened (opened.h) with the same study share one object.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "explorer/study/case_figures.h"
+#include "explorer/study/find.h"
+#include "explorer/study/raw_case.h"
+#include "explorer/study/study.h"
+
+namespace cleft {
+
+class KnownCases {
+ public:
+  /// Throws as PublishedStudy does.
+  explicit KnownCases(const std::string& path) : study_(path) {}
+
+  PublishedStudy& study() { return study_; }
+
+  /// Of case i; reads the case the first time.
+  const CaseFigures& figures(int i);
+  bool knows_figures(int i) const { return figures_.count(i) > 0; }
+  /// Where the condition holds in case i; reads the case the first time.
+  const std::optional<Finding>& finding(const std::string& condition, int i);
+  /// The simulation of case i; the last few are kept. Throws as RawCase does.
+  std::shared_ptr<const RawCase> raw(int i);
+
+  /// The parameters in which the cases differ, then the figures.
+  std::vector<std::string> column_names() const;
+  /// NaN where case i has no such parameter.
+  double column_value(int i, const std::string& name);
+  /// Case i's values of the parameters in which the cases differ.
+  std::map<std::string, double> varying_parameters(int i) const;
+  /// Least and greatest value over all cases of each parameter in which they differ.
+  std::map<std::string, std::pair<double, double>> parameter_ranges() const;
+  /// The case nearest to these parameters; distances are relative to the ranges.
+  int nearest(const std::map<std::string, double>& parameters) const;
+  /// What a user should know about the study as a whole: cases left out, raw data that are gone.
+  std::vector<std::string> notices() const;
+
+ private:
+  PublishedStudy study_;
+  std::map<int, CaseFigures> figures_;
+  std::map<std::string, std::map<int, std::optional<Finding>>> findings_;  // by condition
+  std::map<int, std::shared_ptr<const RawCase>> raws_;
+};
+
+}  // namespace cleft

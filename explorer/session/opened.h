@@ -1,0 +1,52 @@
+// Everything that depends on what a session has open, as one value. A line of a user changes it; a line that
+// is refused is undone by putting the previous value back, and another study is opened by putting a new value
+// in its place. Copies cost little: every large part is shared, and either never changes or only collects
+// results.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "explorer/incision/cut_surface.h"
+#include "explorer/incision/surface_mesh.h"
+#include "explorer/scene/wound_scene.h"
+#include "explorer/session/known_cases.h"
+#include "explorer/session/session_state.h"
+#include "explorer/study/between_cases.h"
+
+namespace cleft {
+
+/// What is shown in place of the nearest case where no case has exactly the requested parameters.
+struct Between {
+  std::shared_ptr<BetweenCases> reader;  ///< null until something between the cases is first requested
+  std::shared_ptr<const Field> field;    ///< interpolated; null: a case itself is shown
+  std::string why_nearest;               ///< why nothing is interpolated; empty where no reason is needed
+  bool preparing = false;                ///< the nearest case is shown until the reader is ready
+};
+
+/// What has been made so far to draw the rest of Opened; it can be made again at any time.
+struct Drawn {
+  std::map<double, std::shared_ptr<const CutSurface>> cut_surfaces;  ///< by depth of cuts that state none, mm
+  std::map<int, std::shared_ptr<const WoundScene>> scenes;           ///< of the cases in the views
+};
+
+/// What a picture leaves out of the shown case's wounds.
+struct DetailSeen {
+  LeftOut left_out;
+  double pixels = 0;  ///< by which it is off at most; infinite where the camera is among what moves
+};
+
+struct Opened {
+  SessionState state;
+  std::shared_ptr<KnownCases> cases;        ///< null: no study is open
+  std::shared_ptr<const SurfaceMesh> mesh;  ///< to be cut, mm; null: the canonical patch is shown
+  Between between;
+  Drawn drawn;
+  std::vector<std::string> warnings;  ///< where openings of the shown case's cuts may be off (validity.h)
+  std::optional<DetailSeen> seen;     ///< in the last picture; none where anything has changed since
+};
+
+}  // namespace cleft

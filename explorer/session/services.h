@@ -1,0 +1,34 @@
+// What a session needs from its owner, as it can neither read mesh files nor draw pictures itself.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "explorer/incision/surface_mesh.h"
+
+namespace cleft {
+
+class Session;
+
+struct MovieFormat {
+  int width = 1280, height = 720;  ///< pixels
+  double rate = 25;                ///< pictures a second
+};
+
+struct SessionServices {
+  std::function<SurfaceMesh(const std::string& file)> read_mesh;
+  std::function<void(const std::string& file, const SurfaceMesh& mesh)> write_mesh;
+  std::function<void(Session& session, const std::string& file, int width, int height, bool transparent)>
+      draw;
+  /// The saved session in a picture, as JSON.
+  std::function<std::string(const std::string& file)> state_in_picture;
+  std::function<void(const std::string& text)> answer;  ///< shows what a command answers: a line or several
+  /// Begins to use a haptic device, with the file it needs; "off": stops. None without a window.
+  std::function<void(const std::string& name, const std::string& file)> device = nullptr;
+  /// A movie of the growing cut: .ogv, or a folder of PNG files.
+  std::function<void(Session& session, const std::string& file, const MovieFormat& format)> film = nullptr;
+  /// Shows what takes long and which part of it is done; false: the user has cancelled it.
+  std::function<bool(const std::string& what, double part)> progress = nullptr;
+};
+
+}  // namespace cleft

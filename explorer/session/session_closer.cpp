@@ -1,0 +1,87 @@
+// A session's look at the simulations behind its fields, and what is drawn over a scene.
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "explorer/session/session.h"
+
+namespace cleft {
+
+namespace {
+
+const std::vector<std::string> figure_names{"off", "constraints", "lattice", "volume"};
+
+}  // namespace
+
+const std::vector<std::string>& overlay_figures() { return figure_names; }
+
+std::string Session::why_no_raw(int i) const {
+  if (!study()) return "no study is open (say: open DIR)";
+  if (between() && i == state().shown)
+    return "what lies between cases was never simulated: there are no raw frames (say: case " +
+           std::to_string(i + 1) + ")";
+  const std::string file = study()->snapshot(i);
+  if (std::filesystem::exists(file)) return "";
+  return "the raw frames of case " + std::to_string(i + 1) + " are gone: there is no " + file +
+         " (solve the case.toml beside it again, or run the study with keep_snapshots = \"all\")";
+}
+
+std::shared_ptr<const RawCase> Session::raw_of(int i) {
+  if (const std::string why = why_no_raw(i); !why.empty()) throw InputError(why);
+  return cases().raw(i);
+}
+
+Motion Session::probed_motion() {
+  if (!state().probe) throw InputError("no point is probed (say: probe U,V,W)");
+  const auto field = this->field();
+  if (!field) throw InputError("no study is open (say: open DIR)");
+  const bool raw = why_no_raw(state().shown).empty();
+  return motion_of(*field, state().probe->uvw, state().probe->side,
+                   raw ? raw_of(state().shown).get() : nullptr);
+}
+
+Overlay Session::overlay() {
+  try {
+    return make_overlay();
+  } catch (const InputError& e) {  // said in the picture: another case may have what this one lacks
+    Overlay none;
+    none.caption = e.what();
+    return none;
+  }
+}
+
+Overlay Session::make_overlay() {
+  Overlay overlay;
+  const SessionState& s = state();
+  const double t = study() ? std::min(s.time, field()->duration()) : s.time;
+  if (s.figure == "volume" && mesh()) {
+    if (!study() || s.cuts.empty()) throw InputError("there is no cut yet (say: cut ...)");
+    const ScalpelPath path = cut_paths().front();
+    overlay = volume_along(path, *field(), std::min(s.time, path.length()));
+  } else if (study() && !mesh()) {
+    if (s.figure == "constraints") overlay = constraints_at(*raw_of(s.shown), t);
+    if (s.figure == "lattice") overlay = lattice_at(*field(), t);
+    if (s.zoom) overlay = nodes_around(*raw_of(s.shown), s.zoom->place, s.zoom->radius, t);
+    if (s.probe) {
+      const auto& [uvw, side] = *s.probe;
+      overlay.dots.push_back({uvw + field()->displacement(uvw, side, t), {0.8, 0, 0.5}});
+    }
+  }
+  return overlay;
+}
+
+Tornado Session::tornado() {
+  KnownCases& cases = this->cases();
+  const PublishedStudy& study = cases.study();
+  std::vector<std::vector<double>> rows;
+  std::vector<double> gapes;
+  for (int i = 0; i < study.size(); ++i) {
+    progress("reading the cases", double(i) / study.size());
+    gapes.push_back(cases.figures(i).gape);
+    rows.emplace_back();
+    for (const std::string& name : study.varying()) rows.back().push_back(cases.column_value(i, name));
+  }
+  return tornado_of(study.varying(), rows, gapes);
+}
+
+}  // namespace cleft

@@ -1,0 +1,129 @@
+// What a session shows: views, scenes, fields, and what is written next to them.
+#include <algorithm>
+#include <cstdio>
+
+#include "base/error.h"
+#include "explorer/scene/mesh_scene.h"
+#include "explorer/scene/patch_scene.h"
+#include "explorer/session/session.h"
+
+namespace cleft {
+
+namespace {
+
+std::string shortest_of(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+}  // namespace
+
+std::string error_of_interpolation(const Field& field) {
+  const Interpolation& made = *field.interpolation;
+  return "estimated error " + shortest_of(100 * made.estimated_error, 2) + " %" +
+         (made.outside > 0 ? ", a guess outside the cases" : "");
+}
+
+std::vector<int> Session::views() const {
+  return state().compared.empty() ? std::vector<int>{state().shown} : state().compared;
+}
+
+std::shared_ptr<const Field> Session::field() { return study() ? field_of(state().shown) : nullptr; }
+
+std::shared_ptr<const Field> Session::field_of(int i) {
+  return between() && i == state().shown ? between() : open_study().field(i);
+}
+
+std::shared_ptr<const Field> Session::reference() {
+  return study() && state().reference >= 0 ? study()->field(state().reference) : nullptr;
+}
+
+std::shared_ptr<const WoundScene> Session::scene_of(int i) {
+  if (!has_scene()) throw InputError("nothing is open (say: open DIR, or mesh FILE)");
+  auto& scenes = opened_.drawn.scenes;
+  const std::vector<int> shown = views();
+  std::erase_if(scenes,
+                [&](const auto& s) { return std::find(shown.begin(), shown.end(), s.first) == shown.end(); });
+  auto& found = scenes[i];
+  if (found) return found;
+  if (mesh())
+    found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), cut_fields(i));
+  else
+    found = std::make_shared<PatchScene>(
+        field_of(i), state().coloring == Coloring::error && why_no_raw(i).empty() ? raw_of(i) : nullptr);
+  return found;
+}
+
+double Session::duration() {
+  double longest = 0;
+  for (const int i : views()) longest = std::max(longest, scene_of(i)->duration());
+  return longest;
+}
+
+double Session::depth_of_case(int i) {
+  constexpr double depth_without_study = 3;
+  return study() ? field_of(i)->cut().depth : depth_without_study;
+}
+
+std::vector<ScalpelPath> Session::cut_paths(double depth) const {
+  std::vector<ScalpelPath> paths;
+  for (CutState cut : state().cuts) {
+    for (ScalpelPath::Point& p : cut.points)
+      if (p.depth <= 0) p.depth = depth;
+    paths.emplace_back(cut.points);
+  }
+  return paths;
+}
+
+std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {
+  auto& surfaces = opened_.drawn.cut_surfaces;
+  auto& found = surfaces[depth];
+  if (found) return found;
+  constexpr std::size_t most_kept = 8;  // a slider of the depth makes ever new ones
+  if (surfaces.size() > most_kept)
+    std::erase_if(surfaces, [depth](const auto& s) { return s.first != depth; });
+  return surfaces[depth] = std::make_shared<CutSurface>(*mesh(), cut_paths(depth));
+}
+
+std::optional<CutFields> Session::cut_fields(int i) {
+  if (!study()) return std::nullopt;
+  if (!state().tension) return CutFields(field_of(i));
+  return CutFields(std::make_shared<const PrestressFields>(*study(), i), state().tension);
+}
+
+std::string Session::title_of(int i) const {
+  if (!study()) return "";
+  if (!between() || i != state().shown) return "case " + std::to_string(i + 1) + ": " + study()->name(i);
+  std::string title = "between cases:";
+  for (const std::string& name : study()->varying())
+    if (const auto found = state().parameters.find(name); found != state().parameters.end())
+      title += " " + name + "=" + shortest_of(found->second, 4);
+  return title;
+}
+
+std::string Session::note_of(int i) const {
+  std::string note;
+  if (between() && i == state().shown) note = "interpolated, " + error_of_interpolation(*between());
+  if (state().coloring == Coloring::error && !why_no_raw(i).empty())
+    note += (note.empty() ? "" : "; ") + std::string("without raw frames: no error is known");
+  return note;
+}
+
+bool Session::shows_exactly() const {
+  if (!study()) return true;
+  const auto& values = study()->parameters(state().shown);
+  return std::all_of(state().parameters.begin(), state().parameters.end(), [&](const auto& requested) {
+    return values.number(requested.first).value_or(requested.second) == requested.second;
+  });
+}
+
+bool Session::brushed(int i) {
+  if (!state().where.empty() && !finding(i)) return false;
+  return std::all_of(state().brushes.begin(), state().brushes.end(), [&](const auto& brush) {
+    const double value = column_value(i, brush.first);
+    return value >= brush.second.first && value <= brush.second.second;
+  });
+}
+
+}  // namespace cleft
