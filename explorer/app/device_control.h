@@ -1,5 +1,5 @@
-// A haptic device in the user's hand: what it does to the mesh is drawn as it happens, and every cut becomes
-// one of the session when the blade is out.
+// A haptic device in use: its cuts are drawn while they are made, and become cuts of the session when the
+// blade leaves the skin.
 #pragma once
 
 #include <QElapsedTimer>
@@ -16,12 +16,12 @@ namespace cleft {
 
 class DeviceControl : public Panel {
  public:
-  /// `tell`: what goes wrong while nobody has said a line.
+  /// `tell`: called with errors that occur without a command.
   DeviceControl(Session& session, SceneWidget& scene, Say say, std::function<void(const std::string&)> tell);
   ~DeviceControl() override;
 
-  /// The device by its name, with its file, or "off". Throws InputError where there is none, and then the one
-  /// before stays.
+  /// The device by its name, with its file, or "off". Throws InputError if there is none; the previous device
+  /// then remains.
   void take(const std::string& name, const std::string& file);
   void follow(const Changes& changes) override;
 
@@ -54,7 +54,7 @@ class DeviceControl : public Panel {
   std::uint64_t ticks_ = 0;
   double rate_ = 0;  // Hz
   bool own_ = false, present_ = true;
-  // Where the mouse is, and how high its blade.
+  // The position of the mouse, and the height of its blade.
   std::optional<WoundView::Place> place_;
   bool pressed_ = false;
   double height_ = 0;  // mm

@@ -1,4 +1,4 @@
-// The window: the picture, and around it the panels. Widgets only say lines to the session and follow it.
+// The window: the picture, and around it the panels. Widgets only send lines to the session and follow it.
 #pragma once
 
 #include <QComboBox>
@@ -26,7 +26,7 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(Session& session);
   ~MainWindow() override;
 
-  /// Says a line to the session; a refusal is told in the message bar.
+  /// Sends a line to the session; a refusal is shown in the message bar.
   bool say(const std::string& line);
 
   SceneWidget& scene() { return *scene_; }

@@ -1,5 +1,5 @@
-// What commands do to a session. Each throws InputError where it cannot be done, and may then leave the
-// session half changed: Session::say, which runs the commands, puts the previous value back.
+// The actions of commands on a session. Each throws InputError if it is impossible, and may then leave the
+// session partly changed: Session::say, which runs the commands, restores the previous value.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,20 @@
 namespace cleft {
 
 // Studies and saved sessions.
-void load_study(Session& session, const std::string& path);  ///< and shows its first case, whole
+void load_study(Session& session, const std::string& path);  ///< and shows its first case, completely cut
 void close_all(Session& session);
 void restore(Session& session, const SessionState& state);
 
 // Cases.
 void show_case(Session& session, int i);
-/// Shows the wound of this value, the other parameters kept.
+/// Shows the wound for this value; the other parameters are unchanged.
 void request_parameter(Session& session, const std::string& parameter, double value);
 void interpolate(Session& session, bool on);
-/// Makes what is shown that of the requested parameters. `wait`: until the cases have been read that it is
-/// interpolated from; otherwise the nearest case is shown meanwhile.
+/// Shows the wound for the requested parameters. `wait`: until the cases have been read from which it is
+/// interpolated; otherwise the nearest case is shown meanwhile.
 void follow_parameters(Session& session, bool wait);
 void follow_parameters(Session& session);  ///< waits unless the session reads cases in the background
-/// Waits for what is being prepared, so that pictures show it.
+/// Waits until the interpolated field is ready, so that pictures show it.
 void finish_preparing(Session& session);
 void find_cases(Session& session, const std::string& condition);  ///< empty: no condition
 
@@ -33,7 +33,7 @@ void load_mesh(Session& session, const std::string& file, double scale);
 void show_patch(Session& session);
 void add_cut(Session& session, const CutState& cut);
 void replace_last_cut(Session& session, const CutState& cut);
-/// The skin's tension, against which cuts turn; none: as in the shown case, whichever way a cut goes.
+/// The skin's tension, against which cuts turn; none: that of the shown case for all directions of a cut.
 void set_tension(Session& session, const std::optional<SkinTension>& tension);
 void undo_last(Session& session);  ///< the last cut or tension
 void redo_last(Session& session);

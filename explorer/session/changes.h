@@ -1,4 +1,4 @@
-// What a line has changed, for those who listen to a session.
+// The changes by a line, for the listeners of a session.
 #pragma once
 
 namespace cleft {

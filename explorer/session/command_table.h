@@ -1,4 +1,4 @@
-// Every action of a user is a line of text: the commands there are, and how lines are read.
+// Each action of a user is a line of text: the table of commands, and the syntax of lines.
 //
 // To add one: a row in the table of the file commands_*.cpp it belongs to. Help sheet, errors for unknown
 // names, scripts, recordings and the window's command box follow from the row.
@@ -22,7 +22,7 @@ class CommandWords {
       : command_(std::move(command)), usage_(std::move(usage)), words_(std::move(words)) {}
 
   bool empty() const { return next_ == words_.size(); }
-  /// Throws InputError with the usage where there is none left.
+  /// Throws InputError with the usage if there is none left.
   std::string text(const std::string& what);
   double number(const std::string& what);
   double number_in(const std::string& what, double least, double greatest);
@@ -44,7 +44,7 @@ class CommandWords {
 struct Command {
   std::string name, arguments, help;
   void (*run)(Session&, CommandWords&);
-  /// What is only asked or written is no part of a recording; of `latest`, several in a row are one.
+  /// Commands that only query or write are not recorded; of several `latest` in a row the last is recorded.
   enum Recording { all, latest, none } recorded = all;
 };
 
@@ -57,10 +57,10 @@ const std::vector<CommandGroup>& command_groups();
 /// Throws InputError naming the nearest command.
 const Command& find_command(const std::string& name);
 
-/// Words of a line: separated by blanks, '...' or "..." keep blanks, # begins a comment. Throws InputError
-/// where a quote is not closed.
+/// Words of a line: separated by blanks, '...' or "..." keep blanks, # begins a comment. Throws InputError if
+/// a quote is not closed.
 std::vector<std::string> split_line(const std::string& line);
-/// A word as it must stand in a line to be read as one.
+/// A word with the quotes that a line needs.
 std::string quoted(const std::string& word);
 
 /// All commands with arguments and help, group by group.

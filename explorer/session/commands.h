@@ -1,4 +1,4 @@
-// The tables of commands, one a file.
+// The tables of commands, one for each file.
 #pragma once
 
 #include "explorer/session/command_table.h"

@@ -23,17 +23,17 @@ class KnownCases {
 
   PublishedStudy& study() { return study_; }
 
-  /// Of case i; reads the case the first time.
+  /// Figures of case i; reads the case the first time.
   const CaseFigures& figures(int i);
   bool knows_figures(int i) const { return figures_.count(i) > 0; }
-  /// Where the condition holds in case i; reads the case the first time.
+  /// The finding of the condition in case i; reads the case the first time.
   const std::optional<Finding>& finding(const std::string& condition, int i);
   /// The simulation of case i; the last few are kept. Throws as RawCase does.
   std::shared_ptr<const RawCase> raw(int i);
 
   /// The parameters in which the cases differ, then the figures.
   std::vector<std::string> column_names() const;
-  /// NaN where case i has no such parameter.
+  /// NaN if case i has no such parameter.
   double column_value(int i, const std::string& name);
   /// Case i's values of the parameters in which the cases differ.
   std::map<std::string, double> varying_parameters(int i) const;
@@ -41,7 +41,7 @@ class KnownCases {
   std::map<std::string, std::pair<double, double>> parameter_ranges() const;
   /// The case nearest to these parameters; distances are relative to the ranges.
   int nearest(const std::map<std::string, double>& parameters) const;
-  /// What a user should know about the study as a whole: cases left out, raw data that are gone.
+  /// Messages about the study as a whole: cases left out, missing simulations.
   std::vector<std::string> notices() const;
 
  private:

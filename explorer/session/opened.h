@@ -19,24 +19,24 @@
 
 namespace cleft {
 
-/// What is shown in place of the nearest case where no case has exactly the requested parameters.
+/// The interpolated field that is shown if no case has exactly the requested parameters.
 struct Between {
   std::shared_ptr<BetweenCases> reader;  ///< null until something between the cases is first requested
   std::shared_ptr<const Field> field;    ///< interpolated; null: a case itself is shown
-  std::string why_nearest;               ///< why nothing is interpolated; empty where no reason is needed
+  std::string why_nearest;               ///< why nothing is interpolated; empty if no reason is needed
   bool preparing = false;                ///< the nearest case is shown until the reader is ready
 };
 
-/// What has been made so far to draw the rest of Opened; it can be made again at any time.
+/// Data computed for drawing the rest of Opened; they can be computed again at any time.
 struct Drawn {
   std::map<double, std::shared_ptr<const CutSurface>> cut_surfaces;  ///< by depth of cuts that state none, mm
   std::map<int, std::shared_ptr<const WoundScene>> scenes;           ///< of the cases in the views
 };
 
-/// What a picture leaves out of the shown case's wounds.
+/// The vertices that a picture leaves out of the shown case's wounds.
 struct DetailSeen {
   LeftOut left_out;
-  double pixels = 0;  ///< by which it is off at most; infinite where the camera is among what moves
+  double pixels = 0;  ///< bound of the error; infinite if the camera is among moving vertices
 };
 
 struct Opened {
@@ -45,8 +45,8 @@ struct Opened {
   std::shared_ptr<const SurfaceMesh> mesh;  ///< to be cut, mm; null: the canonical patch is shown
   Between between;
   Drawn drawn;
-  std::vector<std::string> warnings;  ///< where openings of the shown case's cuts may be off (validity.h)
-  std::optional<DetailSeen> seen;     ///< in the last picture; none where anything has changed since
+  std::vector<std::string> warnings;  ///< cuts of the shown case outside their validity (validity.h)
+  std::optional<DetailSeen> seen;     ///< in the last picture; none if anything has changed since
 };
 
 }  // namespace cleft

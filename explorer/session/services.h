@@ -12,7 +12,7 @@ class Session;
 
 struct MovieFormat {
   int width = 1280, height = 720;  ///< pixels
-  double rate = 25;                ///< pictures a second
+  double rate = 25;                ///< pictures per second
 };
 
 struct SessionServices {
@@ -22,12 +22,13 @@ struct SessionServices {
       draw;
   /// The saved session in a picture, as JSON.
   std::function<std::string(const std::string& file)> state_in_picture;
-  std::function<void(const std::string& text)> answer;  ///< shows what a command answers: a line or several
-  /// Begins to use a haptic device, with the file it needs; "off": stops. None without a window.
+  std::function<void(const std::string& text)>
+      answer;  ///< shows the answer of a command: one or several lines
+  /// Starts a haptic device with its file; "off": stops it. None without a window.
   std::function<void(const std::string& name, const std::string& file)> device = nullptr;
   /// A movie of the growing cut: .ogv, or a folder of PNG files.
   std::function<void(Session& session, const std::string& file, const MovieFormat& format)> film = nullptr;
-  /// Shows what takes long and which part of it is done; false: the user has cancelled it.
+  /// Shows the progress of a long operation; returns false if the user has cancelled it.
   std::function<bool(const std::string& what, double part)> progress = nullptr;
 };
 

@@ -1,5 +1,5 @@
-// What the explorer does, without a window: every action is a line of text (command_table.h) that is said to
-// a session. Windows, scripts and tests say lines and listen; nothing else changes a session.
+// The explorer without a window: each action is a line of text (command_table.h) that is sent to a session.
+// Windows, scripts and tests send lines and listen; nothing else changes a session.
 #pragma once
 
 #include <functional>
@@ -22,11 +22,11 @@ class Session {
  public:
   explicit Session(SessionServices services) : services_(std::move(services)) {}
 
-  /// Does what a line says. Throws InputError where it cannot be done; the session is then as it was.
+  /// Runs a line. Throws InputError if it is impossible; the session is then unchanged.
   void say(const std::string& line);
-  /// Says the lines of a file; an error names file and line.
+  /// Runs the lines of a file; an error names file and line.
   void run_script(const std::string& file);
-  /// The lines said so far, that made the session what it is.
+  /// The lines run so far, which reproduce the session.
   const std::vector<std::string>& said() const { return said_; }
   using Listener = std::function<void(const Changes&)>;
   void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
@@ -35,7 +35,7 @@ class Session {
   const SessionState& state() const { return opened_.state; }
   PublishedStudy* study() const { return opened_.cases ? &opened_.cases->study() : nullptr; }
   PublishedStudy& open_study() const { return cases().study(); }  ///< throws as cases()
-  /// The open study and its results so far. Throws InputError where no study is open.
+  /// The open study and its results so far. Throws InputError if no study is open.
   KnownCases& cases() const;
   const SurfaceMesh* mesh() const { return opened_.mesh.get(); }  ///< mm
   bool has_scene() const { return study() || mesh(); }            ///< whether there is anything to draw
@@ -44,35 +44,35 @@ class Session {
   // What is shown.
   std::vector<int> views() const;  ///< the cases that are shown next to each other: at least one
   std::shared_ptr<const WoundScene> scene() { return scene_of(state().shown); }
-  /// Of case i. Throws InputError where nothing is open.
+  /// Of case i. Throws InputError if nothing is open.
   std::shared_ptr<const WoundScene> scene_of(int i);
   std::shared_ptr<const Field> field();  ///< of the shown case; null without a study
-  /// Of case i, or the interpolated one where that is shown in its place.
+  /// The field of case i, or the interpolated one if that is shown instead.
   std::shared_ptr<const Field> field_of(int i);
   std::shared_ptr<const Field> reference();  ///< of colours by difference; null where none is chosen
   double duration();                         ///< t of the end, of the longest view
-  double depth_of_case(int i);               ///< mm, of cuts that say nothing else
-  /// The cuts' paths, as deep as the shown case where they say nothing else.
+  double depth_of_case(int i);               ///< mm, of cuts without their own depth
+  /// The cuts' paths, with the depth of the shown case if they have none.
   std::vector<ScalpelPath> cut_paths() { return cut_paths(depth_of_case(state().shown)); }
-  std::optional<CutFields> cut_fields(int i);  ///< what opens cuts in case i; none without a study
-  /// What is drawn over the shown case; where it cannot be drawn, the caption says why.
+  std::optional<CutFields> cut_fields(int i);  ///< the fields of cuts in case i; none without a study
+  /// The overlay over the shown case; if it cannot be drawn, the caption gives the reason.
   Overlay overlay();
   std::string title_of(int i) const;
-  /// What a viewer must know of the view of case i: how well it is interpolated, that no error is known.
-  /// Mostly empty.
+  /// A note on the view of case i: the estimated error of an interpolation, or that no error is known.
+  /// Usually empty.
   std::string note_of(int i) const;
-  /// Where openings of the shown case's cuts may be off, and by how much. A line that causes a new warning
-  /// is answered with it.
+  /// Cuts of the shown case whose openings may be wrong, and by how much. A line that causes a new warning is
+  /// answered with it.
   const std::vector<std::string>& warnings() const { return opened_.warnings; }
-  /// Views report what their pictures leave out.
+  /// Views report the vertices that their pictures leave out.
   void see(const std::optional<DetailSeen>& detail) { opened_.seen = detail; }
   const std::optional<DetailSeen>& seen() const { return opened_.seen; }
 
-  // What is interpolated between the cases.
+  // Interpolation between the cases.
   bool shows_exactly() const;  ///< whether the shown case has exactly the requested parameters
-  /// The interpolated field that is shown in place of the shown case; null where there is none.
+  /// The interpolated field that is shown instead of the shown case; null if there is none.
   const std::shared_ptr<const Field>& between() const { return opened_.between.field; }
-  /// Why the nearest case is shown where nothing is interpolated; empty where it has the parameters.
+  /// Why the nearest case is shown instead of an interpolation; empty if it has the parameters.
   const std::string& why_nearest() const { return opened_.between.why_nearest; }
   /// Lets cases be read on another thread while the nearest one is shown; take_prepared() then shows the
   /// interpolated field, once that is ready, and returns whether there is still something to wait for.
@@ -83,20 +83,20 @@ class Session {
   double prepared_part() const;  ///< of the time it takes
 
   // The simulations and figures of cases.
-  std::string why_no_raw(int i) const;           ///< empty where case i's simulation can be read
+  std::string why_no_raw(int i) const;           ///< empty if case i's simulation can be read
   std::shared_ptr<const RawCase> raw_of(int i);  ///< throws InputError with that reason
-  Motion probed_motion();                        ///< throws InputError where nothing is probed
+  Motion probed_motion();                        ///< throws InputError if nothing is probed
   Tornado tornado();                             ///< of the gape, over all cases
   const CaseFigures& figures(int i) { return cases().figures(i); }
   bool knows_figures(int i) const { return opened_.cases && opened_.cases->knows_figures(i); }
   std::vector<std::string> column_names() const { return cases().column_names(); }
   double column_value(int i, const std::string& name) { return cases().column_value(i, name); }
-  /// Where the condition of `find` holds in case i.
+  /// The finding of the condition of `find` in case i.
   const std::optional<Finding>& finding(int i) { return cases().finding(state().where, i); }
   bool brushed(int i);  ///< whether no brush and no condition fades case i
 
   // For windows.
-  void tick(double seconds);  ///< what playing does in that time; listeners are notified
+  void tick(double seconds);  ///< advances playing by that time; listeners are notified
   void tell_progress_to(std::function<bool(const std::string&, double)> progress);
   void hand_devices_to(std::function<void(const std::string&, const std::string&)> device);
   void answer_to(std::function<void(const std::string&)> answer);
@@ -107,7 +107,7 @@ class Session {
   Changes& changes() { return changes_; }
   const SessionServices& services() const { return services_; }
   void answer(const std::string& text) const;
-  /// Throws InputError where the user has cancelled it.
+  /// Throws InputError if the user has cancelled it.
   void progress(const std::string& what, double part) const;
 
  private:

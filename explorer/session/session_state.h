@@ -1,4 +1,4 @@
-// What the explorer is at: plain values, that a file can hold. Lengths in mm.
+// The state of the explorer as plain values that a file can hold. Lengths in mm.
 #pragma once
 
 #include <map>
@@ -14,8 +14,8 @@
 
 namespace cleft {
 
-/// Where the camera stands. Angles: at 0, 0 it looks at the middle of the cut along its mean normal, and at
-/// zoom 1 everything is in the picture. What a mouse has done to it is a pose of its own.
+/// The camera. At the angles 0, 0 it looks at the middle of the cut along its mean normal, and at zoom 1
+/// everything is in the picture. After dragging with the mouse it has a pose.
 struct CameraState {
   double azimuth = 0, elevation = 0;  ///< degrees, towards the picture's right and up
   double zoom = 1;
@@ -36,13 +36,13 @@ struct ProbeState {
   Side side = Side::both;
 };
 
-/// Where the simulation's nodes are drawn: those within `radius` mm.
+/// The place around which the simulation's nodes are drawn: those within `radius` mm.
 struct ZoomState {
   Vec3 place;
   double radius = 5;
 };
 
-/// Another tension, given when there were so many cuts.
+/// A change of the tension, with the number of cuts at that time.
 struct TensionChange {
   std::size_t cuts;
   std::optional<SkinTension> tension;  ///< before it; of one that is undone, after it
@@ -51,8 +51,9 @@ struct TensionChange {
 struct SessionState {
   std::string study;  ///< study folder, study.dffd or case.dffd; empty: nothing is open
   int shown = 0;      ///< case, from 0
-  std::map<std::string, double> parameters;  ///< asked for with `set`
-  bool between = true;  ///< what has these parameters is interpolated; else the nearest case is shown
+  std::map<std::string, double> parameters;  ///< values of `set`
+  bool between =
+      true;  ///< whether a field for these parameters is interpolated; else the nearest case is shown
 
   std::string mesh;  ///< file of the surface mesh to cut; empty: the canonical patch
   double scale = 1;  ///< mm in a unit of the mesh
@@ -66,10 +67,10 @@ struct SessionState {
 
   Coloring coloring = Coloring::displacement;
   std::optional<std::pair<double, double>> range;  ///< of colours; none: from 0 to the largest of all times
-  int reference = -1;                              ///< the case from which `difference` is taken
+  int reference = -1;                              ///< the case that `difference` is relative to
   /// Cases outside these ranges of parameters and figures are faded.
   std::map<std::string, std::pair<double, double>> brushes;
-  std::string where;          ///< and those in which this condition holds nowhere; empty: none
+  std::string where;          ///< cases in which this condition holds nowhere are faded too; empty: none
   std::vector<int> compared;  ///< two to four cases side by side; empty: one view
   CameraState camera;
   std::optional<ProbeState> probe;
