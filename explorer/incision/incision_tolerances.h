@@ -233,8 +233,9 @@ struct IncisionTolerances {
 
   // Following the path's trace over the skin (surroundings.cpp).
 
-  /// Triangles passed without progress along the path after which the trace ends: it circles around a vertex.
-  static constexpr int trace_stuck = 20;
+  /// Corners of the triangles passed last whose sides are remembered: a fan's triangles, three corners each,
+  /// share vertices, and a vertex next to the path has to be on the same side in all of them.
+  static constexpr std::size_t trace_memory = 60;
   /// Half width, in longest edges of the triangle, of the part of the path where the triangle's corners are
   /// looked for: a path that comes back to the same place is followed on the right branch.
   static constexpr double trace_window = 3;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <queue>
 #include <span>
 #include <tuple>
+#include <unordered_map>
 
 #include "explorer/incision/incision_tolerances.h"
 
@@ -34,7 +34,9 @@ struct Corner {
   bool right() const { return at.v >= 0; }
 };
 
-/// The zero of v on the surface, from triangle to triangle.
+/// The zero of v on the surface, from triangle to triangle. Beyond the path's ends, where it goes straight
+/// on, only as far as the end is the nearest place of the whole path: a loop's end does not lead over its
+/// start.
 class Trace {
  public:
   /// Between these places of the path.
@@ -43,17 +45,19 @@ class Trace {
 
   /// From triangle t on, where the path passes it near s, ahead or back. False where it does not pass.
   bool follow(int t, double s, bool ahead) {
-    double farthest = -std::numeric_limits<double>::infinity();
-    int stuck = 0;
-    for (bool first = true; t >= 0; first = false) {
-      const std::optional<int> out = pass(t, s, ahead, first);
-      if (!out) return !first;
-      const double now = ahead ? s : -s;
-      stuck = now > farthest ? 0 : stuck + 1;
-      farthest = std::max(farthest, now);
-      if (stuck > Limits::trace_stuck || s < first_ || s > last_) break;
-      t = skin_across(mesh_, t, *out);
+    for (int from = -1; t >= 0;) {
+      const std::optional<Exit> exit = pass(t, from, s, ahead);
+      if (!exit) return from >= 0;
+      s = exit->s;
+      if (s < first_ || s > last_ || leads_over_path(*exit)) break;
+      const auto [seen, is_new] = passed_.try_emplace(t, s);
+      if (!is_new && from >= 0 && std::abs(seen->second - s) < Limits::trace_window * exit->longest_edge)
+        break;
+      seen->second = s;
+      from = t;
+      t = skin_across(mesh_, t, exit->edge);
     }
+    passed_.clear();
     return true;
   }
 
@@ -61,41 +65,66 @@ class Trace {
   std::vector<Corner> corners;  // of all triangles passed
 
  private:
-  /// The edge by which the path leaves t, if it passes it and t does not turn away from the blade; s becomes
-  /// that of the place.
-  std::optional<int> pass(int t, double& s, bool ahead, bool first) {
+  /// Where the path leaves a triangle.
+  struct Exit {
+    int edge;
+    double s, longest_edge;
+    Vec3 place;
+  };
+
+  bool leads_over_path(const Exit& exit) const {
+    if (exit.s >= 0 && exit.s <= path_.length()) return false;
+    const double nearest = path_.coordinates(exit.place).s;
+    return nearest > exit.longest_edge && nearest < path_.length() - exit.longest_edge;
+  }
+
+  /// Where the path leaves t, if it passes it and t does not turn away from the blade: by the edge that it
+  /// did not enter by. Where it passes a vertex both edges are at the same s but for rounding, and s could
+  /// not tell them apart.
+  std::optional<Exit> pass(int t, int from, double s, bool ahead) {
     const auto& v = mesh_.triangle(t).vertex;
     const Vec3 p[3] = {mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
     const double longest = std::sqrt(
         std::max({squared_norm(p[1] - p[0]), squared_norm(p[2] - p[1]), squared_norm(p[0] - p[2])}));
-    const double window = Limits::trace_window * longest;
     Corner corner[3];
-    for (int i = 0; i < 3; ++i) corner[i] = {v[i], path_.coordinates(p[i], s - window, s + window)};
+    for (int i = 0; i < 3; ++i) corner[i] = corner_at(v[i], s, Limits::trace_window * longest);
     int crossing[2], count = 0;
     for (int i = 0; i < 3; ++i)
       if (corner[i].right() != corner[(i + 1) % 3].right()) crossing[count++] = i;
     if (count != 2) return std::nullopt;
     double at[2], height[2];
+    Vec3 place[2];
     for (int k = 0; k < 2; ++k) {
-      const PathCoordinates &a = corner[crossing[k]].at, &b = corner[(crossing[k] + 1) % 3].at;
+      const int i = crossing[k], next = (i + 1) % 3;
+      const PathCoordinates &a = corner[i].at, &b = corner[next].at;
       const double part = a.v / (a.v - b.v);
       at[k] = (1 - part) * a.s + part * b.s, height[k] = (1 - part) * a.w + part * b.w;
+      place[k] = lerp(p[i], p[next], part);
     }
     const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
     if (dot(normal, path_.at((at[0] + at[1]) / 2).outward) <= 0) return std::nullopt;
     const double length = std::abs(at[1] - at[0]);
-    const bool known = first && !stations.empty();  // the second of two ways from the same triangle
+    const bool known = from < 0 && !stations.empty();  // the second of two ways from the same triangle
     if (length > 0 && !known)
       stations.push_back({(at[0] + at[1]) / 2, length, (height[0] + height[1]) / 2, normalized(normal)});
     for (const Corner& c : corner) corners.push_back(c);
-    const int out = (at[1] > at[0]) == ahead ? 1 : 0;
-    s = at[out];
-    return crossing[out];
+    int out = (at[1] > at[0]) == ahead ? 1 : 0;
+    if (from >= 0 && skin_across(mesh_, t, crossing[out]) == from) out = 1 - out;
+    return Exit{crossing[out], at[out], longest, place[out]};
+  }
+
+  /// A corner of the triangles before is the same in this one: on which side it is, is decided once.
+  Corner corner_at(int vertex, double s, double reach) const {
+    const std::size_t oldest = corners.size() - std::min(corners.size(), Limits::trace_memory);
+    for (std::size_t i = corners.size(); i-- > oldest;)
+      if (corners[i].vertex == vertex && std::abs(corners[i].at.s - s) <= reach) return corners[i];
+    return {vertex, path_.coordinates(mesh_.position(vertex), s - reach, s + reach)};
   }
 
   const CutMesh& mesh_;
   const ScalpelPath& path_;
   double first_, last_;
+  std::unordered_map<int, double> passed_;  // triangles, and s where the path has left them
 };
 
 /// The skin triangles around every vertex, by index into one list.
@@ -140,9 +169,7 @@ class Surroundings::Front {
         known_(mesh.vertices().size()) {}
 
   void begin(const std::vector<Corner>& trace) {
-    const double tiny = Limits::in_the_way * path_.length();
-    for (const Corner& c : trace)
-      front_.push({std::abs(c.at.v), c.vertex, side_of(std::abs(c.at.v) <= tiny ? 0 : c.at.v)});
+    for (const Corner& c : trace) front_.push({std::abs(c.at.v), c.vertex, side_beside(c.at.s, c.at.v)});
   }
   /// A way on from a vertex, `distance` from the path, to one beside it.
   void go_on(double distance, int from, int next, Side side) {
@@ -163,8 +190,11 @@ class Surroundings::Front {
       label = {detour > Limits::no_detour * (distance + path_.length()) ? detour : 0,
                static_cast<float>(known(v).s), side, true};
       around_.reached_.push_back(v);
+      const bool on_path =
+          side == Side::both && on_cut(known(v).s);  // its neighbours have sides of their own
       for (const int t : triangles_of(v))
-        for (const int next : mesh_.triangle(t).vertex) go_on(distance, v, next, side);
+        for (const int next : mesh_.triangle(t).vertex)
+          go_on(distance, v, next, on_path ? side_beside(known(v).s, known(next).v) : side);
       for (const int other : across_wound(mesh_, v))
         if (!around_.labels_[other].reached) front_.push({distance, other, side});
     }
@@ -175,6 +205,11 @@ class Surroundings::Front {
   struct Known {
     double s, v, w;
   };
+  bool on_cut(double s) const { return s >= 0 && s <= path_.length(); }
+  /// Beyond the path's ends nothing is cut, and there are no sides.
+  Side side_beside(double s, double v) const {
+    return on_cut(s) && std::abs(v) > Limits::in_the_way * path_.length() ? side_of(v) : Side::both;
+  }
   bool inside(int v) { return known(v).s >= first_ && known(v).s <= last_; }
   const Known& known(int v) {
     if (known_[v]) return *known_[v];
