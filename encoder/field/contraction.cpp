@@ -64,6 +64,10 @@ double error_of(const Piece& piece, const Net& net, double from, double to, doub
   return error;
 }
 
+/// Pieces of one point's history: some ten to a hundred serve fields that were fitted to data. One that needs
+/// more is no sound field; the rest of its history is then one piece, and its error is in History::error.
+constexpr std::size_t most_pieces = 4096;
+
 /// Pieces from one break to another, each as long as it may be: the error goes with the length to the fourth.
 void fit(const Net& net, double from, const double to, double tolerance, History& out) {
   const double aim = 0.6 * tolerance;  // between the sampled points, next to knots, it may be larger
@@ -77,7 +81,8 @@ void fit(const Net& net, double from, const double to, double tolerance, History
       const Piece piece = through(net, from, end);
       const double error = error_of(piece, net, from, end, aim);
       const double next = error > 0 ? h * std::clamp(0.95 * std::pow(aim / error, 0.25), 0.1, 4.) : 4 * h;
-      if (error <= aim || h <= shortest) {
+      const bool too_many = out.controls.size() >= most_pieces;
+      if (error <= aim || h <= shortest || (too_many && end == to)) {
         out.error = std::max(out.error, error);
         out.breaks.push_back(from);
         out.controls.push_back(piece);
@@ -85,12 +90,31 @@ void fit(const Net& net, double from, const double to, double tolerance, History
         length = std::max(next, shortest);
         break;
       }
+      if (too_many) {
+        end = to;
+        continue;
+      }
       end = from + std::max(std::min(next, 0.8 * h), shortest);
       // A kink of the tip's way is the better end, should it be that which is in the way.
       const auto& kinks = net.parametrization.geometry().tip.times;
       const auto kink = std::lower_bound(kinks.begin(), kinks.end(), from + h - shortest);
       if (kink != kinks.begin() && kink[-1] > from + shortest) end = std::max(end, kink[-1]);
     }
+  }
+}
+
+/// The last time, to the bit, at which a point at u is not yet behind the tip: `passes` but for rounding, by
+/// bisection, since a slow tip's rounding in u is many steps of t.
+double last_not_beyond(const TipPath& tip, double u, double passes) {
+  constexpr int steps = 8;  // of rounding, as a tip has them that goes at its usual speed
+  for (int i = 0; i < steps && passes > 0 && tip.at(passes) > u; ++i) passes = std::nextafter(passes, 0);
+  if (!(passes > 0) || tip.at(passes) <= u) return passes;
+  double before = 0, beyond = passes;
+  if (tip.at(before) > u) return before;
+  while (true) {
+    const double middle = before + (beyond - before) / 2;
+    if (middle <= before || middle >= beyond) return before;
+    (tip.at(middle) > u ? beyond : before) = middle;
   }
 }
 
@@ -186,8 +210,7 @@ void Field::contract_moving(const Vec3& uvw, const BasisPlace& place, double tol
   const TipPath& tip = p.geometry().tip;
   const double u = p.inside(uvw.x, 0);
   double passes = tip.passes(u);
-  // The last time, to the bit, at which the point is not yet behind the tip.
-  while (passes > 0 && passes <= domain(3).back && tip.at(passes) > u) passes = std::nextafter(passes, 0);
+  if (passes <= domain(3).back) passes = last_not_beyond(tip, u, passes);
   const Net net{p, (*axes_)[0], (*axes_)[3], u, out.scratch.data()};
   const auto [front, back] = domain(3);
   auto stop = stops.begin();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.h"
@@ -20,6 +21,9 @@ constexpr int room_pieces = 128;
 /// The tilt of the line between the lips over the tilt of the blade, and over how many depths of the cut it
 /// falls by a factor of e across it: what the solver's tilted cuts show (tests/truth).
 constexpr double lips_tilt = 2. / 3, tilt_reach = 1.5;
+/// Radians: simulations of tilted cuts end at 60 degrees (cut.tilt). Where the skin under the blade turns
+/// away further, the lips are lifted as at 60; the tangent would grow without bound at 135.
+constexpr double most_tilt = 60 * std::numbers::pi / 180;
 /// Of the path's length: the skin's normal is a mean over at least this much of it, however shallow the cut.
 constexpr double least_mean = 1e-3;
 /// The weight of a station's own normal where it is the only one within reach.
@@ -209,7 +213,8 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
 /// Under a tilted blade the thinner lip rises and the thicker one sinks: the line between them turns by two
 /// thirds of the tilt, as the solver's tilted cuts show (tests/truth), and the more the nearer to the cut.
 double IncisionVolume::lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const {
-  const double tilt = std::atan2(-dot(blade, skin.across), dot(blade, skin.outward));
+  const double tilt =
+      std::clamp(std::atan2(-dot(blade, skin.across), dot(blade, skin.outward)), -most_tilt, most_tilt);
   return std::tan(lips_tilt * tilt) * std::exp(-v / (tilt_reach * field_.cut().depth));
 }
 

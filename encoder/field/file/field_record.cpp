@@ -148,6 +148,14 @@ FieldGeometry geometry_of(const Json& header) {
       !std::is_sorted(positions.begin(), positions.end()) ||
       std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
     throw InputError("the tip's path is not one of increasing times and positions");
+  const Interval& u = geometry.domain[0];
+  const double first = std::min(geometry.cut.start, positions.front()),
+               last = std::max(geometry.cut.start + geometry.cut.length, positions.back()),
+               rounding = 1e-6 * (u.back - u.front);
+  if (first < u.front - rounding || last > u.back + rounding)
+    throw InputError("the cut, from u = " + shortest(first) + " to " + shortest(last) +
+                     " mm, is not within the domain in u, " + shortest(u.front) + " to " + shortest(u.back) +
+                     " mm");
   return geometry;
 }
 
