@@ -6,9 +6,6 @@
 
 namespace cleft {
 
-/// VTK's reader of .ply crashes on invalid headers, or if the body ends early.
-void check_ply(const std::string& path);
-
 /// A binary .stl states its number of triangles; VTK's reader accepts fewer silently.
 void check_stl(const std::string& path);
 

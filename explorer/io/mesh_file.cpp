@@ -7,7 +7,6 @@
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkOBJWriter.h>
-#include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
@@ -26,6 +25,7 @@
 #include "base/vtk_listener.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_checks.h"
+#include "explorer/io/ply_file.h"
 #include "explorer/io/polygons.h"
 
 namespace cleft {
@@ -45,6 +45,23 @@ void check_corners(const std::string& path, vtkPolyData* data) {
   }
 }
 
+/// Triangles of polygons, with points at the same place merged: of texture seams, and of .stl's loose
+/// corners.
+vtkSmartPointer<vtkPolyData> merged_triangles(vtkPolyData* polygons, int& merged) {
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputData(polygons);
+  triangles->PassLinesOff();
+  triangles->PassVertsOff();
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputConnection(triangles->GetOutputPort());
+  clean->ToleranceIsAbsoluteOn();
+  clean->SetAbsoluteTolerance(0);
+  clean->Update();
+  merged =
+      static_cast<int>(triangles->GetOutput()->GetNumberOfPoints() - clean->GetOutput()->GetNumberOfPoints());
+  return clean->GetOutput();
+}
+
 template <class Reader>
 vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
@@ -54,19 +71,26 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   reader->Update();
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
   check_corners(path, reader->GetOutput());
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputConnection(reader->GetOutputPort());
-  triangles->PassLinesOff();
-  triangles->PassVertsOff();
-  vtkNew<vtkCleanPolyData> clean;  // merges equal points, also of texture seams and STL's loose corners
-  clean->SetInputConnection(triangles->GetOutputPort());
-  clean->ToleranceIsAbsoluteOn();
-  clean->SetAbsoluteTolerance(0);
-  clean->Update();
+  const auto triangles = merged_triangles(reader->GetOutput(), merged);
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
-  merged =
-      static_cast<int>(triangles->GetOutput()->GetNumberOfPoints() - clean->GetOutput()->GetNumberOfPoints());
-  return clean->GetOutput();
+  return triangles;
+}
+
+vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, int& merged) {
+  const PlyPolygons ply = read_ply(path);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vec3& p : ply.points) points->InsertNextPoint(p.x, p.y, p.z);
+  vtkNew<vtkCellArray> cells;
+  for (const std::vector<int>& polygon : ply.polygons) {
+    if (polygon.size() < 3) continue;
+    cells->InsertNextCell(static_cast<int>(polygon.size()));
+    for (const int corner : polygon) cells->InsertCellPoint(corner);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  return merged_triangles(data, merged);
 }
 
 vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
@@ -116,7 +140,7 @@ void write_vtp(const std::string& path, const SurfaceMesh& mesh, const std::vect
 /// What reads and writes a row of the table of formats.
 struct SurfaceFile {
   std::string_view ending;
-  void (*check)(const std::string& path);  ///< what VTK's reader would crash on; null: it reports all errors
+  void (*check)(const std::string& path);  ///< what VTK's reader would crash on; null: none
   vtkSmartPointer<vtkPolyData> (*read)(const std::string& path, int& merged);
   void (*write)(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays);
 };
@@ -124,7 +148,7 @@ struct SurfaceFile {
 constexpr SurfaceFile surface_files[] = {
     {".stl", check_stl, read_with<vtkSTLReader>, write_stl},
     {".obj", check_obj, read_with<vtkOBJReader>, write_obj},
-    {".ply", check_ply, read_with<vtkPLYReader>, nullptr},
+    {".ply", nullptr, read_ply_mesh, nullptr},
     {".vtp", nullptr, read_with<vtkXMLPolyDataReader>, write_vtp},
 };
 
