@@ -13,6 +13,7 @@ constexpr double relieved_each = 1;
 void LiveWounds::add(Wound wound, std::size_t most_entering) {
   scale_ = wound.scale();
   replays_.emplace_back(Wounds::add(std::move(wound)), most_entering);
+  now_ = relief(size() - 1).at(1);
 }
 
 void LiveWounds::follow(std::size_t count) {
@@ -43,6 +44,7 @@ bool LiveWounds::relieve() {
     amplitudes.assign(size(), {{0}, {1}});
   }
   set_relief(last, Relief({std::move(amplitudes)}));
+  now_ = relief(last).at(1);
   relieved_at_ = length;
   return true;
 }

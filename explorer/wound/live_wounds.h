@@ -29,14 +29,15 @@ class LiveWounds : public Wounds {
     Vec3 sum;
     std::size_t k = 0;
     for (const LiveReplay& replay : replays_)
-      sum += scale_ * newest_relief().amplitude(k++, replay.station(vertex), 1) * replay.displacement(vertex);
+      sum += scale_ * now_.amplitude(k++, replay.station(vertex)) * replay.displacement(vertex);
     return sum;
   }
   /// The vertices of each wound.
-  const std::deque<LiveReplay>& replays() const { return replays_; }
+  const std::vector<LiveReplay>& replays() const { return replays_; }
 
  private:
-  std::deque<LiveReplay> replays_;
+  std::vector<LiveReplay> replays_;
+  Relief::At now_;  // with the blade of the newest wound at its tip
   double scale_ = 1;
   double relieved_at_ = 0;  // mm: the length of all cuts for which their relief was found
 };

@@ -86,6 +86,18 @@ double change_across(const Wound& other, const Stiffness& is, const ActiveVertex
 
 double Amplitude::at(double s) const { return linear(stations, values, s); }
 
+Relief::At Relief::at(double part) const {
+  At result;
+  if (steps_ == 0) return result;
+  const double at = part * static_cast<double>(steps_ - 1);
+  const auto step = steps_ == 1 ? 0 : std::min(static_cast<std::size_t>(at), steps_ - 2);
+  result.cuts_ = cuts();
+  result.before_ = &amplitudes_[step * result.cuts_];
+  result.after_ = steps_ == 1 ? result.before_ : result.before_ + result.cuts_;
+  result.beyond_ = at - static_cast<double>(step);
+  return result;
+}
+
 std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade) {
   std::vector<Amplitude> result(cuts.size());
   std::vector<Influence> influences;

@@ -27,22 +27,41 @@ class Relief {
  public:
   Relief() = default;
   /// steps[i][k] is the amplitude of cut k with the blade at step i.
-  explicit Relief(std::vector<std::vector<Amplitude>> steps) : steps_(std::move(steps)) {}
-
-  const std::vector<std::vector<Amplitude>>& steps() const { return steps_; }
-  std::size_t cuts() const { return steps_.empty() ? 0 : steps_.front().size(); }
-  /// The amplitude at s mm of a cut's path; the blade is at `part` of its own path.
-  double amplitude(std::size_t cut, double s, double part) const {
-    if (cut >= cuts()) return 1;
-    if (steps_.size() == 1) return steps_.front()[cut].at(s);
-    const double at = part * static_cast<double>(steps_.size() - 1);
-    const auto i = std::min(static_cast<std::size_t>(at), steps_.size() - 2);
-    const double beyond = at - static_cast<double>(i);
-    return (1 - beyond) * steps_[i][cut].at(s) + beyond * steps_[i + 1][cut].at(s);
+  explicit Relief(const std::vector<std::vector<Amplitude>>& steps) : steps_(steps.size()) {
+    for (const std::vector<Amplitude>& step : steps)
+      amplitudes_.insert(amplitudes_.end(), step.begin(), step.end());
   }
 
+  std::size_t steps() const { return steps_; }
+  std::size_t cuts() const { return steps_ == 0 ? 0 : amplitudes_.size() / steps_; }
+  const Amplitude& amplitude(std::size_t step, std::size_t cut) const {
+    return amplitudes_[step * cuts() + cut];
+  }
+
+  /// The amplitudes at one position of the blade, evaluated for each vertex of a frame. The relief must
+  /// outlive them.
+  class At {
+   public:
+    At() = default;  ///< 1 everywhere
+    /// The amplitude at s mm of a cut's path.
+    double amplitude(std::size_t cut, double s) const {
+      if (cut >= cuts_) return 1;
+      if (before_ == after_) return before_[cut].at(s);
+      return (1 - beyond_) * before_[cut].at(s) + beyond_ * after_[cut].at(s);
+    }
+
+   private:
+    friend class Relief;
+    const Amplitude *before_ = nullptr, *after_ = nullptr;  // of all cuts, at the two nearest steps
+    std::size_t cuts_ = 0;
+    double beyond_ = 0;  // weight of `after_`
+  };
+  /// The blade is at `part` of its own path.
+  At at(double part) const;
+
  private:
-  std::vector<std::vector<Amplitude>> steps_;
+  std::size_t steps_ = 0;
+  std::vector<Amplitude> amplitudes_;  // [step][cut]
 };
 
 /// The amplitudes of all cuts, with the blade of the last one at `blade` mm of its path and the others

@@ -26,7 +26,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
     std::vector<std::vector<Amplitude>> steps;
     for (int i = 0; i <= relief_pieces; ++i)
       steps.push_back(mutual_relief(first(k + 2), path_length(k + 1) * i / relief_pieces));
-    set_relief(k + 1, Relief(std::move(steps)));
+    set_relief(k + 1, Relief(steps));
   }
   bound_vertices();
 }
@@ -38,8 +38,8 @@ void ReplayedWounds::bound_vertices() {
   for (std::size_t k = 0; k < size(); ++k) {
     Amplitude largest;
     for (std::size_t later = std::max<std::size_t>(k, 1); later < size(); ++later)
-      for (const std::vector<Amplitude>& at_once : relief(later).steps()) {
-        const Amplitude& one = at_once[k];
+      for (std::size_t step = 0; step < relief(later).steps(); ++step) {
+        const Amplitude& one = relief(later).amplitude(step, k);
         if (largest.values.empty())
           largest = {one.stations, std::vector(one.values.size(), k == 0 ? 1. : 0.)};
         for (std::size_t i = 0; i < one.values.size(); ++i)
@@ -95,16 +95,15 @@ void ReplayedWounds::positions(double t, const Level& level, std::span<Vec3> out
   const Replay& cutting = level.replays[now.cut];
   cutting.positions(now.s, out);
   if (now.cut == 0) return;
-  const Relief& relief = this->relief(now.cut);
-  const double part = this->part(now);
+  const Relief::At relief = relief_at(now);
   for (const ActiveVertex& a : cutting.active()) {
     const std::size_t v = a.vertex;
-    out[v] = rest()[v] + relief.amplitude(now.cut, a.s, part) * (out[v] - rest()[v]);
+    out[v] = rest()[v] + relief.amplitude(now.cut, a.s) * (out[v] - rest()[v]);
   }
   for (std::size_t k = 0; k < now.cut; ++k)
     for (std::size_t i = 0; i < level.complete[k].size(); ++i) {
       const ActiveVertex& a = level.replays[k].active()[i];
-      out[a.vertex] += relief.amplitude(k, a.s, part) * level.complete[k][i];
+      out[a.vertex] += relief.amplitude(k, a.s) * level.complete[k][i];
     }
 }
 

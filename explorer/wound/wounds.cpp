@@ -15,13 +15,13 @@ std::vector<const Wound*> Wounds::first(std::size_t count) const {
   return result;
 }
 
-double Wounds::part(const Blade& blade) const {
+Relief::At Wounds::relief_at(const Blade& blade) const {
   const Wound& newest = wounds_[blade.cut];
-  return blade.s / (newest.incision->path().length() * newest.scale());
+  return relief_[blade.cut].at(blade.s / (newest.incision->path().length() * newest.scale()));
 }
 
 double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
-  return relief_[blade.cut].amplitude(cut, s, part(blade));
+  return relief_at(blade).amplitude(cut, s);
 }
 
 Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,

@@ -49,10 +49,9 @@ class Wounds {
   Wound& add(Wound wound);
   std::vector<const Wound*> first(std::size_t count) const;
   const Relief& relief(std::size_t newest) const { return relief_[newest]; }
-  const Relief& newest_relief() const { return relief_.back(); }
   void set_relief(std::size_t newest, Relief relief) { relief_[newest] = std::move(relief); }
-  /// The completed part of the blade's path, for Relief::amplitude().
-  double part(const Blade& blade) const;
+  /// The amplitudes at a position of the blade; valid until a wound is added or a relief is set.
+  Relief::At relief_at(const Blade& blade) const;
 
  private:
   std::deque<Wound> wounds_;
