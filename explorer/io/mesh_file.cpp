@@ -71,7 +71,7 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   reader->Update();
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
   check_corners(path, reader->GetOutput());
-  const auto triangles = merged_triangles(reader->GetOutput(), merged);
+  auto triangles = merged_triangles(reader->GetOutput(), merged);
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
   return triangles;
 }
