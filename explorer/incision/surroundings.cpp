@@ -45,19 +45,19 @@ class Trace {
 
   /// From triangle t on, where the path passes it near s, ahead or back. False where it does not pass.
   bool follow(int t, double s, bool ahead) {
+    std::unordered_map<int, double> passed;  // triangles, and s where the path has left them
     for (int from = -1; t >= 0;) {
       const std::optional<Exit> exit = pass(t, from, s, ahead);
       if (!exit) return from >= 0;
       s = exit->s;
       if (s < first_ || s > last_ || leads_over_path(*exit)) break;
-      const auto [seen, is_new] = passed_.try_emplace(t, s);
+      const auto [seen, is_new] = passed.try_emplace(t, s);
       if (!is_new && from >= 0 && std::abs(seen->second - s) < Limits::trace_window * exit->longest_edge)
         break;
       seen->second = s;
       from = t;
       t = skin_across(mesh_, t, exit->edge);
     }
-    passed_.clear();
     return true;
   }
 
@@ -124,7 +124,6 @@ class Trace {
   const CutMesh& mesh_;
   const ScalpelPath& path_;
   double first_, last_;
-  std::unordered_map<int, double> passed_;  // triangles, and s where the path has left them
 };
 
 /// The skin triangles around every vertex, by index into one list.
