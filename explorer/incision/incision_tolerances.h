@@ -239,10 +239,16 @@ struct IncisionTolerances {
   /// Half width, in longest edges of the triangle, of the part of the path where the triangle's corners are
   /// looked for: a path that comes back to the same place is followed on the right branch.
   static constexpr double trace_window = 3;
+  /// Places of the path whose triangles are looked for one from the other, and how many triangles far.
+  static constexpr int cover_places = 256, cover_steps = 64;
   /// Distance from the path, relative to its length, at which a vertex is in the blade's way: it has no side.
   static constexpr double in_the_way = 1e-9;
   /// Detour over the surface, relative to the way and the path's length, that is rounding and counts as none.
   static constexpr double no_detour = 1e-9;
+
+  /// How much further apart the coordinates of two neighbours may be than the neighbours are. On the inner
+  /// side of a bend they are so at three quarters of its radius; where they jump, at any.
+  static constexpr double irregular = 4;
 
   // The path itself (scalpel_path.cpp).
 
@@ -261,6 +267,12 @@ struct IncisionTolerances {
   /// Arc length about s, relative to the path's length, in which its bend does not count: it is that of a
   /// hand's tremor.
   static constexpr double tremor = 0.05;
+  /// Half the way along the path, in distances from it, over which a place beside it is a mean, and how many
+  /// places are taken: at its ends they count a thousandth of the nearest one.
+  static constexpr double steady_window = 2;
+  static constexpr int steady_points = 12;
+  /// How far the mean may be from the nearest place but for rounding, relative to the path and the distance.
+  static constexpr double steady_rounding = 1e-12;
   /// Distance aside, relative to the path's length, below which a place is straight ahead.
   static constexpr double straight = 1e-9;
 };

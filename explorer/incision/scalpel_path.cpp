@@ -172,6 +172,26 @@ double ScalpelPath::extend(double s, const Point& next, double beyond) {
   return s;
 }
 
+double ScalpelPath::steady_place(const Vec3& x, const PathCoordinates& at) const {
+  const double distance = std::abs(at.v);
+  if (distance <= Limits::in_the_way * length()) return at.s;
+  const Vec3 up = this->at(at.s).outward;
+  double sum = 0, weights = 0;
+  for (int k = 1 - Limits::steady_points; k < Limits::steady_points; k += 2) {
+    const double part = static_cast<double>(k) / Limits::steady_points;
+    const double s = at.s + Limits::steady_window * part * distance;
+    const PathFrame frame = this->at(s);
+    Vec3 away = x - frame.position;
+    away -= dot(away, up) * up;
+    const double nearness = distance * distance / std::max(squared_norm(away), distance * distance),
+                 inside = 1 - part * part,
+                 weight = nearness * nearness * nearness * nearness * inside * inside;
+    sum += weight * (s - at.s + dot(away, frame.along)), weights += weight;
+  }
+  const double aside = sum / weights;
+  return std::abs(aside) > Limits::steady_rounding * (length() + distance) ? at.s + aside : at.s;
+}
+
 double ScalpelPath::room(double s, bool right) const {
   // The smallest circle that touches the path at C(s) and meets it again. Very near to s that would be the
   // curvature of a hand's tremor.

@@ -59,6 +59,12 @@ class ScalpelPath {
   PathCoordinates coordinates(const Vec3& x, double from, double to) const;
   PathCoordinates coordinates(const Vec3& x) const;
 
+  /// The place of the path that x, with coordinates `at`, belongs to: a mean around the nearest one, over a
+  /// way in proportion to the distance |v|, of what each place takes for the foot of x. It changes smoothly
+  /// from point to point where the nearest place jumps: on the inner side of bends, and beside the tremor of
+  /// a hand. Exactly at.s beside a straight path, and for v = 0.
+  double steady_place(const Vec3& x, const PathCoordinates& at) const;
+
   /// The distance from C(s), to the left or the right, up to which C(s) is the nearest point of the path: in
   /// a bend up to its centre of curvature; infinite for a straight path.
   double room(double s, bool right) const;

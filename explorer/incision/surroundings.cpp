@@ -6,125 +6,15 @@
 #include <queue>
 #include <span>
 #include <tuple>
-#include <unordered_map>
 
 #include "explorer/incision/incision_tolerances.h"
+#include "explorer/incision/path_trace.h"
 
 namespace cleft {
 
 namespace {
 
 using Limits = IncisionTolerances;
-
-/// The skin triangle across edge i of t; beyond a wound, that at the opposite lip; -1: there is none.
-int skin_across(const CutMesh& mesh, int t, int i) {
-  const int other = mesh.triangle(t).neighbor[i];
-  if (other < 0 || mesh.is_skin(other)) return other < 0 ? -1 : other;
-  const int corner = mesh.triangle(other).corner(mesh.triangle(t).vertex[(i + 1) % 3]),
-            twin = mesh.twin(other);
-  const int beyond = mesh.triangle(twin).neighbor[CutMesh::twin_edge(corner)];
-  return mesh.is_skin(beyond) ? beyond : -1;
-}
-
-/// Where a corner of a triangle lies, looked for near a known place of the path: one that comes back to where
-/// it was before is still followed.
-struct Corner {
-  int vertex = -1;
-  PathCoordinates at;
-  bool right() const { return at.v >= 0; }
-};
-
-/// The zero of v on the surface, from triangle to triangle. Beyond the path's ends, where it goes straight
-/// on, only as far as the end is the nearest place of the whole path: a loop's end does not lead over its
-/// start.
-class Trace {
- public:
-  /// Between these places of the path.
-  Trace(const CutMesh& mesh, const ScalpelPath& path, double first, double last)
-      : mesh_(mesh), path_(path), first_(first), last_(last) {}
-
-  /// From triangle t on, where the path passes it near s, ahead or back. False where it does not pass.
-  bool follow(int t, double s, bool ahead) {
-    std::unordered_map<int, double> passed;  // triangles, and s where the path has left them
-    for (int from = -1; t >= 0;) {
-      const std::optional<Exit> exit = pass(t, from, s, ahead);
-      if (!exit) return from >= 0;
-      s = exit->s;
-      if (s < first_ || s > last_ || leads_over_path(*exit)) break;
-      const auto [seen, is_new] = passed.try_emplace(t, s);
-      if (!is_new && from >= 0 && std::abs(seen->second - s) < Limits::trace_window * exit->longest_edge)
-        break;
-      seen->second = s;
-      from = t;
-      t = skin_across(mesh_, t, exit->edge);
-    }
-    return true;
-  }
-
-  std::vector<Surroundings::Station> stations;
-  std::vector<Corner> corners;  // of all triangles passed
-
- private:
-  /// Where the path leaves a triangle.
-  struct Exit {
-    int edge;
-    double s, longest_edge;
-    Vec3 place;
-  };
-
-  bool leads_over_path(const Exit& exit) const {
-    if (exit.s >= 0 && exit.s <= path_.length()) return false;
-    const double nearest = path_.coordinates(exit.place).s;
-    return nearest > exit.longest_edge && nearest < path_.length() - exit.longest_edge;
-  }
-
-  /// Where the path leaves t, if it passes it and t does not turn away from the blade: by the edge that it
-  /// did not enter by. Where it passes a vertex both edges are at the same s but for rounding, and s could
-  /// not tell them apart.
-  std::optional<Exit> pass(int t, int from, double s, bool ahead) {
-    const auto& v = mesh_.triangle(t).vertex;
-    const Vec3 p[3] = {mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
-    const double longest = std::sqrt(
-        std::max({squared_norm(p[1] - p[0]), squared_norm(p[2] - p[1]), squared_norm(p[0] - p[2])}));
-    Corner corner[3];
-    for (int i = 0; i < 3; ++i) corner[i] = corner_at(v[i], s, Limits::trace_window * longest);
-    int crossing[2], count = 0;
-    for (int i = 0; i < 3; ++i)
-      if (corner[i].right() != corner[(i + 1) % 3].right()) crossing[count++] = i;
-    if (count != 2) return std::nullopt;
-    double at[2], height[2];
-    Vec3 place[2];
-    for (int k = 0; k < 2; ++k) {
-      const int i = crossing[k], next = (i + 1) % 3;
-      const PathCoordinates &a = corner[i].at, &b = corner[next].at;
-      const double part = a.v / (a.v - b.v);
-      at[k] = (1 - part) * a.s + part * b.s, height[k] = (1 - part) * a.w + part * b.w;
-      place[k] = lerp(p[i], p[next], part);
-    }
-    const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
-    if (dot(normal, path_.at((at[0] + at[1]) / 2).outward) <= 0) return std::nullopt;
-    const double length = std::abs(at[1] - at[0]);
-    const bool known = from < 0 && !stations.empty();  // the second of two ways from the same triangle
-    if (length > 0 && !known)
-      stations.push_back({(at[0] + at[1]) / 2, length, (height[0] + height[1]) / 2, normalized(normal)});
-    for (const Corner& c : corner) corners.push_back(c);
-    int out = (at[1] > at[0]) == ahead ? 1 : 0;
-    if (from >= 0 && skin_across(mesh_, t, crossing[out]) == from) out = 1 - out;
-    return Exit{crossing[out], at[out], longest, place[out]};
-  }
-
-  /// A corner of the triangles before is the same in this one: on which side it is, is decided once.
-  Corner corner_at(int vertex, double s, double reach) const {
-    const std::size_t oldest = corners.size() - std::min(corners.size(), Limits::trace_memory);
-    for (std::size_t i = corners.size(); i-- > oldest;)
-      if (corners[i].vertex == vertex && std::abs(corners[i].at.s - s) <= reach) return corners[i];
-    return {vertex, path_.coordinates(mesh_.position(vertex), s - reach, s + reach)};
-  }
-
-  const CutMesh& mesh_;
-  const ScalpelPath& path_;
-  double first_, last_;
-};
 
 /// The skin triangles around every vertex, by index into one list.
 struct Star {
@@ -167,8 +57,9 @@ class Surroundings::Front {
         last_(last),
         known_(mesh.vertices().size()) {}
 
-  void begin(const std::vector<Corner>& trace) {
-    for (const Corner& c : trace) front_.push({std::abs(c.at.v), c.vertex, side_beside(c.at.s, c.at.v)});
+  void begin(const std::vector<PathTrace::Corner>& trace) {
+    for (const PathTrace::Corner& c : trace)
+      front_.push({std::abs(c.at.v), c.vertex, side_beside(c.at.s, c.at.v)});
   }
   /// A way on from a vertex, `distance` from the path, to one beside it.
   void go_on(double distance, int from, int next, Side side) {
@@ -200,10 +91,39 @@ class Surroundings::Front {
   }
   double straight(int v) { return std::abs(known(v).v); }
 
+  /// Those among the vertices that were reached, and their neighbours.
+  template <class TrianglesOf>
+  void find_irregular(const TrianglesOf& triangles_of) {
+    std::vector<int> found;
+    for (const int v : around_.reached_) {
+      const auto compare = [&](int next) {
+        if (next != v && around_.labels_[next].reached && !is_regular(v, next))
+          found.insert(found.end(), {v, next});
+      };
+      for (const int t : triangles_of(v))
+        for (const int next : mesh_.triangle(t).vertex) compare(next);
+      for (const int other : across_wound(mesh_, v)) compare(other);
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    for (const int v : found) around_.irregular_.push_back({mesh_.position(v), known(v).s, side(v)});
+  }
+
  private:
   struct Known {
-    double s, v, w;
+    double s, v, w, steady;
   };
+  /// Whether the coordinates of two neighbours differ by no more than their distance allows.
+  bool is_regular(int a, int b) {
+    const double distance = norm(mesh_.position(a) - mesh_.position(b));
+    return std::hypot(known(a).steady - known(b).steady, across(a) - across(b)) <=
+           Limits::irregular * distance + Limits::in_the_way * path_.length();
+  }
+  Side side(int v) {
+    const Side found = around_.labels_[v].side;
+    return found == Side::both ? side_of(known(v).v) : found;
+  }
+  double across(int v) { return Surroundings::across(known(v).v, around_.labels_[v].detour, side(v)); }
   bool on_cut(double s) const { return s >= 0 && s <= path_.length(); }
   /// Beyond the path's ends nothing is cut, and there are no sides.
   Side side_beside(double s, double v) const {
@@ -223,7 +143,7 @@ class Surroundings::Front {
       const double part = next->s > last->s ? std::clamp((at.s - last->s) / (next->s - last->s), 0., 1.) : 0;
       height = (1 - part) * last->height + part * next->height;
     }
-    known_[v] = Known{at.s, at.v, at.w - height};
+    known_[v] = Known{at.s, at.v, at.w - height, path_.steady_place(mesh_.position(v), at)};
     return *known_[v];
   }
 
@@ -239,21 +159,36 @@ class Surroundings::Front {
 Surroundings::Surroundings(const CutMesh& mesh, const ScalpelPath& path, const std::vector<int>& seeds,
                            double reach)
     : reach_(reach) {
-  Trace trace(mesh, path, -reach, path.length() + reach);
+  PathTrace trace(mesh, path, -reach, path.length() + reach);
   for (const int seed : seeds)
     if (trace.follow(seed, 0, true)) {
       trace.follow(seed, 0, false);
       break;
     }
-  stations_ = std::move(trace.stations);
-  std::sort(stations_.begin(), stations_.end(), [](const Station& a, const Station& b) { return a.s < b.s; });
+  if (!seeds.empty()) trace.cover(seeds.front());
+  add_stations(std::move(trace.pieces));
   labels_.resize(mesh.vertices().size());
   Front front(*this, mesh, path, -reach, path.length() + reach);
   front.begin(trace.corners);
   const Star star(mesh);
-  front.spread([&](int v) {
+  const auto triangles_of = [&](int v) {
     return std::span(star.triangles).subspan(star.first[v], star.first[v + 1] - star.first[v]);
-  });
+  };
+  front.spread(triangles_of);
+  front.find_irregular(triangles_of);
+}
+
+/// Those beyond the last one so far.
+void Surroundings::add_stations(std::vector<Station> stations) {
+  std::sort(stations.begin(), stations.end(), [](const Station& a, const Station& b) { return a.s < b.s; });
+  for (const Station& s : stations)
+    if (stations_.empty() || s.s > stations_.back().s) stations_.push_back(s);
+}
+
+double Surroundings::across(double straight, double detour, Side side) {
+  return side == Side::left    ? std::min(straight, 0.0) - detour
+         : side == Side::right ? std::max(straight, 0.0) + detour
+                               : 0;
 }
 
 Surroundings::Label Surroundings::of_parents(const CutMesh& mesh, int vertex,
@@ -274,6 +209,7 @@ Surroundings::Label Surroundings::of_parents(const CutMesh& mesh, int vertex,
 /// Forgets what lay beside the path beyond.
 void Surroundings::keep_until(double from) {
   std::erase_if(stations_, [&](const Station& s) { return s.s > from; });
+  std::erase_if(irregular_, [&](const Irregular& i) { return i.s > from; });
   relabelled_.clear();
   for (const int v : reached_) {
     if (labels_[v].s <= from) continue;
@@ -287,12 +223,9 @@ void Surroundings::extend(const CutMesh& mesh, const ScalpelPath& path, double f
   const auto before = static_cast<int>(labels_.size()), now = static_cast<int>(mesh.vertices().size());
   keep_until(from);
   labels_.resize(now);
-  Trace trace(mesh, path, from - reach_, from + ahead);
+  PathTrace trace(mesh, path, from - reach_, from + ahead);
   trace.follow(seed, from, true);
-  std::sort(trace.stations.begin(), trace.stations.end(),
-            [](const Station& a, const Station& b) { return a.s < b.s; });
-  for (const Station& s : trace.stations)
-    if (stations_.empty() || s.s > stations_.back().s) stations_.push_back(s);
+  add_stations(std::move(trace.pieces));
   Front front(*this, mesh, path, from, from + ahead);
   front.begin(trace.corners);
   const auto begin_from_neighbors = [&](int v) {
@@ -305,6 +238,7 @@ void Surroundings::extend(const CutMesh& mesh, const ScalpelPath& path, double f
   for (int v = before; v < now; ++v)
     if (mesh.vertex(v).kind == VertexKind::skin) begin_from_neighbors(v);
   front.spread([&](int v) { return mesh.skin_fan(v); });
+  front.find_irregular([&](int v) { return mesh.skin_fan(v); });
   for (int v = before; v < now; ++v)
     if (!labels_[v].reached) labels_[v] = of_parents(mesh, v, labels_);
   relabelled_.insert(relabelled_.end(), reached_.begin(), reached_.end());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "explorer/incision/cut_mesh.h"
+#include "explorer/incision/path_trace.h"
 #include "explorer/incision/scalpel_path.h"
 
 namespace cleft {
@@ -24,13 +25,17 @@ class Surroundings {
   /// else.
   void extend(const CutMesh& mesh, const ScalpelPath& path, double from, double ahead, int seed);
 
-  /// A piece of the path's trace, in one triangle, around s.
-  struct Station {
-    double s, length;  ///< its middle, and its length along the path
-    double height;     ///< of the skin over C(s)
-    Vec3 normal;       ///< unit, of the skin
-  };
+  using Station = PathTrace::Piece;
   const std::vector<Station>& stations() const { return stations_; }  ///< s increases
+
+  /// A vertex whose coordinates differ from those of a neighbour by much more than their distance: inside
+  /// bends, where the path comes back, beside folds.
+  struct Irregular {
+    Vec3 position;
+    double s;
+    Side side;  ///< of the path; both: it counts for both
+  };
+  const std::vector<Irregular>& irregular() const { return irregular_; }
 
   /// The position of a vertex relative to the path. Its distance over the surface, measured across the path,
   /// is the straight distance |v| plus `detour`.
@@ -46,13 +51,19 @@ class Surroundings {
   const std::vector<int>& relabelled() const { return relabelled_; }
   /// The label of a later vertex: the mean of those of its parents.
   static Label of_parents(const CutMesh& mesh, int vertex, const std::vector<Label>& labels);
+  /// The signed distance from the path, measured across it over the surface. `straight` is v of the place's
+  /// PathCoordinates: between the curve and its chords, and where the curve is as far on both sides, its sign
+  /// may be another than the side's.
+  static double across(double straight, double detour, Side side);
   double reach() const { return reach_; }
 
  private:
   class Front;
   void keep_until(double from);
+  void add_stations(std::vector<Station> stations);
 
   std::vector<Station> stations_;
+  std::vector<Irregular> irregular_;
   std::vector<Label> labels_;
   std::vector<int> reached_, relabelled_;  // by the last search; see relabelled()
   double reach_ = 0;

@@ -16,8 +16,16 @@ namespace {
 constexpr double margin = 1. / 4;
 /// Of the path's length: a place nearer to the blade's surface than this is on it, but for rounding.
 constexpr double rounding = 1e-9;
-/// In how many equal pieces of the path the room next to it is sampled.
-constexpr int room_pieces = 128;
+/// Displacements are no more than the room over this: their change adds at most its inverse to the strain.
+constexpr double least_room = 4;
+/// x - x^3 / (3 * 1.5^2) rises with a slope of 1 from 0, and is 1 with a slope of 0 at 1.5.
+constexpr double full_weight = 1.5;
+/// Inside a bend the field of a straight cut is no guide: displacements fall from this part of the way to the
+/// medial axis on, by what agrees best with simulated arcs (tests/truth).
+constexpr double free_part = 0.5;
+/// In how many equal pieces of the path the room next to it is sampled; of one that grows at each of its
+/// steps.
+constexpr int room_pieces = 512, room_pieces_of_growing = 128;
 /// The tilt of the line between the lips over the tilt of the blade, and over how many depths of the cut it
 /// falls by a factor of e across it: what the solver's tilted cuts show (tests/truth).
 constexpr double lips_tilt = 2. / 3, tilt_reach = 1.5;
@@ -26,6 +34,10 @@ constexpr double lips_tilt = 2. / 3, tilt_reach = 1.5;
 constexpr double most_tilt = 60 * std::numbers::pi / 180;
 /// Of the path's length: the skin's normal is a mean over at least this much of it, however shallow the cut.
 constexpr double least_mean = 1e-3;
+/// Directions of the path in the length of the way that each is a mean of, at most, and places that it is
+/// taken of on each side.
+constexpr double directions_a_mean = 8, most_directions = 4096;
+constexpr int mean_samples = 8;
 /// The weight of a station's own normal where it is the only one within reach.
 constexpr double own_normal = 1e-9;
 
@@ -57,7 +69,9 @@ IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, dou
               later.begin() + static_cast<std::ptrdiff_t>(std::min(labels_.size(), later.size())));
   update(later);
   find_normals();
+  find_directions();
   find_room();
+  opened_by(field);
 }
 
 void IncisionVolume::follow_path() {
@@ -65,26 +79,55 @@ void IncisionVolume::follow_path() {
   labels_.resize(std::max(labels_.size(), found.size()));
   for (const int v : incision_.surroundings().relabelled()) labels_[v] = found[v];
   find_normals();
+  find_directions();
   find_room();
 }
 
-void IncisionVolume::find_room() {
-  for (auto& side : room_) side.clear();
-  for (int i = 0; i <= room_pieces; ++i)
-    for (const bool right : {false, true})
-      room_[right].push_back(incision_.path().room(incision_.path().length() * i / room_pieces, right));
+void IncisionVolume::opened_by(const VaryingField& field) {
+  largest_ = LargestDisplacement(field, incision_.path().length() * scale_);
 }
 
-/// Falls smoothly from 1 in the path's half of its room to 0 at the end of it.
-double IncisionVolume::inside_bend(double s, double straight) const {
-  const std::vector<double>& room = room_[straight > 0];
-  const double at = std::clamp(s / incision_.path().length(), 0., 1.) * static_cast<double>(room.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), room.size() - 2);
-  const double part = at - static_cast<double>(i);
-  // The inverse of the room, a curvature, is linear between places: there is none beside a straight piece.
-  const double used = std::abs(straight) * ((1 - part) / room[i] + part / room[i + 1]);
-  const double x = std::clamp(2 * used - 1, 0., 1.);
-  return 1 - x * x * (3 - 2 * x);
+/// The distance to the path's own medial axis, which changes by no more than the way along the path, and the
+/// places where coordinates jump.
+void IncisionVolume::find_room() {
+  const ScalpelPath& path = incision_.path();
+  const int pieces = incision_.extended_to() > 0 ? room_pieces_of_growing : room_pieces;
+  for (const bool right : {false, true}) {
+    RoomAlong& bends = bends_[right];
+    bends = {};
+    for (int i = 0; i <= pieces; ++i) {
+      const double s = path.length() * i / pieces;
+      bends.push_back(s, path.room(s, right));
+    }
+    bends.even_out();
+    std::vector<Vec3> places;
+    for (const Surroundings::Irregular& one : incision_.surroundings().irregular())
+      if (one.side == Side::both || (one.side == Side::right) == right) places.push_back(one.position);
+    irregular_[right] = NearestPlace(std::move(places));
+  }
+}
+
+/// How far it is from a place to the path's medial axis.
+double IncisionVolume::room_of_bend(const Place& at) const {
+  return bends_[at.straight > 0].at(at.s) - std::abs(at.straight);
+}
+
+/// Displacements are at most a part of the distance to where the coordinates jump: neighbours on both sides
+/// of a jump then move apart by no more than that part of their distance, whatever their coordinates are.
+double IncisionVolume::weight_in_room(const Place& at) const {
+  const double largest = largest_.beside(std::abs(at.across) * scale_);
+  const double enough = full_weight * least_room * largest / scale_;
+  double room = enough;
+  for (const bool right : {false, true})
+    if (at.side == Side::both || (at.side == Side::right) == right)
+      room = std::min(
+          {room, bends_[right].at(at.s) - std::abs(at.straight), irregular_[right].distance(at.place, room)});
+  if (room <= 0) return 0;
+  const double x = std::min(room, enough) * scale_ / (least_room * largest);
+  const double in_room = room >= enough ? 1 : x - x * x * x / (3 * full_weight * full_weight);
+  const double used = std::abs(at.straight) / (room_of_bend(at) + std::abs(at.straight));
+  const double y = std::clamp((used - free_part) / (1 - free_part), 0., 1.);
+  return in_room * (1 - y * y * (3 - 2 * y));
 }
 
 void IncisionVolume::update(const std::vector<int>& vertices) {
@@ -114,8 +157,31 @@ void IncisionVolume::find_normals() {
   }
 }
 
+/// The path's direction at even distances, a mean over as much of it, equally far to both sides: lips that
+/// each bend of a hand's tremor turned would move into each other.
+void IncisionVolume::find_directions() {
+  const ScalpelPath& path = incision_.path();
+  const double reach = std::max(field_.cut().depth / scale_, least_mean * path.length());
+  const int pieces =
+      static_cast<int>(std::clamp(directions_a_mean * path.length() / reach, 1., most_directions));
+  along_.clear();
+  for (int i = 0; i <= pieces; ++i) {
+    const double s = path.length() * i / pieces, within = std::min({reach, s, path.length() - s});
+    Vec3 sum;
+    for (int k = 1 - mean_samples; k < mean_samples; ++k) {
+      const double part = static_cast<double>(k) / mean_samples;
+      sum += (1 - std::abs(part)) * path.at(s + part * within).along;
+    }
+    along_.push_back(norm(sum) > 0 ? normalized(sum) : path.at(s).along);
+  }
+}
+
 PathFrame IncisionVolume::skin_frame(double s) const {
   PathFrame frame = incision_.path().at(s);
+  const double place =
+      std::clamp(s / incision_.path().length(), 0., 1.) * static_cast<double>(along_.size() - 1);
+  const std::size_t before = std::min(static_cast<std::size_t>(place), along_.size() - 2);
+  frame.along = lerp(along_[before], along_[before + 1], place - static_cast<double>(before));
   if (!station_.empty()) {
     const auto next =
         static_cast<std::size_t>(std::upper_bound(station_.begin(), station_.end(), s) - station_.begin());
@@ -129,11 +195,12 @@ PathFrame IncisionVolume::skin_frame(double s) const {
   return frame;
 }
 
-/// Of which side of this wound a vertex is that is not its own: by the walls around it, else by the lips
-/// beside it.
+/// Of which side of this wound a vertex is that is not its own: by the walls around it, else by its
+/// neighbours on the skin, which is on one side of the wound where lips are among them.
 IncisionVolume::WoundSide IncisionVolume::side_of_wound(int v) const {
   const CutMesh& mesh = incision_.mesh();
-  bool left = false, right = false, left_beside = false, right_beside = false;
+  bool left = false, right = false, beside_lips = false;
+  int more_right = 0;
   for (const int t : mesh.fan(v)) {
     const CutMesh::Triangle& triangle = mesh.triangle(t);
     if (triangle.sheet >= 0) {
@@ -141,22 +208,24 @@ IncisionVolume::WoundSide IncisionVolume::side_of_wound(int v) const {
         (triangle.region == Region::left_wall ? left : right) = true;
       continue;
     }
-    for (const int other : triangle.vertex)
-      if (mesh.vertex(other).cut == incision_.cut()) {
-        const Side side = cleft::side_of(mesh.vertex(other).kind);
-        left_beside = left_beside || side == Side::left;
-        right_beside = right_beside || side == Side::right;
-      }
+    for (const int other : triangle.vertex) {
+      if (other == v) continue;
+      const CutMesh::Vertex& neighbor = mesh.vertex(other);
+      const bool own = neighbor.cut == incision_.cut();
+      const Side side = own ? side_of(neighbor.kind) : labels_[other].side;
+      beside_lips = beside_lips || (own && side != Side::both);
+      more_right += (side == Side::right) - (side == Side::left);
+    }
   }
-  const bool on_wall = left || right;
-  if (!on_wall) left = left_beside, right = right_beside;
-  return {left == right ? Side::both : left ? Side::left : Side::right, on_wall};
+  if (left != right) return {left ? Side::left : Side::right, true};
+  return {!beside_lips || more_right == 0 ? Side::both : more_right > 0 ? Side::right : Side::left, left};
 }
 
 std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const CutMesh::Vertex& vertex = incision_.mesh().vertex(v);
   if (vertex.cut == incision_.cut())  // lips, walls and closed ends know where they are
-    return Place{vertex.s, 0, -vertex.depth_fraction * field_.cut().depth, side_of(vertex.kind), true, 0};
+    return Place{vertex.position,      vertex.s, 0, -vertex.depth_fraction * field_.cut().depth,
+                 side_of(vertex.kind), true,     0};
   const Surroundings::Label& label = labels_[v];
   if (!label.reached) return std::nullopt;
   const PathCoordinates at = incision_.path().coordinates(vertex.position);
@@ -164,15 +233,13 @@ std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const auto [wound, on_wall] = side_of_wound(v);
   Side side = wound == Side::both ? label.side : wound;
   if (side == Side::both) side = side_of(straight);
-  return Place{at.s, across(straight, label.detour, side), -vertex.depth * scale_, side, on_wall, straight};
-}
-
-/// Signed. Between the curve and its chords, and where the curve is as far on both sides, v's sign may be
-/// another than the side.
-double IncisionVolume::across(double straight, double detour, Side side) const {
-  return side == Side::left    ? std::min(straight, 0.0) - detour
-         : side == Side::right ? std::max(straight, 0.0) + detour
-                               : 0;
+  return Place{vertex.position,
+               incision_.path().steady_place(vertex.position, at),
+               Surroundings::across(straight, label.detour, side),
+               -vertex.depth * scale_,
+               side,
+               on_wall,
+               straight};
 }
 
 std::optional<ActiveVertex> IncisionVolume::locate(int vertex) const {
@@ -190,18 +257,21 @@ std::optional<ActiveVertex> IncisionVolume::locate_below(const Vec3& place, doub
   // As deep as the blade is as deep as the canonical cut; below, depths differ by the same.
   const double own = incision_.path().depth(at.s) * scale_, canonical = field_.cut().depth;
   const double w = depth < own ? -depth / own * canonical : own - depth - canonical;
-  return activate(-1, {at.s, across(straight, label.detour, side), w, side, false, straight});
+  return activate(-1, {place, incision_.path().steady_place(place, at),
+                       Surroundings::across(straight, label.detour, side), w, side, false, straight});
 }
 
 std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at) const {
   const ScalpelPath& path = incision_.path();
-  const CanonicalPlace place = canonical_place(at.s * scale_, path.length() * scale_, field_.cut());
+  CanonicalPlace place = canonical_place(at.s * scale_, path.length() * scale_, field_.cut());
   const double v = at.across * scale_;
+  // At the cut's start, but for rounding, the tip passes at once; next to it, the history would be endless.
+  const double from_start = place.u - field_.cut().start;
+  if (std::abs(from_start) <= rounding * field_.cut().length) place.u = field_.cut().start;
   const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
   const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
   const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
-  const double weight =
-      outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * inside_bend(at.s, at.straight) : 0;
+  const double weight = outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * weight_in_room(at) : 0;
   if (weight <= 0) return std::nullopt;
   const PathFrame frame = skin_frame(at.s);
   const double lift = lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));

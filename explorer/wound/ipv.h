@@ -8,9 +8,9 @@
 // normal along the cut). The side of a vertex follows from the surface (the lip from which it is reached
 // first), never from space: a vertex opposite the cut but far along the surface does not move.
 //
-// Where the path bends tighter than the patch is wide, the nearest place of the path jumps: displacements
-// decrease to zero before. The coordinates of a vertex depend on its side of the wound, not on the position
-// of the blade.
+// Where the path bends tighter than the patch is wide, or comes back to itself, and where the skin folds, the
+// coordinates jump from one vertex to the next: displacements decrease to zero before. The coordinates of a
+// vertex depend on its side of the wound, not on the position of the blade.
 #pragma once
 
 #include <array>
@@ -19,6 +19,7 @@
 
 #include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
+#include "explorer/wound/room.h"
 
 namespace cleft {
 
@@ -51,6 +52,9 @@ class IncisionVolume {
   /// The incision and the field must outlive it.
   IncisionVolume(const Incision& incision, const Field& field, double scale);
 
+  /// The field that opens the cut, where it is another than that of the constructor, of the same shape.
+  void opened_by(const VaryingField& field);
+
   /// Must be called after each change of the mesh with the vertices of changed triangles and new vertices,
   /// sorted.
   void update(const std::vector<int>& vertices);
@@ -73,13 +77,13 @@ class IncisionVolume {
 
  private:
   struct Place {
+    Vec3 place;           // mesh units
     double s, across, w;  // s and across in mesh units, w in mm
     Side side;
     bool on_cut;
     double straight;  // distance from the path, mesh units, on the side of v
   };
   std::optional<Place> place_of(int vertex) const;
-  double across(double straight, double detour, Side side) const;
   std::optional<ActiveVertex> activate(int vertex, const Place& at) const;
   struct WoundSide {
     Side side;
@@ -87,17 +91,22 @@ class IncisionVolume {
   };
   WoundSide side_of_wound(int vertex) const;
   void find_normals();
+  void find_directions();
   void find_room();
-  double inside_bend(double s, double straight) const;
+  double room_of_bend(const Place& at) const;
+  double weight_in_room(const Place& at) const;
   double lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const;
 
   const Incision& incision_;
   const Field& field_;
   double scale_, margin_;
   std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
-  std::array<std::vector<double>, 2> room_;  // beside the path, left and right, at even distances along it
-  std::vector<double> station_;              // s of the surroundings' stations
-  std::vector<Vec3> normal_;                 // of the skin there, a mean
+  std::array<RoomAlong, 2> bends_;           // left and right
+  std::array<NearestPlace, 2> irregular_;    // likewise
+  LargestDisplacement largest_;
+  std::vector<Vec3> along_;      // T at even distances along the path, means
+  std::vector<double> station_;  // s of the surroundings' stations
+  std::vector<Vec3> normal_;     // of the skin there, a mean
 };
 
 }  // namespace cleft

@@ -61,12 +61,14 @@ class LiveReplay {
     bool anywhere = false;
     Side side = Side::both;
     double s = 0, across = 0;  // mm
+    double weight = 0;
     Vec3 along;
   };
-  /// A vertex gets new coordinates if they are wrong by this distance, mm, or T by this angle, rad. Over a
-  /// quarter of a millimetre a wound's displacements change by some hundredths of a millimetre; updating all
-  /// vertices with each piece of the path would contract the field many times for each of them.
-  static constexpr double misplaced = 0.25, turned = 0.1;
+  /// A vertex gets new coordinates if they are wrong by this distance, mm, T by this angle, rad, or the
+  /// weight by this. Over a quarter of a millimetre a wound's displacements change by some hundredths of a
+  /// millimetre; updating all vertices with each piece of the path would contract the field many times for
+  /// each of them.
+  static constexpr double misplaced = 0.25, turned = 0.1, reweighted = 0.05;
   struct Waiting {
     double enters;  ///< mm of the path
     int vertex;

@@ -12,10 +12,12 @@ struct Wound {
   /// either LiveReplay keeps it up, or the wound is to be made anew. The incision and the field's own fields
   /// must outlive the wound. `scale`: mm per mesh unit.
   Wound(const Incision& cut, const VaryingField& opened_by, double scale)
-      : incision(&cut), field(opened_by), volume(cut, field.shape(), scale) {}
+      : Wound(cut, opened_by, IncisionVolume(cut, opened_by.shape(), scale)) {}
   /// With an existing volume for a field of the same shape.
   Wound(const Incision& cut, VaryingField opened_by, IncisionVolume built)
-      : incision(&cut), field(std::move(opened_by)), volume(std::move(built)) {}
+      : incision(&cut), field(std::move(opened_by)), volume(std::move(built)) {
+    volume.opened_by(field);
+  }
 
   double scale() const { return volume.scale(); }  ///< mm per mesh unit
   /// The position of the blade when the cut is complete, mm: the end of the path. An extended path ends where

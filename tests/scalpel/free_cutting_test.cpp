@@ -130,7 +130,7 @@ TEST(FreeCutting, ItOpensAsTheCutWouldHaveThatWasDrawnBefore) {
           cutting.mesh().vertex(static_cast<int>(v)).kind != VertexKind::skin)
         continue;
       // Inside a bend displacements end where the path's room does, which nobody knew before.
-      if (bend > 0 && std::abs(incision.path().coordinates(mesh.points[v]).v) > 12) continue;
+      if (bend > 0 && std::abs(incision.path().coordinates(mesh.points[v]).v) > 11) continue;
       const Vec3 felt = cutting.position(static_cast<int>(v)) - cutting.mesh().position(static_cast<int>(v));
       farthest = std::max(farthest, norm(seen[v] - replay.rest()[v] - felt));
       moved = std::max(moved, norm(felt));

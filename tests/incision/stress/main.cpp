@@ -1,17 +1,16 @@
 // cleft-stress-incision: random cuts through many meshes; prints what came of them.
+#include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "base/command/command.h"
 #include "base/error.h"
-#include "explorer/io/mesh_file.h"
 #include "tests/incision/meshes.h"
 #include "tests/incision/stress/stress.h"
+#include "tests/incision/stress/subjects.h"
 
 namespace {
 
 using namespace cleft;
-namespace fs = std::filesystem;
 
 struct Options {
   stress::Plan plan;
@@ -20,25 +19,7 @@ struct Options {
   bool large = false, json = false;
 };
 
-struct Subject {
-  std::string name;
-  SurfaceMesh mesh;
-  bool good = true;  // no defects, and no folds as sharp as an edge of a box
-};
-
 double hills(double x, double y) { return 0.8 * std::sin(0.9 * x) * std::cos(0.7 * y); }
-
-std::vector<Subject> generated() {
-  using namespace testing;
-  SurfaceMesh stretched = grid(40, 40, -10, -10, 0.5);
-  for (Vec3& p : stretched.points) p.y *= 0.1;
-  std::vector<Subject> subjects{
-      {"plane", grid(30, 30, -15, -15, 1)},    {"hills", grid(50, 50, -10, -10, 0.4, hills)},
-      {"stretched plane", stretched},          {"sphere", sphere(4, 10)},
-      {"octahedron", sphere(1, 10), false},    {"torus", ring(60, 24, 10, 4, true)},
-      {"cylinder", ring(40, 20, 10, 3, false)}};
-  return subjects;
-}
 
 void report(const std::string& name, const stress::Tally& t, bool json) {
   if (json) {
@@ -71,28 +52,20 @@ void report(const std::string& name, const stress::Tally& t, bool json) {
 }
 
 void run(const Options& o) {
-  std::vector<Subject> subjects = generated();
-  if (!o.meshes.empty()) {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(o.meshes))
-      if (entry.path().extension() == ".obj" || entry.path().extension() == ".stl")
-        files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    for (const fs::path& file : files)
-      subjects.push_back(
-          {file.stem().string(), read_mesh(file.string()), file.parent_path().filename() != "defective"});
-  }
+  std::vector<stress::Subject> subjects = stress::generated_subjects(false);
+  if (!o.meshes.empty())
+    for (stress::Subject& subject : stress::subjects_of(o.meshes)) subjects.push_back(std::move(subject));
   if (o.large)
     subjects.push_back({"plane of a million", testing::grid(708, 708, -10, -10, 20. / 708, hills)});
   if (!o.only.empty())
-    std::erase_if(subjects, [&](const Subject& s) { return s.name.find(o.only) == s.name.npos; });
+    std::erase_if(subjects, [&](const stress::Subject& s) { return s.name.find(o.only) == s.name.npos; });
   if (subjects.empty()) throw InputError("no mesh to cut: --only " + o.only + " names none");
   stress::Tally all;
   stress::Plan plan = o.plan;
   if (o.minutes > 0)
     plan.until = stress::Clock::now() + std::chrono::seconds(static_cast<long>(60 * o.minutes));
   plan.paths = std::max(1L, plan.paths / static_cast<long>(subjects.size()));
-  for (const Subject& subject : subjects) {
+  for (const stress::Subject& subject : subjects) {
     plan.good = subject.good;
     const stress::Tally tally = stress::stress(subject.name, subject.mesh, plan);
     report(subject.name, tally, o.json);

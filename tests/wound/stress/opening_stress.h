@@ -1,0 +1,38 @@
+// Random cuts through a mesh, opened, and what that does to the skin.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "explorer/wound/cut_fields.h"
+#include "tests/incision/stress/random_path.h"
+#include "tests/incision/stress/subjects.h"
+#include "tests/wound/stress/opened.h"
+
+namespace cleft::stress {
+
+struct OpeningPlan {
+  std::uint64_t seed = 1;
+  long cuts = 100;
+  int positions = 5, cuts_at_once = 3;     ///< of the blade; in the mesh
+  double least_edge = 0.7, most_edge = 4;  ///< mm: the mesh is scaled so that its mean edge is between
+  std::vector<long> only;                  ///< these cuts, with those in the mesh at once; none: all
+  bool list = false;
+};
+
+/// Cuts made one after the other in one mesh and opened together count as one group.
+struct OpeningTally {
+  long cuts = 0, refused = 0, groups = 0, unsound = 0;
+  double slowest = 0;  ///< s, of a group
+  Opened sum;
+  std::array<long, path_kinds> of{}, unsound_of{};  ///< by the kind of a group's last path
+  std::vector<std::string> listed;                  ///< groups that are unsound, or take more than 10 s
+  void add(const OpeningTally& other);
+};
+
+OpeningTally open_random_cuts(const Subject& subject, const CutFields& fields, const FieldLimits& limits,
+                              const OpeningPlan& plan);
+
+}  // namespace cleft::stress
