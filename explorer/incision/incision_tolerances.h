@@ -247,8 +247,8 @@ struct IncisionTolerances {
   static constexpr double no_detour = 1e-9;
 
   /// How much further apart the coordinates of two neighbours may be than the neighbours are. On the inner
-  /// side of a bend they are so at three quarters of its radius; where they jump, at any.
-  static constexpr double irregular = 4;
+  /// side of a bend they are so at seven eighths of its radius; where they jump, at any.
+  static constexpr double irregular = 8;
 
   // The path itself (scalpel_path.cpp).
 
