@@ -25,8 +25,10 @@ struct NotEnoughWorkspace : SolveError {
   using SolveError::SolveError;
 };
 
+}  // namespace
+
 /// Moves the entries of a solution from where MUMPS left them to the ranks that own the unknowns.
-class Redistribution {
+class CondensedFactor::Redistribution {
  public:
   /// `unknowns`: global numbers of the entries on this rank.
   Redistribution(const PatchSystem& system, const std::vector<int>& unknowns) : system_(&system) {
@@ -76,8 +78,6 @@ class Redistribution {
   const PatchSystem* system_;
   std::vector<int> send_order_, send_counts_, receive_counts_, rows_;
 };
-
-}  // namespace
 
 struct CondensedFactor::Mumps {
   explicit Mumps(const PatchSystem& s) : system(s) {}

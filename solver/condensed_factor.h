@@ -34,6 +34,7 @@ class CondensedFactor {
   Block solve(const SparseColumns& right);
 
  private:
+  class Redistribution;
   struct Mumps;
   std::unique_ptr<Mumps> mumps_;
   int exceptions_at_birth_ = std::uncaught_exceptions();
