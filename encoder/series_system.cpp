@@ -1,12 +1,12 @@
 #include "encoder/series_system.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "encoder/space_factor.h"
 
 namespace cleft {
 
@@ -37,11 +37,12 @@ Eigen::MatrixXd one_frame_each(const Eigen::MatrixXd& in_time, const Eigen::Matr
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(in_time.transpose() * in_time + hold)
           .operatorInverseSqrt();
   Eigen::MatrixXd rows(frames + T, T);
-  rows << in_time, Eigen::MatrixXd(Eigen::LLT<Eigen::MatrixXd>(hold).matrixU());
+  rows << in_time, upper_cholesky_factor(hold);
   rows *= root;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> independent(rows.transpose());
   const Eigen::MatrixXd chosen = (independent.colsPermutation().transpose() * rows).topRows(T);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> polar(chosen, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> polar(  // of a square matrix
+      chosen, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return root * polar.matrixV() * polar.matrixU().transpose();
 }
 

@@ -1,4 +1,5 @@
-// The Cholesky factor of a fit in space.
+#include "encoder/space_factor.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
@@ -8,6 +9,11 @@
 
 namespace cleft {
 
+Eigen::MatrixXd upper_cholesky_factor(const Eigen::MatrixXd& A) {
+  return Eigen::LLT<Eigen::MatrixXd>(A).matrixU();
+}
+
+/// The Cholesky factor of a fit in space.
 struct SpaceFit::Factor::Parts {
   const ControlTies* ties;
   std::vector<Eigen::MatrixXd> diagonal;              // L of the diagonal blocks

@@ -1,7 +1,8 @@
 #include "encoder/interpolate/convex_hull.h"
 
-#include <Eigen/QR>
 #include <vector>
+
+#include "encoder/interpolate/least_squares.h"
 
 namespace cleft {
 
@@ -22,7 +23,7 @@ Eigen::VectorXd not_negative_solution(const Eigen::MatrixXd& A, const Eigen::Vec
     if (best < 0) break;
     free.push_back(best), is_free[best] = true;
     while (!free.empty()) {
-      const Eigen::VectorXd s = Eigen::MatrixXd(A(Eigen::all, free)).colPivHouseholderQr().solve(b);
+      const Eigen::VectorXd s = least_squares(A(Eigen::all, free), b).solution;
       if (s.minCoeff() > 0) {
         y.setZero(), y(free) = s;
         break;

@@ -1,6 +1,5 @@
 #include "encoder/interpolate/displacement_model.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include "base/quantiles.h"
 #include "encoder/interpolate/convex_hull.h"
 #include "encoder/interpolate/field_samples.h"
+#include "encoder/interpolate/least_squares.h"
 
 namespace cleft {
 
@@ -24,7 +24,7 @@ Eigen::VectorXd exponents_of(const Eigen::MatrixXd& places, const Eigen::VectorX
   if (n < d + 1 || norms.minCoeff() <= 0) return Eigen::VectorXd::Zero(d);
   Eigen::MatrixXd design(n, d + 1);
   design << Eigen::VectorXd::Ones(n), places;
-  return design.completeOrthogonalDecomposition().solve(norms.array().log().matrix().eval()).tail(d);
+  return shortest_least_squares(design, Eigen::VectorXd(norms.array().log().matrix())).tail(d);
 }
 
 Eigen::MatrixXd few_of(const Eigen::MatrixXd& samples) {
@@ -212,7 +212,7 @@ double DisplacementModel::outside(const RecordedParameters& parameters) const {
     for (std::size_t w = 0; w < ways_.size(); ++w)
       loads.col(loads_.rows() + static_cast<Eigen::Index>(w)) = ways_[w].slope.load / ways_[w].size;
   }
-  const double unknown = (loads * loads.completeOrthogonalDecomposition().solve(load) - load).norm();
+  const double unknown = (loads * shortest_least_squares(loads, load) - load).norm();
   const double distance =
       0.5 * std::hypot(distance_to_hull(places_, features_.at(parameters)), features_.off(parameters));
   return std::hypot(distance, unknown > 1e-6 ? unknown : 0);

@@ -1,10 +1,11 @@
 #include "encoder/interpolate/features.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+
+#include "encoder/interpolate/least_squares.h"
 
 namespace cleft {
 
@@ -123,7 +124,7 @@ Features::Features(const std::vector<RecordedParameters>& cases, Loading loading
   std::vector<Eigen::VectorXd> combinations;
   for (Eigen::Index f = 0; f < count; ++f) {
     const Eigen::VectorXd column = (table.col(f).array() - middle_[f]) / half_[f];
-    const Eigen::VectorXd combination = kept.colPivHouseholderQr().solve(column);
+    const Eigen::VectorXd combination = least_squares(kept, column).solution;
     if (!constant(f) && (kept * combination - column).cwiseAbs().maxCoeff() > 1e-6) {
       chosen_.push_back(static_cast<int>(f)), names_.push_back(first[f].name);
       kept.conservativeResize(Eigen::NoChange, kept.cols() + 1);

@@ -1,9 +1,10 @@
 #include "encoder/interpolate/geometry_model.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "encoder/interpolate/least_squares.h"
 
 namespace cleft {
 
@@ -72,7 +73,7 @@ GeometryModel::GeometryModel(const std::vector<RecordedParameters>& parameters,
   Eigen::MatrixXd design(n, d + 1), measures(n, plain_measures + static_cast<Eigen::Index>(times_.size()));
   design << Eigen::VectorXd::Ones(n), places_;
   for (Eigen::Index i = 0; i < n; ++i) measures.row(i) = measures_of(geometries[i], times_).transpose();
-  linear_ = design.completeOrthogonalDecomposition().solve(measures);
+  linear_ = shortest_least_squares(design, measures);
   left_ = measures - design * linear_;
   constant_ = measures.row(0).transpose();
   for (Eigen::Index k = 0; k < constant_.size(); ++k)

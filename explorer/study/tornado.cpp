@@ -1,10 +1,10 @@
 #include "explorer/study/tornado.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "encoder/interpolate/least_squares.h"
 
 namespace cleft {
 
@@ -28,11 +28,11 @@ Tornado tornado_of(const std::vector<std::string>& parameters, const std::vector
   Eigen::MatrixXd design(cases, count + 1);
   design.col(0).setOnes();
   design.rightCols(count) = x;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(design);
-  if (cases < count + 1 || factor.rank() < count + 1)
+  const LeastSquares fitted = cases > count ? least_squares(design, y) : LeastSquares{};
+  if (fitted.rank < count + 1)
     throw InputError(std::to_string(cases) + " cases do not tell what each of " + std::to_string(count) +
                      " parameters does by itself");
-  const Eigen::VectorXd fit = factor.solve(y);
+  const Eigen::VectorXd& fit = fitted.solution;
   const double spread = (y.array() - y.mean()).square().sum();
   tornado.explained = spread > 0 ? 1 - (y - design * fit).squaredNorm() / spread : 1;
 
