@@ -20,7 +20,7 @@ namespace {
 constexpr double side = 100, depth = 3, speed = 30;  // mm, mm, mm/s
 constexpr int ticks_a_frame = 16;
 
-double height(double x, double y) { return 3 * std::sin(x / 12) * std::cos(y / 15); }
+double hill_height(double x, double y) { return 3 * std::sin(x / 12) * std::cos(y / 15); }
 
 Vec3 up_on_hills(const Vec3& p) {
   return normalized(
@@ -31,7 +31,7 @@ ScalpelPath winding() {
   std::vector<Vec3> points;
   for (int i = 0; i <= 200; ++i) {
     const double s = i / 200., x = -30 + 60 * s, y = 8 * std::sin(5 * s);
-    points.push_back({x, y, height(x, y)});
+    points.push_back({x, y, hill_height(x, y)});
   }
   return testing::path_through(points, up_on_hills, depth);
 }
@@ -128,7 +128,7 @@ class Ticks {
 }  // namespace
 
 SurfaceMesh hills_to_cut(int squares) {
-  return testing::grid(squares, squares, -side / 2, -side / 2, side / squares, height);
+  return testing::grid(squares, squares, -side / 2, -side / 2, side / squares, hill_height);
 }
 
 std::shared_ptr<const Field> field_of_the_cut() {

@@ -9,7 +9,7 @@ namespace cleft {
 
 namespace {
 
-double height(double x, double y) { return 2 * std::sin(0.11 * x) * std::cos(0.13 * y); }
+double wave_height(double x, double y) { return 2 * std::sin(0.11 * x) * std::cos(0.13 * y); }
 
 /// The mesh's own triangles, neither split nor looked at further than the cut needs.
 IncisionOptions as_it_is() {
@@ -21,14 +21,14 @@ IncisionOptions as_it_is() {
 }  // namespace
 
 SurfaceMesh hills(int squares) {
-  return testing::grid(squares, squares, -squares / 2., -squares / 2., 1, height);
+  return testing::grid(squares, squares, -squares / 2., -squares / 2., 1, wave_height);
 }
 
 ScalpelPath winding(int number) {
   std::vector<ScalpelPath::Point> points;
   for (int i = 0; i <= 120; ++i) {
     const double x = 0.37 * number - 30 + 0.5 * i, y = 0.83 * number - 5 + 3 * std::sin(0.1 * i);
-    points.push_back({{x, y, height(x, y)}, {0, 0, 1}, 2});
+    points.push_back({{x, y, wave_height(x, y)}, {0, 0, 1}, 2});
   }
   return ScalpelPath(points);
 }

@@ -15,6 +15,15 @@ if(CLEFT_LINKS_WITH_GOLD)
   add_link_options(-fuse-ld=gold)
 endif()
 
+# The sources of a library or a program are compiled several at a time, so that headers and templates that they share are
+# compiled once. Compile commands then name no single sources: configure with OFF for an editor, or while changing one file.
+option(CMAKE_UNITY_BUILD "Compile the sources of a target in groups" ON)
+
+# GCC frees memory it no longer needs each time that its heap has grown to 128 MB, which takes a tenth of its time.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=524288>)
+endif()
+
 find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED)
 find_package(CLI11 REQUIRED)
@@ -35,10 +44,11 @@ if(CLEFT_SANITIZE)
   target_link_options(cleft_options INTERFACE -fsanitize=${CLEFT_SANITIZE})
 endif()
 
-# cleft_library(NAME SOURCES... [HEADERS GROUP] [LINK ...]): a static library; the target is Cleft::NAME too. GROUP: the
-# precompiled headers (PrecompiledHeaders.cmake), without it those of the standard library.
+# cleft_library(NAME SOURCES... [SEPARATE] [HEADERS GROUP] [LINK ...]): a static library; the target is Cleft::NAME too. GROUP:
+# the precompiled headers (PrecompiledHeaders.cmake), without it those of the standard library. SEPARATE: each source is
+# compiled alone, where the machine code of inner loops shall not depend on what else is in the library.
 function(cleft_library name)
-  cmake_parse_arguments(arg "" "HEADERS" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "SEPARATE" "HEADERS" "LINK" ${ARGN})
   add_library(cleft_${name} STATIC ${arg_UNPARSED_ARGUMENTS})
   add_library(Cleft::${name} ALIAS cleft_${name})
   set_target_properties(cleft_${name} PROPERTIES EXPORT_NAME ${name})
@@ -48,6 +58,9 @@ function(cleft_library name)
   target_link_libraries(cleft_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:cleft_warnings>)
   target_link_libraries(cleft_${name} PUBLIC $<BUILD_INTERFACE:cleft_options>)
   cleft_use_headers(cleft_${name} "${arg_HEADERS}")
+  if(arg_SEPARATE)
+    set_target_properties(cleft_${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
 endfunction()
 
 # cleft_command(NAME SOURCE LINK...): the executable cleft-NAME (or `cleft` itself), installed beside the others.

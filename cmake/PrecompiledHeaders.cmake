@@ -1,6 +1,6 @@
 # Headers of libraries that many files include are parsed once for a group of targets. No header of the project is among
 # them, so that nothing is compiled again when one changes; every file still includes what it uses, and compiles with
-# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON too.
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON and -DCMAKE_UNITY_BUILD=OFF too.
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)  # for ccache
@@ -21,6 +21,7 @@ function(cleft_headers group)
   target_compile_options(cleft_headers_${group} PRIVATE ${arg_OPTIONS})
   target_link_libraries(cleft_headers_${group} PRIVATE ${arg_LINK} cleft_warnings cleft_options)
   target_precompile_headers(cleft_headers_${group} PRIVATE ${standard_headers} ${arg_UNPARSED_ARGUMENTS})
+  set_target_properties(cleft_headers_${group} PROPERTIES UNITY_BUILD OFF)
 endfunction()
 
 # cleft_use_headers(TARGET [GROUP]); "none": no precompiled headers.

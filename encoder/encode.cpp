@@ -13,16 +13,13 @@
 #include "encoder/quantities.h"
 #include "encoder/series_fit.h"
 #include "encoder/supported_rungs.h"
+#include "encoder/tolerance_shares.h"
 
 namespace cleft {
 
 namespace {
 
-// Shares of the tolerance for fits of single frames, for the fit of all frames, and for rounding to the
-// nearest quantum in the worst case.
-constexpr double share_of_space = 0.9, share_of_fit = 0.97, share_of_steps = 0.07;
-constexpr double farthest = 0.625;  // quanta that a coefficient may be moved to need fewer bytes
-constexpr double finest = 1e-9;     // least bound for quanta, over the largest displacement
+constexpr double share_of_space = 0.9;  // of the tolerance, for fits of single frames
 
 class Encoder {
  public:
@@ -87,13 +84,14 @@ class Encoder {
   /// The field and its report, with steps of its coefficients that keep `bound`, mm.
   Field with_steps(const SeriesFit& fit, double bound) const {
     progress_("choosing the coefficients' steps");
-    bound = std::max(bound, finest * scale_);
+    bound = std::max(bound, finest_bound * scale_);
     // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
     // steps.
     double step = share_of_steps * 2 / std::sqrt(3.) * bound;
-    const Field exact = with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest * step, bound);
+    const Field exact =
+        with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest_move * step, bound);
     for (int halvings = 0;; ++halvings, step /= 1.5) {
-      Field field = quantised(exact, step, farthest);
+      Field field = quantised(exact, step, farthest_move);
       field.report.condition = fit.condition();
       progress_("measuring");
       field.report = measure(field, series_);

@@ -10,7 +10,7 @@ namespace cleft {
 namespace {
 
 constexpr int sweeps = 200;
-constexpr double enough = 1e-3;  // of the margin: what a sweep must still move
+constexpr double least_motion = 1e-3;  // of the margin: what a sweep must still move
 
 /// gap = sum of factor * (right control point - left one), over free pairs of them; it is to be at least
 /// gap + missing.
@@ -111,7 +111,7 @@ std::vector<Bound> bounds_of(const Field& field, const Jumps& jumps, const Serie
 std::vector<double> nearest(std::vector<Bound> bounds, std::size_t jumps, double margin) {
   std::vector<double> by(jumps, 0.);
   double moved = margin;
-  for (int sweep = 0; sweep < sweeps && moved > enough * margin; ++sweep) {
+  for (int sweep = 0; sweep < sweeps && moved > least_motion * margin; ++sweep) {
     moved = 0;
     for (Bound& bound : bounds) {
       double missing = bound.missing;

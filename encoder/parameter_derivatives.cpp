@@ -10,9 +10,9 @@ namespace cleft {
 
 namespace {
 
-constexpr double share_of_steps = 0.25;  // of the fit's own error, at most
-constexpr double finest = 1e-6;          // bound that steps are made for, over the largest value
-constexpr double farthest = 0.625;       // steps a control point may be moved to be cheaper
+constexpr double share_of_derivative_steps = 0.25;  // of the fit's own error, at most
+constexpr double finest = 1e-6;                     // bound that steps are made for, over the largest value
+constexpr double farthest = 0.625;                  // steps a control point may be moved to be cheaper
 
 /// Largest distance from the data at any node and frame.
 double error_of(const Field& field, const Series& series, const SeriesDerivative& data) {
@@ -33,7 +33,8 @@ double error_of(const Field& field, const Series& series, const SeriesDerivative
 
 ParameterDerivative fitted(const SeriesDerivative& data, const Series& series, const SeriesFit& fit) {
   const Field exact = fit.field(fit.control_points_of(data.frames));
-  const double bound = std::max(share_of_steps * error_of(exact, series, data), finest * data.largest);
+  const double bound =
+      std::max(share_of_derivative_steps * error_of(exact, series, data), finest * data.largest);
   // Steps as in a displacement's fit: half a step each way is sqrt(3) / 2 steps together.
   const Field stepped = quantised(exact, 2 / std::sqrt(3.) * bound, farthest);
   return {data.parameter, stepped.coefficients(), stepped.quantum, data.largest,

@@ -6,15 +6,13 @@
 #include "base/parallel.h"
 #include "encoder/field/unknowns.h"
 #include "encoder/series_fit.h"
+#include "encoder/tolerance_shares.h"
 
 namespace cleft {
 
 namespace {
 
-constexpr double share_of_fit = 0.97, share_of_steps = 0.07;  // of the tolerance, as of a displacement's
-constexpr double farthest = 0.625;  // steps a control point may be moved to be cheaper
-constexpr double finest = 1e-9;     // bound that steps are made for, over the largest value
-constexpr int at_once = 3;          // components that are fitted and coded together
+constexpr int at_once = 3;  // components that are fitted and coded together
 
 /// A quantity's spline: a field for every three components.
 class Spline {
@@ -53,7 +51,7 @@ class Spline {
 
   Spline stepped(double step) const {
     std::vector<Field> parts;
-    for (const Field& part : parts_) parts.push_back(quantised(part, step, farthest));
+    for (const Field& part : parts_) parts.push_back(quantised(part, step, farthest_move));
     return {series_, data_, std::move(parts)};
   }
 
@@ -133,7 +131,7 @@ FittedQuantity fit_quantity(const Series& series, const SeriesQuantity& data, co
   const double scale = data.largest > 0 ? data.largest : 1, misfit = exact.error();
   const double limit = tolerance ? *tolerance * scale : 0;
   const bool within = misfit <= share_of_fit * limit;
-  const double bound = std::max(within ? limit : 1.02 * misfit, finest * scale);
+  const double bound = std::max(within ? limit : 1.02 * misfit, finest_bound * scale);
   double step = share_of_steps * 2 / std::sqrt(static_cast<double>(exact.components())) * bound;
   std::optional<Spline> stepped(exact.stepped(step));
   double error = stepped->error();

@@ -22,7 +22,9 @@ std::vector<std::size_t> pareto_front(const Chart& chart) {
 
 namespace {
 
-std::string quoted(const std::string& text) { return text.find(',') == text.npos ? text : '"' + text + '"'; }
+std::string csv_cell(const std::string& text) {
+  return text.find(',') == text.npos ? text : '"' + text + '"';
+}
 
 }  // namespace
 
@@ -34,8 +36,8 @@ std::string csv_of(const std::vector<Chart>& charts) {
       for (const std::size_t i : pareto_front(chart)) on_front[i] = true;
     for (std::size_t i = 0; i < chart.points.size(); ++i) {
       const ChartPoint& p = chart.points[i];
-      text += chart.name + "," + quoted(p.series) + "," + quoted(p.setting) + "," + shortest(p.x) + "," +
-              quoted(chart.x_label) + "," + shortest(p.y) + "," + quoted(chart.y_label) +
+      text += chart.name + "," + csv_cell(p.series) + "," + csv_cell(p.setting) + "," + shortest(p.x) + "," +
+              csv_cell(chart.x_label) + "," + shortest(p.y) + "," + csv_cell(chart.y_label) +
               (p.standard ? ",1" : ",0") + (on_front[i] ? ",1\n" : ",0\n");
     }
   }

@@ -14,7 +14,7 @@ namespace cleft {
 
 namespace {
 
-constexpr double tolerances[] = {0.08, 0.04, 0.02, 0.01, 0.005, 0.001, 1e-4};
+constexpr double charted_tolerances[] = {0.08, 0.04, 0.02, 0.01, 0.005, 0.001, 1e-4};
 
 /// Time of the spline at all nodes, in their order, in a frame: ns a point, the least of some times, and the
 /// median over the frames.
@@ -31,7 +31,7 @@ double point_nanoseconds(const Field& field, const Series& series) {
   return median(times);
 }
 
-struct Panels {
+struct EncoderPanels {
   Chart size{"encoder.size", "Encoded case: error over size", "bytes of the case",
              "largest error / largest displacement"};
   Chart fit{"encoder.fit", "Encoding: error over time", "time to fit, s",
@@ -40,9 +40,9 @@ struct Panels {
               "largest error / largest displacement"};
 };
 
-void add_ours(Panels& panels, const Series& series, const ChartedCase& charted,
+void add_ours(EncoderPanels& panels, const Series& series, const ChartedCase& charted,
               const std::string& parametrization, std::vector<double>& reached) {
-  std::vector<double> all(std::begin(tolerances), std::end(tolerances));
+  std::vector<double> all(std::begin(charted_tolerances), std::end(charted_tolerances));
   if (std::find(all.begin(), all.end(), charted.tolerance) == all.end()) all.push_back(charted.tolerance);
   for (const double tolerance : all) {
     EncodeOptions options;
@@ -64,7 +64,7 @@ void add_ours(Panels& panels, const Series& series, const ChartedCase& charted,
   }
 }
 
-void add_zfp(Panels& panels, const Series& series, const std::vector<double>& errors) {
+void add_zfp(EncoderPanels& panels, const Series& series, const std::vector<double>& errors) {
   if (!zfp_is_there()) return;
   const NodeData data(series);
   std::vector<int> order(data.nodes);
@@ -84,7 +84,7 @@ std::vector<Chart> encoder_charts(const ChartedCase& charted, const ChartOptions
   options.progress("reading " + charted.snapshot);
   const SnapshotReader reader(charted.snapshot);
   const Series series(reader);
-  Panels panels;
+  EncoderPanels panels;
   std::vector<double> reached;
   for (const std::string& parametrization : parametrization_names()) {
     options.progress("encoding with " + parametrization);

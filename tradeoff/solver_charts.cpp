@@ -23,7 +23,7 @@ double finest(const Parameters& parameters, double most_nodes) {
   return size;
 }
 
-struct Panels {
+struct SolverPanels {
   Chart unknowns{"solver.unknowns", "Simulation: error over unknowns", "unknowns",
                  "largest error of the opening / largest opening"};
   Chart seconds{"solver.seconds", "Simulation: error over time", "time to solve all frames, s",
@@ -49,7 +49,7 @@ Parameters slit(double half_length, double size) {
   return p;
 }
 
-void add_slit(Panels& panels, const ChartOptions& options, const WorkFolder& work) {
+void add_slit(SolverPanels& panels, const ChartOptions& options, const WorkFolder& work) {
   constexpr double a = 8;
   for (const double parts : {2, 4, 8, 16}) {
     options.progress("solving a slit with elements of " + shortest(a / parts) + " mm");
@@ -75,7 +75,7 @@ std::vector<Chart> solver_charts(const ChartedCase& charted, const ChartOptions&
                 [&](double size) { return size > charted.parameters.cut.length / 2; });  // no node to open
   options.progress("solving with elements of " + shortest(least) + " mm");
   const Opening truth = Chain(with_elements(charted.parameters, least), work).opening();
-  Panels panels;
+  SolverPanels panels;
   for (const double size : sizes) {
     options.progress("solving with elements of " + shortest(size) + " mm");
     const Chain solved(with_elements(charted.parameters, size), work);

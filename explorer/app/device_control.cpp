@@ -13,7 +13,7 @@
 namespace cleft {
 
 namespace {
-constexpr int frame_ms = 33;
+constexpr int refresh_ms = 33;
 constexpr double hand_speed = 30;  // mm/s along its path
 constexpr double hover = 4;        // mm over the skin, of a mouse that is not pressed
 constexpr double sinking = 25;     // mm/s
@@ -33,7 +33,7 @@ ForceParameters forces(const std::shared_ptr<const Field>& field) {
 DeviceControl::DeviceControl(Session& session, SceneWidget& scene, Say say,
                              std::function<void(const std::string&)> tell)
     : session_(session), widget_(scene), say_(std::move(say)), tell_(std::move(tell)) {
-  timer_.setInterval(frame_ms);
+  timer_.setInterval(refresh_ms);
   QObject::connect(&timer_, &QTimer::timeout, [this] { tick(); });
 }
 

@@ -10,7 +10,7 @@
 namespace cleft {
 
 namespace {
-constexpr int steps = 1000;
+constexpr int slider_steps = 1000;
 constexpr int milliseconds_between_looks = 50;
 }  // namespace
 
@@ -27,7 +27,7 @@ ParameterPanel::ParameterPanel(Session& session, Say say) : session_(session), s
   row->setContentsMargins(0, 0, 0, 0);
   prepared_ = new QProgressBar(preparing_);
   prepared_->setObjectName("prepared");
-  prepared_->setRange(0, steps);
+  prepared_->setRange(0, slider_steps);
   prepared_->setToolTip("how far the cases are read that the wound between them is made from");
   auto* cancel = new QPushButton("Cancel", preparing_);
   cancel->setObjectName("cancel_preparing");
@@ -62,8 +62,8 @@ void ParameterPanel::make_rows() {
     auto* text = new QLabel(rows_widget_);
     auto* slider = new QSlider(Qt::Horizontal, rows_widget_);
     slider->setObjectName(QString::fromStdString(name));
-    slider->setRange(0, steps);
-    slider->setPageStep(steps / 10);
+    slider->setRange(0, slider_steps);
+    slider->setPageStep(slider_steps / 10);
     const QString tip = QString("%1\n%2 to %3 %4 in this study")
                             .arg(QString::fromStdString(row.help))
                             .arg(least)
@@ -75,7 +75,7 @@ void ParameterPanel::make_rows() {
     column->addWidget(slider);
     rows_.push_back({name, row.unit, least, greatest, text, slider});
     connect(slider, &QSlider::valueChanged, this, [this, name, least, greatest](int value) {
-      say_("set " + name + " " + shortest(least + (greatest - least) * value / steps));
+      say_("set " + name + " " + shortest(least + (greatest - least) * value / slider_steps));
     });
   }
 }
@@ -92,8 +92,8 @@ void ParameterPanel::show_values() {
     const auto value = shown.number(row.name);
     if (asked == s.parameters.end() || !value) continue;
     const QSignalBlocker quiet(row.slider);
-    row.slider->setValue(
-        static_cast<int>(std::lround(steps * (asked->second - row.least) / (row.greatest - row.least))));
+    row.slider->setValue(static_cast<int>(
+        std::lround(slider_steps * (asked->second - row.least) / (row.greatest - row.least))));
     QString text = QString("%1: <b>%2</b> %3")
                        .arg(QString::fromStdString(row.name))
                        .arg(session_.between() ? asked->second : *value, 0, 'g', 4)
@@ -138,7 +138,7 @@ void ParameterPanel::follow(const Changes& changes) {
 
 void ParameterPanel::show_preparing() {
   preparing_->setVisible(session_.preparing());
-  prepared_->setValue(static_cast<int>(steps * session_.prepared_part()));
+  prepared_->setValue(static_cast<int>(slider_steps * session_.prepared_part()));
   if (!session_.preparing()) waiting_.stop();
   if (session_.preparing() && !waiting_.isActive()) waiting_.start(milliseconds_between_looks);
 }

@@ -11,8 +11,8 @@
 namespace cleft {
 
 namespace {
-constexpr int steps = 10000;  // of the slider, over the whole cut
-constexpr int frame_ms = 16;
+constexpr int time_steps = 10000;  // of the slider, over the whole cut
+constexpr int playback_ms = 16;
 
 /// Triangles and bars in the palette's ink, as the style's own icons vanish in the dark. Coordinates 0 to 1.
 QIcon icon(const QColor& ink, const std::vector<QPolygonF>& shapes) {
@@ -49,8 +49,8 @@ TimeBar::TimeBar(Session& session, Say say) : session_(session), say_(std::move(
   back_->setAutoRepeat(true), forward_->setAutoRepeat(true);
   slider_ = new QSlider(Qt::Horizontal, this);
   slider_->setObjectName("time");
-  slider_->setRange(0, steps);
-  slider_->setPageStep(steps / 20);
+  slider_->setRange(0, time_steps);
+  slider_->setPageStep(time_steps / 20);
   slider_->setToolTip("Length cut, mm: drag to scrub");
   label_ = new QLabel(this);
   label_->setObjectName("time_label");
@@ -75,7 +75,7 @@ TimeBar::TimeBar(Session& session, Say say) : session_(session), say_(std::move(
   connect(forward_, &QToolButton::clicked, this, [this] { say_("step 1"); });
   connect(play_, &QToolButton::clicked, this, [this] { say_(session_.state().playing ? "pause" : "play"); });
   connect(slider_, &QSlider::valueChanged, this,
-          [this](int value) { say_("time " + shortest(session_.duration() * value / steps)); });
+          [this](int value) { say_("time " + shortest(session_.duration() * value / time_steps)); });
   connect(loop_, &QCheckBox::toggled, this, [this](bool on) { say_(on ? "loop on" : "loop off"); });
   connect(speed_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
           [this](double value) { say_("speed " + shortest(value)); });
@@ -98,7 +98,7 @@ void TimeBar::follow(const Changes& changes) {
   const SessionState& s = session_.state();
   const QSignalBlocker no_slider(slider_), no_loop(loop_), no_speed(speed_);
   const double duration = session_.has_scene() ? session_.duration() : 0;
-  slider_->setValue(duration > 0 ? static_cast<int>(steps * s.time / duration + 0.5) : 0);
+  slider_->setValue(duration > 0 ? static_cast<int>(time_steps * s.time / duration + 0.5) : 0);
   label_->setText(QString("%1 of %2 mm cut").arg(s.time, 0, 'f', 1).arg(duration, 0, 'f', 1));
   loop_->setChecked(s.loop);
   speed_->setValue(s.speed);
@@ -107,7 +107,7 @@ void TimeBar::follow(const Changes& changes) {
   paint_icons();
   if (s.playing && !clock_.isActive()) {
     since_.start();
-    clock_.start(frame_ms);
+    clock_.start(playback_ms);
   } else if (!s.playing) {
     clock_.stop();
   }

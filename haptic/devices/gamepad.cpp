@@ -9,14 +9,14 @@
 namespace cleft {
 
 namespace {
-constexpr const char* name = "gamepad";
-constexpr auto look_every = std::chrono::milliseconds(4), retry = std::chrono::milliseconds(200);
+constexpr const char* gamepad_name = "gamepad";
+constexpr auto look_every = std::chrono::milliseconds(4), reopen_every = std::chrono::milliseconds(200);
 constexpr double dead = 0.08;    // of a stick's way: worn sticks do not come back to their middle
 constexpr int rumble_for = 250;  // ms, renewed before they are over
 }  // namespace
 
 struct Gamepad::Library {
-  SharedLibrary library{name, "libSDL2-2.0.so.0", "install the package libsdl2-2.0-0"};
+  SharedLibrary library{gamepad_name, "libSDL2-2.0.so.0", "install the package libsdl2-2.0-0"};
   decltype(SDL_InitSubSystem)* init;
   decltype(SDL_QuitSubSystem)* quit;
   decltype(SDL_SetHint)* hint;
@@ -89,7 +89,7 @@ void Gamepad::watch() {
   for (; !stop_; std::this_thread::sleep_for(look_every)) {
     sdl_->update();
     if (sdl_->pad && !sdl_->attached(sdl_->pad)) close();
-    if (!sdl_->pad && std::chrono::steady_clock::now() - tried > retry) {
+    if (!sdl_->pad && std::chrono::steady_clock::now() - tried > reopen_every) {
       tried = std::chrono::steady_clock::now();
       open();
     }
@@ -122,7 +122,7 @@ void Gamepad::rumble() {
 }
 
 DeviceKind gamepad_device() {
-  return {.name = name,
+  return {.name = gamepad_name,
           .title = "&Gamepad",
           .help =
               "the left stick moves the blade, the right stick lifts and turns it, A cuts; contact is felt "

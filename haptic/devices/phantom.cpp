@@ -8,7 +8,7 @@ namespace cleft {
 
 namespace {
 
-constexpr const char* name = "phantom";
+constexpr const char* phantom_name = "phantom";
 
 // OpenHaptics Toolkit, API Reference: types and names of the HD interface.
 using HHD = unsigned int;
@@ -60,7 +60,7 @@ struct Phantom::Library {
   HDSchedulerHandle job = 0;
 
   explicit Library(const std::string& file)
-      : library(name, file, "install OpenHaptics and the driver of your device, from its maker") {
+      : library(phantom_name, file, "install OpenHaptics and the driver of your device, from its maker") {
     library.find(init, "hdInitDevice");
     library.find(disable_device, "hdDisableDevice");
     library.find(make_current, "hdMakeCurrentDevice");
@@ -184,7 +184,7 @@ void Phantom::watch() {
 }
 
 DeviceKind phantom_device() {
-  return {.name = name,
+  return {.name = phantom_name,
           .title = "&PHANToM or Touch",
           .help = "a force feedback arm; needs its maker's OpenHaptics",
           .make = [](const DeviceRequest& request) -> std::unique_ptr<Device> {

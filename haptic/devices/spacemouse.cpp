@@ -13,10 +13,10 @@ namespace cleft {
 
 namespace {
 
-constexpr const char* name = "spacemouse";
+constexpr const char* spacemouse_name = "spacemouse";
 constexpr double full = 350;  // counts of a 3Dconnexion device pushed all the way
 constexpr int patience = 20;  // ms between looks at whether to stop
-constexpr auto retry = std::chrono::milliseconds(200);
+constexpr auto reconnect_every = std::chrono::milliseconds(200);
 
 Vec3 part(int x, int y, int z) {
   const auto of = [](int counts) { return std::clamp(counts / full, -1., 1.); };
@@ -27,7 +27,7 @@ Vec3 part(int x, int y, int z) {
 }  // namespace
 
 struct SpaceMouse::Library {
-  SharedLibrary library{name, "libspnav.so.0", "install the package libspnav0"};
+  SharedLibrary library{spacemouse_name, "libspnav.so.0", "install the package libspnav0"};
   decltype(spnav_open)* open;
   decltype(spnav_close)* close;
   decltype(spnav_fd)* fd;
@@ -65,7 +65,7 @@ void SpaceMouse::watch() {
   while (!stop_) {
     if (!connected) {
       std::this_thread::sleep_for(std::chrono::milliseconds(patience));
-      if (std::chrono::steady_clock::now() - tried < retry) continue;
+      if (std::chrono::steady_clock::now() - tried < reconnect_every) continue;
       tried = std::chrono::steady_clock::now();
       connected = spnav_->open() >= 0;
       d = {};
@@ -107,7 +107,7 @@ bool SpaceMouse::handle_events(Deflection& d) {
 
 DeviceKind spacemouse_device() {
   return {
-      .name = name,
+      .name = spacemouse_name,
       .title = "&SpaceMouse",
       .help = "pushing moves the blade, twisting turns it, button 1 cuts; through spacenavd, without forces",
       .make = [](const DeviceRequest& request) -> std::unique_ptr<Device> {

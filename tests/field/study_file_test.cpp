@@ -21,7 +21,7 @@ namespace cleft {
 namespace {
 
 /// Equal in all that a field file holds.
-bool same(const Field& a, const Field& b) {
+bool same_record(const Field& a, const Field& b) {
   const FieldRecord x = record_of(a), y = record_of(b);
   return nlohmann::json(x.header).dump() == nlohmann::json(y.header).dump() &&
          x.coefficients == y.coefficients;
@@ -64,7 +64,7 @@ TEST(StudyFile, HoldsEveryFieldAsItsOwnFileDoes) {
     EXPECT_EQ(study.parameters(i), field.parameters);
     EXPECT_EQ(study.report(i).node_error, field.report.node_error);
     EXPECT_EQ(study.coefficient_bytes(i), record_of(field).coefficients.size());
-    EXPECT_TRUE(same(study.field(i), field)) << i;
+    EXPECT_TRUE(same_record(study.field(i), field)) << i;
   }
   EXPECT_TRUE(std::isnan(study.report(3).condition));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(packed.folder.path()), {}), 5);
@@ -80,7 +80,7 @@ TEST(StudyFile, KeepsParametersThatAreText) {
   EXPECT_EQ(study.parameters(0).texts(), packed.cases[0].choices.texts());
   EXPECT_TRUE(study.parameters(1).texts().empty());
   EXPECT_EQ(study.parameters(3).texts(), packed.cases[3].choices.texts());
-  EXPECT_TRUE(same(study.field(0), packed.fields[0]));
+  EXPECT_TRUE(same_record(study.field(0), packed.fields[0]));
   EXPECT_EQ(study.parameters(3).numbers(), packed.fields[3].parameters.numbers());
 }
 
@@ -109,7 +109,7 @@ TEST(StudyFile, DamageIsNoticed) {
                 [&] {
                   bool all = found.size() == packed.fields.size();
                   for (std::size_t i = 0; all && i < found.size(); ++i)
-                    all = same(found[i], packed.fields[i]);
+                    all = same_record(found[i], packed.fields[i]);
                   return all;
                 }),
             0);
@@ -128,8 +128,8 @@ TEST(StudyFile, ACaseIsReadWithoutTheOthers) {
   damaged[at] = static_cast<char>(damaged[at] ^ 4);
   const std::string file = packed.folder.write("damaged.dffd", damaged);
   const StudyFile study(file);
-  EXPECT_TRUE(same(study.field(0), fields[0]));
-  EXPECT_TRUE(same(study.field(7), fields[7]));
+  EXPECT_TRUE(same_record(study.field(0), fields[0]));
+  EXPECT_TRUE(same_record(study.field(7), fields[7]));
   EXPECT_THROW(study.field(4), FileError);
 }
 

@@ -11,8 +11,6 @@ namespace cleft {
 
 namespace {
 
-constexpr std::uint8_t quad = 9, hexahedron = 12;
-
 /// Cooling of a bar of 10 x 4 x `thickness` from one end: heat conduction's first mode, in closed form.
 SourceSeries cooling_bar(const Pose& pose, double thickness = 2) {
   SourceSeries s;

@@ -11,8 +11,6 @@ namespace cleft {
 
 namespace {
 
-constexpr std::uint8_t quad = 9, hexahedron = 12;  // VTK's
-
 class ImportBreak : public testing::Test {
  protected:
   const TemporaryFolder folder;

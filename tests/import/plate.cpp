@@ -4,12 +4,6 @@
 
 namespace cleft {
 
-namespace {
-
-constexpr std::uint8_t tetra = 10, hexahedron = 12, wedge = 13, quadratic_hexahedron = 25;  // VTK's
-
-}  // namespace
-
 Plate::Plate(Cells cells, const Pose& pose) : pose_(pose) {
   fill(cells);
   mesh_.times = {3, 3.5, 4.25, 5, 8};

@@ -1,6 +1,7 @@
 // A series as another program would leave it: .vtu files in text, listed in a .pvd.
 #pragma once
 
+#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
+
+/// VTK's types of cells.
+inline constexpr std::uint8_t quad = 9, tetra = 10, hexahedron = 12, wedge = 13, quadratic_hexahedron = 25;
 
 struct SourceSeries {
   struct Field {

@@ -14,7 +14,6 @@ namespace cleft {
 
 namespace {
 
-constexpr std::uint8_t quad = 9;
 constexpr int width = 30, height = 20, slit_first = 8, slit_last = 16;
 
 /// The wave equation on [0, 30] x [-10, 10] by finite volumes around the nodes, reflecting at all edges and

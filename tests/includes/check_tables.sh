@@ -19,10 +19,10 @@ endings=$(grep -oE '\{"\.[a-z0-9]+"' explorer/io/formats/mesh_formats.h | tr -d 
 complain "take endings of meshes from explorer/io/formats/mesh_formats.h" \
   "$(literals "\\.($endings)\\b" 'explorer/io/(formats/mesh_formats\.h|mesh_file\.cpp|mesh_checks\.cpp|ply_file\.cpp|paraview_file\.cpp)|explorer/commands/export_main\.cpp' explorer haptic tradeoff cli)"
 
-names=$(grep -rhoE --include='*.h' --include='*.cpp' '(\.name|char\* name) = "[a-z]+"' haptic/devices | grep -oE '"[a-z]+"' | tr -d '"' | sort -u)
+names=$(grep -rhoE --include='*.h' --include='*.cpp' '(\.name|char\* [a-z]*_?name) = "[a-z]+"' haptic/devices | grep -oE '"[a-z]+"' | tr -d '"' | sort -u)
 [ "$(wc -w <<< "$names")" -ge 6 ] || { echo "the devices' rows were not found in haptic/devices"; bad=1; }
 for name in $names; do
-  own=$(grep -rlE --include='*.h' --include='*.cpp' "(\\.name|char\\* name) = \"$name\"" haptic/devices)
+  own=$(grep -rlE --include='*.h' --include='*.cpp' "(\\.name|char\\* [a-z]*_?name) = \"$name\"" haptic/devices)
   complain "take the device's name from its row (haptic/devices/list.h)" \
     "$(grep -rnE --include='*.h' --include='*.cpp' "\"$name\"" explorer haptic tradeoff cli | grep -v "^$own:")"
 done

@@ -8,7 +8,7 @@ namespace cleft {
 
 namespace {
 
-std::vector<RecordedParameters> varied() {
+std::vector<RecordedParameters> varied_records() {
   std::vector<RecordedParameters> cases;
   for (const double E : {0.01, 0.02, 0.04})
     for (const double depth : {2., 3., 5.})
@@ -22,7 +22,7 @@ std::vector<RecordedParameters> varied() {
 
 TEST(Features, AreWithoutDimension) {
   // The same body, measured in other units of length and of stress.
-  const Features features(varied(), Loading::superposed);
+  const Features features(varied_records(), Loading::superposed);
   const auto p =
       parameters_with({{"tissue.young_modulus", 0.013}, {"cut.depth", 4}, {"skin.prestress_v", 0.033}});
   for (const auto& [length, stress] : {std::pair{2., 1.}, {1., 3.}, {0.25, 7.}}) {
@@ -43,16 +43,16 @@ TEST(Features, AreWithoutDimension) {
 }
 
 TEST(Features, FollowTheParametersThatVary) {
-  const Features features(varied(), Loading::superposed);
+  const Features features(varied_records(), Loading::superposed);
   // Stiffness moves the skin's ratio and both springs', which follow from one another.
   ASSERT_EQ(features.size(), 2);
   EXPECT_NE(features.names()[0].find("skin.young_modulus"), std::string::npos);
   EXPECT_NE(features.names()[1].find("cut.depth"), std::string::npos);
-  for (const RecordedParameters& one : varied()) {
+  for (const RecordedParameters& one : varied_records()) {
     EXPECT_LE(features.at(one).cwiseAbs().maxCoeff(), 1 + 1e-12);
     EXPECT_EQ(features.off(one), 0);
   }
-  EXPECT_EQ(Features(varied(), Loading::general).size(), 3);
+  EXPECT_EQ(Features(varied_records(), Loading::general).size(), 3);
 }
 
 TEST(Features, KnowWhatTheStudyNeverVariedAlone) {

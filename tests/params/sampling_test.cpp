@@ -67,7 +67,7 @@ std::vector<std::string> hashes_of(const std::string& text) {
   return hashes;
 }
 
-std::string message_of(const std::string& text) {
+std::string refusal_of(const std::string& text) {
   try {
     cases_of_text(text);
   } catch (const InputError& e) {
@@ -77,7 +77,7 @@ std::string message_of(const std::string& text) {
 }
 
 void expect_message(const std::string& text, const std::vector<std::string>& parts) {
-  const std::string message = message_of(text);
+  const std::string message = refusal_of(text);
   for (const std::string& part : parts)
     EXPECT_NE(message.find(part), std::string::npos) << "missing: " << part << "\nin: " << message;
 }
@@ -257,8 +257,8 @@ TEST(Sampling, WhatIsMissingOrOutOfPlaceIsTold) {
 TEST(Sampling, DrawnCasesThatDoNotFitAreNamed) {
   // Of the plain sequence 0, 1/2, 3/4, 1/4: 10, 40, 55 and 25 mm fit into 60 mm, of twice that two do not.
   const std::string end = " }\n[sampling]\nmethod = 'sobol'\ncount = 4\n";
-  EXPECT_EQ(message_of("[vary]\n'cut.length' = { from = 10, to = 70" + end), "");
-  const std::string message = message_of("[vary]\n'cut.length' = { from = 20, to = 140" + end);
+  EXPECT_EQ(refusal_of("[vary]\n'cut.length' = { from = 10, to = 70" + end), "");
+  const std::string message = refusal_of("[vary]\n'cut.length' = { from = 20, to = 140" + end);
   EXPECT_NE(message.find("study, cut.length = 80: cut.length = 80 mm: must be less"), std::string::npos)
       << message;
   EXPECT_NE(message.find("study, cut.length = 110: "), std::string::npos) << message;

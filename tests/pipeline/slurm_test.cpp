@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string study = std::string(small_study) + R"([slurm]
+const std::string slurm_study = std::string(small_study) + R"([slurm]
 time = "10"
 cases_per_task = 1
 )";
@@ -42,7 +42,7 @@ int arrays_of(const std::string& folder) {
 TEST(Slurm, PublishesWhatALocalRunDoesAndFindsItsJobsAgain) {
   if (!slurm_is_here()) GTEST_SKIP() << "no Slurm here (sinfo names no idle node)";
   const TemporaryFolder place;
-  const std::string file = place.write("study.toml", study), folder = place / "slurm";
+  const std::string file = place.write("study.toml", slurm_study), folder = place / "slurm";
   expect_success(run_cleft("run", {file, "--out", place / "local"}));
 
   constexpr int cases = 4;  // of the small study, each a task

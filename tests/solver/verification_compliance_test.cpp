@@ -13,7 +13,8 @@ namespace cleft {
 
 namespace {
 
-constexpr double pi = std::numbers::pi, radius = pressed_radius;
+using std::numbers::pi;
+constexpr double radius = pressed_radius;
 
 /// Boussinesq: displacement of a half-space w < 0 under a force into it at the origin.
 Vec3 point_load(double force, double e, double nu, const Vec3& at) {

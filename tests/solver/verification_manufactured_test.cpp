@@ -16,7 +16,7 @@ namespace cleft {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// u_i = a_i sin(pi x_i) cos cos of the other two: every component is an eigenfunction of the Laplacian, with
 /// eigenvalue -3 pi^2, and so -div sigma = pi^2 (3 mu a + (lambda + mu) (sum of a)) componentwise.

@@ -13,7 +13,7 @@
 # of them, until 120 seconds have passed, and what it finds counts where the line has changed (in headers too). The last
 # line says how many files were checked, and how many were not.
 set -eu
-root=$1; build=$2
+root=$1; build=$2; here=$(cd "$(dirname "$0")" && pwd)
 most_files=24; most_seconds=120; commits_back=20
 for tool in clang-format clang-tidy; do
   command -v $tool > /dev/null || { echo "$tool is missing; ./setup/install.sh tests installs it"; exit 1; }
@@ -60,9 +60,8 @@ mapfile -t last_changed_first < <({ git diff --name-only HEAD -- '*.cpp'
                                     git ls-files --others --exclude-standard -- '*.cpp'
                                     git log --format= --name-only "$base..HEAD" -- '*.cpp'; } | awk '!seen[$0]++')
 filter="[$(paste -sd, <<< "$lines")]"
-# clang cannot read the precompiled headers of GCC: files are read with the headers themselves.
 commands=$(mktemp -d); trap 'rm -rf "$commands"' EXIT
-sed -E 's/ -include [^ ]*cmake_pch\.hxx//; s/ -Winvalid-pch| -fpch-preprocess//g' "$build/compile_commands.json" > "$commands/compile_commands.json"
+python3 "$here/single_commands.py" "$build" "$commands"
 checked=0; skipped=0; start=$SECONDS
 for file in "${last_changed_first[@]}"; do
   grep -qF "{\"name\":\"$file\"," <<< "$lines" || continue                  # taken away, or only moved

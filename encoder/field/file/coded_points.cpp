@@ -13,14 +13,14 @@ namespace {
 
 constexpr int at_once = 3;  // components that are coded together
 
-double finite(const Json& entry, const char* name) {
+double finite_member(const Json& entry, const char* name) {
   const double value = entry.at(name).get<double>();
   if (!std::isfinite(value)) throw InputError(std::string(name) + " is not a finite number");
   return value;
 }
 
 double positive(const Json& entry, const char* name) {
-  const double value = finite(entry, name);
+  const double value = finite_member(entry, name);
   if (!(value > 0)) throw InputError(std::string(name) + " is not above 0");
   return value;
 }
@@ -87,11 +87,12 @@ Quantity take_quantity(const Json& entry, std::span<const std::uint8_t>& bytes, 
   Quantity quantity{entry.at("name").get<std::string>(),
                     count_from(entry.at("components")),
                     {},
-                    finite(entry, "largest"),
-                    finite(entry, "error")};
+                    finite_member(entry, "largest"),
+                    finite_member(entry, "error")};
   if (quantity.components < 1 || quantity.components > 100)
     throw InputError("a quantity has no number of components");
-  quantity.spline_error = entry.contains("spline_error") ? finite(entry, "spline_error") : quantity.error;
+  quantity.spline_error =
+      entry.contains("spline_error") ? finite_member(entry, "spline_error") : quantity.error;
   const std::size_t components = quantity.components;
   const std::size_t count = components * control_points_of(bases);
   if (!entry.contains("quantum")) {
@@ -195,7 +196,7 @@ FieldExtras take_extras(const Json& header, std::span<const std::uint8_t>& bytes
   reversed("by_parameter", [&](const Json& entry) {
     ParameterDerivative& one = extras.by_parameter.emplace_back();
     one.parameter = entry.at("parameter").get<std::string>(), one.quantum = positive(entry, "quantum");
-    one.largest = finite(entry, "largest"), one.error = finite(entry, "error");
+    one.largest = finite_member(entry, "largest"), one.error = finite_member(entry, "error");
     one.control_points = decoded(take_bytes(bytes, static_cast<std::size_t>(count_from(entry.at("bytes")))),
                                  count_from(entry.at("slices")), one.quantum, bases, ties);
   });

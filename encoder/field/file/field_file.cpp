@@ -13,7 +13,7 @@ namespace cleft {
 
 namespace {
 
-const FileFormat format{"cleft-field", field_version, "field file", "cleft encode"};
+const FileFormat field_format{"cleft-field", field_version, "field file", "cleft encode"};
 
 std::string residual_of_quantity(std::size_t index) {
   return "/residual_of_quantity_" + std::to_string(index);
@@ -62,7 +62,7 @@ void write_field(const std::string& path, const Field& field, const NodeResidual
   const FieldRecord record = record_of(field);
   OutputFile out(path);
   h5::File file = h5::File::create(out.path(), h5::Growth::none);
-  write_format(file, format);
+  write_format(file, field_format);
   file.write_text("/", "units", "mm N MPa");
   const auto write = [&](const char* name, const std::vector<std::uint8_t>& bytes) {
     file.write<std::uint8_t>(name, bytes, {bytes.size()}, h5::Packing::deflate);
@@ -79,7 +79,7 @@ void write_field(const std::string& path, const Field& field, const NodeResidual
 FieldRecord read_field_record(const std::string& path) {
   return told_of_file(path, [&] {
     const h5::File file = h5::File::open(path);
-    require_format(file, format);
+    require_format(file, field_format);
     return FieldRecord{header_from(file.read<std::uint8_t>("/header", {0})),
                        file.read<std::uint8_t>("/coefficients", {0})};
   });
@@ -91,14 +91,14 @@ Field read_field(const std::string& path) {
 
 bool is_older_field(const std::string& path) {
   const h5::File file = h5::File::open(path);
-  return file.has_attribute("/", "format") && file.read_text("/", "format") == format.name &&
-         file.read_number("/", "version") < format.version;
+  return file.has_attribute("/", "format") && file.read_text("/", "format") == field_format.name &&
+         file.read_number("/", "version") < field_format.version;
 }
 
 RecordedParameters read_field_parameters(const std::string& path) {
   return told_of_file(path, [&] {
     const h5::File file = h5::File::open(path);
-    require_format(file, format);
+    require_format(file, field_format);
     return parameters_of(header_from(file.read<std::uint8_t>("/header", {0})));
   });
 }
@@ -107,7 +107,7 @@ std::optional<NodeResidual> read_residual(const std::string& path,
                                           std::span<const std::int32_t> residual_order) {
   return told_of_file(path, [&]() -> std::optional<NodeResidual> {
     const h5::File file = h5::File::open(path);
-    require_format(file, format);
+    require_format(file, field_format);
     return residual_in(file, "/residual", {}, residual_order);
   });
 }
@@ -116,7 +116,7 @@ std::optional<NodeResidual> read_quantity_residual(const std::string& path, std:
                                                    std::span<const std::int32_t> residual_order) {
   return told_of_file(path, [&]() -> std::optional<NodeResidual> {
     const h5::File file = h5::File::open(path);
-    require_format(file, format);
+    require_format(file, field_format);
     const std::string name = residual_of_quantity(index);
     if (!file.has(name)) return std::nullopt;
     const Json list = header_from(file.read<std::uint8_t>("/header", {0})).value("quantities", Json::array());

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const FileFormat format{"cleft-study", 3, "study file", "cleft pack"};
+const FileFormat study_format{"cleft-study", 3, "study file", "cleft pack"};
 constexpr hsize_t chunk_bytes = 1 << 15;  // a case reads one or two of them
 
 std::vector<double> numbers_of(const Json& object, const char* name) {
@@ -40,7 +40,7 @@ RecordedParameters choices_of_manifest(const std::string& file) {
 }
 
 Json header_of_study(const h5::File& file) {
-  require_format(file, format);
+  require_format(file, study_format);
   return header_from(file.read<std::uint8_t>("/header", {0}));
 }
 
@@ -248,7 +248,7 @@ void write_study(const std::string& path, const std::vector<StudyRecord>& cases,
 
   OutputFile out(path);
   h5::File file = h5::File::create(out.path(), h5::Growth::none);
-  write_format(file, format);
+  write_format(file, study_format);
   file.write_text("/", "units", "mm N MPa");
   const auto text = header_bytes(header);
   file.write<std::uint8_t>("/header", text, {text.size()}, h5::Packing::deflate);
