@@ -246,9 +246,9 @@ struct IncisionTolerances {
   /// Detour over the surface, relative to the way and the path's length, that is rounding and counts as none.
   static constexpr double no_detour = 1e-9;
 
-  /// How much further apart the coordinates of two neighbours may be than the neighbours are. On the inner
-  /// side of a bend they are so at seven eighths of its radius; where they jump, at any.
-  static constexpr double irregular = 8;
+  /// How much further apart the coordinates of two neighbours may be than the neighbours are, at least: on
+  /// the inner side of a bend they are so at three quarters of its radius, and where they jump by any number.
+  static constexpr double irregular = 4;
 
   // The path itself (scalpel_path.cpp).
 

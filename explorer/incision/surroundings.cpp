@@ -94,30 +94,32 @@ class Surroundings::Front {
   /// Those among the vertices that were reached, and their neighbours.
   template <class TrianglesOf>
   void find_irregular(const TrianglesOf& triangles_of) {
-    std::vector<int> found;
+    std::vector<std::pair<int, double>> found;
     for (const int v : around_.reached_) {
       const auto compare = [&](int next) {
-        if (next != v && around_.labels_[next].reached && !is_regular(v, next))
-          found.insert(found.end(), {v, next});
+        if (next == v || !around_.labels_[next].reached) return;
+        if (const double times = stretch(v, next); times > Limits::irregular)
+          found.insert(found.end(), {{v, times}, {next, times}});
       };
       for (const int t : triangles_of(v))
         for (const int next : mesh_.triangle(t).vertex) compare(next);
       for (const int other : across_wound(mesh_, v)) compare(other);
     }
     std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    for (const int v : found) around_.irregular_.push_back({mesh_.position(v), known(v).s, side(v)});
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (const auto [v, times] = found[i]; i + 1 == found.size() || found[i + 1].first != v)
+        around_.irregular_.push_back({mesh_.position(v), known(v).s, across(v), times, side(v)});
   }
 
  private:
   struct Known {
     double s, v, w, steady;
   };
-  /// Whether the coordinates of two neighbours differ by no more than their distance allows.
-  bool is_regular(int a, int b) {
-    const double distance = norm(mesh_.position(a) - mesh_.position(b));
-    return std::hypot(known(a).steady - known(b).steady, across(a) - across(b)) <=
-           Limits::irregular * distance + Limits::in_the_way * path_.length();
+  /// How much further apart the coordinates of two neighbours are than they are.
+  double stretch(int a, int b) {
+    const double distance = norm(mesh_.position(a) - mesh_.position(b)),
+                 apart = std::hypot(known(a).steady - known(b).steady, across(a) - across(b));
+    return apart > Limits::in_the_way * path_.length() ? apart / distance : 0;
   }
   Side side(int v) {
     const Side found = around_.labels_[v].side;

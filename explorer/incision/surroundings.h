@@ -32,8 +32,9 @@ class Surroundings {
   /// bends, where the path comes back, beside folds.
   struct Irregular {
     Vec3 position;
-    double s;
-    Side side;  ///< of the path; both: it counts for both
+    double s, across;  ///< its coordinates
+    double times;      ///< how much further apart they are
+    Side side;         ///< of the path; both: it counts for both
   };
   const std::vector<Irregular>& irregular() const { return irregular_; }
 

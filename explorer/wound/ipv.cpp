@@ -20,6 +20,8 @@ constexpr double rounding = 1e-9;
 constexpr double least_room = 4;
 /// x - x^3 / (3 * 1.5^2) rises with a slope of 1 from 0, and is 1 with a slope of 0 at 1.5.
 constexpr double full_weight = 1.5;
+/// The strain that coordinates which are further apart than their vertices may add.
+constexpr double most_strain = 0.5;
 /// Inside a bend the field of a straight cut is no guide: displacements fall from this part of the way to the
 /// medial axis on, by what agrees best with simulated arcs (tests/truth).
 constexpr double free_part = 0.5;
@@ -81,10 +83,12 @@ void IncisionVolume::follow_path() {
   find_normals();
   find_directions();
   find_room();
+  find_irregular();
 }
 
 void IncisionVolume::opened_by(const VaryingField& field) {
   largest_ = LargestDisplacement(field, incision_.path().length() * scale_);
+  find_irregular();
 }
 
 /// The distance to the path's own medial axis, which changes by no more than the way along the path, and the
@@ -100,9 +104,20 @@ void IncisionVolume::find_room() {
       bends.push_back(s, path.room(s, right));
     }
     bends.even_out();
+  }
+}
+
+/// Those where the coordinates would strain the skin by too much. Along the path a displacement rises and
+/// falls over the cut's length.
+void IncisionVolume::find_irregular() {
+  for (const bool right : {false, true}) {
     std::vector<Vec3> places;
-    for (const Surroundings::Irregular& one : incision_.surroundings().irregular())
-      if (one.side == Side::both || (one.side == Side::right) == right) places.push_back(one.position);
+    for (const Surroundings::Irregular& one : incision_.surroundings().irregular()) {
+      const double strain =
+          one.times * largest_.beside(std::abs(one.across) * scale_) * 4 / field_.cut().length;
+      if (strain > most_strain && (one.side == Side::both || (one.side == Side::right) == right))
+        places.push_back(one.position);
+    }
     irregular_[right] = NearestPlace(std::move(places));
   }
 }

@@ -93,6 +93,7 @@ class IncisionVolume {
   void find_normals();
   void find_directions();
   void find_room();
+  void find_irregular();
   double room_of_bend(const Place& at) const;
   double weight_in_room(const Place& at) const;
   double lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const;
