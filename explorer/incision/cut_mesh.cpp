@@ -1,11 +1,13 @@
 #include "explorer/incision/cut_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <tuple>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/incision/incision_tolerances.h"
 
 namespace cleft {
 
@@ -25,7 +27,14 @@ double distance_to_line(const Vec3& x, const Vec3& a, const Vec3& b) {
 CutMesh::CutMesh(const SurfaceMesh& surface) {
   const int count = static_cast<int>(surface.points.size());
   vertices_.reserve(2 * surface.points.size());
-  for (const Vec3& p : surface.points) vertices_.push_back({p, p, -1});
+  for (const Vec3& p : surface.points) {
+    const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (!(farthest <= IncisionTolerances::largest_coordinate))
+      throw InputError("point " + std::to_string(vertices_.size()) + " of the mesh is at " + place_of(p) +
+                       "; a coordinate may be " + shortest(IncisionTolerances::largest_coordinate) +
+                       " at most: remove the point, or give the mesh in larger units");
+    vertices_.push_back({p, p, -1});
+  }
   triangles_.reserve(2 * surface.triangles.size());
   std::vector<HalfEdge> edges;
   edges.reserve(3 * surface.triangles.size());

@@ -28,7 +28,7 @@ class CutMesh {
   using Sheet = CutSheet;
   using Undone = UndoneChanges;
 
-  /// Throws InputError for an index out of range.
+  /// Throws InputError for an index out of range, and for a coordinate above 1e60.
   explicit CutMesh(const SurfaceMesh& surface);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }

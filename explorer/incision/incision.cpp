@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "explorer/incision/incision_advance.h"
 #include "explorer/incision/incision_change.h"
 #include "explorer/incision/incision_start.h"
@@ -27,6 +29,22 @@ double wall_spacing(const CutMesh& mesh, int start, double max_edge) {
     sum += norm(mesh.position(mesh.triangle(t).vertex[(mesh.triangle(t).corner(start) + 1) % 3]) -
                 mesh.position(start));
   return sum / static_cast<double>(fan.size());
+}
+
+/// Throws InputError where the walls could not be computed.
+void check_depth(const ScalpelPath& path) {
+  const double least = path.smallest_depth(), most = path.largest_depth();
+  if (!(least > 0))
+    throw InputError("the cut has no depth: give the path a column 'depth', or a depth for all of it");
+  if (!(most <= Limits::largest_coordinate))
+    throw InputError("the cut's depth is " + shortest(most) + " in the mesh's units; it may be " +
+                     shortest(Limits::largest_coordinate) + " at most");
+  const Vec3 from = path.at(0).position, to = path.at(path.length()).position;
+  const double rounding = std::numeric_limits<double>::epsilon() * std::max(norm(from), norm(to));
+  if (!(least >= Limits::depth_over_rounding * rounding))
+    throw InputError("the cut's depth is " + shortest(least) + " in the mesh's units; where the path is, " +
+                     "coordinates are rounded to " + shortest(rounding) + ": cut " +
+                     shortest(Limits::depth_over_rounding * rounding) + " deep or deeper");
 }
 
 }  // namespace
@@ -79,8 +97,7 @@ Incision::Incision(std::unique_ptr<CutMesh> own, CutMesh* mesh, ScalpelPath path
       max_edge_(options.max_edge.value_or(path_.length() / Limits::edge_parts)),
       reach_(options.reach),
       original_triangles_(static_cast<int>(mesh_.triangles().size())) {
-  if (!(path_.smallest_depth() > 0))
-    throw InputError("the cut has no depth: give the path a column 'depth', or a depth for all of it");
+  check_depth(path_);
   mesh_.forget_changes();
   try {
     begin(options);
@@ -98,11 +115,15 @@ void Incision::begin(const IncisionOptions& options) {
   PathStep start = find_start(cut);
   if (max_edge_ > 0) {
     const double height = dot(start.place - path_.at(start.s).position, path_.at(start.s).outward);
-    if (options.refined < path_.length())
-      refine_along(mesh_, path_, 0, options.refined, triangles_at(cut, start), height, max_edge_,
-                   Limits::growing_band_edges * max_edge_);
+    const bool growing = options.refined < path_.length();
+    const Refinement how{
+        height, max_edge_,
+        growing ? Limits::growing_band_edges * max_edge_ : path_.length() / Limits::band_parts,
+        !options.max_edge};
+    if (growing)
+      refine_along(mesh_, path_, 0, options.refined, triangles_at(cut, start), how);
     else
-      refine_along(mesh_, path_, height, max_edge_, path_.length() / Limits::band_parts);
+      refine_along(mesh_, path_, how);
     start = find_start(cut);
   }
   for (int k = 0; k < Limits::start_bisections && start.inside &&
@@ -137,8 +158,8 @@ void Incision::extend(const ScalpelPath::Point& next, double ahead) {
   const PathFrame here = path_.at(tip());
   const double height = dot(mesh_.position(v) - here.position, here.outward);
   if (max_edge_ > 0)
-    refine_along(mesh_, path_, tip(), extended_to_ + Limits::growing_ahead_edges * max_edge_, seeds, height,
-                 max_edge_, Limits::growing_band_edges * max_edge_);
+    refine_along(mesh_, path_, tip(), extended_to_ + Limits::growing_ahead_edges * max_edge_, seeds,
+                 {height, max_edge_, Limits::growing_band_edges * max_edge_, true});
   if (reach_ > 0) surroundings_.extend(mesh_, path_, tip(), ahead, triangle_ahead(*state_));
   cut_on_to(*state_, extended_to_);
 }

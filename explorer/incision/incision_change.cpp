@@ -32,6 +32,12 @@ Column start_column(IncisionState& cut) {
   return column;
 }
 
+/// The radius ratio below which a triangle has no area, in a mesh with the given one as its worst.
+double least_with_area(double worst) {
+  const double bisected = Limits::bisected_needle_part * worst;
+  return std::min(Limits::no_area_part * worst, std::max(bisected * bisected, Limits::least_bisected_ratio));
+}
+
 }  // namespace
 
 int realise(IncisionState& cut, const PathStep& step) {
@@ -67,7 +73,7 @@ void mend(IncisionState& cut, const CutMesh::Checkpoint& since) {
   cut.bent |= mend_needles(cut.mesh, cut.mesh.changed_since(since),
                            Limits::trial_target_factor * cut.least_ratio, bend, kept);
   for (auto& [t, tried] : cut.tip.poor) ++tried;
-  const double least = Limits::no_area_part * std::min(Limits::fair_ratio, cut.worst_before);
+  const double least = least_with_area(std::min(Limits::fair_ratio, cut.worst_before));
   for (const int t : cut.mesh.changed_since(since)) {
     if (!cut.mesh.is_skin(t)) continue;
     const double ratio = radius_ratio(cut.mesh, t);
@@ -81,6 +87,7 @@ void mend(IncisionState& cut, const CutMesh::Checkpoint& since) {
 }
 
 void grow(IncisionState& cut, int next, double s) {
+  cut.tip.bisections = 0;
   const bool wound = cut.mesh.on_wound(next), boundary = !wound && cut.mesh.on_boundary(next);
   if (!wound) {
     CutMesh::Vertex& vertex = cut.mesh.edit_vertex(next);
@@ -153,7 +160,7 @@ void grow(IncisionState& cut, int next, double s) {
 
 bool made_room(IncisionState& cut, const PathStep& step) {
   // A piece much shorter than the triangle it is in would leave slivers: smaller triangles first.
-  if (!step.inside) return false;
+  if (!step.inside || cut.tip.bisections == Limits::most_bisections_for_room) return false;
   const double most = Limits::room_for_piece * norm(step.place - cut.mesh.position(cut.tip_vertex()));
   const CutMesh::Checkpoint since = cut.mesh.checkpoint();
   const int across = step.kind == PathStep::edge ? cut.mesh.triangle(step.triangle).neighbor[step.index] : -1;
@@ -166,6 +173,7 @@ bool made_room(IncisionState& cut, const PathStep& step) {
     return false;
   }
   if (made) mend(cut, since);
+  cut.tip.bisections += made;
   return made;
 }
 

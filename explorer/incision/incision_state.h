@@ -39,6 +39,7 @@ struct IncisionTip {
   /// Triangles that remained below the least ratio, and the number of attempts: a step next to them may make
   /// a repair possible.
   std::vector<std::pair<int, int>> poor;
+  int bisections = 0;  ///< that have made room for the next vertex
   bool left_mesh = false;
 };
 

@@ -51,6 +51,18 @@ struct IncisionTolerances {
   /// tolerances. A shorter piece would be narrower than what lips may stray by.
   static constexpr double shortest_rest = 0.003;
 
+  // What can be computed at all.
+
+  /// Largest coordinate and depth, and shortest path, in the mesh's units: squares of areas are then within
+  /// the range of a double, 1e-308 to 1e308, and no mesh is that large or small.
+  static constexpr double largest_coordinate = 1e60, shortest_path = 1e-50;
+  /// Smallest depth, relative to the rounding of the path's coordinates: with less the rows of a wall would
+  /// be at one place.
+  static constexpr double depth_over_rounding = 1e3;
+  /// Points of a path that is given as a whole, at most. Each vertex of the skin nearby is compared with all
+  /// of them, and a path drawn by hand has some hundred.
+  static constexpr std::size_t most_path_points = 20000;
+
   // What is the same but for rounding.
 
   /// Distance of two places that are one, relative to the length at hand (a vertex's room, an edge, the
@@ -155,6 +167,10 @@ struct IncisionTolerances {
   /// A triangle of less than this part of the worst before (or of fair_ratio) has no area for whoever uses
   /// the mesh, and the step that makes it is refused.
   static constexpr double no_area_part = 1e-4;
+  /// Of slivers, less is permitted: bisection makes of a needle with the ratio r obtuse triangles of r * r /
+  /// 4 or more, and a tenth of r, squared, leaves a margin. But no height that is rounding, 1e-12 of its
+  /// edge.
+  static constexpr double bisected_needle_part = 0.1, least_bisected_ratio = 1e-24;
   /// Slivers are first mended, without moving the surface, up to this many times the least ratio, and at most
   /// to flat_target (which least_ratio_part and fair_ratio do not let it reach): such changes cost the
   /// surface nothing, and margin is left for what later steps do to them.
@@ -192,8 +208,9 @@ struct IncisionTolerances {
   /// Number of changes that mending may make, per sliver given, and besides: each makes at most three new
   /// triangles, and without a bound slivers could be mended in a circle.
   static constexpr std::size_t changes_per_sliver = 3, further_changes = 12;
-  /// The same of mending by trials.
-  static constexpr int trial_changes = 24;
+  /// The same of mending by trials, and the number of slivers that are tried in vain: each costs some 50
+  /// splits, and where so many are left the mesh was given with slivers.
+  static constexpr int trial_changes = 24, trial_failures = 8;
   /// Nearest place to an end of an edge, as a part of it, where the foot of the height is the first choice
   /// for a split: nearer, the middle is tried before.
   static constexpr double foot_from_end = 0.2, foot_to_end = 0.8;
@@ -215,6 +232,21 @@ struct IncisionTolerances {
   /// Number of straight pieces that stand for the path when distances are measured: each is far shorter than
   /// the band.
   static constexpr int refinement_samples = 128;
+  /// Rounding of coordinates, relative to the longest edge, from which a triangle is not split to such edges:
+  /// midpoints rounded by more would leave triangles of any shape.
+  static constexpr double refinement_rounding = 1e-3;
+  /// Equilateral triangles that cover the strip about the path, at most: some gigabytes of mesh.
+  static constexpr double most_triangles_of_strip = 2e7;
+  /// New triangles that refinement may make, per triangle of the strip, and besides. Bisection leaves
+  /// triangles of a quarter to all of the area allowed, and about as many beyond the strip; besides, large
+  /// triangles take some to grow in, and 100,000 are made in a tenth of a second. Only slivers take more.
+  static constexpr std::size_t refined_per_triangle = 8, refined_besides = 100000;
+  /// By how much longer edges are permitted where slivers take more than that: few attempts lead to any
+  /// length.
+  static constexpr double coarser_edges = 4;
+  /// Bisections that make room for one vertex of the path, at most: each halves an edge of one of two
+  /// triangles.
+  static constexpr int most_bisections_for_room = 240;
 
   // Walls (walls.cpp).
 

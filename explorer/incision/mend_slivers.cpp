@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 #include "explorer/incision/incision_tolerances.h"
@@ -31,7 +32,7 @@ class Mender {
 
   /// By changes each of which is itself for the better.
   void mend(const std::vector<int>& triangles) {
-    std::vector<int> work = triangles;
+    std::deque<int> work(triangles.begin(), triangles.end());  // taken from the back, put before the front
     for (std::size_t changes = 0,
                      most = Limits::changes_per_sliver * triangles.size() + Limits::further_changes;
          !work.empty() && changes < most;) {
@@ -45,21 +46,24 @@ class Mender {
       ++changes;
       work.insert(work.begin(), neighbors.begin(), neighbors.end());
       work.insert(work.begin(), across.begin(), across.end());
-      work.insert(work.begin(), t);
-      for (std::size_t n = first_new; n < mesh_.triangles().size(); ++n)
-        work.insert(work.begin(), static_cast<int>(n));
+      work.push_front(t);
+      for (std::size_t n = first_new; n < mesh_.triangles().size(); ++n) work.push_front(static_cast<int>(n));
     }
   }
 
   /// By splits that are for the better only with the changes that follow.
   void mend_by_trials(const std::vector<int>& triangles) {
     std::vector<int> work = triangles;
-    for (int changes = 0; !work.empty() && changes < Limits::trial_changes;) {
+    for (int changes = 0, failures = 0;
+         !work.empty() && changes < Limits::trial_changes && failures < Limits::trial_failures;) {
       const int t = work.back();
       work.pop_back();
       if (!is_sliver(t)) continue;
       const CutMesh::Checkpoint since = mesh_.checkpoint();
-      if (!split_best(t)) continue;
+      if (!split_best(t)) {
+        ++failures;
+        continue;
+      }
       ++changes;
       const std::vector<int> changed = mesh_.changed_since(since);
       work.insert(work.end(), changed.begin(), changed.end());

@@ -14,9 +14,31 @@ namespace {
 
 using Limits = IncisionTolerances;
 
+/// Throws InputError where a path cannot be computed with.
+void check_points(const std::vector<ScalpelPath::Point>& points) {
+  if (points.size() > Limits::most_path_points)
+    throw InputError("a scalpel path may have " + std::to_string(Limits::most_path_points) +
+                     " points; this one has " + std::to_string(points.size()) + ": leave some out");
+  for (const ScalpelPath::Point& p : points) {
+    const std::string name = "a scalpel path: point " + std::to_string(&p - points.data() + 1);
+    const double farthest =
+        std::max({std::abs(p.position.x), std::abs(p.position.y), std::abs(p.position.z)});
+    if (!(farthest <= Limits::largest_coordinate))
+      throw InputError(name + " has a coordinate of " + shortest(farthest) + "; it may be " +
+                       shortest(Limits::largest_coordinate) + " at most");
+    if (!(norm(p.outward) > 0))
+      throw InputError(name + ": its direction (nx, ny, nz) is zero; it must point out of the surface");
+    if (!std::isfinite(norm(p.outward)))
+      throw InputError(name +
+                       ": its direction (nx, ny, nz) is too long to be computed with; give one of "
+                       "length 1");
+  }
+}
+
 }  // namespace
 
 ScalpelPath::ScalpelPath(const std::vector<Point>& points) {
+  check_points(points);
   std::vector<double> chord;
   std::vector<Vec3> position, outward;
   std::vector<double> depth;
@@ -27,15 +49,15 @@ ScalpelPath::ScalpelPath(const std::vector<Point>& points) {
     if (!position.empty() && step <= Limits::same_point * extent) continue;
     chord.push_back(position.empty() ? 0 : chord.back() + step);
     position.push_back(p.position);
-    if (norm(p.outward) == 0)
-      throw InputError("a scalpel path: the direction (nx, ny, nz) of point " +
-                       std::to_string(&p - points.data() + 1) + " is zero; it must point out of the surface");
     outward.push_back(normalized(p.outward));
     depth.push_back(p.depth);
   }
   if (position.size() < 2)
     throw InputError("a scalpel path needs at least 2 different points; it has " +
                      std::to_string(position.size()));
+  if (!(chord.back() >= Limits::shortest_path))
+    throw InputError("a scalpel path must be " + shortest(Limits::shortest_path) +
+                     " long or longer; this one is " + shortest(chord.back()) + ": give it in larger units");
 
   const NaturalSpline curve(chord, position), direction(chord, outward);
   const std::size_t segments = position.size() - 1;

@@ -27,7 +27,8 @@ class ScalpelPath {
     double depth = 0;
   };
 
-  /// Needs at least two different positions; steps of no length are merged. Throws InputError.
+  /// Needs at least two different positions, and at most 20,000; steps of no length are merged. Throws
+  /// InputError, also for coordinates above 1e60, directions of no length, and paths shorter than 1e-50.
   explicit ScalpelPath(const std::vector<Point>& points);
 
   /// Columns x, y, z, nx, ny, nz and, where present, depth; all in the mesh's units. Other columns must be

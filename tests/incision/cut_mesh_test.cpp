@@ -75,7 +75,7 @@ TEST(Refine, MakesShortEdgesNearThePathAndKeepsTheSurface) {
     const Shape before = shape_of(mesh);
     const Vec3 top = surface.points.size() == 121 ? Vec3{0, 0, 0} : Vec3{0, 0, 10};
     const ScalpelPath path = path_through({top + Vec3{-2, 0.3, 0}, top + Vec3{2, -0.2, 0}}, up, 1);
-    refine_along(mesh, path, 0, 0.25, 0.5);
+    refine_along(mesh, path, {0, 0.25, 0.5, false});
     const Shape after = shape_of(mesh);
     EXPECT_TRUE(adjacency_holds(mesh));
     EXPECT_EQ(after.euler, before.euler);
@@ -99,7 +99,7 @@ TEST(Refine, StopsAtEdgesThatAreNotManifold) {
   SurfaceMesh threefold{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
                         {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
   CutMesh mesh(threefold);
-  refine_along(mesh, path_through({{0.1, 0.1, 0}, {0.4, 0.3, 0}}, up, 1), 0, 0.1, 0.2);
+  refine_along(mesh, path_through({{0.1, 0.1, 0}, {0.4, 0.3, 0}}, up, 1), {0, 0.1, 0.2, false});
   for (const auto& v : mesh.vertices()) EXPECT_TRUE(std::isfinite(v.position.x));
 }
 
