@@ -114,7 +114,10 @@ void grow(IncisionState& cut, int next, double s) {
     cut.tip.column = start_column(cut);
     if (!cut.tip.column->opens &&
         !boundary) {  // both ends are closed: the next segment will open this one too
-      CLEFT_CHECK(wound, ==, false);
+      if (wound)
+        throw InputError("the path leads from one wound straight into the next near " +
+                         place_of(cut.mesh.position(next)) + ", at arc length " + shortest(s) +
+                         ", and no piece between them can open; lead it across them, or away from there");
       cut.mesh.roll_back(without);
       cut.chain.push_back({next, next, s});
       cut.tip.pending = true;

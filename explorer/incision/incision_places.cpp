@@ -136,11 +136,12 @@ std::optional<PathStep> exit_at(const IncisionState& cut, int v, double s) {
              : std::nullopt;
 }
 
-/// Whether the path, snapped from its start to another place, would have to turn back at once.
-bool begins_ahead(const IncisionState& cut, const Vec3& start, const Vec3& snapped_to) {
+/// Whether the path, snapped from its start to another place, would have to turn back at once. `size` is of
+/// the triangles there.
+bool begins_ahead(const IncisionState& cut, const Vec3& start, const Vec3& snapped_to, double size) {
   const Vec3 way = snapped_to - start;
   return cut.chain.empty() && dot(way, cut.path.at(0).along) > Limits::ahead_cosine * norm(way) &&
-         norm(way) > Limits::same_place * cut.path.length();
+         norm(way) > std::max(Limits::same_place * cut.path.length(), Limits::same_start * size);
 }
 
 }  // namespace
@@ -210,7 +211,7 @@ PathStep placed(const IncisionState& cut, int triangle, const Vec3& place, doubl
         keeps_fold(cut, v, place, triangle))
       return {PathStep::vertex, -1, v, place, s};
     if (end && away <= cut.snap / Limits::path_snap_parts * room && may_reach(cut, v) &&
-        !begins_ahead(cut, place, cut.mesh.position(v)))
+        !begins_ahead(cut, place, cut.mesh.position(v), room))
       return {PathStep::vertex, -1, v, cut.mesh.position(v), s};
   }
   // A new vertex inside the triangle, or where it is close to an edge, one of that edge, bent to go through
@@ -236,7 +237,7 @@ PathStep placed(const IncisionState& cut, int triangle, const Vec3& place, doubl
     if (!(may_bend && away <= cut.snap / Limits::path_snap_parts) && !touches) continue;
     Vec3 on_edge = place;
     if (border) on_edge = lerp(a, b, std::clamp(dot(place - a, b - a) / squared_norm(b - a), 0.0, 1.0));
-    if (border && begins_ahead(cut, place, on_edge)) continue;
+    if (border && begins_ahead(cut, place, on_edge, norm(b - a))) continue;
     double worst = std::min(quality(a, on_edge, c, n), quality(on_edge, b, c, n));
     if (may_bend) {
       const CutMesh::Triangle& other = cut.mesh.triangle(across);

@@ -1,6 +1,7 @@
 #include "explorer/incision/incision_start.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -8,10 +9,20 @@
 #include "base/text.h"
 #include "explorer/incision/blade.h"
 #include "explorer/incision/incision_places.h"
+#include "explorer/incision/incision_walk.h"
 
 namespace cleft {
 
 namespace {
+
+/// The skin's triangle at the opposite lip of a wound, and its edge there; -1: there is none.
+std::array<int, 2> across_wound(const CutMesh& mesh, int t, int edge) {
+  const int wall = mesh.triangle(t).neighbor[edge], twin = mesh.twin(wall);
+  const int there = CutMesh::twin_edge(mesh.triangle(wall).corner(mesh.triangle(t).vertex[(edge + 1) % 3]));
+  const int opposite = mesh.triangle(twin).neighbor[there];
+  if (!mesh.is_skin(opposite)) return {-1, -1};
+  return {opposite, mesh.triangle(opposite).corner(mesh.triangle(twin).vertex[(there + 1) % 3])};
+}
 
 /// The place nearest to C(0) where the blade pierces the skin.
 std::optional<PathStep> start_on_face(const IncisionState& cut, double reach) {
@@ -51,12 +62,35 @@ std::optional<PathStep> start_on_boundary(const IncisionState& cut, double reach
   return best;
 }
 
+/// Where the start is on a wound, it is on the lip that the path leads away from.
+PathStep on_its_lip(const IncisionState& cut, PathStep start) {
+  if (start.kind == PathStep::vertex && cut.mesh.on_wound(start.index)) {
+    const int v = lip_ahead(cut, start.index, start.s);
+    if (v >= 0) start.index = v;
+  }
+  if (start.kind != PathStep::edge) return start;
+  const CutMesh::Triangle& t = cut.mesh.triangle(start.triangle);
+  if (!cut.mesh.is_wall(t.neighbor[start.index])) return start;
+  const auto [opposite, edge] = across_wound(cut.mesh, start.triangle, start.index);
+  if (opposite < 0) return start;
+  const double size =
+      norm(cut.mesh.position(t.vertex[(start.index + 1) % 3]) - cut.mesh.position(t.vertex[start.index]));
+  for (const double part : IncisionTolerances::steps_over_wound) {
+    const PathFrame frame = cut.path.at(start.s + part * size);
+    if (pierces(cut.mesh, start.triangle, frame)) return start;
+    if (!pierces(cut.mesh, opposite, frame)) continue;
+    start.triangle = opposite, start.index = edge;
+    return start;
+  }
+  return start;
+}
+
 }  // namespace
 
 PathStep find_start(const IncisionState& cut) {
   const double reach = cut.path.length() / IncisionTolerances::start_height_parts;
-  if (const auto start = start_on_face(cut, reach)) return *start;
-  if (const auto start = start_on_boundary(cut, reach)) return *start;
+  if (const auto start = start_on_face(cut, reach)) return on_its_lip(cut, *start);
+  if (const auto start = start_on_boundary(cut, reach)) return on_its_lip(cut, *start);
   const Vec3 c = cut.path.at(0).position;
   double least = std::numeric_limits<double>::infinity();
   for (const CutMesh::Vertex& v : cut.mesh.vertices()) least = std::min(least, norm(v.position - c));

@@ -59,8 +59,7 @@ struct IncisionTolerances {
   /// Smallest depth, relative to the rounding of the path's coordinates: with less the rows of a wall would
   /// be at one place.
   static constexpr double depth_over_rounding = 1e3;
-  /// Points of a path that is given as a whole, at most. Each vertex of the skin nearby is compared with all
-  /// of them, and a path drawn by hand has some hundred.
+  /// Points of a path, at most: each vertex near it is compared with all, and a hand's path has some hundred.
   static constexpr std::size_t most_path_points = 20000;
 
   // What is the same but for rounding.
@@ -109,6 +108,8 @@ struct IncisionTolerances {
   /// Cosine of the angle between the path's direction and the way to a vertex that its start would be drawn
   /// to, above which the vertex counts as ahead: the path would have to turn back at once.
   static constexpr double ahead_cosine = 0.1;
+  /// But not nearer than this: the piece up to there would leave triangles without area beside it.
+  static constexpr double same_start = 1e-4;
   /// Height over a lip's or outline's edge, relative to the edge's length, below which an end of the path is
   /// on it: the strip between would be a sliver, and an end may stray a little, being where the hand happened
   /// to begin.
@@ -238,11 +239,10 @@ struct IncisionTolerances {
   /// Equilateral triangles that cover the strip about the path, at most: some gigabytes of mesh.
   static constexpr double most_triangles_of_strip = 2e7;
   /// New triangles that refinement may make, per triangle of the strip, and besides. Bisection leaves
-  /// triangles of a quarter to all of the area allowed, and about as many beyond the strip; besides, large
+  /// triangles of a quarter to all of the area allowed, and as many beyond the strip; besides, large
   /// triangles take some to grow in, and 100,000 are made in a tenth of a second. Only slivers take more.
   static constexpr std::size_t refined_per_triangle = 8, refined_besides = 100000;
-  /// By how much longer edges are permitted where slivers take more than that: few attempts lead to any
-  /// length.
+  /// How many times longer edges are permitted where slivers take more: few attempts lead to any length.
   static constexpr double coarser_edges = 4;
   /// Bisections that make room for one vertex of the path, at most: each halves an edge of one of two
   /// triangles.

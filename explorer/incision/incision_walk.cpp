@@ -163,17 +163,8 @@ bool too_soon_at_wound(const IncisionState& cut, const PathStep& step) {
 }
 
 bool go_on_from_wound(IncisionState& cut) {
-  const std::vector<int> places = on_the_same_place(cut.mesh, cut.chain.back().left);
-  for (const double part : Limits::steps_over_wound)
-    for (const int v : places) {
-      if (cut.mesh.triangle(cut.mesh.vertex(v).triangle).region != Region::skin) continue;
-      const std::vector<int> fan = cut.mesh.skin_fan(v);
-      const double s = cut.chain.back().s + part * mean_spoke(cut.mesh, fan, v);
-      if (s > cut.path.length() || pierced(cut.mesh, fan, cut.path.at(s)) < 0) continue;
-      cut.tip.from = v;
-      return true;
-    }
-  return false;
+  cut.tip.from = lip_ahead(cut, cut.chain.back().left, cut.chain.back().s);
+  return cut.tip.from >= 0;
 }
 
 [[noreturn]] void report_end(const IncisionState& cut) {
@@ -183,6 +174,18 @@ bool go_on_from_wound(IncisionState& cut) {
 }
 
 }  // namespace
+
+int lip_ahead(const IncisionState& cut, int wound_vertex, double s) {
+  const std::vector<int> places = on_the_same_place(cut.mesh, wound_vertex);
+  for (const double part : Limits::steps_over_wound)
+    for (const int v : places) {
+      if (cut.mesh.triangle(cut.mesh.vertex(v).triangle).region != Region::skin) continue;
+      const std::vector<int> fan = cut.mesh.skin_fan(v);
+      const double ahead = s + part * mean_spoke(cut.mesh, fan, v);
+      if (ahead <= cut.path.length() && pierced(cut.mesh, fan, cut.path.at(ahead)) >= 0) return v;
+    }
+  return -1;
+}
 
 /// That the path enters from the tip; -1: none.
 int triangle_ahead(const IncisionState& cut) {

@@ -16,6 +16,10 @@ PathStep shorter(const IncisionState& cut, const PathStep& step, double to);
 /// The triangle that the path enters from the tip; -1: none.
 int triangle_ahead(const IncisionState& cut);
 
+/// Of the skin's vertices at the place of a wound's vertex, one on each lip, that from which the path goes on
+/// from s; -1: none.
+int lip_ahead(const IncisionState& cut, int wound_vertex, double s);
+
 /// Whether two wounds cross at a vertex.
 bool wounds_cross_at(const IncisionState& cut, int v);
 

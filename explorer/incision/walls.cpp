@@ -78,6 +78,10 @@ Column wound_column(CutMesh& mesh, int top, const Vec3& down, double s, int cut,
   while (true) {
     const int v = column.vertex.back();
     int next = below_in_wall(mesh, v, wall_cut, wall_s);
+    if (next < 0 && wall_cut >= 0) {  // where wounds cross the deeper one's wall goes on
+      wall_cut = -1;
+      next = below_in_wall(mesh, v, wall_cut, wall_s);
+    }
     if (next < 0) break;
     const double step = norm(mesh.position(next) - mesh.position(v));
     const double left = depth - reached;
