@@ -11,6 +11,7 @@
 #include "explorer/commands/cut_figures.h"
 #include "explorer/commands/cut_volume.h"
 #include "explorer/commands/tension_options.h"
+#include "explorer/incision/local_coordinates.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/wound/cut_fields.h"
@@ -88,28 +89,50 @@ IncisionOptions incision_options(const Options& options, const ScalpelPath& path
   return result;
 }
 
-/// The cuts, made one after the other, the last one as far as --progress.
+std::vector<ScalpelPath> read_paths(const Options& options, const Field* field) {
+  std::vector<ScalpelPath> paths;
+  for (const std::string& file : options.paths)
+    paths.push_back(read_path(file, options.depth, options.scale, field));
+  return paths;
+}
+
+/// The cuts, made one after the other, the last one as far as --progress. A surface far from the origin is
+/// cut in coordinates from `origin`.
 struct Cuts {
+  Vec3 origin;
+  SurfaceMesh uncut;
   CutMesh mesh;
   std::vector<std::unique_ptr<Incision>> made;
   std::vector<const Incision*> list;
   double t = 0;  // where the blade is, mm of all paths
   double making = 0, stepping = 0;
 
-  Cuts(const Options& options, const SurfaceMesh& surface, const Field* field) : mesh(surface) {
-    for (const std::string& file : options.paths) {
-      const ScalpelPath path = read_path(file, options.depth, options.scale, field);
+  Cuts(const Options& options, const Skin& skin, const std::vector<ScalpelPath>& paths, const Field* field)
+      : origin(skin.volume ? Vec3{} : local_origin(skin.surface, paths.front())),
+        uncut(moved(skin.surface, -origin)),
+        mesh(uncut) {
+    for (const ScalpelPath& path : paths) {
       const IncisionOptions how = incision_options(options, path, field);
       const double length = path.length() * options.scale;
-      const bool last = made.size() + 1 == options.paths.size();
+      const bool last = &path == &paths.back();
       const double progress = options.progress < 0 || !last ? length : std::min(options.progress, length);
       Stopwatch watch;
-      made.push_back(std::make_unique<Incision>(mesh, path, how));
-      watch.lap();
-      made.back()->advance_to(progress / options.scale);
+      make(path.moved(-origin), how, progress / options.scale, watch);
       stepping += watch.lap(), making += watch.seconds();
       list.push_back(made.back().get());
       t += progress;
+    }
+  }
+
+ private:
+  void make(ScalpelPath path, const IncisionOptions& how, double progress, Stopwatch& watch) {
+    try {
+      made.push_back(std::make_unique<Incision>(mesh, std::move(path), how));
+      watch.lap();
+      made.back()->advance_to(progress);
+    } catch (const InputError& e) {
+      if (origin == Vec3{}) throw;
+      throw InputError(e.what() + std::string(" (places relative to ") + place_of(origin) + ")");
     }
   }
 };
@@ -118,7 +141,7 @@ std::unique_ptr<ReplayedWounds> open(const Options& options, const CutFields& fi
   std::vector<Wound> opened;
   for (std::size_t k = 0; k < cuts.list.size(); ++k) {
     const Incision& cut = *cuts.list[k];
-    const auto own = read_prestress(options.paths[k], cut.path(), options.scale);
+    const auto own = read_prestress(options.paths[k], cut.path().moved(cuts.origin), options.scale);
     try {
       opened.push_back(fields.wound(cut, options.scale, own));
     } catch (const InputError& e) {
@@ -156,9 +179,10 @@ void cut(const Options& options) {
   if (!options.rest)
     fields = read_cut_fields(options.field, options.tension.direction, options.tension.prestresses);
   Skin skin(options.mesh);
-  const Cuts cuts(options, skin.surface, fields ? &fields->shape() : nullptr);
+  const Field* shape = fields ? &fields->shape() : nullptr;
+  const Cuts cuts(options, skin, read_paths(options, shape), shape);
   SurfaceMesh result = cuts.mesh.surface();
-  Json figures = figures_of(cuts.list, skin.surface, options.scale);
+  Json figures = figures_of(cuts.list, cuts.uncut, options.scale);
   figures["mesh"] = figures_of(skin.report);
   figures["cut_ms"] = 1e3 * cuts.making;
   figures["us_per_step"] = 1e6 * cuts.stepping / figures["steps"].get<double>();
@@ -168,11 +192,13 @@ void cut(const Options& options) {
     wounds = open(options, *fields, cuts);
     move(*wounds, *fields, options, cuts.t, result.points, figures);
   }
-  if (skin.volume)
+  if (skin.volume) {
     figures["cells_added"] = write_cut_volume(*skin.volume, skin.surface, cuts.list, wounds.get(),
                                               options.scale, cuts.t, options.out);
-  else
-    write_mesh(options.out, result, point_arrays(cuts.list, result.points, options.scale));
+  } else {
+    const auto arrays = point_arrays(cuts.list, result.points, options.scale);
+    write_mesh(options.out, moved(std::move(result), cuts.origin), arrays);
+  }
   print_figures(figures, options.json);
 }
 

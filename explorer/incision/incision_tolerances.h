@@ -53,12 +53,13 @@ struct IncisionTolerances {
 
   // What can be computed at all.
 
-  /// Largest coordinate and depth, and shortest path, in the mesh's units: squares of areas are then within
-  /// the range of a double, 1e-308 to 1e308, and no mesh is that large or small.
+  /// Largest coordinate and depth, and shortest path: squares of areas are then within a double's range.
   static constexpr double largest_coordinate = 1e60, shortest_path = 1e-50;
-  /// Smallest depth, relative to the rounding of the path's coordinates: with less the rows of a wall would
-  /// be at one place.
+  /// Smallest depth, relative to the rounding of coordinates: with less a wall's rows would be at one place.
   static constexpr double depth_over_rounding = 1e3;
+  /// Distance from the origin, in the mesh's diameters, from which a mesh is cut in coordinates about the
+  /// path: nearer, rounding is a thousandth of the least tolerance (same_place) of a triangle.
+  static constexpr double far_diameters = 1e3;
   /// Points of a path, at most: each vertex near it is compared with all, and a hand's path has some hundred.
   static constexpr std::size_t most_path_points = 20000;
 
@@ -244,8 +245,7 @@ struct IncisionTolerances {
   static constexpr std::size_t refined_per_triangle = 8, refined_besides = 100000;
   /// How many times longer edges are permitted where slivers take more: few attempts lead to any length.
   static constexpr double coarser_edges = 4;
-  /// Bisections that make room for one vertex of the path, at most: each halves an edge of one of two
-  /// triangles.
+  /// Bisections that make room for one vertex of the path, at most: each halves an edge of two triangles.
   static constexpr int most_bisections_for_room = 240;
 
   // Walls (walls.cpp).

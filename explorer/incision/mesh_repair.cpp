@@ -173,7 +173,9 @@ SurfaceMesh repaired(const SurfaceMesh& mesh, MeshReport& report) {
   std::vector<double> volume(orientation.components);
   for (std::size_t t = 0; t < result.triangles.size(); ++t) {
     const auto& [a, b, c] = result.triangles[t];
-    volume[orientation.component[t]] += dot(result.points[a], cross(result.points[b], result.points[c]));
+    const Vec3& near = result.points[result.triangles[0][0]];  // far from the origin volumes would be rounding
+    volume[orientation.component[t]] +=
+        dot(result.points[a] - near, cross(result.points[b] - near, result.points[c] - near));
   }
   report.inside_out_components = 0;
   for (int k = 0; k < orientation.components; ++k) report.inside_out_components += closed[k] && volume[k] < 0;

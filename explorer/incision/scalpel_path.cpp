@@ -144,6 +144,12 @@ PathFrame ScalpelPath::at(double s) const {
   return frame;
 }
 
+ScalpelPath ScalpelPath::moved(const Vec3& by) const {
+  ScalpelPath result = *this;
+  for (Sample& sample : result.samples_) sample.position += by;
+  return result;
+}
+
 ScalpelPath ScalpelPath::until(double s) const {
   ScalpelPath part = *this;
   Sample end = sample_at(s);

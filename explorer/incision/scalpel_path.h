@@ -43,6 +43,9 @@ class ScalpelPath {
   /// is tangential to the path, which is then unchanged.
   double extend(double s, const Point& next, double beyond);
 
+  /// The same path elsewhere.
+  ScalpelPath moved(const Vec3& by) const;
+
   /// Its part up to s, within it.
   ScalpelPath until(double s) const;
 
