@@ -173,7 +173,8 @@ SurfaceMesh repaired(const SurfaceMesh& mesh, MeshReport& report) {
   std::vector<double> volume(orientation.components);
   for (std::size_t t = 0; t < result.triangles.size(); ++t) {
     const auto& [a, b, c] = result.triangles[t];
-    const Vec3& near = result.points[result.triangles[0][0]];  // far from the origin volumes would be rounding
+    const Vec3& near =
+        result.points[result.triangles[0][0]];  // far from the origin volumes would be rounding
     volume[orientation.component[t]] +=
         dot(result.points[a] - near, cross(result.points[b] - near, result.points[c] - near));
   }
