@@ -80,6 +80,8 @@ Json figures_of(const Validity& v) {
           {"largest_tilt_degrees", v.largest_tilt},
           {"length_defect", finite(v.length_defect)},
           {"nearest_cut_mm", finite(v.nearest_cut)},
+          {"held_back_mm", v.held_back},
+          {"held_back_at_mm", v.held_back_at},
           {"junction_tension", v.junction_tension ? finite(*v.junction_tension) : Json()}};
 }
 

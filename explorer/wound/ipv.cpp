@@ -16,18 +16,6 @@ namespace {
 constexpr double margin = 1. / 4;
 /// Of the path's length: a place nearer to the blade's surface than this is on it, but for rounding.
 constexpr double rounding = 1e-9;
-/// Displacements are no more than the room over this: their change adds at most its inverse to the strain.
-constexpr double least_room = 4;
-/// x - x^3 / (3 * 1.5^2) rises with a slope of 1 from 0, and is 1 with a slope of 0 at 1.5.
-constexpr double full_weight = 1.5;
-/// The strain that coordinates which are further apart than their vertices may add.
-constexpr double most_strain = 0.5;
-/// Inside a bend the field of a straight cut is no guide: displacements fall from this part of the way to the
-/// medial axis on, by what agrees best with simulated arcs (tests/truth).
-constexpr double free_part = 0.5;
-/// In how many equal pieces of the path the room next to it is sampled; of one that grows at each of its
-/// steps.
-constexpr int room_pieces = 512, room_pieces_of_growing = 128;
 /// The tilt of the line between the lips over the tilt of the blade, and over how many depths of the cut it
 /// falls by a factor of e across it: what the solver's tilted cuts show (tests/truth).
 constexpr double lips_tilt = 2. / 3, tilt_reach = 1.5;
@@ -72,7 +60,7 @@ IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, dou
   update(later);
   find_normals();
   find_directions();
-  find_room();
+  room_.follow_path(incision_);
   opened_by(field);
 }
 
@@ -82,67 +70,18 @@ void IncisionVolume::follow_path() {
   for (const int v : incision_.surroundings().relabelled()) labels_[v] = found[v];
   find_normals();
   find_directions();
-  find_room();
-  find_irregular();
+  room_.follow_path(incision_);
 }
 
-void IncisionVolume::opened_by(const VaryingField& field) {
-  largest_ = LargestDisplacement(field, incision_.path().length() * scale_);
-  find_irregular();
-}
+void IncisionVolume::opened_by(const VaryingField& field) { room_.fill(field, incision_, scale_); }
 
-/// The distance to the path's own medial axis, which changes by no more than the way along the path, and the
-/// places where coordinates jump.
-void IncisionVolume::find_room() {
-  const ScalpelPath& path = incision_.path();
-  const int pieces = incision_.extended_to() > 0 ? room_pieces_of_growing : room_pieces;
-  for (const bool right : {false, true}) {
-    RoomAlong& bends = bends_[right];
-    bends = {};
-    for (int i = 0; i <= pieces; ++i) {
-      const double s = path.length() * i / pieces;
-      bends.push_back(s, path.room(s, right));
-    }
-    bends.even_out();
-  }
-}
-
-/// Those where the coordinates would strain the skin by too much. Along the path a displacement rises and
-/// falls over the cut's length.
-void IncisionVolume::find_irregular() {
-  for (const bool right : {false, true}) {
-    std::vector<Vec3> places;
-    for (const Surroundings::Irregular& one : incision_.surroundings().irregular()) {
-      const double strain =
-          one.times * largest_.beside(std::abs(one.across) * scale_) * 4 / field_.cut().length;
-      if (strain > most_strain && (one.side == Side::both || (one.side == Side::right) == right))
-        places.push_back(one.position);
-    }
-    irregular_[right] = NearestPlace(std::move(places));
-  }
-}
-
-/// How far it is from a place to the path's medial axis.
-double IncisionVolume::room_of_bend(const Place& at) const {
-  return bends_[at.straight > 0].at(at.s) - std::abs(at.straight);
-}
-
-/// Displacements are at most a part of the distance to where the coordinates jump: neighbours on both sides
-/// of a jump then move apart by no more than that part of their distance, whatever their coordinates are.
 double IncisionVolume::weight_in_room(const Place& at) const {
-  const double largest = largest_.beside(std::abs(at.across) * scale_);
-  const double enough = full_weight * least_room * largest / scale_;
-  double room = enough;
-  for (const bool right : {false, true})
-    if (at.side == Side::both || (at.side == Side::right) == right)
-      room = std::min(
-          {room, bends_[right].at(at.s) - std::abs(at.straight), irregular_[right].distance(at.place, room)});
-  if (room <= 0) return 0;
-  const double x = std::min(room, enough) * scale_ / (least_room * largest);
-  const double in_room = room >= enough ? 1 : x - x * x * x / (3 * full_weight * full_weight);
-  const double used = std::abs(at.straight) / (room_of_bend(at) + std::abs(at.straight));
-  const double y = std::clamp((used - free_part) / (1 - free_part), 0., 1.);
-  return in_room * (1 - y * y * (3 - 2 * y));
+  return room_.weight({at.place, at.s, at.across, at.straight, at.side});
+}
+
+double IncisionVolume::part_held_back(int vertex) const {
+  const std::optional<Place> at = place_of(vertex);
+  return at ? 1 - weight_in_room(*at) : 0;
 }
 
 void IncisionVolume::update(const std::vector<int>& vertices) {

@@ -69,6 +69,10 @@ class IncisionVolume {
   /// `side`: the side of the cut's surface for a place on it; elsewhere `both`. Its `vertex` is -1.
   std::optional<ActiveVertex> locate_below(const Vec3& place, double depth, int nearest, Side side) const;
 
+  /// The part of the field's displacement that a vertex does not take, because the path bends or comes back,
+  /// or the skin folds, too near to it.
+  double part_held_back(int vertex) const;
+
   /// The frame at s, mesh units: the skin's mean normal, and T of the path perpendicular to it.
   PathFrame skin_frame(double s) const;
   double scale() const { return scale_; }
@@ -92,9 +96,6 @@ class IncisionVolume {
   WoundSide side_of_wound(int vertex) const;
   void find_normals();
   void find_directions();
-  void find_room();
-  void find_irregular();
-  double room_of_bend(const Place& at) const;
   double weight_in_room(const Place& at) const;
   double lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const;
 
@@ -102,9 +103,7 @@ class IncisionVolume {
   const Field& field_;
   double scale_, margin_;
   std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
-  std::array<RoomAlong, 2> bends_;           // left and right
-  std::array<NearestPlace, 2> irregular_;    // likewise
-  LargestDisplacement largest_;
+  WoundRoom room_;
   std::vector<Vec3> along_;      // T at even distances along the path, means
   std::vector<double> station_;  // s of the surroundings' stations
   std::vector<Vec3> normal_;     // of the skin there, a mean

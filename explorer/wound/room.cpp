@@ -7,8 +7,25 @@
 namespace cleft {
 
 namespace {
+
+/// Displacements are no more than the room over this: their change adds at most its inverse to the strain.
+constexpr double least_room = 4;
+/// x - x^3 / (3 * 1.5^2) rises with a slope of 1 from 0, and is 1 with a slope of 0 at 1.5.
+constexpr double full_weight = 1.5;
+/// The strain that coordinates which are further apart than their vertices may add.
+constexpr double most_strain = 0.5;
+/// Along the path a displacement rises from nothing to its largest in the cut's length over this.
+constexpr double rise_in_length = 4;
+/// Inside a bend the field of a straight cut is no guide: displacements fall from this part of the way to the
+/// medial axis on, by what agrees best with simulated arcs (tests/truth).
+constexpr double free_part = 0.5;
+/// In how many equal pieces of the path the room next to it is sampled; of one that grows at each of its
+/// steps.
+constexpr int room_pieces = 512, room_pieces_of_growing = 128;
+/// Samples of the field, for its largest displacements.
 constexpr int pieces_across = 16, samples_along = 12, samples_in_time = 3;
-}
+
+}  // namespace
 
 void RoomAlong::even_out() {
   for (std::size_t i = 1; i < s_.size(); ++i) room_[i] = std::min(room_[i], room_[i - 1] + s_[i] - s_[i - 1]);
@@ -79,9 +96,63 @@ LargestDisplacement::LargestDisplacement(const VaryingField& field, double lengt
 }
 
 double LargestDisplacement::beside(double v) const {
+  if (largest_.empty()) return 0;
   const double at = std::min(v / width_, 1.) * pieces_across;
   const int i = std::min(static_cast<int>(at), pieces_across - 1);
   return largest_[i] + (at - i) * (largest_[i + 1] - largest_[i]);
+}
+
+void WoundRoom::follow_path(const Incision& incision) {
+  const ScalpelPath& path = incision.path();
+  const int pieces = incision.extended_to() > 0 ? room_pieces_of_growing : room_pieces;
+  for (const bool right : {false, true}) {
+    bends_[right] = {};
+    for (int i = 0; i <= pieces; ++i) {
+      const double s = path.length() * i / pieces;
+      bends_[right].push_back(s, path.room(s, right));
+    }
+    bends_[right].even_out();
+  }
+  found_ = incision.surroundings().irregular();
+  find_irregular();
+}
+
+void WoundRoom::fill(const VaryingField& field, const Incision& incision, double scale) {
+  scale_ = scale, cut_length_ = field.shape().cut().length;
+  largest_ = LargestDisplacement(field, incision.path().length() * scale);
+  find_irregular();
+}
+
+/// Those where the coordinates would strain the skin by too much.
+void WoundRoom::find_irregular() {
+  for (const bool right : {false, true}) {
+    std::vector<Vec3> places;
+    for (const Surroundings::Irregular& one : found_)
+      if (one.times * largest(one.across) * rise_in_length / cut_length_ > most_strain &&
+          (one.side == Side::both || (one.side == Side::right) == right))
+        places.push_back(one.position);
+    irregular_[right] = NearestPlace(std::move(places));
+  }
+}
+
+/// How far it is to the path's medial axis on one side.
+double WoundRoom::bend(const Place& at, bool right) const {
+  return bends_[right].at(at.s) - std::abs(at.straight);
+}
+
+double WoundRoom::weight(const Place& at) const {
+  const double enough = full_weight * least_room * largest(at.across) / scale_;
+  if (!(enough > 0)) return 1;  // nothing moves
+  double room = enough;
+  for (const bool right : {false, true})
+    if (at.side == Side::both || (at.side == Side::right) == right)
+      room = std::min({room, bend(at, right), irregular_[right].distance(at.position, room)});
+  if (room <= 0) return 0;
+  const double x = full_weight * room / enough;
+  const double in_room = room >= enough ? 1 : x - x * x * x / (3 * full_weight * full_weight);
+  const double used = std::abs(at.straight) / (bend(at, at.straight > 0) + std::abs(at.straight));
+  const double y = std::clamp((used - free_part) / (1 - free_part), 0., 1.);
+  return in_room * (1 - y * y * (3 - 2 * y));
 }
 
 }  // namespace cleft

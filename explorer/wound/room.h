@@ -1,8 +1,10 @@
 // How far displacements must fall before the coordinates of a cut jump.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "explorer/incision/incision.h"
 #include "explorer/wound/varying_field.h"
 
 namespace cleft {
@@ -50,6 +52,39 @@ class LargestDisplacement {
  private:
   double width_ = 0;
   std::vector<double> largest_;  // at even distances from 0 to width_
+};
+
+/// The part of a field's displacement that a place beside a cut may take. Displacements are at most a quarter
+/// of the distance to where the coordinates jump: neighbours on both sides of a jump then move apart by no
+/// more than a quarter of their distance, whatever their coordinates are, and the skin's strain grows by no
+/// more.
+class WoundRoom {
+ public:
+  /// Must be called first, and when the path was extended.
+  void follow_path(const Incision& incision);
+  /// The field that opens the cut. `scale`: mm per mesh unit.
+  void fill(const VaryingField& field, const Incision& incision, double scale);
+
+  /// Lengths in mesh units; side both: on the path, ahead of the blade or at its ends.
+  struct Place {
+    Vec3 position;
+    double s, across;  ///< coordinates
+    double straight;   ///< distance from the path in a straight line, on the side of across
+    Side side;
+  };
+  double weight(const Place& at) const;
+  /// The largest displacement of the field at this distance from the cut or farther, mm.
+  double largest(double across) const { return largest_.beside(std::abs(across) * scale_); }
+
+ private:
+  void find_irregular();
+  double bend(const Place& at, bool right) const;
+
+  std::array<RoomAlong, 2> bends_;  // to the path's own medial axis, left and right
+  std::array<NearestPlace, 2> irregular_;
+  std::vector<Surroundings::Irregular> found_;
+  LargestDisplacement largest_;
+  double scale_ = 1, cut_length_ = 1;  // mm per mesh unit; of the canonical cut, mm
 };
 
 }  // namespace cleft

@@ -15,6 +15,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // In lengths of the canonical cut, of the figures in tests/truth/README.md.
 constexpr double least_radius = 2. / 3, least_radius_not_turned = 2.7, least_spacing = 0.4;
+/// Of the opening at its widest: lips that are held back by no more are within the error of openings.
+constexpr double greatest_held_back = 0.1;
 constexpr double greatest_tilt = 45, greatest_defect = 0.1;
 /// Prestresses along, across and in shear differ by no more than this part of them where a cut opens alike
 /// whichever way it goes.
@@ -47,6 +49,20 @@ double largest_tilt(const Wound& cut, double length) {
     least = std::min(least, dot(cut.volume.skin_frame(s).outward, cut.incision->path().at(s).outward));
   }
   return std::acos(least) * 180 / std::numbers::pi;
+}
+
+void find_held_back(const Wound& cut, double length, Validity& v) {
+  const Field& field = cut.field.shape();
+  for (const Incision::ChainVertex& c : cut.incision->chain()) {
+    const double s = c.s * cut.scale();
+    const CanonicalPlace place = canonical_place(s, length, field.cut());
+    const double t = std::clamp(cut.complete() + place.time_offset, 0., field.cut().length);
+    for (const auto& [lip, side] : {std::pair{c.left, Side::left}, {c.right, Side::right}}) {
+      const double by =
+          cut.volume.part_held_back(lip) * norm(cut.field.displacement({place.u, 0, 0}, side, t, s));
+      if (by > v.held_back) v.held_back = by, v.held_back_at = s;
+    }
+  }
 }
 
 /// The opening of the canonical cut at its widest, when it has come to t.
@@ -125,16 +141,17 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     const double scale = cuts[i]->scale(), canonical = field.cut().length, length = way.length() * scale;
     Validity& v = result.emplace_back();
     v.smallest_radius = smallest_radius(way) * scale;
+    find_held_back(*cuts[i], length, v);
     v.largest_tilt = largest_tilt(*cuts[i], way.length());
     v.length_defect = length_defect(field);
     v.nearest_cut = infinity;
     double nearest_beside = infinity;  // cuts that meet squarely are none beside each other
     for (std::size_t j = 0; j < cuts.size(); ++j) {
       if (j == i) continue;
-      const double way = distance(*cuts[i], *cuts[j]);
-      v.nearest_cut = std::min(v.nearest_cut, way);
+      const double apart = distance(*cuts[i], *cuts[j]);
+      v.nearest_cut = std::min(v.nearest_cut, apart);
       if (!crosses_squarely(junctions[i], j) && !crosses_squarely(junctions[j], i))
-        nearest_beside = std::min(nearest_beside, way);
+        nearest_beside = std::min(nearest_beside, apart);
     }
     for (const Junction& x : junctions[i])
       v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
@@ -147,6 +164,10 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     if (v.smallest_radius < radius)
       warn("the path bends with a radius of " + rounded(v.smallest_radius) + " mm, below " + rounded(radius) +
            (known ? "" : " where the tension does not turn with it (give --tension)"));
+    if (v.held_back > greatest_held_back * opening(field, std::min(length, canonical)))
+      warn("near " + rounded(v.held_back_at) + " mm of the path its lips are held back by up to " +
+           shortest(std::round(100 * v.held_back) / 100) +
+           " mm, so that they do not pass through each other where the path bends or comes back");
     if (v.largest_tilt > greatest_tilt)
       warn("the blade is tilted by " + rounded(v.largest_tilt) + " degrees, above " + rounded(greatest_tilt));
     if (length > canonical * (1 + rounding) && v.length_defect > greatest_defect)

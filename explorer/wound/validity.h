@@ -20,6 +20,9 @@ struct Validity {
   /// Where it meets another cut: the largest ratio of the tension along that cut to the tension across it;
   /// none if it meets none.
   std::optional<double> junction_tension;
+  /// By how much the displacement of the lips may be less than the field's, at most and where, mm: they must
+  /// not pass through each other where the path bends or comes back.
+  double held_back = 0, held_back_at = 0;
   std::vector<std::string> warnings;
 };
 

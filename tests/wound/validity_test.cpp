@@ -66,6 +66,31 @@ TEST(Validity, CutsThatMeetAtASlantOrLieBesideEachOtherAreJudgedByTheirDistance)
   EXPECT_NEAR(beside[1].nearest_cut, 2, 0.2);
 }
 
+/// Two straight ways, 4 mm apart, and a bend between: the lips between them have 2 mm to the middle.
+TEST(Validity, TellsByHowMuchAndWhereLipsAreHeldBack) {
+  const Field field = opening_field({-15, 30, 3}, 80, 60, 6, 4);
+  const SurfaceMesh plate = grid(60, 60, -30, -30, 1);
+  const auto of = [&](const std::vector<Vec3>& points) {
+    Incision cut(plate, path_through(points, up, 3));
+    cut.advance_to(cut.path().length());
+    const Wound wound(cut, field, 1);
+    return validity_of({&wound}, true).front();
+  };
+  const Validity straight = of({{-12, 0.2, 0}, {12, 0.2, 0}});
+  EXPECT_EQ(straight.held_back, 0);
+  EXPECT_EQ(tells(straight, "held back"), 0);
+  std::vector<Vec3> back;
+  for (int i = 0; i <= 12; ++i) back.push_back({-12. + i, -2, 0});
+  for (int i = 1; i < 6; ++i)
+    back.push_back({2 * std::sin(std::numbers::pi * i / 6), -2 * std::cos(std::numbers::pi * i / 6), 0});
+  for (int i = 0; i <= 12; ++i) back.push_back({-1. * i, 2, 0});
+  const Validity hairpin = of(back);
+  EXPECT_GT(hairpin.held_back, 0.1);
+  EXPECT_EQ(tells(hairpin, "held back by up to"), 1);
+  EXPECT_GT(hairpin.held_back_at, 3);
+  EXPECT_LT(hairpin.held_back_at, 27);
+}
+
 TEST(Validity, OfAWayThatIsFoundOnTheGoOnlyWhatTheBladeHasCutIsJudged) {
   // Three quarters of a circle of 8 mm about (0, 8); straight ahead it would pass beside its own start.
   CutMesh mesh(grid(60, 60, -30, -30, 1));
