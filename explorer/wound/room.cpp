@@ -152,7 +152,7 @@ double WoundRoom::weight(const Place& at) const {
   const double in_room = room >= enough ? 1 : x - x * x * x / (3 * full_weight * full_weight);
   const double used = std::abs(at.straight) / (bend(at, at.straight > 0) + std::abs(at.straight));
   const double y = std::clamp((used - free_part) / (1 - free_part), 0., 1.);
-  return in_room * (1 - y * y * (3 - 2 * y));
+  return std::min(in_room, 1 - y * y * (3 - 2 * y));
 }
 
 }  // namespace cleft
