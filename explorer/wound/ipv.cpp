@@ -149,11 +149,11 @@ PathFrame IncisionVolume::skin_frame(double s) const {
   return frame;
 }
 
-/// Of which side of this wound a vertex is that is not its own: by the walls around it, else by its
-/// neighbours on the skin, which is on one side of the wound where lips are among them.
+/// Of which side of this wound a vertex is that is not its own: by the walls around it, else by the lips among
+/// its neighbours on the skin, which lies on one side of the wound.
 IncisionVolume::WoundSide IncisionVolume::side_of_wound(int v) const {
   const CutMesh& mesh = incision_.mesh();
-  bool left = false, right = false, beside_lips = false;
+  bool left = false, right = false;
   int more_right = 0;
   for (const int t : mesh.fan(v)) {
     const CutMesh::Triangle& triangle = mesh.triangle(t);
@@ -162,17 +162,22 @@ IncisionVolume::WoundSide IncisionVolume::side_of_wound(int v) const {
         (triangle.region == Region::left_wall ? left : right) = true;
       continue;
     }
-    for (const int other : triangle.vertex) {
-      if (other == v) continue;
-      const CutMesh::Vertex& neighbor = mesh.vertex(other);
-      const bool own = neighbor.cut == incision_.cut();
-      const Side side = own ? side_of(neighbor.kind) : labels_[other].side;
-      beside_lips = beside_lips || (own && side != Side::both);
-      more_right += (side == Side::right) - (side == Side::left);
-    }
+    for (const int other : triangle.vertex)
+      if (mesh.vertex(other).cut == incision_.cut()) {
+        const Side side = cleft::side_of(mesh.vertex(other).kind);
+        more_right += (side == Side::right) - (side == Side::left);
+      }
   }
   if (left != right) return {left ? Side::left : Side::right, true};
-  return {!beside_lips || more_right == 0 ? Side::both : more_right > 0 ? Side::right : Side::left, left};
+  return {more_right == 0 ? Side::both : more_right > 0 ? Side::right : Side::left, left};
+}
+
+/// A later vertex was made from others that may have become lips since, of either side: where it is reached
+/// straight from the path, its place tells the side.
+Side IncisionVolume::side_on_skin(int v, double straight) const {
+  const bool later = static_cast<std::size_t>(v) >= incision_.surroundings().labels().size();
+  const Side side = later && labels_[v].detour == 0 ? Side::both : labels_[v].side;
+  return side == Side::both ? side_of(straight) : side;
 }
 
 std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
@@ -185,8 +190,7 @@ std::optional<IncisionVolume::Place> IncisionVolume::place_of(int v) const {
   const PathCoordinates at = incision_.path().coordinates(vertex.position);
   const double straight = std::abs(at.v) <= rounding * incision_.path().length() ? 0 : at.v;
   const auto [wound, on_wall] = side_of_wound(v);
-  Side side = wound == Side::both ? label.side : wound;
-  if (side == Side::both) side = side_of(straight);
+  const Side side = wound == Side::both ? side_on_skin(v, straight) : wound;
   return Place{vertex.position,
                incision_.path().steady_place(vertex.position, at),
                Surroundings::across(straight, label.detour, side),

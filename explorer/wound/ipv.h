@@ -94,6 +94,7 @@ class IncisionVolume {
     bool on_wall;
   };
   WoundSide side_of_wound(int vertex) const;
+  Side side_on_skin(int vertex, double straight) const;
   void find_normals();
   void find_directions();
   double weight_in_room(const Place& at) const;
