@@ -36,12 +36,6 @@ double margin_of(const Field& field) { return (field.domain(1).back - field.doma
 
 }  // namespace
 
-CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut) {
-  if (length <= cut.length || s < cut.length / 2) return {cut.start + s, 0};
-  if (length - s < cut.length / 2) return {cut.start + cut.length - (length - s), cut.length - length};
-  return {cut.start + cut.length / 2, cut.length / 2 - s};
-}
-
 double reach_of(const Field& field, double scale) {
   const Interval u = field.domain(0), v = field.domain(1);
   return (std::max({-v.front, v.back, field.cut().start - u.front,
@@ -149,8 +143,8 @@ PathFrame IncisionVolume::skin_frame(double s) const {
   return frame;
 }
 
-/// Of which side of this wound a vertex is that is not its own: by the walls around it, else by the lips among
-/// its neighbours on the skin, which lies on one side of the wound.
+/// Of which side of this wound a vertex is that is not its own: by the walls around it, else by the lips
+/// among its neighbours on the skin, which lies on one side of the wound.
 IncisionVolume::WoundSide IncisionVolume::side_of_wound(int v) const {
   const CutMesh& mesh = incision_.mesh();
   bool left = false, right = false;
@@ -229,7 +223,9 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
   const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
   const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
   const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
-  const double weight = outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * weight_in_room(at) : 0;
+  const double weight =
+      outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * weight_in_room(at) * room_.of_short_cut()
+                  : 0;
   if (weight <= 0) return std::nullopt;
   const PathFrame frame = skin_frame(at.s);
   const double lift = lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));

@@ -38,12 +38,6 @@ struct ActiveVertex {
   Vec3 in_mesh(const Vec3& d) const { return weight * (d.x * along + d.y * across + d.z * outward); }
 };
 
-/// The place on the canonical cut of the place s of a path of length `length` (all mm).
-struct CanonicalPlace {
-  double u, time_offset;
-};
-CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut);
-
 /// IncisionOptions::reach that a field needs, in mesh units. `scale` is mm per mesh unit, here and below.
 double reach_of(const Field& field, double scale);
 

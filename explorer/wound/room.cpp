@@ -16,6 +16,9 @@ constexpr double full_weight = 1.5;
 constexpr double most_strain = 0.5;
 /// Along the path a displacement rises from nothing to its largest in the cut's length over this.
 constexpr double rise_in_length = 4;
+/// Of the canonical cut's length: shorter cuts open in proportion to their length, as cracks do; what the
+/// field's fit leaves there is its error.
+constexpr double resolved_part = 0.1;
 /// Inside a bend the field of a straight cut is no guide: displacements fall from this part of the way to the
 /// medial axis on, by what agrees best with simulated arcs (tests/truth).
 constexpr double free_part = 0.5;
@@ -23,9 +26,15 @@ constexpr double free_part = 0.5;
 /// steps.
 constexpr int room_pieces = 512, room_pieces_of_growing = 128;
 /// Samples of the field, for its largest displacements.
-constexpr int pieces_across = 16, samples_along = 12, samples_in_time = 3;
+constexpr int nodes_along = 33, nodes_across = 33, samples_in_time = 3, samples_in_cut = 8;
 
 }  // namespace
+
+CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut) {
+  if (length <= cut.length || s < cut.length / 2) return {cut.start + s, 0};
+  if (length - s < cut.length / 2) return {cut.start + cut.length - (length - s), cut.length - length};
+  return {cut.start + cut.length / 2, cut.length / 2 - s};
+}
 
 void RoomAlong::even_out() {
   for (std::size_t i = 1; i < s_.size(); ++i) room_[i] = std::min(room_[i], room_[i - 1] + s_[i] - s_[i - 1]);
@@ -77,29 +86,51 @@ void NearestPlace::search(std::size_t first, std::size_t last, const Vec3& x, do
 
 LargestDisplacement::LargestDisplacement(const VaryingField& field, double length) {
   const Field& shape = field.shape();
-  const Interval u = shape.domain(0), across = shape.domain(1);
   const CanonicalCut& cut = shape.cut();
-  width_ = std::max(-across.front, across.back);
   const double gone = std::min(length, cut.length);
-  largest_.assign(pieces_across + 1, 0);
-  for (int i = 0; i <= pieces_across; ++i)
-    for (int k = 0; k < samples_along; ++k)
-      for (int l = 1; l <= samples_in_time; ++l)
-        for (const Side side : {Side::left, Side::right}) {
-          const double v = width_ * i / pieces_across * (side == Side::left ? -1 : 1);
-          const double at = u.front + (u.back - u.front) * (k + 0.5) / samples_along;
-          const Vec3 place{at, std::clamp(v, across.front, across.back), 0};
-          largest_[i] = std::max(
-              largest_[i], norm(field.displacement(place, side, gone * l / samples_in_time, at - cut.start)));
-        }
-  for (int i = pieces_across; i-- > 0;) largest_[i] = std::max(largest_[i], largest_[i + 1]);
+  u_ = shape.domain(0), v_ = shape.domain(1);
+  std::vector<double> samples(nodes_along * nodes_across);
+  const auto sample = [&](double u, int j) {
+    const double v = v_.front + (v_.back - v_.front) * j / (nodes_across - 1);
+    const auto i = static_cast<int>(std::lround((u - u_.front) / (u_.back - u_.front) * (nodes_along - 1)));
+    double& largest = samples[i * nodes_across + j];
+    for (int l = 1; l <= samples_in_time; ++l)
+      for (const Side side : {Side::left, Side::right}) {
+        if ((v < 0 && side == Side::right) || (v > 0 && side == Side::left)) continue;
+        const double t = gone * l / samples_in_time;
+        largest = std::max(largest, norm(field.displacement({u, v, 0}, side, t, u - cut.start)));
+      }
+  };
+  for (int j = 0; j < nodes_across; ++j) {
+    for (int i = 0; i < nodes_along; ++i) sample(u_.front + (u_.back - u_.front) * i / (nodes_along - 1), j);
+    for (int k = 0; k < samples_in_cut; ++k) sample(cut.start + gone * (k + 0.5) / samples_in_cut, j);
+  }
+  // Between samples it may be more: each takes the largest next to it.
+  largest_.resize(samples.size());
+  for (int i = 0; i < nodes_along; ++i)
+    for (int j = 0; j < nodes_across; ++j)
+      for (int k = std::max(i - 1, 0); k <= std::min(i + 1, nodes_along - 1); ++k)
+        for (int l = std::max(j - 1, 0); l <= std::min(j + 1, nodes_across - 1); ++l)
+          largest_[i * nodes_across + j] =
+              std::max(largest_[i * nodes_across + j], samples[k * nodes_across + l]);
 }
 
-double LargestDisplacement::beside(double v) const {
+double LargestDisplacement::at(double u, double v) const {
   if (largest_.empty()) return 0;
-  const double at = std::min(v / width_, 1.) * pieces_across;
-  const int i = std::min(static_cast<int>(at), pieces_across - 1);
-  return largest_[i] + (at - i) * (largest_[i + 1] - largest_[i]);
+  const auto place = [](double x, const Interval& in, int nodes) {
+    return std::clamp((x - in.front) / (in.back - in.front), 0., 1.) * (nodes - 1);
+  };
+  const double x = place(u, u_, nodes_along), y = place(v, v_, nodes_across);
+  const int i = std::min(static_cast<int>(x), nodes_along - 2),
+            j = std::min(static_cast<int>(y), nodes_across - 2);
+  const double* c = &largest_[i * nodes_across + j];
+  const double low = c[0] + (y - j) * (c[1] - c[0]),
+               high = c[nodes_across] + (y - j) * (c[nodes_across + 1] - c[nodes_across]);
+  return low + (x - i) * (high - low);
+}
+
+double LargestDisplacement::anywhere() const {
+  return largest_.empty() ? 0 : *std::max_element(largest_.begin(), largest_.end());
 }
 
 void WoundRoom::follow_path(const Incision& incision) {
@@ -118,8 +149,13 @@ void WoundRoom::follow_path(const Incision& incision) {
 }
 
 void WoundRoom::fill(const VaryingField& field, const Incision& incision, double scale) {
-  scale_ = scale, cut_length_ = field.shape().cut().length;
-  largest_ = LargestDisplacement(field, incision.path().length() * scale);
+  scale_ = scale;
+  const double length = incision.path().length() * scale,
+               resolved = resolved_part * field.shape().cut().length;
+  length_ = length, cut_ = field.shape().cut();
+  largest_ = LargestDisplacement(field, length);
+  if (const double largest = largest_.anywhere(); length < resolved && largest > 0)
+    short_cut_ = std::min(1., length / resolved * LargestDisplacement(field, resolved).anywhere() / largest);
   find_irregular();
 }
 
@@ -128,11 +164,16 @@ void WoundRoom::find_irregular() {
   for (const bool right : {false, true}) {
     std::vector<Vec3> places;
     for (const Surroundings::Irregular& one : found_)
-      if (one.times * largest(one.across) * rise_in_length / cut_length_ > most_strain &&
+      if (one.times * largest(one.s, one.across) * rise_in_length / cut_.length > most_strain &&
           (one.side == Side::both || (one.side == Side::right) == right))
         places.push_back(one.position);
     irregular_[right] = NearestPlace(std::move(places));
   }
+}
+
+/// Of the field, mm.
+double WoundRoom::largest(double s, double across) const {
+  return largest_.at(canonical_place(s * scale_, length_, cut_).u, across * scale_);
 }
 
 /// How far it is to the path's medial axis on one side.
@@ -141,7 +182,7 @@ double WoundRoom::bend(const Place& at, bool right) const {
 }
 
 double WoundRoom::weight(const Place& at) const {
-  const double enough = full_weight * least_room * largest(at.across) / scale_;
+  const double enough = full_weight * least_room * largest(at.s, at.across) / scale_;
   if (!(enough > 0)) return 1;  // nothing moves
   double room = enough;
   for (const bool right : {false, true})

@@ -40,18 +40,25 @@ class NearestPlace {
   std::vector<int> axis_;
 };
 
-/// The largest displacement of a field at some distance from the cut or farther, while the blade goes the
-/// given length, mm; sampled over the skin.
+/// The place on the canonical cut of the place s of a path of length `length` (all mm).
+struct CanonicalPlace {
+  double u, time_offset;
+};
+CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut);
+
+/// The largest displacement of a field at each place of the skin while the blade goes the given length, mm;
+/// sampled, and of two places next to each other the larger one.
 class LargestDisplacement {
  public:
   LargestDisplacement() = default;
   LargestDisplacement(const VaryingField& field, double length);
 
-  double beside(double v) const;
+  double at(double u, double v) const;
+  double anywhere() const;
 
  private:
-  double width_ = 0;
-  std::vector<double> largest_;  // at even distances from 0 to width_
+  Interval u_{}, v_{};
+  std::vector<double> largest_;  // [along][across], at even distances
 };
 
 /// The part of a field's displacement that a place beside a cut may take. Displacements are at most a quarter
@@ -73,18 +80,22 @@ class WoundRoom {
     Side side;
   };
   double weight(const Place& at) const;
-  /// The largest displacement of the field at this distance from the cut or farther, mm.
-  double largest(double across) const { return largest_.beside(std::abs(across) * scale_); }
+  /// The part of the field's displacement that the whole cut takes: less than 1 where it is so short that the
+  /// field does not resolve it.
+  double of_short_cut() const { return short_cut_; }
 
  private:
   void find_irregular();
+  double largest(double s, double across) const;
   double bend(const Place& at, bool right) const;
 
   std::array<RoomAlong, 2> bends_;  // to the path's own medial axis, left and right
   std::array<NearestPlace, 2> irregular_;
   std::vector<Surroundings::Irregular> found_;
   LargestDisplacement largest_;
-  double scale_ = 1, cut_length_ = 1;  // mm per mesh unit; of the canonical cut, mm
+  double short_cut_ = 1;
+  double scale_ = 1, length_ = 1;  // mm per mesh unit; of the path, mm
+  CanonicalCut cut_{};
 };
 
 }  // namespace cleft

@@ -78,20 +78,21 @@ TEST(RoomAlong, ChangesByNoMoreThanTheWay) {
   EXPECT_EQ(RoomAlong().at(3), std::numeric_limits<double>::infinity());
 }
 
-TEST(LargestDisplacement, IsTheFieldsAndFallsFromTheCut) {
+TEST(LargestDisplacement, IsNoLessThanTheFieldsAndFallsAwayFromTheCut) {
   const Field field = testing::opening_field({-5, 10, 3}, 20, 16, 6, 2);
   const LargestDisplacement largest(field, 10), half(field, 5);
-  double before = largest.beside(0);
-  EXPECT_GT(half.beside(0), 0.1 * before);
-  EXPECT_LT(half.beside(0), before);
-  for (double v = 0; v <= 8; v += 0.25) {
-    double least = 0;
-    for (double u = -10; u <= 10; u += 0.1)
-      least = std::max(least, norm(field.displacement({u, v, 0}, Side::right, 10)));
-    EXPECT_GE(largest.beside(v), 0.97 * least) << v;
-    EXPECT_LE(largest.beside(v), before);
-    before = largest.beside(v);
-  }
+  EXPECT_LT(half.anywhere(), largest.anywhere());
+  EXPECT_GT(half.anywhere(), 0.1 * largest.anywhere());
+  for (double v = -8; v <= 8; v += 0.4)
+    for (double u = -10; u <= 10; u += 0.3) {
+      double most = 0;
+      for (double t = 0.5; t <= 10; t += 0.5)
+        most = std::max(most, norm(field.displacement({u, v, 0}, v < 0 ? Side::left : Side::right, t)));
+      EXPECT_GE(largest.at(u, v), 0.97 * most) << u << ' ' << v;
+      EXPECT_LE(largest.at(u, v), largest.anywhere());
+    }
+  EXPECT_LT(largest.at(-9, 6), 0.2 * largest.at(0, 0));
+  EXPECT_EQ(LargestDisplacement().at(0, 0), 0);
 }
 
 }  // namespace
