@@ -58,8 +58,8 @@ TEST(SteadyPlace, DoesNotJumpBesideATremor) {
 TEST(NearestPlace, IsThatOfBruteForce) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> place(-1, 1);
-  std::vector<Vec3> places;
-  for (int i = 0; i < 300; ++i) places.push_back({place(random), place(random), 0.1 * place(random)});
+  std::vector<Vec3> places(300);
+  for (Vec3& p : places) p = {place(random), place(random), 0.1 * place(random)};
   const NearestPlace nearest(places);
   for (int i = 0; i < 500; ++i) {
     const Vec3 x{2 * place(random), 2 * place(random), place(random)};
