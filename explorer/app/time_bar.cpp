@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <QSignalBlocker>
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 
@@ -98,7 +99,7 @@ void TimeBar::follow(const Changes& changes) {
   const SessionState& s = session_.state();
   const QSignalBlocker no_slider(slider_), no_loop(loop_), no_speed(speed_);
   const double duration = session_.has_scene() ? session_.duration() : 0;
-  slider_->setValue(duration > 0 ? static_cast<int>(time_steps * s.time / duration + 0.5) : 0);
+  slider_->setValue(duration > 0 ? static_cast<int>(std::lround(time_steps * s.time / duration)) : 0);
   label_->setText(QString("%1 of %2 mm cut").arg(s.time, 0, 'f', 1).arg(duration, 0, 'f', 1));
   loop_->setChecked(s.loop);
   speed_->setValue(s.speed);
