@@ -73,9 +73,13 @@ double IncisionVolume::weight_in_room(const Place& at) const {
   return room_.weight({at.place, at.s, at.across, at.straight, at.side});
 }
 
-double IncisionVolume::part_held_back(int vertex) const {
-  const std::optional<Place> at = place_of(vertex);
-  return at ? 1 - weight_in_room(*at) : 0;
+double IncisionVolume::part_held_back(double s, Side side) const {
+  const PathFrame frame = incision_.path().at(s);
+  const auto& stations = incision_.surroundings().stations();
+  const auto next = std::partition_point(stations.begin(), stations.end(),
+                                         [s](const auto& station) { return station.s < s; });
+  const double height = next == stations.end() ? 0 : next->height;
+  return 1 - room_.weight({frame.position + height * frame.outward, s, 0, 0, side});
 }
 
 void IncisionVolume::update(const std::vector<int>& vertices) {

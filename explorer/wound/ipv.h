@@ -63,9 +63,9 @@ class IncisionVolume {
   /// `side`: the side of the cut's surface for a place on it; elsewhere `both`. Its `vertex` is -1.
   std::optional<ActiveVertex> locate_below(const Vec3& place, double depth, int nearest, Side side) const;
 
-  /// The part of the field's displacement that a vertex does not take, because the path bends or comes back,
-  /// or the skin folds, too near to it.
-  double part_held_back(int vertex) const;
+  /// The part of the field's displacement that a lip does not take at s of the path, because the path bends
+  /// or comes back, or the skin folds, too near to it.
+  double part_held_back(double s, Side side) const;
 
   /// The frame at s, mesh units: the skin's mean normal, and T of the path perpendicular to it.
   PathFrame skin_frame(double s) const;

@@ -51,15 +51,16 @@ double largest_tilt(const Wound& cut, double length) {
   return std::acos(least) * 180 / std::numbers::pi;
 }
 
+/// When all of the path is cut, up to `length`, mm.
 void find_held_back(const Wound& cut, double length, Validity& v) {
   const Field& field = cut.field.shape();
-  for (const Incision::ChainVertex& c : cut.incision->chain()) {
-    const double s = c.s * cut.scale();
+  for (int i = 0; i <= path_samples; ++i) {
+    const double s = length * i / path_samples;
     const CanonicalPlace place = canonical_place(s, length, field.cut());
-    const double t = std::clamp(cut.complete() + place.time_offset, 0., field.cut().length);
-    for (const auto& [lip, side] : {std::pair{c.left, Side::left}, {c.right, Side::right}}) {
-      const double by =
-          cut.volume.part_held_back(lip) * norm(cut.field.displacement({place.u, 0, 0}, side, t, s));
+    const double t = std::clamp(length + place.time_offset, 0., field.cut().length);
+    for (const Side side : {Side::left, Side::right}) {
+      const double by = cut.volume.part_held_back(s / cut.scale(), side) *
+                        norm(cut.field.displacement({place.u, 0, 0}, side, t, s));
       if (by > v.held_back) v.held_back = by, v.held_back_at = s;
     }
   }
