@@ -44,8 +44,12 @@ double reach_of(const Field& field, double scale) {
          scale;
 }
 
-IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, double scale)
-    : incision_(incision), field_(field), scale_(scale), margin_(margin_of(field)) {
+IncisionVolume::IncisionVolume(const Incision& incision, const VaryingField& field, double scale)
+    : incision_(incision),
+      field_(field.shape()),
+      scale_(scale),
+      margin_(margin_of(field_)),
+      room_(incision, field, scale) {
   labels_ = incision.surroundings().labels();
   std::vector<int> later(incision.mesh().vertices().size());
   std::iota(later.begin(), later.end(), 0);
@@ -54,8 +58,6 @@ IncisionVolume::IncisionVolume(const Incision& incision, const Field& field, dou
   update(later);
   find_normals();
   find_directions();
-  room_.follow_path(incision_);
-  opened_by(field);
 }
 
 void IncisionVolume::follow_path() {
@@ -67,11 +69,7 @@ void IncisionVolume::follow_path() {
   room_.follow_path(incision_);
 }
 
-void IncisionVolume::opened_by(const VaryingField& field) { room_.fill(field, incision_, scale_); }
-
-double IncisionVolume::weight_in_room(const Place& at) const {
-  return room_.weight({at.place, at.s, at.across, at.straight, at.side});
-}
+void IncisionVolume::opened_by(const VaryingField& field) { room_ = WoundRoom(incision_, field, scale_); }
 
 double IncisionVolume::part_held_back(double s, Side side) const {
   const PathFrame frame = incision_.path().at(s);
@@ -227,9 +225,10 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
   const double u_in = std::clamp(place.u, field_.domain(0).front, field_.domain(0).back);
   const double v_in = std::clamp(v, field_.domain(1).front, field_.domain(1).back);
   const double outside = std::hypot(place.u - u_in, v - v_in) / margin_;
-  const double weight =
-      outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) * weight_in_room(at) * room_.of_short_cut()
-                  : 0;
+  const double weight = outside < 1 ? (1 - outside * outside * (3 - 2 * outside)) *
+                                          room_.weight({at.place, at.s, at.across, at.straight, at.side}) *
+                                          room_.of_short_cut()
+                                    : 0;
   if (weight <= 0) return std::nullopt;
   const PathFrame frame = skin_frame(at.s);
   const double lift = lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));

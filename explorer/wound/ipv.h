@@ -44,7 +44,7 @@ double reach_of(const Field& field, double scale);
 class IncisionVolume {
  public:
   /// The incision and the field must outlive it.
-  IncisionVolume(const Incision& incision, const Field& field, double scale);
+  IncisionVolume(const Incision& incision, const VaryingField& field, double scale);
 
   /// The field that opens the cut, where it is another than that of the constructor, of the same shape.
   void opened_by(const VaryingField& field);
@@ -91,7 +91,6 @@ class IncisionVolume {
   Side side_on_skin(int vertex, double straight) const;
   void find_normals();
   void find_directions();
-  double weight_in_room(const Place& at) const;
   double lift_of_tilted_blade(const Vec3& blade, const PathFrame& skin, double v) const;
 
   const Incision& incision_;

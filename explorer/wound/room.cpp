@@ -133,6 +133,17 @@ double LargestDisplacement::anywhere() const {
   return largest_.empty() ? 0 : *std::max_element(largest_.begin(), largest_.end());
 }
 
+WoundRoom::WoundRoom(const Incision& incision, const VaryingField& field, double scale)
+    : largest_(field, incision.path().length() * scale),
+      scale_(scale),
+      length_(incision.path().length() * scale),
+      cut_(field.shape().cut()) {
+  const double largest = largest_.anywhere(), resolved = resolved_part * cut_.length;
+  if (length_ < resolved && largest > 0)
+    short_cut_ = std::min(1., length_ / resolved * LargestDisplacement(field, resolved).anywhere() / largest);
+  follow_path(incision);
+}
+
 void WoundRoom::follow_path(const Incision& incision) {
   const ScalpelPath& path = incision.path();
   const int pieces = incision.extended_to() > 0 ? room_pieces_of_growing : room_pieces;
@@ -143,27 +154,8 @@ void WoundRoom::follow_path(const Incision& incision) {
       bends_[right].push_back(s, path.room(s, right));
     }
     bends_[right].even_out();
-  }
-  found_ = incision.surroundings().irregular();
-  find_irregular();
-}
-
-void WoundRoom::fill(const VaryingField& field, const Incision& incision, double scale) {
-  scale_ = scale;
-  const double length = incision.path().length() * scale,
-               resolved = resolved_part * field.shape().cut().length;
-  length_ = length, cut_ = field.shape().cut();
-  largest_ = LargestDisplacement(field, length);
-  if (const double largest = largest_.anywhere(); length < resolved && largest > 0)
-    short_cut_ = std::min(1., length / resolved * LargestDisplacement(field, resolved).anywhere() / largest);
-  find_irregular();
-}
-
-/// Those where the coordinates would strain the skin by too much.
-void WoundRoom::find_irregular() {
-  for (const bool right : {false, true}) {
-    std::vector<Vec3> places;
-    for (const Surroundings::Irregular& one : found_)
+    std::vector<Vec3> places;  // where the coordinates would strain the skin by too much
+    for (const Surroundings::Irregular& one : incision.surroundings().irregular())
       if (one.times * largest(one.s, one.across) * rise_in_length / cut_.length > most_strain &&
           (one.side == Side::both || (one.side == Side::right) == right))
         places.push_back(one.position);

@@ -50,7 +50,7 @@ CanonicalPlace canonical_place(double s, double length, const CanonicalCut& cut)
 /// sampled, and of two places next to each other the larger one.
 class LargestDisplacement {
  public:
-  LargestDisplacement() = default;
+  LargestDisplacement() = default;  ///< of nothing: 0
   LargestDisplacement(const VaryingField& field, double length);
 
   double at(double u, double v) const;
@@ -67,10 +67,10 @@ class LargestDisplacement {
 /// more.
 class WoundRoom {
  public:
-  /// Must be called first, and when the path was extended.
+  /// `scale`: mm per mesh unit.
+  WoundRoom(const Incision& incision, const VaryingField& field, double scale);
+  /// Must be called when the incision's path was extended.
   void follow_path(const Incision& incision);
-  /// The field that opens the cut. `scale`: mm per mesh unit.
-  void fill(const VaryingField& field, const Incision& incision, double scale);
 
   /// Lengths in mesh units; side both: on the path, ahead of the blade or at its ends.
   struct Place {
@@ -85,17 +85,15 @@ class WoundRoom {
   double of_short_cut() const { return short_cut_; }
 
  private:
-  void find_irregular();
   double largest(double s, double across) const;
   double bend(const Place& at, bool right) const;
 
   std::array<RoomAlong, 2> bends_;  // to the path's own medial axis, left and right
   std::array<NearestPlace, 2> irregular_;
-  std::vector<Surroundings::Irregular> found_;
   LargestDisplacement largest_;
   double short_cut_ = 1;
-  double scale_ = 1, length_ = 1;  // mm per mesh unit; of the path, mm
-  CanonicalCut cut_{};
+  double scale_, length_;  // mm per mesh unit; of the path as the field was sampled for it, mm
+  CanonicalCut cut_;
 };
 
 }  // namespace cleft

@@ -12,7 +12,7 @@ struct Wound {
   /// either LiveReplay keeps it up, or the wound is to be made anew. The incision and the field's own fields
   /// must outlive the wound. `scale`: mm per mesh unit.
   Wound(const Incision& cut, const VaryingField& opened_by, double scale)
-      : Wound(cut, opened_by, IncisionVolume(cut, opened_by.shape(), scale)) {}
+      : incision(&cut), field(opened_by), volume(cut, field, scale) {}
   /// With an existing volume for a field of the same shape.
   Wound(const Incision& cut, VaryingField opened_by, IncisionVolume built)
       : incision(&cut), field(std::move(opened_by)), volume(std::move(built)) {

@@ -144,15 +144,7 @@ TEST(Crossing, ALoopCutsAnIslandOut) {
 
 TEST(Undo, TakesCutsBackAndMakesThemAgainBitForBit) {
   CutMesh mesh(sphere(4, 10));
-  const auto state = [&mesh] {
-    std::vector<double> all;
-    for (const auto& v : mesh.vertices())
-      all.insert(all.end(), {v.position.x, v.position.y, v.position.z, double(v.triangle), double(v.kind)});
-    for (const auto& t : mesh.triangles())
-      for (int i = 0; i < 3; ++i)
-        all.insert(all.end(), {double(t.vertex[i]), double(t.neighbor[i]), double(t.region)});
-    return all;
-  };
+  const auto state = [&mesh] { return state_of(mesh); };
   const auto untouched = state();
   Incision first(mesh, on_top({{-4, 0.1}, {0, 0.3}, {4, 0.2}}, 2));
   first.advance_to(3);

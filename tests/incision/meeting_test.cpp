@@ -20,16 +20,6 @@ using namespace testing;
 
 constexpr double degree = std::numbers::pi / 180;
 
-std::vector<double> state_of(const CutMesh& mesh) {
-  std::vector<double> all;
-  for (const auto& v : mesh.vertices())
-    all.insert(all.end(), {v.position.x, v.position.y, v.position.z, double(v.triangle), double(v.kind)});
-  for (const auto& t : mesh.triangles())
-    for (int i = 0; i < 3; ++i)
-      all.insert(all.end(), {double(t.vertex[i]), double(t.neighbor[i]), double(t.region)});
-  return all;
-}
-
 /// Straight through or from `at`, at an angle.
 ScalpelPath straight(const Vec3& at, double angle, double from, double to, double depth) {
   const Vec3 along{std::cos(angle), std::sin(angle), 0};

@@ -155,6 +155,17 @@ inline bool adjacency_holds(const CutMesh& mesh) {
   return true;
 }
 
+/// All that undoing and redoing must bring back.
+inline std::vector<double> state_of(const CutMesh& mesh) {
+  std::vector<double> all;
+  for (const auto& v : mesh.vertices())
+    all.insert(all.end(), {v.position.x, v.position.y, v.position.z, double(v.triangle), double(v.kind)});
+  for (const auto& t : mesh.triangles())
+    for (int i = 0; i < 3; ++i)
+      all.insert(all.end(), {double(t.vertex[i]), double(t.neighbor[i]), double(t.region)});
+  return all;
+}
+
 /// A path through points with a common depth; `outward` tells N at a point.
 template <class Outward>
 ScalpelPath path_through(const std::vector<Vec3>& points, const Outward& outward, double depth) {

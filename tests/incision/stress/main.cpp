@@ -1,10 +1,8 @@
 // cleft-stress-incision: random cuts through many meshes; prints what came of them.
-#include <cmath>
 #include <cstdio>
 
 #include "base/command/command.h"
 #include "base/error.h"
-#include "tests/incision/meshes.h"
 #include "tests/incision/stress/stress.h"
 #include "tests/incision/stress/subjects.h"
 
@@ -18,8 +16,6 @@ struct Options {
   double minutes = 0;
   bool large = false, json = false;
 };
-
-double hills(double x, double y) { return 0.8 * std::sin(0.9 * x) * std::cos(0.7 * y); }
 
 void report(const std::string& name, const stress::Tally& t, bool json) {
   if (json) {
@@ -55,8 +51,7 @@ void run(const Options& o) {
   std::vector<stress::Subject> subjects = stress::generated_subjects(false);
   if (!o.meshes.empty())
     for (stress::Subject& subject : stress::subjects_of(o.meshes)) subjects.push_back(std::move(subject));
-  if (o.large)
-    subjects.push_back({"plane of a million", testing::grid(708, 708, -10, -10, 20. / 708, hills)});
+  if (o.large) subjects.push_back(stress::large_subject());
   if (!o.only.empty())
     std::erase_if(subjects, [&](const stress::Subject& s) { return s.name.find(o.only) == s.name.npos; });
   if (subjects.empty()) throw InputError("no mesh to cut: --only " + o.only + " names none");

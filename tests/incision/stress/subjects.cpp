@@ -65,6 +65,10 @@ std::vector<Subject> generated_subjects(bool difficult) {
   return subjects;
 }
 
+Subject large_subject() {
+  return {"plane of a million", testing::grid(708, 708, -10, -10, 20. / 708, hills)};
+}
+
 std::vector<Subject> subjects_of(const std::string& folder) {
   namespace fs = std::filesystem;
   std::vector<fs::path> files;

@@ -18,6 +18,9 @@ struct Subject {
 /// spikes, folded sheets and many outlines, too.
 std::vector<Subject> generated_subjects(bool difficult);
 
+/// Hills of a million triangles.
+Subject large_subject();
+
 /// Those of .obj and .stl files below a folder, sorted; not good where their folder is called "defective".
 std::vector<Subject> subjects_of(const std::string& folder);
 

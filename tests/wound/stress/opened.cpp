@@ -86,9 +86,7 @@ class Look {
       if (field_turns(t, time)) {
         ++found_.turned_by_field;
       } else {
-        if (found_.turned++ == 0) found_.first_turned = rest[0];
-        found_.which.push_back(t);
-        if (found_.which.size() == 1) found_.first_is = described(t, rest, moved);
+        if (found_.turned++ == 0) found_.first_turned = rest[0], found_.first_is = described(t, rest, moved);
       }
     }
     for (int i = 0; i < 3; ++i) {

@@ -28,7 +28,6 @@ struct Opened {
   double largest = 0;        ///< displacement over the field's largest
   Vec3 first_turned;         ///< where, at rest
   std::string first_is;      ///< its corners
-  std::vector<int> which;    ///< skin triangles counted in `turned`
 
   bool sound() const { return turned + torn + stretched + spikes + crossed + unsteady == 0; }
   void add(const Opened& other);
