@@ -82,6 +82,9 @@ Json figures_of(const Validity& v) {
           {"nearest_cut_mm", finite(v.nearest_cut)},
           {"held_back_mm", v.held_back},
           {"held_back_at_mm", v.held_back_at},
+          {"guarded_vertices", v.guarded_vertices},
+          {"guarded_mm", v.guarded},
+          {"guarded_at_mm", v.guarded_at},
           {"junction_tension", v.junction_tension ? finite(*v.junction_tension) : Json()}};
 }
 

@@ -35,6 +35,7 @@ ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
     wounds_.complete_newest();
   }
   made_ = cuts_.size();
+  wounds_.guard_skin();
   if (setup_.path) add_cut(*setup_.path, {}, most_entering);
   wounds_.follow(std::min(made_, wounds_.size()));
   displacements_.resize(mesh_.vertices().size());
@@ -240,6 +241,8 @@ void ScalpelCutting::open() {
   tell_touched();
   if (wounds_.relieve())
     for (const LiveReplay& replay : wounds_.replays()) tell(replay.entered());
+  if (!is_under_way() && wounds_.guard_skin())
+    for (const LiveReplay& replay : wounds_.replays()) tell(replay.entered());
   moved_.clear();
   for (; !pending_.empty() && moved_.size() < most_moved; pending_.pop_front()) {
     const int v = pending_.front();
@@ -252,6 +255,13 @@ void ScalpelCutting::open() {
   figures_.waiting = pending_.size();
   if (!moved_.empty()) surface_->update(moved_, {});
   figures_.open.add(watch.lap());
+}
+
+/// Whether the newest cut goes on: no part of it is at its end yet.
+bool ScalpelCutting::is_under_way() const {
+  if (!setup_.path) return cutting_;
+  return figures_.stopped.empty() && incision()->tip() < incision()->path().length() &&
+         !incision()->left_mesh();
 }
 
 void ScalpelCutting::tell_touched() {

@@ -83,6 +83,7 @@ class ScalpelCutting {
   void cut(const Change& change);
   void collect_changes();
   void open();
+  bool is_under_way() const;
   void tell_touched();
   void tell(const std::vector<int>& vertices);
 

@@ -156,6 +156,16 @@ std::vector<int> LiveReplay::entered() const {
   return vertices;
 }
 
+void LiveReplay::displacements(double s, std::vector<std::pair<int, Vec3>>& out) const {
+  std::vector<Vec3> moved(rest_.size());
+  for (const Batch& batch : batches_) {
+    batch.pieces.positions(s, rest_.data(), moved.data());
+    for (const int v : batch.pieces.vertices())
+      if (v > 0)
+        out.emplace_back(v - 1, moved[static_cast<std::size_t>(v)] - rest_[static_cast<std::size_t>(v)]);
+  }
+}
+
 void LiveReplay::move_to(double s) {
   touched_.clear();
   const double before = blade_;

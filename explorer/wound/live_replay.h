@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include "explorer/wound/contractor.h"
@@ -34,6 +35,9 @@ class LiveReplay {
     return position(vertex) - rest_[static_cast<std::size_t>(vertex) + 1];
   }
   std::size_t vertex_count() const { return rest_.size() - 1; }
+
+  /// The displacements, mesh units, with the blade at s of those that have entered.
+  void displacements(double s, std::vector<std::pair<int, Vec3>>& out) const;
 
   /// The arc length of a vertex that has entered, mm.
   double station(int vertex) const { return stations_[static_cast<std::size_t>(vertex) + 1]; }

@@ -1,5 +1,8 @@
 #include "explorer/wound/live_wounds.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "base/error.h"
 
 namespace cleft {
@@ -18,6 +21,11 @@ void LiveWounds::add(Wound wound, std::size_t most_entering) {
 
 void LiveWounds::follow(std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) replays_[k].follow();
+  if (guard().empty()) return;
+  const CutMesh& mesh = (*this)[0].incision->mesh();
+  for (const int t : mesh.changed())
+    if (static_cast<std::size_t>(t) < mesh.triangles().size())
+      for (const int v : mesh.triangle(t).vertex) forget_guard(v);
 }
 
 void LiveWounds::move_to_tips() {
@@ -28,10 +36,34 @@ void LiveWounds::complete_newest() {
   if (!empty()) replays_.back().move_to((*this)[size() - 1].complete());
 }
 
-bool LiveWounds::relieve() {
-  if (size() < 2) return false;
+double LiveWounds::length() const {
   double length = 0;
   for (std::size_t k = 0; k < size(); ++k) length += scale_ * (*this)[k].incision->tip();
+  return length;
+}
+
+bool LiveWounds::guard_skin() {
+  const double length = this->length();
+  if (length == guarded_at_ ||
+      std::any_of(replays_.begin(), replays_.end(), [](const LiveReplay& r) { return r.late() > 0; }))
+    return false;
+  guarded_at_ = length;
+  std::vector<std::pair<int, Vec3>> moved;
+  find_guard([&](const Blade& blade) {
+    moved.clear();
+    const LiveReplay& replay = replays_[blade.cut];
+    replay.displacements(blade.s, moved);
+    std::vector<Moved> found;
+    found.reserve(moved.size());
+    for (const auto& [v, d] : moved) found.push_back({v, replay.station(v), d});
+    return found;
+  });
+  return true;
+}
+
+bool LiveWounds::relieve() {
+  if (size() < 2) return false;
+  const double length = this->length();
   const std::size_t last = size() - 1;
   const Incision& newest = *(*this)[last].incision;
   const bool complete = newest.tip() == newest.path().length() && length > relieved_at_;

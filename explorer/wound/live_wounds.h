@@ -24,21 +24,32 @@ class LiveWounds : public Wounds {
   /// returns whether it did. If a field lacks the tension, the displacements add.
   bool relieve();
 
+  /// Finds the guard anew if cuts have grown since it was found last, and no vertex waits to enter; returns
+  /// whether it did. To be called when the newest cut is complete: until then all that this cut has changed
+  /// moves without a guard, and the rest with that of the earlier cuts.
+  bool guard_skin();
+
   /// The displacement of a vertex by all wounds, mm.
   Vec3 displacement(int vertex) const {
+    const auto own = [this](int v) { return without_guard(v); };
+    return guard().empty() ? own(vertex) : guard().displacement(vertex, own);
+  }
+  /// The vertices of each wound.
+  const std::vector<LiveReplay>& replays() const { return replays_; }
+
+ private:
+  double length() const;  ///< mm, of all cuts
+  Vec3 without_guard(int vertex) const {
     Vec3 sum;
     std::size_t k = 0;
     for (const LiveReplay& replay : replays_)
       sum += scale_ * now_.amplitude(k++, replay.station(vertex)) * replay.displacement(vertex);
     return sum;
   }
-  /// The vertices of each wound.
-  const std::vector<LiveReplay>& replays() const { return replays_; }
-
- private:
   std::vector<LiveReplay> replays_;
   Relief::At now_;  // with the blade of the newest wound at its tip
   double scale_ = 1;
+  double guarded_at_ = 0;   // mm, likewise, for the guard
   double relieved_at_ = 0;  // mm: the length of all cuts for which their relief was found
 };
 

@@ -23,6 +23,10 @@ class Replay {
   /// Positions of all vertices, mesh units, with the blade at s mm of the path's length. `out` has one entry
   /// for each vertex of the incision's mesh. Allocates no memory.
   void positions(double s, std::span<Vec3> out) const;
+  /// The same of active vertices only, bit for bit.
+  void active_positions(double s, std::span<Vec3> out) const {
+    pieces_.positions(s, rest_->data(), out.data());
+  }
 
   double path_length() const { return path_length_; }  ///< mm
   std::size_t vertex_count() const { return rest_->size(); }

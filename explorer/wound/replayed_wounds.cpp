@@ -1,6 +1,7 @@
 #include "explorer/wound/replayed_wounds.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace cleft {
 
@@ -8,6 +9,8 @@ namespace {
 /// Of a cut's path, in which the relief is taken as linear: a fiftieth of the path turns amplitudes by
 /// little.
 constexpr int relief_pieces = 48;
+/// mm: the vertices that the guard moves are never left out.
+constexpr double never_left_out = std::numeric_limits<double>::infinity();
 }  // namespace
 
 ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
@@ -17,7 +20,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
   }
   std::vector<Vec3> moved(size() > 1 ? vertex_count() : 0);
   for (std::size_t k = 0; k + 1 < size(); ++k) {
-    whole_.replays[k].positions(path_length(k), moved);
+    whole_.replays[k].positions((*this)[k].reached(), moved);
     std::vector<Vec3>& displacements = whole_.complete.emplace_back();
     for (const ActiveVertex& a : active(k)) {
       const std::size_t v = a.vertex;
@@ -28,6 +31,15 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
       steps.push_back(mutual_relief(first(k + 2), path_length(k + 1) * i / relief_pieces));
     set_relief(k + 1, Relief(steps));
   }
+  std::vector<Vec3> now(vertex_count());
+  find_guard([&](const Blade& blade) {
+    whole_.replays[blade.cut].active_positions(blade.s, now);
+    std::vector<Moved> found;
+    found.reserve(active(blade.cut).size());
+    for (const ActiveVertex& a : active(blade.cut))
+      found.push_back({a.vertex, a.s, now[a.vertex] - rest()[a.vertex]});
+    return found;
+  });
   bound_vertices();
 }
 
@@ -51,6 +63,7 @@ void ReplayedWounds::bound_vertices() {
       bounds_[a.vertex] += replay.bound(i) * (largest.values.empty() ? 1 : largest.at(a.s));
     }
   }
+  for (const int v : guard().vertices()) bounds_[v] = never_left_out;
 }
 
 std::size_t ReplayedWounds::Level::active() const {
@@ -91,9 +104,13 @@ Wounds::Blade ReplayedWounds::blade(double t) const {
 }
 
 void ReplayedWounds::positions(double t, const Level& level, std::span<Vec3> out) const {
-  const Blade now = blade(t);
+  superpose(blade(t), level, out);
+  guard().apply(rest().data(), out.data());
+}
+
+void ReplayedWounds::superpose(const Blade& now, const Level& level, std::span<Vec3> out) const {
   const Replay& cutting = level.replays[now.cut];
-  cutting.positions(now.s, out);
+  cutting.positions(std::min(now.s, (*this)[now.cut].reached()), out);
   if (now.cut == 0) return;
   const Relief::At relief = relief_at(now);
   for (const ActiveVertex& a : cutting.active()) {

@@ -39,6 +39,7 @@ class ReplayedWounds : public Wounds {
   const std::vector<ActiveVertex>& active(std::size_t cut) const { return whole_.replays[cut].active(); }
 
  private:
+  void superpose(const Blade& blade, const Level& level, std::span<Vec3> out) const;
   void bound_vertices();
   double path_length(std::size_t cut) const { return whole_.replays[cut].path_length(); }
 

@@ -66,6 +66,21 @@ void find_held_back(const Wound& cut, double length, Validity& v) {
   }
 }
 
+/// Each vertex counts for the cut that it is nearest to.
+void find_guarded(const std::vector<const Wound*>& cuts, const Guard& guard, std::vector<Validity>& result) {
+  for (const auto& [vertex, by] : guard.changes()) {
+    std::size_t nearest = cuts.size();
+    double least = infinity, s = 0;
+    for (std::size_t i = 0; i < cuts.size(); ++i)
+      if (const auto at = cuts[i]->volume.locate(vertex); at && std::abs(at->uvw.y) < least)
+        nearest = i, least = std::abs(at->uvw.y), s = at->s;
+    if (nearest == cuts.size()) continue;
+    Validity& v = result[nearest];
+    ++v.guarded_vertices;
+    if (const double mm = by * cuts[nearest]->scale(); mm > v.guarded) v.guarded = mm, v.guarded_at = s;
+  }
+}
+
 /// The opening of the canonical cut at its widest, when it has come to t.
 double opening(const Field& field, double t) {
   double widest = 0;
@@ -132,15 +147,16 @@ bool pulled_alike(const Field& field) {
 
 }  // namespace
 
-std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool turned) {
-  std::vector<Validity> result;
+std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool turned, const Guard& guard) {
+  std::vector<Validity> result(cuts.size());
+  find_guarded(cuts, guard, result);
   std::vector<std::vector<Junction>> junctions;
   for (std::size_t i = 0; i < cuts.size(); ++i) junctions.push_back(junctions_of(cuts, i));
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const Field& field = cuts[i]->field.shape();
     const ScalpelPath way = way_of(*cuts[i]->incision);
     const double scale = cuts[i]->scale(), canonical = field.cut().length, length = way.length() * scale;
-    Validity& v = result.emplace_back();
+    Validity& v = result[i];
     v.smallest_radius = smallest_radius(way) * scale;
     find_held_back(*cuts[i], length, v);
     v.largest_tilt = largest_tilt(*cuts[i], way.length());
@@ -169,6 +185,10 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
       warn("near " + rounded(v.held_back_at) + " mm of the path its lips are held back by up to " +
            shortest(std::round(100 * v.held_back) / 100) +
            " mm, so that they do not pass through each other where the path bends or comes back");
+    if (v.guarded > greatest_held_back * opening(field, std::min(length, canonical)))
+      warn("near " + rounded(v.guarded_at) + " mm of the path the skin would turn over or tear: " +
+           std::to_string(v.guarded_vertices) + " of its vertices move otherwise, by up to " +
+           shortest(std::round(100 * v.guarded) / 100) + " mm");
     if (v.largest_tilt > greatest_tilt)
       warn("the blade is tilted by " + rounded(v.largest_tilt) + " degrees, above " + rounded(greatest_tilt));
     if (length > canonical * (1 + rounding) && v.length_defect > greatest_defect)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "explorer/wound/guard.h"
 #include "explorer/wound/wound.h"
 
 namespace cleft {
@@ -23,10 +24,15 @@ struct Validity {
   /// By how much the displacement of the lips may be less than the field's, at most and where, mm: they must
   /// not pass through each other where the path bends or comes back.
   double held_back = 0, held_back_at = 0;
+  /// Vertices that move otherwise than the fields say, because the skin would turn over or tear: how many
+  /// there are, by how much at most, and where along the path, mm.
+  int guarded_vertices = 0;
+  double guarded = 0, guarded_at = 0;
   std::vector<std::string> warnings;
 };
 
 /// The validity of every cut. `turned`: whether their fields follow the tension.
-std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool turned);
+std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool turned,
+                                  const Guard& guard = {});
 
 }  // namespace cleft

@@ -26,6 +26,13 @@ struct Wound {
     return (incision->extended_to() > 0 ? incision->tip() : incision->path().length()) * scale();
   }
 
+  /// How far the blade can go, mm: not beyond the tip of a cut that has stopped within the mesh.
+  double reached() const {
+    const double length = incision->path().length(), tip = incision->tip();
+    constexpr double rounding = 1e-9;
+    return (tip < (1 - rounding) * length && !incision->left_mesh() ? tip : length) * scale();
+  }
+
   const Incision* incision;
   VaryingField field;
   IncisionVolume volume;

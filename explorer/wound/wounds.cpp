@@ -1,8 +1,24 @@
 #include "explorer/wound/wounds.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "base/error.h"
 
 namespace cleft {
+
+namespace {
+/// At how many positions of the blade in each cut the guard looks at the skin, and in how many pieces of it
+/// the relief is linear there.
+constexpr int looks = 24, relief_looks = 24;
+/// Of its own flat patch a field that keeps less turns it over.
+constexpr double least_area = 0.3;
+/// mm: neighbours that move apart by no more are never torn.
+constexpr double least_jump = 0.05;
+/// Of that: a field that moves its own lips into each other by more does so on any mesh.
+constexpr double part_closed = 0.4;
+}  // namespace
 
 Wound& Wounds::add(Wound wound) {
   relief_.push_back(relief_.empty() ? Relief() : relief_.back());
@@ -26,7 +42,9 @@ double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
 
 Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,
                                 const Blade& blade) const {
-  Vec3 sum;
+  // What the guard changes of the skin falls to nothing down to the bottom of the cut.
+  const double deep = wounds_.front().field.shape().cut().depth;
+  Vec3 sum = std::max(0., 1 - depth / deep) * changed_by_guard(nearest, blade);
   for (std::size_t k = 0; k <= blade.cut; ++k) {
     const Wound& wound = wounds_[k];
     const double s = k == blade.cut ? blade.s : wound.complete();
@@ -39,6 +57,117 @@ Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, st
            at->in_mesh(wound.field.displacement(at->uvw, at->side, own_time, at->s));
   }
   return sum;
+}
+
+/// What the guard adds to the displacement of a vertex.
+Vec3 Wounds::changed_by_guard(int vertex, const Blade& blade) const {
+  const auto own = [&](int v) {
+    Vec3 sum;
+    for (std::size_t k = 0; k <= blade.cut; ++k) {
+      const Wound& wound = wounds_[k];
+      const auto at = wound.volume.locate(v);
+      if (!at) continue;
+      const double s = k == blade.cut ? blade.s : wound.complete(),
+                   t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
+      const Side side = at->on_cut && at->s >= s ? Side::both : at->side;
+      sum += amplitude(k, at->s, blade) / wound.scale() *
+             at->in_mesh(wound.field.displacement(at->uvw, side, t, at->s));
+    }
+    return sum;
+  };
+  return guard_.moves(vertex) ? guard_.displacement(vertex, own) - own(vertex) : Vec3{};
+}
+
+/// The amplitudes while the blade makes the newest of some cuts.
+Relief Wounds::relief_while_cut(std::size_t newest, double length) const {
+  if (newest == 0) return {};
+  std::vector<std::vector<Amplitude>> steps;
+  try {
+    for (int i = 0; i <= relief_looks; ++i)
+      steps.push_back(mutual_relief(first(newest + 1), length * i / relief_looks));
+  } catch (const InputError&) {  // the field does not tell the tension: displacements add
+    return {};
+  }
+  return Relief(steps);
+}
+
+void Wounds::find_guard(const std::function<std::vector<Moved>(const Blade&)>& moved) {
+  std::vector<Blade> blades;
+  GuardSearch search(wounds_.front().incision->mesh(), least_jump / wounds_.front().scale(),
+                     {[&](int t, std::size_t time) { return turned_by_field(t, blades[time]); },
+                      [this](int a, int b, double jump) { return stretched_by_field(a, b, jump); },
+                      [&](int left, std::size_t time) { return closed_by_field(left, blades[time]); }});
+  for (const Wound& wound : wounds_)
+    for (const Incision::ChainVertex& c : wound.incision->chain())
+      if (c.left != c.right) search.add_pair(c.left, c.right, wound.incision->path().at(c.s).across);
+  std::vector<std::vector<Moved>> complete;
+  std::vector<std::pair<int, Vec3>> sum;
+  std::vector<int> place(wounds_.front().incision->mesh().vertices().size(), -1);  // in the sum
+  const auto add = [&](const std::vector<Moved>& some, const Relief::At& now, std::size_t cut) {
+    for (const auto& [v, s, d] : some) {
+      const Vec3 scaled = now.amplitude(cut, s) * d;
+      if (place[v] < 0)
+        place[v] = static_cast<int>(sum.size()), sum.emplace_back(v, scaled);
+      else
+        sum[place[v]].second += scaled;
+    }
+  };
+  for (std::size_t k = 0; k < size(); ++k) {
+    const double length = wounds_[k].reached();
+    const Relief relief = relief_while_cut(k, length);
+    for (int i = 1; i <= looks; ++i) {
+      const double part = static_cast<double>(i) / looks;
+      blades.push_back({k, length * part});
+      const Relief::At now = relief.at(part);
+      std::vector<Moved> own = moved(blades.back());
+      add(own, now, k);
+      for (std::size_t j = 0; j < k; ++j) add(complete[j], now, j);
+      for (const auto& [v, d] : sum) place[v] = -1;
+      search.add(std::exchange(sum, {}));
+      if (i == looks) complete.push_back(std::move(own));
+    }
+  }
+  guard_ = search.find();
+}
+
+/// Whether the field of a cut turns its own flat patch over at a triangle's corner, or nearly so.
+bool Wounds::turned_by_field(int triangle, const Blade& blade) const {
+  for (std::size_t k = 0; k <= blade.cut; ++k) {
+    const Wound& wound = wounds_[k];
+    const double s = k == blade.cut ? blade.s : wound.complete();
+    for (const int v : wound.incision->mesh().triangle(triangle).vertex) {
+      const auto at = wound.volume.locate(v);
+      if (!at) continue;
+      const Side side = at->on_cut && at->s >= s ? Side::both : at->side;
+      const double t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
+      const Derivatives d = wound.field.derivatives(at->uvw, side, t, at->s);
+      if (cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v).z < least_area) return true;
+    }
+  }
+  return false;
+}
+
+/// Whether two vertices that move apart by more than `jump`, mesh units, are no nearer to each other in the
+/// flat patch of a single cut's field.
+bool Wounds::stretched_by_field(int a, int b, double jump) const {
+  if (size() != 1) return false;
+  const Wound& wound = wounds_.front();
+  const auto from = wound.volume.locate(a), to = wound.volume.locate(b);
+  const auto apart = [](Side x, Side y) { return x != y && x != Side::both && y != Side::both; };
+  return from && to && !apart(from->side, to->side) && norm(to->uvw - from->uvw) < jump * wound.scale();
+}
+
+/// Whether the field of a single cut moves the lips into each other.
+bool Wounds::closed_by_field(int lip, const Blade& blade) const {
+  if (size() != 1) return false;
+  const Wound& wound = wounds_.front();
+  const auto at = wound.volume.locate(lip);
+  if (!at || at->s >= blade.s) return false;
+  const double t = std::clamp(blade.s + at->time_offset, 0., wound.field.shape().cut().length);
+  const auto moved = [&](Side side) {
+    return wound.field.displacement({at->uvw.x, 0, at->uvw.z}, side, t, at->s).y;
+  };
+  return moved(Side::right) - moved(Side::left) < -least_jump * part_closed;
 }
 
 }  // namespace cleft

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "explorer/wound/guard_search.h"
 #include "explorer/wound/mutual_relief.h"
 #include "explorer/wound/validity.h"
 #include "explorer/wound/wound.h"
@@ -37,8 +39,12 @@ class Wounds {
   Vec3 displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,
                           const Blade& blade) const;
 
+  /// What keeps the skin from turning over where the fields alone would turn it, in all cuts that are
+  /// complete.
+  const Guard& guard() const { return guard_; }
+
   /// The validity of each cut. `turned`: whether the fields follow the tension.
-  std::vector<Validity> validity(bool turned) const { return validity_of(first(size()), turned); }
+  std::vector<Validity> validity(bool turned) const { return validity_of(first(size()), turned, guard_); }
 
  protected:
   Wounds() = default;
@@ -53,9 +59,27 @@ class Wounds {
   /// The amplitudes at a position of the blade; valid until a wound is added or a relief is set.
   Relief::At relief_at(const Blade& blade) const;
 
+  /// A vertex that a cut moves, s of its place in mm of the path, and its displacement, mesh units.
+  struct Moved {
+    int vertex;
+    double s;
+    Vec3 displacement;
+  };
+  /// Finds the guard of all wounds as far as they are cut. `moved` tells the vertices that a cut would move
+  /// alone, each once, with the blade at the given place of it.
+  void find_guard(const std::function<std::vector<Moved>(const Blade&)>& moved);
+  void forget_guard(int vertex) { guard_.forget(vertex); }
+
  private:
+  Vec3 changed_by_guard(int vertex, const Blade& blade) const;
+  Relief relief_while_cut(std::size_t newest, double length) const;
+  bool turned_by_field(int triangle, const Blade& blade) const;
+  bool stretched_by_field(int a, int b, double jump) const;
+  bool closed_by_field(int lip, const Blade& blade) const;
+
   std::deque<Wound> wounds_;
   std::vector<Relief> relief_;  // while wound k is the newest
+  Guard guard_;
 };
 
 }  // namespace cleft

@@ -1,0 +1,67 @@
+// The guard of a wound's skin: what replaces displacements that would turn triangles over or tear edges.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace cleft {
+
+/// Displacements of some vertices, as sums of parts of the displacements that vertices have without it. The
+/// parts are constant in time, so that time can still run both ways; without such vertices it costs nothing.
+class Guard {
+ public:
+  struct Share {
+    int vertex;
+    double part;  ///< of its displacement
+  };
+  /// By how much the displacement of a vertex differs from that without the guard at most, mesh units.
+  struct Change {
+    int vertex;
+    double by;
+  };
+
+  /// The displacement of `vertex` is the sum of the shares. Whoever takes from others must not be one of
+  /// their shares; whoever takes only a part of its own may be.
+  void replace(int vertex, std::span<const Share> shares, double change);
+  /// Must be called after the last replace().
+  void sort();
+  /// The vertex moves again as without the guard, and so do those that take a share of it.
+  void forget(int vertex);
+
+  /// Whether the displacement of a vertex is replaced.
+  bool moves(int vertex) const { return row_of(vertex) != nullptr; }
+  bool empty() const { return rows_.empty(); }
+  const std::vector<Change>& changes() const { return changes_; }
+  /// The vertices whose displacements are replaced or shared, sorted.
+  const std::vector<int>& vertices() const { return vertices_; }
+
+  /// Changes positions without the guard to those with it. Allocates no memory.
+  void apply(const Vec3* rest, Vec3* positions) const;
+  /// The displacement of one vertex, where own(v) is that of vertex v without the guard.
+  template <class Own>
+  Vec3 displacement(int vertex, const Own& own) const {
+    const Row* row = row_of(vertex);
+    if (!row) return own(vertex);
+    Vec3 sum;
+    for (std::size_t i = row->first; i < row->last; ++i) sum += shares_[i].part * own(shares_[i].vertex);
+    return sum;
+  }
+
+ private:
+  struct Row {
+    int vertex;
+    bool of_itself;           // it takes a part of its own displacement
+    std::size_t first, last;  // of the shares
+  };
+  const Row* row_of(int vertex) const;
+
+  std::vector<Row> rows_;  // in the order of apply(): those that take from others first, then by vertices
+  std::vector<Share> shares_;
+  std::vector<Change> changes_;
+  std::vector<int> vertices_;
+};
+
+}  // namespace cleft

@@ -1,0 +1,234 @@
+#include "explorer/wound/guard_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace cleft {
+
+namespace {
+
+/// A triangle is sound with this part of its area and this cosine of its turn, a little more than a fifth and
+/// a right angle: it is looked at at some times only.
+constexpr double least_area = 0.25, least_cosine = 0.05;
+/// Of the least jump: lips that pass each other by more are held back.
+constexpr double part_passed = 0.8;
+/// Neighbours that move apart by more than this many times their distance are torn from each other.
+constexpr double most_stretch = 1.5;
+/// Of the triangles that move: a field that turns more of them in its own patch is left to do so.
+constexpr double most_turned = 0.05;
+/// The part of its displacement that a vertex keeps from one round to the next, the least part that is worth
+/// keeping, and rounds.
+constexpr double kept_a_round = 0.75, least_factor = 0.05;
+constexpr int rounds = 60, last_rounds = 6;
+/// The strain that reduced displacements add at most.
+constexpr double most_strain = 0.25;
+
+}  // namespace
+
+Guard GuardSearch::find() {
+  number_vertices();
+  find_neighbors();
+  check_all();
+  if (offending_.empty() || field_is_to_blame()) return {};
+  spread_means();
+  reduce();
+  return result();
+}
+
+void GuardSearch::number_vertices() {
+  number_.assign(mesh_.vertices().size(), -1);
+  for (const auto& moved : moved_)
+    for (const auto& [v, d] : moved)
+      if (d != Vec3{}) number_[v] = 0;
+  for (std::size_t v = 0; v < number_.size(); ++v)
+    if (number_[v] == 0) {
+      number_[v] = static_cast<int>(vertex_.size());
+      vertex_.push_back(static_cast<int>(v));
+    }
+  own_.assign(vertex_.size() * times(), {});
+  for (std::size_t k = 0; k < times(); ++k)
+    for (const auto& [v, d] : moved_[k])
+      if (number_[v] >= 0) own_[static_cast<std::size_t>(number_[v]) * times() + k] = d;
+  with_ = own_;
+  factor_.assign(vertex_.size(), 1), mean_.resize(vertex_.size()), in_group_.resize(vertex_.size());
+  tie_.resize(vertex_.size());
+}
+
+void GuardSearch::find_neighbors() {
+  around_.resize(vertex_.size()), next_.resize(vertex_.size());
+  for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) {
+    const auto& corner = mesh_.triangle(static_cast<int>(t)).vertex;
+    for (int i = 0; i < 3; ++i) {
+      const int n = number_[corner[i]];
+      if (n < 0) continue;
+      if (mesh_.is_skin(static_cast<int>(t))) around_[n].push_back(static_cast<int>(t));
+      for (const int other : {corner[(i + 1) % 3], corner[(i + 2) % 3]})
+        if (number_[other] >= 0) next_[n].push_back(number_[other]);
+      const int twin = mesh_.twin(static_cast<int>(t));
+      if (twin < 0) continue;
+      const int opposite = mesh_.triangle(twin).vertex[CutMesh::twin_corner(i)];
+      if (opposite != corner[i] && number_[opposite] >= 0) next_[n].push_back(number_[opposite]);
+    }
+  }
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    for (const int v : pairs_[i].vertex)
+      if (number_[v] >= 0) around_[number_[v]].push_back(-1 - static_cast<int>(i));
+}
+
+bool GuardSearch::is_kept(int t, std::size_t time) {
+  const auto& corner = mesh_.triangle(t).vertex;
+  Vec3 rest[3], now[3];
+  for (int i = 0; i < 3; ++i) {
+    rest[i] = now[i] = mesh_.position(corner[i]);
+    if (const int n = number_[corner[i]]; n >= 0) now[i] += with(n, time);
+  }
+  const Vec3 before = cross(rest[1] - rest[0], rest[2] - rest[0]),
+             after = cross(now[1] - now[0], now[2] - now[0]);
+  const double area = norm(before), area_now = norm(after);
+  return area == 0 || (area_now >= least_area * area && dot(before, after) >= least_cosine * area * area_now);
+}
+
+bool GuardSearch::is_torn(int t, std::size_t time) {
+  const auto& corner = mesh_.triangle(t).vertex;
+  const auto moved = [&](int v) { return number_[v] < 0 ? Vec3{} : with(number_[v], time); };
+  for (int i = 0; i < 3; ++i) {
+    const int a = corner[i], b = corner[(i + 1) % 3];
+    const double jump = norm(moved(b) - moved(a));
+    if (jump > least_jump_ && jump > most_stretch * norm(mesh_.position(b) - mesh_.position(a)) &&
+        !field_.stretches(a, b, jump / most_stretch))
+      return true;
+  }
+  return false;
+}
+
+/// Whether the lips pass each other.
+bool GuardSearch::is_passed(const Pair& pair, std::size_t time) {
+  const auto moved = [&](int v) { return number_[v] < 0 ? Vec3{} : with(number_[v], time); };
+  const auto [left, right] = pair.vertex;
+  return dot(moved(right) - moved(left), pair.across) < -part_passed * least_jump_ &&
+         !field_.closes(left, time);
+}
+
+std::span<const int> GuardSearch::corners(int one) const {
+  return one < 0 ? std::span<const int>(pairs_[-1 - one].vertex) : mesh_.triangle(one).vertex;
+}
+
+bool GuardSearch::offends(int t) {
+  if (t < 0) {
+    for (std::size_t k = 0; k < times(); ++k)
+      if (is_passed(pairs_[-1 - t], k)) return true;
+    return false;
+  }
+  for (std::size_t k = 0; k < times(); ++k)
+    if (is_torn(t, k) || !is_kept(t, k)) return true;
+  return false;
+}
+
+void GuardSearch::check_all() {
+  std::vector<int> all(vertex_.size());
+  for (std::size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
+  check(all);
+}
+
+/// Whether the field turns much of its own patch over: to keep it from that would be to close the wound. What
+/// it does at single places, mostly next to the ends of a cut, is the error of its fit.
+bool GuardSearch::field_is_to_blame() {
+  std::size_t moving = 0, turned = 0;
+  for (const auto& triangles : around_) moving += triangles.size();
+  for (const int one : offending_) {
+    bool by_field = false;
+    for (std::size_t k = 0; k < times() && one >= 0 && !by_field; ++k)
+      by_field = !is_kept(one, k) && field_.turns(one, k);
+    turned += by_field;
+  }
+  return static_cast<double>(turned) > most_turned * static_cast<double>(moving) / 3;
+}
+
+/// Those that offended before, and those around the given vertices.
+void GuardSearch::check(const std::vector<int>& numbers) {
+  for (const int n : numbers) offending_.insert(offending_.end(), around_[n].begin(), around_[n].end());
+  std::sort(offending_.begin(), offending_.end());
+  offending_.erase(std::unique(offending_.begin(), offending_.end()), offending_.end());
+  std::erase_if(offending_, [this](int t) { return !offends(t); });
+}
+
+void GuardSearch::renew(const std::vector<int>& numbers) {
+  for (const int n : numbers)
+    for (std::size_t k = 0; k < times(); ++k) {
+      Vec3 d = mean_[n].empty() ? own(n, k) : Vec3{};
+      for (const Part& p : mean_[n]) d += p.part * own(p.number, k);
+      with(n, k) = factor_[n] * d;
+    }
+}
+
+/// Displacements are reduced where triangles offend, until none does.
+void GuardSearch::reduce() {
+  largest_.resize(vertex_.size());
+  for (std::size_t n = 0; n < vertex_.size(); ++n)
+    for (std::size_t k = 0; k < times(); ++k)
+      largest_[n] = std::max(largest_[n], norm(with(static_cast<int>(n), k)));
+  for (int round = 0; round < rounds && !offending_.empty(); ++round) {
+    std::vector<int> reduced;
+    for (const int one : offending_)
+      for (const int v : corners(one))
+        if (number_[v] >= 0) reduced.push_back(number_[v]);
+    std::sort(reduced.begin(), reduced.end());
+    reduced.erase(std::unique(reduced.begin(), reduced.end()), reduced.end());
+    for (const int n : reduced)
+      factor_[n] = factor_[n] * kept_a_round < least_factor ? 0 : factor_[n] * kept_a_round;
+    const std::vector<int> changed = even_out(std::move(reduced));
+    renew(changed);
+    check(changed);
+  }
+  std::vector<int> all(vertex_.size());
+  for (std::size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
+  for (int round = 1; round <= last_rounds && !offending_.empty(); ++round) {
+    for (double& factor : factor_) factor *= round < last_rounds ? 0.5 : 0;
+    renew(all);
+    check(all);
+  }
+}
+
+/// From those that were reduced on, so that displacements change by little from vertex to vertex. Returns
+/// all that have changed.
+std::vector<int> GuardSearch::even_out(std::vector<int> reduced) {
+  std::priority_queue<std::pair<double, int>> queue;  // the least factor first
+  for (const int n : reduced) queue.emplace(-factor_[n], n);
+  while (!queue.empty()) {
+    const auto [negative, n] = queue.top();
+    queue.pop();
+    if (-negative > factor_[n]) continue;
+    for (const int next : next_[n]) {
+      const double moves = std::max(largest_[n], largest_[next]),
+                   length = norm(mesh_.position(vertex_[n]) - mesh_.position(vertex_[next])),
+                   most = factor_[n] + most_strain * length / moves;
+      if (!(most < factor_[next])) continue;
+      factor_[next] = most;
+      reduced.push_back(next);
+      queue.emplace(-most, next);
+    }
+  }
+  std::sort(reduced.begin(), reduced.end());
+  reduced.erase(std::unique(reduced.begin(), reduced.end()), reduced.end());
+  return reduced;
+}
+
+Guard GuardSearch::result() const {
+  Guard guard;
+  std::vector<Guard::Share> shares;
+  for (std::size_t n = 0; n < vertex_.size(); ++n) {
+    if (mean_[n].empty() && factor_[n] == 1) continue;
+    double change = 0;
+    for (std::size_t k = 0; k < times(); ++k)
+      change = std::max(change, norm(with_[n * times() + k] - own_[n * times() + k]));
+    shares.clear();
+    if (mean_[n].empty()) shares.push_back({vertex_[n], factor_[n]});
+    for (const Part& p : mean_[n]) shares.push_back({vertex_[p.number], factor_[n] * p.part});
+    guard.replace(vertex_[n], shares, change);
+  }
+  guard.sort();
+  return guard;
+}
+
+}  // namespace cleft

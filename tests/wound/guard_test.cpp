@@ -1,0 +1,253 @@
+// The guard of the skin: what it replaces, that nothing turns over or tears with it, and that the rest stays.
+#include "explorer/wound/guard.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "explorer/wound/live_wounds.h"
+#include "explorer/wound/mean_value.h"
+#include "explorer/wound/replayed_wounds.h"
+#include "tests/incision/meshes.h"
+#include "tests/support/recorded.h"
+#include "tests/wound/fields.h"
+
+namespace cleft {
+namespace {
+
+using namespace testing;
+
+TEST(MeanValues, ReproduceEveryPlaceInAFlatRing) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Vec3> ring;
+    for (int i = 0; i < 7; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + 0.8 * part(random)) / 7, radius = 0.5 + part(random);
+      ring.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    }
+    const Vec3 place{0.1 * part(random), 0.1 * part(random), 0};
+    const std::vector<double> weights = mean_value_weights(place, ring);
+    Vec3 mean;
+    double sum = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      EXPECT_GT(weights[i], 0);
+      mean += weights[i] * ring[i], sum += weights[i];
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_LT(norm(mean - place), 1e-12);
+  }
+}
+
+TEST(MeanValues, OfAPlaceOnAnEdgeAreThoseOfItsEnds) {
+  const std::vector<Vec3> ring{{-1, 0, 0}, {3, 0, 0}, {1, 4, 0}};
+  const std::vector<double> weights = mean_value_weights({0, 0, 0}, ring);
+  EXPECT_NEAR(weights[0], 0.75, 1e-6);
+  EXPECT_NEAR(weights[1], 0.25, 1e-6);
+  EXPECT_NEAR(weights[2], 0, 1e-6);
+}
+
+TEST(Guard, TakesSharesOfWhatVerticesDoWithoutIt) {
+  Guard guard;
+  guard.replace(0, std::vector<Guard::Share>{{0, 0.5}}, 1);
+  guard.replace(2, std::vector<Guard::Share>{{0, 0.25}, {1, 0.75}}, 1);
+  guard.sort();
+  const std::vector<Vec3> rest{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {30, 0, 0}},
+      own{{1, 0, 0}, {2, 4, 0}, {9, 9, 9}, {3, 3, 3}};
+  std::vector<Vec3> positions;
+  for (std::size_t v = 0; v < rest.size(); ++v) positions.push_back(rest[v] + own[v]);
+  guard.apply(rest.data(), positions.data());
+  EXPECT_EQ(positions, (std::vector<Vec3>{{0.5, 0, 0}, {12, 4, 0}, {21.75, 3, 0}, {33, 3, 3}}));
+  for (int v = 0; v < 4; ++v)
+    EXPECT_EQ(rest[v] + guard.displacement(v, [&](int u) { return own[u]; }), positions[v]);
+  guard.forget(1);
+  EXPECT_TRUE(guard.moves(0));
+  EXPECT_FALSE(guard.moves(2));
+}
+
+/// A plate, where every third triangle is divided at a place that is next to nothing beside one of its edges.
+SurfaceMesh plate_with_slivers() {
+  SurfaceMesh plate = grid(60, 40, -30, -20, 1);
+  for (std::size_t t = 0, count = plate.triangles.size(); t < count; t += 3) {
+    const auto [a, b, c] = plate.triangles[t];
+    const Vec3 middle = 0.5 * (plate.points[a] + plate.points[b]);
+    const int at = static_cast<int>(plate.points.size());
+    plate.points.push_back(middle + 1e-4 * (plate.points[c] - middle));
+    plate.triangles[t] = {a, b, at};
+    plate.triangles.push_back({b, c, at});
+    plate.triangles.push_back({c, a, at});
+  }
+  return plate;
+}
+
+/// Skin triangles that have turned over or shrunk to a fifth, and edges whose ends have moved apart by more
+/// than twice their length, at many times.
+int unsound(const ReplayedWounds& wounds, int times) {
+  const CutMesh& mesh = wounds[0].incision->mesh();
+  std::vector<Vec3> now(wounds.vertex_count());
+  int found = 0;
+  for (int k = 1; k <= times; ++k) {
+    wounds.positions(wounds.duration() * k / times, now);
+    for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
+      if (!mesh.is_skin(static_cast<int>(t))) continue;
+      const auto& v = mesh.triangle(static_cast<int>(t)).vertex;
+      const auto& rest = wounds.rest();
+      const Vec3 before = cross(rest[v[1]] - rest[v[0]], rest[v[2]] - rest[v[0]]),
+                 after = cross(now[v[1]] - now[v[0]], now[v[2]] - now[v[0]]);
+      found += dot(before, after) <= 0 || norm(after) < 0.2 * norm(before);
+      for (int i = 0; i < 3; ++i) {
+        const int a = v[i], b = v[(i + 1) % 3];
+        const double jump = norm((now[b] - rest[b]) - (now[a] - rest[a]));
+        found += jump > 2 * norm(rest[b] - rest[a]) + 0.05;
+      }
+    }
+    for (std::size_t k = 0; k < wounds.size(); ++k)
+      for (const auto& c : wounds[k].incision->chain())
+        found += dot(now[c.right] - now[c.left], wounds[k].incision->path().at(c.s).across) < -0.05;
+  }
+  return found;
+}
+
+double widest(const ReplayedWounds& wounds, std::size_t cut) {
+  std::vector<Vec3> now(wounds.vertex_count());
+  wounds.positions(wounds.duration(), now);
+  double widest = 0;
+  for (const auto& c : wounds[cut].incision->chain())
+    widest = std::max(widest, norm(now[c.right] - now[c.left]));
+  return widest;
+}
+
+Field pulled() {
+  Field field = opening_field({-15, 30, 3}, 60, 40, 6, 3);
+  field.parameters = recorded({{"skin.prestress_u", 0.01},
+                               {"skin.prestress_v", 0.03},
+                               {"skin.prestress_uv", 0},
+                               {"skin.thickness", 1.5},
+                               {"skin.young_modulus", 0.2},
+                               {"skin.poisson_ratio", 0.4},
+                               {"tissue.young_modulus", 0.02},
+                               {"tissue.poisson_ratio", 0.4}});
+  return field;
+}
+
+/// Several cuts in one mesh, opened.
+struct Opened {
+  Field field = pulled();
+  CutMesh mesh;
+  std::vector<std::unique_ptr<Incision>> cuts;
+  explicit Opened(const SurfaceMesh& surface) : mesh(surface) {}
+  void cut(const ScalpelPath& path, const IncisionOptions& options = {}) {
+    cuts.push_back(std::make_unique<Incision>(mesh, path, options));
+    cuts.back()->advance_to(path.length());
+  }
+  std::unique_ptr<ReplayedWounds> wounds() const {
+    std::vector<Wound> all;
+    all.reserve(cuts.size());
+    for (const auto& one : cuts) all.emplace_back(*one, field, 1);
+    return std::make_unique<ReplayedWounds>(std::move(all));
+  }
+};
+
+IncisionOptions as_it_is() {
+  IncisionOptions options;
+  options.max_edge = 0;
+  return options;
+}
+
+TEST(Guard, IsNotNeededByACutThroughWellShapedTriangles) {
+  Opened opened(grid(60, 40, -30, -20, 1));
+  opened.cut(path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3), as_it_is());
+  const auto wounds = opened.wounds();
+  EXPECT_TRUE(wounds->guard().empty());
+  EXPECT_EQ(unsound(*wounds, 17), 0);
+}
+
+TEST(Guard, KeepsSliversWithoutHoldingTheLips) {
+  Opened regular(grid(60, 40, -30, -20, 1)), opened(plate_with_slivers());
+  for (Opened* one : {&regular, &opened})
+    one->cut(path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3), as_it_is());
+  const auto wounds = opened.wounds();
+  EXPECT_FALSE(wounds->guard().empty());
+  EXPECT_EQ(unsound(*wounds, 17), 0);
+  EXPECT_GT(widest(*wounds, 0), 0.98 * widest(*regular.wounds(), 0));
+  const Validity v = wounds->validity(true).front();
+  EXPECT_EQ(static_cast<std::size_t>(v.guarded_vertices), wounds->guard().changes().size());
+  EXPECT_GT(v.guarded, 0);
+}
+
+TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
+  Opened opened(grid(60, 40, -30, -20, 1));
+  for (const double y : {-0.25, 0.25}) opened.cut(path_through({{-15, y, 0}, {15, y, 0}}, up, 3));
+  opened.cut(path_through({{-10, -5, 0}, {10, 5, 0}}, up, 3));
+  const auto wounds = opened.wounds();
+  EXPECT_FALSE(wounds->guard().empty());
+  EXPECT_EQ(unsound(*wounds, 23), 0);
+  EXPECT_GT(widest(*wounds, 2), 0.3);
+  int told = 0;
+  for (const Validity& v : wounds->validity(true))
+    for (const std::string& warning : v.warnings)
+      told += warning.find("would turn over or tear") != std::string::npos;
+  EXPECT_GT(told, 0);
+}
+
+TEST(Guard, LeavesOutNothingThatItMoves) {
+  Opened opened(plate_with_slivers());
+  opened.cut(path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3), as_it_is());
+  const auto wounds = opened.wounds();
+  const ReplayedWounds::Level level = wounds->level(0.1);
+  ASSERT_GT(level.left_out(), 0u);
+  std::vector<Vec3> all(wounds->vertex_count()), some(all.size());
+  for (const double t : {3., 11., 30.}) {
+    wounds->positions(t, all), wounds->positions(t, level, some);
+    for (const int v : wounds->guard().vertices()) EXPECT_EQ(all[v], some[v]);
+  }
+}
+
+TEST(Guard, IsTheSameLiveBitForBit) {
+  const Field field = pulled();
+  const SurfaceMesh plate = plate_with_slivers();
+  const ScalpelPath paths[] = {path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3),
+                               path_through({{-10, -4, 0}, {10, 6, 0}}, up, 3)};
+  for (const std::size_t count : {1, 2}) {
+    CutMesh mesh(plate);
+    std::vector<std::unique_ptr<Incision>> cuts;
+    LiveWounds live;
+    for (std::size_t k = 0; k < count; ++k) {
+      cuts.push_back(std::make_unique<Incision>(mesh, paths[k], IncisionOptions{}));
+      live.follow();  // the mesh near the path may have been refined
+      live.add(Wound(*cuts.back(), field, 1), 500);
+      for (double s = 0.7; cuts.back()->tip() < paths[k].length(); s += 0.7) {
+        cuts.back()->advance_to(s);
+        live.follow();
+        live.move_to_tips();
+        live.relieve();
+      }
+      while (!live.guard_skin()) live.move_to_tips();
+      EXPECT_FALSE(live.guard().empty());
+      EXPECT_FALSE(live.guard_skin());
+    }
+    std::vector<Wound> all;
+    all.reserve(cuts.size());
+    for (const auto& one : cuts) all.emplace_back(*one, field, 1);
+    const ReplayedWounds replayed(std::move(all));
+    EXPECT_EQ(live.guard().vertices(), replayed.guard().vertices());
+    ASSERT_EQ(live.guard().changes().size(), replayed.guard().changes().size());
+    for (std::size_t i = 0; i < live.guard().changes().size(); ++i)
+      EXPECT_EQ(live.guard().changes()[i].by, replayed.guard().changes()[i].by);
+    std::vector<Vec3> now(replayed.vertex_count());
+    replayed.positions(replayed.duration(), now);
+    for (std::size_t v = 0; v < now.size(); ++v) {
+      const Vec3 is = replayed.rest()[v] + live.displacement(static_cast<int>(v));
+      if (count == 1)
+        ASSERT_EQ(is, now[v]) << v;
+      else  // the order in which cuts are added is not the same
+        ASSERT_LT(norm(is - now[v]), 1e-13) << v;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cleft
