@@ -14,7 +14,7 @@
 namespace cleft {
 
 struct EncodeOptions {
-  std::string parametrization = "tip";
+  std::string parametrization = "front";
   /// Bound of node_error: the largest error at any node and frame, relative to the largest displacement. The
   /// encoder takes the fewest knots and the coarsest quanta that satisfy it.
   double tolerance = 0.01;

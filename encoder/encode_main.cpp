@@ -45,7 +45,7 @@ Json figures_of(const Field& field, const std::string& out) {
 /// Spans of bases with about so many control points: as many as requested if nothing is tied.
 Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   if (counts.size() != 4) throw InputError("--control-points: expected four whole numbers U,V,W,T");
-  check_control_points({counts[0], counts[1], counts[2], counts[3]}, follows_tip ? "tip" : "fixed",
+  check_control_points({counts[0], counts[1], counts[2], counts[3]}, follows_tip ? "front" : "fixed",
                        "--control-points");
   Rung rung;
   rung.across = counts[1] / 2 - 3, rung.time = counts[3] - 3;
@@ -101,8 +101,10 @@ int main(int argc, char** argv) {
                  "U,V,W,T: control points along each axis instead of a tolerance, V for both sides together")
       ->delimiter(',')
       ->excludes(tolerance);
-  app.add_option("--parametrization", options.parametrization,
-                 "tip: knots follow the tip of the cut; fixed: they stay (the paper's)")
+  app.add_option(
+         "--parametrization", options.parametrization,
+         "front: knots follow the front of the cut, dense as the lips close there; tip: evenly dense; fixed: "
+         "they stay (the paper's)")
       ->check(one_of(parametrization_names()))
       ->capture_default_str();
   app.add_flag("--json", json, "print the figures as JSON");

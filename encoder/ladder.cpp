@@ -122,13 +122,21 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
 std::vector<Rung> ladder_of(const Parametrization& parametrization) {
   std::vector<Rung> rungs;
   if (parametrization.moves()) {
-    Rung r{1, 3, 2, 3, 2, 1, 8};
+    // Where lengths next to the front are measured as displacements grow, six spans along the cut are needed
+    // at once: with five, openings next to the front are off by twice as much.
+    const bool front = parametrization.resolves_front();
+    Rung r = front ? Rung{1, 4, 1, 3, 2, 1, 8} : Rung{1, 3, 2, 3, 2, 1, 8};
     rungs.push_back(r);
-    int Rung::*const steps[] = {&Rung::across, &Rung::across, &Rung::along,  &Rung::across, &Rung::along,
-                                &Rung::along,  &Rung::across, &Rung::before, &Rung::across, &Rung::below,
-                                &Rung::after,  &Rung::above,  &Rung::along,  &Rung::before, &Rung::along,
-                                &Rung::after,  &Rung::across};
-    for (int Rung::*const step : steps) {
+    using Steps = std::vector<int Rung::*>;
+    const Steps of_tip = {&Rung::across, &Rung::across, &Rung::along,  &Rung::across, &Rung::along,
+                          &Rung::along,  &Rung::across, &Rung::before, &Rung::across, &Rung::below,
+                          &Rung::after,  &Rung::above,  &Rung::along,  &Rung::before, &Rung::along,
+                          &Rung::after,  &Rung::across};
+    const Steps of_front = {&Rung::along,  &Rung::along,  &Rung::across, &Rung::before,
+                            &Rung::after,  &Rung::across, &Rung::across, &Rung::below,
+                            &Rung::across, &Rung::above,  &Rung::along,  &Rung::across,
+                            &Rung::along,  &Rung::before, &Rung::after,  &Rung::across};
+    for (int Rung::*const step : front ? of_front : of_tip) {
       ++(r.*step);
       r.time = 8 + static_cast<int>(rungs.size()) / 2;
       rungs.push_back(r);

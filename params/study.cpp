@@ -152,9 +152,9 @@ class StudyReader {
 
   std::string parametrization(const toml::node& node) const {
     const std::string name = node.value_or(std::string());
-    if (name != "tip" && name != "fixed")
+    if (name != "front" && name != "tip" && name != "fixed")
       throw InputError(where(node) + ": encode.parametrization" + (name.empty() ? "" : " = " + name) +
-                       ": must be \"tip\" or \"fixed\"");
+                       ": must be \"front\", \"tip\" or \"fixed\"");
     return name;
   }
 

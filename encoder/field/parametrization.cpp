@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "encoder/field/parametrization/fixed.h"
+#include "encoder/field/parametrization/front.h"
 #include "encoder/field/parametrization/tip.h"
 
 namespace cleft {
@@ -43,7 +44,8 @@ struct Entry {
   const char* name;
   std::shared_ptr<const Parametrization> (*make)(FieldGeometry);
 };
-constexpr Entry entries[] = {{TipParametrization::id, make<TipParametrization>},
+constexpr Entry entries[] = {{FrontParametrization::id, make<FrontParametrization>},
+                             {TipParametrization::id, make<TipParametrization>},
                              {FixedParametrization::id, make<FixedParametrization>}};
 
 }  // namespace
@@ -51,7 +53,7 @@ constexpr Entry entries[] = {{TipParametrization::id, make<TipParametrization>},
 std::shared_ptr<const Parametrization> make_parametrization(const std::string& name, FieldGeometry geometry) {
   for (const Entry& entry : entries)
     if (name == entry.name) return entry.make(std::move(geometry));
-  throw InputError("parametrisation '" + name + "': must be tip or fixed");
+  throw InputError("parametrisation '" + name + "': must be front, tip or fixed");
 }
 
 const std::vector<std::string>& parametrization_names() {

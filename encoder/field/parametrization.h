@@ -66,6 +66,9 @@ class Parametrization {
   virtual double time_at(double parameter) const = 0;
   /// Whether along() depends on t. If not, the contraction of a point to a history is exact.
   virtual bool moves() const = 0;
+  /// Whether distances from start and tip are measured as displacements grow there: fits need more spans
+  /// along the cut, and fewer nodes for each.
+  virtual bool resolves_front() const { return false; }
   /// The same at one u; may be true although along() is constant there.
   virtual bool moves_at(double) const { return moves(); }
   /// All four parameters of `places`, which are clamped to the domain; `out` has room for them. Overridden
@@ -96,7 +99,7 @@ class Parametrization {
   FieldGeometry geometry_;
 };
 
-/// "fixed" (u, v, w, t themselves; the paper's) or "tip". Throws InputError for any other name.
+/// "front", "tip", or "fixed" (u, v, w, t themselves; the paper's). Throws InputError for any other name.
 std::shared_ptr<const Parametrization> make_parametrization(const std::string& name, FieldGeometry geometry);
 
 /// The names make_parametrization knows, the default first.

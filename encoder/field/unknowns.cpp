@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "encoder/field/parametrization/tip.h"
+#include "encoder/field/parametrization/fixed.h"
 
 namespace cleft {
 
 ControlTies ties_of(const std::string& parametrization, const std::array<BSplineBasis, 4>& bases) {
   const std::array<BSplineBasis, 3> space{bases[0], bases[1], bases[2]};
-  return parametrization == TipParametrization::id ? ControlTies::following_tip(space)
-                                                   : ControlTies::none(space);
+  return parametrization == FixedParametrization::id ? ControlTies::none(space)
+                                                     : ControlTies::following_tip(space);
 }
 
 CoefficientGrid places_of(const ControlTies& ties, const std::array<BSplineBasis, 4>& bases) {

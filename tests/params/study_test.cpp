@@ -122,13 +122,13 @@ TEST(Study, TheLeastControlPointsDependOnTheParametrization) {
             std::string::npos);
   for (const char* other : {"'tips'", "3", "''"})
     EXPECT_NE(message_of(std::string("[encode]\nparametrization = ") + other + "\n")
-                  .find("must be \"tip\" or \"fixed\""),
+                  .find("must be \"front\", \"tip\" or \"fixed\""),
               std::string::npos)
         << other;
 }
 
 TEST(Study, ACaseThatDoesNotFitIsNamed) {
-  EXPECT_NE(message_of("[vary]\n'cut.length' = [10, 70]\n").find("cut.length = 70"), std::string::npos);
+  EXPECT_NE(message_of("[vary]\n'cut.length' = [10, 170]\n").find("cut.length = 170"), std::string::npos);
 }
 
 TEST(Case, ItsFileResolvesToTheSameCase) {
@@ -186,7 +186,7 @@ TEST(Case, ItsSensitivitiesBelongToTheSnapshot) {
 TEST(Case, ItsSettingsAreArgumentsOfTheEncoder) {
   EncodeSettings settings;
   EXPECT_EQ(settings.arguments(),
-            (std::vector<std::string>{"--parametrization", "tip", "--tolerance", "0.01"}));
+            (std::vector<std::string>{"--parametrization", "front", "--tolerance", "0.01"}));
   settings = {"fixed", 0.01, std::array{20, 12, 8, 10}};
   EXPECT_EQ(settings.arguments(),
             (std::vector<std::string>{"--parametrization", "fixed", "--control-points", "20,12,8,10"}));

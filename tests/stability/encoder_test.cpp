@@ -66,14 +66,15 @@ TEST(EncoderLimits, TipAtAKnot) {
     }
   EXPECT_GT(largest, 0.1 * series.largest_displacement);
   EXPECT_GT(fixed.report.false_gap, 0.1);
-  record_limit({.method = "splines of the parametrisation `fixed` near the tip",
-                .limit = "the tip at a knot, and between knots",
-                .shown = "uncut tissue at and ahead of the tip opens by up to " +
-                         rounded(largest / series.largest_displacement) + " of the largest displacement",
-                .noticed = "`false_gap` of the report (" + rounded(fixed.report.false_gap) + " at the nodes)",
-                .then =
-                    "`tip`, the default, keeps a knot at the tip at every t and ties the sides: no gap, to "
-                    "the last bit"});
+  record_limit(
+      {.method = "splines of the parametrisation `fixed` near the tip",
+       .limit = "the tip at a knot, and between knots",
+       .shown = "uncut tissue at and ahead of the tip opens by up to " +
+                rounded(largest / series.largest_displacement) + " of the largest displacement",
+       .noticed = "`false_gap` of the report (" + rounded(fixed.report.false_gap) + " at the nodes)",
+       .then =
+           "`front`, the default, and `tip` keep a knot at the tip at every t and tie the sides: no gap, to "
+           "the last bit"});
 }
 
 TEST(EncoderLimits, TipOutsideThePatch) {
@@ -94,7 +95,7 @@ TEST(EncoderLimits, TipOutsideThePatch) {
                   inside = encoded_on(SyntheticSnapshot(opening).series(), "tip", few_knots).field.report;
   EXPECT_GT(beyond.node_error, 2 * inside.node_error);
   record_limit(
-      {.method = "parametrisation `tip`",
+      {.method = "parametrisations `tip` and `front`",
        .limit = "the file states a tip outside the patch, or at a wrong place",
        .shown = "3 mm ahead of where the data separate, and outside the body at the end: node_error " +
                 rounded(beyond.node_error) + " instead of " + rounded(inside.node_error) +
