@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "params/meshed_cut.h"
 #include "params/parameters/table.h"
 
 namespace cleft {
@@ -32,7 +33,8 @@ class ConsistencyCheck {
       : p_(p),
         where_(where),
         length_(p.mesh.cut_length > 0 ? p.mesh.cut_length : p.cut.length),
-        depth_(p.mesh.cut_depth > 0 ? p.mesh.cut_depth : p.cut.depth) {}
+        depth_(p.mesh.cut_depth > 0 ? p.mesh.cut_depth : p.cut.depth),
+        meshed_(meshed_cut(p)) {}
 
   /// The number of nodes the mesh will have, about.
   double check() {
@@ -57,6 +59,11 @@ class ConsistencyCheck {
     return row.name + " = " + shortest(member) + (row.unit.empty() ? "" : " " + row.unit);
   }
 
+  /// Where the mesh's cut, and it alone, is too long or too deep.
+  static std::string in_mesh(double own, double meshed, double limit) {
+    return own < limit ? ", " + rounded(meshed) + " mm to the mesh's closed nodes" : "";
+  }
+
   void check_size() const {
     need(p_.mesh.cut_length == 0 || p_.mesh.cut_length >= p_.cut.length,
          named(p_.mesh.cut_length) + ": must be at least " + named(p_.cut.length) +
@@ -64,17 +71,19 @@ class ConsistencyCheck {
     need(p_.mesh.cut_depth == 0 || p_.mesh.cut_depth >= p_.cut.depth,
          named(p_.mesh.cut_depth) + ": must be at least " + named(p_.cut.depth) +
              ", or 0 for a mesh of the case's own");
-    need(depth_ < p_.patch.height, named(depth_) + ": must be less than " + named(p_.patch.height));
+    need(meshed_.depth < p_.patch.height, named(depth_) + in_mesh(depth_, meshed_.depth, p_.patch.height) +
+                                              ": must be less than " + named(p_.patch.height));
   }
 
   void check_arc() {
-    const double radius = p_.cut.radius, least = length_ / 2 / widest_half_angle;
+    const double radius = p_.cut.radius, least = meshed_.length / 2 / widest_half_angle;
     need(radius == 0 || radius >= least,
          named(p_.cut.radius) + ": an arc of " + named(length_) +
              " would turn by more than 60 degrees to either side; must be at least " +
              shortest(std::ceil(least * 1000) / 1000) + " mm, or 0 for a straight cut");
-    span_ = radius > 0 ? 2 * radius * std::sin(length_ / 2 / radius) : length_;
-    need(span_ < p_.patch.length, named(length_) + (radius > 0 ? ", " + rounded(span_) + " mm along u" : "") +
+    span_ = radius > 0 ? 2 * radius * std::sin(meshed_.length / 2 / radius) : meshed_.length;
+    need(span_ < p_.patch.length, named(length_) + in_mesh(length_, meshed_.length, p_.patch.length) +
+                                      (radius > 0 ? ", " + rounded(span_) + " mm along u" : "") +
                                       ": must be less than " + named(p_.patch.length));
   }
 
@@ -94,7 +103,7 @@ class ConsistencyCheck {
                                         named(p_.cut.count) + "; set cut.count = 1, or cut.branch = 0");
     need(branch == 0 || branch >= h,
          named(p_.cut.branch) + ": must be at least " + named(p_.mesh.element_size) + ", or 0 for none");
-    need(branch + h <= p_.patch.width / 2,
+    need(meshed_.branch + h <= p_.patch.width / 2,
          named(p_.cut.branch) + ": must leave an element of " + named(p_.mesh.element_size) +
              " to the patch's side; make it shorter, or raise " + named(p_.patch.width));
     const double across = (count - 1) * p_.cut.spacing;
@@ -103,15 +112,16 @@ class ConsistencyCheck {
              " mm and an element on either side, more than " + named(p_.patch.width) +
              "; make fewer, closer ones, or a wider patch");
     room_left_ = (p_.patch.width - across) / 2;
-    room_right_ = room_left_ - branch;
-    core_ = across + branch;
+    room_right_ = room_left_ - meshed_.branch;
+    core_ = across + meshed_.branch;
   }
 
   /// Curved and tilted cuts move the mesh toward the sides of the patch (solver/patch_mesh_grid.cpp).
   void check_room() {
-    const double s = std::sin(p_.cut.radius > 0 ? length_ / 4 / p_.cut.radius : 0);
+    const double s = std::sin(p_.cut.radius > 0 ? meshed_.length / 4 / p_.cut.radius : 0);
+    const double depth = meshed_.depth;
     const double tilted = std::tan(p_.cut.tilt * std::numbers::pi / 180) *
-                          (depth_ + std::min(depth_, p_.patch.height - depth_) / 2);
+                          (depth + std::min(depth, p_.patch.height - depth) / 2);
     to_right_ = 2 * p_.cut.radius * s * s + std::max(tilted, 0.0);
     to_left_ = std::max(-tilted, 0.0);
     const auto need_room = [&](double moved, double room, const std::string& side) {
@@ -127,10 +137,11 @@ class ConsistencyCheck {
 
   double nodes() const {
     const double h = p_.mesh.element_size, growth = p_.mesh.grading;
-    const double along_u = length_ / h + 2 * count_of_elements((p_.patch.length - span_) / 2, h, growth);
+    const double along_u =
+        meshed_.length / h + 2 * count_of_elements((p_.patch.length - span_) / 2, h, growth);
     const double along_v = core_ / h + p_.cut.count + count_of_elements(room_left_ + to_right_, h, growth) +
                            count_of_elements(room_right_ + to_left_, h, growth);
-    const double along_w = depth_ / h + count_of_elements(p_.patch.height - depth_, h, growth);
+    const double along_w = meshed_.depth / h + count_of_elements(p_.patch.height - meshed_.depth, h, growth);
     return (along_u + 1) * along_v * (along_w + 1);
   }
 
@@ -157,7 +168,8 @@ class ConsistencyCheck {
 
   const Parameters& p_;
   const std::string& where_;
-  const double &length_, &depth_;          // of the cut the mesh is made for
+  const double &length_, &depth_;  // of the cut the mesh is made for
+  const MeshedCut meshed_;
   double span_ = 0;                        // of the cut along u
   double core_ = 0;                        // across the parallel cuts, or the branch
   double room_left_ = 0, room_right_ = 0;  // beside them

@@ -5,6 +5,7 @@
 #include <deal.II/fe/fe_wedge_p.h>
 
 #include <algorithm>
+#include <span>
 
 #include "solver/material/regions.h"
 #include "solver/skin_triangle.h"
@@ -46,6 +47,18 @@ void read_points(const FEValues<3>& values, bool mean, std::vector<CellPoint>& p
   for (Tensor<1, 3>& gradient : mean_gradient) gradient = gradient / volume;
   for (CellPoint& point : points)
     for (unsigned a = 0; a < vertices; ++a) point.vertices[a].dilatation = mean_gradient[a];
+}
+
+/// Loads of the unit prestresses uu, vv, uv of the tissue: minus the integral of B^T, times the share.
+void add_tissue_loads(std::span<const CellPoint> points, double share, FullMatrix<double>& cell_loads) {
+  for (const CellPoint& point : points)
+    for (unsigned a = 0; a < vertices; ++a) {
+      const Tensor<1, 3> force = -share * point.volume * point.vertices[a].strain;
+      cell_loads(3 * a, 0) += force[0];
+      cell_loads(3 * a + 1, 1) += force[1];
+      cell_loads(3 * a, 2) += force[1];
+      cell_loads(3 * a + 1, 2) += force[0];
+    }
 }
 
 void add_springs(const FEFaceValues<3>& values, double spring, FullMatrix<double>& cell_matrix) {
@@ -122,6 +135,11 @@ void Assembly::add(const PatchElements& elements, const Parameters& p, double fa
     read_points(values, mean_dilatation, points);
     materials.tissue[cell->material_id()].add_stiffness(points, cell_matrix);
     cell->get_dof_indices(indices);
+    if (p.tissue.prestress_share != 0) {
+      cell_loads = 0;
+      add_tissue_loads(points, p.tissue.prestress_share, cell_loads);
+      add_loads();
+    }
     for (const unsigned f : cell->face_indices()) {
       const types::boundary_id boundary = cell->face(f)->boundary_id();
       if (!cell->face(f)->at_boundary() || boundary == BoundaryId::other) continue;

@@ -207,9 +207,12 @@ Block CondensedFactor::solve(const SparseColumns& right) {
       for (auto& row : rows) ++row;
       for (auto& start : starts) ++start;
     }
-    m.icntl(20) = 1;             // right-hand sides sparse, on rank 0
-    m.icntl(21) = 1;             // solution distributed as the factor is
-    m.icntl(27) = most_columns;  // in one block
+    int nonzeros = static_cast<int>(rows.size());
+    MPI_Bcast(&nonzeros, 1, MPI_INT, 0, m.system.communicator());
+    if (nonzeros == 0) continue;  // MUMPS takes no empty right-hand side
+    m.icntl(20) = 1;              // right-hand sides sparse, on rank 0
+    m.icntl(21) = 1;              // solution distributed as the factor is
+    m.icntl(27) = most_columns;   // in one block
     m.id.nrhs = count;
     m.id.nz_rhs = static_cast<MUMPS_INT>(rows.size());
     m.id.irhs_sparse = rows.data();

@@ -49,7 +49,7 @@ class PatchMesher {
     right_of_.resize(mesh_.points.size());
     std::iota(right_of_.begin(), right_of_.end(), 0);
     const int ends = static_cast<int>(grid_.along.size()) - 1;
-    mesh_.start = grid_.point(grid_.cut_from, grid_.planes[0], 0);
+    mesh_.start = grid_.start, mesh_.fronts = grid_.fronts;
     for (const int plane : grid_.planes) {
       const int incision = static_cast<int>(mesh_.lines_along.size());
       mesh_.lines_along.push_back(grid_.along);
@@ -165,11 +165,13 @@ class Releaser {
   Releaser(const PatchMesh& mesh, const Parameters& p) : mesh_(mesh), p_(p) {
     // If the ends of the case are half-way between nodes, rounding must not leave it without a node to open.
     const std::vector<double>& lines = mesh.lines_along[0];
-    const std::size_t skipped = std::min(nearest(lines, -p.cut.length / 2), (lines.size() - 3) / 2);
-    r_.start = lines[skipped];
-    end_ = lines[lines.size() - 1 - skipped];
-    r_.length = end_ - r_.start;
-    r_.depth = mesh.lines_depth[std::max<std::size_t>(1, nearest(mesh.lines_depth, p.cut.depth))];
+    const auto& [along, depth, branch] = mesh.fronts;
+    const std::size_t skipped = std::min(nearest(lines, -p.cut.length / 2 - along), (lines.size() - 3) / 2);
+    first_ = lines[skipped], last_ = lines[lines.size() - 1 - skipped];
+    lowest_ = mesh.lines_depth[std::max<std::size_t>(1, nearest(mesh.lines_depth, p.cut.depth + depth))];
+    r_.start = first_ + along;
+    r_.length = last_ - along - r_.start;
+    r_.depth = lowest_ - depth;
   }
 
   Release release() {
@@ -186,7 +188,7 @@ class Releaser {
   bool is_branch(const NodePair& pair) const { return p_.cut.branch > 0 && pair.incision == 1; }
 
   bool opens(const NodePair& pair) const {
-    return pair.depth < r_.depth && (is_branch(pair) || (pair.along > r_.start && pair.along < end_));
+    return pair.depth < lowest_ && (is_branch(pair) || (pair.along > first_ && pair.along < last_));
   }
 
   /// Opens the column that begins with the n-th pair; the number of the next column's first pair.
@@ -199,13 +201,14 @@ class Releaser {
       if (opens(mesh_.pairs[n])) column.push_back(static_cast<int>(n));
     const std::vector<double>& lines = mesh_.lines_along[first.incision];
     const double next = *std::upper_bound(lines.begin(), lines.end(), first.along);
+    const double front = is_branch(first) ? mesh_.fronts.branch : mesh_.fronts.along;
     const double cut_before = first.incision * r_.length;  // a branch is the second incision
     for (std::size_t m = 1; m <= column.size(); ++m) {
       r_.order.push_back(column[m - 1]);
       if (m < column.size() && p_.cut.frames != FrameEvery::pair) continue;
       const double part = static_cast<double>(m) / static_cast<double>(column.size());
       r_.released.push_back(static_cast<int>(r_.order.size()));
-      r_.position.push_back(first.along + (next - first.along) * part);
+      r_.position.push_back(first.along + (next - first.along) * part - front);
       r_.times.push_back(cut_before + r_.position.back() - (is_branch(first) ? 0 : r_.start));
     }
     return n;
@@ -213,7 +216,7 @@ class Releaser {
 
   const PatchMesh& mesh_;
   const Parameters& p_;
-  double end_ = 0;
+  double first_ = 0, last_ = 0, lowest_ = 0;  // the outermost nodes of the case's cut, which stay closed
   Release r_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "params/meshed_cut.h"
 #include "params/parameters/parameters.h"
 
 namespace cleft {
@@ -31,16 +32,19 @@ struct PatchMesh {
   std::vector<NodePair>
       pairs;  ///< every duplicated node: incision by incision, along each, from the skin down
   /// Positions of the nodes of each incision, including its ends and its bottom (single nodes, except for the
-  /// start of a branch): mm along it, and mm below the skin; both increase.
+  /// start of a branch): mm along it, and mm below the skin; both increase. The cut ends inside the outermost
+  /// ones (fronts).
   std::vector<std::vector<double>> lines_along;
   std::vector<double> lines_depth;
   Vec3 start;  ///< of the first cut, on the skin
+  Fronts fronts;
   /// The nodes without the duplicates (the right nodes of pairs) form a grid: number (k grid[1] + j) grid[0]
   /// + i, i along u, j along v, k downward.
   std::array<int, 3> grid{};
 };
 
-/// The ends, the bottom and the surface of every cut coincide with element faces. Elements are at most
+/// The surface of every cut coincides with element faces, and its ends and its bottom lie just inside nodes
+/// (params/meshed_cut.h). Elements are at most
 /// mesh.element_size long within the cut (an arc: along it), between parallel cuts and along a branch; away
 /// from them they grow by mesh.grading. The mesh is made for a cut of mesh.cut_length by mesh.cut_depth if
 /// these are given; a branch has its own length always, and leaves toward +v where u = 0: its nodes on the
@@ -72,7 +76,8 @@ struct Release {
 
 /// Frame 0 is closed; then a frame for each released column, or pair (cut.frames). Columns open one after the
 /// other along an incision, each from the skin down. A column of m of its M pairs released has brought the
-/// tip the fraction m / M of the way to the next column. The cut of the case ends at the nodes nearest to
+/// tip the fraction m / M of the way to the next column. The tip, and the ends of the cut, are inside the
+/// first closed nodes by the mesh's fronts. The cut of the case ends at the places of fronts nearest to
 /// cut.length and cut.depth (the nearest ones that leave a pair to open).
 Release make_release(const PatchMesh& mesh, const Parameters& parameters);
 

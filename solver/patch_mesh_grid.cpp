@@ -26,13 +26,15 @@ void add_stretch(std::vector<double>& lines, double to, double step, Cut cut = C
   lines.push_back(to);
 }
 
-/// Size of the mesh's cut, and how far its nodes are moved.
+/// Size of the mesh's cut, which ends beyond its fronts, and how far its nodes are moved.
 struct Shape {
+  MeshedCut cut;
   double length, depth, half_angle, half_span, arc_rise, tilt, tilt_reach;
 
   explicit Shape(const Parameters& p)
-      : length(p.mesh.cut_length > 0 ? p.mesh.cut_length : p.cut.length),
-        depth(p.mesh.cut_depth > 0 ? p.mesh.cut_depth : p.cut.depth),
+      : cut(meshed_cut(p)),
+        length(cut.length),
+        depth(cut.depth),
         half_angle(p.cut.radius > 0 ? length / 2 / p.cut.radius : 0),
         half_span(p.cut.radius > 0 ? p.cut.radius * std::sin(half_angle) : length / 2),
         arc_rise(rise(p.cut.radius, half_angle)),
@@ -61,12 +63,14 @@ class GridMaker {
     add_v_lines();
     add_w_lines();
     set_shifts();
+    set_start();
     return std::move(grid_);
   }
 
  private:
   void add_u_lines() {
     const double end = p_.patch.length / 2, step = p_.mesh.element_size;
+    grid_.fronts = shape_.cut.fronts;
     grid_.along = {-shape_.length / 2};
     if (p_.cut.branch > 0) add_stretch(grid_.along, 0, step);
     add_stretch(grid_.along, shape_.length / 2, step);
@@ -88,7 +92,7 @@ class GridMaker {
   void add_v_lines() {
     const double half = p_.patch.width / 2, step = p_.mesh.element_size;
     const double first = (1 - p_.cut.count) / 2 * p_.cut.spacing;
-    const double last = p_.cut.branch > 0 ? p_.cut.branch : -first;
+    const double last = p_.cut.branch > 0 ? shape_.cut.branch : -first;
     const double tilted = shape_.tilt_shift(p_.patch.height);
     const double most = shape_.arc_rise + std::max(tilted, 0.0), least = std::min(tilted, 0.0);
     const int count = static_cast<int>(p_.cut.count);
@@ -124,6 +128,12 @@ class GridMaker {
       grid_.blend.push_back(v < first  ? (half + v) / (half + first)
                             : v > last ? (half - v) / (half - last)
                                        : 1);
+  }
+
+  void set_start() {
+    const double r = p_.cut.radius, along = -shape_.length / 2 + shape_.cut.fronts.along;
+    const double u = r > 0 ? r * std::sin(along / r) : along;
+    grid_.start = {u, grid_.v[grid_.planes[0]] + (r > 0 ? Shape::rise(r, along / r) : 0), 0};
   }
 
   double arc_shift(std::size_t i) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "params/meshed_cut.h"
 #include "params/parameters/parameters.h"
 
 namespace cleft {
@@ -19,7 +20,9 @@ struct PatchGrid {
   std::vector<int> planes;          ///< v lines of the parallel cuts, from -v to +v
   int branch_u = -1, branch_v = 0;  ///< u line that a branch follows, and v line of its end
   int bottom = 0;                   ///< w line of the cuts' bottom
-  double tilt = 0;                  ///< radians
+  Fronts fronts;
+  Vec3 start;       ///< of the first cut, on the skin
+  double tilt = 0;  ///< radians
   std::vector<double> shift_u, shift_w, blend;
 
   Vec3 point(int i, int j, int k) const { return {u[i], v[j] + (shift_u[i] + shift_w[k]) * blend[j], w[k]}; }

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "params/parameters/table.h"
 #include "solver/assembly.h"
+#include "solver/block_rows.h"
+#include "solver/cut_nodes.h"
 
 namespace cleft {
 
@@ -26,6 +28,26 @@ Block apply(const Epetra_CrsMatrix& matrix, const Block& block) {
   Epetra_MultiVector y(View, matrix.RangeMap(), product.data(), rows, columns);
   CLEFT_CHECK(matrix.Apply(x, y), ==, 0);
   return product;
+}
+
+/// What of the loads of a prestress is left when the closed patch is in equilibrium with its surroundings:
+/// the forces of each node, less those of all its copies together. Adding up the copies (CutNodes::to_pulls)
+/// gives 0 to the last bit.
+Block released_part(const PatchSystem& system, const PatchMesh& mesh, const Block& loads) {
+  const CutNodes cut(mesh, system);
+  Eigen::MatrixXd forces = all_gather_rows(system, loads, cut.unknowns);
+  std::vector<bool> is_right(cut.nodes.size(), false);
+  for (const auto& [left, right] : cut.pairs) is_right[right] = true;
+  for (std::size_t n = 0; n < cut.nodes.size(); ++n)
+    if (!is_right[n]) forces.middleRows<3>(static_cast<Eigen::Index>(3 * n)).setZero();
+  Eigen::MatrixXd sums = forces;
+  cut.to_pulls(sums);
+  for (std::size_t n = 0; n < cut.nodes.size(); ++n)
+    if (const auto row = static_cast<Eigen::Index>(3 * n); !is_right[n])
+      forces.middleRows<3>(row) = -sums.middleRows<3>(row);
+  Block released = Block::Zero(loads.rows(), loads.cols());
+  set_rows(system, released, cut.unknowns, forces);
+  return released;
 }
 
 }  // namespace
@@ -48,7 +70,10 @@ struct PatchSystem::Parts {
 
 PatchSystem::PatchSystem(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
                          const Discretization& discretization)
-    : parts_(std::make_unique<Parts>(mesh, parameters, communicator, discretization)) {}
+    : parts_(std::make_unique<Parts>(mesh, parameters, communicator, discretization)) {
+  if (parameters.skin.edges == SkinEdges::held)
+    parts_->unit_loads = released_part(*this, mesh, parts_->unit_loads);
+}
 
 PatchSystem::~PatchSystem() = default;
 
@@ -106,14 +131,16 @@ namespace {
 
 class AssembledDerivative : public PatchSystem::Derivative {
  public:
-  explicit AssembledDerivative(Assembly assembly) : assembly_(std::move(assembly)) {}
+  AssembledDerivative(Assembly assembly, Block load)
+      : assembly_(std::move(assembly)), load_(std::move(load)) {}
   Block multiply(const Block& block) const override {
     return apply(assembly_.stiffness().trilinos_matrix(), block);
   }
-  Block load() const override { return assembly_.loads(); }
+  Block load() const override { return load_; }
 
  private:
   Assembly assembly_;
+  Block load_;
 };
 
 }  // namespace
@@ -135,7 +162,10 @@ std::unique_ptr<PatchSystem::Derivative> PatchSystem::derivative(const Parameter
     sum.add(elements, moved, weight / (12 * step), directions(moved.skin));
   }
   sum.finish();
-  return std::make_unique<AssembledDerivative>(std::move(sum));
+  Block load = sum.loads();
+  sum.forget_loads();
+  if (parameters.skin.edges == SkinEdges::held) load = released_part(*this, own.mesh, load);
+  return std::make_unique<AssembledDerivative>(std::move(sum), std::move(load));
 }
 
 }  // namespace cleft

@@ -54,7 +54,9 @@ class PatchSystem {
   int unknown(int node, int axis) const;    ///< of any node, known on every rank
   const std::vector<int>& offsets() const;  ///< first() of every rank, then size()
 
-  /// The loads of the unit prestresses (1 MPa) uu, vv, uv: three columns, N.
+  /// The loads of the unit prestresses (1 MPa) uu, vv, uv: three columns, N. With skin.edges = "held" these
+  /// are the forces that the cut releases: on the copies of a node they add up to 0, and to all other nodes
+  /// none is applied, because the closed patch is in equilibrium.
   const Block& unit_loads() const;
   /// The load f of a case: its prestress times the unit loads, N.
   Block load(const Parameters::Skin& prestress) const;

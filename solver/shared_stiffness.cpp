@@ -46,6 +46,17 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
                     {members.begin() + static_cast<long>(first), members.begin() + static_cast<long>(end)});
     batch.solve();
   }
+  if (job_.options.estimate) {
+    job_.progress("estimating the error of mesh and patch");
+    // Cases of one stiffness and one release differ in their tension alone: their errors are alike.
+    const SolveReport& first = job_.reports[members.front()];
+    if (first.written)
+      for (const std::optional<ExpectedError> expected =
+               expected_error(job_.cases[members.front()].parameters, first.gape, job_.communicator);
+           const std::size_t c : members)
+        job_.reports[c].expected = expected;
+    phases_.end("estimate");
+  }
   const std::vector<int> iterations = chosen_.solver->iterations();
   job_.reports[members.front()].iterations.assign(iterations.begin() + static_cast<long>(iterations_before),
                                                   iterations.end());

@@ -4,10 +4,12 @@
 #include <mpi.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "params/parameters/parameters.h"
+#include "solver/companion.h"
 #include "solver/frame_solver.h"
 #include "solver/phases.h"
 
@@ -18,6 +20,7 @@ struct SolveOptions {
   Discretization discretization = {};
   bool unit_prestress = false;             ///< write the series of the unit prestresses uu, vv and uv as well
   std::vector<std::string> sensitivities;  ///< parameters to differentiate the series by
+  bool estimate = true;                    ///< the error that the mesh and the patch leave
 };
 
 struct CaseToSolve {
@@ -33,9 +36,10 @@ struct SolveReport {
   int cases_sharing = 1;          ///< that use the same factorisation, this one included
   bool first_of_sharing = false;  ///< whose phases hold the shared work
   std::vector<Phase> phases;
-  std::vector<int> iterations;      ///< of every frame, where it was solved by iterations
-  double gape = 0;                  ///< mm: largest opening in the last frame
-  double largest_displacement = 0;  ///< mm, from frame 0
+  std::vector<int> iterations;            ///< of every frame, where it was solved by iterations
+  double gape = 0;                        ///< mm: largest opening in the last frame
+  std::optional<ExpectedError> expected;  ///< of the gape; none if it was not estimated
+  double largest_displacement = 0;        ///< mm, from frame 0
   double worst_equilibrium = 0, worst_closure = 0, smallest_gap = 0;
 };
 

@@ -2,7 +2,9 @@
 #include <deal.II/base/config.h>
 #include <dmumps_c.h>
 
+#include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <set>
 
 #include "base/command/command.h"
@@ -72,10 +74,24 @@ Json figures_of(const SolveReport& r) {
                   {"smallest_gap_mm", r.smallest_gap},
                   {"residual_equilibrium", r.worst_equilibrium},
                   {"residual_closure", r.worst_closure}};
+  if (r.expected) figures["expected_gape_error"] = {{"mesh", r.expected->mesh}, {"patch", r.expected->patch}};
   figures["versions"] = versions();
   if (!r.iterations.empty()) figures["iterations"] = r.iterations;
   if (!r.phases.empty()) figures["seconds"] = seconds, figures["peak_memory_mb"] = memory;
   return figures;
+}
+
+/// Of the opening, beyond which the command warns.
+constexpr double much = 0.1;
+
+void warn_of_error(const SolveReport& r) {
+  if (!r.expected || r.expected->total() <= much) return;
+  const auto rounded = [](double x) { return shortest(std::round(1000 * x) / 1000); };
+  std::cerr
+      << "cleft solve: warning: " << r.out << ": the opening is expected to be off by "
+      << rounded(r.expected->total()) << " of it (mesh " << rounded(r.expected->mesh) << ", patch "
+      << rounded(r.expected->patch)
+      << "): make mesh.element_size smaller, or patch.length and patch.width larger; cleft advise chooses\n";
 }
 
 /// --out FILE for one case; --out FOLDER for several, each under its file's name.
@@ -164,10 +180,12 @@ int main(int argc, char** argv) {
     std::string failures;
     Json list = Json::array();
     for (const SolveReport& report : reports)
-      if (report.failure.empty())
+      if (report.failure.empty()) {
         list.push_back(figures_of(report));
-      else
+        if (root) warn_of_error(report);
+      } else {
         failures += (failures.empty() ? "" : "\n  ") + report.out + ": " + report.failure;
+      }
     if (root && json && cases.size() > 1)
       print_figures(list, true);
     else if (root)

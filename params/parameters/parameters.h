@@ -10,6 +10,14 @@ enum class FrameEvery { column, pair };
 /// How the tissue's elements are made: of displacements alone, or with one mean dilatation for each element.
 enum class TissueFormulation { displacement, mean_dilatation };
 
+/// Where a cut in a mesh ends: a little inside the first nodes that stay closed, where the simulated opening
+/// behaves as if it ended, or at these nodes.
+enum class MeshFront { effective, nodes };
+
+/// What pulls at the skin's edges on the patch's sides: the surrounding skin, which holds the closed patch in
+/// equilibrium, so that only what the cut releases moves it; or nothing, as on a piece that was cut out.
+enum class SkinEdges { held, free };
+
 /// A plane stress of the skin, MPa: along the cut, across it, and shear.
 struct Prestress {
   double uu = 0, vv = 0, uv = 0;
@@ -18,7 +26,7 @@ struct Prestress {
 /// Lengths in mm, stresses in MPa, springs in N/mm^3, angles in degrees.
 struct Parameters {
   struct Patch {
-    double length = 60, width = 40, height = 8;
+    double length = 100, width = 100, height = 8;
   } patch;
   struct Cut {
     double length = 30, depth = 3;
@@ -27,16 +35,19 @@ struct Parameters {
     FrameEvery frames = FrameEvery::column;
   } cut;
   struct Mesh {
-    double element_size = 1, grading = 1;
+    double element_size = 1, grading = 1.3;
+    MeshFront front = MeshFront::effective;
     double cut_length = 0, cut_depth = 0;
   } mesh;
   struct Skin {
     double thickness = 1.5, young_modulus = 0.13, poisson_ratio = 0.4;
     Prestress prestress{0.01, 0.03, 0};
+    SkinEdges edges = SkinEdges::held;
     bool initial_stress_stiffness = false;
   } skin;
   struct Tissue {
     double young_modulus = 0.02, poisson_ratio = 0.4;
+    double prestress_share = 0;
     TissueFormulation formulation = TissueFormulation::displacement;
   } tissue;
   struct Foundation {

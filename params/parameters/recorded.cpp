@@ -14,6 +14,8 @@ Parameters nothing_recorded() {
   for (const Parameter& row : parameter_table())
     if (const auto* number = std::get_if<Parameter::Number>(&row.access))
       (*number)(p) = std::numeric_limits<double>::quiet_NaN();
+  // What was so before files recorded it, where the default is another now.
+  p.skin.edges = SkinEdges::free, p.mesh.front = MeshFront::nodes;
   return p;
 }
 

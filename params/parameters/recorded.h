@@ -21,7 +21,8 @@ class RecordedParameters {
   RecordedParameters();  ///< nothing is recorded
   explicit RecordedParameters(const Parameters& parameters);
 
-  /// Numbers that are not recorded are NaN; switches and choices have their defaults.
+  /// Numbers that are not recorded are NaN; switches and choices are as they were before files recorded them
+  /// (docs/formats.md).
   const Parameters* operator->() const { return &values_; }
   const Parameters& operator*() const { return values_; }
 

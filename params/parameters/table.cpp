@@ -87,6 +87,9 @@ std::vector<Parameter> make_table() {
                "largest edge of an element along u, v and w, at the cut"),
       between(CLEFT_MEMBER(mesh.grading), "", 1, 2,
               "growth from one element to the next away from the cut; 1: none"),
+      choice(CLEFT_MEMBER(mesh.front), {"effective", "nodes"},
+             "effective: the cut ends a part of an element inside its first closed nodes, where its opening "
+             "behaves as if it ended; nodes: at these nodes"),
       not_negative(
           CLEFT_MEMBER(mesh.cut_length), "mm",
           "longest cut the mesh is made for: the case's own ends at its nearest nodes; 0: the case's own"),
@@ -97,10 +100,16 @@ std::vector<Parameter> make_table() {
       stress(CLEFT_NAMED("skin.prestress_u", skin.prestress.uu), "prestress of the skin along the cut"),
       stress(CLEFT_NAMED("skin.prestress_v", skin.prestress.vv), "prestress of the skin across the cut"),
       stress(CLEFT_NAMED("skin.prestress_uv", skin.prestress.uv), "shear prestress of the skin"),
+      choice(
+          CLEFT_MEMBER(skin.edges), {"held", "free"},
+          "held: the skin around the patch pulls at its edges, so that the closed patch is in equilibrium; "
+          "free: a piece that was cut out"),
       choice(CLEFT_MEMBER(skin.initial_stress_stiffness), no_or_yes,
              "true: the prestress stiffens the skin against bending and stretching (geometric stiffness)"),
       positive(CLEFT_MEMBER(tissue.young_modulus), "MPa", "Young's modulus of the tissue below the skin"),
       poisson(CLEFT_MEMBER(tissue.poisson_ratio), 0.4999, "Poisson's ratio of the tissue"),
+      between(CLEFT_MEMBER(tissue.prestress_share), "", 0, 1,
+              "initial stress of the tissue in the plane of the skin, over the skin's prestress"),
       choice(
           CLEFT_MEMBER(tissue.formulation), {"displacement", "mean-dilatation"},
           "mean-dilatation: the volume of an element changes as a whole, for nearly incompressible tissue"),

@@ -27,6 +27,16 @@ TEST(RecordedParameters, WhatAFileLacksIsNoNumber) {
   EXPECT_TRUE(std::isnan(p->skin.prestress.vv));
 }
 
+/// Files that lack a choice come from a version in which it was none: pieces with free edges, whose cuts ended
+/// at nodes.
+TEST(RecordedParameters, AChoiceThatAFileLacksIsWhatItWasBefore) {
+  const RecordedParameters p;
+  EXPECT_EQ(p->skin.edges, SkinEdges::free);
+  EXPECT_EQ(p->mesh.front, MeshFront::nodes);
+  EXPECT_EQ(p->tissue.formulation, TissueFormulation::displacement);
+  EXPECT_FALSE(p->cut.contact);
+}
+
 TEST(RecordedParameters, EveryRowComesBackByName) {
   Parameters values;
   values.cut.contact = true, values.tissue.formulation = TissueFormulation::mean_dilatation;

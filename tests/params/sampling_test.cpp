@@ -257,8 +257,9 @@ TEST(Sampling, WhatIsMissingOrOutOfPlaceIsTold) {
 TEST(Sampling, DrawnCasesThatDoNotFitAreNamed) {
   // Of the plain sequence 0, 1/2, 3/4, 1/4: 10, 40, 55 and 25 mm fit into 60 mm, of twice that two do not.
   const std::string end = " }\n[sampling]\nmethod = 'sobol'\ncount = 4\n";
-  EXPECT_EQ(refusal_of("[vary]\n'cut.length' = { from = 10, to = 70" + end), "");
-  const std::string message = refusal_of("[vary]\n'cut.length' = { from = 20, to = 140" + end);
+  EXPECT_EQ(refusal_of("[case]\npatch.length = 60\n[vary]\n'cut.length' = { from = 10, to = 70" + end), "");
+  const std::string message =
+      refusal_of("[case]\npatch.length = 60\n[vary]\n'cut.length' = { from = 20, to = 140" + end);
   EXPECT_NE(message.find("study, cut.length = 80: cut.length = 80 mm: must be less"), std::string::npos)
       << message;
   EXPECT_NE(message.find("study, cut.length = 110: "), std::string::npos) << message;

@@ -67,8 +67,8 @@ TEST_F(BadInput, ValueOutOfRange) {
 
 TEST_F(BadInput, CutLongerThanThePatch) {
   for (const char* command : {"solve", "run"})
-    expect_refused(command, {in.write("a.toml", "[case]\ncut.length = 61\n"), "--out", out / "x"},
-                   {"cut.length = 61 mm", "patch.length = 60 mm"});
+    expect_refused(command, {in.write("a.toml", "[case]\ncut.length = 101\n"), "--out", out / "x"},
+                   {"cut.length = 101 mm", "patch.length = 100 mm"});
 }
 
 TEST_F(BadInput, MissingFiles) {

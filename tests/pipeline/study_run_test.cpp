@@ -111,7 +111,7 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   };
   const auto [finer, finer_links] = encoded_as("tolerance = 0.02");
   EXPECT_EQ(finer_links, 2u);
-  EXPECT_EQ(finer["parametrization"], "tip");
+  EXPECT_EQ(finer["parametrization"], "front");
   EXPECT_GT(finer["fit_seconds"], 0);
   EXPECT_GT(finer["measure_seconds"], 0);
   EXPECT_LE(finer["report"]["node_error"], 0.02);

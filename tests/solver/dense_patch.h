@@ -9,6 +9,7 @@
 #include "solver/block_rows.h"
 #include "solver/frame_solver.h"
 #include "tests/solver/small_patch.h"
+#include "tests/support/even_piece.h"
 
 namespace cleft {
 
@@ -101,7 +102,7 @@ class DensePatch {
 
 /// Smaller than small_patch(), for dense matrices: 570 unknowns. No symmetry that could hide a mistake.
 inline Parameters dense_patch_case() {
-  Parameters p;
+  Parameters p = even_piece();
   p.patch.length = 8, p.patch.width = 4, p.patch.height = 3;
   p.cut.length = 6, p.cut.depth = 2;
   p.skin.prestress = {0.02, 0.03, 0.012};
@@ -136,6 +137,9 @@ inline std::vector<DenseCase> dense_cases() {
   add("MeanDilatation", [](Parameters& p) {
     p.tissue.formulation = TissueFormulation::mean_dilatation, p.tissue.poisson_ratio = 0.495;
   });
+  add("TissueUnderStress", [](Parameters& p) { p.tissue.prestress_share = 0.4; });
+  add("EffectiveFront",
+      [](Parameters& p) { p.mesh.front = MeshFront::effective, p.patch.length = 9, p.cut.depth = 1.5; });
   add("InitialStressStiffness", [](Parameters& p) { p.skin.initial_stress_stiffness = true; });
   return cases;
 }

@@ -7,6 +7,7 @@
 #include "solver/direct_solver.h"
 #include "solver/iterative_solver.h"
 #include "tests/solver/dense_patch.h"
+#include "tests/support/even_piece.h"
 
 namespace cleft {
 
@@ -103,6 +104,28 @@ TEST(FrameSolver, ColumnsComeInAnyOrder) {
   });
 }
 
+/// The closed patch is the reference state: nothing moves, to the last bit, by either solver, whatever the
+/// cut.
+TEST(FrameSolver, FramesBeginAtZeroWhereTheSkinIsHeld) {
+  for (DenseCase one : dense_cases()) {
+    SCOPED_TRACE(one.name);
+    one.parameters.skin.edges = SkinEdges::held;
+    const DensePatch patch(one.parameters);
+    Solvers solvers(patch);
+    const int open = patch.release.released.back();
+    const Eigen::VectorXd expected = patch.solve(patch.closure(patch.release, open), patch.load);
+    solvers.each([&](const char* name, FrameSolver& solver, double tolerance) {
+      SCOPED_TRACE(name);
+      solver.set_release(patch.release);
+      solver.set_loads(patch.own(patch.load));
+      const Eigen::MatrixXd frames =
+          patch.whole(solver.solve({{0, 0, false, small_residual}, {0, open, false, small_residual}}));
+      EXPECT_EQ(frames.col(0).cwiseAbs().maxCoeff(), 0);
+      EXPECT_LT((frames.col(1) - expected).norm(), tolerance * expected.norm());
+    });
+  }
+}
+
 /// Large enough for several levels of the multigrid, which solves the small patches in one.
 TEST(FrameSolver, IterationsAgreeWithTheFactorOnALargerPatch) {
   Parameters p = dense_patch_case();
@@ -130,7 +153,7 @@ TEST(FrameSolver, IterationsAgreeWithTheFactorOnALargerPatch) {
 }
 
 TEST(FrameSolver, LipsBesideTheTipMoveSmoothlyFromFrameToFrame) {
-  Parameters p;
+  Parameters p = even_piece();
   p.patch.length = 40, p.patch.width = 20, p.patch.height = 5;
   p.cut.length = 26, p.cut.depth = 2;
   const PatchMesh mesh = make_patch_mesh(p);

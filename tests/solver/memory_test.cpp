@@ -8,6 +8,7 @@
 
 #include "solver/direct_solver.h"
 #include "tests/solver/small_patch.h"
+#include "tests/support/even_piece.h"
 
 namespace cleft {
 
@@ -38,7 +39,7 @@ TEST(Memory, OfTheDirectSolverIsWhatItSaysBeforehand) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer's own memory would be counted too";
 #endif
-  Parameters p;
+  Parameters p = even_piece();
   p.mesh.element_size = 1.5;
   const PatchMesh mesh = make_patch_mesh(p);
   const PatchSystem system(mesh, p, MPI_COMM_WORLD);

@@ -10,6 +10,7 @@
 #include "params/parameters/table.h"
 #include "solver/patch_mesh.h"
 #include "tests/solver/patch_mesh_shapes.h"
+#include "tests/support/even_piece.h"
 
 namespace cleft {
 
@@ -99,7 +100,7 @@ TEST(Release, ABranchOpensFromItsJunction) {
 }
 
 TEST(Release, TheCaseEndsAtTheNearestNodes) {
-  Parameters p;
+  Parameters p = even_piece();
   p.mesh.cut_length = 30, p.mesh.cut_depth = 4;
   for (const double size : {1.0, 1.3, 0.93})
     for (const double radius : {0.0, 20.0})
@@ -126,7 +127,7 @@ TEST(Release, TheCaseEndsAtTheNearestNodes) {
 }
 
 TEST(Release, RoundingLeavesAColumnAndARowToOpen) {
-  Parameters p;
+  Parameters p = even_piece();
   for (double size = 0.7; size < 1.5; size += 0.0137) {
     p.mesh.element_size = size;
     p.mesh.cut_length = 5 * size, p.cut.length = 2 * size;  // ends half-way between two nodes

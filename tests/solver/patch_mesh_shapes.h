@@ -6,11 +6,12 @@
 
 #include "params/consistency.h"
 #include "tests/solver/small_patch.h"
+#include "tests/support/even_piece.h"
 
 namespace cleft {
 
 inline Parameters awkward_patch() {  // nothing is a multiple of the element size
-  Parameters p;
+  Parameters p = even_piece();
   p.patch.length = 31.3, p.patch.width = 17.1, p.patch.height = 7.7;
   p.cut.length = 12.9, p.cut.depth = 3.1;
   p.mesh.element_size = 0.93;

@@ -101,6 +101,42 @@ TEST(PatchSystem, PrestressDoesTheWorkOfItsStress) {
   EXPECT_NEAR(u.dot(patch.system.load(p.skin).col(0)), work.dot(prestress), 1e-13);
 }
 
+/// In equilibrium while closed: the loads of the prestress and the pull t sigma n of the surrounding skin at
+/// the patch's sides, half of an edge's at each of its ends, leave forces on the lips alone.
+TEST(PatchSystem, HeldEdgesBearThePullOfTheSurroundingSkin) {
+  Parameters p = bare_patch();
+  p.skin.prestress = {0.011, 0.03, 0.007};
+  p.cut.branch = 2;
+  const Assembled piece(p);
+  Eigen::VectorXd expected = piece.system.load(p.skin).col(0);
+  for (const auto& triangle : piece.mesh.skin)
+    for (int c = 0; c < 3; ++c) {
+      const std::array<int, 2> ends = {triangle[c], triangle[(c + 1) % 3]};
+      const Vec3 &a = piece.mesh.points[ends[0]], &b = piece.mesh.points[ends[1]];
+      if (!(std::abs(a.x) == 5 && a.x == b.x) && !(std::abs(a.y) == 3 && a.y == b.y)) continue;
+      const double u = b.y - a.y, v = a.x - b.x;  // outward, as long as the edge
+      for (const int n : ends) {
+        expected(piece.system.unknown(n, 0)) += 1.5 / 2 * (0.011 * u + 0.007 * v);
+        expected(piece.system.unknown(n, 1)) += 1.5 / 2 * (0.007 * u + 0.03 * v);
+      }
+    }
+  p.skin.edges = SkinEdges::held;
+  const Assembled held(p);
+  const Eigen::VectorXd load = held.system.load(p.skin).col(0);
+  EXPECT_NEAR((load - expected).cwiseAbs().maxCoeff(), 0, 1e-15);
+  EXPECT_GT(load.cwiseAbs().maxCoeff(), 0.01) << "the lips are pulled";
+}
+
+TEST(PatchSystem, TissueUnderStressDoesTheWorkOfItsShare) {
+  Parameters p = bare_patch();
+  p.skin.prestress = {0.011, 0.03, 0.007}, p.tissue.prestress_share = 0.25;
+  const Assembled patch(p);
+  const Eigen::VectorXd u = linear(patch.mesh, patch.system, stretch);
+  const Eigen::Vector3d strain(stretch[0].x, stretch[1].y, stretch[0].y + stretch[1].x);
+  const double work = -(1.5 + 0.25 * 3) * 10 * 6 * strain.dot(Eigen::Vector3d(0.011, 0.03, 0.007));
+  EXPECT_NEAR(u.dot(patch.system.load(p.skin).col(0)) / work, 1, 1e-12);
+}
+
 TEST(PatchSystem, SpringsAreIntegratedConsistently) {
   // 1/2 k of the integral of |u|^2 over the faces, for u = (x, 0, 0): the integral of x^2 over the bottom,
   // and the sides.

@@ -8,6 +8,7 @@
 #include "solver/direct_solver.h"
 #include "tests/solver/small_patch.h"
 #include "tests/solver/verification_support.h"
+#include "tests/support/even_piece.h"
 
 namespace cleft {
 
@@ -31,7 +32,7 @@ struct Dent {
 /// Dents under unit pressure of a quarter of a half-space, cut off at `reach` where it moves as under a point
 /// load, over those in closed form. Elements of size h up to 3 mm, larger beyond.
 Dent dent(double h, double reach) {
-  Parameters p;
+  Parameters p = even_piece();
   p.tissue.young_modulus = 0.02, p.tissue.poisson_ratio = 0.3;
   p.skin.young_modulus = p.foundation.stiffness = none, p.foundation.side_stiffness = 0;
   p.patch.length = p.patch.width = 2 * reach, p.patch.height = reach;
@@ -62,7 +63,7 @@ Dent dent(double h, double reach) {
 }
 
 Parameters default_like() {
-  Parameters p;
+  Parameters p = even_piece();
   p.patch.length = 30, p.patch.width = 20, p.patch.height = 5;
   p.cut.length = 15;
   return p;

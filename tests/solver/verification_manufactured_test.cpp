@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/solver/verification_support.h"
+#include "tests/support/even_piece.h"
 #include "tests/support/refusal.h"
 #include "tests/support/stability_row.h"
 
@@ -92,7 +93,7 @@ struct Errors {
 };
 
 Errors solve_cube(int n, double nu, TissueFormulation formulation, const Waves& waves) {
-  Parameters p;
+  Parameters p = even_piece();
   p.tissue.young_modulus = 1, p.tissue.poisson_ratio = nu, p.tissue.formulation = formulation;
   const double lambda = nu / ((1 + nu) * (1 - 2 * nu)), mu = 1 / (2 * (1 + nu));
   const std::vector<double> lines = even_lines(0, 1, n);
@@ -176,7 +177,7 @@ TEST(Manufactured, MeanDilatationDoesNotLock) {
   EXPECT_GT(locked[2], 3 * fine);
   EXPECT_GT(locked[1], 3 * fine);
   EXPECT_LT(std::log2(errors(4, 0.499, TissueFormulation::displacement) / locked[1]), 1);
-  Parameters p;
+  Parameters p = even_piece();
   p.tissue.poisson_ratio = 0.491;
   record_limit({.method = "linear wedges, displacement formulation",
                 .limit = "nearly incompressible tissue: Poisson's ratio above 0.49",

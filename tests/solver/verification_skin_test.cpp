@@ -5,6 +5,7 @@
 
 #include "tests/solver/small_patch.h"
 #include "tests/solver/verification_support.h"
+#include "tests/support/even_piece.h"
 
 namespace cleft {
 
@@ -45,12 +46,12 @@ struct Slit {
   }
 
   double a;
-  Parameters p;
+  Parameters p = even_piece();
   PatchMesh mesh;
 };
 
 Parameters bare() {
-  Parameters p;
+  Parameters p = even_piece();
   p.tissue.young_modulus = p.skin.young_modulus = p.foundation.stiffness = none;
   p.foundation.side_stiffness = 0;
   p.skin.prestress = {};

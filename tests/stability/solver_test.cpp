@@ -10,6 +10,7 @@
 #include "tests/solver/dense_patch.h"
 #include "tests/support/refusal.h"
 #include "tests/support/stability_row.h"
+#include "tests/support/even_piece.h"
 
 namespace cleft {
 
@@ -17,7 +18,7 @@ namespace {
 
 /// A few hundred unknowns.
 Parameters tiny_patch() {
-  Parameters p;
+  Parameters p = even_piece();
   p.patch.length = 5, p.patch.width = 4, p.patch.height = 2;
   p.cut.length = 3, p.cut.depth = 1;
   return p;
@@ -233,7 +234,7 @@ TEST(SolverLimits, ACutThatSeversThePatch) {
 }
 
 TEST(SolverLimits, CutsOneElementWide) {
-  Parameters p;
+  Parameters p = even_piece();
   p.patch.length = 6, p.patch.width = 4, p.patch.height = 2;
   p.cut.length = 2, p.cut.depth = 1;
   const auto gape_at = [&](double element_size) {

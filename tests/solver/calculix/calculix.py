@@ -5,7 +5,7 @@ points along the axis (a few percent from the full rule on coarse meshes). Its f
 are those of tests/solver/independent, solved here with the same rule.
 
 A deck has C3D6 for the tissue; M3D3 for the skin; *INITIAL CONDITIONS, TYPE=STRESS for its prestress; *EQUATION for
-closed pairs; and the foundation's consistent springs as SPRING1 with the row sums of their matrix M and SPRING2 of
+closed pairs; *CLOAD for the pull of the surrounding skin at held edges; and the foundation's consistent springs as SPRING1 with the row sums of their matrix M and SPRING2 of
 stiffness -M_ab between neighbours a, b: the same quadratic form. ccx makes a solid of a membrane; so that it stays a
 membrane, the skin is thin in the deck, and its modulus and prestress are as much higher.
 
@@ -96,22 +96,44 @@ class Deck:
             for dof in (1, 2, 3):
                 self.lines += ["*EQUATION", "2", f"{node + 1}, {dof}, 1., {stands[node] + 1}, {dof}, -1."]
 
-    def add_step(self):
-        self.lines += ["*STEP", "*STATIC", "*NODE PRINT, NSET=ALL", "U", "*END STEP"]
+    def add_step(self, load_scale):
+        self.lines += ["*STEP", "*STATIC"]
+        if self.patch["skin.edges"] == "held":
+            self.lines.append("*CLOAD")
+            pull = edge_pull(self.patch) * load_scale
+            self.lines += [f"{n + 1}, {axis + 1}, {number(pull[n, axis])}" for n, axis in np.argwhere(pull)]
+        self.lines += ["*NODE PRINT, NSET=ALL", "U", "*END STEP"]
 
     def text(self):
         return "\n".join(self.lines) + "\n"
 
 
+def edge_pull(patch):
+    """(N, 2), N: what the surrounding skin pulls with at the skin's edges on the patch's sides, t sigma0 n for each mm."""
+    force = np.zeros((len(patch.points), 2))
+    most = np.abs(patch.points[:, :2]).max(axis=0)
+    for a, b in ((0, 1), (1, 2), (2, 0)):
+        ends = patch.skin[:, [a, b]]
+        at = patch.points[ends][:, :, :2]
+        outer = (np.abs(np.abs(at) - most) < 1e-9).all(axis=1).any(axis=1)
+        along = (at[:, 1] - at[:, 0])[outer]
+        outward = np.stack([along[:, 1], -along[:, 0]], axis=1)  # as long as the edge
+        for end in (0, 1):
+            np.add.at(force, ends[outer, end], patch["skin.thickness"] / 2 * outward @ patch.prestress())
+    return force
+
+
 def deck_of(patch, frame, load_scale):
     if patch["tissue.formulation"] != "displacement" or patch["skin.initial_stress_stiffness"] == "true":
         raise SystemExit("ccx has no mean dilatation in C3D6, nor a prestress that stiffens a linear step")
+    if patch["tissue.prestress_share"] != 0:
+        raise SystemExit("tissue.prestress_share: the decks have no initial stress of the tissue")
     deck = Deck(patch)
     deck.add_tissue()
     deck.add_skin(load_scale)
     deck.add_springs()
     deck.add_closed_pairs(frame)
-    deck.add_step()
+    deck.add_step(load_scale)
     return deck.text()
 
 
@@ -178,7 +200,8 @@ def main():
             unknowns = 3 * len(patch.points)
             print(json.dumps({"program": "ccx *STATIC", "unknowns": unknowns, "seconds": round(seconds, 3)}))
             return 0
-        return compare(patch, [j % count for j in options.frames or (0, count // 2, count - 1)], folder)
+        first = 1 if patch["skin.edges"] == "held" else 0  # a held patch does not move while it is closed
+        return compare(patch, [j % count for j in options.frames or (first, count // 2, count - 1)], folder)
 
 
 if __name__ == "__main__":

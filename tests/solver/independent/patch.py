@@ -19,6 +19,8 @@ BEFORE_THEY_CAME = {
     "tissue.formulation": "displacement",
     "skin.initial_stress_stiffness": "false",
     "cut.contact": "false",
+    "skin.edges": "free",
+    "tissue.prestress_share": 0.0,
 }
 
 # Rules on the reference wedge a, b, 1 - a - b >= 0 and -1 <= c <= 1, of volume 1: points (a, b, c) and weights.
@@ -78,16 +80,9 @@ def scatter(cells, blocks, nodes):
     return sparse.coo_matrix((blocks.ravel(), (rows, columns)), shape=(3 * nodes, 3 * nodes)).tocsc()
 
 
-def tissue_stiffness(patch, rule):
-    """Linear wedges, isotropic: lambda tr(e) I + 2 mu e; or, with the mean dilatation, 2 mu dev(e) point by point and
-    the bulk modulus on the element's mean of tr(e)."""
-    young, poisson = patch["tissue.young_modulus"], patch["tissue.poisson_ratio"]
-    mu, lam = young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson))
-    mean = patch["tissue.formulation"] == "mean-dilatation"
+def wedge_points(patch, rule):
+    """Of every point of a rule: gradients (E, 6, 3) of the wedges' shape functions, and volumes (E)."""
     corners = patch.points[patch.wedges]
-    count = len(corners)
-    blocks = np.zeros((count, 6, 3, 6, 3))
-    volume, mean_gradient = np.zeros(count), np.zeros((count, 6, 3))
     for a, b, c, weight in RULES[rule]:
         corner = np.array([1 - a - b, a, b])
         corner_slope = np.array([[-1, -1], [1, 0], [0, 1]])
@@ -96,8 +91,19 @@ def tissue_stiffness(patch, rule):
             slope[half, :2] = corner_slope * (1 + sign * c) / 2
             slope[half, 2] = corner * sign / 2
         jacobian = np.einsum("eni,nk->eik", corners, slope)  # dx_i / dxi_k
-        gradient = np.einsum("nk,eki->eni", slope, np.linalg.inv(jacobian))
-        scale = weight * np.abs(np.linalg.det(jacobian))
+        yield np.einsum("nk,eki->eni", slope, np.linalg.inv(jacobian)), weight * np.abs(np.linalg.det(jacobian))
+
+
+def tissue_stiffness(patch, rule):
+    """Linear wedges, isotropic: lambda tr(e) I + 2 mu e; or, with the mean dilatation, 2 mu dev(e) point by point and
+    the bulk modulus on the element's mean of tr(e)."""
+    young, poisson = patch["tissue.young_modulus"], patch["tissue.poisson_ratio"]
+    mu, lam = young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+    mean = patch["tissue.formulation"] == "mean-dilatation"
+    count = len(patch.wedges)
+    blocks = np.zeros((count, 6, 3, 6, 3))
+    volume, mean_gradient = np.zeros(count), np.zeros((count, 6, 3))
+    for gradient, scale in wedge_points(patch, rule):
         volume += scale
         mean_gradient += scale[:, None, None] * gradient
         dilatation = -2 / 3 * mu if mean else lam
@@ -132,12 +138,23 @@ def skin_stiffness(patch):
     return scatter(patch.skin, blocks, len(patch.points))
 
 
-def load(patch):
-    """(N, 3): what the prestress does to its nodes, - t A B^T sigma0."""
+def load(patch, rule="full"):
+    """(N, 3): what the prestress does to its nodes: - t A B^T sigma0 of the skin, and of the tissue the same integral
+    with its share. Held edges: the surroundings balance it while all is closed, so from every node is taken what all
+    nodes at its place feel together, in equal parts."""
     gradient, area = skin_gradients(patch)
     force = np.zeros((len(patch.points), 3))
     parts = -(area * patch["skin.thickness"])[:, None, None] * (gradient @ patch.prestress())
     np.add.at(force[:, :2], patch.skin.ravel(), parts.reshape(-1, 2))
+    if patch["tissue.prestress_share"] != 0:
+        for gradient, scale in wedge_points(patch, rule):
+            parts = -patch["tissue.prestress_share"] * scale[:, None, None] * (gradient[:, :, :2] @ patch.prestress())
+            np.add.at(force[:, :2], patch.wedges.ravel(), parts.reshape(-1, 2))
+    if patch["skin.edges"] == "held":
+        stands = patch.joined(0)
+        together = np.zeros_like(force)
+        np.add.at(together, stands, force)
+        force -= together[stands] / np.bincount(stands)[stands][:, None]
     return force
 
 
