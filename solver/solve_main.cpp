@@ -154,6 +154,8 @@ int main(int argc, char** argv) {
                  "(default: what the case files say)")
       ->delimiter(',')
       ->allow_extra_args(false);
+  app.add_flag("--estimate,!--no-estimate", options.estimate,
+               "estimate by coarser meshes which error of the opening mesh and patch leave (default)");
   app.add_flag("--json", json, "print the figures as JSON; several cases: a list");
   app.footer([] { return parameter_help(); });
 

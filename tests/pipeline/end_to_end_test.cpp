@@ -26,6 +26,7 @@ patch.height = 5
 cut.length = 12
 cut.depth = 2
 mesh.element_size = 1
+mesh.grading = 1
 mesh.front = "nodes"
 )";
 

@@ -20,7 +20,7 @@ cut.length = 6
 cut.depth = 2
 cut.branch = 1
 cut.frames = "pair"
-mesh.cut_depth = 2.9
+mesh.cut_depth = 2.6
 skin.prestress_u = 0.02
 skin.prestress_uv = 0.012
 )";

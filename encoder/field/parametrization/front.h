@@ -15,7 +15,7 @@ struct FrontMeasure {
   /// Over a, from where the square root goes over into the distance itself; and from where it begins, so that
   /// no slope is infinite at the front.
   static constexpr double rooted = 0.3, blunt = 0.02;
-  static constexpr double wide = 2;
+  static constexpr double wide = 3;
 
   /// x a / (x + a) of x = sqrt((r + e) (r + e + b)) - sqrt(e (e + b)), b = rooted a, e = blunt a.
   static Measured measured(double r, double a) {
@@ -28,7 +28,7 @@ struct FrontMeasure {
   /// Where nothing opens: evenly, as in tip.h.
   static Measured ahead(double r, double a) { return EvenMeasure::measured(r, a); }
 
-  /// r c / (r + c), c = 2 a: knots keep their distances from the plane of the cut however wide the patch is.
+  /// r c / (r + c), c = 3 a: knots keep their distances from the plane of the cut however wide the patch is.
   static Measured beside(double r, double a) {
     const double c = wide * a, part = c / (r + c);
     return {r * part, part * part};
