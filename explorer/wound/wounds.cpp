@@ -11,7 +11,7 @@ namespace cleft {
 namespace {
 /// At how many positions of the blade in each cut the guard looks at the skin, and in how many pieces of it
 /// the relief is linear there.
-constexpr int looks = 24, relief_looks = 24;
+constexpr int looks = 48, relief_looks = 48;
 /// Of its own flat patch a field that keeps less turns it over.
 constexpr double least_area = 0.3;
 /// mm: neighbours that move apart by no more are never torn.
