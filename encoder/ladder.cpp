@@ -13,6 +13,8 @@ constexpr int degree = 3;
 const std::vector<double> before_order = {0.5, 0.75, 0.25};
 const std::vector<double> along_order = {0.5, 0.75, 0.25, 0.875, 0.125, 0.625, 0.375};
 const std::vector<double> after_order = {0.5, 0.75, 0.25};
+// Where lengths next to the front are measured as displacements grow.
+const std::vector<double> beyond_front_order = {0.25, 0.5, 0.75};
 const std::vector<double> across_order = {0.5, 0.25, 0.875, 0.625, 0.1875, 0.96875, 0.375, 0.75};
 const std::vector<double> above_order = {0.5, 0.25, 0.75};
 const std::vector<double> below_order = {0.25};
@@ -51,12 +53,16 @@ BSplineBasis time_basis(int spans, double front, double back, int frames) {
   return knots.basis(p);
 }
 
-std::array<BSplineBasis, 4> following_tip(const Rung& rung, const FieldGeometry& geometry, int frames) {
+std::array<BSplineBasis, 4> following_tip(const Rung& rung, const Parametrization& parametrization,
+                                          int frames) {
+  const FieldGeometry& geometry = parametrization.geometry();
+  const bool front_resolved = parametrization.resolves_front();
   const auto [front, back] = geometry.domain[0];
   Knots along, across, height;
   if (geometry.cut.start > front) {
     along.repeat(0, degree + 1);
-    const std::vector<double> s = first_of(before_order, rung.before - 1);
+    const std::vector<double> s =
+        first_of(front_resolved ? beyond_front_order : before_order, rung.before - 1);
     for (auto i = s.rbegin(); i != s.rend(); ++i) along.list.push_back(1 - *i);
     along.repeat(1, degree);
   } else {
@@ -65,7 +71,8 @@ std::array<BSplineBasis, 4> following_tip(const Rung& rung, const FieldGeometry&
   for (const double s : first_of(along_order, rung.along - 1)) along.list.push_back(1 + s);
   if (geometry.tip.positions.front() < back) {
     along.repeat(2, degree);
-    for (const double s : first_of(after_order, rung.after - 1)) along.list.push_back(2 + s);
+    for (const double s : first_of(front_resolved ? beyond_front_order : after_order, rung.after - 1))
+      along.list.push_back(2 + s);
     along.repeat(3, degree + 1);
   } else {
     along.repeat(2, degree + 1);
@@ -115,7 +122,7 @@ std::array<BSplineBasis, 4> fixed(const Rung& rung, const FieldGeometry& geometr
 }  // namespace
 
 std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& parametrization, int frames) {
-  return parametrization.moves() ? following_tip(rung, parametrization.geometry(), frames)
+  return parametrization.moves() ? following_tip(rung, parametrization, frames)
                                  : fixed(rung, parametrization.geometry(), frames);
 }
 
@@ -125,17 +132,16 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization) {
     // Where lengths next to the front are measured as displacements grow, six spans along the cut are needed
     // at once: with five, openings next to the front are off by twice as much.
     const bool front = parametrization.resolves_front();
-    Rung r = front ? Rung{1, 4, 1, 3, 2, 1, 8} : Rung{1, 3, 2, 3, 2, 1, 8};
+    Rung r = front ? Rung{2, 4, 2, 3, 2, 1, 8} : Rung{1, 3, 2, 3, 2, 1, 8};
     rungs.push_back(r);
     using Steps = std::vector<int Rung::*>;
     const Steps of_tip = {&Rung::across, &Rung::across, &Rung::along,  &Rung::across, &Rung::along,
                           &Rung::along,  &Rung::across, &Rung::before, &Rung::across, &Rung::below,
                           &Rung::after,  &Rung::above,  &Rung::along,  &Rung::before, &Rung::along,
                           &Rung::after,  &Rung::across};
-    const Steps of_front = {&Rung::along,  &Rung::along,  &Rung::across, &Rung::before,
-                            &Rung::after,  &Rung::across, &Rung::across, &Rung::below,
-                            &Rung::across, &Rung::above,  &Rung::along,  &Rung::across,
-                            &Rung::along,  &Rung::before, &Rung::after,  &Rung::across};
+    const Steps of_front = {&Rung::along,  &Rung::along,  &Rung::across, &Rung::across, &Rung::after,
+                            &Rung::before, &Rung::below,  &Rung::across, &Rung::above,  &Rung::across,
+                            &Rung::along,  &Rung::across, &Rung::along,  &Rung::across};
     for (int Rung::*const step : front ? of_front : of_tip) {
       ++(r.*step);
       r.time = 8 + static_cast<int>(rungs.size()) / 2;

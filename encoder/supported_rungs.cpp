@@ -55,7 +55,7 @@ std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& serie
   // Nodes for each control point; an axis on which all nodes have one place counts as one control point.
   const bool passes = parametrization.moves() && !parametrization.geometry().tip.still();
   const bool front = parametrization.resolves_front();
-  const std::size_t nodes_each = passes ? (front ? 5 : 6) : thorough ? 0 : 2;
+  const std::size_t nodes_each = passes ? (front ? 4 : 6) : thorough ? 0 : 2;
   std::vector<Rung> rungs = {least};
   for (const Rung& rung : ladder) {
     Rung next = rungs.back();

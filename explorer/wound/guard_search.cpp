@@ -121,7 +121,7 @@ bool GuardSearch::offends(int t) {
     return false;
   }
   for (std::size_t k = 0; k < times(); ++k)
-    if (is_torn(t, k) || !is_kept(t, k)) return true;
+    if (is_torn(t, k) || (!is_kept(t, k) && !field_.turns(t, k))) return true;
   return false;
 }
 

@@ -16,7 +16,8 @@ namespace {
 /// bottom as a parabola does, the sum is off by less than a hundredth.
 constexpr int layers = 6;
 /// The force is the mean over a part of the cut's depth on either side, at two Gauss points, and never across
-/// the other cut: on its lip the strain of a spline that was fitted to nodes is not determined.
+/// the other cut: on its lip the strain of a spline that was fitted to nodes is not determined. Along the
+/// other cut the mean is exact, a difference: next to its front, derivatives of a field jump.
 constexpr double reach = 0.5;
 const double gauss = 1 / std::numbers::sqrt3;
 /// Of the fixed point, and which part of the way a round goes. Halfway: parallel cuts close together relieve
@@ -72,7 +73,11 @@ double change_across(const Wound& other, const Stiffness& is, const ActiveVertex
   if (length < turned_away) return 0;
   a /= length, b /= length;
   const auto strains = [&](double v, double w) {
-    const Derivatives d = other.field.derivatives({at.uvw.x, v, w}, at.side, t, at.s);
+    Derivatives d = other.field.derivatives({at.uvw.x, v, w}, at.side, t, at.s);
+    const double from = at.uvw.x - reach * cut.depth, to = at.uvw.x + reach * cut.depth;
+    d.by_u = 1 / (to - from) *
+             (other.field.displacement({to, v, w}, at.side, t, at.s) -
+              other.field.displacement({from, v, w}, at.side, t, at.s));
     const double uu = at.weight * d.by_u.x, vv = at.weight * d.by_v.y,
                  uv = at.weight * (d.by_u.y + d.by_v.x) / 2, ww = at.weight * d.by_w.z;
     return std::array{uu * a * a + 2 * uv * a * b + vv * b * b, uu + vv,

@@ -130,44 +130,55 @@ void Wounds::find_guard(const std::function<std::vector<Moved>(const Blade&)>& m
   guard_ = search.find();
 }
 
-/// Whether the field of a cut turns its own flat patch over at a triangle's corner, or nearly so.
+/// Whether the fields turn their own flat patches over at a triangle's corner, or nearly so: each of them, or
+/// what they change of the area together.
 bool Wounds::turned_by_field(int triangle, const Blade& blade) const {
-  for (std::size_t k = 0; k <= blade.cut; ++k) {
-    const Wound& wound = wounds_[k];
-    const double s = k == blade.cut ? blade.s : wound.complete();
-    for (const int v : wound.incision->mesh().triangle(triangle).vertex) {
+  for (const int v : wounds_.front().incision->mesh().triangle(triangle).vertex) {
+    double together = 1;
+    for (std::size_t k = 0; k <= blade.cut; ++k) {
+      const Wound& wound = wounds_[k];
+      const double s = k == blade.cut ? blade.s : wound.complete();
       const auto at = wound.volume.locate(v);
       if (!at) continue;
       const Side side = at->on_cut && at->s >= s ? Side::both : at->side;
       const double t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
       const Derivatives d = wound.field.derivatives(at->uvw, side, t, at->s);
-      if (cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v).z < least_area) return true;
+      const double area = cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v).z;
+      together += amplitude(k, at->s, blade) * (area - 1);
+      if (std::min(area, together) < least_area) return true;
     }
   }
   return false;
 }
 
-/// Whether two vertices that move apart by more than `jump`, mesh units, are no nearer to each other in the
-/// flat patch of a single cut's field.
+/// Whether two vertices that move apart by more than `jump`, mesh units, are nearer to each other in the flat
+/// patches of all cuts: the fields stretch the skin between them.
 bool Wounds::stretched_by_field(int a, int b, double jump) const {
-  if (size() != 1) return false;
-  const Wound& wound = wounds_.front();
-  const auto from = wound.volume.locate(a), to = wound.volume.locate(b);
   const auto apart = [](Side x, Side y) { return x != y && x != Side::both && y != Side::both; };
-  return from && to && !apart(from->side, to->side) && norm(to->uvw - from->uvw) < jump * wound.scale();
+  bool moved = false;
+  for (const Wound& wound : wounds_) {
+    const auto from = wound.volume.locate(a), to = wound.volume.locate(b);
+    if (!from || !to) continue;
+    moved = true;
+    if (apart(from->side, to->side) || !(norm(to->uvw - from->uvw) < jump * wound.scale())) return false;
+  }
+  return moved;
 }
 
-/// Whether the field of a single cut moves the lips into each other.
+/// Whether the field of a cut moves its lips into each other.
 bool Wounds::closed_by_field(int lip, const Blade& blade) const {
-  if (size() != 1) return false;
-  const Wound& wound = wounds_.front();
-  const auto at = wound.volume.locate(lip);
-  if (!at || at->s >= blade.s) return false;
-  const double t = std::clamp(blade.s + at->time_offset, 0., wound.field.shape().cut().length);
-  const auto moved = [&](Side side) {
-    return wound.field.displacement({at->uvw.x, 0, at->uvw.z}, side, t, at->s).y;
-  };
-  return moved(Side::right) - moved(Side::left) < -least_jump * part_closed;
+  for (std::size_t k = 0; k <= blade.cut; ++k) {
+    const Wound& wound = wounds_[k];
+    const double s = k == blade.cut ? blade.s : wound.complete();
+    const auto at = wound.volume.locate(lip);
+    if (!at || !at->on_cut || at->s >= s) continue;
+    const double t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
+    const auto moved = [&](Side side) {
+      return wound.field.displacement({at->uvw.x, 0, at->uvw.z}, side, t, at->s).y;
+    };
+    if (moved(Side::right) - moved(Side::left) < -least_jump * part_closed) return true;
+  }
+  return false;
 }
 
 }  // namespace cleft

@@ -56,10 +56,11 @@ struct Influence {
 
 Influence influence_of(const Field& field, double u, double v) {
   const auto strain = [&](double w, int axis) {
-    constexpr double h = 1e-4;
+    constexpr double small = 1e-4;
+    const double h = axis == 0 ? canonical.depth / 2 : small;  // along the other cut the mean over its depth
     Vec3 step;
     step[axis] = h;
-    const Vec3 at{u, v, std::min(w, -h)};  // the skin's own upright strain is not asked for
+    const Vec3 at{u, v, std::min(w, -small)};  // the skin's own upright strain is not asked for
     const Vec3 rise = field.displacement(at + step, Side::both, canonical.length) -
                       field.displacement(at - step, Side::both, canonical.length);
     return rise[axis] / (2 * h);
