@@ -45,6 +45,7 @@ class ConsistencyCheck {
     check_room();
     check_nodes();
     check_materials();
+    if (p_.model == Model::finite) check_finite();
     return nodes();
   }
 
@@ -164,6 +165,19 @@ class ConsistencyCheck {
     need(uu * vv >= uv * uv && uu >= 0 && vv >= 0,
          "skin.prestress_u, _v, _uv = " + shortest(uu) + ", " + shortest(vv) + ", " + shortest(uv) +
              " MPa: the skin would be compressed in some direction; a membrane carries tension only");
+  }
+
+  /// What the finite model does not have.
+  void check_finite() const {
+    const std::string finite = " with model = \"finite\"";
+    need(!p_.cut.contact, "cut.contact = true: lips do not press on each other" + finite +
+                              "; set it to false, or model to \"small\"");
+    need(!p_.skin.initial_stress_stiffness,
+         "skin.initial_stress_stiffness = true: the prestress stiffens the skin anyway" + finite +
+             "; set it to false");
+    need(p_.tissue.formulation == TissueFormulation::displacement || p_.tissue.law == TissueLaw::neo_hookean,
+         "tissue.formulation = \"mean-dilatation\", tissue.law = " + text_of(p_, p_.tissue.law) +
+             ": this law has no part of the change of volume alone; set tissue.law to \"neo-hookean\"");
   }
 
   const Parameters& p_;

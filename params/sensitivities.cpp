@@ -17,7 +17,7 @@ std::vector<std::string> smooth_groups() {
   std::vector<std::string> groups;
   for (const Parameter& row : parameter_table()) {
     const std::string group = group_of(row);
-    if (group != "patch" && group != "cut" && group != "mesh" &&
+    if (!row.is_text() && group != "patch" && group != "cut" && group != "mesh" &&
         std::find(groups.begin(), groups.end(), group) == groups.end())
       groups.push_back(group);
   }
@@ -39,6 +39,8 @@ void check_sensitivities(const std::vector<std::string>& names, const Parameters
     throw InputError(where +
                      ": the series has no derivative where lips begin to touch; set "
                      "cut.contact to false");
+  if (!names.empty() && parameters.model == Model::finite)
+    throw InputError(where + ": there are none with model = finite; leave them out, or set model to small");
   const std::vector<std::string> groups = smooth_groups();
   for (const std::string& name : names) {
     const Parameter& row = find_parameter(name, where);

@@ -93,7 +93,7 @@ class StudyReader {
     for (const auto& [key, entry] : table) {
       const std::string name = "slurm." + std::string(key.str());
       const toml::node& node = entry;
-      mistakes_.collect([&] {
+      mistakes_.collect([&, &key = key] {
         if (key == "partition") {
           slurm.partition = text(node, name);
         } else if (key == "account") {
@@ -278,8 +278,9 @@ std::string with_settings(const Study& study, const std::vector<std::pair<std::s
   for (const auto& [name, value] : values) {
     const auto dot = name.find('.');
     a_case.erase(name);  // as one quoted key
-    toml::table& group = section(a_case, name.substr(0, dot));
-    std::visit([&](const auto& v) { group.insert_or_assign(name.substr(dot + 1), v); }, value);
+    toml::table& group = dot == std::string::npos ? a_case : section(a_case, name.substr(0, dot));
+    const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
+    std::visit([&](const auto& v) { group.insert_or_assign(key, v); }, value);
   }
   toml::table& encode = section(file, "encode");
   encode.erase("control_points");

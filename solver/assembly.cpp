@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <span>
 
+#include "solver/bending.h"
+#include "solver/element_rules.h"
 #include "solver/material/regions.h"
 #include "solver/skin_triangle.h"
 
@@ -20,14 +22,6 @@ constexpr unsigned vertices =
     6;  // of a wedge; a shape function of vertex a in direction d has number 3 a + d
 
 using Cell = DoFHandler<3>::active_cell_iterator;
-
-Quadrature<3> wedge_rule(WedgeRule rule) {
-  if (rule == WedgeRule::full) return QGaussWedge<3>(2);
-  std::vector<Point<3>> points;
-  const QGauss<1> axis(2);
-  for (const Point<1>& z : axis.get_points()) points.emplace_back(1. / 3, 1. / 3, z[0]);
-  return {points, {0.25, 0.25}};
-}
 
 /// The points of a cell. With `mean` its volume changes as a whole.
 void read_points(const FEValues<3>& values, bool mean, std::vector<CellPoint>& points) {
@@ -72,14 +66,12 @@ void add_springs(const FEFaceValues<3>& values, double spring, FullMatrix<double
 
 void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const Cell& cell, unsigned face,
               FullMatrix<double>& cell_matrix, FullMatrix<double>& cell_loads) {
-  std::array<unsigned, 3> corner{};
+  const std::array<int, 3> corner = corners_of_face(cell, face);
   std::array<Vec3, 3> at;
-  for (unsigned i = 0; i < 3; ++i)
-    for (const unsigned v : cell->vertex_indices())
-      if (cell->vertex_index(v) == cell->face(face)->vertex_index(i)) {
-        corner[i] = v;
-        at[i] = {cell->vertex(v)[0], cell->vertex(v)[1], cell->vertex(v)[2]};
-      }
+  for (unsigned i = 0; i < 3; ++i) {
+    const Point<3>& p = cell->vertex(corner[i]);
+    at[i] = {p[0], p[1], p[2]};
+  }
   const SkinTriangle triangle(at[0], at[1], at[2]);
   const SkinTriangle::Matrix6 k = triangle.stiffness(skin);
   const SkinTriangle::Matrix63 f = triangle.unit_loads(skin);
@@ -110,10 +102,7 @@ void Assembly::add(const PatchElements& elements, const Parameters& p, double fa
   const bool initial_stress_stiffness = p.skin.initial_stress_stiffness;
   FEValues<3> values(elements.mapping, elements.element, wedge_rule(elements.discretization.rule),
                      update_gradients | update_JxW_values);
-  const QGaussSimplex<2> triangle(2);
-  const QGauss<2> quad(2);
-  FEFaceValues<3> face_values(elements.mapping, elements.element,
-                              hp::QCollection<2>(triangle, triangle, quad, quad, quad),
+  FEFaceValues<3> face_values(elements.mapping, elements.element, face_rules(),
                               update_values | update_JxW_values);
   const unsigned n = elements.element.n_dofs_per_cell();
   FullMatrix<double> cell_matrix(n, n), cell_loads(n, 3);
@@ -158,6 +147,7 @@ void Assembly::add(const PatchElements& elements, const Parameters& p, double fa
     cell_matrix *= factor;
     stiffness_.add(indices, cell_matrix);
   }
+  add_bending(elements, factor * p.skin.bending_stiffness, stiffness_);
 }
 
 void Assembly::finish() {

@@ -4,18 +4,13 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
-#include "base/text.h"
-#include "solver/node_gather.h"
 
 namespace cleft {
 
 namespace {
 
-constexpr double largest_residual = 1e-6;  // of the loads: beyond it the numbers mean nothing
-constexpr double block_bytes = 6e7;        // of the displacements held at a time, by all ranks
-constexpr int most_frames = 24;            // held at a time
-
-std::string array_of(const std::string& parameter) { return "displacement_per_" + parameter; }
+constexpr double block_bytes = 6e7;  // of the displacements held at a time, by all ranks
+constexpr int most_frames = 24;      // held at a time
 
 std::vector<const Parameters*> parameters_of(const std::vector<CaseToSolve>& cases,
                                              const std::vector<std::size_t>& members) {
@@ -36,10 +31,9 @@ CaseBatch::CaseBatch(SharedStiffness& shared, const Release& release, const std:
       release_(release),
       loads_(system_, parameters_of(shared.job().cases, members),
              shared.chosen().method == Method::direct || options_.unit_prestress, options_.unit_prestress) {
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    members_.push_back({members[i], &loads_.cases[i], nullptr, {}});
-    open(members_.back());
-  }
+  for (std::size_t i = 0; i < members.size(); ++i)
+    members_.push_back({members[i], &loads_.cases[i],
+                        std::make_unique<CaseOutput>(shared_, release_, members[i], derivatives())});
 }
 
 void CaseBatch::solve() {
@@ -62,22 +56,8 @@ void CaseBatch::solve() {
     solve_block(first, count);
   }
   for (Member& member : members_)
-    if (member.writing) {
-      member.writing->finish();
-      report(member).written = true;
-    }
+    if (member.output->continues()) member.output->finish();
   shared_.phases().end("write");
-}
-
-const Parameters& CaseBatch::parameters(const Member& member) const {
-  return shared_.job().cases[member.number].parameters;
-}
-
-SolveReport& CaseBatch::report(const Member& member) const { return shared_.job().reports[member.number]; }
-
-/// Displacements of the mesh's nodes, on rank 0.
-std::vector<Vec3> CaseBatch::at_nodes(const double* column) const {
-  return gather_nodes(system_, shared_.mesh().points.size(), column);
 }
 
 /// Parameters by which the series is differentiated in every snapshot.
@@ -86,21 +66,6 @@ std::vector<std::string> CaseBatch::derivatives() const {
   if (options_.unit_prestress)
     for (const std::string& name : prestress_names()) names.push_back(name);
   return names;
-}
-
-/// Begins the member's snapshot.
-void CaseBatch::open(Member& member) {
-  report(member).pairs = static_cast<int>(shared_.mesh().pairs.size());
-  report(member).constraints = 3 * report(member).pairs;
-  report(member).frames = static_cast<int>(release_.released.size());
-  std::vector<SnapshotArray> arrays = {{"compliance", 1, false}, {"dent", 3, false}};
-  for (const std::string& name : derivatives()) arrays.push_back({array_of(name), 3, true});
-  member.writing = std::make_unique<SnapshotOutput>(shared_.job().cases[member.number].out,
-                                                    describe(parameters(member), shared_.mesh(), release_),
-                                                    arrays, system_.communicator());
-  member.writing->write_scalars("compliance", shared_.compliance().at_node);
-  member.writing->write_vectors("dent", 0, at_nodes(shared_.compliance().dent.data()));
-  shared_.phases().end("write");
 }
 
 void CaseBatch::solve_block(int first, int count) {
@@ -123,14 +88,14 @@ void CaseBatch::solve_block(int first, int count, std::size_t part) {
   expanded.resize(0, 0);
   shared_.phases().end("frames");
   for (Member& member : members_)
-    if (member.writing && member.loads->part == part) finish_block(member, first, count, frames);
+    if (member.output->continues() && member.loads->part == part) finish_block(member, first, count, frames);
 }
 
 /// A case's part of a block: sums of its loads' frames.
 void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads) {
   std::vector<FrameSolver::Column> columns;
   for (Eigen::Index j = first; j < first + count; ++j)
-    columns.push_back({0, release_.released[j], parameters(member).cut.contact, 1e-10});
+    columns.push_back({0, release_.released[j], member.output->parameters().cut.contact, 1e-10});
   const auto combined = [&](const Block& block) {
     Block sum = Block::Zero(block.rows(), count);
     for (std::size_t load = loads.begin; load < loads.end; ++load)
@@ -142,21 +107,18 @@ void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, cons
   const std::vector<FrameFigures> figures = shared_.residual().figures(
       release_, columns, frames, combined(loads.left_over), member.loads->largest_load);
   shared_.phases().end("frames");
-  if (!add_figures(member, figures)) return;
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const std::vector<Vec3> nodes = at_nodes(frames.col(j).data());
-    if (first + j == 0) member.closed = nodes;
-    add_largest(member, nodes);
-    member.writing->write_vectors("displacement", static_cast<std::size_t>(first + j), nodes);
-  }
+  member.output->add_figures(figures);
+  if (!member.output->continues()) return;
+  member.output->write_frames(first, frames);
   for (std::size_t i = 0; options_.unit_prestress && i < loads_.units.size(); ++i)
-    write_derivative(member, prestress_names()[loads_.units[i]], first,
-                     loads.displacements.middleCols(static_cast<Eigen::Index>(i) * count, count));
+    member.output->write_derivative(
+        prestress_names()[loads_.units[i]], first,
+        loads.displacements.middleCols(static_cast<Eigen::Index>(i) * count, count));
   shared_.phases().end("write");
   for (const std::string& name : options_.sensitivities) {
     shared_.job().progress("sensitivity to " + name + ", frame " + std::to_string(first) + " of " +
                            std::to_string(release_.released.size()));
-    write_derivative(member, name, first, sensitivity(member, name, columns, frames));
+    member.output->write_derivative(name, first, sensitivity(member, name, columns, frames));
     shared_.phases().end("sensitivities");
   }
 }
@@ -165,7 +127,7 @@ void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, cons
 Block CaseBatch::sensitivity(const Member& member, const std::string& name,
                              std::vector<FrameSolver::Column> columns, const Block& frames) {
   auto& derivative = derivatives_[name + "/" + std::to_string(member.number)];
-  if (!derivative) derivative = system_.derivative(parameters(member), name);
+  if (!derivative) derivative = system_.derivative(member.output->parameters(), name);
   Block loads = -derivative->multiply(frames);
   loads.colwise() += Eigen::VectorXd(derivative->load().col(0));
   Block solution(frames.rows(), frames.cols());
@@ -178,47 +140,6 @@ Block CaseBatch::sensitivity(const Member& member, const std::string& name,
     solution.middleCols(c, count) = solver_.solve(some);
   }
   return solution;
-}
-
-void CaseBatch::write_derivative(Member& member, const std::string& name, int first, const Block& frames) {
-  for (Eigen::Index j = 0; j < frames.cols(); ++j)
-    member.writing->write_vectors(array_of(name), static_cast<std::size_t>(first + j),
-                                  at_nodes(frames.col(j).data()));
-}
-
-/// Largest displacement from frame 0.
-void CaseBatch::add_largest(const Member& member, const std::vector<Vec3>& nodes) const {
-  double largest = 0;
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    largest = std::max(largest, norm(nodes[n] - member.closed[n]));
-  MPI_Bcast(&largest, 1, MPI_DOUBLE, 0, system_.communicator());
-  double& of_case = report(member).largest_displacement;
-  of_case = std::max(of_case, largest);
-}
-
-/// Whether the case continues.
-bool CaseBatch::add_figures(Member& member, const std::vector<FrameFigures>& figures) {
-  SolveReport& report = this->report(member);
-  for (const FrameFigures& f : figures) {
-    const std::size_t number = member.writing->frames_with_figures();
-    member.writing->add_figures(f);
-    if (number == 1 || (number > 1 && f.smallest_gap < report.smallest_gap))
-      report.smallest_gap = f.smallest_gap;
-    if (!(f.residual_equilibrium < largest_residual) || !std::isfinite(f.gape)) {
-      const std::string frame = "frame " + std::to_string(number);
-      report.failure =
-          (std::isfinite(f.gape) ? "the forces of " + frame + " do not balance (relative residual " +
-                                       shortest(f.residual_equilibrium) + ")"
-                                 : "the displacements of " + frame + " overflow") +
-          ": the parameters differ by too many orders of magnitude";
-      member.writing.reset();
-      return false;
-    }
-    report.gape = f.gape;
-    report.worst_equilibrium = std::max(report.worst_equilibrium, f.residual_equilibrium);
-    report.worst_closure = std::max(report.worst_closure, f.residual_closure);
-  }
-  return true;
 }
 
 }  // namespace cleft

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "solver/case_loads.h"
-#include "solver/shared_stiffness.h"
-#include "solver/snapshot_output.h"
+#include "solver/case_output.h"
 
 namespace cleft {
 
@@ -23,10 +22,9 @@ class CaseBatch {
 
  private:
   struct Member {
-    std::size_t number;                       // among all cases
-    const CaseLoads::Case* loads;             // the loads that it is a sum of
-    std::unique_ptr<SnapshotOutput> writing;  // none once the case has failed
-    std::vector<Vec3> closed;                 // frame 0, this rank's nodes
+    std::size_t number;            // among all cases
+    const CaseLoads::Case* loads;  // the loads that it is a sum of
+    std::unique_ptr<CaseOutput> output;
   };
 
   /// Frames of a block for a range of loads, load by load.
@@ -35,19 +33,12 @@ class CaseBatch {
     Block displacements, left_over;
   };
 
-  const Parameters& parameters(const Member& member) const;
-  SolveReport& report(const Member& member) const;
-  std::vector<Vec3> at_nodes(const double* column) const;
   std::vector<std::string> derivatives() const;
-  void open(Member& member);
   void solve_block(int first, int count);
   void solve_block(int first, int count, std::size_t part);
   void finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads);
   Block sensitivity(const Member& member, const std::string& name, std::vector<FrameSolver::Column> columns,
                     const Block& frames);
-  void write_derivative(Member& member, const std::string& name, int first, const Block& frames);
-  void add_largest(const Member& member, const std::vector<Vec3>& nodes) const;
-  bool add_figures(Member& member, const std::vector<FrameFigures>& figures);
 
   SharedStiffness& shared_;
   const SolveOptions& options_;

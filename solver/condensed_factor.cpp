@@ -241,4 +241,36 @@ Block CondensedFactor::solve(const SparseColumns& right) {
   return solution;
 }
 
+/// MUMPS eliminates forward, gives what is left for the kept unknowns, and substitutes backward.
+Block CondensedFactor::solve(const Block& right, const std::function<void(Eigen::VectorXd&)>& find_kept) {
+  Mumps& m = *mumps_;
+  const auto& offsets = m.system.offsets();
+  std::vector<int> counts;
+  for (std::size_t r = 0; r + 1 < offsets.size(); ++r) counts.push_back(offsets[r + 1] - offsets[r]);
+  const bool root = m.system.rank() == 0;
+  std::vector<double> whole(root ? static_cast<std::size_t>(m.system.size()) : 0);
+  const int own = m.system.owned();
+  MPI_Gatherv(right.data(), own, MPI_DOUBLE, whole.data(), counts.data(), offsets.data(), MPI_DOUBLE, 0,
+              m.system.communicator());
+  Eigen::VectorXd kept(root ? m.id.size_schur : 0);
+  m.icntl(20) = 0, m.icntl(21) = 0;  // right-hand side and solution whole, on rank 0
+  m.icntl(27) = 1;
+  m.id.nrhs = 1, m.id.lrhs = m.system.size(), m.id.rhs = whole.data();
+  m.id.redrhs = kept.data(), m.id.lredrhs = m.id.size_schur;
+  const auto run = [&](int half) {
+    const auto order = m.same_sums ? std::make_unique<MessageOrder>() : nullptr;
+    m.icntl(26) = half;
+    m.run(3, "solving for the displacements");
+  };
+  run(1);
+  on_root(m.system, [&] { find_kept(kept); });
+  m.id.redrhs = kept.data();
+  run(2);
+  m.icntl(26) = 0;
+  Block solution(own, 1);
+  MPI_Scatterv(whole.data(), counts.data(), offsets.data(), MPI_DOUBLE, solution.data(), own, MPI_DOUBLE, 0,
+               m.system.communicator());
+  return solution;
+}
+
 }  // namespace cleft

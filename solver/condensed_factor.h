@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -32,6 +33,10 @@ class CondensedFactor {
   using SparseColumns = Eigen::SparseMatrix<double>;
   /// x_i = K_ii^-1 b_i for every column; rows of kept unknowns are 0. `right` is read on rank 0.
   Block solve(const SparseColumns& right);
+
+  /// x = K^-1 b of one dense column, for the work of half of that: x_i and, between them, the kept unknowns.
+  /// `find_kept` replaces b_c - K_ci K_ii^-1 b_i, in the order of `kept`, by x_c, on rank 0.
+  Block solve(const Block& right, const std::function<void(Eigen::VectorXd&)>& find_kept);
 
  private:
   class Redistribution;

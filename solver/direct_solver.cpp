@@ -50,16 +50,16 @@ std::vector<int> right_unknowns(const PatchMesh& mesh, const PatchSystem& system
 
 }  // namespace
 
-DirectSolver::DirectSolver(const PatchMesh& mesh, const PatchSystem& system)
+DirectSolver::DirectSolver(const PatchMesh& mesh, const PatchSystem& system, PatchSystem::Entries entries)
     : system_(system),
       cut_(mesh, system),
       jump_unknowns_(right_unknowns(mesh, system)),
-      factor_(system, stiffness_with_jumps(), jump_unknowns_,
+      factor_(system, stiffness_with_jumps(std::move(entries)), jump_unknowns_,
               system.rank() == 0 ? elimination_order(mesh, system, jump_unknowns_) : std::vector<int>()) {
   for (const NodePair& pair : mesh.pairs) normals_.push_back(pair.normal);
 }
 
-PatchSystem::Entries DirectSolver::stiffness_with_jumps() {
+PatchSystem::Entries DirectSolver::stiffness_with_jumps(PatchSystem::Entries entries) {
   std::unordered_map<int, int> left_of,
       number;  // by unknown of a right node: that of the left one, of the jump
   for (const auto& [left, right] : cut_.pairs)
@@ -76,7 +76,6 @@ PatchSystem::Entries DirectSolver::stiffness_with_jumps() {
     return list;
   };
 
-  PatchSystem::Entries entries = system_.lower_triangle();
   std::size_t others = 0;  // that stay
   std::vector<Triplet> at_the_cut;
   for (std::size_t i = 0; i < entries.value.size(); ++i) {
@@ -141,12 +140,23 @@ void DirectSolver::set_release(const Release& release) {
   });
 }
 
-void DirectSolver::set_loads(Block loads, Together together) {
-  together_ = together;
-  const Eigen::Index columns = loads.cols();
+Eigen::MatrixXd DirectSolver::to_pulls(Block& loads) const {
   Eigen::MatrixXd pulls = all_gather_rows(system_, loads, cut_.unknowns);
   cut_.to_pulls(pulls);
   set_rows(system_, loads, cut_.unknowns, pulls);
+  return pulls;
+}
+
+void DirectSolver::to_displacements(Block& solution) const {
+  Eigen::MatrixXd at_cut = all_gather_rows(system_, solution, cut_.unknowns);
+  cut_.to_displacements(at_cut);
+  set_rows(system_, solution, cut_.unknowns, at_cut);
+}
+
+void DirectSolver::set_loads(Block loads, Together together) {
+  together_ = together;
+  const Eigen::Index columns = loads.cols();
+  const Eigen::MatrixXd pulls = to_pulls(loads);
   for (const int unknown : jump_unknowns_)
     if (const int row = system_.row(unknown); row >= 0) loads.row(row).setZero();
   std::vector<Triplet> entries;
@@ -204,9 +214,16 @@ Block DirectSolver::solve_together(const std::vector<Column>& columns) {
   Block solution = factor_.solve(right);
   for (Eigen::Index c = 0; c < count; ++c) solution.col(c) += interior_.col(columns[c].load);
   set_rows(system_, solution, jump_unknowns_, jumps);
-  Eigen::MatrixXd at_cut = all_gather_rows(system_, solution, cut_.unknowns);
-  cut_.to_displacements(at_cut);
-  set_rows(system_, solution, cut_.unknowns, at_cut);
+  to_displacements(solution);
+  return solution;
+}
+
+Block DirectSolver::solve_once(const Block& load, int open) {
+  Block pulls = load;
+  to_pulls(pulls);
+  Block solution = factor_.solve(
+      pulls, [&](Eigen::VectorXd& kept) { kept = opening_->jumps(opening_->prepare(kept), open, false); });
+  to_displacements(solution);
   return solution;
 }
 

@@ -14,7 +14,10 @@ namespace cleft {
 class DirectSolver : public FrameSolver {
  public:
   /// Analyses only; factorize() must be called before the other functions.
-  DirectSolver(const PatchMesh& mesh, const PatchSystem& system);
+  DirectSolver(const PatchMesh& mesh, const PatchSystem& system)
+      : DirectSolver(mesh, system, system.lower_triangle()) {}
+  /// Of another matrix of the system's unknowns, by its lower triangle.
+  DirectSolver(const PatchMesh& mesh, const PatchSystem& system, PatchSystem::Entries entries);
 
   double bytes_needed() const;  ///< on this rank
   double operations() const { return factor_.operations(); }
@@ -23,14 +26,20 @@ class DirectSolver : public FrameSolver {
   void set_release(const Release& release) override;
   void set_loads(Block loads, Together together = Together::all) override;
   Block solve(const std::vector<Column>& columns) override;
+  Block solve_once(const Block& load, int open) override;
 
  private:
   /// Solves the columns in one block of MUMPS.
   Block solve_together(const std::vector<Column>& columns);
 
+  /// T^T f in place, and the rows of the cut's nodes, in their order.
+  Eigen::MatrixXd to_pulls(Block& loads) const;
+  /// Displacements of the cut's nodes in place of jumps.
+  void to_displacements(Block& solution) const;
+
   /// T^T K T, where the unknowns of right nodes are jumps. Keeps the entries between a jump and another
   /// unknown.
-  PatchSystem::Entries stiffness_with_jumps();
+  PatchSystem::Entries stiffness_with_jumps(PatchSystem::Entries entries);
 
   const PatchSystem& system_;
   CutNodes cut_;

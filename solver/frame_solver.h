@@ -51,6 +51,12 @@ class FrameSolver {
   /// are fastest.
   virtual Block solve(const std::vector<Column>& columns) = 0;
 
+  /// The displacement under one load, without contact; discards the loads that are set.
+  virtual Block solve_once(const Block& load, int open) {
+    set_loads(load);
+    return solve({{0, open, false, 1e-10}});
+  }
+
   /// Iterations of every column solved so far; empty for a direct solver.
   virtual std::vector<int> iterations() const { return {}; }
 };

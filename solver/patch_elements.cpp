@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "solver/bending.h"
 #include "solver/material/regions.h"
 
 namespace cleft {
@@ -73,7 +74,7 @@ PatchElements::PatchElements(const PatchMesh& patch, const Parameters& parameter
       dofs(triangulation) {
   create_triangulation(parameters);
   distribute_unknowns();
-  make_pattern();
+  make_pattern(parameters.skin.bending_stiffness > 0);
 }
 
 void PatchElements::forget() {
@@ -124,11 +125,12 @@ void PatchElements::distribute_unknowns() {
                 communicator);
 }
 
-void PatchElements::make_pattern() {
+void PatchElements::make_pattern(bool bending) {
   const IndexSet& owned = dofs.locally_owned_dofs();
   pattern.reinit(owned, owned, communicator, 60);
   DoFTools::make_sparsity_pattern(dofs, pattern, AffineConstraints<double>(), true,
                                   triangulation.locally_owned_subdomain());
+  if (bending) add_bending_pattern(mesh, first_unknown, owned, pattern);
   pattern.compress();
 }
 

@@ -48,7 +48,7 @@ class PatchElements {
  private:
   void create_triangulation(const Parameters& parameters);
   void distribute_unknowns();
-  void make_pattern();
+  void make_pattern(bool bending);
 };
 
 }  // namespace cleft

@@ -19,8 +19,9 @@ Eigen::Vector3d directions(const Parameters::Skin& skin) {
   return {skin.prestress.uu, skin.prestress.vv, skin.prestress.uv};
 }
 
-/// Trilinos applies a matrix to memory that Eigen owns.
-Block apply(const Epetra_CrsMatrix& matrix, const Block& block) {
+}  // namespace
+
+Block multiply(const Epetra_CrsMatrix& matrix, const Block& block) {
   Block product(block.rows(), block.cols());
   if (block.cols() == 0) return product;
   const int rows = static_cast<int>(block.rows()), columns = static_cast<int>(block.cols());
@@ -29,6 +30,8 @@ Block apply(const Epetra_CrsMatrix& matrix, const Block& block) {
   CLEFT_CHECK(matrix.Apply(x, y), ==, 0);
   return product;
 }
+
+namespace {
 
 /// What of the loads of a prestress is left when the closed patch is in equilibrium with its surroundings:
 /// the forces of each node, less those of all its copies together. Adding up the copies (CutNodes::to_pulls)
@@ -91,10 +94,11 @@ Block PatchSystem::load(const Parameters::Skin& prestress) const {
 const Epetra_CrsMatrix& PatchSystem::stiffness() const {
   return parts_->system.stiffness().trilinos_matrix();
 }
-Block PatchSystem::multiply(const Block& block) const { return apply(stiffness(), block); }
+Block PatchSystem::multiply(const Block& block) const { return cleft::multiply(stiffness(), block); }
 
-PatchSystem::Entries PatchSystem::lower_triangle() const {
-  const Epetra_CrsMatrix& matrix = stiffness();
+PatchSystem::Entries PatchSystem::lower_triangle() const { return lower_triangle(stiffness()); }
+
+PatchSystem::Entries PatchSystem::lower_triangle(const Epetra_CrsMatrix& matrix) {
   Entries entries;
   const auto half = static_cast<std::size_t>(matrix.NumMyNonzeros()) / 2 + matrix.NumMyRows();
   for (auto* list : {&entries.row, &entries.column}) list->reserve(half);
@@ -127,6 +131,14 @@ Eigen::MatrixX4d PatchSystem::places() const {
   return places;
 }
 
+std::unique_ptr<PatchElements> PatchSystem::elements(const Parameters& parameters) const {
+  const PatchElements& own = parts_->elements;
+  auto elements = std::make_unique<PatchElements>(own.mesh, parameters, own.communicator, own.discretization,
+                                                  own.rank_of_cell);
+  CLEFT_CHECK(elements->offsets == own.offsets, ==, true);
+  return elements;
+}
+
 namespace {
 
 class AssembledDerivative : public PatchSystem::Derivative {
@@ -134,7 +146,7 @@ class AssembledDerivative : public PatchSystem::Derivative {
   AssembledDerivative(Assembly assembly, Block load)
       : assembly_(std::move(assembly)), load_(std::move(load)) {}
   Block multiply(const Block& block) const override {
-    return apply(assembly_.stiffness().trilinos_matrix(), block);
+    return cleft::multiply(assembly_.stiffness().trilinos_matrix(), block);
   }
   Block load() const override { return load_; }
 
@@ -152,9 +164,8 @@ std::unique_ptr<PatchSystem::Derivative> PatchSystem::derivative(const Parameter
   // Poisson's ratios act through 1 / (1 - 2 nu): the step follows the distance from 1/2.
   const double scale = row.greatest < 1 ? std::max(0.5 - at, 1e-4) : std::max(std::abs(at), 1e-3);
   const double step = 1e-3 * scale;
-  const PatchElements& own = parts_->elements;
-  const PatchElements elements(own.mesh, parameters, own.communicator, own.discretization, own.rank_of_cell);
-  CLEFT_CHECK(elements.offsets == own.offsets, ==, true);
+  const std::unique_ptr<PatchElements> once_more = this->elements(parameters);
+  const PatchElements& elements = *once_more;
   Assembly sum(elements, 1);
   for (const auto& [steps, weight] : {std::pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}}) {
     Parameters moved = parameters;
@@ -164,7 +175,7 @@ std::unique_ptr<PatchSystem::Derivative> PatchSystem::derivative(const Parameter
   sum.finish();
   Block load = sum.loads();
   sum.forget_loads();
-  if (parameters.skin.edges == SkinEdges::held) load = released_part(*this, own.mesh, load);
+  if (parameters.skin.edges == SkinEdges::held) load = released_part(*this, elements.mesh, load);
   return std::make_unique<AssembledDerivative>(std::move(sum), std::move(load));
 }
 

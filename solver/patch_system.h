@@ -15,6 +15,8 @@ class Epetra_CrsMatrix;
 
 namespace cleft {
 
+class PatchElements;
+
 /// Vectors of unknowns, one in each column: the rows that this rank owns.
 using Block = Eigen::MatrixXd;
 
@@ -30,6 +32,9 @@ struct Discretization {
   WedgeRule rule = WedgeRule::full;
   Partitioner partitioner = Partitioner::metis;
 };
+
+/// A matrix times a block; all rows distributed alike. Collective.
+Block multiply(const Epetra_CrsMatrix& matrix, const Block& block);
 
 /// Assembled in parallel; the mesh's elements, K and all blocks are distributed over the ranks of a
 /// communicator, and all calls except accessors are collective. Unknowns are numbered by deal.II, those of a
@@ -70,6 +75,10 @@ class PatchSystem {
     std::vector<double> value;
   };
   Entries lower_triangle() const;
+  static Entries lower_triangle(const Epetra_CrsMatrix& matrix);  ///< of another matrix of these unknowns
+
+  /// The elements once more, divided among the ranks as they were, with the same numbers of the unknowns.
+  std::unique_ptr<PatchElements> elements(const Parameters& parameters) const;
 
   /// Positions of the owned unknowns: the node's coordinates, mm, and the axis, as owned() rows (u, v, w,
   /// axis).

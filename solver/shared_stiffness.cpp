@@ -3,12 +3,24 @@
 #include <algorithm>
 
 #include "solver/case_batch.h"
+#include "solver/finite_series.h"
 
 namespace cleft {
 
+namespace {
+
+/// Of the system with the tangent at the reference state: that of the small model with the geometric
+/// stiffness of the prestress.
+Parameters of_tangent(Parameters p) {
+  if (p.model == Model::finite) p.skin.initial_stress_stiffness = true;
+  return p;
+}
+
+}  // namespace
+
 SharedStiffness::SharedStiffness(SolveJob& job, const std::vector<std::size_t>& members)
     : job_(job), phases_(job.communicator) {
-  const Parameters& parameters = job.cases[members.front()].parameters;
+  const Parameters parameters = of_tangent(job.cases[members.front()].parameters);
   job.progress("meshing and assembling");
   mesh_ = make_patch_mesh(parameters);
   system_.emplace(mesh_, parameters, job.communicator, job.options.discretization);
@@ -36,6 +48,10 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
     job_.progress("compliance of the skin");
     compliance_ = compliance_of(mesh_, *system_, *chosen_.solver);
     phases_.end("compliance");
+  }
+  if (job_.cases[members.front()].parameters.model == Model::finite) {
+    for (const std::size_t number : members) solve_finite_series(*this, release, number);
+    return;
   }
   const std::size_t iterations_before = chosen_.solver->iterations().size();
   // Few enough files open at a time.

@@ -20,6 +20,15 @@ class SkinTriangle {
   SkinTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
       : area_(norm(cross(b - a, c - a)) / 2), strain_(strain_of(a, b, c)) {}
 
+  double area() const { return area_; }  ///< mm^2
+
+  /// Of the shape functions of the corners, in u and v, 1/mm.
+  Eigen::Matrix<double, 2, 3> gradients() const {
+    Eigen::Matrix<double, 2, 3> gradient;
+    for (int i = 0; i < 3; ++i) gradient.col(i) << strain_(0, 2 * i), strain_(1, 2 * i + 1);
+    return gradient;
+  }
+
   /// t A B^T D B over (u, v) of the three corners.
   Matrix6 stiffness(const SkinMaterial& skin) const {
     return skin.thickness * area_ * strain_.transpose() * skin.elasticity * strain_;
@@ -33,8 +42,7 @@ class SkinTriangle {
   /// Geometric stiffness of the prestress between the corners, equal for the three directions:
   /// t A grad N_a . sigma_0 . grad N_b.
   Eigen::Matrix3d initial_stress_stiffness(const SkinMaterial& skin) const {
-    Eigen::Matrix<double, 2, 3> gradient;
-    for (int i = 0; i < 3; ++i) gradient.col(i) << strain_(0, 2 * i), strain_(1, 2 * i + 1);
+    const Eigen::Matrix<double, 2, 3> gradient = gradients();
     return skin.thickness * area_ * gradient.transpose() * skin.prestress * gradient;
   }
 

@@ -19,6 +19,17 @@ std::string release_key(const Parameters& p) {
   return shortest(p.cut.length) + ";" + shortest(p.cut.depth) + ";" + text_of(p, p.cut.frames);
 }
 
+/// Options that the finite model does not have.
+void check_finite(const Parameters& p, const SolveOptions& options, const std::string& where) {
+  const std::string finite = row_of(p, p.model).name + " = finite";
+  if (options.unit_prestress)
+    throw InputError(where + ": --unit-prestress: the series is not linear in the prestress with " + finite +
+                     "; vary the prestress in a study");
+  if (options.method == Method::iterative)
+    throw InputError(where + ": --method iterative: " + finite +
+                     " needs the factor; use --method direct, or raise mesh.element_size");
+}
+
 /// Indices of the cases, together where their keys are equal.
 template <class Key>
 std::vector<std::vector<std::size_t>> grouped(const std::vector<std::size_t>& cases, const Key& key) {
@@ -46,6 +57,7 @@ void check_options(const Parameters& p, const SolveOptions& options, const std::
     throw InputError(where +
                      ": --method iterative: contact is found with the factor; set cut.contact to false, or "
                      "use --method direct");
+  if (p.model == Model::finite) check_finite(p, options, where);
   check_sensitivities(options.sensitivities, p, where + ": --sensitivities");
   for (const std::string& name : options.sensitivities)
     if (options.unit_prestress && name.find("prestress") != std::string::npos)

@@ -15,12 +15,29 @@
 
 namespace cleft {
 
+/// A step of Newton's method.
+struct NewtonStep {
+  double residual;  ///< before the step: largest force out of balance / largest load
+  int iterations;   ///< of conjugate gradients for the step's linear system
+  double length;    ///< that the line search took; 1: the whole step
+  bool indefinite;  ///< the tangent was found to have a negative curvature
+};
+
+/// How a frame of the finite model was solved.
+struct NewtonFrame {
+  int frame = 0;
+  std::vector<NewtonStep> steps;  ///< of all parts of the load
+  int load_steps = 1;             ///< in which the released forces were taken away
+  double residual = 0;            ///< in the end
+};
+
 struct SolveOptions {
   Method method = Method::automatic;
   Discretization discretization = {};
   bool unit_prestress = false;             ///< write the series of the unit prestresses uu, vv and uv as well
   std::vector<std::string> sensitivities;  ///< parameters to differentiate the series by
   bool estimate = true;                    ///< the error that the mesh and the patch leave
+  std::function<void(const std::string&)> log = {};  ///< takes a line for each frame of the finite model
 };
 
 struct CaseToSolve {
@@ -37,6 +54,7 @@ struct SolveReport {
   bool first_of_sharing = false;  ///< whose phases hold the shared work
   std::vector<Phase> phases;
   std::vector<int> iterations;            ///< of every frame, where it was solved by iterations
+  std::vector<NewtonFrame> newton;        ///< of every frame of the finite model
   double gape = 0;                        ///< mm: largest opening in the last frame
   std::optional<ExpectedError> expected;  ///< of the gape; none if it was not estimated
   double largest_displacement = 0;        ///< mm, from frame 0

@@ -53,6 +53,22 @@ Json versions() {
           {"MPI", version_of_mpi()}};
 }
 
+/// Of each frame the residuals of Newton's method, the last one included, and the iterations of its steps.
+Json newton_of(const std::vector<NewtonFrame>& frames) {
+  Json list = Json::array();
+  for (const NewtonFrame& frame : frames) {
+    Json residuals = Json::array(), iterations = Json::array();
+    for (const NewtonStep& step : frame.steps)
+      residuals.push_back(step.residual), iterations.push_back(step.iterations);
+    residuals.push_back(frame.residual);
+    list.push_back({{"frame", frame.frame},
+                    {"residuals", residuals},
+                    {"iterations", iterations},
+                    {"load_steps", frame.load_steps}});
+  }
+  return list;
+}
+
 Json figures_of(const SolveReport& r) {
   Json seconds, memory;
   for (const Phase& phase : r.phases) {
@@ -77,6 +93,7 @@ Json figures_of(const SolveReport& r) {
   if (r.expected) figures["expected_gape_error"] = {{"mesh", r.expected->mesh}, {"patch", r.expected->patch}};
   figures["versions"] = versions();
   if (!r.iterations.empty()) figures["iterations"] = r.iterations;
+  if (!r.newton.empty()) figures["newton"] = newton_of(r.newton);
   if (!r.phases.empty()) figures["seconds"] = seconds, figures["peak_memory_mb"] = memory;
   return figures;
 }
@@ -126,7 +143,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> case_files, assignments;
   std::string out;
   SolveOptions options;
-  bool json = false;
+  bool json = false, verbose = false;
   std::string method = "auto", partitioner = "metis";
   const std::map<std::string, Method> methods = {
       {"auto", Method::automatic}, {"direct", Method::direct}, {"iterative", Method::iterative}};
@@ -157,6 +174,10 @@ int main(int argc, char** argv) {
   app.add_flag("--estimate,!--no-estimate", options.estimate,
                "estimate by coarser meshes which error of the opening mesh and patch leave (default)");
   app.add_flag("--json", json, "print the figures as JSON; several cases: a list");
+  app.add_flag(
+      "--verbose", verbose,
+      "print the residuals of Newton's method, and in brackets the iterations of its steps, frame by "
+      "frame");
   app.footer([] { return parameter_help(); });
 
   const int code = run_command(app, argc, argv, [&] {
@@ -174,6 +195,8 @@ int main(int argc, char** argv) {
         check_options(cases.back().parameters, options, case_files[c]);
       });
     mistakes.throw_if_any();
+    if (root && verbose)
+      options.log = [](const std::string& line) { std::cerr << line + '\n' << std::flush; };
     Progress progress("solving");
     const std::vector<SolveReport> reports =
         solve_cases(cases, options, MPI_COMM_WORLD, [&](const std::string& state) {

@@ -51,7 +51,7 @@ class ReplayPanels {
     const Chain own(canonical(charted_.parameters), work_);
     field_ = own.encoded(charted_.tolerance).field;
     over_frame_time(own);
-    fields_ = prestress_fields(charted_, work_);
+    if (is_linear_in_prestress(charted_.parameters)) fields_ = prestress_fields(charted_, work_);
     over_shapes();
     over_distances();
     return {frame_, radius_, tilt_, length_, spacing_};
@@ -88,7 +88,8 @@ class ReplayPanels {
       const SnapshotReader truth(Chain(parameters, work_).snapshot());
       if (parameters.cut.count > 1) return put("the case's field", parallel_error(truth, *field_));
       put("the case's field", replay_error(truth, *field_));
-      if (charted_.parameters.skin.prestress.uv == 0) put("tension turned", replay_error(truth, *fields_));
+      if (fields_ && charted_.parameters.skin.prestress.uv == 0)
+        put("tension turned", replay_error(truth, *fields_));
     } catch (const std::runtime_error& e) {
       options_.progress("left out, a cut of " + setting + ": " + e.what());
     }

@@ -29,7 +29,7 @@ std::vector<FieldGeometry> geometries_of(const CommonCases& cases) {
 /// What is known of the prestress: it superposes, it does not, or the data must say. By default it does: only
 /// a much better prediction of cases left out speaks against it.
 std::vector<Loading> loadings_of(const RecordedParameters& p) {
-  if (p->cut.contact || p->skin.initial_stress_stiffness) return {Loading::general};
+  if (!is_linear_in_prestress(*p)) return {Loading::general};
   if (!p.texts().empty()) return {Loading::superposed};
   return {Loading::superposed, Loading::general};
 }

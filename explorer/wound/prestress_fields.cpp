@@ -70,7 +70,10 @@ PrestressFields::PrestressFields(const std::string& study_file)
 
 PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
   const RecordedParameters& own = study.parameters(like);
-  if (own->cut.contact || own->skin.initial_stress_stiffness)
+  if (own->model == Model::finite)
+    throw InputError(study.path() + ": fields do not superpose with " + own.name_of(own->model) +
+                     " = finite; interpolate the tension's own field from a study (cleft interpolate)");
+  if (!is_linear_in_prestress(*own))
     throw InputError(study.path() + ": fields do not superpose with " + own.name_of(own->cut.contact) +
                      " or " + own.name_of(own->skin.initial_stress_stiffness));
   Vec3 p[3];

@@ -18,6 +18,13 @@ enum class MeshFront { effective, nodes };
 /// equilibrium, so that only what the cut releases moves it; or nothing, as on a piece that was cut out.
 enum class SkinEdges { held, free };
 
+/// Small strains, in which all is linear; or finite ones.
+enum class Model { small, finite };
+
+/// Laws of finite strains.
+enum class TissueLaw { neo_hookean, st_venant_kirchhoff };
+enum class SkinLaw { st_venant_kirchhoff, neo_hookean, fung };
+
 /// A plane stress of the skin, MPa: along the cut, across it, and shear.
 struct Prestress {
   double uu = 0, vv = 0, uv = 0;
@@ -25,6 +32,7 @@ struct Prestress {
 
 /// Lengths in mm, stresses in MPa, springs in N/mm^3, angles in degrees.
 struct Parameters {
+  Model model = Model::small;
   struct Patch {
     double length = 100, width = 100, height = 8;
   } patch;
@@ -44,15 +52,26 @@ struct Parameters {
     Prestress prestress{0.01, 0.03, 0};
     SkinEdges edges = SkinEdges::held;
     bool initial_stress_stiffness = false;
+    double bending_stiffness = 0;
+    SkinLaw law = SkinLaw::st_venant_kirchhoff;
+    double stiffening = 5;
+    double fibre_share = 0, fibre_angle = 0, fibre_dispersion = 0;
   } skin;
   struct Tissue {
     double young_modulus = 0.02, poisson_ratio = 0.4;
     double prestress_share = 0;
     TissueFormulation formulation = TissueFormulation::displacement;
+    TissueLaw law = TissueLaw::neo_hookean;
   } tissue;
   struct Foundation {
     double stiffness = 0.005, side_stiffness = 0.005;
   } foundation;
 };
+
+/// Whether displacements are linear in the skin's prestress, so that those under several prestresses
+/// superpose.
+inline bool is_linear_in_prestress(const Parameters& p) {
+  return p.model == Model::small && !p.cut.contact && !p.skin.initial_stress_stiffness;
+}
 
 }  // namespace cleft

@@ -66,6 +66,8 @@ std::vector<Parameter> make_table() {
   };
   const std::vector<std::string> no_or_yes = {"false", "true"};
   return {
+      choice(CLEFT_MEMBER(model), {"small", "finite"},
+             "small: strains are small, all is linear; finite: finite strains, by Newton's method"),
       positive(CLEFT_MEMBER(patch.length), "mm", "length of the tissue patch along the cut (u)"),
       positive(CLEFT_MEMBER(patch.width), "mm", "width of the patch across the cut (v)"),
       positive(CLEFT_MEMBER(patch.height), "mm", "height of the patch below the skin (w)"),
@@ -106,6 +108,17 @@ std::vector<Parameter> make_table() {
           "free: a piece that was cut out"),
       choice(CLEFT_MEMBER(skin.initial_stress_stiffness), no_or_yes,
              "true: the prestress stiffens the skin against bending and stretching (geometric stiffness)"),
+      not_negative(CLEFT_MEMBER(skin.bending_stiffness), "N mm",
+                   "resistance of the skin to bending: E t^3 / (12 (1 - nu^2)) of a sheet; 0: a membrane"),
+      choice(CLEFT_MEMBER(skin.law), {"st-venant-kirchhoff", "neo-hookean", "fung"},
+             "how the skin's stress follows finite strains; no effect in the small model"),
+      between(CLEFT_MEMBER(skin.stiffening), "", 1, 1000,
+              "fung: the modulus under the prestress over that without stress; 1: they are equal"),
+      between(CLEFT_MEMBER(skin.fibre_share), "", 0, 0.9, "fung: share of fibres in the skin's stiffness"),
+      between(CLEFT_MEMBER(skin.fibre_angle), "degrees", -180, 180,
+              "fung: direction of the fibres (Langer's lines), from u toward v"),
+      between(CLEFT_MEMBER(skin.fibre_dispersion), "", 0, 0.5,
+              "fung: 0: all fibres in one direction; 0.5: in all directions of the skin alike"),
       positive(CLEFT_MEMBER(tissue.young_modulus), "MPa", "Young's modulus of the tissue below the skin"),
       poisson(CLEFT_MEMBER(tissue.poisson_ratio), 0.4999, "Poisson's ratio of the tissue"),
       between(CLEFT_MEMBER(tissue.prestress_share), "", 0, 1,
@@ -113,6 +126,8 @@ std::vector<Parameter> make_table() {
       choice(
           CLEFT_MEMBER(tissue.formulation), {"displacement", "mean-dilatation"},
           "mean-dilatation: the volume of an element changes as a whole, for nearly incompressible tissue"),
+      choice(CLEFT_MEMBER(tissue.law), {"neo-hookean", "st-venant-kirchhoff"},
+             "how the tissue's stress follows finite strains; no effect in the small model"),
       not_negative(CLEFT_MEMBER(foundation.stiffness), "N/mm^3", "springs under the bottom"),
       not_negative(CLEFT_MEMBER(foundation.side_stiffness), "N/mm^3", "springs on the four sides"),
   };

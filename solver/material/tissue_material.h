@@ -27,7 +27,7 @@ struct CellPoint {
 /// A law gives, for shape functions a and b at a point, the 3 x 3 block B_a^T D B_b, MPa/mm^2: the forces
 /// along the three axes at vertex a, for each mm^3, of unit displacements of vertex b.
 template <class Law>
-concept TissueLaw = requires(const Law& law, const ShapeGradient& a) {
+concept LinearTissueLaw = requires(const Law& law, const ShapeGradient& a) {
   { law.stiffness(a, a) } -> std::convertible_to<dealii::Tensor<2, 3>>;
 };
 
@@ -35,7 +35,7 @@ class TissueMaterial {
  public:
   /// The loop over the points and the pairs of vertices is compiled for each law: one indirect call for each
   /// cell.
-  template <TissueLaw Law>
+  template <LinearTissueLaw Law>
   TissueMaterial(const Law& law)
       : add_stiffness_([law](std::span<const CellPoint> points, dealii::FullMatrix<double>& matrix) {
           for (const CellPoint& point : points)

@@ -89,9 +89,10 @@ TEST(StudyInterpolator, PrestressesSuperposeExactly) {
 
 TEST(StudyInterpolator, LipsThatTouchDoNotSuperpose) {
   // What is told of the cases decides, and then prestress is a feature like others.
-  for (const char* name : {"cut.contact", "skin.initial_stress_stiffness"}) {
+  for (const auto& [name, value] :
+       {std::pair("cut.contact", "true"), {"skin.initial_stress_stiffness", "true"}, {"model", "finite"}}) {
     auto members = made_study(three_varied(24));
-    for (StudyMember& member : members) member.field.parameters.set(name, "true");
+    for (StudyMember& member : members) member.field.parameters.set(name, value);
     const StudyInterpolator study{CommonCases(members)};
     EXPECT_EQ(study.features().loading(), Loading::general);
     EXPECT_EQ(study.features().size(), 3);

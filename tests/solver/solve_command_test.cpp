@@ -98,9 +98,41 @@ TEST_F(SolveCommand, ContactIsTheSameOnSeveralRanks) {
   expect_same(solve({2, "direct", "zorder"}, contact), reference, 1e-10, {"displacement"});
 }
 
+/// Newton's method stops at residuals of 1e-7.
+TEST_F(SolveCommand, TheFiniteModelIsTheSameOnSeveralRanks) {
+  const std::vector<std::string> finite = {"--set", "model=finite", "--set", "skin.law=fung"};
+  const std::string reference = solve({1, "direct", "metis"}, finite);
+  expect_same(solve({2, "direct", "zorder"}, finite), reference, 1e-6, {"displacement"});
+  expect_same(solve({3, "direct", "metis"}, finite), reference, 1e-6, {"displacement"});
+}
+
+TEST_F(SolveCommand, TheFiniteModelReportsItsResiduals) {
+  const Outcome outcome = expect_success(
+      run_cleft("solve", {folder.write("case.toml", sheared_case), "--out", folder / "finite.h5", "--json",
+                          "--verbose", "--set", "model=finite"}));
+  EXPECT_NE(outcome.output.find("frame 1: residual "), std::string::npos) << outcome.output;
+  const auto figures = nlohmann::json::parse(outcome.output.substr(outcome.output.find("{\n")));
+  ASSERT_EQ(figures["newton"].size(), figures["frames"]);
+  for (const auto& frame : figures["newton"]) {
+    EXPECT_EQ(frame["residuals"].size(), frame["iterations"].size() + 1);
+    EXPECT_LT(frame["residuals"].back(), 1e-7);
+    EXPECT_EQ(frame["load_steps"], 1);
+  }
+  check_snapshot(folder / "finite.h5");
+  EXPECT_EQ(SnapshotReader(folder / "finite.h5").snapshot().parameters->model, Model::finite);
+}
+
 TEST_F(SolveCommand, EveryRunOnAsManyRanksWritesTheSameBytes) {
   const std::string file = folder.write("coarse.toml", "case.mesh.element_size = 2\n");
+  const std::string finite =
+      folder.write("finite.toml", "case.mesh.element_size = 3\ncase.model = \"finite\"\n");
   for (const int ranks : {2, 3, 4}) {
+    if (ranks == 3) {
+      expect_success(solve_on_ranks(ranks, {finite, "--out", folder / "finite.h5"}));
+      const std::string first = read_text_file(folder / "finite.h5");
+      expect_success(solve_on_ranks(ranks, {finite, "--out", folder / "finite.h5"}));
+      EXPECT_TRUE(read_text_file(folder / "finite.h5") == first);
+    }
     std::string first;
     for (int again = 0; again < 2; ++again) {
       expect_success(solve_on_ranks(ranks, {file, "--out", folder / "again.h5"}));

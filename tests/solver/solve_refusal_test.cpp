@@ -87,6 +87,22 @@ TEST_F(SolveRefuses, UnitSeriesOfWhatIsNotLinear) {
                        {"--unit-prestress", "skin.initial_stress_stiffness = true", "set it to false"});
 }
 
+TEST_F(SolveRefuses, WhatTheFiniteModelDoesNotHave) {
+  expect_refused({"--unit-prestress", "--set", "model=finite"},
+                 {"case.toml", "--unit-prestress", "model = finite", "vary the prestress in a study"});
+  expect_wrong_options({.method = cleft::Method::iterative, .sensitivities = {}}, {"model=finite"},
+                       {"--method iterative", "model = finite", "--method direct"});
+  expect_wrong_options({.sensitivities = {"skin.thickness"}}, {"model=finite"},
+                       {"--sensitivities", "model = finite", "set model to small"});
+  expect_refused({"--set", "model=finite", "--set", "cut.contact=true"},
+                 {"cut.contact = true", "model = \"finite\"", "set it to false"});
+  expect_refused({"--set", "model=finite", "--set", "skin.initial_stress_stiffness=true"},
+                 {"skin.initial_stress_stiffness = true", "set it to false"});
+  expect_refused({"--set", "model=finite", "--set", "tissue.law=st-venant-kirchhoff", "--set",
+                  "tissue.formulation=mean-dilatation"},
+                 {"tissue.law = st-venant-kirchhoff", "set tissue.law to \"neo-hookean\""});
+}
+
 TEST_F(SolveRefuses, ContactByIterations) {
   expect_wrong_options({.method = cleft::Method::iterative, .sensitivities = {}}, {"cut.contact=true"},
                        {"--method iterative", "set cut.contact to false", "--method direct"});

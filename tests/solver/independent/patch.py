@@ -19,6 +19,8 @@ BEFORE_THEY_CAME = {
     "tissue.formulation": "displacement",
     "skin.initial_stress_stiffness": "false",
     "cut.contact": "false",
+    "model": "small",
+    "skin.bending_stiffness": 0.0,
     "skin.edges": "free",
     "tissue.prestress_share": 0.0,
 }
@@ -80,6 +82,31 @@ def scatter(cells, blocks, nodes):
     return sparse.coo_matrix((blocks.ravel(), (rows, columns)), shape=(3 * nodes, 3 * nodes)).tocsc()
 
 
+def bending_stiffness(patch):
+    """(N, N), in each direction: edge by edge, D / (areas of its two triangles) times the square of its length times
+    the jump of the gradient across it."""
+    gradient, area = skin_gradients(patch)
+    sides = {}
+    for triangle, corners in enumerate(patch.skin):
+        for c in range(3):
+            edge = tuple(sorted((corners[c], corners[(c + 1) % 3])))
+            sides.setdefault(edge, []).append(triangle)
+    rows, columns, values = [], [], []
+    for (a, b), both in sides.items():
+        if len(both) != 2:
+            continue
+        along = patch.points[b, :2] - patch.points[a, :2]
+        across, jump = np.array([along[1], -along[0]]), {}
+        for triangle, sign in zip(both, (1, -1)):
+            for node, slope in zip(patch.skin[triangle], gradient[triangle]):
+                jump[node] = jump.get(node, 0) + sign * slope @ across
+        for i, at_i in jump.items():
+            for j, at_j in jump.items():
+                rows.append(i), columns.append(j)
+                values.append(patch["skin.bending_stiffness"] / area[both].sum() * at_i * at_j)
+    return sparse.coo_matrix((values, (rows, columns)), shape=(len(patch.points),) * 2).tocsc()
+
+
 def wedge_points(patch, rule):
     """Of every point of a rule: gradients (E, 6, 3) of the wedges' shape functions, and volumes (E)."""
     corners = patch.points[patch.wedges]
@@ -132,7 +159,7 @@ def skin_stiffness(patch):
     flat = lam * np.einsum("eai,ebj->eaibj", gradient, gradient) + mu * np.einsum("eaj,ebi->eaibj", gradient, gradient)
     flat += mu * np.einsum("eak,ebk,ij->eaibj", gradient, gradient, np.eye(2))
     blocks[:, :, :2, :, :2] = (area * thickness)[:, None, None, None, None] * flat
-    if patch["skin.initial_stress_stiffness"] == "true":
+    if patch["skin.initial_stress_stiffness"] == "true" or patch["model"] == "finite":
         tension = np.einsum("eak,kl,ebl->eab", gradient, patch.prestress(), gradient)
         blocks += np.einsum("e,eab,ij->eaibj", area * thickness, tension, np.eye(3))
     return scatter(patch.skin, blocks, len(patch.points))
@@ -183,16 +210,17 @@ def foundation(patch):
 
 
 def stiffness(patch, rule="full"):
-    springs = sparse.kron(foundation(patch), sparse.eye(3))
+    springs = sparse.kron(foundation(patch) + bending_stiffness(patch), sparse.eye(3))
     return (tissue_stiffness(patch, rule) + skin_stiffness(patch) + springs).tocsc()
 
 
-def solve(patch, matrix, frame):
-    """(N, 3): each closed pair is one node."""
+def solve(patch, matrix, frame, force=None):
+    """(N, 3): each closed pair is one node; under the load, or another force."""
+    force = load(patch) if force is None else force
     stands, renumbered = np.unique(patch.joined(frame), return_inverse=True)
     unknowns = (3 * renumbered[:, None] + np.arange(3)).ravel()
     spread = sparse.csc_matrix((np.ones(len(unknowns)), (np.arange(len(unknowns)), unknowns)))
-    merged, force = (spread.T @ matrix @ spread).tocsc(), spread.T @ load(patch).ravel()
+    merged, force = (spread.T @ matrix @ spread).tocsc(), spread.T @ force.ravel()
     factor = splu(merged, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0, options={"SymmetricMode": True})
     result = factor.solve(force)
     result += factor.solve(force - merged @ result)

@@ -10,9 +10,13 @@ import argparse
 import shutil
 import sys
 
+from finite import out_of_balance
 from patch import Patch, RULES, foundation, h5py, load, np, solve, stiffness
 
 BOUND = 1e-8
+# Of the finite model, whose iterations end at residuals of 1e-7 of the largest load; here the forces of both nodes of a
+# pair are added, and the tangent is another than that of the frame.
+FINITE_BOUND = 1e-6
 
 
 def spread_evenly(count, most):
@@ -29,6 +33,21 @@ def balance(patch, springs, displacement):
         return left_over
     reach = np.ptp(patch.points, axis=0).max()
     return max(left_over, np.abs(np.cross(patch.points, forces).sum(axis=0)).max() / (size * reach))
+
+
+def finite_errors(patch, matrix, frame, rule):
+    """Of a frame of the finite model: the largest force that is out of balance over the largest load, and by how much
+    such forces would move the patch, with the tangent at the reference state, over the largest displacement."""
+    stands, displacement = patch.joined(frame), patch.displacement[frame]
+    left_over = out_of_balance(patch, displacement, rule)
+    together = np.zeros_like(left_over)
+    np.add.at(together, stands, left_over)
+    unbalanced = np.abs(together).max() / np.abs(load(patch)).max()
+    moved = np.abs(solve(patch, matrix, frame, left_over)).max()
+    largest = np.abs(displacement).max()
+    print(f"frame {frame}: {len(patch.pairs) - patch.released[frame]} pairs closed, forces out of balance "
+          f"{unbalanced:.1e}, which would move the patch by {moved / largest if largest > 0 else moved:.1e}")
+    return unbalanced, moved / largest if largest > 0 else moved
 
 
 def main():
@@ -54,6 +73,9 @@ def main():
     errors = []
     for frame in options.frames or spread_evenly(count, 6):
         frame %= count
+        if patch["model"] == "finite":
+            errors += [error * BOUND / FINITE_BOUND for error in finite_errors(patch, matrix, frame, options.rule)]
+            continue
         expected, found = solve(patch, matrix, frame), patch.displacement[frame]
         if frame == 0 and patch["skin.edges"] == "held":
             print(f"frame 0: largest displacement {np.abs(found).max():.1e}, must be 0")

@@ -1,0 +1,149 @@
+#include "solver/finite_patch.h"
+
+#include <Epetra_Import.h>
+#include <Epetra_Map.h>
+#include <Epetra_MpiComm.h>
+#include <Epetra_Vector.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+#include "solver/bending.h"
+#include "solver/block_rows.h"
+#include "solver/finite_elements.h"
+
+namespace cleft {
+
+namespace {
+
+/// Numbers of the unknowns of a rank's elements, sorted.
+std::vector<int> unknowns_of(const FiniteElements& elements) {
+  std::vector<int> all;
+  for (int c = 0; c < elements.count(); ++c)
+    all.insert(all.end(), elements.unknowns(c).begin(), elements.unknowns(c).end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+Epetra_Map map_of(const std::vector<int>& unknowns, const Epetra_Comm& communicator) {
+  return {-1, static_cast<int>(unknowns.size()), unknowns.data(), 0, communicator};
+}
+
+}  // namespace
+
+struct FinitePatch::Parts {
+  Parts(const PatchSystem& s, const PatchElements& all, const Parameters& parameters)
+      : system(s),
+        elements(all, parameters),
+        near(map_of(unknowns_of(elements), s.stiffness().Comm())),
+        exchange(near, s.stiffness().RowMap()) {
+    tangent.reinit(all.pattern);
+    bends = parameters.skin.bending_stiffness > 0;
+    if (bends) {
+      bending.reinit(all.pattern);
+      add_bending(all, parameters.skin.bending_stiffness, bending);
+      bending.compress(dealii::VectorOperation::add);
+    }
+    for (int c = 0; c < elements.count(); ++c)
+      for (int a = 0; a < 6; ++a) {
+        places.push_back(near.LID(elements.unknowns(c)[3 * a]));
+        CLEFT_CHECK(near.LID(elements.unknowns(c)[3 * a + 2]), ==, places.back() + 2);
+      }
+  }
+
+  /// Calls visit(cell, response, its first unknowns' places) of every element of this rank.
+  template <class Visit>
+  void each_response(const Block& displacement, bool with_tangent, const Visit& visit) const {
+    const Epetra_Vector own(View, exchange.SourceMap(), const_cast<double*>(displacement.data()));
+    Epetra_Vector around(near);
+    CLEFT_CHECK(around.Import(own, exchange, Insert), ==, 0);
+    CellResponse response;
+    FiniteTissue::Displacements u;
+    for (int c = 0; c < elements.count(); ++c) {
+      const int* place = places.data() + 6 * static_cast<std::size_t>(c);
+      for (int a = 0; a < 6; ++a) u.col(a) = Eigen::Map<const Eigen::Vector3d>(around.Values() + place[a]);
+      elements.response(c, u, with_tangent, response);
+      visit(c, response, place);
+    }
+  }
+
+  const PatchSystem& system;
+  FiniteElements elements;
+  Epetra_Map near;          // unknowns of this rank's elements
+  Epetra_Import exchange;   // from the owned unknowns to these
+  std::vector<int> places;  // in `near`, of the vertices of the elements
+  dealii::TrilinosWrappers::SparseMatrix tangent, bending;
+  bool bends = false;  // whether the skin has a bending stiffness
+  Block pull;          // dead loads, N
+};
+
+FinitePatch::FinitePatch(const PatchSystem& system, const Parameters& parameters) {
+  const std::unique_ptr<PatchElements> elements = system.elements(parameters);
+  parts_ = std::make_unique<Parts>(system, *elements, parameters);
+  parts_->pull = Block::Zero(system.owned(), 1);
+  const Block own_forces = -balance(Block::Zero(system.owned(), 1)).left_over;
+  parts_->pull = system.load(parameters.skin) + own_forces;
+}
+
+FinitePatch::~FinitePatch() = default;
+
+FinitePatch::Balance FinitePatch::balance(const Block& displacement) const {
+  const Parts& p = *parts_;
+  Epetra_Vector forces(p.near);
+  Balance balance;
+  struct {
+    double determinant;
+    int rank;
+  } least{std::numeric_limits<double>::infinity(), p.system.rank()};
+  int least_cell = -1;
+  p.each_response(displacement, false, [&](int cell, const CellResponse& response, const int* place) {
+    balance.energy += response.energy;
+    for (int a = 0; a < 6; ++a)
+      for (int i = 0; i < 3; ++i) forces[place[a] + i] += response.force[3 * a + i];
+    const double determinant = response.force.allFinite() ? response.least_determinant : 0;
+    if (determinant < least.determinant) least.determinant = determinant, least_cell = cell;
+  });
+  if (least_cell >= 0) balance.least.place = p.elements.centroid(least_cell);
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, p.system.communicator());
+  balance.least.determinant = least.determinant;
+  MPI_Bcast(&balance.least.place, 3, MPI_DOUBLE, least.rank, p.system.communicator());
+  MPI_Allreduce(MPI_IN_PLACE, &balance.energy, 1, MPI_DOUBLE, MPI_SUM, p.system.communicator());
+  Epetra_Vector sum(p.exchange.SourceMap());
+  CLEFT_CHECK(sum.Export(forces, p.exchange, Add), ==, 0);
+  balance.left_over = p.pull - Eigen::Map<const Eigen::VectorXd>(sum.Values(), p.system.owned());
+  balance.energy -= dot(p.system, p.pull.col(0), displacement.col(0));
+  if (p.bends) {
+    const Block forces_of_bending = cleft::multiply(p.bending.trilinos_matrix(), displacement);
+    balance.left_over -= forces_of_bending;
+    balance.energy += dot(p.system, forces_of_bending.col(0), displacement.col(0)) / 2;
+  }
+  return balance;
+}
+
+void FinitePatch::set_tangent(const Block& displacement) {
+  Parts& p = *parts_;
+  p.tangent = 0;
+  std::vector<dealii::types::global_dof_index> unknowns(18);
+  dealii::FullMatrix<double> matrix(18, 18);
+  p.each_response(displacement, true, [&](int cell, const CellResponse& response, const int*) {
+    std::copy(p.elements.unknowns(cell).begin(), p.elements.unknowns(cell).end(), unknowns.begin());
+    for (int a = 0; a < 18; ++a)
+      for (int b = 0; b < 18; ++b) matrix(a, b) = response.stiffness(a, b);
+    p.tangent.add(unknowns, matrix, false);
+  });
+  p.tangent.compress(dealii::VectorOperation::add);
+  if (p.bends) p.tangent.add(1, p.bending);
+}
+
+Block FinitePatch::multiply(const Block& block) const {
+  return cleft::multiply(parts_->tangent.trilinos_matrix(), block);
+}
+
+PatchSystem::Entries FinitePatch::lower_triangle() const {
+  return PatchSystem::lower_triangle(parts_->tangent.trilinos_matrix());
+}
+
+}  // namespace cleft

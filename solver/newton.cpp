@@ -1,0 +1,191 @@
+#include "solver/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/text.h"
+#include "solver/block_rows.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double converged = 1e-7;            // residual, relative to the largest load
+constexpr int most_steps = 25;                // of Newton's method, for a part of the load
+constexpr int most_iterations_of_step = 200;  // of conjugate gradients
+constexpr int iterations_of_a_factor = 30;    // of a frame, above which a new factor pays
+constexpr double least_part = 1. / 64;        // of the load
+constexpr double loosest = 0.1;               // residual of a step's linear system, relative
+
+}  // namespace
+
+NewtonSolver::NewtonSolver(const PatchMesh& mesh, const PatchSystem& system, FinitePatch& patch,
+                           const Release& release, FrameSolver& reference, const FrameResidual& residual,
+                           double largest_load)
+    : mesh_(mesh),
+      system_(system),
+      patch_(patch),
+      release_(release),
+      reference_(reference),
+      residual_(residual),
+      largest_load_(largest_load),
+      prediction_(mesh, system, release) {}
+
+NewtonFrame NewtonSolver::solve(int frame, Block& displacement) {
+  NewtonFrame report;
+  report.frame = frame;
+  const Block start = displacement;
+  balance_ = patch_.balance(start);
+  const FinitePatch::Balance at_start = balance_;
+  const Block& tied = at_start.left_over;  // of it what the pairs that open now transmitted
+  bool predicted = predict(frame, start, displacement);
+  double done = 0, part = 1;
+  Block reached = start;
+  for (report.load_steps = 1;;) {
+    const double next = std::min(1., done + part);
+    if (converge(frame, (1 - next) * tied, displacement, report)) {
+      if (next == 1) break;
+      done = next, part *= 2;
+      ++report.load_steps;
+      reached = displacement;
+      continue;
+    }
+    if (!predicted) part /= 2;
+    predicted = false;
+    if (part < least_part) fail(frame, done, report);
+    displacement = reached;
+    balance_ = patch_.balance(displacement);
+  }
+  before_ = start;
+  int iterations = 0;
+  for (const NewtonStep& step : report.steps) iterations += step.iterations;
+  if (iterations > iterations_of_a_factor && frame + 1 < static_cast<int>(release_.released.size())) {
+    patch_.set_tangent(displacement);
+    renew_factor();
+  }
+  return report;
+}
+
+/// Starts from the prediction where its forces are nearer to balance, and says so.
+bool NewtonSolver::predict(int frame, const Block& start, Block& displacement) {
+  if (!prediction_.possible(frame)) return false;
+  const Block predicted = prediction_.predict(before_, start);
+  FinitePatch::Balance there = patch_.balance(predicted);
+  if (!(there.least.determinant > 0) ||
+      !(residual_of(frame, there.left_over, predicted) < residual_of(frame, balance_.left_over, start)))
+    return false;
+  displacement = predicted;
+  balance_ = std::move(there);
+  return true;
+}
+
+/// Newton's method for F(u) = f - tied from a displacement with its balance; whether it has converged.
+bool NewtonSolver::converge(int frame, const Block& tied, Block& displacement, NewtonFrame& report) {
+  const int open = release_.released[frame];
+  for (int i = 0;; ++i) {
+    const Block force = balance_.left_over - tied;
+    report.residual = residual_of(frame, force, displacement);
+    // Where the last step met a negative curvature the equilibrium is that of a saddle.
+    if (report.residual < converged) return report.steps.empty() || !report.steps.back().indefinite;
+    if (i == most_steps || !std::isfinite(report.residual)) return false;
+    patch_.set_tangent(displacement);
+    const double enough = std::max(std::min(report.residual, loosest), 0.1 * converged / report.residual);
+    Direction d = direction(force, open, enough);
+    const double length = line_search(d.step, tied, displacement);
+    report.steps.push_back({report.residual, d.iterations, length, d.indefinite});
+    if (length == 0) return false;
+  }
+}
+
+/// Conjugate gradients: the tangent's step, to `enough` in the norm of the preconditioner. At a negative
+/// curvature what is reached so far is a direction of descent.
+NewtonSolver::Direction NewtonSolver::direction(const Block& force, int open, double enough) {
+  Direction d;
+  d.step = Block::Zero(force.rows(), 1);
+  Block r = force, z = precondition(r, open), along = z;
+  double rz = dot(system_, r.col(0), z.col(0));
+  const double first = rz;
+  while (d.iterations < most_iterations_of_step && rz > enough * enough * first) {
+    const Block product = patch_.multiply(along);
+    const double curvature = dot(system_, along.col(0), product.col(0));
+    if (!(curvature > 0)) {
+      d.indefinite = true;
+      if (d.iterations == 0) d.step = along;
+      break;
+    }
+    ++d.iterations;
+    d.step += rz / curvature * along;
+    r -= rz / curvature * product;
+    z = precondition(r, open);
+    const double before = rz;
+    rz = dot(system_, r.col(0), z.col(0));
+    along = z + rz / before * along;
+  }
+  return d;
+}
+
+/// Along a step s, F(u + x s) . s should vanish: the whole step is taken unless this is not smaller at its
+/// end by a tenth; else the secant's zero. Elements that turn inside out halve it. 0: there is none.
+double NewtonSolver::line_search(const Block& step, const Block& tied, Block& displacement) {
+  const auto slope = [&](const FinitePatch::Balance& at) {
+    return dot(system_, (at.left_over - tied).col(0), step.col(0));
+  };
+  const double at_start = slope(balance_);
+  double x = 1;
+  for (int i = 0; i < 12; ++i) {
+    const Block moved = displacement + x * step;
+    FinitePatch::Balance there = patch_.balance(moved);
+    const double at_end = slope(there);
+    const bool possible = there.least.determinant > 0 && std::isfinite(at_end);
+    if (possible && std::abs(at_end) <= 0.9 * std::abs(at_start)) {
+      displacement = moved;
+      balance_ = std::move(there);
+      return x;
+    }
+    x *= possible && at_end < 0 ? std::clamp(at_start / (at_start - at_end), 0.1, 0.7) : 0.5;
+  }
+  return 0;
+}
+
+double NewtonSolver::residual_of(int frame, const Block& force, const Block& displacement) const {
+  return residual_
+      .figures(release_, {{0, release_.released[frame], false, 0}}, displacement, force, largest_load_)
+      .front()
+      .residual_equilibrium;
+}
+
+Block NewtonSolver::precondition(const Block& force, int open) {
+  return (factor_ ? *factor_ : reference_).solve_once(force, open);
+}
+
+/// Where the tangent is not definite with all pairs open the last factor, or else that of the reference
+/// state, goes on serving.
+void NewtonSolver::renew_factor() {
+  factor_.reset();
+  try {
+    factor_ = std::make_unique<DirectSolver>(mesh_, system_, patch_.lower_triangle());
+    factor_->factorize();
+    factor_->set_release(release_);
+  } catch (const SolveError&) {
+    factor_.reset();
+  }
+}
+
+void NewtonSolver::fail(int frame, double fraction, const NewtonFrame& report) const {
+  const bool indefinite = std::any_of(report.steps.begin(), report.steps.end(),
+                                      [](const NewtonStep& step) { return step.indefinite; });
+  const auto rounded = [](double x) { return shortest(std::round(1000 * x) / 1000); };
+  const Vec3& place = balance_.least.place;
+  throw SolveError("frame " + std::to_string(frame) + " (" + rounded(release_.times[frame]) +
+                   " mm cut), at " + rounded(100 * fraction) +
+                   " % of what it releases: Newton's method finds no equilibrium" +
+                   (indefinite ? ", and the tangent is indefinite: the skin wrinkles or folds" : "") +
+                   ". The element that has shrunk most, to " + rounded(balance_.least.determinant) +
+                   " of its volume, is at (u, v, w) = (" + rounded(place.x) + ", " + rounded(place.y) + ", " +
+                   rounded(place.z) +
+                   ") mm. Raise skin.bending_stiffness or tissue.young_modulus, lower the prestress, or make "
+                   "mesh.element_size smaller");
+}
+
+}  // namespace cleft

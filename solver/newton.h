@@ -1,0 +1,64 @@
+// The equilibrium of the open patch under finite strains, frame after frame, by Newton's method.
+#pragma once
+
+#include <memory>
+
+#include "solver/direct_solver.h"
+#include "solver/finite_patch.h"
+#include "solver/frame_figures.h"
+#include "solver/prediction.h"
+#include "solver/solve.h"
+
+namespace cleft {
+
+/// The linear system of a step is solved by conjugate gradients among the displacements that keep closed
+/// pairs together, to a relative residual like that of the forces, so that convergence stays quadratic
+/// (Dembo, Eisenstat and Steihaug 1982). The preconditioner is a frame's exact solution with a factor of an
+/// earlier tangent, at first that of the reference state; a new factor is made when iterations have become
+/// many. Calls are collective.
+class NewtonSolver {
+ public:
+  /// `reference`: a solver with the factor of the tangent at the reference state, which must live as long as
+  /// this object, and whose loads are changed. `largest_load`: N, the unit of residuals.
+  NewtonSolver(const PatchMesh& mesh, const PatchSystem& system, FinitePatch& patch, const Release& release,
+               FrameSolver& reference, const FrameResidual& residual, double largest_load);
+
+  /// From the equilibrium of the frame before (frame 0: from the reference state), which is replaced. To be
+  /// called for the frames in their order. If
+  /// Newton's method does not converge, the forces that tie what the frame releases are taken away in
+  /// smaller parts. Throws SolveError, which names frame, load and the element that has shrunk most.
+  NewtonFrame solve(int frame, Block& displacement);
+
+  /// Forces out of balance at the last frame.
+  const Block& left_over() const { return balance_.left_over; }
+
+ private:
+  struct Direction {
+    Block step;
+    int iterations = 0;
+    bool indefinite = false;
+  };
+
+  bool predict(int frame, const Block& start, Block& displacement);
+  bool converge(int frame, const Block& tied, Block& displacement, NewtonFrame& report);
+  Direction direction(const Block& force, int open, double enough);
+  double line_search(const Block& step, const Block& tied, Block& displacement);
+  double residual_of(int frame, const Block& force, const Block& displacement) const;
+  Block precondition(const Block& force, int open);
+  void renew_factor();
+  [[noreturn]] void fail(int frame, double fraction, const NewtonFrame& report) const;
+
+  const PatchMesh& mesh_;
+  const PatchSystem& system_;
+  FinitePatch& patch_;
+  const Release& release_;
+  FrameSolver& reference_;
+  const FrameResidual& residual_;
+  double largest_load_;
+  Prediction prediction_;
+  Block before_;                          // the frame before the last
+  std::unique_ptr<DirectSolver> factor_;  // of a later tangent
+  FinitePatch::Balance balance_;          // at the displacement reached
+};
+
+}  // namespace cleft
