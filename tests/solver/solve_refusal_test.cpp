@@ -135,6 +135,17 @@ TEST_F(SolveRefuses, APatchThatNothingHolds) {
   expect(1, solve_on_ranks(2, arguments), parts);
 }
 
+/// Skin that is pulled fifteen times as hard as it is stiff, on next to nothing.
+TEST_F(SolveRefuses, FiniteStrainsWithoutAnEquilibrium) {
+  expect(1,
+         run_cleft("solve",
+                   {a_case, "--out", out / "x.h5", "--set", "model=finite", "--set", "skin.law=neo-hookean",
+                    "--set", "skin.prestress_v=2", "--set", "tissue.young_modulus=0.0002", "--set",
+                    "foundation.stiffness=0.0001", "--set", "foundation.side_stiffness=0.0001"}),
+         {"x.h5", "frame ", "mm cut), at ", "% of what it releases", "the tangent is indefinite",
+          "The element that has shrunk most", "is at (u, v, w) = ", "Raise skin.bending_stiffness"});
+}
+
 /// The factor balances the forces to rounding all the same.
 TEST_F(SolveRefuses, DisplacementsThatRoundingWouldChange) {
   const std::vector<std::string> arguments = {a_case, "--out", out / "x.h5", "--set",

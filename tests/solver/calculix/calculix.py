@@ -99,7 +99,8 @@ class Deck:
 
     def add_step(self, load_scale):
         """Under finite strains in one increment."""
-        self.lines += ["*STEP, NLGEOM", "*STATIC", "1., 1."] if self.patch["model"] == "finite" else ["*STEP", "*STATIC"]
+        finite = self.patch["model"] == "finite"
+        self.lines += ["*STEP, NLGEOM", "*STATIC", "1., 1."] if finite else ["*STEP", "*STATIC"]
         if self.patch["skin.edges"] == "held":
             self.lines.append("*CLOAD")
             pull = edge_pull(self.patch) * load_scale
