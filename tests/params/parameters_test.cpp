@@ -143,7 +143,7 @@ TEST(Hash, EveryParameterChangesTheIdentity) {
       set_parameter(p, row.name, row.choices.back(), "here");
     } else {
       const double value = std::get<double>(get_parameter(p, row));
-      const double other = value * 0.75 + (row.greatest >= 1 ? 0.01 : 0);
+      const double other = value * 0.75 + (row.greatest >= 1 || value == 0 ? 0.01 : 0);
       set_parameter(p, row.name, other < row.least || row.whole ? value + (row.whole ? 1 : 0.5) : other,
                     "here");
     }
