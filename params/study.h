@@ -14,7 +14,7 @@ namespace cleft {
 /// [encode]: how a case is fitted.
 struct EncodeSettings {
   std::string parametrization = "front";  ///< or "tip" or "fixed"
-  double tolerance = 0.01;              ///< largest error at any node and frame over the largest displacement
+  double tolerance = 0.01;  ///< largest error at any node and frame over the largest displacement
   std::optional<std::array<int, 4>>
       control_points;  ///< along u, v (both sides together), w, t, instead of the tolerance
 

@@ -171,8 +171,9 @@ int main(int argc, char** argv) {
                  "(default: what the case files say)")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_flag("--estimate,!--no-estimate", options.estimate,
-               "estimate by coarser meshes which error of the opening mesh and patch leave (default)");
+  bool no_estimate = false;
+  app.add_flag("--no-estimate", no_estimate,
+               "do not estimate, by coarser meshes, which error of the opening mesh and patch leave");
   app.add_flag("--json", json, "print the figures as JSON; several cases: a list");
   app.add_flag(
       "--verbose", verbose,
@@ -181,7 +182,7 @@ int main(int argc, char** argv) {
   app.footer([] { return parameter_help(); });
 
   const int code = run_command(app, argc, argv, [&] {
-    options.method = methods.at(method);
+    options.method = methods.at(method), options.estimate = !no_estimate;
     options.discretization.partitioner = partitioners.at(partitioner);
     const std::vector<std::string> outs = outputs(case_files, out);
     std::vector<CaseToSolve> cases;

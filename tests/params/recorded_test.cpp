@@ -27,8 +27,8 @@ TEST(RecordedParameters, WhatAFileLacksIsNoNumber) {
   EXPECT_TRUE(std::isnan(p->skin.prestress.vv));
 }
 
-/// Files that lack a choice come from a version in which it was none: pieces with free edges, whose cuts ended
-/// at nodes.
+/// Files that lack a choice come from a version in which it was none: pieces with free edges, whose cuts
+/// ended at nodes.
 TEST(RecordedParameters, AChoiceThatAFileLacksIsWhatItWasBefore) {
   const RecordedParameters p;
   EXPECT_EQ(p->skin.edges, SkinEdges::free);

@@ -8,9 +8,9 @@
 #include "solver/direct_solver.h"
 #include "solver/frame_figures.h"
 #include "tests/solver/dense_patch.h"
+#include "tests/support/even_piece.h"
 #include "tests/support/refusal.h"
 #include "tests/support/stability_row.h"
-#include "tests/support/even_piece.h"
 
 namespace cleft {
 
