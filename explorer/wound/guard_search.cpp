@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <queue>
 
 namespace cleft {
@@ -134,15 +135,18 @@ void GuardSearch::check_all() {
 /// Whether the field turns much of its own patch over: to keep it from that would be to close the wound. What
 /// it does at single places, mostly next to the ends of a cut, is the error of its fit.
 bool GuardSearch::field_is_to_blame() {
-  std::size_t moving = 0, turned = 0;
-  for (const auto& triangles : around_) moving += triangles.size();
-  for (const int one : offending_) {
+  std::vector<int> moving;
+  for (const auto& around : around_)
+    std::copy_if(around.begin(), around.end(), std::back_inserter(moving), [](int one) { return one >= 0; });
+  std::sort(moving.begin(), moving.end());
+  moving.erase(std::unique(moving.begin(), moving.end()), moving.end());
+  std::size_t turned = 0;
+  for (const int t : moving) {
     bool by_field = false;
-    for (std::size_t k = 0; k < times() && one >= 0 && !by_field; ++k)
-      by_field = !is_kept(one, k) && field_.turns(one, k);
+    for (std::size_t k = 0; k < times() && !by_field; ++k) by_field = !is_kept(t, k) && field_.turns(t, k);
     turned += by_field;
   }
-  return static_cast<double>(turned) > most_turned * static_cast<double>(moving) / 3;
+  return static_cast<double>(turned) > most_turned * static_cast<double>(moving.size());
 }
 
 /// Those that offended before, and those around the given vertices.

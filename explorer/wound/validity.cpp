@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // In lengths of the canonical cut, of the figures in tests/truth/README.md.
-constexpr double least_radius = 2. / 3, least_radius_not_turned = 2.7, least_spacing = 0.4, least_depths = 4;
+constexpr double least_radius = 2. / 3, least_radius_not_turned = 2.7, least_spacing = 0.4;
 /// Of the opening at its widest: lips that are held back by no more are within the error of openings.
 constexpr double greatest_held_back = 0.1;
 constexpr double greatest_tilt = 45, greatest_defect = 0.1;
@@ -194,9 +194,9 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     if (length > canonical * (1 + rounding) && v.length_defect > greatest_defect)
       warn("the path is " + rounded(length) + " mm long, and the field's cut of " + rounded(canonical) +
            " mm is too short for its opening to have come to its width");
-    if (const double least = std::max(least_spacing * canonical, least_depths * field.cut().depth);
-        nearest_beside < least)
-      warn("another cut comes as near as " + rounded(nearest_beside) + " mm, below " + rounded(least));
+    if (nearest_beside < least_spacing * canonical)
+      warn("another cut comes as near as " + rounded(nearest_beside) + " mm, below " +
+           rounded(least_spacing * canonical));
     if (const auto pulled = v.junction_tension; pulled && (!known || *pulled > greatest_junction_tension))
       warn("it meets another cut where the skin is pulled " + shortest(std::round(100 * *pulled) / 100) +
            " times as hard along that one as across it" +
