@@ -12,26 +12,13 @@
 #include "base/output_folder.h"
 #include "base/quantiles.h"
 #include "params/consistency.h"
+#include "tests/support/drawn_case.h"
 #include "tradeoff/advice.h"
 #include "tradeoff/chain.h"
 
 using namespace cleft;
 
 namespace {
-
-Parameters drawn(std::mt19937& random) {
-  const auto between = [&](double a, double b) {
-    return std::uniform_real_distribution<double>(a, b)(random);
-  };
-  Parameters p;
-  p.tissue.young_modulus = 0.005 * std::pow(16, between(0, 1));
-  p.skin.young_modulus = 0.06 * std::pow(6, between(0, 1));
-  p.skin.prestress.vv = between(0.02, 0.05), p.skin.prestress.uu = between(0.005, 0.02);
-  p.skin.thickness = between(1, 2.5);
-  p.cut.length = std::round(between(15, 50)), p.cut.depth = between(2, 5);
-  p.foundation.stiffness = p.foundation.side_stiffness = 0.002 * std::pow(10, between(0, 1));
-  return p;
-}
 
 struct Outcome {
   Setting setting;
@@ -99,7 +86,7 @@ int main(int argc, char** argv) {
   std::printf("%5s %8s %8s %9s %8s %8s %8s %9s %8s %9s   %s\n", "set", "element", "margin", "tolerance",
               "expected", "true", "seconds", "cheapest", "ratio", "tried", "which is the cheapest");
   for (int i = 0; i < sets; ++i) {
-    const Parameters p = drawn(random);
+    const Parameters p = drawn_case(random);
     if (i < first) continue;
     std::vector<CaseModel> models;
     models.emplace_back(p, work.path(), [](const std::string&) {});

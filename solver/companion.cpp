@@ -14,7 +14,8 @@ namespace {
 
 constexpr double least_grading = 1.3;  // of the wider patch, so that it does not cost more than the case
 
-/// The largest opening of the whole cut, mm.
+}  // namespace
+
 double gape_of(const Parameters& parameters, MPI_Comm communicator) {
   check_consistency(parameters, "companion");
   const PatchMesh mesh = make_patch_mesh(parameters);
@@ -28,10 +29,8 @@ double gape_of(const Parameters& parameters, MPI_Comm communicator) {
   chosen.solver->set_loads(load);
   const Block found = chosen.solver->solve(columns);
   const FrameResidual residual(mesh, system);
-  return residual.figures(release, columns, found, load - system.multiply(found), 1).front().gape;
+  return residual.figures(release, columns, found, residual.left_over(load, found), 1).front().gape;
 }
-
-}  // namespace
 
 std::optional<ExpectedError> expected_error(const Parameters& parameters, double gape,
                                             MPI_Comm communicator) {

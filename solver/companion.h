@@ -10,6 +10,10 @@
 
 namespace cleft {
 
+/// The largest opening of the whole cut, mm, from its last frame alone. Throws InputError if the parameters
+/// do not fit together, SolveError if they have no solution. Collective.
+double gape_of(const Parameters& parameters, MPI_Comm communicator);
+
 /// Expected errors of the largest opening of the whole cut, relative to it.
 struct ExpectedError {
   double mesh = 0;   ///< what elements twice as long change

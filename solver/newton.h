@@ -24,9 +24,9 @@ class NewtonSolver {
                FrameSolver& reference, const FrameResidual& residual, double largest_load);
 
   /// From the equilibrium of the frame before (frame 0: from the reference state), which is replaced. To be
-  /// called for the frames in their order. If
-  /// Newton's method does not converge, the forces that tie what the frame releases are taken away in
-  /// smaller parts. Throws SolveError, which names frame, load and the element that has shrunk most.
+  /// called for the frames in their order. If Newton's method does not converge, the forces that tie what the
+  /// frame releases are taken away in smaller parts. Throws SolveError, which names frame, load and the
+  /// element that has shrunk most.
   NewtonFrame solve(int frame, Block& displacement);
 
   /// Forces out of balance at the last frame.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <queue>
 
 namespace cleft {
@@ -126,11 +127,13 @@ bool GuardSearch::offends(int t) {
   return false;
 }
 
-void GuardSearch::check_all() {
+std::vector<int> GuardSearch::all_numbers() const {
   std::vector<int> all(vertex_.size());
-  for (std::size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
-  check(all);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
+
+void GuardSearch::check_all() { check(all_numbers()); }
 
 /// Whether the field turns much of its own patch over: to keep it from that would be to close the wound. What
 /// it does at single places, mostly next to the ends of a cut, is the error of its fit.
@@ -185,8 +188,7 @@ void GuardSearch::reduce() {
     renew(changed);
     check(changed);
   }
-  std::vector<int> all(vertex_.size());
-  for (std::size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
+  const std::vector<int> all = all_numbers();
   for (int round = 1; round <= last_rounds && !offending_.empty(); ++round) {
     for (double& factor : factor_) factor *= round < last_rounds ? 0.5 : 0;
     renew(all);

@@ -67,6 +67,7 @@ class GuardSearch {
   bool is_kept(int triangle, std::size_t time);
   bool is_torn(int triangle, std::size_t time);
   void check(const std::vector<int>& numbers);
+  std::vector<int> all_numbers() const;
   void check_all();
   bool field_is_to_blame();
   bool is_free(int number) const;

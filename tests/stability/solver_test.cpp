@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "solver/companion.h"
 #include "solver/direct_solver.h"
 #include "solver/frame_figures.h"
 #include "tests/solver/dense_patch.h"
@@ -62,22 +63,6 @@ OpenPatch solve_open(const Parameters& p) {
                       .front()
                       .residual_equilibrium;
   return open;
-}
-
-/// The opening of the whole cut, mm.
-double gape_of(const Parameters& p) {
-  const PatchMesh mesh = make_patch_mesh(p);
-  const PatchSystem system(mesh, p, MPI_COMM_WORLD);
-  const Release release = make_release(mesh, p);
-  DirectSolver solver(mesh, system);
-  solver.factorize();
-  solver.set_release(release);
-  const Block load = system.load(p.skin);
-  solver.set_loads(load);
-  const std::vector<FrameSolver::Column> columns = {{0, release.released.back()}};
-  const Block found = solver.solve(columns);
-  const FrameResidual residual(mesh, system);
-  return residual.figures(release, columns, found, residual.left_over(load, found), 1).front().gape;
 }
 
 const std::string refused_by_rounding =
@@ -216,7 +201,7 @@ TEST(SolverLimits, ACutThatSeversThePatch) {
   const auto gape_where_left = [&](double left) {
     p.cut.depth = p.patch.height - left;
     EXPECT_EQ(refusal_of(p), "");
-    return gape_of(p);
+    return gape_of(p, MPI_COMM_WORLD);
   };
   const double tenth = gape_where_left(0.1), little = gape_where_left(0.01), least = gape_where_left(0.001);
   EXPECT_NEAR(little / tenth, 1, 0.02);
@@ -239,7 +224,7 @@ TEST(SolverLimits, CutsOneElementWide) {
   p.cut.length = 2, p.cut.depth = 1;
   const auto gape_at = [&](double element_size) {
     p.mesh.element_size = element_size;
-    return gape_of(p);
+    return gape_of(p, MPI_COMM_WORLD);
   };
   const double one = gape_at(1), two = gape_at(0.5);
   p.mesh.grading = 1.5;

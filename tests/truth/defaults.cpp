@@ -3,7 +3,6 @@
 //   cleft-truth-defaults [SETS [SEED]]
 // prints CSV: the largest error of the opening, over the cut and over time, over the largest opening; seconds
 // of processors to solve and encode; bytes of the field.
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -11,26 +10,12 @@
 
 #include "base/output_folder.h"
 #include "params/study.h"
+#include "tests/support/drawn_case.h"
 #include "tradeoff/chain.h"
 
 using namespace cleft;
 
 namespace {
-
-Parameters drawn(std::mt19937& random) {
-  const auto between = [&](double a, double b) {
-    return std::uniform_real_distribution<double>(a, b)(random);
-  };
-  Parameters p;
-  p.tissue.young_modulus = 0.005 * std::pow(16, between(0, 1));
-  p.tissue.poisson_ratio = between(0.3, 0.45);
-  p.skin.young_modulus = 0.06 * std::pow(6, between(0, 1));
-  p.skin.prestress.vv = between(0.02, 0.05), p.skin.prestress.uu = between(0.005, 0.02);
-  p.skin.thickness = between(1, 2.5);
-  p.cut.length = between(15, 45), p.cut.depth = between(2, 5);
-  p.foundation.stiffness = p.foundation.side_stiffness = 0.002 * std::pow(10, between(0, 1));
-  return p;
-}
 
 /// In a patch that ends four lengths of the cut away, and at least 80 mm, with elements of a third of the
 /// size.
@@ -50,7 +35,7 @@ int main(int argc, char** argv) {
   const EncodeSettings encode;
   std::printf("set,length_mm,depth_mm,opening_mm,error,nodes,seconds,bytes,coarse_error,coarse_seconds\n");
   for (int i = -1; i < sets; ++i) {
-    const Parameters p = i < 0 ? Parameters() : drawn(random);
+    const Parameters p = i < 0 ? Parameters() : drawn_case(random);
     const Opening truth = Chain(converged(p), work.path()).opening();
     const auto show = [&](Parameters shown, bool fine) {
       const Chain chain(shown, work.path());
