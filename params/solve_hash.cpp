@@ -12,10 +12,11 @@ constexpr int hash_version =
 
 }  // namespace
 
-std::string solve_hash(const Parameters& parameters) {
+std::string solve_hash(const Parameters& parameters, const std::string& body) {
   std::string text = "cleft case " + std::to_string(hash_version) + "\n";
   for (const Parameter& row : parameter_table())
     text += row.name + "=" + to_text(get_parameter(parameters, row)) + "\n";
+  if (!body.empty()) text += "body=" + body + "\n";
   return sha256(text).substr(0, 16);
 }
 

@@ -8,6 +8,7 @@
 namespace cleft {
 
 /// A hash (16 hexadecimal digits) of all resolved parameters, and of the snapshot format's version.
-std::string solve_hash(const Parameters& parameters);
+/// `body`: the hash of the body that is solved in place of a patch.
+std::string solve_hash(const Parameters& parameters, const std::string& body = {});
 
 }  // namespace cleft

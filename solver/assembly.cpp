@@ -64,21 +64,29 @@ void add_springs(const FEFaceValues<3>& values, double spring, FullMatrix<double
       }
 }
 
+/// Of a face below or at the side, N/mm^3. Tissue that is grown to bone gives way a thousand times less than
+/// by its own strain.
+double spring_of(types::boundary_id boundary, const Parameters& p) {
+  constexpr double firm = 1e3;
+  if (boundary == BoundaryId::bone) return firm * p.tissue.young_modulus / p.patch.height;
+  return boundary == BoundaryId::bottom ? p.foundation.stiffness : p.foundation.side_stiffness;
+}
+
 void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const Cell& cell, unsigned face,
-              FullMatrix<double>& cell_matrix, FullMatrix<double>& cell_loads) {
+              const Vec3& direction, FullMatrix<double>& cell_matrix, FullMatrix<double>& cell_loads) {
   const std::array<int, 3> corner = corners_of_face(cell, face);
   std::array<Vec3, 3> at;
   for (unsigned i = 0; i < 3; ++i) {
     const Point<3>& p = cell->vertex(corner[i]);
     at[i] = {p[0], p[1], p[2]};
   }
-  const SkinTriangle triangle(at[0], at[1], at[2]);
-  const SkinTriangle::Matrix6 k = triangle.stiffness(skin);
-  const SkinTriangle::Matrix63 f = triangle.unit_loads(skin);
-  for (unsigned a = 0; a < 6; ++a) {
-    const unsigned row = 3 * corner[a / 2] + a % 2;
+  const SkinTriangle triangle(at[0], at[1], at[2], direction);
+  const SkinTriangle::Matrix9 k = triangle.stiffness(skin);
+  const SkinTriangle::Matrix93 f = triangle.unit_loads(skin);
+  for (unsigned a = 0; a < 9; ++a) {
+    const unsigned row = 3 * corner[a / 3] + a % 3;
     for (unsigned d = 0; d < 3; ++d) cell_loads(row, d) += f(a, d);
-    for (unsigned b = 0; b < 6; ++b) cell_matrix(row, 3 * corner[b / 2] + b % 2) += k(a, b);
+    for (unsigned b = 0; b < 9; ++b) cell_matrix(row, 3 * corner[b / 3] + b % 3) += k(a, b);
   }
   if (!initial_stress_stiffness) return;
   const Eigen::Matrix3d geometric = triangle.initial_stress_stiffness(skin);
@@ -134,14 +142,13 @@ void Assembly::add(const PatchElements& elements, const Parameters& p, double fa
       if (!cell->face(f)->at_boundary() || boundary == BoundaryId::other) continue;
       if (boundary >= BoundaryId::skin) {
         cell_loads = 0;
-        add_skin(materials.skin[boundary - BoundaryId::skin], initial_stress_stiffness, cell, f, cell_matrix,
+        add_skin(materials.skin[boundary - BoundaryId::skin], initial_stress_stiffness, cell, f,
+                 elements.mesh.tension_of(static_cast<int>(cell->id().get_coarse_cell_id())), cell_matrix,
                  cell_loads);
         add_loads();
       } else {
         face_values.reinit(cell, f);
-        add_springs(face_values,
-                    boundary == BoundaryId::bottom ? p.foundation.stiffness : p.foundation.side_stiffness,
-                    cell_matrix);
+        add_springs(face_values, spring_of(boundary, p), cell_matrix);
       }
     }
     cell_matrix *= factor;

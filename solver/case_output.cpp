@@ -22,13 +22,23 @@ CaseOutput::CaseOutput(SharedStiffness& shared, const Release& release, std::siz
   report().pairs = static_cast<int>(shared_.mesh().pairs.size());
   report().constraints = 3 * report().pairs;
   report().frames = static_cast<int>(release.released.size());
-  std::vector<SnapshotArray> arrays = {{"compliance", 1, false}, {"dent", 3, false}};
+  const Body* body = shared_.job().options.body.get();
+  std::vector<SnapshotArray> arrays;
+  if (body)
+    arrays = {{"canonical", 3, false}, {"frame", 9, false}};
+  else
+    arrays = {{"compliance", 1, false}, {"dent", 3, false}};
   for (const std::string& name : derivatives) arrays.push_back({array_of(name), 3, true});
   writing_ = std::make_unique<SnapshotOutput>(shared_.job().cases[number_].out,
-                                              describe(parameters(), shared_.mesh(), release), arrays,
+                                              describe(parameters(), shared_.mesh(), release, body), arrays,
                                               shared_.system().communicator());
-  writing_->write_scalars("compliance", shared_.compliance().at_node);
-  writing_->write_vectors("dent", 0, at_nodes(shared_.compliance().dent.data()));
+  if (body) {
+    writing_->write_vectors("canonical", 0, body->canonical);
+    writing_->write_frames("frame", body->frames);
+  } else {
+    writing_->write_scalars("compliance", shared_.compliance().at_node);
+    writing_->write_vectors("dent", 0, at_nodes(shared_.compliance().dent.data()));
+  }
   shared_.phases().end("write");
 }
 

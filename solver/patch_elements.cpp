@@ -4,7 +4,9 @@
 #include <deal.II/fe/fe_wedge_p.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <map>
 
 #include "base/error.h"
 #include "solver/bending.h"
@@ -26,18 +28,41 @@ void partition(Triangulation<3>& triangulation, unsigned ranks, Partitioner part
                                            : SparsityTools::Partitioner::zoltan);
 }
 
-Vec3 to_vec3(const Point<3>& p) { return {p[0], p[1], p[2]}; }
+/// What the faces on the surface are, by their nodes.
+class Boundaries {
+ public:
+  Boundaries(const PatchMesh& mesh, const Parameters& p) {
+    for (const auto& face : mesh.skin) {
+      const Vec3 center = 1. / 3 * (mesh.points[face[0]] + mesh.points[face[1]] + mesh.points[face[2]]);
+      add(face, BoundaryId::skin + region_at(skin_regions(), p, center));
+    }
+    for (std::size_t f = 0; f < mesh.bottom.size(); ++f)
+      add(mesh.bottom[f], !mesh.on_bone.empty() && mesh.on_bone[f] ? BoundaryId::bone : BoundaryId::bottom);
+    for (const auto& face : mesh.sides) add(face, BoundaryId::side);
+  }
 
-/// What a face at the boundary of the patch is.
-types::boundary_id boundary_of(const Parameters& p, const Vec3& center) {
-  const double small = 1e-9 * p.patch.length;
-  const auto near = [&](double a, double b) { return std::abs(a - b) < small; };
-  if (near(center.z, 0)) return BoundaryId::skin + region_at(skin_regions(), p, center);
-  if (near(center.z, -p.patch.height)) return BoundaryId::bottom;
-  if (near(std::abs(center.x), p.patch.length / 2) || near(std::abs(center.y), p.patch.width / 2))
-    return BoundaryId::side;
-  return BoundaryId::other;  // a wall of the cut
-}
+  template <class Face>
+  types::boundary_id of(const Face& face) const {
+    std::array<int, 4> nodes = none;
+    for (unsigned v = 0; v < face->n_vertices(); ++v) nodes[v] = static_cast<int>(face->vertex_index(v));
+    std::sort(nodes.begin(), nodes.end());
+    const auto found = kinds_.find(nodes);
+    return found == kinds_.end() ? BoundaryId::other : found->second;  // other: a wall of the cut
+  }
+
+ private:
+  static constexpr std::array<int, 4> none = {-1, -1, -1, -1};
+
+  template <std::size_t K>
+  void add(const std::array<int, K>& face, unsigned kind) {
+    std::array<int, 4> nodes = none;
+    std::copy(face.begin(), face.end(), nodes.begin());
+    std::sort(nodes.begin(), nodes.end());
+    kinds_.emplace(nodes, static_cast<types::boundary_id>(kind));
+  }
+
+  std::map<std::array<int, 4>, types::boundary_id> kinds_;
+};
 
 /// The whole mesh, each element with its region.
 void make_whole(const PatchMesh& mesh, const Parameters& parameters, Triangulation<3>& whole) {
@@ -54,10 +79,10 @@ void make_whole(const PatchMesh& mesh, const Parameters& parameters, Triangulati
     cell.material_id = region_at(tissue_regions(), parameters, center);
   }
   whole.create_triangulation(vertices, cells, SubCellData());
+  const Boundaries boundaries(mesh, parameters);
   for (const auto& cell : whole.active_cell_iterators())
     for (const unsigned f : cell->face_indices())
-      if (cell->face(f)->at_boundary())
-        cell->face(f)->set_boundary_id(boundary_of(parameters, to_vec3(cell->face(f)->center())));
+      if (cell->face(f)->at_boundary()) cell->face(f)->set_boundary_id(boundaries.of(cell->face(f)));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace cleft {
 /// Kinds of the faces on the surface. A face of the skin has the number `skin` plus its region's row in
 /// skin_regions().
 struct BoundaryId {
-  static constexpr dealii::types::boundary_id other = 0, bottom = 1, side = 2, skin = 3;
+  static constexpr dealii::types::boundary_id other = 0, bottom = 1, side = 2, bone = 3, skin = 4;
 };
 
 /// A cell's material id is its region's row in tissue_regions().

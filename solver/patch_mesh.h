@@ -23,9 +23,9 @@ struct NodePair {
 
 /// Node numbers index `points`. The mesh depends on the parameters alone, not on the number of ranks.
 struct PatchMesh {
-  std::vector<Vec3> points;                ///< (u, v, w), stress-free, mm
+  std::vector<Vec3> points;                ///< (u, v, w), or of a body in space, closed, mm
   std::vector<std::array<int, 6>> wedges;  ///< lower triangle, then upper, both counter-clockwise from above
-  std::vector<std::array<int, 3>> skin;    ///< top faces, counter-clockwise from above
+  std::vector<std::array<int, 3>> skin;    ///< top faces, of the first wedges; counter-clockwise from above
   std::vector<std::array<int, 3>> bottom;  ///< bottom faces
   std::vector<std::array<int, 4>> sides;   ///< side faces, cyclic
   std::vector<int> skin_above;             ///< by node: the node of the skin in the same column
@@ -41,6 +41,14 @@ struct PatchMesh {
   /// The nodes without the duplicates (the right nodes of pairs) form a grid: number (k grid[1] + j) grid[0]
   /// + i, i along u, j along v, k downward.
   std::array<int, 3> grid{};
+
+  /// Of a body (solver/body_mesh.h), which has no lines and no grid; empty for a patch.
+  std::vector<Vec3> tension;  ///< by triangle of skin: the direction of skin.prestress_u
+  std::vector<bool> on_bone;  ///< by face of the bottom
+
+  bool is_body() const { return grid[0] == 0; }
+  /// Along which skin.prestress_u pulls the triangle on a wedge.
+  Vec3 tension_of(int wedge) const { return tension.empty() ? Vec3{1, 0, 0} : tension[wedge]; }
 };
 
 /// The surface of every cut coincides with element faces, and its ends and its bottom lie just inside nodes

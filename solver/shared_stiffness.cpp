@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/body_mesh.h"
 #include "solver/case_batch.h"
 #include "solver/finite_series.h"
 
@@ -22,7 +23,7 @@ SharedStiffness::SharedStiffness(SolveJob& job, const std::vector<std::size_t>& 
     : job_(job), phases_(job.communicator) {
   const Parameters parameters = of_tangent(job.cases[members.front()].parameters);
   job.progress("meshing and assembling");
-  mesh_ = make_patch_mesh(parameters);
+  mesh_ = job.options.body ? mesh_of(*job.options.body) : make_patch_mesh(parameters);
   system_.emplace(mesh_, parameters, job.communicator, job.options.discretization);
   residual_.emplace(mesh_, *system_);
   phases_.end("assemble");
@@ -41,12 +42,17 @@ SharedStiffness::SharedStiffness(SolveJob& job, const std::vector<std::size_t>& 
 }
 
 void SharedStiffness::solve(const std::vector<std::size_t>& members) {
-  const Release release = make_release(mesh_, job_.cases[members.front()].parameters);
+  const Body* body = job_.options.body.get();
+  const Release release =
+      body ? release_of(*body) : make_release(mesh_, job_.cases[members.front()].parameters);
   chosen_.solver->set_release(release);
-  if (compliance_.at_node.empty() && compliance_.dent.size() == 0) {
+  if (!checked_) {
     check_rounding(*system_, chosen_);
-    job_.progress("compliance of the skin");
-    compliance_ = compliance_of(mesh_, *system_, *chosen_.solver);
+    checked_ = true;
+    if (!body) {
+      job_.progress("compliance of the skin");
+      compliance_ = compliance_of(mesh_, *system_, *chosen_.solver);
+    }
     phases_.end("compliance");
   }
   if (job_.cases[members.front()].parameters.model == Model::finite) {
@@ -62,7 +68,7 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
                     {members.begin() + static_cast<long>(first), members.begin() + static_cast<long>(end)});
     batch.solve();
   }
-  if (job_.options.estimate) {
+  if (job_.options.estimate && !body) {
     job_.progress("estimating the error of mesh and patch");
     // Cases of one stiffness and one release differ in their tension alone: their errors are alike.
     const SolveReport& first = job_.reports[members.front()];

@@ -36,7 +36,9 @@ class SharedStiffness {
   const PatchSystem& system() const { return *system_; }
   const FrameResidual& residual() const { return *residual_; }
   const ChosenSolver& chosen() const { return chosen_; }
-  const Compliance& compliance() const { return compliance_; }  ///< valid once solve() has begun
+  const Compliance& compliance() const {
+    return compliance_;
+  }  ///< valid once solve() has begun; none of a body
 
  private:
   SolveJob& job_;
@@ -45,6 +47,7 @@ class SharedStiffness {
   std::optional<PatchSystem> system_;
   std::optional<FrameResidual> residual_;
   ChosenSolver chosen_;
+  bool checked_ = false;  // whether the factor was found to be exact enough
   Compliance compliance_;
 };
 

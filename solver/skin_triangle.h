@@ -3,66 +3,79 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "base/vec3.h"
 #include "solver/material/skin_material.h"
 
 namespace cleft {
 
-/// The triangle is in a plane w = const with the directions u and v; its only stiffness along w is that of
-/// the prestress.
+/// Strains and stresses are in the triangle's own plane, with the directions e_u and e_v in it. Its only
+/// stiffness out of that plane is that of the prestress.
 class SkinTriangle {
  public:
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  using Matrix63 = Eigen::Matrix<double, 6, 3>;
+  using Matrix9 = Eigen::Matrix<double, 9, 9>;
+  using Matrix93 = Eigen::Matrix<double, 9, 3>;
 
-  /// Of the three corners.
-  SkinTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
-      : area_(norm(cross(b - a, c - a)) / 2), strain_(strain_of(a, b, c)) {}
+  /// Of the three corners, counter-clockwise from outside. e_u is `direction` within the triangle's plane;
+  /// for a plane w = const and the default these are the directions of u and v.
+  SkinTriangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& direction = {1, 0, 0}) {
+    const Vec3 twice = cross(b - a, c - a);
+    const Vec3 normal = (1 / norm(twice)) * twice;
+    area_ = norm(twice) / 2;
+    const Vec3 u = direction - dot(direction, normal) * normal;
+    axes_[0] = (1 / norm(u)) * u;
+    axes_[1] = cross(normal, axes_[0]);
+    set_gradients(a, b, c);
+  }
 
   double area() const { return area_; }  ///< mm^2
 
-  /// Of the shape functions of the corners, in u and v, 1/mm.
-  Eigen::Matrix<double, 2, 3> gradients() const {
-    Eigen::Matrix<double, 2, 3> gradient;
-    for (int i = 0; i < 3; ++i) gradient.col(i) << strain_(0, 2 * i), strain_(1, 2 * i + 1);
-    return gradient;
+  /// Of the shape functions of the corners, along e_u and e_v, 1/mm.
+  const Eigen::Matrix<double, 2, 3>& gradients() const { return gradients_; }
+
+  /// t A B^T D B over the displacements of the three corners.
+  Matrix9 stiffness(const SkinMaterial& skin) const {
+    const Strain strain = this->strain();
+    return skin.thickness * area_ * strain.transpose() * skin.elasticity * strain;
   }
 
-  /// t A B^T D B over (u, v) of the three corners.
-  Matrix6 stiffness(const SkinMaterial& skin) const {
-    return skin.thickness * area_ * strain_.transpose() * skin.elasticity * strain_;
-  }
-
-  /// Loads of the unit prestresses uu, vv, uv on (u, v) of the corners: -t A B^T, one in each column.
-  Matrix63 unit_loads(const SkinMaterial& skin) const {
-    return -skin.thickness * area_ * strain_.transpose();
+  /// Loads of the unit prestresses uu, vv, uv on the corners: -t A B^T, one in each column.
+  Matrix93 unit_loads(const SkinMaterial& skin) const {
+    return -skin.thickness * area_ * strain().transpose();
   }
 
   /// Geometric stiffness of the prestress between the corners, equal for the three directions:
   /// t A grad N_a . sigma_0 . grad N_b.
   Eigen::Matrix3d initial_stress_stiffness(const SkinMaterial& skin) const {
-    const Eigen::Matrix<double, 2, 3> gradient = gradients();
-    return skin.thickness * area_ * gradient.transpose() * skin.prestress * gradient;
+    return skin.thickness * area_ * gradients_.transpose() * skin.prestress * gradients_;
   }
 
  private:
-  using Strain = Eigen::Matrix<double, 3, 6>;
+  using Strain = Eigen::Matrix<double, 3, 9>;
+
+  void set_gradients(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto place = [&](const Vec3& p, int axis) { return dot(p, axes_[axis]); };
+    const double du[] = {place(b, 1) - place(c, 1), place(c, 1) - place(a, 1), place(a, 1) - place(b, 1)};
+    const double dv[] = {place(c, 0) - place(b, 0), place(a, 0) - place(c, 0), place(b, 0) - place(a, 0)};
+    const double twice_area = dv[2] * du[1] - dv[1] * du[2];
+    for (int i = 0; i < 3; ++i) gradients_.col(i) << du[i] / twice_area, dv[i] / twice_area;
+  }
 
   /// (e_uu, e_vv, 2 e_uv) from the displacements of the corners.
-  static Strain strain_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double twice_area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-    const double du[] = {b.y - c.y, c.y - a.y, a.y - b.y}, dv[] = {c.x - b.x, a.x - c.x, b.x - a.x};
-    Strain strain = Strain::Zero();
-    for (int i = 0; i < 3; ++i) {
-      strain(0, 2 * i) = strain(2, 2 * i + 1) = du[i] / twice_area;
-      strain(1, 2 * i + 1) = strain(2, 2 * i) = dv[i] / twice_area;
-    }
+  Strain strain() const {
+    Strain strain;
+    for (int i = 0; i < 3; ++i)
+      for (int d = 0; d < 3; ++d) {
+        const double u = gradients_(0, i), v = gradients_(1, i);
+        strain.col(3 * i + d) << u * axes_[0][d], v * axes_[1][d], v * axes_[0][d] + u * axes_[1][d];
+      }
     return strain;
   }
 
   double area_;
-  Strain strain_;
+  std::array<Vec3, 2> axes_;
+  Eigen::Matrix<double, 2, 3> gradients_;
 };
 
 }  // namespace cleft

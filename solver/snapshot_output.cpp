@@ -23,7 +23,8 @@ void add_cells(Snapshot& s, const PatchMesh& mesh) {
 
 }  // namespace
 
-Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Release& release) {
+Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Release& release,
+                  const Body* body) {
   Snapshot s;
   s.points = mesh.points;
   add_cells(s, mesh);
@@ -37,7 +38,8 @@ Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Rel
   s.cut_length = release.length;
   s.cut_depth = release.depth;
   s.parameters = RecordedParameters(parameters);
-  s.case_hash = solve_hash(parameters);
+  s.case_hash = body ? solve_hash(parameters, body->hash) : solve_hash(parameters);
+  if (body) s.body = body->hash;
   return s;
 }
 
@@ -72,6 +74,10 @@ void SnapshotOutput::write_vectors(const std::string& array, std::size_t frame,
 
 void SnapshotOutput::write_scalars(const std::string& array, const std::vector<double>& values) {
   on_root([&] { writer_->write_array({array, 1, false}, 0, values); });
+}
+
+void SnapshotOutput::write_frames(const std::string& array, const std::vector<std::array<Vec3, 3>>& values) {
+  on_root([&] { writer_->write_array({array, 9, false}, 0, {&values.front()[0].x, 9 * values.size()}); });
 }
 
 void SnapshotOutput::add_figures(const FrameFigures& f) {

@@ -4,11 +4,13 @@
 #include <mpi.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "params/parameters/parameters.h"
+#include "solver/body/body.h"
 #include "solver/companion.h"
 #include "solver/frame_solver.h"
 #include "solver/phases.h"
@@ -37,6 +39,7 @@ struct SolveOptions {
   bool unit_prestress = false;             ///< write the series of the unit prestresses uu, vv and uv as well
   std::vector<std::string> sensitivities;  ///< parameters to differentiate the series by
   bool estimate = true;                    ///< the error that the mesh and the patch leave
+  std::shared_ptr<const Body> body = {};   ///< in place of the patch; then there is no estimate
   std::function<void(const std::string&)> log = {};  ///< takes a line for each frame of the finite model
 };
 

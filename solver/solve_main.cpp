@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "params/parameters/table.h"
 #include "params/study.h"
+#include "solver/body_mesh.h"
 #include "solver/mpi_session.h"
 #include "solver/solve.h"
 
@@ -141,7 +142,7 @@ int main(int argc, char** argv) {
       "Runs under mpirun too.",
       "cleft solve");
   std::vector<std::string> case_files, assignments;
-  std::string out;
+  std::string out, body;
   SolveOptions options;
   bool json = false, verbose = false;
   std::string method = "auto", partitioner = "metis";
@@ -152,6 +153,9 @@ int main(int argc, char** argv) {
   app.add_option("CASE.toml", case_files, "case files")->required();
   app.add_option("--out", out, "snapshot to write, case.h5; for several cases a folder: DIR/CASE.h5")
       ->required();
+  app.add_option("--mesh", body,
+                 "body.h5 of cleft body: solve its cuts in place of a patch; of cut, patch and mesh, cases "
+                 "then use cut.contact and patch.height (the thickness of tissue on bone) alone");
   app.add_option("--set", assignments, "NAME=VALUE: overrides a parameter of the cases (repeatable)")
       ->allow_extra_args(false);
   app.add_option(
@@ -185,13 +189,16 @@ int main(int argc, char** argv) {
     options.method = methods.at(method), options.estimate = !no_estimate;
     options.discretization.partitioner = partitioners.at(partitioner);
     const std::vector<std::string> outs = outputs(case_files, out);
+    if (!body.empty()) options.body = std::make_shared<const Body>(read_body(body));
     std::vector<CaseToSolve> cases;
     Mistakes mistakes;
     for (std::size_t c = 0; c < case_files.size(); ++c)
       mistakes.collect([&] {
         refuse_to_overwrite(outs[c], case_files);
+        if (options.body) refuse_to_overwrite(outs[c], {body});
         const Case one = read_case(case_files[c], assignments);
-        cases.push_back({one.parameters, outs[c]});
+        cases.push_back(
+            {options.body ? parameters_of(*options.body, one.parameters) : one.parameters, outs[c]});
         if (app.count("--sensitivities") == 0) take_sensitivities(one, c == 0, case_files[c], options);
         check_options(cases.back().parameters, options, case_files[c]);
       });

@@ -171,6 +171,7 @@ Snapshot read_all_but_displacements(const h5::File& file) {
     s.residual_closure = file.read<double>("/frames/residual_closure", {s.frames()});
   }
   s.case_hash = file.read_text("/", "case");
+  if (file.has_attribute("/", "body")) s.body = file.read_text("/", "body");
   for (const std::string& name : file.attribute_names("/parameters")) {
     try {
       s.parameters.set(name, file.read_number("/parameters", name));

@@ -52,6 +52,8 @@ struct Snapshot {
 
   RecordedParameters parameters;
   std::string case_hash;
+  std::string body;  ///< hash of the body that was solved: points are in space, and the arrays `canonical`
+                     ///< and `frame` hold every node's coordinates of the cut; empty for a patch
   std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs and have no residuals
 
   std::size_t frames() const { return times.size(); }

@@ -109,6 +109,7 @@ SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
   file_.write_text("/", "units", "mm N MPa");
   file_.write_text("/", "case", s.case_hash);
   file_.write_text("/", "producer", producer());
+  if (!s.body.empty()) file_.write_text("/", "body", s.body);
   write_vtk_mesh(file_, s);
   write_vtk_steps(file_, s, arrays);
   write_table(file_, "/foundation/triangles", s.foundation_triangles);
