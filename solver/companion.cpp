@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "params/consistency.h"
+#include "params/meshed_cut.h"
+#include "params/parameters/table.h"
 #include "solver/frame_figures.h"
 #include "solver/frame_solver.h"
 
@@ -12,7 +15,52 @@ namespace cleft {
 
 namespace {
 
-constexpr double least_grading = 1.3;  // of the wider patch, so that it does not cost more than the case
+constexpr double least_grading = 1.3;     // of companions' patches, so that they cost no more than the case
+constexpr double near = 2;                // patch around a short cut, over the cut's length or depth
+constexpr double most_finer_nodes = 2e4;  // of a companion with finer elements: a few seconds
+
+Parameters with_grading(Parameters p) {
+  p.mesh.grading = std::max(least_grading, p.mesh.grading);
+  return p;
+}
+
+/// Twice as long and wide.
+Parameters in_wider_patch(Parameters p) {
+  p.patch.length *= 2, p.patch.width *= 2;
+  return with_grading(p);
+}
+
+Parameters with_elements(Parameters p, double times) {
+  p.mesh.element_size *= times;
+  return p;
+}
+
+/// In a patch in which the mesh errs as in the whole one. Cuts other than a single straight, upright one keep
+/// theirs.
+Parameters near_the_cut(Parameters p) {
+  if (p.cut.count > 1 || p.cut.branch > 0 || p.cut.radius > 0 || p.cut.tilt != 0) return with_grading(p);
+  const MeshedCut cut = meshed_cut(p);
+  const double margin = near * std::max(cut.length, cut.depth);
+  p.patch.length = std::min(p.patch.length, cut.length + 2 * margin);
+  p.patch.width = std::min(p.patch.width, 2 * margin);
+  return with_grading(p);
+}
+
+double change(double from, double to) { return std::abs(to - from) / from; }
+
+ExpectedError against_coarser(const Parameters& p, double gape, MPI_Comm communicator) {
+  const Parameters coarse = with_elements(p, 2);
+  const double coarser = gape_of(coarse, communicator), wider = gape_of(in_wider_patch(coarse), communicator);
+  return {std::abs(coarser - gape) / gape, std::abs(wider - coarser) / gape};
+}
+
+/// The error of a mesh goes as the size of its elements, as the energy of a crack does: elements half as long
+/// take half of it away.
+ExpectedError against_finer(const Parameters& p, const Parameters& coarse, const Parameters& fine,
+                            MPI_Comm communicator) {
+  const auto gape = [&](const Parameters& of) { return gape_of(of, communicator); };
+  return {2 * change(gape(coarse), gape(fine)), change(gape(with_grading(p)), gape(in_wider_patch(p)))};
+}
 
 }  // namespace
 
@@ -32,21 +80,31 @@ double gape_of(const Parameters& parameters, MPI_Comm communicator) {
   return residual.figures(release, columns, found, residual.left_over(load, found), 1).front().gape;
 }
 
-std::optional<ExpectedError> expected_error(const Parameters& parameters, double gape,
-                                            MPI_Comm communicator) {
-  if (!(gape > 0)) return {};
-  Parameters coarse = parameters;
-  coarse.mesh.element_size *= 2;
-  Parameters wide = coarse;
-  wide.patch.length *= 2, wide.patch.width *= 2;
-  wide.mesh.grading = std::max(least_grading, wide.mesh.grading);
+ErrorEstimate expected_error(const Parameters& parameters, double gape, MPI_Comm communicator) {
+  if (!(gape > 0)) return {{}, "the cut does not open"};
+  Parameters p = parameters;
   try {
-    const double coarser = gape_of(coarse, communicator), wider = gape_of(wide, communicator);
-    return ExpectedError{std::abs(coarser - gape) / gape, std::abs(wider - coarser) / gape};
-  } catch (const InputError&) {
-  } catch (const SolveError&) {
+    if (p.model == Model::finite) p.model = Model::small, gape = gape_of(p, communicator);
+    return {against_coarser(p, gape, communicator), ""};
+  } catch (const SolveError& e) {
+    return {{}, "with elements twice as long the cut has no solution: " + std::string(e.what())};
+  } catch (const InputError&) {  // they do not fit the cut
   }
-  return {};
+  const Parameters coarse = near_the_cut(p), fine = with_elements(coarse, 0.5);
+  try {
+    if (const double nodes = estimated_nodes(fine); nodes > most_finer_nodes)
+      return {{},
+              "elements twice as long do not fit the cut, and half as long ones would take about " +
+                  shortest(std::round(nodes)) + " nodes; solve it with half the " +
+                  row_of(p, p.mesh.element_size).name + " and compare"};
+    return {against_finer(p, coarse, fine, communicator), ""};
+  } catch (const SolveError& e) {
+    return {{}, "with elements half as long the cut has no solution: " + std::string(e.what())};
+  } catch (const InputError& e) {
+    return {{},
+            "elements twice as long do not fit the cut, nor does a mesh to compare with: " +
+                std::string(e.what())};
+  }
 }
 
 }  // namespace cleft

@@ -57,6 +57,7 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
   }
   if (job_.cases[members.front()].parameters.model == Model::finite) {
     for (const std::size_t number : members) solve_finite_series(*this, release, number);
+    estimate(members);
     return;
   }
   const std::size_t iterations_before = chosen_.solver->iterations().size();
@@ -68,20 +69,23 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
                     {members.begin() + static_cast<long>(first), members.begin() + static_cast<long>(end)});
     batch.solve();
   }
-  if (job_.options.estimate && !body) {
-    job_.progress("estimating the error of mesh and patch");
-    // Cases of one stiffness and one release differ in their tension alone: their errors are alike.
-    const SolveReport& first = job_.reports[members.front()];
-    if (first.written)
-      for (const std::optional<ExpectedError> expected =
-               expected_error(job_.cases[members.front()].parameters, first.gape, job_.communicator);
-           const std::size_t c : members)
-        job_.reports[c].expected = expected;
-    phases_.end("estimate");
-  }
+  estimate(members);
   const std::vector<int> iterations = chosen_.solver->iterations();
   job_.reports[members.front()].iterations.assign(iterations.begin() + static_cast<long>(iterations_before),
                                                   iterations.end());
+}
+
+void SharedStiffness::estimate(const std::vector<std::size_t>& members) {
+  // Cases of one stiffness and one release differ in their tension alone: their errors are alike.
+  const SolveReport& first = job_.reports[members.front()];
+  if (!job_.options.estimate || !first.written) return;
+  job_.progress("estimating the error of mesh and patch");
+  const ErrorEstimate estimate =
+      job_.options.body
+          ? ErrorEstimate{{}, "a body has one mesh; make it again with smaller elements and compare"}
+          : expected_error(job_.cases[members.front()].parameters, first.gape, job_.communicator);
+  for (const std::size_t c : members) job_.reports[c].estimate = estimate;
+  phases_.end("estimate");
 }
 
 }  // namespace cleft

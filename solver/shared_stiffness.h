@@ -41,6 +41,9 @@ class SharedStiffness {
   }  ///< valid once solve() has begun; none of a body
 
  private:
+  /// The error of mesh and patch, of members whose cut opens in the same order.
+  void estimate(const std::vector<std::size_t>& members);
+
   SolveJob& job_;
   Phases phases_;
   PatchMesh mesh_;

@@ -39,7 +39,7 @@ struct SolveOptions {
   bool unit_prestress = false;             ///< write the series of the unit prestresses uu, vv and uv as well
   std::vector<std::string> sensitivities;  ///< parameters to differentiate the series by
   bool estimate = true;                    ///< the error that the mesh and the patch leave
-  std::shared_ptr<const Body> body = {};   ///< in place of the patch; then there is no estimate
+  std::shared_ptr<const Body> body = {};   ///< in place of the patch; its error is not estimated
   std::function<void(const std::string&)> log = {};  ///< takes a line for each frame of the finite model
 };
 
@@ -56,11 +56,11 @@ struct SolveReport {
   int cases_sharing = 1;          ///< that use the same factorisation, this one included
   bool first_of_sharing = false;  ///< whose phases hold the shared work
   std::vector<Phase> phases;
-  std::vector<int> iterations;            ///< of every frame, where it was solved by iterations
-  std::vector<NewtonFrame> newton;        ///< of every frame of the finite model
-  double gape = 0;                        ///< mm: largest opening in the last frame
-  std::optional<ExpectedError> expected;  ///< of the gape; none if it was not estimated
-  double largest_displacement = 0;        ///< mm, from frame 0
+  std::vector<int> iterations;      ///< of every frame, where it was solved by iterations
+  std::vector<NewtonFrame> newton;  ///< of every frame of the finite model
+  double gape = 0;                  ///< mm: largest opening in the last frame
+  ErrorEstimate estimate;           ///< of the gape's error; empty if none was asked for
+  double largest_displacement = 0;  ///< mm, from frame 0
   double worst_equilibrium = 0, worst_closure = 0, smallest_gap = 0;
 };
 

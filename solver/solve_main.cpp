@@ -91,7 +91,9 @@ Json figures_of(const SolveReport& r) {
                   {"smallest_gap_mm", r.smallest_gap},
                   {"residual_equilibrium", r.worst_equilibrium},
                   {"residual_closure", r.worst_closure}};
-  if (r.expected) figures["expected_gape_error"] = {{"mesh", r.expected->mesh}, {"patch", r.expected->patch}};
+  if (const auto& expected = r.estimate.expected)
+    figures["expected_gape_error"] = {{"mesh", expected->mesh}, {"patch", expected->patch}};
+  if (!r.estimate.obstacle.empty()) figures["no_expected_gape_error"] = r.estimate.obstacle;
   figures["versions"] = versions();
   if (!r.iterations.empty()) figures["iterations"] = r.iterations;
   if (!r.newton.empty()) figures["newton"] = newton_of(r.newton);
@@ -103,12 +105,16 @@ Json figures_of(const SolveReport& r) {
 constexpr double much = 0.1;
 
 void warn_of_error(const SolveReport& r) {
-  if (!r.expected || r.expected->total() <= much) return;
+  const std::optional<ExpectedError>& expected = r.estimate.expected;
+  if (!r.estimate.obstacle.empty())
+    std::cerr << "cleft solve: note: " << r.out
+              << ": the error of the opening could not be estimated: " << r.estimate.obstacle << "\n";
+  if (!expected || expected->total() <= much) return;
   const auto rounded = [](double x) { return shortest(std::round(1000 * x) / 1000); };
   std::cerr
       << "cleft solve: warning: " << r.out << ": the opening is expected to be off by "
-      << rounded(r.expected->total()) << " of it (mesh " << rounded(r.expected->mesh) << ", patch "
-      << rounded(r.expected->patch)
+      << rounded(expected->total()) << " of it (mesh " << rounded(expected->mesh) << ", patch "
+      << rounded(expected->patch)
       << "): make mesh.element_size smaller, or patch.length and patch.width larger; cleft advise chooses\n";
 }
 

@@ -226,7 +226,10 @@ TEST(SolverLimits, CutsOneElementWide) {
     p.mesh.element_size = element_size;
     return gape_of(p, MPI_COMM_WORLD);
   };
-  const double one = gape_at(1), two = gape_at(0.5);
+  const double one = gape_at(1);
+  const ErrorEstimate estimate = expected_error(p, one, MPI_COMM_WORLD);
+  ASSERT_TRUE(estimate.expected) << estimate.obstacle;
+  const double two = gape_at(0.5);
   p.mesh.grading = 1.5;
   const double fine = gape_at(0.125);
   EXPECT_LT(one, two);
@@ -236,9 +239,11 @@ TEST(SolverLimits, CutsOneElementWide) {
                 .limit = "a cut of one column of nodes",
                 .shown = "gape of a cut of 2 mm with elements of 1 and 0.5 mm: " + rounded(one / fine) +
                          " and " + rounded(two / fine) + " of that with elements of 0.125 mm",
-                .noticed = "not by `cleft solve` (`cleft advise` measures it); fewer than one column: " +
+                .noticed = "`cleft solve` compares with elements half as long, and expects the first to be "
+                           "off by " +
+                           rounded(estimate.expected->mesh) + " of its gape; fewer than one column: " +
                            quoted(refusal_of(p), "mesh.element_size"),
-                .then = "solved as it is; fewer than one column is refused, exit code 2"});
+                .then = "solved with a warning; fewer than one column is refused, exit code 2"});
 }
 
 }  // namespace cleft
