@@ -17,6 +17,7 @@ const std::vector<Command> commands = {
     {"run", "run a study of many cases"},
     {"status", "what of a study is done"},
     {"solve", "simulate a growing cut"},
+    {"body", "mesh a body with its cuts, to solve it"},
     {"encode", "fit a field to a snapshot"},
     {"eval", "displacements of a field"},
     {"cut", "cut a surface mesh along a path"},

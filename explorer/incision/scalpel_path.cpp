@@ -150,6 +150,12 @@ ScalpelPath ScalpelPath::moved(const Vec3& by) const {
   return result;
 }
 
+ScalpelPath ScalpelPath::scaled(double by) const {
+  ScalpelPath result = *this;
+  for (Sample& sample : result.samples_) sample.position *= by, sample.s *= by, sample.depth *= by;
+  return result;
+}
+
 ScalpelPath ScalpelPath::until(double s) const {
   ScalpelPath part = *this;
   Sample end = sample_at(s);

@@ -46,6 +46,9 @@ class ScalpelPath {
   /// The same path elsewhere.
   ScalpelPath moved(const Vec3& by) const;
 
+  /// The same path in other units: all lengths times `by`.
+  ScalpelPath scaled(double by) const;
+
   /// Its part up to s, within it.
   ScalpelPath until(double s) const;
 

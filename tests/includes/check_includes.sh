@@ -29,6 +29,7 @@ haptic:base|encoder/field|params/parameters
 haptic/devices:base|haptic
 explorer/incision:base|encoder/field
 explorer/study:base|base/h5|params|params/parameters|solver/snapshot|encoder/field|encoder/field/file|encoder/interpolate
+explorer/body:base|params|params/parameters|solver/body|haptic|explorer/incision
 explorer/wound:base|base/h5|params/material|encoder/field|encoder/field/file|explorer/incision|explorer/study|params/parameters
 explorer/scalpel:base|encoder/field|haptic|haptic/devices|explorer/incision|explorer/wound
 explorer/scene:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel
@@ -37,7 +38,7 @@ explorer/io:base|explorer/incision|explorer/io/formats|solver/snapshot
 explorer/io/formats:base
 explorer/view:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|explorer/scene|explorer/session|explorer/io
 explorer/app:base|params|params/parameters|encoder/field|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|explorer/scene|explorer/session|explorer/io/formats|explorer/view
-explorer/commands:base|base/command|base/h5|params|params/parameters|params/run|encoder/field|encoder/field/file|haptic|haptic/devices|solver/snapshot|explorer/[a-z]+|explorer/io/formats
+explorer/commands:base|base/command|base/h5|params|params/parameters|params/run|encoder/field|encoder/field/file|haptic|haptic/devices|solver/snapshot|solver/body|explorer/[a-z]+|explorer/io/formats
 tradeoff/rivals:base|encoder|encoder/field|solver/snapshot
 tradeoff/replays:base|encoder/field|solver/snapshot|explorer/incision|explorer/wound|params/parameters
 tradeoff:base|base/command|params|params/parameters|params/run|solver/snapshot|encoder|encoder/field|encoder/field/file|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|tradeoff/rivals|tradeoff/replays

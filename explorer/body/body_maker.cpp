@@ -1,0 +1,338 @@
+#include "explorer/body/body_maker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "explorer/body/extrusion.h"
+#include "explorer/body/lined_surface.h"
+#include "explorer/body/parting.h"
+#include "explorer/body/remesh.h"
+#include "explorer/incision/incision.h"
+#include "params/meshed_cut.h"
+
+namespace cleft {
+
+namespace {
+
+/// A path as the mesh has it: made longer at both ends by the front's part of an element, because a mesh's
+/// cut opens as if it ended that much before its closed nodes (params/meshed_cut.h).
+struct LongerPath {
+  ScalpelPath path;
+  double front;  ///< mm, at both ends
+
+  LongerPath(const ScalpelPath& p, const Parameters& parameters) : path(p), front(0) {
+    const double part = front_parts(parameters).end, size = parameters.mesh.element_size;
+    const double count = std::max(1., std::ceil(p.length() / size + 2 * part - 1e-9));
+    const Vec3 apart = p.at(p.length()).position - p.at(0).position;
+    if (part == 0 || norm(apart) < size) return;  // a loop has no ends
+    front = part * p.length() / (count - 2 * part);
+    std::vector<ScalpelPath::Point> points;
+    const auto add = [&](double s) {
+      const PathFrame at = p.at(s);
+      points.push_back({at.position, at.outward, p.depth(std::clamp(s, 0., p.length()))});
+    };
+    add(-front);
+    const int pieces = std::clamp(static_cast<int>(std::ceil(8 * p.length() / size)), 32, 4000);
+    for (int i = 0; i <= pieces; ++i) add(p.length() * i / pieces);
+    add(p.length() + front);
+    path = ScalpelPath(points);
+  }
+};
+
+class Maker {
+ public:
+  explicit Maker(const BodyRequest& request) : r_(request), p_(request.parameters) {
+    for (const ScalpelPath& path : r_.paths) longer_.emplace_back(path, p_);
+  }
+
+  Body make(BodyReport* report) {
+    make_surface();
+    double depth = 0;
+    for (const ScalpelPath& path : r_.paths) depth = std::max(depth, path.largest_depth());
+    layers_ = make_layers(p_, depth);
+    set_blades();
+    e_ = extrude(s_, layers_, blade_, r_.bone);
+    add_nodes();
+    add_elements();
+    set_canonical();
+    body_.length = r_.paths.front().length();
+    body_.depth = r_.paths.front().largest_depth();
+    if (report) fill(*report);
+    check_body(body_, "the body");
+    body_.hash = hash_of(body_);
+    return std::move(body_);
+  }
+
+ private:
+  void make_surface() {
+    std::vector<ScalpelPath> paths;
+    for (const LongerPath& one : longer_) paths.push_back(one.path);
+    s_ = lined_surface(r_.skin, paths, r_.reach);
+    for (std::size_t c = 0; c < s_.cuts.size(); ++c) trim(c);
+    const SurfaceIndex shape(s_.mesh);
+    const double size = p_.mesh.element_size;
+    const std::vector<bool> stations = place_stations(s_, size);
+    std::vector<Vec3> places;
+    for (const auto& lines : s_.cuts) {
+      if (lines.empty())
+        throw InputError("cut " + std::to_string(&lines - s_.cuts.data() + 1) + " does not cut the skin");
+      for (const CutLine& line : lines) places.push_back(s_.mesh.points[line.from]);
+      places.push_back(s_.mesh.points[lines.back().to]);
+    }
+    // Twice as slowly as the patch's elements grow, which do so in one direction only.
+    const double growth = (p_.mesh.grading - 1) / 2;
+    s_ = remeshed(std::move(s_), stations, shape, [&](const Vec3& x) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vec3& place : places) nearest = std::min(nearest, squared_norm(place - x));
+      return size + growth * std::sqrt(nearest);
+    });
+  }
+
+  /// A cut that begins or ends at another one does not go on beyond it.
+  void trim(std::size_t cut) {
+    std::set<int> others;
+    for (std::size_t c = 0; c < s_.cuts.size(); ++c)
+      for (const CutLine& line : s_.cuts[c])
+        if (c != cut) others.insert({line.from, line.to});
+    auto& lines = s_.cuts[cut];
+    const double front = longer_[cut].front, length = r_.paths[cut].length();
+    double begin = -1, end = std::numeric_limits<double>::infinity();
+    for (const CutLine& line : lines) {
+      if (others.contains(line.to) && line.s_to < 1.5 * front) begin = std::max(begin, line.s_to);
+      if (others.contains(line.from) && line.s_from > length + 0.5 * front) end = std::min(end, line.s_from);
+    }
+    std::erase_if(lines, [&](const CutLine& line) { return line.s_to <= begin || line.s_from >= end; });
+  }
+
+  /// The direction of the blade at the points of cuts: the mean where two meet.
+  void set_blades() {
+    blade_.assign(s_.mesh.points.size(), Vec3{});
+    for (std::size_t c = 0; c < s_.cuts.size(); ++c)
+      for (const CutLine& line : s_.cuts[c]) {
+        blade_[line.from] += -1. * longer_[c].path.at(line.s_from).outward;
+        blade_[line.to] += -1. * longer_[c].path.at(line.s_to).outward;
+      }
+    for (Vec3& b : blade_)
+      if (squared_norm(b) > 0) b = normalized(b);
+  }
+
+  int columns() const { return static_cast<int>(s_.mesh.points.size()); }
+  int layers() const { return static_cast<int>(layers_.depth.size()); }
+
+  /// The nodes before all cuts: layer after layer.
+  void add_nodes() {
+    for (int k = 0; k < layers(); ++k)
+      for (int p = 0; p < columns(); ++p) {
+        body_.points.push_back(e_.node(s_, layers_, p, k));
+        body_.skin_above.push_back(p);
+        column_of_.push_back(p), depth_of_.push_back(layers_.depth[k]);
+      }
+  }
+
+  /// Doubles the nodes, and makes wedges of triangle after triangle, layer after layer.
+  void add_elements() {
+    Parting parting(s_.mesh, layers_.bottom, [this](int point, int layer) { return layer * columns() + point; },
+                    [this](int node, int above) {
+                      body_.points.push_back(body_.points[node]);
+                      const int own = static_cast<int>(body_.points.size()) - 1;
+                      body_.skin_above.push_back(above < 0 ? own : above);
+                      column_of_.push_back(column_of_[node]), depth_of_.push_back(depth_of_[node]);
+                      return own;
+                    });
+    body_.released = {0}, body_.times = {0}, body_.position = {-r_.paths.front().length() / 2};
+    double before = 0;
+    for (std::size_t c = 0; c < s_.cuts.size(); ++c) {
+      release(static_cast<int>(c), before, parting);
+      before += r_.paths[c].length();
+    }
+    if (body_.pairs.empty())
+      throw InputError("the cuts are too short to open a node: make mesh.element_size = " +
+                       shortest(p_.mesh.element_size) + " mm smaller");
+    const auto node = [&](int t, int corner, int k) {
+      return k < layers_.bottom ? parting.node(t, corner, k) : k * columns() + s_.mesh.triangles[t][corner];
+    };
+    std::vector<std::array<int, 6>> below;
+    for (int k = 0; k + 1 < layers(); ++k)
+      for (int t = 0; t < static_cast<int>(s_.mesh.triangles.size()); ++t) {
+        std::array<int, 6> wedge;
+        for (int i = 0; i < 3; ++i) wedge[i] = node(t, i, k + 1), wedge[3 + i] = node(t, i, k);
+        body_.wedges.push_back(wedge);
+        if (k == 0) body_.skin.push_back({wedge[3], wedge[4], wedge[5]});
+        if (k + 2 == layers()) {
+          body_.bottom.push_back({wedge[0], wedge[1], wedge[2]});
+          const auto& corners = s_.mesh.triangles[t];
+          const bool bone = std::all_of(corners.begin(), corners.end(), [&](int p) { return e_.on_bone[p]; });
+          body_.support.push_back(bone ? Support::bone : Support::springs);
+        }
+      }
+    add_sides();
+    set_tension();
+  }
+
+  /// Opens a cut column by column.
+  void release(int cut, double before, Parting& parting) {
+    const auto& lines = s_.cuts[cut];
+    const LongerPath& longer = longer_[cut];
+    const double length = r_.paths[cut].length();
+    const auto place = [&](double s) { return std::clamp(s - longer.front, 0., length); };
+    const bool loop = lines.front().from == lines.back().to;
+    for (std::size_t i = loop ? 1 : 0; i <= lines.size(); ++i) {
+      Parting::Visit visit;
+      visit.point = i < lines.size() ? lines[i].from : lines.back().to;
+      const double s = i < lines.size() ? lines[i].s_from : lines.back().s_to;
+      if (i > 0) visit.from = lines[i - 1].from;
+      if (i < lines.size())
+        visit.to = lines[i].to;
+      else if (loop)
+        visit.to = lines.front().to;
+      const double depth = longer.path.depth(s);
+      visit.layers = open_layers(depth);
+      const PathFrame at = longer.path.at(s);
+      const std::size_t had = body_.pairs.size();
+      for (const Parting::Pair& pair : parting.open(visit))
+        body_.pairs.push_back({pair.left, pair.right, cut, place(s) - length / 2, layers_.depth[pair.layer],
+                               pair.reversed ? -1. * at.across : at.across});
+      if (body_.pairs.size() == had) continue;
+      // The tip is just inside the first node ahead that is still closed.
+      const bool to_end = i + 1 > lines.size();
+      const double next = to_end ? s : lines[i].s_to;
+      const double tip = to_end ? length : place(next - front_parts(p_).end * (next - s));
+      const double time = before + tip;
+      if (time > body_.times.back() + 1e-9 * length) {
+        body_.times.push_back(time), body_.position.push_back(tip - length / 2);
+        body_.released.push_back(static_cast<int>(body_.pairs.size()));
+      } else {  // at the same place as the frame before
+        body_.released.back() = static_cast<int>(body_.pairs.size());
+      }
+    }
+  }
+
+  /// How many layers of nodes a cut of this depth opens: it ends just above the first closed one.
+  int open_layers(double depth) const {
+    int best = 1;
+    for (int k = 1; k <= layers_.bottom; ++k)
+      if (std::abs(layers_.depth[k] - layers_.front - depth) <
+          std::abs(layers_.depth[best] - layers_.front - depth))
+        best = k;
+    return best;
+  }
+
+  /// Faces at the rim, where the body goes on; the mesh's own outlines are free.
+  void add_sides() {
+    std::map<std::pair<int, int>, int> count;
+    for (const auto& t : s_.mesh.triangles)
+      for (int i = 0; i < 3; ++i) ++count[std::minmax(t[i], t[(i + 1) % 3])];
+    for (int t = 0; t < static_cast<int>(s_.mesh.triangles.size()); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const auto& corners = s_.mesh.triangles[t];
+        const int a = corners[i], b = corners[(i + 1) % 3];
+        if (count[std::minmax(a, b)] != 1 || (s_.outline[a] && s_.outline[b])) continue;
+        for (int k = 0; k + 1 < layers(); ++k) {
+          const auto& wedge = body_.wedges[static_cast<std::size_t>(k) * s_.mesh.triangles.size() + t];
+          const int j = (i + 1) % 3;
+          body_.sides.push_back({wedge[3 + i], wedge[3 + j], wedge[j], wedge[i]});
+        }
+      }
+  }
+
+  void set_tension() {
+    const ScalpelPath& first = r_.paths.front();
+    Vec3 direction = first.at(first.length()).position - first.at(0).position;
+    if (!r_.tension.empty())
+      direction = r_.tension.front();
+    else if (norm(direction) < 1e-3 * first.length())
+      direction = first.at(0).along;
+    for (const auto& t : body_.skin) {
+      const Vec3 a = body_.points[t[0]], b = body_.points[t[1]], c = body_.points[t[2]];
+      const Vec3 normal = normalized(cross(b - a, c - a));
+      Vec3 within = direction - dot(direction, normal) * normal;
+      if (norm(within) < 1e-6 * norm(direction)) within = b - a;  // seen from its end: any direction is as good
+      body_.tension.push_back(normalized(within));
+    }
+  }
+
+  /// Coordinates of the first cut: of its surroundings on the skin before it was cut, as replays have them.
+  void set_canonical() {
+    const ScalpelPath& path = r_.paths.front();
+    CutMesh mesh(s_.mesh);
+    IncisionOptions options;
+    options.max_edge = 0, options.reach = std::numeric_limits<double>::infinity();
+    const Incision incision(mesh, path, options);
+    const auto& labels = incision.surroundings().labels();
+    const std::vector<Vec3> normals = normals_of(s_.mesh);
+    const SurfaceIndex index(s_.mesh);
+    std::vector<Vec3> canonical(s_.mesh.points.size());
+    std::vector<std::array<Vec3, 3>> frames(s_.mesh.points.size());
+    std::set<int> on_cut;
+    for (const CutLine& line : s_.cuts.front()) on_cut.insert({line.from, line.to});
+    for (int p = 0; p < columns(); ++p) {
+      const PathCoordinates at = path.coordinates(s_.mesh.points[p]);
+      double across = at.v;
+      if (on_cut.contains(p))
+        across = 0;
+      else if (p < static_cast<int>(labels.size()) && labels[p].reached)
+        across = Surroundings::across(at.v, labels[p].detour, labels[p].side);
+      canonical[p] = {at.s - path.length() / 2, across, 0};
+      const PathFrame frame = path.at(at.s);
+      const SurfacePlace place = index.nearest(frame.position);
+      const auto& corners = s_.mesh.triangles[place.triangle];
+      Vec3 normal;
+      for (int i = 0; i < 3; ++i) normal += place.weights[i] * normals[corners[i]];
+      normal = normalized(normal);
+      const Vec3 along = normalized(frame.along - dot(frame.along, normal) * normal);
+      frames[p] = {along, cross(normal, along), normal};
+    }
+    for (std::size_t n = 0; n < body_.points.size(); ++n) {
+      const int p = column_of_[n];
+      body_.canonical.push_back({canonical[p].x, canonical[p].y, -depth_of_[n]});
+      body_.frames.push_back(frames[p]);
+    }
+  }
+
+  void fill(BodyReport& report) const {
+    report.nodes = static_cast<int>(body_.points.size());
+    report.wedges = static_cast<int>(body_.wedges.size());
+    report.triangles = static_cast<int>(body_.skin.size());
+    report.pairs = static_cast<int>(body_.pairs.size());
+    report.frames = static_cast<int>(body_.times.size());
+    report.least_determinant = e_.least_determinant;
+    report.thinned = e_.thinned, report.thinnest = e_.thinnest;
+    report.least_thickness = *std::min_element(e_.thickness.begin(), e_.thickness.end());
+    report.on_bone = static_cast<int>(std::count(e_.on_bone.begin(), e_.on_bone.end(), true));
+    double least = 180;
+    for (const auto& t : s_.mesh.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 a = s_.mesh.points[t[(i + 1) % 3]] - s_.mesh.points[t[i]];
+        const Vec3 b = s_.mesh.points[t[(i + 2) % 3]] - s_.mesh.points[t[i]];
+        least = std::min(least, std::atan2(norm(cross(a, b)), dot(a, b)) * 57.29577951308232);
+      }
+    report.least_angle = least;
+    for (const auto& lines : s_.cuts)
+      for (const CutLine& line : lines)
+        if (const double depth = e_.cut_depth(layers_, line.from); depth < 0.999 * layers_.depth[layers_.bottom])
+          report.least_depth = report.least_depth == 0 ? depth : std::min(report.least_depth, depth);
+  }
+
+  const BodyRequest& r_;
+  const Parameters& p_;
+  std::vector<LongerPath> longer_;
+  LinedSurface s_;
+  Layers layers_;
+  std::vector<Vec3> blade_;
+  Extrusion e_;
+  Body body_;
+  std::vector<int> column_of_;    // by node: its point of the surface
+  std::vector<double> depth_of_;  // by node: of its layer
+};
+
+}  // namespace
+
+Body make_body(const BodyRequest& request, BodyReport* report) { return Maker(request).make(report); }
+
+}  // namespace cleft

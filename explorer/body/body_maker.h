@@ -1,0 +1,44 @@
+// From a surface with the paths of cuts to the mesh of a body in which they are simulated.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "explorer/body/surface_index.h"
+#include "explorer/incision/scalpel_path.h"
+#include "params/parameters/parameters.h"
+#include "solver/body/body.h"
+
+namespace cleft {
+
+/// What a body is made of. Lengths in mm.
+struct BodyRequest {
+  SurfaceMesh skin;                ///< counter-clockwise from outside
+  std::vector<ScalpelPath> paths;  ///< in the order in which they are cut, each with its depth
+  const SurfaceIndex* bone = nullptr;  ///< what lies below; null: nothing
+  Parameters parameters;           ///< mesh.element_size, grading and front; patch.height: thickness of tissue
+  double reach = 40;               ///< of the body around the paths, over the skin
+  std::vector<Vec3> tension;       ///< one direction of skin.prestress_u; none: from the first path's start to
+                                   ///< its end
+};
+
+/// What was made, and where it had to be changed.
+struct BodyReport {
+  int nodes = 0, wedges = 0, triangles = 0, pairs = 0, frames = 0;
+  double least_angle = 0;        ///< of the skin's triangles, degrees
+  double least_determinant = 0;  ///< of a wedge: least Jacobian of its corners over its mean
+  double least_thickness = 0;    ///< of the tissue, mm
+  int thinned = 0;               ///< columns that had to be made thinner, because they would turn inside out
+  Vec3 thinnest;                 ///< where
+  int on_bone = 0;               ///< columns that end at bone
+  double least_depth = 0;        ///< of a cut that bone would stop, mm; 0: none
+};
+
+/// The skin around the paths is cut along them, closed again, meshed with triangles of element_size along the
+/// cuts that grow away from them, and extruded inward in layers of wedges down to patch.height, or to the
+/// bone. Nodes on the cuts are doubled, fourfold where two cross. Throws InputError where a path does not
+/// meet the skin, where bone is above the skin, and where the tissue would have no thickness.
+Body make_body(const BodyRequest& request, BodyReport* report = nullptr);
+
+}  // namespace cleft

@@ -1,0 +1,97 @@
+#include "explorer/body/surface_index.h"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "haptic/triangle_geometry.h"
+
+namespace cleft {
+
+namespace {
+
+namespace bg = boost::geometry;
+using Point = bg::model::point<double, 3, bg::cs::cartesian>;
+using Box = bg::model::box<Point>;
+using Entry = std::pair<Box, int>;
+
+Point point_of(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+Box box_of(std::initializer_list<Vec3> points) {
+  Vec3 least = *points.begin(), most = least;
+  for (const Vec3& p : points)
+    for (int axis = 0; axis < 3; ++axis) {
+      least[axis] = std::min(least[axis], p[axis]);
+      most[axis] = std::max(most[axis], p[axis]);
+    }
+  return {point_of(least), point_of(most)};
+}
+
+}  // namespace
+
+struct SurfaceIndex::Tree {
+  explicit Tree(SurfaceMesh mesh) : surface(std::move(mesh)), boxes(entries()) {}
+
+  Corners corners(int t) const {
+    const auto& [a, b, c] = surface.triangles[t];
+    return {surface.points[a], surface.points[b], surface.points[c]};
+  }
+
+  std::vector<Entry> entries() const {
+    std::vector<Entry> list;
+    for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+      const auto [a, b, c] = corners(t);
+      list.emplace_back(box_of({a, b, c}), t);
+    }
+    return list;
+  }
+
+  SurfaceMesh surface;
+  bg::index::rtree<Entry, bg::index::rstar<16>> boxes;
+};
+
+SurfaceIndex::SurfaceIndex(SurfaceMesh surface) : tree_(std::make_unique<Tree>(std::move(surface))) {}
+SurfaceIndex::~SurfaceIndex() = default;
+SurfaceIndex::SurfaceIndex(SurfaceIndex&&) noexcept = default;
+
+const SurfaceMesh& SurfaceIndex::surface() const { return tree_->surface; }
+
+SurfacePlace SurfaceIndex::nearest(const Vec3& x) const {
+  SurfacePlace best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto all = static_cast<unsigned>(tree_->boxes.size());
+  // Boxes by their distance: none further away than the best triangle holds a better one.
+  for (auto entry = tree_->boxes.qbegin(bg::index::nearest(point_of(x), all)); entry != tree_->boxes.qend();
+       ++entry) {
+    if (bg::comparable_distance(point_of(x), entry->first) > least) break;
+    const Vec3 at = closest_point(x, tree_->corners(entry->second)).position;
+    if (const double distance = squared_norm(at - x); distance < least) {
+      least = distance;
+      best.triangle = entry->second, best.position = at;
+    }
+  }
+  const auto [a, b, c] = tree_->corners(best.triangle);
+  const Vec3 normal = cross(b - a, c - a);
+  const double area = squared_norm(normal);
+  const Vec3& p = best.position;
+  best.weights[1] = dot(cross(p - a, c - a), normal) / area;
+  best.weights[2] = dot(cross(b - a, p - a), normal) / area;
+  best.weights[0] = 1 - best.weights[1] - best.weights[2];
+  return best;
+}
+
+std::optional<double> SurfaceIndex::meets(const Vec3& from, const Vec3& way) const {
+  std::optional<double> first;
+  for (auto entry = tree_->boxes.qbegin(bg::index::intersects(box_of({from, from + way})));
+       entry != tree_->boxes.qend(); ++entry)
+    if (const Passage p = pass_through(from, from + way, tree_->corners(entry->second));
+        p.passes && (!first || p.fraction < *first))
+      first = p.fraction;
+  return first;
+}
+
+}  // namespace cleft

@@ -1,0 +1,36 @@
+// The nearest place of a surface, and what a ray meets of it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "explorer/incision/surface_mesh.h"
+
+namespace cleft {
+
+/// A place of a surface.
+struct SurfacePlace {
+  int triangle = -1;
+  Vec3 position;
+  std::array<double, 3> weights{};  ///< of the triangle's corners; they add up to 1
+};
+
+/// Keeps a copy of the surface, which must have triangles.
+class SurfaceIndex {
+ public:
+  explicit SurfaceIndex(SurfaceMesh surface);
+  ~SurfaceIndex();
+  SurfaceIndex(SurfaceIndex&&) noexcept;
+
+  const SurfaceMesh& surface() const;
+  SurfacePlace nearest(const Vec3& x) const;
+  /// How far from `from`, in lengths of `way`, the segment to from + way first meets the surface, if it does.
+  std::optional<double> meets(const Vec3& from, const Vec3& way) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace cleft
