@@ -84,7 +84,7 @@ Json info_of_field(const std::string& file) {
       {"cut", {{"start", field.cut().start}, {"length", field.cut().length}, {"depth", field.cut().depth}}},
       {"report", shown(field.report)},
       {"bytes", std::filesystem::file_size(file)},
-      {"parameters", field.parameters.numbers()}};
+      {"parameters", parameters_of(field.parameters)}};
   for (const Quantity& quantity : field.quantities)
     info["quantities"].push_back({{"name", quantity.name},
                                   {"components", quantity.components},

@@ -111,7 +111,7 @@ class Field {
   double quantum = 0;  ///< mm: unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
   std::vector<Quantity> quantities;
   std::vector<ParameterDerivative> by_parameter;
-  RecordedParameters parameters;  ///< of the case; field files hold the numbers alone
+  RecordedParameters parameters;  ///< of the case
   std::string case_hash;
   FitReport report;
   std::optional<Interpolation> interpolation;

@@ -26,8 +26,8 @@ bool same(const Field& a, const Field& b) {
   for (int axis = 0; axis < 4; ++axis)
     if (a.basis(axis).knots() != b.basis(axis).knots() || a.basis(axis).degree() != b.basis(axis).degree())
       return false;
-  return a.coefficients() == b.coefficients() && a.parameters.numbers() == b.parameters.numbers() &&
-         a.case_hash == b.case_hash && a.cut().start == b.cut().start && a.cut().length == b.cut().length &&
+  return a.coefficients() == b.coefficients() && a.parameters == b.parameters && a.case_hash == b.case_hash &&
+         a.cut().start == b.cut().start && a.cut().length == b.cut().length &&
          a.cut().depth == b.cut().depth && a.report.node_error == b.report.node_error &&
          a.quantum == b.quantum && a.parametrization().name() == b.parametrization().name() &&
          a.parametrization().geometry().tip.positions == b.parametrization().geometry().tip.positions;
@@ -51,6 +51,23 @@ TEST(FieldFile, ReadsBackWhatWasWritten) {
     EXPECT_FALSE(read_residual(folder / "a.dffd"));
     EXPECT_EQ(folder.entries(), 1);
   }
+}
+
+TEST(FieldFile, TellsItsModelAndAFileWithoutOneIsOfSmallStrains) {
+  const TemporaryFolder folder;
+  Field field = random_field();
+  write_field(folder / "older.dffd", field);
+  field.parameters.set("model", "finite");
+  field.parameters.set("skin.law", "fung");
+  write_field(folder / "finite.dffd", field);
+  const RecordedParameters finite = read_field(folder / "finite.dffd").parameters;
+  EXPECT_EQ(finite->model, Model::finite);
+  EXPECT_EQ(finite->skin.law, SkinLaw::fung);
+  EXPECT_EQ(finite.number("skin.thickness"), 1.5);
+  EXPECT_EQ(finite, read_field_parameters(folder / "finite.dffd"));
+  const RecordedParameters older = read_field_parameters(folder / "older.dffd");
+  EXPECT_TRUE(older.texts().empty());
+  EXPECT_EQ(older->model, Model::small);
 }
 
 TEST(FieldFile, WhatIsNotCoefficientsTakesFewBytes) {

@@ -95,6 +95,7 @@ Json header_of(const Field& field, int slices) {
   header["tip"] = {{"times", geometry.tip.times}, {"positions", geometry.tip.positions}};
   header["parameters"] = Json::object();
   for (const auto& [name, value] : field.parameters.numbers()) header["parameters"][name] = value;
+  for (const auto& [name, value] : field.parameters.texts()) header["choices"][name] = value;
   for (const Figure& figure : figures) header["report"][figure.name] = field.report.*figure.value;
   if (field.interpolation) {
     header["interpolation"]["method"] = field.interpolation->method;
