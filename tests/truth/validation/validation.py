@@ -232,36 +232,31 @@ def slit(tool, page):
 
 
 def calculix(tool, page):
-    """Frame by frame; the lips stay under tension where the skin is pulled more along the cut than across it."""
+    """Frame by frame, as long as the lips are not wrinkled: where they are, it hangs on rounding which balance is found."""
     import calculix as program
     from finite import out_of_balance
     from patch import Patch, load
     if not shutil.which("ccx"):
         print("Skipped: no ccx. Debian has it in calculix-ccx.")
         sys.exit(77)
-    for name, u, v in (("pulled 3 : 2", 0.03, 0.02), ("pulled 1 : 3", 0.01, 0.03)):
+    for name, u, v, last in (("pulled 3 : 2", 0.03, 0.02, 9), ("pulled 1 : 3", 0.01, 0.03, 5)):
         case = tool.case(model="finite", patch__length=24, patch__width=20, patch__height=4, cut__length=10, cut__depth=2,
                          mesh__front="nodes", skin__law="st-venant-kirchhoff", tissue__law="st-venant-kirchhoff",
                          skin__prestress_u=u, skin__prestress_v=v)
         out = tool.folder / "calculix.h5"
         tool.run("../tests/solve_with_rule", case, out)
         patch = Patch(out)
-        for frame in range(1, len(patch.released)):
+        for frame in range(1, last + 1):
             found = patch.displacement[frame]
             stands, unbalanced = patch.joined(frame), out_of_balance(patch, found, "centroid")
             together = np.zeros_like(unbalanced)
             np.add.at(together, stands, unbalanced)
             residual = np.abs(together).max() / np.abs(load(patch)).max()
-            try:
-                _, printed = program.run_ccx(tool.folder, program.deck_of(patch, frame, 1))
-                expected = program.displacements(printed, len(patch.points))
-                error = np.abs(found - expected).max() / np.abs(expected).max()
-            except SystemExit:
-                error = np.inf
-            cells = [f"{np.abs(found).max():.3f} mm", f"{np.abs(expected).max():.3f} mm", below(error, 1e-6)]
-            if error > 1e-4 and u < v:  # digits of wrinkles differ from machine to machine
-                cells = [f"{np.abs(found).max():.1f} mm", "another balance, or none", "-"]
-            page.row(f"{name}, frame {frame}", *cells, below(residual, 1e-7), residual < 1e-6 and (error < 1e-4 or u < v))
+            _, printed = program.run_ccx(tool.folder, program.deck_of(patch, frame, 1))
+            expected = program.displacements(printed, len(patch.points))
+            error = np.abs(found - expected).max() / np.abs(expected).max()
+            page.row(f"{name}, frame {frame}", f"{np.abs(found).max():.3f} mm", f"{np.abs(expected).max():.3f} mm",
+                     below(error, 1e-6), below(residual, 1e-7), error < 1e-4 and residual < 1e-6)
 
 
 SECTIONS = {
