@@ -60,28 +60,41 @@ SurfaceIndex::SurfaceIndex(SurfaceIndex&&) noexcept = default;
 
 const SurfaceMesh& SurfaceIndex::surface() const { return tree_->surface; }
 
-SurfacePlace SurfaceIndex::nearest(const Vec3& x) const {
+template <class Counts>
+SurfacePlace SurfaceIndex::nearest_of(const Vec3& x, double reach, const Counts& counts) const {
   SurfacePlace best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = reach * reach;
   const auto all = static_cast<unsigned>(tree_->boxes.size());
   // Boxes by their distance: none further away than the best triangle holds a better one.
   for (auto entry = tree_->boxes.qbegin(bg::index::nearest(point_of(x), all)); entry != tree_->boxes.qend();
        ++entry) {
     if (bg::comparable_distance(point_of(x), entry->first) > least) break;
-    const Vec3 at = closest_point(x, tree_->corners(entry->second)).position;
-    if (const double distance = squared_norm(at - x); distance < least) {
+    const Corners corners = tree_->corners(entry->second);
+    if (!counts(corners)) continue;
+    const Vec3 at = closest_point(x, corners).position;
+    if (const double distance = squared_norm(at - x); distance < least || best.triangle < 0) {
+      if (distance > least) continue;
       least = distance;
       best.triangle = entry->second, best.position = at;
     }
   }
+  if (best.triangle < 0) return best;
   const auto [a, b, c] = tree_->corners(best.triangle);
   const Vec3 normal = cross(b - a, c - a);
   const double area = squared_norm(normal);
   const Vec3& p = best.position;
-  best.weights[1] = dot(cross(p - a, c - a), normal) / area;
-  best.weights[2] = dot(cross(b - a, p - a), normal) / area;
+  best.weights[1] = std::clamp(dot(cross(p - a, c - a), normal) / area, 0., 1.);
+  best.weights[2] = std::clamp(dot(cross(b - a, p - a), normal) / area, 0., 1.);
   best.weights[0] = 1 - best.weights[1] - best.weights[2];
   return best;
+}
+
+SurfacePlace SurfaceIndex::nearest(const Vec3& x) const {
+  return nearest_of(x, std::numeric_limits<double>::infinity(), [](const Corners&) { return true; });
+}
+
+SurfacePlace SurfaceIndex::nearest(const Vec3& x, const Vec3& normal, double reach) const {
+  return nearest_of(x, reach, [&](const Corners& c) { return dot(scaled_normal(c), normal) > 0; });
 }
 
 std::optional<double> SurfaceIndex::meets(const Vec3& from, const Vec3& way) const {

@@ -25,10 +25,15 @@ class SurfaceIndex {
 
   const SurfaceMesh& surface() const;
   SurfacePlace nearest(const Vec3& x) const;
+  /// The nearest place of triangles whose normal is less than a right angle away from `normal`, within
+  /// `reach`; its triangle is -1 if there is none.
+  SurfacePlace nearest(const Vec3& x, const Vec3& normal, double reach) const;
   /// How far from `from`, in lengths of `way`, the segment to from + way first meets the surface, if it does.
   std::optional<double> meets(const Vec3& from, const Vec3& way) const;
 
  private:
+  template <class Counts>
+  SurfacePlace nearest_of(const Vec3& x, double reach, const Counts& counts) const;
   struct Tree;
   std::unique_ptr<Tree> tree_;
 };

@@ -1,5 +1,6 @@
 // cleft cut: cuts through one mesh, one after the other, without a window.
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -8,6 +9,9 @@
 #include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "explorer/body/simulate.h"
+#include "explorer/body/simulated_wounds.h"
+#include "explorer/commands/body_options.h"
 #include "explorer/commands/cut_figures.h"
 #include "explorer/commands/cut_volume.h"
 #include "explorer/commands/tension_options.h"
@@ -31,6 +35,8 @@ struct Options {
   double detail = 0;                // micrometres
   std::optional<double> max_edge;   // mm
   TensionOptions tension;
+  bool simulate = false;
+  BodyOptions body;
 };
 
 bool is_volume(const std::string& path) { return is_mesh(path, MeshKind::volume); }
@@ -173,10 +179,34 @@ void move(const ReplayedWounds& wounds, const CutFields& fields, const Options& 
   figures["warnings"] = warnings_of(validity, "cleft cut");
 }
 
+/// Moves the mesh as a simulation of these very cuts says, and tells how far replays, if `positions` holds
+/// them, are from it.
+void move_as_simulated(const Options& options, const Cuts& cuts, bool replayed, std::vector<Vec3>& positions,
+                       Json& figures) {
+  BodyRequest request = options.body.request();
+  request.skin = scaled(cuts.uncut, options.scale);
+  for (const Incision* one : cuts.list) request.paths.push_back(one->path().scaled(options.scale));
+  const std::optional<SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin);
+  if (bone) request.bone = &*bone;
+  Progress progress("simulating");
+  const BodySimulation simulation = simulate(request, std::ref(progress));
+  const SimulatedWounds wounds(cuts.list, options.scale, simulation.body, *simulation.series);
+  std::vector<Vec3> simulated(positions.size());
+  wounds.positions(cuts.t, simulated);
+  Json told = figures_of(simulation.report);
+  told["gape_mm"] = simulation.gape;
+  told["seconds"] = simulation.seconds;
+  told["moved_vertices"] = wounds.active();
+  if (replayed) told["replay"] = replay_off_by(cuts.list, options.scale, positions, simulated);
+  figures["simulated"] = told;
+  warn_of(simulation.report, "cleft cut");
+  positions = std::move(simulated);
+}
+
 void cut(const Options& options) {
   check_files(options);
   std::optional<CutFields> fields;
-  if (!options.rest)
+  if (!options.field.empty())
     fields = read_cut_fields(options.field, options.tension.direction, options.tension.prestresses);
   Skin skin(options.mesh);
   const Field* shape = fields ? &fields->shape() : nullptr;
@@ -192,6 +222,7 @@ void cut(const Options& options) {
     wounds = open(options, *fields, cuts);
     move(*wounds, *fields, options, cuts.t, result.points, figures);
   }
+  if (options.simulate) move_as_simulated(options, cuts, fields.has_value(), result.points, figures);
   if (skin.volume) {
     figures["cells_added"] = write_cut_volume(*skin.volume, skin.surface, cuts.list, wounds.get(),
                                               options.scale, cuts.t, options.out);
@@ -241,9 +272,18 @@ int main(int argc, char** argv) {
       ->check(at_least(0))
       ->capture_default_str();
   app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
+  app.add_flag("--simulate", o.simulate,
+               "open the cuts as a simulation of this very body says (seconds); with --field, tell how far the "
+               "replay is from it")
+      ->excludes(rest);
+  o.body.add_to(app);
   app.add_flag("--json", o.json, "figures as JSON");
   return run_command(app, argc, argv, [&] {
-    if (o.field.empty() && !o.rest) throw InputError("give --field case.dffd, or --rest for the closed cut");
+    if (o.field.empty() && !o.rest && !o.simulate)
+      throw InputError("give --field case.dffd, --simulate, or --rest for the closed cut");
+    if (o.simulate && is_volume(o.mesh))
+      throw InputError("--simulate, --mesh " + o.mesh + ": a mesh of volume is not simulated yet; give its surface");
+    if (!o.simulate && o.body.given()) throw InputError(o.body.first_given() + ": is for --simulate");
     cut(o);
   });
 }

@@ -1,0 +1,28 @@
+// The simulation of the cuts of a true body, by the solver, in a process of its own.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/process.h"
+#include "explorer/body/body_maker.h"
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+struct BodySimulation {
+  Body body;
+  BodyReport report;
+  std::unique_ptr<SnapshotReader> series;
+  double gape = 0;     ///< largest opening of the last frame, mm
+  double seconds = 0;  ///< for mesh and solution
+};
+
+/// Meshes the body and solves it in files of a temporary folder, which is removed. `progress` is called with
+/// the current step. When *stop is 1 the solver is asked to end. Throws InputError for what cannot be meshed
+/// or solved, std::runtime_error, with the solver's message, if it fails or was stopped.
+BodySimulation simulate(const BodyRequest& request, const std::function<void(const std::string&)>& progress = {},
+                        const StopCount* stop = nullptr);
+
+}  // namespace cleft

@@ -1,0 +1,54 @@
+// The cuts of a mesh, moved as a simulation of this very body says: each vertex by the three nodes of the
+// body's skin, or of a wall of its cuts, between which it lies.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "explorer/body/surface_index.h"
+#include "explorer/incision/incision.h"
+#include "solver/body/body.h"
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+class SimulatedWounds {
+ public:
+  /// `cuts`: all of one mesh, complete, in the order in which they were made, along the paths of the body.
+  /// `scale` is mm per mesh unit. Throws InputError if the series is not that of the body.
+  SimulatedWounds(const std::vector<const Incision*>& cuts, double scale, const Body& body,
+                  const SnapshotReader& series);
+
+  /// The length of all paths, mm.
+  double duration() const { return times_.back(); }
+  int active() const { return static_cast<int>(places_.size()); }
+
+  /// Positions of all vertices at t, mesh units: between two frames of the series in proportion. Allocates
+  /// no memory.
+  void positions(double t, std::span<Vec3> out) const;
+
+  /// What a vertex takes of three nodes; the ends and the bottom of a cut take of both sides.
+  struct Place {
+    int vertex;
+    std::array<int, 3> nodes;
+    std::array<double, 3> weights;  ///< those of the nodes, less toward the rim of the body
+  };
+  const std::vector<Place>& places() const { return places_; }
+  Vec3 displacement(const Place& place, double t) const;  ///< mm
+
+ private:
+  struct Moment {
+    std::size_t frame;
+    double part;  ///< of the next one
+  };
+  Moment moment(double t) const;
+
+  double scale_;
+  std::vector<double> times_;
+  std::vector<std::vector<std::array<float, 3>>> frames_;  // mm, by node
+  std::vector<Vec3> rest_;
+  std::vector<Place> places_;  // in the order of vertices, of those that move
+};
+
+}  // namespace cleft

@@ -1,0 +1,122 @@
+#include "explorer/commands/body_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "base/text.h"
+#include "explorer/incision/incision.h"
+#include "explorer/incision/local_coordinates.h"
+#include "explorer/io/mesh_file.h"
+#include "params/parameters/table.h"
+#include "params/study.h"
+
+namespace cleft {
+
+namespace {
+
+double rounded(double x) { return std::round(1e4 * x) / 1e4; }
+
+std::vector<std::string> warnings_of(const BodyReport& r) {
+  std::vector<std::string> warnings;
+  if (r.thinned > 0)
+    warnings.push_back("the tissue is thinner than patch.height below " + std::to_string(r.thinned) +
+                       " points of the skin, down to " + shortest(rounded(r.least_thickness)) +
+                       " mm, because the skin is bent too strongly there");
+  if (r.least_depth > 0)
+    warnings.push_back("the cut is only " + shortest(rounded(r.least_depth)) +
+                       " mm deep where the tissue is thin");
+  return warnings;
+}
+
+}  // namespace
+
+void BodyOptions::add_to(CommandLine& app) {
+  app_ = &app;
+  app.add_option("--bone", bone, "of a simulation: surface of the bone below, to which the tissue is grown");
+  app.add_option("--case", case_file,
+                 "of a simulation: case file, for skin, tissue, mesh.element_size along the cuts, "
+                 "mesh.grading, and patch.height, the thickness of the tissue [the defaults]");
+  app.add_option("--set", assignments, "of a simulation: NAME=VALUE, overrides a parameter (repeatable)")
+      ->allow_extra_args(false);
+  app.add_option("--reach", reach, "of a simulation: how far the body goes around the cuts, over the skin, mm")
+      ->check(above(0))
+      ->capture_default_str();
+  app.add_option("--direction", direction,
+                 "X,Y,Z, of a simulation: direction of skin.prestress_u, in space [from the first path's start "
+                 "to its end]")
+      ->delimiter(',')
+      ->expected(3);
+}
+
+std::string BodyOptions::first_given() const {
+  for (const char* name : {"--bone", "--case", "--set", "--reach", "--direction"})
+    if (app_->count(name) > 0) return name;
+  return "";
+}
+
+BodyRequest BodyOptions::request() const {
+  BodyRequest request;
+  if (!case_file.empty())
+    request.parameters = read_case(case_file, assignments).parameters;
+  else
+    for (const std::string& assignment : assignments) set_from_text(request.parameters, assignment, "--set");
+  request.reach = reach;
+  if (!direction.empty()) request.tension = {{direction[0], direction[1], direction[2]}};
+  return request;
+}
+
+std::optional<SurfaceIndex> BodyOptions::read_bone(double scale, const Vec3& origin) const {
+  if (bone.empty()) return {};
+  return SurfaceIndex(scaled(moved(read_mesh(bone), -origin), scale));
+}
+
+SurfaceMesh scaled(SurfaceMesh mesh, double scale) {
+  for (Vec3& p : mesh.points) p *= scale;
+  return mesh;
+}
+
+Json figures_of(const BodyReport& r) {
+  Json figures = {{"nodes", r.nodes},
+                  {"wedges", r.wedges},
+                  {"skin_triangles", r.triangles},
+                  {"pairs", r.pairs},
+                  {"frames", r.frames},
+                  {"least_angle_degrees", rounded(r.least_angle)},
+                  {"least_determinant", rounded(r.least_determinant)},
+                  {"least_thickness_mm", rounded(r.least_thickness)},
+                  {"thinned_columns", r.thinned},
+                  {"columns_on_bone", r.on_bone}};
+  if (r.thinned > 0)
+    figures["thinnest_at_mm"] = {rounded(r.thinnest.x), rounded(r.thinnest.y), rounded(r.thinnest.z)};
+  figures["warnings"] = warnings_of(r);
+  return figures;
+}
+
+void warn_of(const BodyReport& report, const char* command) {
+  for (const std::string& warning : warnings_of(report))
+    std::cerr << command << ": warning: " << warning << "\n";
+}
+
+Json replay_off_by(const std::vector<const Incision*>& cuts, double scale, const std::vector<Vec3>& replayed,
+                   const std::vector<Vec3>& simulated) {
+  const CutMesh& mesh = cuts.front()->mesh();
+  double largest = 0, off = 0, gape = 0, gape_off = 0;
+  for (std::size_t v = 0; v < simulated.size(); ++v) {
+    const double moved = norm(simulated[v] - mesh.position(static_cast<int>(v)));
+    largest = std::max(largest, moved), off = std::max(off, norm(simulated[v] - replayed[v]));
+  }
+  for (const Incision* cut : cuts)
+    for (const Incision::ChainVertex& c : cut->chain()) {
+      const Vec3 open = simulated[c.right] - simulated[c.left];
+      gape = std::max(gape, norm(open));
+      gape_off = std::max(gape_off, norm(open - (replayed[c.right] - replayed[c.left])));
+    }
+  const auto part = [](double x, double of) { return of > 0 ? x / of : 0; };
+  return {{"off_by_mm", off * scale},
+          {"off_by", part(off, largest)},
+          {"opening_off_by_mm", gape_off * scale},
+          {"opening_off_by", part(gape_off, gape)}};
+}
+
+}  // namespace cleft
