@@ -20,6 +20,8 @@ namespace cleft {
 
 namespace {
 
+constexpr double bend_of_edge = 0.5;  // radians by which the skin may turn along an edge
+
 /// A path as the mesh has it: made longer at both ends by the front's part of an element, because a mesh's
 /// cut opens as if it ended that much before its closed nodes (params/meshed_cut.h).
 struct LongerPath {
@@ -56,8 +58,7 @@ class Maker {
     double depth = 0;
     for (const ScalpelPath& path : r_.paths) depth = std::max(depth, path.largest_depth());
     layers_ = make_layers(p_, depth);
-    set_blades();
-    e_ = extrude(s_, layers_, blade_, r_.bone);
+    extrude_all();
     add_nodes();
     add_elements();
     set_canonical();
@@ -87,11 +88,30 @@ class Maker {
     }
     // Twice as slowly as the patch's elements grow, which do so in one direction only.
     const double growth = (p_.mesh.grading - 1) / 2;
+    const std::vector<double> radius = radii(shape.surface());
     s_ = remeshed(std::move(s_), stations, shape, [&](const Vec3& x) {
       double nearest = std::numeric_limits<double>::infinity();
       for (const Vec3& place : places) nearest = std::min(nearest, squared_norm(place - x));
-      return size + growth * std::sqrt(nearest);
+      const double wanted = size + growth * std::sqrt(nearest);
+      if (wanted <= size) return wanted;
+      const SurfacePlace at = shape.nearest(x);
+      double bent = std::numeric_limits<double>::infinity();
+      for (const int p : shape.surface().triangles[at.triangle]) bent = std::min(bent, radius[p]);
+      return std::clamp(bend_of_edge * bent, size, wanted);
     });
+  }
+
+  /// Radii of curvature at the points: the least distance along an edge over the turn of the normal.
+  static std::vector<double> radii(const SurfaceMesh& mesh) {
+    const std::vector<Vec3> normals = normals_of(mesh);
+    std::vector<double> radius(mesh.points.size(), std::numeric_limits<double>::infinity());
+    for (const auto& t : mesh.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const int a = t[i], b = t[(i + 1) % 3];
+        const double r = norm(mesh.points[a] - mesh.points[b]) / std::max(1e-9, norm(normals[a] - normals[b]));
+        radius[a] = std::min(radius[a], r), radius[b] = std::min(radius[b], r);
+      }
+    return radius;
   }
 
   /// A cut that begins or ends at another one does not go on beyond it.
@@ -108,6 +128,30 @@ class Maker {
       if (others.contains(line.from) && line.s_from > length + 0.5 * front) end = std::min(end, line.s_from);
     }
     std::erase_if(lines, [&](const CutLine& line) { return line.s_to <= begin || line.s_from >= end; });
+  }
+
+  /// Where wedges are turned inside out far from the cuts, the body ends.
+  void extrude_all() {
+    for (;;) {
+      set_blades();
+      e_ = extrude(s_, layers_, blade_, r_.bone);
+      if (e_.turned.empty()) return;
+      std::vector<bool> out(s_.mesh.triangles.size(), false), at_out(s_.mesh.points.size(), false);
+      for (const int t : e_.turned)
+        for (const int p : s_.mesh.triangles[t]) at_out[p] = true;
+      for (std::size_t p = 0; p < at_out.size(); ++p)
+        if (at_out[p] && squared_norm(blade_[p]) > 0) {
+          const auto rounded = [](double x) { return shortest(std::round(1e3 * x) / 1e3); };
+          const Vec3& at = s_.mesh.points[p];
+          throw InputError("the tissue below the cut at (" + rounded(at.x) + ", " + rounded(at.y) + ", " +
+                           rounded(at.z) +
+                           ") mm would be turned inside out: the skin is bent too strongly there, or the blade "
+                           "too flat; smooth the mesh, move the cut, or make mesh.element_size larger");
+        }
+      for (const int t : e_.turned) out[t] = true;
+      left_out_ += static_cast<int>(e_.turned.size());
+      s_ = without(s_, out);
+    }
   }
 
   /// The direction of the blade at the points of cuts: the mean where two meet.
@@ -304,6 +348,7 @@ class Maker {
     report.least_determinant = e_.least_determinant;
     report.thinned = e_.thinned, report.thinnest = e_.thinnest;
     report.least_thickness = *std::min_element(e_.thickness.begin(), e_.thickness.end());
+    report.left_out = left_out_;
     report.on_bone = static_cast<int>(std::count(e_.on_bone.begin(), e_.on_bone.end(), true));
     double least = 180;
     for (const auto& t : s_.mesh.triangles)
@@ -326,6 +371,7 @@ class Maker {
   Layers layers_;
   std::vector<Vec3> blade_;
   Extrusion e_;
+  int left_out_ = 0;
   Body body_;
   std::vector<int> column_of_;    // by node: its point of the surface
   std::vector<double> depth_of_;  // by node: of its layer

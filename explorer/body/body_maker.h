@@ -31,6 +31,7 @@ struct BodyReport {
   double least_thickness = 0;    ///< of the tissue, mm
   int thinned = 0;               ///< columns that had to be made thinner, because they would turn inside out
   Vec3 thinnest;                 ///< where
+  int left_out = 0;              ///< triangles away from the cuts, below which even a thin body would turn
   int on_bone = 0;               ///< columns that end at bone
   double least_depth = 0;        ///< of a cut that bone would stop, mm; 0: none
 };

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double least_determinant = 0.2;  // of a wedge: least over mean Jacobian of its corners
 constexpr double least_part = 0.1;         // of the thickness
+constexpr int most_rounds = 40;
 constexpr double most_cut = 0.8;           // of the thickness: layers of the cut
 
 /// Neighbours along edges.
@@ -42,32 +43,29 @@ class Extruder {
   Extrusion run() {
     const std::size_t points = s_.mesh.points.size();
     std::vector<bool> thinned(points, false);
-    for (int round = 0;; ++round) {
+    const std::vector<Vec3> normal = normals_of(s_.mesh);
+    const double least = least_part * layers_.depth.back();
+    for (int round = 0; find_bad(); ++round) {
+      if (round >= most_rounds) break;
       std::vector<bool> bad(points, false);
-      if (!find_bad(bad)) break;
-      if (round >= 60) {
-        const auto at = std::find(bad.begin(), bad.end(), true) - bad.begin();
-        throw InputError("the tissue below the skin at " + place(s_.mesh.points[at]) +
-                         " mm turns inside out even where it is thin; smooth the mesh there, make the "
-                         "triangles coarser (mesh.element_size), or patch.height smaller");
-      }
+      for (const int t : e_.turned)
+        for (const int p : s_.mesh.triangles[t]) bad[p] = true;
       // Neighbours too, so that the thickness changes slowly.
       std::vector<double> next = e_.thickness;
       for (std::size_t p = 0; p < points; ++p) {
-        if (bad[p]) next[p] *= 0.85, thinned[p] = true;
+        if (bad[p]) {
+          next[p] = std::max(std::min(least, next[p]), 0.85 * next[p]), thinned[p] = true;
+          if (squared_norm(blade_[p]) == 0) e_.inward[p] = normalized(e_.inward[p] - 0.25 * normal[p]);
+        }
         for (const int q : around_[p])
           if (bad[q]) next[p] = std::min(next[p], std::max(0.93 * e_.thickness[p], e_.thickness[q]));
       }
       e_.thickness = next;
     }
+    double thinnest = 0;
     for (std::size_t p = 0; p < points; ++p)
-      if (thinned[p]) {
-        if (e_.thinned++ == 0 || e_.thickness[p] < thinnest_) thinnest_ = e_.thickness[p], e_.thinnest = s_.mesh.points[p];
-        if (e_.thickness[p] < least_part * layers_.depth.back() && !e_.on_bone[p])
-          throw InputError("the tissue below the skin at " + place(s_.mesh.points[p]) +
-                           " mm would have to be thinner than a tenth of patch.height = " +
-                           shortest(layers_.depth.back()) + " mm; make patch.height smaller");
-      }
+      if (thinned[p] && (e_.thinned++ == 0 || e_.thickness[p] < thinnest))
+        thinnest = e_.thickness[p], e_.thinnest = s_.mesh.points[p];
     return std::move(e_);
   }
 
@@ -118,16 +116,18 @@ class Extruder {
     }
   }
 
-  /// The points of wedges whose least Jacobian is too small.
-  bool find_bad(std::vector<bool>& bad) {
+  /// Finds triangles above wedges whose least Jacobian is too small.
+  bool find_bad() {
     const int count = static_cast<int>(layers_.depth.size());
     std::vector<std::vector<Vec3>> nodes(count);
     for (int k = 0; k < count; ++k)
       for (std::size_t p = 0; p < s_.mesh.points.size(); ++p)
         nodes[k].push_back(e_.node(s_, layers_, static_cast<int>(p), k));
-    bool any = false;
+    e_.turned.clear();
     e_.least_determinant = std::numeric_limits<double>::infinity();
-    for (const auto& t : s_.mesh.triangles)
+    for (int number = 0; number < static_cast<int>(s_.mesh.triangles.size()); ++number) {
+      const auto& t = s_.mesh.triangles[number];
+      double worst = std::numeric_limits<double>::infinity();
       for (int k = 0; k + 1 < count; ++k) {
         double least = std::numeric_limits<double>::infinity(), sum = 0;
         for (const int layer : {k, k + 1})
@@ -138,13 +138,12 @@ class Extruder {
                                  nodes[k][t[i]] - nodes[k + 1][t[i]]);
             least = std::min(least, j), sum += std::abs(j) / 6;
           }
-        const double part = sum > 0 ? least / sum : 0;
-        e_.least_determinant = std::min(e_.least_determinant, part);
-        if (part >= least_determinant) continue;
-        any = true;
-        for (const int p : t) bad[p] = true;
+        worst = std::min(worst, sum > 0 ? least / sum : 0);
       }
-    return any;
+      e_.least_determinant = std::min(e_.least_determinant, worst);
+      if (worst < least_determinant) e_.turned.push_back(number);
+    }
+    return !e_.turned.empty();
   }
 
   const LinedSurface& s_;
@@ -152,7 +151,6 @@ class Extruder {
   const std::vector<Vec3>& blade_;
   std::vector<std::vector<int>> around_;
   Extrusion e_;
-  double thinnest_ = 0;
 };
 
 }  // namespace

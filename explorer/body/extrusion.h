@@ -26,6 +26,7 @@ struct Extrusion {
   int thinned = 0;
   Vec3 thinnest;
   double least_determinant = 0;
+  std::vector<int> turned;  ///< triangles below which wedges are turned inside out, however thin they are
 
   /// Of the cut's layers, mm: less than asked for where the tissue is too thin.
   double cut_depth(const Layers& layers, int point) const;
@@ -35,8 +36,9 @@ struct Extrusion {
 };
 
 /// Directions are those of the blades on the cuts (`blade`: by point, zero elsewhere), and elsewhere mean
-/// normals, blended over the thickness. Columns are made thinner until no wedge is turned inside out; throws
-/// InputError, naming the place, if even a tenth of the thickness does not suffice.
+/// normals, blended over the thickness. Where wedges would be turned inside out, columns are made thinner, down
+/// to a tenth of the thickness, and their directions nearer to the normals. Throws InputError where bone is
+/// above the skin.
 Extrusion extrude(const LinedSurface& surface, const Layers& layers, const std::vector<Vec3>& blade,
                   const SurfaceIndex* bone);
 

@@ -88,32 +88,6 @@ std::vector<double> distances(const LinedSurface& surface) {
   return distance;
 }
 
-/// The triangles with a corner within reach, and their points alone.
-LinedSurface part_within(const LinedSurface& all, double reach) {
-  const std::vector<double> distance = distances(all);
-  LinedSurface part;
-  std::vector<int> number(all.mesh.points.size(), -1);
-  for (const auto& t : all.mesh.triangles) {
-    if (std::min({distance[t[0]], distance[t[1]], distance[t[2]]}) > reach) continue;
-    std::array<int, 3> corners;
-    for (int i = 0; i < 3; ++i) {
-      int& known = number[t[i]];
-      if (known < 0) {
-        known = static_cast<int>(part.mesh.points.size());
-        part.mesh.points.push_back(all.mesh.points[t[i]]), part.outline.push_back(all.outline[t[i]]);
-      }
-      corners[i] = known;
-    }
-    part.mesh.triangles.push_back(corners);
-  }
-  for (const auto& lines : all.cuts) {
-    part.cuts.emplace_back();
-    for (const CutLine& line : lines)
-      part.cuts.back().push_back({number[line.from], number[line.to], line.s_from, line.s_to});
-  }
-  return part;
-}
-
 /// A point in the middle of something on an edge: all triangles and lines of the edge are divided.
 class EdgeDivision {
  public:
@@ -166,7 +140,37 @@ LinedSurface lined_surface(const SurfaceMesh& mesh, const std::vector<ScalpelPat
     } catch (const InputError& e) {
       throw InputError("cut " + std::to_string(k + 1) + ": " + e.what());
     }
-  return part_within(Joining(cut).join(paths.size()), reach);
+  const LinedSurface all = Joining(cut).join(paths.size());
+  const std::vector<double> distance = distances(all);
+  std::vector<bool> beyond;
+  for (const auto& t : all.mesh.triangles)
+    beyond.push_back(std::min({distance[t[0]], distance[t[1]], distance[t[2]]}) > reach);
+  return without(all, beyond);
+}
+
+LinedSurface without(const LinedSurface& all, const std::vector<bool>& taken_out) {
+  LinedSurface part;
+  std::vector<int> number(all.mesh.points.size(), -1);
+  for (std::size_t n = 0; n < all.mesh.triangles.size(); ++n) {
+    if (taken_out[n]) continue;
+    std::array<int, 3> corners;
+    for (int i = 0; i < 3; ++i) {
+      const int p = all.mesh.triangles[n][i];
+      int& known = number[p];
+      if (known < 0) {
+        known = static_cast<int>(part.mesh.points.size());
+        part.mesh.points.push_back(all.mesh.points[p]), part.outline.push_back(all.outline[p]);
+      }
+      corners[i] = known;
+    }
+    part.mesh.triangles.push_back(corners);
+  }
+  for (const auto& lines : all.cuts) {
+    part.cuts.emplace_back();
+    for (const CutLine& line : lines)
+      part.cuts.back().push_back({number[line.from], number[line.to], line.s_from, line.s_to});
+  }
+  return part;
 }
 
 std::vector<bool> place_stations(LinedSurface& surface, double size) {

@@ -25,6 +25,10 @@ struct LinedSurface {
 /// along edges. Throws InputError, as cuts do, naming the cut.
 LinedSurface lined_surface(const SurfaceMesh& mesh, const std::vector<ScalpelPath>& paths, double reach);
 
+/// The surface without some of its triangles, and without points that only these had. The body goes on at the
+/// edges of what was taken out.
+LinedSurface without(const LinedSurface& surface, const std::vector<bool>& taken_out);
+
 /// Divides each stretch of the cuts between their ends and crossings into equal parts of at most `size`, and
 /// makes a point of the surface at each of their ends. Returns, by point, whether it is such an end.
 std::vector<bool> place_stations(LinedSurface& surface, double size);
