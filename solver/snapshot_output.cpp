@@ -39,7 +39,11 @@ Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Rel
   s.cut_depth = release.depth;
   s.parameters = RecordedParameters(parameters);
   s.case_hash = body ? solve_hash(parameters, body->hash) : solve_hash(parameters);
-  if (body) s.body = body->hash;
+  if (body) {
+    s.body = body->hash;
+    s.tension = body->tension;
+    for (const Support support : body->support) s.support.push_back(static_cast<std::uint8_t>(support));
+  }
   return s;
 }
 

@@ -108,7 +108,8 @@ class Maker {
     for (const auto& t : mesh.triangles)
       for (int i = 0; i < 3; ++i) {
         const int a = t[i], b = t[(i + 1) % 3];
-        const double r = norm(mesh.points[a] - mesh.points[b]) / std::max(1e-9, norm(normals[a] - normals[b]));
+        const double r =
+            norm(mesh.points[a] - mesh.points[b]) / std::max(1e-9, norm(normals[a] - normals[b]));
         radius[a] = std::min(radius[a], r), radius[b] = std::min(radius[b], r);
       }
     return radius;
@@ -143,10 +144,10 @@ class Maker {
         if (at_out[p] && squared_norm(blade_[p]) > 0) {
           const auto rounded = [](double x) { return shortest(std::round(1e3 * x) / 1e3); };
           const Vec3& at = s_.mesh.points[p];
-          throw InputError("the tissue below the cut at (" + rounded(at.x) + ", " + rounded(at.y) + ", " +
-                           rounded(at.z) +
-                           ") mm would be turned inside out: the skin is bent too strongly there, or the blade "
-                           "too flat; smooth the mesh, move the cut, or make mesh.element_size larger");
+          throw InputError(
+              "the tissue below the cut at (" + rounded(at.x) + ", " + rounded(at.y) + ", " + rounded(at.z) +
+              ") mm would be turned inside out: the skin is bent too strongly there, or the blade "
+              "too flat; smooth the mesh, move the cut, or make mesh.element_size larger");
         }
       for (const int t : e_.turned) out[t] = true;
       left_out_ += static_cast<int>(e_.turned.size());
@@ -181,14 +182,15 @@ class Maker {
 
   /// Doubles the nodes, and makes wedges of triangle after triangle, layer after layer.
   void add_elements() {
-    Parting parting(s_.mesh, layers_.bottom, [this](int point, int layer) { return layer * columns() + point; },
-                    [this](int node, int above) {
-                      body_.points.push_back(body_.points[node]);
-                      const int own = static_cast<int>(body_.points.size()) - 1;
-                      body_.skin_above.push_back(above < 0 ? own : above);
-                      column_of_.push_back(column_of_[node]), depth_of_.push_back(depth_of_[node]);
-                      return own;
-                    });
+    Parting parting(
+        s_.mesh, layers_.bottom, [this](int point, int layer) { return layer * columns() + point; },
+        [this](int node, int above) {
+          body_.points.push_back(body_.points[node]);
+          const int own = static_cast<int>(body_.points.size()) - 1;
+          body_.skin_above.push_back(above < 0 ? own : above);
+          column_of_.push_back(column_of_[node]), depth_of_.push_back(depth_of_[node]);
+          return own;
+        });
     body_.released = {0}, body_.times = {0}, body_.position = {-r_.paths.front().length() / 2};
     double before = 0;
     for (std::size_t c = 0; c < s_.cuts.size(); ++c) {
@@ -296,7 +298,8 @@ class Maker {
       const Vec3 a = body_.points[t[0]], b = body_.points[t[1]], c = body_.points[t[2]];
       const Vec3 normal = normalized(cross(b - a, c - a));
       Vec3 within = direction - dot(direction, normal) * normal;
-      if (norm(within) < 1e-6 * norm(direction)) within = b - a;  // seen from its end: any direction is as good
+      if (norm(within) < 1e-6 * norm(direction))
+        within = b - a;  // seen from its end: any direction is as good
       body_.tension.push_back(normalized(within));
     }
   }
@@ -360,7 +363,8 @@ class Maker {
     report.least_angle = least;
     for (const auto& lines : s_.cuts)
       for (const CutLine& line : lines)
-        if (const double depth = e_.cut_depth(layers_, line.from); depth < 0.999 * layers_.depth[layers_.bottom])
+        if (const double depth = e_.cut_depth(layers_, line.from);
+            depth < 0.999 * layers_.depth[layers_.bottom])
           report.least_depth = report.least_depth == 0 ? depth : std::min(report.least_depth, depth);
   }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double least_determinant = 0.2;  // of a wedge: least over mean Jacobian of its corners
 constexpr double least_part = 0.1;         // of the thickness
 constexpr int most_rounds = 40;
-constexpr double most_cut = 0.8;           // of the thickness: layers of the cut
+constexpr double most_cut = 0.8;  // of the thickness: layers of the cut
 
 /// Neighbours along edges.
 std::vector<std::vector<int>> neighbors_of(const SurfaceMesh& mesh) {
@@ -108,7 +108,8 @@ class Extruder {
     for (std::size_t p = 0; p < s_.mesh.points.size(); ++p) {
       const Vec3& at = s_.mesh.points[p];
       if (bone->meets(at, -whole * e_.inward[p]) && !bone->meets(at, 3 * whole * e_.inward[p]))
-        throw InputError("bone lies above the skin at " + place(at) + " mm; check units and places of --bone");
+        throw InputError("bone lies above the skin at " + place(at) +
+                         " mm; check units and places of --bone");
       if (const auto part = bone->meets(at, whole * e_.inward[p])) {
         e_.thickness[p] = std::max(0.05, *part) * whole;
         e_.on_bone[p] = true;
@@ -160,7 +161,8 @@ std::vector<Vec3> normals_of(const SurfaceMesh& mesh) {
   for (const auto& t : mesh.triangles) {
     // Weighted by the angle, so that it does not matter how a fan is divided into triangles.
     for (int i = 0; i < 3; ++i) {
-      const Vec3 a = mesh.points[t[(i + 1) % 3]] - mesh.points[t[i]], b = mesh.points[t[(i + 2) % 3]] - mesh.points[t[i]];
+      const Vec3 a = mesh.points[t[(i + 1) % 3]] - mesh.points[t[i]],
+                 b = mesh.points[t[(i + 2) % 3]] - mesh.points[t[i]];
       const Vec3 n = cross(a, b);
       if (squared_norm(n) > 0) normals[t[i]] += std::atan2(norm(n), dot(a, b)) * normalized(n);
     }
@@ -178,8 +180,8 @@ Layers make_layers(const Parameters& p, double depth) {
   layers.bottom = count;
   const double deepest = depth + layers.front;
   if (!(deepest < 0.95 * thickness))
-    throw InputError("the cut is " + shortest(depth) + " mm deep, in tissue of patch.height = " + shortest(thickness) +
-                     " mm: make it shallower, or the tissue thicker");
+    throw InputError("the cut is " + shortest(depth) + " mm deep, in tissue of patch.height = " +
+                     shortest(thickness) + " mm: make it shallower, or the tissue thicker");
   for (int k = 0; k <= count; ++k) layers.depth.push_back(deepest * k / count);
   double step = deepest / count;
   std::vector<double> sums = {0};

@@ -43,7 +43,8 @@ class Joining {
       }
     }
     for (auto& lines : result.cuts)
-      std::sort(lines.begin(), lines.end(), [](const CutLine& a, const CutLine& b) { return a.s_from < b.s_from; });
+      std::sort(lines.begin(), lines.end(),
+                [](const CutLine& a, const CutLine& b) { return a.s_from < b.s_from; });
     return result;
   }
 
@@ -54,7 +55,8 @@ class Joining {
     if (known >= 0) return known;
     const CutMesh::Vertex& v = mesh_.vertex(vertex);
     const int next = static_cast<int>(result.mesh.points.size());
-    known = v.cut < 0 ? next : at_place_.try_emplace({v.position.x, v.position.y, v.position.z}, next).first->second;
+    known = v.cut < 0 ? next
+                      : at_place_.try_emplace({v.position.x, v.position.y, v.position.z}, next).first->second;
     if (known == next) result.mesh.points.push_back(v.position), result.outline.push_back(false);
     return known;
   }
@@ -99,7 +101,8 @@ class EdgeDivision {
     SurfaceMesh& mesh = surface_.mesh;
     const int middle = static_cast<int>(mesh.points.size());
     mesh.points.push_back(lerp(mesh.points[a], mesh.points[b], part));
-    surface_.outline.push_back(surface_.outline[a] && surface_.outline[b] && triangles_[key(a, b)].size() == 1);
+    surface_.outline.push_back(surface_.outline[a] && surface_.outline[b] &&
+                               triangles_[key(a, b)].size() == 1);
     for (const int t : std::vector<int>(triangles_[key(a, b)])) {
       const auto old = mesh.triangles[t];
       forget(t);

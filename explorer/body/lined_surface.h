@@ -10,8 +10,8 @@ namespace cleft {
 
 /// An edge of the surface along a cut.
 struct CutLine {
-  int from, to;           ///< points, in the direction of the path
-  double s_from, s_to;    ///< arc length of the path there
+  int from, to;         ///< points, in the direction of the path
+  double s_from, s_to;  ///< arc length of the path there
 };
 
 /// Lengths in mm.

@@ -9,7 +9,11 @@ namespace cleft {
 
 Parting::Parting(const SurfaceMesh& mesh, int layers, std::function<int(int, int)> node,
                  std::function<int(int, int)> copy)
-    : mesh_(mesh), layers_(layers), node_(std::move(node)), copy_(std::move(copy)), around_(mesh.points.size()) {
+    : mesh_(mesh),
+      layers_(layers),
+      node_(std::move(node)),
+      copy_(std::move(copy)),
+      around_(mesh.points.size()) {
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
     for (const int p : mesh.triangles[t]) around_[p].push_back(t);
 }
@@ -30,7 +34,8 @@ Parting::Fan& Parting::fan_of(int point) {
   int first = by_first.begin()->first;
   for (const auto& [neighbor, t] : by_first)
     if (!seconds.contains(neighbor)) first = neighbor, fan.closed = false;
-  for (int at = first; by_first.contains(at) && fan.triangles.size() < by_first.size(); at = second_of[by_first[at]]) {
+  for (int at = first; by_first.contains(at) && fan.triangles.size() < by_first.size();
+       at = second_of[by_first[at]]) {
     fan.triangles.push_back(by_first[at]);
     fan.ahead.push_back(at);
   }
@@ -45,7 +50,9 @@ std::vector<Parting::Pair> Parting::open(const Visit& visit) {
   const int count = static_cast<int>(fan.triangles.size());
   // The triangles at the left of the cut, where v < 0, next to its edges.
   const auto is_left = [&](int i) {
-    const int clockwise = fan.ahead[i], counter = i + 1 < count ? fan.ahead[i + 1] : fan.closed ? fan.ahead[0] : -2;
+    const int clockwise = fan.ahead[i], counter = i + 1 < count ? fan.ahead[i + 1]
+                                                  : fan.closed  ? fan.ahead[0]
+                                                                : -2;
     return counter == visit.to || clockwise == visit.from;
   };
   std::vector<Pair> pairs;

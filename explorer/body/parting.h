@@ -28,7 +28,7 @@ class Parting {
   struct Pair {
     int left, right;  ///< right is the copy
     int layer;
-    bool reversed;    ///< left is on the right of the cut
+    bool reversed;  ///< left is on the right of the cut
   };
   /// The triangles around the point are divided by all edges along which cuts have passed so far; each part
   /// that has lost its connection with the others gets copies of the nodes. Empty where nothing is divided:
@@ -40,7 +40,7 @@ class Parting {
 
  private:
   struct Fan {
-    std::vector<int> triangles;            // counter-clockwise; of an open fan from its beginning
+    std::vector<int> triangles;  // counter-clockwise; of an open fan from its beginning
     bool closed = true;
     std::vector<int> ahead;                // by triangle: the neighbour on its clockwise edge
     std::vector<std::set<int>> opened;     // by layer: neighbours along whose edges cuts have passed

@@ -84,7 +84,9 @@ class Remesher {
       for (int i = 0; alive_[t] && i < 3; ++i) all.insert(key(t_[t][i], t_[t][(i + 1) % 3]));
     return {all.begin(), all.end()};
   }
-  Vec3 twice_area(const std::array<int, 3>& t) const { return cross(p_[t[1]] - p_[t[0]], p_[t[2]] - p_[t[0]]); }
+  Vec3 twice_area(const std::array<int, 3>& t) const {
+    return cross(p_[t[1]] - p_[t[0]], p_[t[2]] - p_[t[0]]);
+  }
   double shape_of(const std::array<int, 3>& t) const {
     const double sides = squared_norm(p_[t[1]] - p_[t[0]]) + squared_norm(p_[t[2]] - p_[t[1]]) +
                          squared_norm(p_[t[0]] - p_[t[2]]);
@@ -245,7 +247,8 @@ class Remesher {
       bool good = true;
       for (std::size_t i = 0; i < areas.size() && good; ++i) {
         const auto& t = t_[around_[v][i]];
-        good = shape_of(t) >= std::min(worst, least_shape) && (worst < 1e-3 || agree(areas[i], twice_area(t)));
+        good =
+            shape_of(t) >= std::min(worst, least_shape) && (worst < 1e-3 || agree(areas[i], twice_area(t)));
       }
       if (!good)
         p_[v] = before;

@@ -41,7 +41,8 @@ std::string last_message(const std::string& log) {
   std::string text = read_text_file(log);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   for (const char* mark : {"error: ", "failed: "})
-    if (const auto at = text.rfind(mark); at != std::string::npos) return text.substr(at + std::string(mark).size());
+    if (const auto at = text.rfind(mark); at != std::string::npos)
+      return text.substr(at + std::string(mark).size());
   return text.empty() ? "it said nothing" : text;
 }
 
@@ -62,10 +63,10 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   one.parameters = request.parameters;
   write_text_file(folder / "case.toml", case_file_text(one));
   tell("solving " + std::to_string(result.report.nodes) + " nodes");
-  const ProcessResult ended = run_process(
-      {executable_folder() + "/cleft-solve", folder / "case.toml", "--mesh", folder / "body.h5", "--out",
-       folder / "case.h5", "--no-estimate", "--json"},
-      folder / "solve.log", {}, stop, folder / "solve.json");
+  const ProcessResult ended =
+      run_process({executable_folder() + "/cleft-solve", folder / "case.toml", "--mesh", folder / "body.h5",
+                   "--out", folder / "case.h5", "--no-estimate", "--json"},
+                  folder / "solve.log", {}, stop, folder / "solve.json");
   if (!ended.success()) {
     if (stop && *stop > 0) throw std::runtime_error("the simulation was stopped");
     const std::string what = "the body could not be solved: " + last_message(folder / "solve.log");

@@ -16,10 +16,10 @@ namespace cleft {
 
 namespace {
 
-constexpr double furthest = 2;       // mm: of a vertex from the body's skin, whose triangles are larger
-constexpr double faded_part = 0.3;   // of the way from the cuts to the rim: there displacements fade out
-constexpr double aside = 0.05;       // mm: of a vertex next to a cut, to its own side; more than the body's
-                                     // straight pieces of a path are from those of the mesh
+constexpr double furthest = 2;      // mm: of a vertex from the body's skin, whose triangles are larger
+constexpr double faded_part = 0.3;  // of the way from the cuts to the rim: there displacements fade out
+constexpr double aside = 0.05;      // mm: of a vertex next to a cut, to its own side; more than the body's
+                                    // straight pieces of a path are from those of the mesh
 
 /// The walls of a body's cuts: faces of one wedge that lie on another one.
 SurfaceMesh walls_of(const Body& body) {
@@ -79,7 +79,11 @@ std::vector<double> from_rim(const Body& body) {
 class Locator {
  public:
   Locator(const std::vector<const Incision*>& cuts, double scale, const Body& body)
-      : cuts_(cuts), mesh_(cuts.front()->mesh()), scale_(scale), skin_({body.points, body.skin}), walls_(walls_of(body)) {
+      : cuts_(cuts),
+        mesh_(cuts.front()->mesh()),
+        scale_(scale),
+        skin_({body.points, body.skin}),
+        walls_(walls_of(body)) {
     const std::vector<double> rim = from_rim(body);
     double nearest = std::numeric_limits<double>::infinity();
     for (const BodyPair& pair : body.pairs) nearest = std::min(nearest, rim[pair.left]);
@@ -97,7 +101,9 @@ class Locator {
       if (mesh_.vertex(v).kind != VertexKind::skin) seen[v] = true, next.push(v);
     std::vector<std::vector<int>> around(count);
     for (const CutMesh::Triangle& t : mesh_.triangles())
-      for (int i = 0; i < 3; ++i) around[t.vertex[i]].push_back(t.vertex[(i + 1) % 3]), around[t.vertex[(i + 1) % 3]].push_back(t.vertex[i]);
+      for (int i = 0; i < 3; ++i)
+        around[t.vertex[i]].push_back(t.vertex[(i + 1) % 3]),
+            around[t.vertex[(i + 1) % 3]].push_back(t.vertex[i]);
     std::vector<SimulatedWounds::Place> places;
     // Only what is connected with the cuts over places of the body.
     while (!next.empty()) {
@@ -158,7 +164,8 @@ class Locator {
       std::vector<int> sides[2];
       for (const int t : skin) sides[dot(middle(t) - at(v), across) > 0].push_back(t);
       const double share = sides[0].empty() || sides[1].empty() ? 1 : 0.5;
-      for (const int right : {0, 1}) add(v, sides[right], skin_, share, places, right ? across : -1. * across);
+      for (const int right : {0, 1})
+        add(v, sides[right], skin_, share, places, right ? across : -1. * across);
     } else if (!left.empty() || !right.empty()) {  // lips and walls; the bottom is shared by both walls
       const double share = left.empty() || right.empty() || !skin.empty() ? 1 : 0.5;
       const std::size_t had = places.size();
@@ -217,7 +224,8 @@ Vec3 SimulatedWounds::displacement(const Place& place, double t) const {
   Vec3 sum;
   for (int i = 0; i < 3; ++i)
     for (int axis = 0; axis < 3; ++axis)
-      sum[axis] += place.weights[i] * ((1 - part) * before[place.nodes[i]][axis] + part * after[place.nodes[i]][axis]);
+      sum[axis] +=
+          place.weights[i] * ((1 - part) * before[place.nodes[i]][axis] + part * after[place.nodes[i]][axis]);
   return sum;
 }
 

@@ -53,7 +53,8 @@ void make(const Options& options) {
 
 int main(int argc, char** argv) {
   CommandLine app(
-      "Meshes the body below a surface, with cuts along paths, so that cleft solve --mesh simulates these very "
+      "Meshes the body below a surface, with cuts along paths, so that cleft solve --mesh simulates these "
+      "very "
       "cuts.",
       "cleft body");
   Options o;
@@ -63,9 +64,12 @@ int main(int argc, char** argv) {
                  "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units; again for further cuts")
       ->required();
   app.add_option("--out", o.out, "the body, body.h5")->required();
-  app.add_option("--depth", o.depth, "depth of the cuts, mm [the path's column, else cut.depth]")->check(above(0));
+  app.add_option("--depth", o.depth, "depth of the cuts, mm [the path's column, else cut.depth]")
+      ->check(above(0));
   o.body.add_to(app);
-  app.add_option("--scale", o.scale, "mm per unit of the meshes and paths")->check(above(0))->capture_default_str();
+  app.add_option("--scale", o.scale, "mm per unit of the meshes and paths")
+      ->check(above(0))
+      ->capture_default_str();
   app.add_flag("--json", o.json, "figures as JSON");
   return run_command(app, argc, argv, [&] { make(o); });
 }

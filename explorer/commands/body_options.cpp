@@ -39,12 +39,14 @@ void BodyOptions::add_to(CommandLine& app) {
                  "mesh.grading, and patch.height, the thickness of the tissue [the defaults]");
   app.add_option("--set", assignments, "of a simulation: NAME=VALUE, overrides a parameter (repeatable)")
       ->allow_extra_args(false);
-  app.add_option("--reach", reach, "of a simulation: how far the body goes around the cuts, over the skin, mm")
+  app.add_option("--reach", reach,
+                 "of a simulation: how far the body goes around the cuts, over the skin, mm")
       ->check(above(0))
       ->capture_default_str();
-  app.add_option("--direction", direction,
-                 "X,Y,Z, of a simulation: direction of skin.prestress_u, in space [from the first path's start "
-                 "to its end]")
+  app.add_option(
+         "--direction", direction,
+         "X,Y,Z, of a simulation: direction of skin.prestress_u, in space [from the first path's start "
+         "to its end]")
       ->delimiter(',')
       ->expected(3);
 }

@@ -272,9 +272,10 @@ int main(int argc, char** argv) {
       ->check(at_least(0))
       ->capture_default_str();
   app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
-  app.add_flag("--simulate", o.simulate,
-               "open the cuts as a simulation of this very body says (seconds); with --field, tell how far the "
-               "replay is from it")
+  app.add_flag(
+         "--simulate", o.simulate,
+         "open the cuts as a simulation of this very body says (seconds); with --field, tell how far the "
+         "replay is from it")
       ->excludes(rest);
   o.body.add_to(app);
   app.add_flag("--json", o.json, "figures as JSON");
@@ -282,7 +283,8 @@ int main(int argc, char** argv) {
     if (o.field.empty() && !o.rest && !o.simulate)
       throw InputError("give --field case.dffd, --simulate, or --rest for the closed cut");
     if (o.simulate && is_volume(o.mesh))
-      throw InputError("--simulate, --mesh " + o.mesh + ": a mesh of volume is not simulated yet; give its surface");
+      throw InputError("--simulate, --mesh " + o.mesh +
+                       ": a mesh of volume is not simulated yet; give its surface");
     if (!o.simulate && o.body.given()) throw InputError(o.body.first_given() + ": is for --simulate");
     cut(o);
   });

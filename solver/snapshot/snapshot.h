@@ -54,6 +54,8 @@ struct Snapshot {
   std::string case_hash;
   std::string body;  ///< hash of the body that was solved: points are in space, and the arrays `canonical`
                      ///< and `frame` hold every node's coordinates of the cut; empty for a patch
+  std::vector<Vec3> tension;             ///< of a body, by triangle of skin: direction of skin.prestress_u
+  std::vector<std::uint8_t> support;     ///< of a body, by foundation triangle: 0 springs, 1 bone
   std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs and have no residuals
 
   std::size_t frames() const { return times.size(); }
