@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -82,13 +83,16 @@ FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
 }
 
 void check_cut(const Snapshot& s) {
+  const std::string several =
+      s.body.empty()
+          ? "cut.radius, cut.tilt, cut.count and cut.branch make snapshots to measure against, not "
+            "to encode"
+          : "a field holds one cut that does not cross itself; cleft cut --simulate opens several";
   for (const auto& [left, right] : s.pairs) {
     const Vec3& at = s.points[left];
     if (std::abs(at.y) > 1e-6 * s.cut_length)
       throw InputError("the cut leaves the plane v = 0 (node " + std::to_string(left) +
-                       " at v = " + shortest(at.y) +
-                       " mm): a field has its break there; cut.radius, cut.tilt, cut.count and "
-                       "cut.branch make snapshots to measure against, not to encode");
+                       " at v = " + shortest(at.y) + " mm): a field has its break there; " + several);
   }
 }
 
@@ -143,10 +147,35 @@ std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader) {
   return derivatives;
 }
 
+/// The nodes of a body in the coordinates of its cut, and the directions of these there.
+struct BodyCoordinates {
+  std::vector<Vec3> places;                 // N
+  std::vector<std::array<Vec3, 3>> frames;  // N
+
+  explicit BodyCoordinates(const SnapshotReader& reader) {
+    const std::vector<double> at = reader.point_array({"canonical", 3, false}, 0);
+    const std::vector<double> axes = reader.point_array({"frame", 9, false}, 0);
+    places.resize(at.size() / 3), frames.resize(axes.size() / 9);
+    for (std::size_t i = 0; i < at.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = at[i];
+    for (std::size_t i = 0; i < axes.size(); ++i) frames[i / 9][i % 9 / 3][static_cast<int>(i % 3)] = axes[i];
+  }
+
+  Vec3 components(std::size_t node, const Vec3& d) const {
+    return {dot(frames[node][0], d), dot(frames[node][1], d), dot(frames[node][2], d)};
+  }
+};
+
 }  // namespace
 
 Series::Series(const SnapshotReader& reader) {
-  const Snapshot& s = reader.snapshot();
+  std::optional<BodyCoordinates> body;
+  std::optional<Snapshot> moved;
+  if (!reader.snapshot().body.empty()) {
+    body.emplace(reader);
+    moved = reader.snapshot();
+    moved->points = body->places;
+  }
+  const Snapshot& s = moved ? *moved : reader.snapshot();
   if (s.frames() < 2)
     throw InputError("the snapshot holds " + std::to_string(s.frames()) +
                      " frame; a time series needs at least 2");
@@ -156,9 +185,10 @@ Series::Series(const SnapshotReader& reader) {
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);
     Eigen::MatrixX3d& frame = frames.emplace_back(static_cast<Eigen::Index>(d.size()), 3);
-    for (std::size_t n = 0; n < d.size(); ++n)
-      for (int axis = 0; axis < 3; ++axis)
-        frame(static_cast<Eigen::Index>(n), axis) = d[n][axis] - closed[n][axis];
+    for (std::size_t n = 0; n < d.size(); ++n) {
+      const Vec3 change = body ? body->components(n, d[n] - closed[n]) : d[n] - closed[n];
+      for (int axis = 0; axis < 3; ++axis) frame(static_cast<Eigen::Index>(n), axis) = change[axis];
+    }
     largest.push_back(frame.rowwise().norm().maxCoeff());
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());

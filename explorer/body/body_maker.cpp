@@ -323,7 +323,7 @@ class Maker {
       double across = at.v;
       if (on_cut.contains(p))
         across = 0;
-      else if (p < static_cast<int>(labels.size()) && labels[p].reached)
+      else if (p < static_cast<int>(labels.size()) && labels[p].reached && labels[p].side != Side::both)
         across = Surroundings::across(at.v, labels[p].detour, labels[p].side);
       canonical[p] = {at.s - path.length() / 2, across, 0};
       const PathFrame frame = path.at(at.s);
