@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "params/parameters/table.h"
@@ -34,21 +35,36 @@ Block multiply(const Epetra_CrsMatrix& matrix, const Block& block) {
 namespace {
 
 /// What of the loads of a prestress is left when the closed patch is in equilibrium with its surroundings:
-/// the forces of each node, less those of all its copies together. Adding up the copies (CutNodes::to_pulls)
-/// gives 0 to the last bit.
+/// the forces of each node, less the mean of those at its place, so that all copies bear alike what curved
+/// skin presses on the tissue. Rounded to multiples of a number so small that it does not matter, of which
+/// sums are exact: adding up the copies (CutNodes::to_pulls), however many, gives 0 to the last bit.
 Block released_part(const PatchSystem& system, const PatchMesh& mesh, const Block& loads) {
   const CutNodes cut(mesh, system);
+  Block released = Block::Zero(loads.rows(), loads.cols());
+  if (cut.nodes.empty()) return released;
   Eigen::MatrixXd forces = all_gather_rows(system, loads, cut.unknowns);
-  std::vector<bool> is_right(cut.nodes.size(), false);
-  for (const auto& [left, right] : cut.pairs) is_right[right] = true;
-  for (std::size_t n = 0; n < cut.nodes.size(); ++n)
-    if (!is_right[n]) forces.middleRows<3>(static_cast<Eigen::Index>(3 * n)).setZero();
+  std::vector<int> root(cut.nodes.size());  // a right node is the left one of later pairs only
+  std::iota(root.begin(), root.end(), 0);
+  for (const auto& [left, right] : cut.pairs) root[right] = root[left];
+  Eigen::MatrixXd means = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
+  std::vector<int> copies(cut.nodes.size(), 0);
+  for (std::size_t n = 0; n < root.size(); ++n)
+    means.middleRows<3>(3 * root[n]) += forces.middleRows<3>(static_cast<Eigen::Index>(3 * n)),
+        ++copies[root[n]];
+  for (std::size_t n = 0; n < root.size(); ++n) {
+    const auto row = static_cast<Eigen::Index>(3 * n);
+    if (root[n] == static_cast<int>(n))
+      forces.middleRows<3>(row).setZero();
+    else
+      forces.middleRows<3>(row) -= means.middleRows<3>(3 * root[n]) / copies[root[n]];
+  }
+  const double unit = std::ldexp(1., std::ilogb(std::max(1e-300, forces.cwiseAbs().maxCoeff())) - 48);
+  forces = (forces / unit).array().round() * unit;
   Eigen::MatrixXd sums = forces;
   cut.to_pulls(sums);
-  for (std::size_t n = 0; n < cut.nodes.size(); ++n)
-    if (const auto row = static_cast<Eigen::Index>(3 * n); !is_right[n])
+  for (std::size_t n = 0; n < root.size(); ++n)
+    if (const auto row = static_cast<Eigen::Index>(3 * n); root[n] == static_cast<int>(n))
       forces.middleRows<3>(row) = -sums.middleRows<3>(row);
-  Block released = Block::Zero(loads.rows(), loads.cols());
   set_rows(system, released, cut.unknowns, forces);
   return released;
 }

@@ -4,9 +4,10 @@ The snapshot must be solved with the wedges integrated as ccx integrates its C3D
 points along the axis (a few percent from the full rule on coarse meshes). Its frames are compared with ccx's, and so
 are those of tests/solver/independent, solved here with the same rule.
 
-A deck has C3D6 for the tissue; M3D3 for the skin; *INITIAL CONDITIONS, TYPE=STRESS for its prestress; *EQUATION for
-closed pairs; *CLOAD for the pull of the surrounding skin at held edges; and the foundation's consistent springs as SPRING1 with the row sums of their matrix M and SPRING2 of
-stiffness -M_ab between neighbours a, b: the same quadratic form. ccx makes a solid of a membrane; so that it stays a
+A deck has C3D6 for the tissue; M3D3 for the skin; *INITIAL CONDITIONS, TYPE=STRESS for its prestress, in space; *EQUATION
+for closed pairs; *CLOAD for the pull of the surrounding skin at held edges (of a body: for all that the closed one bears);
+and the foundation's consistent springs as SPRING1 with the row sums of their matrix M and SPRING2 of stiffness -M_ab
+between neighbours a, b: the same quadratic form. ccx makes a solid of a membrane; so that it stays a
 membrane, the skin is thin in the deck, and its modulus and prestress are as much higher.
 
 The prestress is scaled in the deck so that the largest displacement is just below 10: ccx prints 7 digits, which is
@@ -24,7 +25,7 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "independent"))
-from patch import Patch, foundation, np, solve, sparse, stiffness  # noqa: E402
+from patch import Patch, foundation, np, skin_gradients, solve, sparse, stiffness  # noqa: E402
 
 BOUND = 2e-7
 FINITE_BOUND = 2e-6  # residuals of 1e-7 on one side, ccx's own convergence on the other
@@ -71,10 +72,10 @@ class Deck:
         self.add_elements("M3D3", "SKIN", patch.skin)
         self.add_material("SKIN", patch["skin.young_modulus"] * thicker, patch["skin.poisson_ratio"])
         self.lines += ["*MEMBRANE SECTION, ELSET=SKIN, MATERIAL=SKIN", number(SKIN_THICKNESS)]
-        (u, uv), (_, v) = patch.prestress() * thicker * load_scale
-        stress = ", ".join(map(number, (u, v, 0, uv, 0, 0)))
         self.lines.append("*INITIAL CONDITIONS, TYPE=STRESS")
-        for element in range(first, self.elements + 1):
+        for element, axes in enumerate(patch.skin_axes(), first):
+            s = axes.T @ patch.prestress() @ axes * thicker * load_scale
+            stress = ", ".join(map(number, (s[0, 0], s[1, 1], s[2, 2], s[0, 1], s[0, 2], s[1, 2])))
             self.lines += [f"{element}, {point}, {stress}" for point in (1, 2)]
 
     def add_springs(self):
@@ -103,7 +104,7 @@ class Deck:
         self.lines += ["*STEP, NLGEOM", "*STATIC", "1., 1."] if finite else ["*STEP", "*STATIC"]
         if self.patch["skin.edges"] == "held":
             self.lines.append("*CLOAD")
-            pull = edge_pull(self.patch) * load_scale
+            pull = (borne if self.patch.is_body else edge_pull)(self.patch) * load_scale
             self.lines += [f"{n + 1}, {axis + 1}, {number(pull[n, axis])}" for n, axis in np.argwhere(pull)]
         self.lines += ["*NODE PRINT, NSET=ALL", "U", "*END STEP"]
 
@@ -124,6 +125,16 @@ def edge_pull(patch):
         for end in (0, 1):
             np.add.at(force, ends[outer, end], patch["skin.thickness"] / 2 * outward @ patch.prestress())
     return force
+
+
+def borne(patch):
+    """(N, 3), N: what the surroundings and the tissue below bear of the tension of a closed body, node by node: against the
+    forces of the skin's prestress, the copies at one place in equal parts."""
+    gradient, area = skin_gradients(patch)
+    force, stands = np.zeros((len(patch.points), 3)), patch.joined(0)
+    pulled = area[:, None, None] * (gradient @ patch.prestress() @ patch.skin_axes()) * patch["skin.thickness"]
+    np.add.at(force, stands[patch.skin].ravel(), pulled.reshape(-1, 3))
+    return force[stands] / np.bincount(stands)[stands][:, None]
 
 
 def deck_of(patch, frame, load_scale):

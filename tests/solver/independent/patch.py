@@ -1,5 +1,5 @@
-"""A snapshot's patch of tissue, assembled and solved from the file and docs/formats.md alone (its section "What the
-displacements solve"): none of the solver's code is used, and no formula was taken from it."""
+"""A snapshot's patch of tissue, or body, assembled and solved from the file and docs/formats.md alone (its section "What
+the displacements solve"): none of the solver's code is used, and no formula was taken from it."""
 
 import sys
 
@@ -34,7 +34,8 @@ RULES = {
 
 
 class Patch:
-    """N points; displacement is (F, N, 3)."""
+    """N points; displacement is (F, N, 3). Of a body, tension is (T, 3), the direction of skin.prestress_u in each triangle
+    of the skin, and on_bone says of each face below whether it is grown to bone."""
 
     def __init__(self, path):
         with h5py.File(path, "r") as file:
@@ -47,6 +48,12 @@ class Patch:
 
             self.skin, self.wedges = cells(TRIANGLE, 3), cells(WEDGE, 6)
             self.bottom, self.sides = file["foundation/triangles"][:], file["foundation/quads"][:]
+            self.is_body = "body" in file.attrs
+            if self.is_body:
+                self.tension, self.on_bone = file["skin/tension"][:], file["foundation/support"][:] == 1
+            else:
+                self.tension = np.tile([1., 0, 0], (len(self.skin), 1))
+                self.on_bone = np.zeros(len(self.bottom), dtype=bool)
             self.pairs, self.released = file["cut/pairs"][:], file["cut/released"][:]
             self.displacement = vtk["PointData/displacement"][:].reshape(len(self.released), -1, 3)
             self.parameters = dict(BEFORE_THEY_CAME)
@@ -54,8 +61,13 @@ class Patch:
                 self.parameters[name] = value.decode() if isinstance(value, bytes) else value
         if self.parameters["cut.contact"] == "true":
             raise SystemExit("cut.contact = true: its frames solve no linear system")
-        if np.abs(self.points[self.skin][:, :, 2]).max() > 0:
+        if not self.is_body and np.abs(self.points[self.skin][:, :, 2]).max() > 0:
             raise SystemExit("the skin does not lie at w = 0")
+        if self.is_body and (self["model"] != "small" or self["skin.bending_stiffness"] != 0):
+            raise SystemExit("a body of finite strains, or whose skin resists bending, is not solved here")
+        if np.abs(np.linalg.norm(self.tension, axis=1) - 1).max() > 1e-6 or \
+                np.abs(np.einsum("ei,ei->e", self.tension, self.normals())).max() > 1e-6:
+            raise SystemExit("a direction of the tension is no unit vector in the plane of its triangle")
 
     def __getitem__(self, name):
         return self.parameters[name]
@@ -64,6 +76,17 @@ class Patch:
         """2 x 2, MPa."""
         u, v, uv = (self[f"skin.prestress_{axes}"] for axes in ("u", "v", "uv"))
         return np.array([[u, uv], [uv, v]])
+
+    def normals(self):
+        """(T, 3): unit, of the skin's triangles."""
+        first, second, third = (self.points[self.skin[:, i]] for i in range(3))
+        normal = np.cross(second - first, third - first)
+        return normal / np.linalg.norm(normal, axis=1)[:, None]
+
+    def skin_axes(self):
+        """(T, 2, 3): the unit vectors in each triangle of the skin in which its stresses are: e_u along the tension, and
+        e_v = n x e_u."""
+        return np.stack([self.tension, np.cross(self.normals(), self.tension)], axis=1)
 
     def joined(self, frame):
         """For each node the one that stands for it in a frame: closed pairs are one node, over several pairs too."""
@@ -85,6 +108,8 @@ def scatter(cells, blocks, nodes):
 def bending_stiffness(patch):
     """(N, N), in each direction: edge by edge, D / (areas of its two triangles) times the square of its length times
     the jump of the gradient across it."""
+    if patch["skin.bending_stiffness"] == 0:
+        return sparse.csc_matrix((len(patch.points),) * 2)
     gradient, area = skin_gradients(patch)
     sides = {}
     for triangle, corners in enumerate(patch.skin):
@@ -143,9 +168,9 @@ def tissue_stiffness(patch, rule):
 
 
 def skin_gradients(patch):
-    """Gradients (E, 3, 2) of the triangles' shape functions, and areas."""
-    first, second, third = (patch.points[patch.skin[:, i], :2] for i in range(3))
-    edges = np.stack([second - first, third - first], axis=2)  # dx_i / dxi_k
+    """Gradients (E, 3, 2) of the triangles' shape functions along the skin's axes, and areas."""
+    first, second, third = (patch.points[patch.skin[:, i]] for i in range(3))
+    edges = patch.skin_axes() @ np.stack([second - first, third - first], axis=2)  # dx_i / dxi_k
     slope = np.array([[-1, -1], [1, 0], [0, 1]])
     return np.einsum("nk,eki->eni", slope, np.linalg.inv(edges)), np.abs(np.linalg.det(edges)) / 2
 
@@ -158,7 +183,8 @@ def skin_stiffness(patch):
     blocks = np.zeros((len(area), 3, 3, 3, 3))
     flat = lam * np.einsum("eai,ebj->eaibj", gradient, gradient) + mu * np.einsum("eaj,ebi->eaibj", gradient, gradient)
     flat += mu * np.einsum("eak,ebk,ij->eaibj", gradient, gradient, np.eye(2))
-    blocks[:, :, :2, :, :2] = (area * thickness)[:, None, None, None, None] * flat
+    axes = patch.skin_axes()
+    blocks += np.einsum("e,eaibj,eik,ejl->eakbl", area * thickness, flat, axes, axes, optimize=True)
     if patch["skin.initial_stress_stiffness"] == "true" or patch["model"] == "finite":
         tension = np.einsum("eak,kl,ebl->eab", gradient, patch.prestress(), gradient)
         blocks += np.einsum("e,eab,ij->eaibj", area * thickness, tension, np.eye(3))
@@ -171,8 +197,8 @@ def load(patch, rule="full"):
     nodes at its place feel together, in equal parts."""
     gradient, area = skin_gradients(patch)
     force = np.zeros((len(patch.points), 3))
-    parts = -(area * patch["skin.thickness"])[:, None, None] * (gradient @ patch.prestress())
-    np.add.at(force[:, :2], patch.skin.ravel(), parts.reshape(-1, 2))
+    parts = -(area * patch["skin.thickness"])[:, None, None] * (gradient @ patch.prestress() @ patch.skin_axes())
+    np.add.at(force, patch.skin.ravel(), parts.reshape(-1, 3))
     if patch["tissue.prestress_share"] != 0:
         for gradient, scale in wedge_points(patch, rule):
             parts = -patch["tissue.prestress_share"] * scale[:, None, None] * (gradient[:, :, :2] @ patch.prestress())
@@ -186,11 +212,14 @@ def load(patch, rule="full"):
 
 
 def foundation(patch):
-    """(N, N), N/mm: what the springs under the bottom and at the sides do in each direction."""
+    """(N, N), N/mm: what the springs under the bottom and at the sides do in each direction. Tissue that is grown to bone
+    is held by 1000 times its own stiffness across patch.height."""
     count = len(patch.points)
     first, second, third = (patch.points[patch.bottom[:, i]] for i in range(3))
     area = np.linalg.norm(np.cross(second - first, third - first), axis=1) / 2
-    under = patch["foundation.stiffness"] * area[:, None, None] * (np.ones((3, 3)) + np.eye(3)) / 12
+    firm = 1000 * patch["tissue.young_modulus"] / patch["patch.height"]
+    spring = np.where(patch.on_bone, firm, patch["foundation.stiffness"])
+    under = (spring * area)[:, None, None] * (np.ones((3, 3)) + np.eye(3)) / 12
     beside = np.zeros((len(patch.sides), 4, 4))
     corners = patch.points[patch.sides]
     for a in AXIS:
