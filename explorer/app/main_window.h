@@ -10,6 +10,7 @@
 #include <QMenu>
 #include <QProgressDialog>
 #include <QStackedWidget>
+#include <QTimer>
 #include <vector>
 
 #include "explorer/app/device_control.h"
@@ -71,7 +72,8 @@ class MainWindow : public QMainWindow {
   QLineEdit* command_line_;
   QLabel* status_;
   QComboBox* coloring_;
-  QAction *scalpel_, *undo_, *redo_, *dark_;
+  QAction *scalpel_, *undo_, *redo_, *simulate_, *dark_;
+  QTimer simulating_;  // runs while a simulation does
   QDoubleSpinBox *depth_, *tilt_;
   QMenu *recent_, *device_menu_, *figure_menu_, *detail_menu_;
   QAction *probe_, *zoom_, *between_;

@@ -69,6 +69,15 @@ void MainWindow::make_actions() {
   scalpel_->setToolTip("Press and drag over the skin to cut it (C)");
   undo_ = add_action(edit, "undo", "&Undo", QKeySequence("Ctrl+Z"), line("undo"));
   redo_ = add_action(edit, "redo", "&Redo", QKeySequence("Ctrl+Shift+Z"), line("redo"));
+  simulate_ = add_action(edit, "simulate", "S&imulate the cuts", QKeySequence("Ctrl+Shift+S"), [this] {
+    say(simulate_->isChecked() ? "simulate on" : "simulate off");
+    simulate_->setChecked(session_.state().simulate);
+  });
+  simulate_->setCheckable(true);
+  simulate_->setToolTip("Show the cuts as a simulation of this very body opens them, in seconds");
+  constexpr int milliseconds_between_looks = 200;
+  simulating_.setInterval(milliseconds_between_looks);
+  connect(&simulating_, &QTimer::timeout, this, [this] { session_.take_simulated(); });
   make_device_menu(edit->addMenu("&Haptic device"));
   add_action(edit, "patch", "Back to the &patch", {}, line("patch"));
 
@@ -239,6 +248,10 @@ void MainWindow::follow_tools() {
   for (QAction* action : {scalpel_}) action->setEnabled(can_cut);
   depth_->setEnabled(can_cut), tilt_->setEnabled(can_cut);
   undo_->setEnabled(!s.cuts.empty());
+  simulate_->setEnabled(session_.mesh() != nullptr);
+  simulate_->setChecked(s.simulate);
+  if (session_.simulating() != simulating_.isActive())
+    session_.simulating() ? simulating_.start() : simulating_.stop();
   redo_->setEnabled(!s.undone.empty());
   dark_->setChecked(s.dark);
   device_menu_->setEnabled(can_cut);

@@ -3,6 +3,7 @@
 #include <stdlib.h>  // mkdtemp
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
@@ -36,6 +37,12 @@ class WorkFolder {
   std::string path_;
 };
 
+/// Beside this program, or in the folder that the environment variable CLEFT_BIN names.
+std::string solver() {
+  const char* folder = std::getenv("CLEFT_BIN");
+  return (folder ? std::string(folder) : executable_folder()) + "/cleft-solve";
+}
+
 /// What the solver said last, without its name.
 std::string last_message(const std::string& log) {
   std::string text = read_text_file(log);
@@ -63,10 +70,9 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   one.parameters = request.parameters;
   write_text_file(folder / "case.toml", case_file_text(one));
   tell("solving " + std::to_string(result.report.nodes) + " nodes");
-  const ProcessResult ended =
-      run_process({executable_folder() + "/cleft-solve", folder / "case.toml", "--mesh", folder / "body.h5",
-                   "--out", folder / "case.h5", "--no-estimate", "--json"},
-                  folder / "solve.log", {}, stop, folder / "solve.json");
+  const ProcessResult ended = run_process({solver(), folder / "case.toml", "--mesh", folder / "body.h5",
+                                           "--out", folder / "case.h5", "--no-estimate", "--json"},
+                                          folder / "solve.log", {}, stop, folder / "solve.json");
   if (!ended.success()) {
     if (stop && *stop > 0) throw std::runtime_error("the simulation was stopped");
     const std::string what = "the body could not be solved: " + last_message(folder / "solve.log");

@@ -88,7 +88,7 @@ class Locator {
     double nearest = std::numeric_limits<double>::infinity();
     for (const BodyPair& pair : body.pairs) nearest = std::min(nearest, rim[pair.left]);
     for (const double d : rim) {
-      const double x = std::clamp(d / (faded_part * nearest), 0., 1.);
+      const double x = std::isinf(d) ? 1 : std::clamp(d / (faded_part * nearest), 0., 1.);
       share_.push_back(x * x * (3 - 2 * x));
     }
   }
@@ -233,6 +233,23 @@ void SimulatedWounds::positions(double t, std::span<Vec3> out) const {
   CLEFT_CHECK(out.size(), ==, rest_.size());
   std::copy(rest_.begin(), rest_.end(), out.begin());
   for (const Place& place : places_) out[place.vertex] += 1 / scale_ * displacement(place, t);
+}
+
+ReplayOff replay_off(const std::vector<const Incision*>& cuts, std::span<const Vec3> replayed,
+                     std::span<const Vec3> simulated) {
+  const CutMesh& mesh = cuts.front()->mesh();
+  ReplayOff off;
+  for (std::size_t v = 0; v < simulated.size(); ++v) {
+    off.largest = std::max(off.largest, norm(simulated[v] - mesh.position(static_cast<int>(v))));
+    off.displacement = std::max(off.displacement, norm(simulated[v] - replayed[v]));
+  }
+  for (const Incision* cut : cuts)
+    for (const Incision::ChainVertex& c : cut->chain()) {
+      const Vec3 open = simulated[c.right] - simulated[c.left];
+      off.gape = std::max(off.gape, norm(open));
+      off.opening = std::max(off.opening, norm(open - (replayed[c.right] - replayed[c.left])));
+    }
+  return off;
 }
 
 }  // namespace cleft

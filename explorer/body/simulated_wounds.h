@@ -51,4 +51,15 @@ class SimulatedWounds {
   std::vector<Place> places_;  // in the order of vertices, of those that move
 };
 
+/// How far replayed positions are from simulated ones: of the displacement of any vertex, over the largest
+/// one, and of the vectors from lip to lip along the cuts, over the largest opening. Lengths in mesh units.
+struct ReplayOff {
+  double largest = 0, displacement = 0;
+  double gape = 0, opening = 0;
+  double relative_displacement() const { return largest > 0 ? displacement / largest : 0; }
+  double relative_opening() const { return gape > 0 ? opening / gape : 0; }
+};
+ReplayOff replay_off(const std::vector<const Incision*>& cuts, std::span<const Vec3> replayed,
+                     std::span<const Vec3> simulated);
+
 }  // namespace cleft

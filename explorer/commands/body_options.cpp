@@ -5,7 +5,6 @@
 #include <iostream>
 
 #include "base/text.h"
-#include "explorer/incision/incision.h"
 #include "explorer/incision/local_coordinates.h"
 #include "explorer/io/mesh_file.h"
 #include "params/parameters/table.h"
@@ -101,25 +100,11 @@ void warn_of(const BodyReport& report, const char* command) {
     std::cerr << command << ": warning: " << warning << "\n";
 }
 
-Json replay_off_by(const std::vector<const Incision*>& cuts, double scale, const std::vector<Vec3>& replayed,
-                   const std::vector<Vec3>& simulated) {
-  const CutMesh& mesh = cuts.front()->mesh();
-  double largest = 0, off = 0, gape = 0, gape_off = 0;
-  for (std::size_t v = 0; v < simulated.size(); ++v) {
-    const double moved = norm(simulated[v] - mesh.position(static_cast<int>(v)));
-    largest = std::max(largest, moved), off = std::max(off, norm(simulated[v] - replayed[v]));
-  }
-  for (const Incision* cut : cuts)
-    for (const Incision::ChainVertex& c : cut->chain()) {
-      const Vec3 open = simulated[c.right] - simulated[c.left];
-      gape = std::max(gape, norm(open));
-      gape_off = std::max(gape_off, norm(open - (replayed[c.right] - replayed[c.left])));
-    }
-  const auto part = [](double x, double of) { return of > 0 ? x / of : 0; };
-  return {{"off_by_mm", off * scale},
-          {"off_by", part(off, largest)},
-          {"opening_off_by_mm", gape_off * scale},
-          {"opening_off_by", part(gape_off, gape)}};
+Json figures_of(const ReplayOff& off, double scale) {
+  return {{"off_by_mm", off.displacement * scale},
+          {"off_by", off.relative_displacement()},
+          {"opening_off_by_mm", off.opening * scale},
+          {"opening_off_by", off.relative_opening()}};
 }
 
 }  // namespace cleft

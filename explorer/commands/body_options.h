@@ -7,7 +7,7 @@
 
 #include "base/command/command.h"
 #include "explorer/body/body_maker.h"
-#include "explorer/incision/incision.h"
+#include "explorer/body/simulated_wounds.h"
 
 namespace cleft {
 
@@ -38,9 +38,6 @@ Json figures_of(const BodyReport& report);
 /// Prints the report's warnings on stderr as those of `command`.
 void warn_of(const BodyReport& report, const char* command);
 
-/// How far replayed positions are from simulated ones, of the vertices of skin, lips and walls, and of the
-/// opening along the cuts: the largest distance over the largest displacement and opening of the simulation.
-Json replay_off_by(const std::vector<const Incision*>& cuts, double scale, const std::vector<Vec3>& replayed,
-                   const std::vector<Vec3>& simulated);
+Json figures_of(const ReplayOff& off, double scale);
 
 }  // namespace cleft

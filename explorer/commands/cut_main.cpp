@@ -197,7 +197,7 @@ void move_as_simulated(const Options& options, const Cuts& cuts, bool replayed, 
   told["gape_mm"] = simulation.gape;
   told["seconds"] = simulation.seconds;
   told["moved_vertices"] = wounds.active();
-  if (replayed) told["replay"] = replay_off_by(cuts.list, options.scale, positions, simulated);
+  if (replayed) told["replay"] = figures_of(replay_off(cuts.list, positions, simulated), options.scale);
   figures["simulated"] = told;
   warn_of(simulation.report, "cleft cut");
   positions = std::move(simulated);

@@ -4,8 +4,9 @@
 
 namespace cleft {
 
-MeshScene::MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<CutFields>& fields)
-    : cut_(std::move(cut)), fields_(fields) {
+MeshScene::MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<CutFields>& fields,
+                     std::shared_ptr<const SimulatedWounds> simulated)
+    : cut_(std::move(cut)), fields_(fields), simulated_(std::move(simulated)) {
   std::vector<Wound> wounds;
   for (const auto& incision : cut_->cuts()) {
     if (fields_) wounds.push_back(fields_->wound(*incision, 1));
@@ -35,14 +36,29 @@ void MeshScene::aim_at_cuts(WoundSurface& surface) const {
   for (int i = 0; i <= samples; ++i) surface.outward += path.at(path.length() * i / samples).outward;
 }
 
+std::optional<ReplayOff> MeshScene::replay_off() const {
+  if (!simulated_ || !wounds_) return std::nullopt;
+  std::vector<Vec3> replayed(surface_->points.size()), simulated(surface_->points.size());
+  wounds_->positions(duration_, replayed);
+  simulated_->positions(duration_, simulated);
+  std::vector<const Incision*> cuts;
+  for (const auto& cut : cut_->cuts()) cuts.push_back(cut.get());
+  return cleft::replay_off(cuts, replayed, simulated);
+}
+
 void MeshScene::positions(double t, std::vector<Vec3>& out) const {
-  if (!wounds_) return void(out = surface_->points);
   out.resize(surface_->points.size());
+  if (simulated_) return simulated_->positions(t, out);
+  if (!wounds_) return void(out = surface_->points);
   wounds_->positions(t, level(), out);
 }
 
 std::vector<bool> MeshScene::moving() const {
   std::vector<bool> any(surface_->points.size(), false);
+  if (simulated_) {
+    for (const SimulatedWounds::Place& place : simulated_->places()) any[place.vertex] = true;
+    return any;
+  }
   if (!wounds_) return any;
   for (const Replay& replay : level().replays)
     for (const ActiveVertex& a : replay.active()) any[a.vertex] = true;
@@ -50,28 +66,39 @@ std::vector<bool> MeshScene::moving() const {
 }
 
 std::shared_ptr<const WoundScene> MeshScene::with_detail(double mm) const {
-  if (!wounds_) return nullptr;
+  if (!wounds_ || simulated_) return nullptr;
   auto scene = std::shared_ptr<MeshScene>(new MeshScene(*this));
   scene->level_ = std::make_shared<const ReplayedWounds::Level>(wounds_->level(mm));
   return scene;
 }
 
 std::optional<LeftOut> MeshScene::left_out() const {
-  if (!wounds_) return std::nullopt;
+  if (!wounds_ || simulated_) return std::nullopt;
   return LeftOut{level().left_out(), level().left_out() + level().active(), level().error};
 }
 
 std::vector<std::string> MeshScene::warnings() const {
   std::vector<std::string> all;
-  if (wounds_)
+  if (wounds_ && !simulated_)
     for (const Validity& v : wounds_->validity(fields_->turning()))
       all.insert(all.end(), v.warnings.begin(), v.warnings.end());
   return all;
 }
 
+/// The displacement, or how far the replay is from it. What needs derivatives of a field is not known.
+void MeshScene::simulated_values(Coloring coloring, double t, std::vector<double>& out) const {
+  std::vector<Vec3> moved(out.size()), replayed = surface_->points;
+  simulated_->positions(t, moved);
+  if (coloring == Coloring::error && wounds_) wounds_->positions(t, replayed);
+  if (coloring != Coloring::displacement && coloring != Coloring::error) return;
+  for (std::size_t v = 0; v < out.size(); ++v) out[v] = norm(moved[v] - replayed[v]);
+}
+
 void MeshScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
   out.assign(surface_->points.size(), 0);
-  if (coloring == Coloring::tissue || !wounds_) return;
+  if (coloring == Coloring::tissue) return;
+  if (simulated_) return simulated_values(coloring, t, out);
+  if (!wounds_) return;
   const Wounds::Blade now = wounds_->blade(t);
   for (std::size_t k = 0; k <= now.cut; ++k) {
     const VaryingField& field = (*wounds_)[k].field;

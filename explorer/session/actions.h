@@ -35,7 +35,13 @@ void add_cut(Session& session, const CutState& cut);
 void replace_last_cut(Session& session, const CutState& cut);
 /// The skin's tension, against which cuts turn; none: that of the shown case for all directions of a cut.
 void set_tension(Session& session, const std::optional<SkinTension>& tension);
-void undo_last(Session& session);  ///< the last cut or tension
+/// Whether the cuts are simulated as they are, in this very mesh, each time that they change.
+void simulate_cuts(Session& session, bool on);
+/// Begins the simulation of the present cuts and parameters, where the session asks for one and it is not
+/// known. Waits for it unless the session works in the background.
+void follow_cuts(Session& session);
+void finish_simulation(Session& session);  ///< once it is ready
+void undo_last(Session& session);          ///< the last cut or tension
 void redo_last(Session& session);
 
 // Time and colours.

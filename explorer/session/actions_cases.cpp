@@ -62,6 +62,7 @@ void follow_parameters(Session& session, bool wait) {
   session.opened().between = nothing_between(session.opened());  // while the cases are read
   session.opened().between = make_between(session, wait);
   session.opened().drawn.scenes.erase(session.state().shown);
+  follow_cuts(session);
 }
 
 void follow_parameters(Session& session) { follow_parameters(session, !session.prepares_beside()); }
@@ -102,8 +103,11 @@ void find_cases(Session& session, const std::string& condition) {
 
 void color_by(Session& session, Coloring coloring) {
   if (coloring == Coloring::error) {
-    if (session.mesh()) throw InputError("errors are those of the patch that was simulated (say: patch)");
-    session.raw_of(session.state().shown);
+    if (session.mesh() && !session.opened().simulated.wounds)
+      throw InputError(
+          "errors are those of the patch that was simulated (say: patch), or of a replay against the "
+          "simulation of its cuts (say: simulate on)");
+    if (!session.mesh()) session.raw_of(session.state().shown);
     session.opened().drawn.scenes.clear();  // made anew with what they are compared with
   }
   session.edit().coloring = coloring;

@@ -14,6 +14,7 @@ void forget_cuts(SessionState& state) {
 void cuts_changed(Session& session) {
   session.opened().drawn = {};
   session.edit().time = session.duration();  // makes the cuts, and throws where they cannot be made
+  follow_cuts(session);
   session.changes().cuts = session.changes().time = true;
 }
 

@@ -80,6 +80,8 @@ void tension(Session& session, CommandWords& words) {
   set_tension(session, SkinTension{{x[0], x[1], x[2]}, std::max(p[0], p[1]), std::min(p[0], p[1])});
 }
 
+void simulate(Session& session, CommandWords& words) { simulate_cuts(session, words.on_or_off()); }
+
 void undo(Session& session, CommandWords&) { undo_last(session); }
 void redo(Session& session, CommandWords&) { redo_last(session); }
 
@@ -110,6 +112,8 @@ std::span<const Command> cut_commands() {
        "cut with a haptic device: " + device_usages() + ", or the name of a plug-in", device, Command::none},
       {"tension", "X,Y,Z LARGER,SMALLER | none",
        "the skin's larger tension and its direction, prestresses in MPa: cuts turn against it", tension},
+      {"simulate", "on | off",
+       "simulate the cuts in this very mesh, each time that they change, and show them so", simulate},
       {"undo", "", "take the last cut or tension back", undo},
       {"redo", "", "make it again", redo},
       {"export", "FILE",

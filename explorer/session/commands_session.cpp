@@ -101,6 +101,7 @@ void info(Session& session, CommandWords&) {
   }
   if (!s.mesh.empty()) session.answer("mesh: " + s.mesh + ", cuts: " + std::to_string(s.cuts.size()));
   session.answer("length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");
+  if (const std::string& note = session.simulation_note(); !note.empty()) session.answer(note);
   if (s.detail) session.answer(told_detail(session, *scene));
   for (const std::string& warning : session.warnings()) session.answer("warning: " + warning);
 }

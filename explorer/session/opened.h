@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "explorer/body/body_run.h"
+#include "explorer/body/simulated_wounds.h"
 #include "explorer/incision/cut_surface.h"
 #include "explorer/incision/surface_mesh.h"
 #include "explorer/scene/wound_scene.h"
@@ -39,11 +41,20 @@ struct DetailSeen {
   double pixels = 0;  ///< bound of the error; infinite if the camera is among moving vertices
 };
 
+/// The simulation of the shown case's cuts in the mesh, where the session asks for it.
+struct Simulated {
+  std::string of;                                 ///< of which cuts and parameters; empty: of none
+  std::shared_ptr<BodyRun> run;                   ///< while it runs
+  std::shared_ptr<const SimulatedWounds> wounds;  ///< once it has ended well
+  std::string note;                               ///< what a view says of it
+};
+
 struct Opened {
   SessionState state;
   std::shared_ptr<KnownCases> cases;        ///< null: no study is open
   std::shared_ptr<const SurfaceMesh> mesh;  ///< to be cut, mm; null: the canonical patch is shown
   Between between;
+  Simulated simulated;
   Drawn drawn;
   std::vector<std::string> warnings;  ///< cuts of the shown case outside their validity (validity.h)
   std::optional<DetailSeen> seen;     ///< in the last picture; none if anything has changed since

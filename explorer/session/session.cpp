@@ -78,6 +78,14 @@ bool Session::take_prepared() {
   return false;
 }
 
+bool Session::take_simulated() {
+  if (!simulating() || busy_ || !opened_.simulated.run->ready()) return simulating();
+  changes_ = {};
+  finish_simulation(*this);
+  notify();
+  return false;
+}
+
 double Session::prepared_part() const {
   return opened_.between.preparing ? opened_.between.reader->part_done() : 1;
 }

@@ -54,6 +54,7 @@ class Session {
   double depth_of_case(int i);               ///< mm, of cuts without their own depth
   /// The cuts' paths, with the depth of the shown case if they have none.
   std::vector<ScalpelPath> cut_paths() { return cut_paths(depth_of_case(state().shown)); }
+  std::shared_ptr<const CutSurface> shown_cut_surface() { return cut_surface(depth_of_case(state().shown)); }
   std::optional<CutFields> cut_fields(int i);  ///< the fields of cuts in case i; none without a study
   /// The overlay over the shown case; if it cannot be drawn, the caption gives the reason.
   Overlay overlay();
@@ -81,6 +82,12 @@ class Session {
   bool take_prepared();
   bool preparing() const { return opened_.between.preparing; }
   double prepared_part() const;  ///< of the time it takes
+
+  // The simulation of the cuts in the mesh.
+  bool simulating() const { return opened_.simulated.run != nullptr; }
+  const std::string& simulation_note() const { return opened_.simulated.note; }  ///< empty: none is asked for
+  /// Shows the simulated wounds once they are ready; whether there is still something to wait for.
+  bool take_simulated();
 
   // The simulations and figures of cases.
   std::string why_no_raw(int i) const;           ///< empty if case i's simulation can be read
@@ -114,6 +121,7 @@ class Session {
   void warn(const std::vector<std::string>& before);
   void notify();
   std::vector<ScalpelPath> cut_paths(double depth) const;
+
   std::shared_ptr<const CutSurface> cut_surface(double depth);
   Overlay make_overlay();
 

@@ -48,7 +48,8 @@ std::shared_ptr<const WoundScene> Session::scene_of(int i) {
   auto& found = scenes[i];
   if (found) return found;
   if (mesh())
-    found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), cut_fields(i));
+    found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), cut_fields(i),
+                                        i == state().shown ? opened_.simulated.wounds : nullptr);
   else
     found = std::make_shared<PatchScene>(
         field_of(i), state().coloring == Coloring::error && why_no_raw(i).empty() ? raw_of(i) : nullptr);
@@ -105,7 +106,9 @@ std::string Session::title_of(int i) const {
 std::string Session::note_of(int i) const {
   std::string note;
   if (between() && i == state().shown) note = "interpolated, " + error_of_interpolation(*between());
-  if (state().coloring == Coloring::error && !why_no_raw(i).empty())
+  if (i == state().shown && !simulation_note().empty())
+    note += (note.empty() ? "" : "; ") + simulation_note();
+  if (state().coloring == Coloring::error && !mesh() && !why_no_raw(i).empty())
     note += (note.empty() ? "" : "; ") + std::string("without raw frames: no error is known");
   return note;
 }

@@ -117,6 +117,7 @@ SessionState to_state(const Json& j) {
         ProbeState{to_vec3(j["probe"].at("place")), static_cast<Side>(j["probe"].at("side").get<int>())};
   if (j.contains("zoom")) s.zoom = ZoomState{to_vec3(j["zoom"].at("place")), j["zoom"].at("radius")};
   s.figure = j.value("figure", "");
+  s.simulate = j.value("simulate", false);
   if (j.contains("detail")) s.detail = detail_of(j["detail"].get<std::string>());
   return s;
 }
@@ -166,6 +167,7 @@ std::string state_to_json(const SessionState& s) {
   if (s.probe) j["probe"] = {{"place", to_json(s.probe->uvw)}, {"side", static_cast<int>(s.probe->side)}};
   if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
   if (!s.figure.empty()) j["figure"] = s.figure;
+  if (s.simulate) j["simulate"] = true;
   if (s.detail) j["detail"] = text_of(*s.detail);
   return j.dump(1) + "\n";
 }

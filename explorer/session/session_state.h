@@ -61,6 +61,8 @@ struct SessionState {
   std::optional<SkinTension> tension;  ///< of the mesh; none: that of the shown case, along every cut
   std::vector<TensionChange> tensions, tensions_undone;  ///< oldest first; last undone last
 
+  bool simulate = false;  ///< whether the cuts in the mesh are simulated as they are; else replayed
+
   double time = 0;  ///< length cut
   bool playing = false, loop = false;
   double speed = 10;  ///< mm of cut a second

@@ -32,8 +32,8 @@ explorer/study:base|base/h5|params|params/parameters|solver/snapshot|encoder/fie
 explorer/body:base|params|params/parameters|solver/body|solver/snapshot|haptic|explorer/incision
 explorer/wound:base|base/h5|params/material|encoder/field|encoder/field/file|explorer/incision|explorer/study|params/parameters
 explorer/scalpel:base|encoder/field|haptic|haptic/devices|explorer/incision|explorer/wound
-explorer/scene:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel
-explorer/session:base|params|params/parameters|params/run|encoder/field|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scene|explorer/io/formats
+explorer/scene:base|encoder/field|haptic|explorer/incision|explorer/body|explorer/study|explorer/wound|explorer/scalpel
+explorer/session:base|params|params/parameters|params/run|encoder/field|haptic/devices|explorer/incision|explorer/body|explorer/study|explorer/wound|explorer/scene|explorer/io/formats
 explorer/io:base|explorer/incision|explorer/io/formats|solver/snapshot
 explorer/io/formats:base
 explorer/view:base|encoder/field|haptic|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|explorer/scene|explorer/session|explorer/io
