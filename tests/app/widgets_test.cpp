@@ -216,6 +216,22 @@ TEST_F(WindowTest, ALevelOfDetailIsChosenAndTold) {
   EXPECT_FALSE(real_.seen());
 }
 
+TEST_F(WindowTest, CutsAreSimulatedWhileTheWindowGoesOn) {
+  tell("open " + study());
+  EXPECT_FALSE(widget<QAction>("simulate").isEnabled()) << "there is no mesh";
+  tell("mesh " + mesh());
+  tell("cut -8,0.7,0,0,0,1 0,0.7,0,0,0,1 8,0.7,0,0,0,1 depth 2");
+  widget<QAction>("simulate").trigger();
+  EXPECT_TRUE(now().simulate);
+  EXPECT_TRUE(real_.simulating());
+  tell("time 3");  // the window takes lines meanwhile
+  for (int tries = 0; tries < 600 && real_.simulating(); ++tries) settle(100);
+  EXPECT_TRUE(real_.simulation_note().starts_with("simulated, ")) << real_.simulation_note();
+  widget<QAction>("simulate").trigger();
+  EXPECT_FALSE(now().simulate);
+  EXPECT_EQ(real_.simulation_note(), "");
+}
+
 TEST_F(WindowTest, WithoutTheScalpelDraggingTurnsThePicture) {
   tell("open " + study());
   tell("mesh " + mesh());
