@@ -282,8 +282,31 @@ TEST(FiniteSkin, FibresStiffenTheirOwnDirectionAndOnlyUnderTension) {
   EXPECT_NEAR(tangent_along({0.6, 0, 0.5}, u, 0), tangent_along({0.6, 0, 0.5}, v, 1), 1e-14);
   const double quarter = std::acos(0.);
   EXPECT_NEAR(tangent_along({0.6, 0, 0.1}, u, 0), tangent_along({0.6, quarter, 0.1}, v, 1), 1e-14);
+  // At 45 degrees: all turned by them, the strain 0.1 along the diagonal and the tangent along it too.
+  const Eigen::Vector3d diagonal(0.5, 0.5, 1);
+  const FungSkin turned(alike, elasticity, 10, {0.6, quarter / 2, 0.1});
+  EXPECT_NEAR(diagonal.dot(turned.at(0.1 * diagonal).tangent * diagonal), tangent_along({0.6, 0, 0.1}, u, 0),
+              1e-14);
   // Slack fibres leave the matrix alone: less stiff than where they were part of it.
   EXPECT_LT(tangent_along({0.6, 0, 0}, released, 0), 0.6 * tangent_along({0, 0, 0}, released, 0));
+}
+
+/// On the way to where fibres are slack the stress has no jump, and its work is the energy (Simpson's rule;
+/// the tangent's one jump leaves the square of the step).
+TEST(FiniteSkin, FibresBecomeSlackWithoutAJump) {
+  const Eigen::Matrix3d elasticity = isotropic_skin({}).elasticity;
+  const FungSkin skin(prestress, elasticity, 10, {0.6, 0.5, 0.1});
+  const Eigen::Vector3d end(-0.3, -0.35, 0.05);
+  constexpr int steps = 3000;
+  double work = 0, largest_jump = 0;
+  for (int i = 0; i < steps; ++i) {
+    const auto stress = [&](double part) { return skin.at((i + part) / steps * end).stress; };
+    work += (stress(0) + 4 * stress(0.5) + stress(1)).dot(end) / (6 * steps);
+    largest_jump = std::max(largest_jump, (stress(1) - stress(0)).norm());
+  }
+  const double energy = skin.at(end).energy;
+  EXPECT_NEAR(work - energy + skin.at(Eigen::Vector3d::Zero()).energy, 0, 1e-6 * std::abs(energy));
+  EXPECT_LT(largest_jump, elasticity.norm() * end.norm() / steps);  // the skin softens on its way
 }
 
 }  // namespace cleft
