@@ -39,13 +39,15 @@ void check_sensitivities(const std::vector<std::string>& names, const Parameters
     throw InputError(where +
                      ": the series has no derivative where lips begin to touch; set "
                      "cut.contact to false");
-  if (!names.empty() && parameters.model == Model::finite)
-    throw InputError(where + ": there are none with model = finite; leave them out, or set model to small");
   const std::vector<std::string> groups = smooth_groups();
   for (const std::string& name : names) {
     const Parameter& row = find_parameter(name, where);
     if (row.is_text() || std::find(groups.begin(), groups.end(), group_of(row)) == groups.end())
       throw InputError(where + " " + name + ": must be a number of " + either(groups));
+    // Its entries of the matrix are not there, and a skin of less than 0 does not exist.
+    if (name == row_of(parameters, parameters.skin.bending_stiffness).name &&
+        parameters.skin.bending_stiffness == 0)
+      throw InputError(where + " " + name + ": is 0, where it has no derivative; set it above 0");
   }
 }
 

@@ -33,15 +33,43 @@ std::string text_of(const NewtonFrame& frame) {
   return text.str();
 }
 
+/// The forces that a parameter adds to a patch that does not move, for each of its unit: those of the load,
+/// and of the elements by differences of fourth order.
+class ForcesOfParameter {
+ public:
+  ForcesOfParameter(const PatchSystem& system, const Parameters& parameters, const std::string& name)
+      : load_(system.derivative(parameters, name)->load()) {
+    for (const auto& [value, weight] : differences_by(parameters, name)) {
+      Parameters moved = parameters;
+      std::get<0>(find_parameter(name, "derivative").access)(moved) = value;
+      patches_.push_back({std::make_unique<FinitePatch>(system, moved), weight});
+      load_ -= weight * system.load(moved.skin);  // of which the patch has the prestress alone
+    }
+  }
+
+  Block at(const Block& displacement) const {
+    Block sum = load_;
+    for (const auto& [patch, weight] : patches_) sum += weight * patch->balance(displacement).left_over;
+    return sum;
+  }
+
+ private:
+  Block load_;
+  std::vector<std::pair<std::unique_ptr<FinitePatch>, double>> patches_;
+};
+
 }  // namespace
 
 void solve_finite_series(SharedStiffness& shared, const Release& release, std::size_t number) {
   const PatchSystem& system = shared.system();
-  CaseOutput output(shared, release, number, {});
+  const std::vector<std::string>& names = shared.job().options.sensitivities;
+  CaseOutput output(shared, release, number, names);
   FinitePatch patch(system, output.parameters());
   const double largest_load = largest(system, system.load(output.parameters().skin));
   NewtonSolver newton(shared.mesh(), system, patch, release, *shared.chosen().solver, shared.residual(),
                       largest_load);
+  std::vector<ForcesOfParameter> forces;
+  for (const std::string& name : names) forces.emplace_back(system, output.parameters(), name);
   Block displacement = Block::Zero(system.owned(), 1);
   const int frames = static_cast<int>(release.released.size());
   for (int frame = 0; frame < frames; ++frame) {
@@ -55,6 +83,14 @@ void solve_finite_series(SharedStiffness& shared, const Release& release, std::s
     if (!output.continues()) return;
     output.write_frames(frame, displacement);
     shared.phases().end("write");
+    if (names.empty()) continue;
+    Block all(system.owned(), static_cast<Eigen::Index>(names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i)
+      all.col(static_cast<Eigen::Index>(i)) = forces[i].at(displacement);
+    all = newton.responses(frame, displacement, all);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      output.write_derivative(names[i], frame, all.col(static_cast<Eigen::Index>(i)));
+    shared.phases().end("sensitivities");
   }
   output.finish();
   shared.phases().end("write");

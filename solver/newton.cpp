@@ -16,6 +16,7 @@ constexpr int most_steps = 25;                // of Newton's method, for a part 
 constexpr int most_iterations_of_step = 200;  // of conjugate gradients
 constexpr int iterations_of_a_factor = 30;    // of a frame, above which a new factor pays
 constexpr double least_part = 1. / 64;        // of the load
+constexpr double accurate = 1e-10;            // residual of a derivative's linear system, relative
 constexpr double loosest = 0.1;               // residual of a step's linear system, relative
 
 }  // namespace
@@ -65,6 +66,20 @@ NewtonFrame NewtonSolver::solve(int frame, Block& displacement) {
     renew_factor();
   }
   return report;
+}
+
+Block NewtonSolver::responses(int frame, const Block& displacement, const Block& forces) {
+  patch_.set_tangent(displacement);
+  Block responses(forces.rows(), forces.cols());
+  for (Eigen::Index c = 0; c < forces.cols(); ++c) {
+    Direction d = direction(forces.col(c), release_.released[frame], accurate);
+    if (d.indefinite)
+      throw SolveError("frame " + std::to_string(frame) +
+                       ": its tangent is not positive definite, so that it has no derivative; leave the "
+                       "sensitivities out, or raise skin.bending_stiffness");
+    responses.col(c) = d.step;
+  }
+  return responses;
 }
 
 /// Starts from the prediction where its forces are nearer to balance, and says so.

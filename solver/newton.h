@@ -29,6 +29,10 @@ class NewtonSolver {
   /// element that has shrunk most.
   NewtonFrame solve(int frame, Block& displacement);
 
+  /// How the equilibrium that solve() has found gives way to small forces, a column each: the solutions with
+  /// its tangent. Throws SolveError if that is not positive definite.
+  Block responses(int frame, const Block& displacement, const Block& forces);
+
   /// Forces out of balance at the last frame.
   const Block& left_over() const { return balance_.left_over; }
 

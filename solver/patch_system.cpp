@@ -173,20 +173,28 @@ class AssembledDerivative : public PatchSystem::Derivative {
 
 }  // namespace
 
-std::unique_ptr<PatchSystem::Derivative> PatchSystem::derivative(const Parameters& parameters,
-                                                                 const std::string& name) const {
+std::vector<std::pair<double, double>> differences_by(const Parameters& parameters, const std::string& name) {
   const Parameter& row = find_parameter(name, "derivative");
   const double at = std::get<double>(get_parameter(parameters, row));
   // Poisson's ratios act through 1 / (1 - 2 nu): the step follows the distance from 1/2.
   const double scale = row.greatest < 1 ? std::max(0.5 - at, 1e-4) : std::max(std::abs(at), 1e-3);
   const double step = 1e-3 * scale;
+  std::vector<std::pair<double, double>> differences;
+  for (const auto& [steps, weight] : {std::pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}})
+    differences.emplace_back(at + steps * step, weight / (12 * step));
+  return differences;
+}
+
+std::unique_ptr<PatchSystem::Derivative> PatchSystem::derivative(const Parameters& parameters,
+                                                                 const std::string& name) const {
+  const Parameter& row = find_parameter(name, "derivative");
   const std::unique_ptr<PatchElements> once_more = this->elements(parameters);
   const PatchElements& elements = *once_more;
   Assembly sum(elements, 1);
-  for (const auto& [steps, weight] : {std::pair(-2., 1.), {-1., -8.}, {1., 8.}, {2., -1.}}) {
+  for (const auto& [value, weight] : differences_by(parameters, name)) {
     Parameters moved = parameters;
-    std::get<0>(row.access)(moved) = at + steps * step;
-    sum.add(elements, moved, weight / (12 * step), directions(moved.skin));
+    std::get<0>(row.access)(moved) = value;
+    sum.add(elements, moved, weight, directions(moved.skin));
   }
   sum.finish();
   Block load = sum.loads();

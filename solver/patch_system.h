@@ -94,6 +94,10 @@ class PatchSystem {
   std::unique_ptr<Parts> parts_;
 };
 
+/// Values of a parameter around that of a case, and the weights with which a function's values there add up
+/// to its derivative: differences of fourth order.
+std::vector<std::pair<double, double>> differences_by(const Parameters& parameters, const std::string& name);
+
 class PatchSystem::Derivative {
  public:
   virtual ~Derivative() = default;

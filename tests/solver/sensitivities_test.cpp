@@ -106,6 +106,25 @@ TEST(Sensitivities, ToThePrestressAreTheUnitSeries) {
   }
 }
 
+/// Whole solves end at residuals of 1e-7 of the largest load, which the step of 3e-3 magnifies to 3e-5 of the
+/// derivative times the condition of the tangent; most end far below that.
+TEST(Sensitivities, UnderFiniteStrains) {
+  Parameters p = sheared();
+  p.model = Model::finite;
+  p.skin.law = SkinLaw::fung, p.skin.fibre_share = 0.3, p.skin.fibre_angle = 20,
+  p.skin.fibre_dispersion = 0.1;
+  p.skin.bending_stiffness = 0.02, p.tissue.prestress_share = 0.1;
+  std::vector<std::string> names = of_the_stiffness;
+  names.insert(names.end(), of_the_prestress.begin(), of_the_prestress.end());
+  names.insert(names.end(), {"skin.stiffening", "skin.fibre_share", "skin.fibre_angle",
+                             "skin.fibre_dispersion", "skin.bending_stiffness", "tissue.prestress_share"});
+  expect_derivatives({p}, names, Method::automatic, 1e-4);
+  Parameters held = p;
+  held.skin.edges = SkinEdges::held, held.skin.law = SkinLaw::neo_hookean;
+  expect_derivatives({held}, {"skin.thickness", "skin.prestress_v", "tissue.young_modulus"},
+                     Method::automatic, 1e-4);
+}
+
 /// More frames than are solved together, and more loads of derivatives than are.
 TEST(Sensitivities, OfManyFrames) {
   Parameters p = sheared();

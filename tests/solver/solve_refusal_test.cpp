@@ -92,8 +92,8 @@ TEST_F(SolveRefuses, WhatTheFiniteModelDoesNotHave) {
                  {"case.toml", "--unit-prestress", "model = finite", "vary the prestress in a study"});
   expect_wrong_options({.method = cleft::Method::iterative, .sensitivities = {}}, {"model=finite"},
                        {"--method iterative", "model = finite", "--method direct"});
-  expect_wrong_options({.sensitivities = {"skin.thickness"}}, {"model=finite"},
-                       {"--sensitivities", "model = finite", "set model to small"});
+  expect_wrong_options({.sensitivities = {"skin.bending_stiffness"}}, {"model=finite"},
+                       {"--sensitivities skin.bending_stiffness", "0", "set it above 0"});
   expect_refused({"--set", "model=finite", "--set", "cut.contact=true"},
                  {"cut.contact = true", "model = \"finite\"", "set it to false"});
   expect_refused({"--set", "model=finite", "--set", "skin.initial_stress_stiffness=true"},
