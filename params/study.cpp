@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -31,6 +32,13 @@ std::string control_points_text(const std::array<int, 4>& counts) {
   return text;
 }
 
+/// As TOML writes a text.
+std::string in_quotes(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) (c == '"' || c == '\\' ? result += '\\' : result) += c;
+  return result + "\"";
+}
+
 /// Reads one parsed file into a Study.
 class StudyReader {
  public:
@@ -47,8 +55,8 @@ class StudyReader {
   std::string where(const toml::node& node) const { return place_of(path_, node); }
 
   void read_section(const std::string& key, const toml::node& node) {
-    static const std::vector<std::string> known = {"name", "keep_snapshots", "sensitivities", "case",
-                                                   "vary", "sampling",       "encode",        "slurm"};
+    static const std::vector<std::string> known = {"name", "keep_snapshots", "sensitivities", "case", "vary",
+                                                   "body", "sampling",       "encode",        "slurm"};
     if (key == "name") {
       mistakes_.collect([&] { study_.name = text(node, "name"); });
     } else if (key == "keep_snapshots") {
@@ -60,6 +68,7 @@ class StudyReader {
     } else if (const toml::table* table = node.as_table()) {
       if (key == "case") read_case_values(*table, "");
       if (key == "encode") read_encode(*table);
+      if (key == "body") read_body(*table);
       if (key == "slurm") read_slurm(*table);
     } else {
       mistakes_.add(where(node) + ": " + key + " must be a section [" + key + "]");
@@ -129,6 +138,31 @@ class StudyReader {
     }
   }
 
+  /// The file's place is relative to that of this one.
+  void read_body(const toml::table& table) {
+    for (const auto& [key, entry] : table) {
+      const std::string name = "body." + std::string(key.str());
+      const toml::node& node = entry;
+      mistakes_.collect([&, &key = key] {
+        if (key != "file")
+          throw InputError(where(node) + ": unknown key '" + name + "'" +
+                           did_you_mean(std::string(key.str()), {"file"}));
+        namespace fs = std::filesystem;
+        const fs::path folder = fs::absolute(fs::path(path_)).parent_path();
+        fs::path file = folder / text(node, name);
+        // The folder of a study keeps its own copy.
+        if (const fs::path kept = folder / kept_body; fs::is_directory(folder / "cases") && fs::exists(kept))
+          file = kept;
+        if (!fs::is_regular_file(file))
+          throw InputError(where(node) + ": body.file = " + text(node, name) + ": there is no " +
+                           file.lexically_normal().string() + " (cleft body makes it)");
+        study_.base.body = file.lexically_normal().string();
+        study_.base.body_digest = sha256_of_file(study_.base.body);
+      });
+    }
+    if (!table.contains("file")) mistakes_.add(where(table) + ": [body] needs file = \"body.h5\"");
+  }
+
   void read_encode(const toml::table& table) {
     static const std::vector<std::string> known = {"control_points", "parametrization", "tolerance"};
     EncodeSettings& encode = study_.base.encode;
@@ -194,7 +228,7 @@ std::vector<std::string> EncodeSettings::arguments() const {
 }
 
 std::string Case::snapshot_hash() const {
-  std::string text = solve_hash(parameters);
+  std::string text = solve_hash(parameters, body_digest.substr(0, 16));
   if (sensitivities.empty()) return text;
   for (const std::string& name : sensitivities) text += " per " + name;
   return sha256(text).substr(0, 16);
@@ -253,7 +287,9 @@ std::string case_file_text(const Case& a_case) {
   std::string text;
   for (const std::string& name : a_case.sensitivities)
     text += (text.empty() ? "sensitivities = [\"" : ", \"") + name + "\"";
-  text += text.empty() ? "[case]\n" : "]\n\n[case]\n";
+  if (!text.empty()) text += "]\n\n";
+  if (!a_case.body.empty()) text += "[body]\nfile = " + in_quotes(a_case.body) + "\n\n";
+  text += "[case]\n";
   for (const Parameter& row : parameter_table()) {
     const std::string quote = row.is_text() ? "\"" : "";
     text += row.name + " = " + quote + to_text(get_parameter(a_case.parameters, row)) + quote +

@@ -27,8 +27,10 @@ struct Case {
   Parameters parameters;
   EncodeSettings encode;
   std::vector<std::string> sensitivities = {};  ///< parameters to differentiate the series by
+  std::string body = {};         ///< [body]: the body file that is solved in place of a patch; empty: a patch
+  std::string body_digest = {};  ///< SHA-256 of that file
 
-  /// Identity of the snapshot: solve_hash(parameters), and the sensitivities that it holds.
+  /// Identity of the snapshot: solve_hash(parameters), the body, and the sensitivities that it holds.
   std::string snapshot_hash() const;
   /// Identity of the encoded case, which includes that of the snapshot.
   std::string hash() const;
@@ -56,6 +58,9 @@ struct SamplingSettings {
   std::size_t count = 0;
   std::uint64_t seed = 0;
 };
+
+/// The name under which the folder of a study keeps the body of its cases.
+inline constexpr const char* kept_body = "body.h5";
 
 /// [slurm]: the requests of jobs; entries that are empty or 0 are left to the site.
 struct SlurmSettings {

@@ -31,6 +31,15 @@ void take_sensitivities(const Case& one, bool first, const std::string& file, So
                      "give --sensitivities for all");
 }
 
+/// The body of the case files, which is one for all of them; `taken`: the digest of the first one's.
+void take_body(const Case& one, bool first, const std::string& file, std::string& taken,
+               SolveOptions& options) {
+  if (first) taken = one.body_digest;
+  if (first && !one.body.empty()) options.body = std::make_shared<const Body>(read_body(one.body));
+  if (one.body_digest != taken)
+    throw InputError(file + ": [body] is not that of the first case file; solve the cases one by one");
+}
+
 std::string number_of_trilinos() {
   return std::to_string(DEAL_II_TRILINOS_VERSION_MAJOR) + "." +
          std::to_string(DEAL_II_TRILINOS_VERSION_MINOR);
@@ -197,12 +206,14 @@ int main(int argc, char** argv) {
     const std::vector<std::string> outs = outputs(case_files, out);
     if (!body.empty()) options.body = std::make_shared<const Body>(read_body(body));
     std::vector<CaseToSolve> cases;
+    std::string taken_body;
     Mistakes mistakes;
     for (std::size_t c = 0; c < case_files.size(); ++c)
       mistakes.collect([&] {
         refuse_to_overwrite(outs[c], case_files);
         if (options.body) refuse_to_overwrite(outs[c], {body});
         const Case one = read_case(case_files[c], assignments);
+        if (body.empty()) take_body(one, c == 0, case_files[c], taken_body, options);
         cases.push_back(
             {options.body ? parameters_of(*options.body, one.parameters) : one.parameters, outs[c]});
         if (app.count("--sensitivities") == 0) take_sensitivities(one, c == 0, case_files[c], options);

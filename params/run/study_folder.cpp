@@ -101,6 +101,17 @@ std::string to_text(CaseState state) {
   }
 }
 
+namespace {
+
+/// Another body makes other cases; those of the former remain.
+void keep_body(const std::string& path, const Case& base) {
+  const std::string kept = path + "/" + kept_body;
+  if (base.body.empty() || (fs::exists(kept) && sha256_of_file(kept) == base.body_digest)) return;
+  write_text_file(kept, read_text_file(base.body));
+}
+
+}  // namespace
+
 StudyFolder::StudyFolder(std::string path) : path_(std::move(path)) {
   if (!fs::is_directory(path_))
     throw InputError(path_ + ": no such folder; cleft run STUDY.toml --out " + path_ + " makes one");
@@ -120,6 +131,7 @@ StudyFolder StudyFolder::create(const std::string& path, const Study& study) {
   if (!error) fs::create_directories(path + "/attempts", error);
   if (error) throw InputError("--out " + path + ": could not be created: " + error.message());
   check_file_system(path);
+  keep_body(path, study.base);
   const std::string file = path + "/study.toml";
   if (!fs::exists(file) || read_text_file(file) != study.text) write_text_file(file, study.text);
   return StudyFolder(path);

@@ -131,6 +131,25 @@ TEST(Study, ACaseThatDoesNotFitIsNamed) {
   EXPECT_NE(message_of("[vary]\n'cut.length' = [10, 170]\n").find("cut.length = 170"), std::string::npos);
 }
 
+TEST(Case, ItsBodyIsPartOfWhatItIs) {
+  const TemporaryFolder folder;
+  folder.write("a \"b\".h5", "one body");
+  const std::string study = folder.write("s.toml", "[body]\nfile = 'a \"b\".h5'\n");
+  const Case one = read_case(study, {});
+  EXPECT_EQ(one.body, folder / "a \"b\".h5");
+  EXPECT_NE(one.hash(), Case().hash());
+  EXPECT_EQ(read_case(folder.write("case.toml", case_file_text(one)), {}).hash(), one.hash());
+  folder.write("a \"b\".h5", "another body");
+  EXPECT_NE(read_case(study, {}).hash(), one.hash());
+}
+
+TEST(Study, ABodyThatIsMissingIsNamed) {
+  EXPECT_NE(message_of("[body]\nfile = 'none.h5'\n").find("body.file = none.h5: there is no "),
+            std::string::npos);
+  EXPECT_NE(message_of("[body]\n").find("needs file"), std::string::npos);
+  EXPECT_NE(message_of("[body]\nfiles = 'a.h5'\n").find("did you mean 'file'"), std::string::npos);
+}
+
 TEST(Case, ItsFileResolvesToTheSameCase) {
   const TemporaryFolder folder;
   Case one;
