@@ -134,6 +134,7 @@ class StudyReader {
       else
         mistakes_.collect([&, &entry = node] {
           set_parameter(study_.base.parameters, name, value_of(entry, name, where(entry)), where(entry));
+          study_.given.push_back(name);
         });
     }
   }

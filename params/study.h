@@ -74,6 +74,7 @@ struct Study {
   bool keep_snapshots = true;  ///< keep_snapshots = "all"; "none" drops each once its field is published
   SlurmSettings slurm;
   Case base;
+  std::vector<std::string> given;  ///< names of the parameters that [case] sets
   std::vector<Variation> vary;
   SamplingSettings sampling;
   std::string text;  ///< the file as read

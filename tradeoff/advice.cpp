@@ -14,7 +14,6 @@ namespace cleft {
 
 namespace {
 
-constexpr int grid = 96;                                                // samples along the cut and over time
 constexpr double elements_along_cut[] = {8, 16, 32};                    // of the cheap meshes
 constexpr double margins[] = {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 6, 8};  // over the cut's length
 constexpr double elements_in_patches = 16;                              // of the meshes of patches
@@ -28,29 +27,18 @@ constexpr double loosest = 0.5;
 constexpr double details[] = {0, 0.01, 0.02, 0.05, 0.1, 0.25};  // over the error and the opening
 constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 
-template <class At>
-std::vector<Vec3> sampled(double length, const At& at) {
-  std::vector<Vec3> samples;
-  for (int j = 1; j <= grid; ++j)
-    for (int i = 1; i < grid; ++i) samples.push_back(at(length * i / grid, length * j / grid));
-  return samples;
-}
-
-std::vector<Vec3> difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  std::vector<Vec3> d(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) d[i] = a[i] - b[i];
-  return d;
-}
-
-double size_of(const std::vector<Vec3>& samples) {
-  double most = 0;
-  for (const Vec3& x : samples) most = std::max(most, norm(x));
-  return most;
+/// Of a mesh of so many nodes, from those of coarse ones.
+double expected_seconds(const std::vector<ChainCost>& costs, double nodes) {
+  const auto& [n0, s0] = costs.front();
+  const auto& [n1, s1] = costs.back();
+  const double exponent = std::clamp(std::log(s1 / s0) / std::log(n1 / n0), 1., 2.);
+  return s1 * std::pow(nodes / n1, nodes > n1 ? exponent : 1);
 }
 
 }  // namespace
 
 Parameters applied(const Setting& setting, Parameters p) {
+  p.model = setting.model.value_or(p.model);
   p.mesh.element_size = setting.element_size, p.mesh.grading = advised_grading;
   // A frame for every pair costs 1.2 to 2.2 times as much, and takes 3 to 9 % off the error: a finer mesh
   // takes off more.
@@ -60,22 +48,28 @@ Parameters applied(const Setting& setting, Parameters p) {
 }
 
 std::string Expectation::dominating() const {
-  const double most = std::max({mesh, tip, patch, code, detail});
-  return most == detail  ? "detail"
-         : most == patch ? "patch"
-         : most == tip   ? "tip"
-         : most == mesh  ? "mesh"
-                         : "code";
+  const double most = std::max({mesh, tip, patch, code, detail, model_counts ? model : 0});
+  return most == detail                  ? "detail"
+         : model_counts && most == model ? "model"
+         : most == patch                 ? "patch"
+         : most == tip                   ? "tip"
+         : most == mesh                  ? "mesh"
+                                         : "code";
 }
 
-CaseModel::CaseModel(const Parameters& parameters, std::string work,
-                     const std::function<void(const std::string&)>& progress)
-    : parameters_(parameters), work_(std::move(work)), progress_(progress) {
+void check_advisable(const Parameters& parameters) {
   if (parameters.cut.radius != 0 || parameters.cut.tilt != 0 || parameters.cut.count != 1 ||
       parameters.cut.branch != 0)
     throw InputError(
         "cut.radius, cut.tilt, cut.count or cut.branch: advice is for one straight, upright cut, from which "
         "others are replayed");
+}
+
+CaseModel::CaseModel(const Parameters& parameters, std::string work,
+                     const std::function<void(const std::string&)>& progress, ModelKnowledge models)
+    : parameters_(parameters), models_(std::move(models)), work_(std::move(work)), progress_(progress) {
+  check_advisable(parameters);
+  CLEFT_CHECK(models_.error || (!models_.choose && parameters.model == Model::small), ==, true);
   parameters_.mesh.cut_length = parameters_.mesh.cut_depth = 0;
   measure_patches();
   measure_meshes();
@@ -83,7 +77,8 @@ CaseModel::CaseModel(const Parameters& parameters, std::string work,
 
 Parameters CaseModel::coarse(double elements, double margin) const {
   const double length = parameters_.cut.length;
-  return applied({.element_size = length / elements, .margin = margin * length}, parameters_);
+  return applied({.element_size = length / elements, .margin = margin * length, .model = Model::small},
+                 parameters_);
 }
 
 void CaseModel::measure_patches() {
@@ -125,7 +120,7 @@ void CaseModel::measure_meshes() {
     const double tightest = tolerances[std::size(tolerances) - 1];
     const Chain::Encoded tight = chain.encoded(tightest);
     tips_.emplace_back(length / elements, apart(tight.field));
-    costs_.emplace_back(chain.nodes(), chain.solve_seconds() + tight.seconds);
+    costs_.push_back({chain.nodes(), chain.solve_seconds() + tight.seconds});
     if (elements != elements_along_cut[std::size(elements_along_cut) - 1]) continue;
     mesh_size_ = 2 * length / elements;
     field_ = tight.field;
@@ -146,7 +141,7 @@ void CaseModel::measure_meshes() {
 }
 
 /// Of a measured size that is near, as large as it is at this size: straight in logarithms between them.
-CaseModel::Samples CaseModel::tip_samples(double size) const {
+Samples CaseModel::tip_samples(double size) const {
   std::size_t i = 0;
   while (i + 2 < tips_.size() && size < tips_[i + 1].first) ++i;
   const auto& [coarse, coarse_samples] = tips_[i];
@@ -178,30 +173,42 @@ Expectation CaseModel::expectation(const Setting& setting) const {
     if (std::abs(margin - setting.margin) < 1e-9 * margin) patch = &samples;
   CLEFT_CHECK(patch != nullptr, ==, true);
   const Samples tip = tip_samples(setting.element_size);
+  const bool small = setting.model.value_or(parameters_.model) == Model::small;
+  e.model_counts = setting.model.has_value();
+  if (small && models_.error) e.model = size_of(models_.error->error);
+  // The largest opening: of the model that is right, and of that in which mesh, tip and patch were measured
+  // over that of the one they stand for.
+  const double ratio = models_.error ? models_.error->ratio : 1,
+               right = e.model_counts || !small ? ratio * largest_ : largest_,
+               scale = 1 / (small ? right : largest_);
   Samples sum = *patch, all = tip;
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share * mesh_[i], all[i] += sum[i];
-  e.mesh = share * size_of(mesh_) / largest_, e.patch = size_of(*patch) / largest_;
-  e.tip = size_of(tip) / largest_;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    sum[i] = scale * (sum[i] + share * mesh_[i]);
+    if (small && e.model_counts) sum[i] += models_.error->error[i];
+    all[i] = scale * all[i] + sum[i];
+  }
+  e.mesh = share * scale * size_of(mesh_), e.patch = scale * size_of(*patch), e.tip = scale * size_of(tip);
   for (const Code& code : codes_)
-    if (code.tolerance == setting.tolerance) e.code = code.error / largest_, e.bytes = code.bytes;
-  e.detail = 2 * setting.detail / largest_;  // of both lips
-  e.total =
-      safety * std::max(size_of(all), std::hypot(size_of(sum), size_of(tip))) / largest_ + e.code + e.detail;
+    if (code.tolerance == setting.tolerance) e.code = scale * code.error, e.bytes = code.bytes;
+  e.detail = 2 * setting.detail / right;  // of both lips
+  e.total = safety * std::max({size_of(all), std::hypot(size_of(sum), e.tip), e.model_counts ? e.model : 0}) +
+            e.code + e.detail;
   e.frames = std::round(parameters_.cut.length / setting.element_size);
   e.nodes = estimated_nodes(applied(setting, parameters_));
-  const auto& [n0, s0] = costs_.front();
-  const auto& [n1, s1] = costs_.back();
-  const double exponent = std::clamp(std::log(s1 / s0) / std::log(n1 / n0), 1., 2.);
-  e.seconds = s1 * std::pow(e.nodes / n1, e.nodes > n1 ? exponent : 1);
+  e.seconds = expected_seconds(small ? costs_ : models_.error->finite, e.nodes);
   return e;
 }
 
 std::vector<Setting> CaseModel::settings() const {
+  const std::vector<std::optional<Model>> models =
+      models_.choose ? std::vector<std::optional<Model>>{Model::small, Model::finite}
+                     : std::vector<std::optional<Model>>{std::nullopt};
   std::vector<Setting> all;
-  for (const double elements : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
-    for (const auto& [margin, samples] : patches_)
-      for (const Code& code : codes_)
-        all.push_back({parameters_.cut.length / elements, margin, code.tolerance, 0});
+  for (const std::optional<Model> model : models)
+    for (const double elements : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
+      for (const auto& [margin, samples] : patches_)
+        for (const Code& code : codes_)
+          all.push_back({parameters_.cut.length / elements, margin, code.tolerance, 0, model});
   return all;
 }
 
@@ -209,8 +216,10 @@ Expectation expectation(const std::vector<CaseModel>& models, const Setting& set
   Expectation all;
   for (const CaseModel& model : models) {
     const Expectation e = model.expectation(setting);
-    for (double Expectation::*error : {&Expectation::mesh, &Expectation::tip, &Expectation::patch,
-                                       &Expectation::code, &Expectation::detail, &Expectation::total})
+    all.model_counts = all.model_counts || e.model_counts;
+    for (double Expectation::*error :
+         {&Expectation::mesh, &Expectation::tip, &Expectation::patch, &Expectation::code,
+          &Expectation::detail, &Expectation::model, &Expectation::total})
       all.*error = std::max(all.*error, e.*error);
     for (double Expectation::*cost :
          {&Expectation::nodes, &Expectation::seconds, &Expectation::bytes, &Expectation::frames})
@@ -245,7 +254,7 @@ Setting advise(const std::vector<CaseModel>& models, const Goals& goals) {
   Expectation of_best, nearest;
   bool fits_at_all = false;
   for (Setting setting : models.front().settings()) {
-    if (setting.tolerance > most_tolerance) continue;
+    if (setting.tolerance > most_tolerance || (goals.model && setting.model != goals.model)) continue;
     setting.detail = detail;
     const Expectation e = expectation(models, setting);
     if (goals.megabytes > 0 && 1e-6 * goals.cases * e.bytes > goals.megabytes) continue;

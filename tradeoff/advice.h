@@ -10,11 +10,14 @@
 //   tip      the field against its own mesh between nodes and frames, where the lips close as the square root
 //            of the distance from the tip, at three sizes; finer ones go on with the order of the last two
 //   code     what a looser tolerance adds, at the finest of those meshes; none beyond half the error is taken
+//   model    small strains against finite ones, in a coarse mesh (model_error.h)
 //   detail   what a replay leaves alone, on both lips
 //
 // Patch, mesh and tip may add or cancel: their differences are added with their signs before their size is
 // taken. That of the tip is often largest elsewhere: where the root of both squares is more, it counts. The
-// others are added.
+// others are added. Mesh, patch, tip and code are measured with small strains, and are the same parts of the
+// opening with finite ones. The model counts where it can be chosen, with its sign too, but never less than
+// it is alone: an error of the mesh may not make up for it.
 #pragma once
 
 #include <array>
@@ -27,22 +30,25 @@
 #include "base/vec3.h"
 #include "encoder/field/field.h"
 #include "params/parameters/parameters.h"
+#include "tradeoff/model_error.h"
 
 namespace cleft {
 
 /// A setting of mesh, patch, encoder and replay.
 struct Setting {
-  double element_size = 0;  ///< mm, at the cut; elements grow away from it by mesh_grading
-  double margin = 0;        ///< mm of patch around the cut, on all four sides
-  double tolerance = 0;     ///< of the encoder
-  double detail = 0;        ///< mm: vertices that never move by more stay at rest in replays
+  double element_size = 0;          ///< mm, at the cut; elements grow away from it by mesh_grading
+  double margin = 0;                ///< mm of patch around the cut, on all four sides
+  double tolerance = 0;             ///< of the encoder
+  double detail = 0;                ///< mm: vertices that never move by more stay at rest in replays
+  std::optional<Model> model = {};  ///< none: the case's own
 };
 inline constexpr double advised_grading = 1.3;
 Parameters applied(const Setting& setting, Parameters parameters);
 
 /// Estimates for a setting. Errors are relative to the largest opening.
 struct Expectation {
-  double mesh = 0, tip = 0, patch = 0, code = 0, detail = 0, total = 0;
+  double mesh = 0, tip = 0, patch = 0, code = 0, detail = 0, model = 0, total = 0;
+  bool model_counts = false;                 ///< in the total
   double nodes = 0, seconds = 0, bytes = 0;  ///< seconds: of processors, to solve and encode
   double frames = 0;                         ///< one for each column of nodes along the cut
 
@@ -50,13 +56,21 @@ struct Expectation {
   std::string dominating() const;
 };
 
+/// Throws InputError if the case does not have exactly one straight upright cut.
+void check_advisable(const Parameters& parameters);
+
+/// What is known of the finite model, for a case.
+struct ModelKnowledge {
+  std::optional<ModelError> error;  ///< needed for choosing, and for cases of the finite model
+  bool choose = false;              ///< between the models; if not, the case's own is taken
+};
+
 /// A case, measured in coarse meshes.
 class CaseModel {
  public:
-  /// Takes seconds. `work`: a folder for intermediate files. Throws InputError if the case does not have
-  /// exactly one straight upright cut.
+  /// Takes seconds. `work`: a folder for intermediate files. Throws as check_advisable() does.
   CaseModel(const Parameters& parameters, std::string work,
-            const std::function<void(const std::string&)>& progress);
+            const std::function<void(const std::string&)>& progress, ModelKnowledge models = {});
 
   Expectation expectation(const Setting& setting) const;
   double largest_opening() const { return largest_; }  ///< mm
@@ -70,14 +84,13 @@ class CaseModel {
   std::vector<Setting> settings() const;
 
  private:
-  using Samples = std::vector<Vec3>;  // over the cut and over time, mm
-
   void measure_meshes();
   void measure_patches();
   Samples tip_samples(double size) const;
   Parameters coarse(double elements, double margin) const;
 
   Parameters parameters_;
+  ModelKnowledge models_;
   std::string work_;
   std::function<void(const std::string&)> progress_;
   double largest_ = 0;    // opening, mm
@@ -90,7 +103,7 @@ class CaseModel {
     std::array<int, 4> control_points;
   };
   std::vector<Code> codes_;
-  std::vector<std::pair<double, double>> costs_;  // nodes, seconds
+  std::vector<ChainCost> costs_;  // of small strains
   std::optional<Field> field_;
 };
 
@@ -101,6 +114,7 @@ struct Goals {
   double error = 0;
   double frame_ms = 0, megabytes = 0;  ///< 0: any. Of all cases together
   double cases = 1;                    ///< of the study; the models stand for them
+  std::optional<Model> model = {};     ///< this one alone, where both may be chosen
 };
 
 /// The cheapest setting that is expected to satisfy all goals. If there is none, throws InputError that names

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/error.h"
 #include "params/study.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"
@@ -27,6 +28,7 @@ foundation.side_stiffness = 0.02
 "skin.prestress_v" = [0.02, 0.04]
 )";
 
+/// Of finite strains, which are right, whatever model was chosen.
 TEST(Advice, KeepsItsErrorAgainstAMuchFinerSimulationOfAWiderPatch) {
   const TemporaryFolder folder;
   const std::string toml = folder.write("study.toml", small_case), out = folder / "advised.toml";
@@ -39,7 +41,8 @@ TEST(Advice, KeepsItsErrorAgainstAMuchFinerSimulationOfAWiderPatch) {
     const Chain chain(one.parameters, folder.path());
     const Chain::Encoded encoded = chain.encoded(one.encode.tolerance);
     Parameters fine = one.parameters;
-    fine.mesh.element_size /= 3;
+    fine.model = Model::finite;
+    fine.mesh.element_size /= 2;
     fine.patch.length += fine.patch.width, fine.patch.width *= 2;
     const Chain truth(fine, folder.path());
     EXPECT_LE(opening_error(encoded.field, truth.opening()), asked);
@@ -78,6 +81,79 @@ TEST(Advice, LessErrorCostsMore) {
   const double whole = model.expectation(setting).total;
   setting.detail = 0.01 * model.largest_opening();
   EXPECT_NEAR(model.expectation(setting).total, whole + 0.02, 1e-12);
+}
+
+/// An error of the model that is the same everywhere.
+ModelError made_model_error(double error) {
+  return {.error = Samples(sampled(1,
+                                   [&](double, double) {
+                                     return Vec3{0, error, 0};
+                                   })),
+          .ratio = 1,
+          .finite = {{500, 1}, {2000, 10}},
+          .small_rise = 1,
+          .finite_rise = 0.5};
+}
+
+TEST(Advice, TheModelIsChosenByItsError) {
+  const TemporaryFolder folder;
+  Parameters p;
+  p.cut.length = 12, p.cut.depth = 2, p.patch.height = 5, p.foundation = {0.02, 0.02};
+  const auto quiet = [](const std::string&) {};
+  const std::vector<CaseModel> models(
+      1, CaseModel(p, folder.path(), quiet, {.error = made_model_error(0.15), .choose = true}));
+  // Finite strains cost more, and are taken only where small ones cannot keep the error.
+  EXPECT_EQ(advise(models, {.error = 0.5}).model, Model::small);
+  const Setting finite = advise(models, {.error = 0.155});
+  EXPECT_EQ(finite.model, Model::finite);
+  EXPECT_THROW(advise(models, {.error = 0.155, .model = Model::small}), InputError);
+  Setting setting = finite;
+  setting.model = Model::small;
+  const Expectation small = models.front().expectation(setting), large = models.front().expectation(finite);
+  EXPECT_NEAR(small.model, 0.15, 1e-12);
+  EXPECT_EQ(large.model, 0);
+  EXPECT_GT(small.total, 0.15);
+  EXPECT_EQ(small.dominating(), "model");
+  EXPECT_GT(large.seconds, small.seconds);
+  EXPECT_EQ(large.mesh, small.mesh);
+  // Where the model is the case's own its error is told, and not counted.
+  setting.model = {};
+  const Expectation own = models.front().expectation(setting);
+  EXPECT_NEAR(own.model, 0.15, 1e-12);
+  EXPECT_FALSE(own.model_counts);
+  EXPECT_EQ(own.total, large.total);
+}
+
+/// What is not linear begins with the square of the load: over the opening, in proportion to it.
+TEST(ModelErrorOfACase, GrowsInProportionToWeakTension) {
+  const TemporaryFolder folder;
+  Parameters p;
+  p.cut.length = 12, p.cut.depth = 2, p.patch.height = 5, p.foundation = {0.02, 0.02};
+  const auto error = [&](double tension) {
+    p.skin.prestress = {tension, 2 * tension, 0};
+    const ModelError one = model_error(p, folder.path(), [](const std::string&) {});
+    EXPECT_GT(one.small_rise, one.finite_rise);
+    EXPECT_LT(std::abs(one.ratio - 1), size_of(one.error));
+    EXPECT_GT(one.finite.back().seconds, one.finite.front().seconds);
+    return size_of(one.error);
+  };
+  const double weak = error(2e-4), twice = error(4e-4);
+  EXPECT_LT(weak, 0.01);
+  EXPECT_NEAR(twice / weak, 2, 0.1);  // the next term is of the size of the error itself
+}
+
+TEST(Advice, SaysWhyAModelCannotBeChosen) {
+  const TemporaryFolder folder;
+  const std::string with_contact = folder.write("contact.toml",
+                                                "[case]\ncut = { length = 12, depth = 2, contact = true }\n"
+                                                "patch.height = 5\n"),
+                    out = folder / "out.toml";
+  const std::string said =
+      expect_success(run_cleft("advise", {with_contact, "--error", "0.2", "--out", out})).output;
+  for (const char* part : {"cut.contact = true: lips do not press", "small strains are off by another",
+                           "which is not in the error of 0.2"})
+    EXPECT_NE(said.find(part), said.npos) << said;
+  EXPECT_EQ(read_study(out).base.parameters.model, Model::small);
 }
 
 TEST(Advice, ToldWhatIsWrong) {
