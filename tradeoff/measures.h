@@ -31,7 +31,8 @@ using WorkFolder = std::string;
 std::vector<Chart> encoder_charts(const ChartedCase& charted, const ChartOptions& options);
 
 /// Error of the opening over unknowns and over time: against the finest mesh, and of a slit in a sheet
-/// against its closed form.
+/// against its closed form; and, where the finite model has what the case needs, of small and finite strains
+/// over processor time against finite strains in the finest mesh that they can afford.
 std::vector<Chart> solver_charts(const ChartedCase& charted, const ChartOptions& options,
                                  const WorkFolder& work);
 

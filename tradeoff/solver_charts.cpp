@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "params/consistency.h"
 #include "tradeoff/chain.h"
@@ -10,6 +11,8 @@
 namespace cleft {
 
 namespace {
+
+constexpr double finite_costs_more = 8;  // nodes of the finest mesh, for small strains over finite ones
 
 Parameters with_elements(Parameters p, double size) {
   p.mesh.element_size = size;
@@ -49,6 +52,34 @@ Parameters slit(double half_length, double size) {
   return p;
 }
 
+/// Small and finite strains over what they cost, against finite ones in the finest mesh of fewer nodes.
+Chart model_chart(const Parameters& parameters, const ChartOptions& options, const WorkFolder& work) {
+  Chart chart{"solver.models", "Simulation: small and finite strains",
+              "processor time to solve all frames, s", "largest error of the opening / largest opening"};
+  Parameters p = parameters;
+  p.model = Model::finite;
+  try {
+    check_consistency(p, "finite strains");
+  } catch (const InputError&) {  // the finite model does not have what the case needs
+    return chart;
+  }
+  const double least = finest(p, options.most_nodes / finite_costs_more);
+  options.progress("solving with finite strains and elements of " + shortest(least) + " mm");
+  const Opening truth = Chain(with_elements(p, least), work).opening();
+  for (const Model model : {Model::small, Model::finite})
+    for (const double factor : {1., 1.5, 2., 3., 4., 6.}) {
+      const double size = factor * least;
+      if (size > p.cut.length / 2 || (model == Model::finite && factor == 1)) continue;
+      p.model = model;
+      const std::string name = model == Model::small ? "small strains" : "finite strains";
+      options.progress("solving with " + name + " and elements of " + shortest(size) + " mm");
+      const Chain solved(with_elements(p, size), work);
+      chart.points.push_back({name, "elements " + shortest(std::round(size * 1e4) / 1e4) + " mm",
+                              solved.solve_seconds(), opening_error(solved.opening(), truth), false});
+    }
+  return chart;
+}
+
 void add_slit(SolverPanels& panels, const ChartOptions& options, const WorkFolder& work, MeshFront front) {
   constexpr double a = 8;
   for (const double parts : {2, 4, 8, 16}) {
@@ -85,7 +116,10 @@ std::vector<Chart> solver_charts(const ChartedCase& charted, const ChartOptions&
   }
   for (const MeshFront front : {MeshFront::effective, MeshFront::nodes})
     add_slit(panels, options, work, front);
-  return {panels.unknowns, panels.seconds};
+  std::vector<Chart> charts = {panels.unknowns, panels.seconds};
+  if (Chart models = model_chart(charted.parameters, options, work); !models.points.empty())
+    charts.push_back(std::move(models));
+  return charts;
 }
 
 }  // namespace cleft
