@@ -152,6 +152,8 @@ int main(int argc, char** argv) {
     if (!(goals.error > 0 && goals.error < 1))
       throw InputError("--error " + shortest(goals.error) + ": must be above 0 and less than 1");
     const Study study = read_study(path);
+    if (!study.base.body.empty())
+      throw InputError(path + ": [body]: advice is for the mesh and the patch of a case; remove [body]");
     const std::vector<std::string> advised = advised_names();
     for (const Variation& v : study.vary)
       if (std::find(advised.begin(), advised.end(), v.name) != advised.end())
