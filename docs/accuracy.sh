@@ -12,8 +12,8 @@ machine=$(sed -n 's/^model name\t: //p' /proc/cpuinfo | head -1)
 cat > "$here/accuracy.md" <<PAGE
 # Speed and size against accuracy
 
-The default case (\`cleft solve --help\`), on $(nproc) threads of a machine with "$machine". \`docs/accuracy.sh\` makes
-this page; \`cleft chart DIR\` draws the same for any study.
+The default case (\`cleft solve --help\`), on $(nproc) threads of a machine with "$machine".
+\`docs/accuracy.sh\` makes this page; \`cleft chart DIR\` draws the same for any study.
 
 ![charts of error over size, time and rate](accuracy/chart.png)
 

@@ -54,8 +54,8 @@ Json shown(const Expectation& e) {
 std::string obstacle_to_choice(const Study& study, const std::string& path) {
   const Parameters p;
   const std::string name = row_of(p, p.model).name;
-  for (const Variation& v : study.vary)
-    if (v.name == name) return path + " varies " + name;
+  if (std::any_of(study.vary.begin(), study.vary.end(), [&](const Variation& v) { return v.name == name; }))
+    return path + " varies " + name;
   if (std::find(study.given.begin(), study.given.end(), name) != study.given.end())
     return path + " sets " + name + " = \"" + text_of(study.base.parameters, study.base.parameters.model) +
            "\"";
