@@ -1,6 +1,8 @@
 #include "explorer/wound/wounds.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -13,7 +15,11 @@ namespace {
 /// the relief is linear there.
 constexpr int looks = 48, relief_looks = 48;
 /// Of its own flat patch a field that keeps less turns it over.
-constexpr double least_area = 0.3;
+constexpr double least_area = 0.3, least_cosine = 0.1;
+/// Of the area of a triangle in space and in the patch, the less over the larger, where they are compared.
+constexpr double least_alike = 0.7;
+/// Of a triangle's shape, which is 1 if its sides are equal; and of the cut's depth: as far is the tip felt.
+constexpr double well_shaped = 0.4, tip_part = 0.5;
 /// mm: neighbours that move apart by no more are never torn.
 constexpr double least_jump = 0.05;
 /// Of that: a field that moves its own lips into each other by more does so on any mesh.
@@ -148,7 +154,36 @@ bool Wounds::turned_by_field(int triangle, const Blade& blade) const {
       if (std::min(area, together) < least_area) return true;
     }
   }
-  return false;
+  return turned_between_corners(triangle, blade);
+}
+
+/// The same for a triangle next to the tip as it lies in the flat patch of the cut, moved by the field at its
+/// corners: a fit oscillates at the tip while it passes, between corners whose derivatives show nothing. Of
+/// well-shaped triangles only, and where the mesh lies in the patch as in space: slivers are the mesh's
+/// fault.
+bool Wounds::turned_between_corners(int triangle, const Blade& blade) const {
+  const CutMesh& mesh = wounds_.front().incision->mesh();
+  const auto& corners = mesh.triangle(triangle).vertex;
+  const auto twice_area = [](const std::array<Vec3, 3>& p) { return cross(p[1] - p[0], p[2] - p[0]); };
+  const Wound& wound = wounds_[blade.cut];
+  std::array<Vec3, 3> space, rest, now;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = wound.volume.locate(corners[i]);
+    if (!at || !(std::abs(at->s - blade.s) < tip_part * wound.field.shape().cut().depth)) return false;
+    const Side side = at->on_cut && at->s >= blade.s ? Side::both : at->side;
+    const double t = std::clamp(blade.s + at->time_offset, 0., wound.field.shape().cut().length);
+    space[i] = wound.scale() * mesh.position(corners[i]);
+    rest[i] = {at->uvw.x, at->uvw.y, 0};
+    now[i] = rest[i] + amplitude(blade.cut, at->s, blade) * at->weight *
+                           wound.field.displacement(at->uvw, side, t, at->s);
+  }
+  const Vec3 before = twice_area(rest), after = twice_area(now);
+  const double area = norm(before), area_now = norm(after), alike = area / norm(twice_area(space));
+  const double sides =
+      squared_norm(rest[1] - rest[0]) + squared_norm(rest[2] - rest[1]) + squared_norm(rest[0] - rest[2]);
+  if (!(alike > least_alike && alike < 1 / least_alike) || 2 * std::sqrt(3.) * area < well_shaped * sides)
+    return false;
+  return area_now < least_area * area || dot(before, after) < least_cosine * area * area_now;
 }
 
 /// Whether two vertices that move apart by more than `jump`, mesh units, are nearer to each other in the flat

@@ -74,6 +74,7 @@ class Wounds {
   Vec3 changed_by_guard(int vertex, const Blade& blade) const;
   Relief relief_while_cut(std::size_t newest, double length) const;
   bool turned_by_field(int triangle, const Blade& blade) const;
+  bool turned_between_corners(int triangle, const Blade& blade) const;
   bool stretched_by_field(int a, int b, double jump) const;
   bool closed_by_field(int lip, const Blade& blade) const;
 

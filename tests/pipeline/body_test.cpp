@@ -45,7 +45,7 @@ TEST(BodyStudy, ItsCasesAreSimulatedEncodedAndReplayedOnThatBody) {
   write_cylinder(folder);
   const std::string mesh = folder / "cylinder.obj", path = folder / "path.csv", out = folder / "out";
   expect_success(run_cleft("body", {"--mesh", mesh, "--path", path, "--out", folder / "wrist.h5", "--set",
-                                    "mesh.element_size=1.5"}));
+                                    "mesh.element_size=1"}));
   const std::string study =
       folder.write("study.toml", "[body]\nfile = 'wrist.h5'\n[vary]\n'skin.prestress_v' = [0.02, 0.03]\n");
   expect_success(run_cleft("run", {study, "--out", out}));
@@ -59,7 +59,7 @@ TEST(BodyStudy, ItsCasesAreSimulatedEncodedAndReplayedOnThatBody) {
   const std::string field = status.at("cases").at(1).at("case").get<std::string>();
   const nlohmann::json cut = figures(expect_success(
       run_cleft("cut", {"--mesh", mesh, "--path", path, "--field", out + "/cases/" + field + "/case.dffd",
-                        "--simulate", "--set", "mesh.element_size=1.5", "--set", "skin.prestress_v=0.03",
+                        "--simulate", "--set", "mesh.element_size=1", "--set", "skin.prestress_v=0.03",
                         "--out", folder / "cut.vtp", "--json"})));
   EXPECT_LT(cut.at("simulated").at("replay").at("opening_off_by").get<double>(), 0.1);
 }
