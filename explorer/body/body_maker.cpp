@@ -228,6 +228,7 @@ class Maker {
     const double length = r_.paths[cut].length();
     const auto place = [&](double s) { return std::clamp(s - longer.front, 0., length); };
     const bool loop = lines.front().from == lines.back().to;
+    const std::size_t frames_before = body_.times.size();
     for (std::size_t i = loop ? 1 : 0; i <= lines.size(); ++i) {
       Parting::Visit visit;
       visit.point = i < lines.size() ? lines[i].from : lines.back().to;
@@ -257,6 +258,8 @@ class Maker {
         body_.released.back() = static_cast<int>(body_.pairs.size());
       }
     }
+    if (body_.times.size() > frames_before)  // its stations are along chords of the path
+      body_.times.back() = before + length, body_.position.back() = length / 2;
   }
 
   /// How many layers of nodes a cut of this depth opens: it ends just above the first closed one.

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int rounds = 10;
 constexpr double longest = 4. / 3, shortest_part = 4. / 5;  // of the wanted length
+constexpr double straight_rim = 0.9;     // cosine of the turn of the outline where a point may go
 constexpr double least_agreement = 0.5;  // of a triangle's normal before and after a change: cosine
 constexpr double least_shape = 0.15;     // 4 sqrt(3) area / sum of squared sides; 1: equilateral
 
@@ -78,6 +79,13 @@ class Remesher {
       if (triangles_of(v, w).size() == 1) return true;
     return false;
   }
+  /// Whether the rim goes straight on at one of its points.
+  bool is_straight(int v) const {
+    std::vector<Vec3> ways;
+    for (const int w : neighbors(v))
+      if (triangles_of(v, w).size() == 1) ways.push_back(normalized(p_[w] - p_[v]));
+    return ways.size() == 2 && dot(ways[0], ways[1]) < -straight_rim;
+  }
   std::vector<Edge> edges() const {
     std::set<Edge> all;
     for (std::size_t t = 0; t < t_.size(); ++t)
@@ -129,9 +137,8 @@ class Remesher {
         if (length(a, b) <= longest * wanted(a, b) || lines_.contains(key(a, b))) continue;
         const std::vector<int> both = triangles_of(a, b);
         if (both.empty() || both.size() > 2) continue;
-        Vec3 middle = 0.5 * (p_[a] + p_[b]);
-        if (both.size() == 2) middle = on_shape(middle);
-        const int m = add_point(middle, both.size() == 1 && s_.outline[a] && s_.outline[b]);
+        const int m =
+            add_point(on_shape(0.5 * (p_[a] + p_[b])), both.size() == 1 && s_.outline[a] && s_.outline[b]);
         for (const int t : both) {
           auto first = t_[t], second = t_[t];
           std::replace(first.begin(), first.end(), b, m);
@@ -160,7 +167,8 @@ class Remesher {
     if (station_[gone] || (on_line_[gone] && !of_line)) return false;
     const std::vector<int> both = triangles_of(gone, kept);
     const bool gone_on_rim = on_rim(gone);
-    if (gone_on_rim && (both.size() != 1 || (s_.outline[gone] && !s_.outline[kept]))) return false;
+    if (gone_on_rim && (both.size() != 1 || (s_.outline[gone] && !(s_.outline[kept] && is_straight(gone)))))
+      return false;
     const std::vector<int> p = neighbors(gone), q = neighbors(kept);
     std::vector<int> common;
     std::set_intersection(p.begin(), p.end(), q.begin(), q.end(), std::back_inserter(common));
@@ -173,7 +181,8 @@ class Remesher {
       std::array<int, 3> moved = t_[t];
       std::replace(moved.begin(), moved.end(), gone, kept);
       const double before = shape_of(t_[t]), after = shape_of(moved);
-      if (after < least_shape && after < before) return false;
+      // Next to a crossing each of two short lines keeps the other from going: one must make a sliver.
+      if (!of_line && after < least_shape && after < before) return false;
       if (before > 1e-3 && !agree(twice_area(t_[t]), twice_area(moved))) return false;
     }
     for (const int v : p)

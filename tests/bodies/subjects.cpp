@@ -61,11 +61,11 @@ Vec3 normal_of(const Bend& bend, double x, double y) {
   return normalized(cross(bend(x + step, y) - bend(x - step, y), bend(x, y + step) - bend(x, y - step)));
 }
 
-SurfaceMesh sheet(const Bend& bend, double half_x, double half_y, double edge, double jitter) {
+SurfaceMesh sheet(const Bend& bend, double half_x, double half_y, double edge, double jitter, unsigned seed) {
   SurfaceMesh mesh;
   const int nx = std::max(1, static_cast<int>(std::lround(2 * half_x / edge)));
   const int ny = std::max(1, static_cast<int>(std::lround(2 * half_y / edge)));
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> by(-jitter, jitter);
   for (int j = 0; j <= ny; ++j)
     for (int i = 0; i <= nx; ++i) {

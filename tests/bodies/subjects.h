@@ -29,7 +29,8 @@ Vec3 normal_of(const Bend& bend, double x, double y);
 
 /// Squares of `edge`, each in two triangles, from -half_x to half_x and -half_y to half_y. Points within are
 /// moved at random by up to `jitter` edges.
-SurfaceMesh sheet(const Bend& bend, double half_x, double half_y, double edge, double jitter = 0);
+SurfaceMesh sheet(const Bend& bend, double half_x, double half_y, double edge, double jitter = 0,
+                  unsigned seed = 1);
 
 /// The same, `depth(x, y)` below.
 Bend below(const Bend& bend, const std::function<double(double, double)>& depth);

@@ -1,0 +1,237 @@
+#include "explorer/body/body_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "base/error.h"
+#include "tests/bodies/subjects.h"
+
+namespace cleft {
+
+namespace {
+
+using testing::path_on, testing::sheet;
+
+Parameters coarse() {
+  Parameters p;
+  p.mesh.element_size = 1.5, p.mesh.grading = 1.5, p.patch.height = 6;
+  return p;
+}
+
+BodyRequest request(const testing::Bend& bend,
+                    const std::vector<std::vector<std::pair<double, double>>>& paths) {
+  BodyRequest r;
+  r.skin = sheet(bend, 40, 40, 2, 0.25);
+  for (const auto& places : paths) r.paths.push_back(path_on(bend, places, 2.5));
+  r.parameters = coarse(), r.reach = 12;
+  return r;
+}
+
+std::vector<std::pair<double, double>> circle(double radius) {
+  std::vector<std::pair<double, double>> places;
+  for (int i = 0; i <= 48; ++i) {
+    const double angle = 2 * std::numbers::pi * (i % 48) / 48;
+    places.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return places;
+}
+
+const std::vector<std::pair<double, double>> along = {{-10, 0}, {0, 0}, {10, 0}},
+                                             across = {{0, -8}, {0, 0}, {0, 8}}, branch = {{0, 0}, {0, 9}};
+
+struct Made {
+  std::string name;
+  BodyRequest request;
+  Body body;
+  BodyReport report;
+};
+
+std::vector<Made> all_made() {
+  std::vector<Made> made;
+  const testing::Bend ball = testing::sphere_cap(60), roll = testing::cylinder_along(40);
+  for (auto& [name, r] : std::initializer_list<std::pair<std::string, BodyRequest>>{
+           {"a line", request(testing::flat, {along})},
+           {"around a cylinder", request(roll, {across})},
+           {"an X", request(testing::flat, {along, across})},
+           {"an X on a sphere", request(ball, {along, across})},
+           {"a T", request(testing::flat, {along, branch})},
+           {"a circle", request(ball, {circle(7)})}}) {
+    made.push_back({name, r, {}, {}});
+    made.back().body = make_body(made.back().request, &made.back().report);
+  }
+  return made;
+}
+
+/// Vertices less edges plus faces less cells of what the wedges are joined to.
+int euler_number(const Body& body) {
+  std::set<int> nodes;
+  std::set<std::vector<int>> edges, faces;
+  const auto add = [](std::set<std::vector<int>>& to, std::vector<int> list) {
+    std::sort(list.begin(), list.end());
+    to.insert(list);
+  };
+  for (const auto& w : body.wedges) {
+    nodes.insert(w.begin(), w.end());
+    add(faces, {w[0], w[1], w[2]}), add(faces, {w[3], w[4], w[5]});
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      add(edges, {w[i], w[j]}), add(edges, {w[3 + i], w[3 + j]}), add(edges, {w[i], w[3 + i]});
+      add(faces, {w[i], w[j], w[3 + j], w[3 + i]});
+    }
+  }
+  return static_cast<int>(nodes.size()) - static_cast<int>(edges.size()) + static_cast<int>(faces.size()) -
+         static_cast<int>(body.wedges.size());
+}
+
+/// Of a wedge, by two points along its axis at each of three corners' middles: exact for these elements.
+double volume_of(const Body& body, const std::array<int, 6>& w) {
+  double volume = 0;
+  for (const auto& [a, b] : {std::pair{1 / 6., 1 / 6.}, {2 / 3., 1 / 6.}, {1 / 6., 2 / 3.}})
+    for (const double c : {-1 / std::sqrt(3.), 1 / std::sqrt(3.)}) {
+      const double corner[] = {1 - a - b, a, b};
+      const auto at = [&](int i) { return body.points[w[i]]; };
+      const auto level = [&](int i) { return (1 - c) / 2 * at(i) + (1 + c) / 2 * at(3 + i); };
+      Vec3 up;
+      for (int i = 0; i < 3; ++i) up += corner[i] / 2 * (at(3 + i) - at(i));
+      volume += dot(cross(level(1) - level(0), level(2) - level(0)), up) / 6;
+    }
+  return volume;
+}
+
+}  // namespace
+
+/// A notch in a ball is still a ball, whatever its shape.
+TEST(MakeBody, AnOpenedBodyIsStillOnePiece) {
+  for (const Made& m : all_made()) {
+    SCOPED_TRACE(m.name);
+    EXPECT_EQ(euler_number(m.body), 1);
+    EXPECT_GT(m.report.least_determinant, 0.2);
+    EXPECT_GT(m.report.least_angle, 15);
+    EXPECT_EQ(m.report.left_out, 0);
+  }
+}
+
+/// Each wedge at a pair is on the side of its node, near the cut.
+TEST(MakeBody, LeftNodesBelongToTheLeft) {
+  for (const Made& m : all_made()) {
+    SCOPED_TRACE(m.name);
+    std::vector<std::vector<int>> around(m.body.points.size());
+    for (int w = 0; w < static_cast<int>(m.body.wedges.size()); ++w)
+      for (const int n : m.body.wedges[w]) around[n].push_back(w);
+    for (const BodyPair& pair : m.body.pairs) {
+      ASSERT_FALSE(around[pair.left].empty());
+      ASSERT_FALSE(around[pair.right].empty());
+      const auto side = [&](int node) {
+        Vec3 sum;
+        for (const int w : around[node])
+          for (const int n : m.body.wedges[w]) sum += m.body.points[n] - m.body.points[node];
+        return dot(sum, pair.normal);
+      };
+      EXPECT_LT(side(pair.left), 0);
+      EXPECT_GT(side(pair.right), 0);
+      EXPECT_EQ(m.body.points[pair.left], m.body.points[pair.right]);
+    }
+  }
+}
+
+/// Four copies where two cuts cross, three where one begins at the other.
+TEST(MakeBody, CopiesAtCrossings) {
+  for (const Made& m : all_made()) {
+    std::map<std::array<double, 3>, int> copies;
+    for (std::size_t n = 0; n < m.body.points.size(); ++n)
+      if (m.body.skin_above[n] == static_cast<int>(n)) {
+        const Vec3& p = m.body.points[n];
+        ++copies[{p.x, p.y, p.z}];
+      }
+    int most = 0;
+    for (const auto& [place, count] : copies) most = std::max(most, count);
+    EXPECT_EQ(most, m.name.find("X") != std::string::npos ? 4 : m.name == "a T" ? 3 : 2) << m.name;
+  }
+}
+
+/// Of a layer of thickness h below an area A: A (h - H h^2 + K h^3 / 3) with the mean curvature H and the
+/// Gaussian one K. Near the cuts: toward the rim columns lean outward, as their neighbours do.
+TEST(MakeBody, TheWedgesFillTheLayerBelowTheSkin) {
+  for (const Made& m : all_made()) {
+    const double h = m.request.parameters.patch.height;
+    double part = h, tolerance = 1e-9, near = 1e9;
+    if (m.name.find("sphere") != std::string::npos || m.name == "a circle")
+      part = h - h * h / 60 + h * h * h / 3 / 3600, tolerance = 5e-3, near = 9;
+    if (m.name.find("cylinder") != std::string::npos) part = h - h * h / 80, tolerance = 5e-3, near = 9;
+    double volume = 0, area = 0;
+    for (std::size_t w = 0; w < m.body.wedges.size(); ++w) {
+      const auto& [a, b, c] = m.body.skin[w % m.body.skin.size()];
+      const Vec3 &p = m.body.points[a], &q = m.body.points[b], &r = m.body.points[c];
+      if (std::max({norm(p), norm(q), norm(r)}) > near) continue;
+      volume += volume_of(m.body, m.body.wedges[w]);
+      if (w < m.body.skin.size()) area += norm(cross(q - p, r - p)) / 2;
+    }
+    EXPECT_GT(area, 100);
+    EXPECT_NEAR(volume / (part * area), 1, tolerance) << m.name;
+  }
+}
+
+/// A frame for each column; the last one when all paths are cut. Pairs are released with their cut.
+TEST(MakeBody, FramesFollowTheBlade) {
+  for (const Made& m : all_made()) {
+    SCOPED_TRACE(m.name);
+    double total = 0;
+    for (const ScalpelPath& path : m.request.paths) total += path.length();
+    EXPECT_NEAR(m.body.times.back(), total, 1e-9 * total);
+    EXPECT_EQ(m.body.times.front(), 0);
+    EXPECT_NEAR(m.body.position.front(), -m.request.paths[0].length() / 2, 1e-9);
+    EXPECT_NEAR(m.body.position.back(), m.request.paths.back().length() / 2, 1e-9);
+    EXPECT_EQ(m.body.length, m.request.paths[0].length());
+    for (std::size_t f = 0; f + 1 < m.body.times.size(); ++f) EXPECT_LT(m.body.times[f], m.body.times[f + 1]);
+    for (std::size_t p = 0; p + 1 < m.body.pairs.size(); ++p)
+      EXPECT_LE(m.body.pairs[p].cut, m.body.pairs[p + 1].cut);
+    // No pair is open ahead of the blade by more than its element.
+    for (std::size_t f = 0; f < m.body.times.size(); ++f)
+      for (int p = 0; p < m.body.released[f]; ++p) {
+        double before = 0;
+        for (int c = 0; c < m.body.pairs[p].cut; ++c) before += m.request.paths[c].length();
+        const double s = before + m.body.pairs[p].along + m.request.paths[m.body.pairs[p].cut].length() / 2;
+        EXPECT_LE(s, m.body.times[f] + m.request.parameters.mesh.element_size);
+      }
+  }
+}
+
+/// The tension lies in the triangles, along the given direction as it is seen there.
+TEST(MakeBody, TheTensionLiesInTheSkin) {
+  BodyRequest r = request(testing::cylinder_along(40), {along});
+  r.tension = {{1, 1, 0.2}};
+  const Body body = make_body(r);
+  for (std::size_t t = 0; t < body.skin.size(); ++t) {
+    const auto& [a, b, c] = body.skin[t];
+    const Vec3 normal = normalized(cross(body.points[b] - body.points[a], body.points[c] - body.points[a]));
+    EXPECT_NEAR(dot(body.tension[t], normal), 0, 1e-12);
+    EXPECT_NEAR(norm(body.tension[t]), 1, 1e-12);
+    EXPECT_NEAR(dot(cross(body.tension[t], r.tension[0]), normal), 0, 1e-12);
+    EXPECT_GT(dot(body.tension[t], r.tension[0]), 0);
+  }
+}
+
+TEST(MakeBody, PathsOffTheSkinAreRefused) {
+  BodyRequest r = request(testing::flat, {along});
+  r.paths[0] = r.paths[0].moved({0, 0, 30});
+  EXPECT_THROW(make_body(r), InputError);
+}
+
+/// Whatever the triangles are that the cuts found: at the junction two short pieces of lines meet.
+TEST(MakeBody, GoodTrianglesAtATJunction) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    BodyRequest r = request(testing::flat, {{{-15, 0}, {15, 0}}, {{0, 0}, {0, 15}}});
+    r.skin = sheet(testing::flat, 30, 30, 1.3 + 0.7 * (seed % 3), 0.28, seed);
+    r.parameters = {}, r.reach = 5;
+    BodyReport report;
+    make_body(r, &report);
+    EXPECT_GT(report.least_angle, 15) << seed;
+  }
+}
+
+}  // namespace cleft

@@ -1,0 +1,177 @@
+#include "explorer/body/simulated_wounds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "base/error.h"
+#include "explorer/body/body_maker.h"
+#include "tests/bodies/subjects.h"
+#include "tests/pipeline/commands.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace {
+
+using testing::path_on, testing::sheet;
+
+/// A body that was made and solved, and its cuts made in a mesh.
+struct Simulated {
+  TemporaryFolder folder;
+  BodyRequest request;
+  Body body;
+  std::unique_ptr<SnapshotReader> series;
+  std::unique_ptr<CutMesh> mesh;
+  std::vector<std::unique_ptr<Incision>> cuts;
+  std::vector<const Incision*> list;
+
+  Simulated(const testing::Bend& bend, const std::vector<std::vector<std::pair<double, double>>>& paths) {
+    request.skin = sheet(bend, 30, 30, 2, 0.25);
+    for (const auto& places : paths) request.paths.push_back(path_on(bend, places, 2.5));
+    request.parameters.mesh.element_size = 1.5, request.parameters.mesh.grading = 1.5;
+    request.parameters.patch.height = 6;
+    request.reach = 15;
+    body = make_body(request);
+    write_body(folder / "body.h5", body);
+    folder.write("case.toml", "[case]\nskin.prestress_u = 0.02\nskin.prestress_v = 0.02\n");
+    expect_success(run_cleft("solve", {folder / "case.toml", "--mesh", folder / "body.h5", "--out",
+                                       folder / "case.h5", "--no-estimate"}));
+    series = std::make_unique<SnapshotReader>(folder / "case.h5");
+  }
+
+  /// Cuts a mesh along the body's paths.
+  SimulatedWounds wounds(const SurfaceMesh& surface) {
+    mesh = std::make_unique<CutMesh>(surface);
+    for (const ScalpelPath& path : request.paths) {
+      cuts.push_back(std::make_unique<Incision>(*mesh, path));
+      cuts.back()->advance_to(path.length());
+      list.push_back(cuts.back().get());
+    }
+    return SimulatedWounds(list, 1, body, *series);
+  }
+
+  double largest() const {
+    double most = 0;
+    for (std::size_t f = 0; f < series->snapshot().frames(); ++f)
+      for (const Vec3& d : series->displacement(f)) most = std::max(most, norm(d));
+    return most;
+  }
+};
+
+const std::vector<std::pair<double, double>> along = {{-8, 0}, {0, 0}, {8, 0}},
+                                             across = {{0, -7}, {0, 0}, {0, 7}};
+
+std::vector<Vec3> positions_at(const SimulatedWounds& wounds, const CutMesh& mesh, double t) {
+  std::vector<Vec3> positions(mesh.vertices().size());
+  wounds.positions(t, positions);
+  return positions;
+}
+
+}  // namespace
+
+TEST(SimulatedWounds, FollowTheBlade) {
+  Simulated s(testing::sphere_cap(80), {along});
+  const SimulatedWounds wounds = s.wounds(s.request.skin);
+  EXPECT_NEAR(wounds.duration(), s.request.paths[0].length(), 1e-9);
+  const std::vector<Vec3> rest = positions_at(wounds, *s.mesh, 0);
+  for (std::size_t v = 0; v < rest.size(); ++v) ASSERT_EQ(rest[v], s.mesh->position(static_cast<int>(v)));
+  const double most = s.largest(), element = s.request.parameters.mesh.element_size;
+  double before = 0;
+  for (const double t : {0.3, 0.6, 1.}) {
+    const double tip = t * wounds.duration();
+    const std::vector<Vec3> now = positions_at(wounds, *s.mesh, tip);
+    for (std::size_t v = 0; v < rest.size(); ++v) ASSERT_LT(norm(now[v] - rest[v]), most * (1 + 1e-6));
+    double gape = 0;
+    for (const auto& c : s.cuts[0]->chain()) {
+      const double open = norm(now[c.right] - now[c.left]);
+      gape = std::max(gape, open);
+      // Ahead of the blade the lips are together: they are located 0.05 mm to their own sides, where the
+      // skin is strained by less than 1.
+      if (s.mesh->vertex(c.left).s > tip + element) EXPECT_LT(open, 0.1 * most);
+    }
+    EXPECT_GT(gape, 1.1 * before);
+    before = gape;
+  }
+  double opening = 0;
+  const auto last = s.series->displacement(s.series->snapshot().frames() - 1);
+  for (const BodyPair& pair : s.body.pairs)
+    opening = std::max(opening, norm(last[pair.right] - last[pair.left]));
+  EXPECT_NEAR(before, opening, 0.03 * opening);  // vertices between nodes
+}
+
+/// The body's own skin is cut: its vertices away from the cut lie on nodes.
+TEST(SimulatedWounds, VerticesOnNodesMoveWithThem) {
+  Simulated s(testing::cylinder_along(50), {along});
+  std::vector<int> root(s.body.points.size());
+  for (std::size_t n = 0; n < root.size(); ++n) root[n] = static_cast<int>(n);
+  for (const BodyPair& pair : s.body.pairs) root[pair.right] = root[pair.left];
+  SurfaceMesh skin;
+  std::map<int, int> number;
+  for (const auto& t : s.body.skin) {
+    std::array<int, 3> corners;
+    for (int i = 0; i < 3; ++i) {
+      const auto [at, fresh] = number.try_emplace(root[t[i]], static_cast<int>(skin.points.size()));
+      if (fresh) skin.points.push_back(s.body.points[root[t[i]]]);
+      corners[i] = at->second;
+    }
+    skin.triangles.push_back(corners);
+  }
+  const SimulatedWounds wounds = s.wounds(skin);
+  const std::size_t last = s.series->snapshot().frames() - 1;
+  const auto displacement = s.series->displacement(last);
+  const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
+  std::map<std::array<double, 3>, int> node_at;
+  for (const auto& [node, point] : number) {
+    const Vec3& p = s.body.points[node];
+    node_at[{p.x, p.y, p.z}] = node;
+  }
+  int compared = 0;
+  for (int v = 0; v < static_cast<int>(now.size()); ++v) {
+    const Vec3 at = s.mesh->position(v);
+    const auto node = node_at.find({at.x, at.y, at.z});
+    if (s.mesh->vertex(v).kind != VertexKind::skin || node == node_at.end()) continue;
+    const double apart = std::hypot(std::max(0., std::abs(at.x) - 8), at.y);
+    if (apart < 2.5 || apart > 9) continue;  // next to a lip it is located aside; toward the rim it fades
+    EXPECT_LT(norm(now[v] - at - displacement[node->second]), 1e-5 * s.largest());
+    ++compared;
+  }
+  EXPECT_GT(compared, 40);
+}
+
+/// The four corners of a crossing go four ways.
+TEST(SimulatedWounds, FourCornersPart) {
+  Simulated s(testing::flat, {along, across});
+  const SimulatedWounds wounds = s.wounds(s.request.skin);
+  const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
+  std::map<std::pair<int, int>, Vec3> corner;  // by the quarter into which a corner moves
+  for (int v = 0; v < static_cast<int>(now.size()); ++v) {
+    const Vec3 at = s.mesh->position(v), moved = now[v] - at;
+    if (norm(at) > 1e-3 || std::abs(at.z) > 1e-9) continue;
+    Vec3 middle;
+    for (const int t : s.mesh->fan(v))
+      if (s.mesh->triangle(t).region == Region::skin)
+        for (const int w : s.mesh->triangle(t).vertex) middle += s.mesh->position(w) - at;
+    if (norm(middle) == 0) continue;
+    EXPECT_GT(moved.x * middle.x, 0) << "a corner moves away from its skin";
+    EXPECT_GT(moved.y * middle.y, 0);
+    corner[{middle.x > 0, middle.y > 0}] = moved;
+  }
+  EXPECT_EQ(corner.size(), 4u);
+}
+
+TEST(SimulatedWounds, OfAnotherBodyAreRefused) {
+  Simulated s(testing::flat, {along});
+  s.body.points[3].x += 0.1;
+  s.body.hash = hash_of(s.body);
+  try {
+    s.wounds(s.request.skin);
+    FAIL() << "not refused";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("another body"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace cleft
