@@ -20,7 +20,9 @@ namespace cleft {
 
 namespace {
 
-constexpr double bend_of_edge = 0.5;  // radians by which the skin may turn along an edge
+constexpr double most_columns = 5000;  // of nodes along all cuts: no solver takes more
+constexpr double least_within = 0.02;  // of a direction of the tension: its part within the skin at a cut
+constexpr double bend_of_edge = 0.5;   // radians by which the skin may turn along an edge
 
 /// A path as the mesh has it: made longer at both ends by the front's part of an element, because a mesh's
 /// cut opens as if it ended that much before its closed nodes (params/meshed_cut.h).
@@ -47,6 +49,11 @@ struct LongerPath {
   }
 };
 
+std::string numbers_of(const Vec3& v) {
+  const auto rounded = [](double x) { return shortest(std::round(1e3 * x) / 1e3); };
+  return "(" + rounded(v.x) + ", " + rounded(v.y) + ", " + rounded(v.z) + ")";
+}
+
 class Maker {
  public:
   explicit Maker(const BodyRequest& request) : r_(request), p_(request.parameters) {
@@ -54,6 +61,7 @@ class Maker {
   }
 
   Body make(BodyReport* report) {
+    check_size();
     make_surface();
     double depth = 0;
     for (const ScalpelPath& path : r_.paths) depth = std::max(depth, path.largest_depth());
@@ -71,6 +79,15 @@ class Maker {
   }
 
  private:
+  void check_size() const {
+    double length = 0;
+    for (const ScalpelPath& path : r_.paths) length += path.length();
+    if (const double size = p_.mesh.element_size; length > most_columns * size)
+      throw InputError("mesh.element_size = " + shortest(size) + " mm is too small for cuts of " +
+                       shortest(std::round(1e3 * length) / 1e3) + " mm: at least " +
+                       shortest(std::ceil(1e4 * length / most_columns) / 1e4) + " mm");
+  }
+
   void make_surface() {
     std::vector<ScalpelPath> paths;
     for (const LongerPath& one : longer_) paths.push_back(one.path);
@@ -142,11 +159,9 @@ class Maker {
         for (const int p : s_.mesh.triangles[t]) at_out[p] = true;
       for (std::size_t p = 0; p < at_out.size(); ++p)
         if (at_out[p] && squared_norm(blade_[p]) > 0) {
-          const auto rounded = [](double x) { return shortest(std::round(1e3 * x) / 1e3); };
-          const Vec3& at = s_.mesh.points[p];
           throw InputError(
-              "the tissue below the cut at (" + rounded(at.x) + ", " + rounded(at.y) + ", " + rounded(at.z) +
-              ") mm would be turned inside out: the skin is bent too strongly there, or the blade "
+              "the tissue below the cut at " + numbers_of(s_.mesh.points[p]) +
+              " mm would be turned inside out: the skin is bent too strongly there, or the blade "
               "too flat; smooth the mesh, move the cut, or make mesh.element_size larger");
         }
       for (const int t : e_.turned) out[t] = true;
@@ -249,7 +264,7 @@ class Maker {
       // The tip is just inside the first node ahead that is still closed.
       const bool to_end = i + 1 > lines.size();
       const double next = to_end ? s : lines[i].s_to;
-      const double tip = to_end ? length : place(next - front_parts(p_).end * (next - s));
+      const double tip = to_end ? place(s) : place(next - front_parts(p_).end * (next - s));
       const double time = before + tip;
       if (time > body_.times.back() + 1e-9 * length) {
         body_.times.push_back(time), body_.position.push_back(tip - length / 2);
@@ -258,8 +273,13 @@ class Maker {
         body_.released.back() = static_cast<int>(body_.pairs.size());
       }
     }
-    if (body_.times.size() > frames_before)  // its stations are along chords of the path
-      body_.times.back() = before + length, body_.position.back() = length / 2;
+    if (body_.times.size() == frames_before) return;
+    if (lines.back().s_to - longer.front < 0.99 * length) {  // it has left the skin: nothing opens any more
+      body_.times.push_back(before + length), body_.position.push_back(length / 2);
+      body_.released.push_back(body_.released.back());
+    }
+    // Its stations are along chords of the path.
+    body_.times.back() = before + length, body_.position.back() = length / 2;
   }
 
   /// How many layers of nodes a cut of this depth opens: it ends just above the first closed one.
@@ -297,10 +317,17 @@ class Maker {
       direction = r_.tension.front();
     else if (norm(direction) < 1e-3 * first.length())
       direction = first.at(0).along;
-    for (const auto& t : body_.skin) {
+    for (std::size_t n = 0; n < body_.skin.size(); ++n) {
+      const auto& t = body_.skin[n];
       const Vec3 a = body_.points[t[0]], b = body_.points[t[1]], c = body_.points[t[2]];
       const Vec3 normal = normalized(cross(b - a, c - a));
       Vec3 within = direction - dot(direction, normal) * normal;
+      const auto& corners = s_.mesh.triangles[n];
+      if (norm(within) < least_within * norm(direction) &&
+          std::any_of(corners.begin(), corners.end(), [&](int p) { return squared_norm(blade_[p]) > 0; }))
+        throw InputError("the direction of the tension, " + numbers_of(direction) +
+                         ", is perpendicular to the skin at " + numbers_of(a) +
+                         " mm, on a cut; give one within the skin (--direction)");
       if (norm(within) < 1e-6 * norm(direction))
         within = b - a;  // seen from its end: any direction is as good
       body_.tension.push_back(normalized(within));

@@ -43,9 +43,11 @@ std::string solver() {
   return (folder ? std::string(folder) : executable_folder()) + "/cleft-solve";
 }
 
-/// What the solver said last, without its name.
-std::string last_message(const std::string& log) {
+/// What the solver said last, without its name and those of temporary files.
+std::string last_message(const std::string& log, const std::string& case_file) {
   std::string text = read_text_file(log);
+  for (auto at = text.find(case_file); at != std::string::npos; at = text.find(case_file))
+    text.erase(at, case_file.size());
   while (!text.empty() && text.back() == '\n') text.pop_back();
   for (const char* mark : {"error: ", "failed: "})
     if (const auto at = text.rfind(mark); at != std::string::npos)
@@ -60,11 +62,15 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   const auto tell = [&](const std::string& step) {
     if (progress) progress(step);
   };
+  const auto end_if_stopped = [&] {
+    if (stop && *stop > 0) throw std::runtime_error("the simulation was stopped");
+  };
   const Stopwatch watch;
   const WorkFolder folder;
   BodySimulation result;
   tell("meshing the body");
   result.body = make_body(request, &result.report);
+  end_if_stopped();
   write_body(folder / "body.h5", result.body);
   Case one;
   one.parameters = request.parameters;
@@ -74,8 +80,9 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
                                            "--out", folder / "case.h5", "--no-estimate", "--json"},
                                           folder / "solve.log", {}, stop, folder / "solve.json");
   if (!ended.success()) {
-    if (stop && *stop > 0) throw std::runtime_error("the simulation was stopped");
-    const std::string what = "the body could not be solved: " + last_message(folder / "solve.log");
+    end_if_stopped();
+    const std::string what =
+        "the body could not be solved: " + last_message(folder / "solve.log", folder / "case.toml: ");
     if (ended.exit_code == 2) throw InputError(what);
     throw std::runtime_error(what);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "explorer/incision/local_coordinates.h"
 #include "explorer/io/mesh_file.h"
@@ -13,6 +14,8 @@
 namespace cleft {
 
 namespace {
+
+constexpr double least_reach = 2;  // elements: a narrower body is held by its rim alone
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 
@@ -62,7 +65,12 @@ BodyRequest BodyOptions::request() const {
     request.parameters = read_case(case_file, assignments).parameters;
   else
     for (const std::string& assignment : assignments) set_from_text(request.parameters, assignment, "--set");
+  if (reach < least_reach * request.parameters.mesh.element_size)
+    throw InputError("--reach " + shortest(reach) + " mm: must be at least " + shortest(least_reach) +
+                     " times mesh.element_size = " + shortest(request.parameters.mesh.element_size) + " mm");
   request.reach = reach;
+  if (!direction.empty() && !(std::hypot(direction[0], direction[1], direction[2]) > 0))
+    throw InputError("--direction 0,0,0: has no length; give a direction within the skin");
   if (!direction.empty()) request.tension = {{direction[0], direction[1], direction[2]}};
   return request;
 }

@@ -21,6 +21,7 @@
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/path_file.h"
 #include "explorer/wound/replayed_wounds.h"
+#include "params/run/signal_handler.h"
 
 namespace {
 
@@ -79,7 +80,8 @@ void check_files(const Options& options) {
   if (!is_volume(options.out))
     surface_format(options.out, MeshUse::write);  // reports a bad name before the work
   std::vector<std::string> inputs = options.paths;
-  inputs.insert(inputs.end(), {options.mesh, options.field});
+  inputs.insert(inputs.end(), {options.mesh, options.field, options.body.bone, options.body.case_file});
+  std::erase(inputs, "");
   refuse_to_overwrite(options.out, inputs);
   const OutputFile probe(options.out);
 }
@@ -189,7 +191,9 @@ void move_as_simulated(const Options& options, const Cuts& cuts, bool replayed, 
   const std::optional<SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin);
   if (bone) request.bone = &*bone;
   Progress progress("simulating");
-  const BodySimulation simulation = simulate(request, std::ref(progress));
+  static StopCount stop = 0;
+  const SignalHandler handler({SIGINT, SIGTERM}, [](int) { stop = stop + 1; });
+  const BodySimulation simulation = simulate(request, std::ref(progress), &stop);
   const SimulatedWounds wounds(cuts.list, options.scale, simulation.body, *simulation.series);
   std::vector<Vec3> simulated(positions.size());
   wounds.positions(cuts.t, simulated);

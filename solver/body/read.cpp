@@ -86,10 +86,17 @@ class BodyCheck {
                                      {"skin_above", b_.skin_above.size()}})
       require(size == b_.points.size(),
               std::string("/VTKHDF/PointData/") + list + ": one row a node is needed");
+    for (std::size_t n = 0; n < b_.points.size(); ++n) {
+      double sum = squared_norm(b_.canonical[n]);
+      for (const Vec3& axis : b_.frames[n]) sum += squared_norm(axis);
+      require(std::isfinite(sum),
+              "/VTKHDF/PointData, canonical or frame of node " + std::to_string(n) + " is not finite");
+    }
     for (const int n : b_.skin_above)
       require(0 <= n && n < static_cast<int>(b_.points.size()),
               "skin_above names a node that does not exist");
     check_wedges();
+    check_tension();
     check_pairs();
     check_frames();
   }
@@ -120,6 +127,16 @@ class BodyCheck {
         require(volume > 0, "wedge " + std::to_string(w) + " at (" + place(here) +
                                 ") mm is flat or turned inside out; make the tissue thinner there");
       }
+  }
+
+  void check_tension() const {
+    for (std::size_t t = 0; t < b_.tension.size(); ++t) {
+      const auto& [a, b, c] = b_.skin[t];
+      const Vec3 normal = cross(b_.points[b] - b_.points[a], b_.points[c] - b_.points[a]);
+      require(std::abs(norm(b_.tension[t]) - 1) < 1e-6 &&
+                  std::abs(dot(b_.tension[t], normal)) < 1e-6 * norm(normal),
+              "/skin/tension, row " + std::to_string(t) + ": is no unit vector in the plane of its triangle");
+    }
   }
 
   static std::string place(const Vec3& p) {

@@ -84,10 +84,12 @@ std::string hash_of(const Body& b) {
   std::string bytes = "cleft body 1\n";
   add(bytes, b.points), add(bytes, b.wedges), add(bytes, b.skin), add(bytes, b.tension), add(bytes, b.bottom);
   add(bytes, b.support), add(bytes, b.sides), add(bytes, b.released), add(bytes, b.position);
-  add(bytes, b.times), add(bytes, b.canonical), add(bytes, b.frames);
+  add(bytes, b.times), add(bytes, b.canonical), add(bytes, b.frames), add(bytes, b.skin_above);
+  bytes += shortest(b.length) + "," + shortest(b.depth) + ";";
   for (const BodyPair& p : b.pairs)
     bytes += std::to_string(p.left) + "," + std::to_string(p.right) + "," + std::to_string(p.cut) + "," +
-             shortest(p.along) + "," + shortest(p.depth) + ";";
+             shortest(p.along) + "," + shortest(p.depth) + "," + shortest(p.normal.x) + "," +
+             shortest(p.normal.y) + "," + shortest(p.normal.z) + ";";
   return sha256(bytes).substr(0, 16);
 }
 

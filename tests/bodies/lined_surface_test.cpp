@@ -148,6 +148,9 @@ TEST(LinedSurface, StationsAreEquallyFarFromEachOther) {
       expect_connected(s, c);
       const auto& lines = s.cuts[c];
       EXPECT_TRUE(station[lines.front().from] && station[lines.back().to]);
+      for (const CutLine& line : lines)
+        EXPECT_LT(norm(s.mesh.points[line.from] - l.paths[c].at(line.s_from).position),
+                  (l.radius > 0 ? sag : 0) + 1e-3 * l.paths[c].length());
       std::vector<double> stretch;  // distances between the stations from a crossing or end to the next
       double passed = 0;
       for (const CutLine& line : lines) {
@@ -217,6 +220,18 @@ TEST(Remesh, TheSurfaceIsTheSameWithTrianglesOfTheWantedSize) {
       }
     }
     EXPECT_EQ(lines + 1, stations.size()) << "all stations are kept, and only these";
+  }
+}
+
+/// Stations are far from each other here: points beside lines would have Delaunay's criterion cross them.
+TEST(Remesh, LinesRemainWhateverIsBesideThem) {
+  for (const Lined& l : all_lined()) {
+    SCOPED_TRACE(l.name);
+    LinedSurface s = lined_surface(l.whole, l.paths, 8);
+    const SurfaceIndex shape(s.mesh);
+    const std::vector<bool> station = place_stations(s, 4);
+    const LinedSurface r = remeshed(s, station, shape, [](const Vec3&) { return 0.8; });
+    for (std::size_t c = 0; c < r.cuts.size(); ++c) expect_connected(r, c);
   }
 }
 

@@ -1,0 +1,201 @@
+// cleft body, cleft solve --mesh and cleft cut --simulate given wrong input: a clear message, exit code 2,
+// and no file left, nor a temporary one.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/output_file.h"
+#include "base/text.h"
+#include "solver/body/body.h"
+#include "tests/bodies/subjects.h"
+#include "tests/pipeline/commands.h"
+#include "tests/support/damage.h"
+#include "tests/support/temporary_folder.h"
+
+namespace cleft {
+
+namespace {
+
+class BodyCommand : public ::testing::Test {
+ protected:
+  TemporaryFolder in, out, temporary;
+
+  void SetUp() override {
+    former_ = std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "";
+    setenv("TMPDIR", temporary.path().c_str(), 1);
+    in.write("skin.obj", text_of(testing::sheet(testing::flat, 30, 30, 2)));
+    path("path.csv", 0);
+    in.write("case.toml", "[case]\nmesh.element_size = 2\n");
+  }
+  void TearDown() override {
+    EXPECT_EQ(temporary.entries(), 0) << "temporary files were left behind";
+    former_.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", former_.c_str(), 1);
+  }
+
+  static std::string text_of(const SurfaceMesh& mesh) {
+    std::string text;
+    for (const Vec3& p : mesh.points)
+      text += "v " + shortest(p.x) + " " + shortest(p.y) + " " + shortest(p.z) + "\n";
+    for (const auto& [a, b, c] : mesh.triangles)
+      text += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " + std::to_string(c + 1) + "\n";
+    return text;
+  }
+  std::string path(const std::string& name, double z, double to_y = 0) {
+    return in.write(name, "x,y,z,nx,ny,nz,depth\n-8,0," + shortest(z) + ",0,0,1,3\n8," + shortest(to_y) +
+                              "," + shortest(z) + ",0,0,1,3\n");
+  }
+  std::string bone(double z) {
+    return in.write("bone.obj", text_of(testing::sheet(
+                                    [z](double x, double y) {
+                                      return Vec3{x, y, z};
+                                    },
+                                    30, 30, 5)));
+  }
+  static std::vector<std::string> with(std::vector<std::string> first, const std::vector<std::string>& more) {
+    first.insert(first.end(), more.begin(), more.end());
+    return first;
+  }
+  std::string body() {
+    expect_success(run_cleft("body", with(options_, {"--out", in / "body.h5"})));
+    return in / "body.h5";
+  }
+
+  /// By both commands that mesh a body.
+  void expect_refused(const std::vector<std::string>& options, const std::vector<std::string>& parts) {
+    refused("body", with(options, {"--out", out / "body.h5"}), parts);
+    refused("cut", with(options, {"--simulate", "--out", out / "cut.obj"}), parts);
+  }
+  void refused(const std::string& command, const std::vector<std::string>& arguments,
+               const std::vector<std::string>& parts) {
+    const Outcome outcome = run_cleft(command, arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    for (const std::string& part : parts)
+      EXPECT_NE(outcome.output.find(part), std::string::npos)
+          << "missing '" << part << "' in: " << outcome.output;
+    EXPECT_EQ(outcome.output.find(temporary.path()), std::string::npos) << outcome.output;
+    EXPECT_EQ(out.entries(), 0) << "something was left behind";
+  }
+  void expect_solve_refused(const std::string& body, const std::vector<std::string>& more,
+                            const std::vector<std::string>& parts) {
+    refused("solve",
+            with({in / "case.toml", "--mesh", body, "--out", out / "case.h5", "--no-estimate"}, more), parts);
+  }
+
+  const std::vector<std::string> plain_{"--mesh", in / "skin.obj", "--path", in / "path.csv"};
+  std::vector<std::string> options_ = with(plain_, {"--case", in / "case.toml", "--reach", "10"});
+
+ private:
+  std::string former_;
+};
+
+}  // namespace
+
+TEST_F(BodyCommand, APathOffTheSurface) {
+  path("path.csv", 25);
+  expect_refused(options_, {"cut", "the path never touches the mesh", "must lie within"});
+}
+
+TEST_F(BodyCommand, BoneAboveTheSkin) {
+  expect_refused(with(options_, {"--bone", bone(3)}),
+                 {"bone lies above the skin at (", "units and places of --bone"});
+}
+
+TEST_F(BodyCommand, TissueThinnerThanTheCut) {
+  expect_refused(with(plain_, {"--set", "mesh.element_size=2", "--set", "patch.height=2"}),
+                 {"the cut is 3 mm deep", "patch.height = 2 mm", "shallower, or the tissue thicker"});
+}
+
+TEST_F(BodyCommand, ReachOfLessThanTwoElements) {
+  options_.back() = "0.1";
+  expect_refused(options_, {"--reach 0.1 mm", "mesh.element_size = 2 mm"});
+}
+
+TEST_F(BodyCommand, ElementsTooSmallForAnySolver) {
+  expect_refused(with(plain_, {"--set", "mesh.element_size=0.0005"}),
+                 {"mesh.element_size = 5e-04 mm", "at least 0.0032 mm"});
+}
+
+TEST_F(BodyCommand, CutsTooShortForTheElements) {
+  in.write("path.csv", "x,y,z,nx,ny,nz,depth\n-0.3,0,0,0,0,1,3\n0.3,0,0,0,0,1,3\n");
+  expect_refused(options_, {"too short to open a node", "mesh.element_size = 2 mm smaller"});
+}
+
+TEST_F(BodyCommand, DirectionsWithoutAPartInTheSkin) {
+  expect_refused(with(options_, {"--direction", "0,0,0"}), {"--direction 0,0,0", "no length"});
+  expect_refused(with(options_, {"--direction", "0,0,1"}),
+                 {"(0, 0, 1)", "perpendicular to the skin", "--direction"});
+}
+
+TEST_F(BodyCommand, UnknownFilesAndParameters) {
+  expect_refused(with(options_, {"--bone", in / "no.obj"}), {"no.obj"});
+  expect_refused(with(options_, {"--path", in / "no.csv"}), {"no.csv"});
+  expect_refused(with(options_, {"--set", "patch.hight=3"}), {"patch.hight", "patch.height"});
+  expect_solve_refused(in / "no.h5", {}, {"no.h5"});
+}
+
+TEST_F(BodyCommand, OutputsThatAreInputs) {
+  const std::string held = bone(-6), before = read_text_file(held);
+  for (const char* command : {"body", "cut"}) {
+    std::vector<std::string> options = with(options_, {"--bone", held, "--out", held});
+    if (std::string(command) == "cut") options.push_back("--simulate");
+    refused(command, options, {"--out", "is the input"});
+    EXPECT_EQ(read_text_file(held), before);
+  }
+}
+
+TEST_F(BodyCommand, SimulationsOfWhatIsNotSimulated) {
+  refused("cut", {"--mesh", in / "skin.vtu", "--path", in / "path.csv", "--simulate", "--out", out / "a.vtu"},
+          {"a mesh of volume is not simulated yet"});
+  refused("cut",
+          {"--mesh", in / "skin.obj", "--path", in / "path.csv", "--rest", "--reach", "10", "--out",
+           out / "a.obj"},
+          {"--reach: is for --simulate"});
+  for (const auto& [assignment, message] :
+       {std::pair{"model=finite", "model = finite: a body"}, {"skin.prestress_v=-0.01", "compressed"}}) {
+    refused("cut", with(options_, {"--set", assignment, "--simulate", "--out", out / "a.obj"}), {message});
+    expect_solve_refused(body(), {"--set", assignment}, {message});
+  }
+}
+
+TEST_F(BodyCommand, DamagedBodies) {
+  const std::string good = body();
+  const auto spoilt = [&](const std::function<void(Body&)>& spoil) {
+    Body b = read_body(good);
+    spoil(b);
+    write_body(in / "spoilt.h5", b);
+    return in / "spoilt.h5";
+  };
+  expect_solve_refused(spoilt([](Body& b) { b.pairs[3].left = 99999999; }), {},
+                       {"spoilt.h5", "/cut/pairs, row 3"});
+  expect_solve_refused(spoilt([](Body& b) { b.tension[5] = {}; }), {}, {"/skin/tension, row 5"});
+  expect_solve_refused(spoilt([](Body& b) { b.tension[5].x = std::nan(""); }), {}, {"/skin/tension, row 5"});
+  expect_solve_refused(spoilt([](Body& b) { b.canonical[7].y = std::nan(""); }), {}, {"node 7"});
+  expect_solve_refused(spoilt([](Body& b) { std::swap(b.wedges[2][0], b.wedges[2][1]); }), {},
+                       {"wedge 2", "inside out"});
+  std::string bytes = read_text_file(good);
+  write_text_file(in / "short.h5", bytes.substr(0, bytes.size() / 2));
+  expect_solve_refused(in / "short.h5", {}, {"short.h5", "damaged"});
+  expect_solve_refused(in / "skin.obj", {}, {"skin.obj"});
+  // A number that is as good as another one: only a checksum tells.
+  const double x = read_body(good).points[77].x;
+  const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&x), sizeof x));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] ^= 1;
+  write_text_file(in / "flipped.h5", bytes);
+  expect_solve_refused(in / "flipped.h5", {}, {"flipped.h5", "/VTKHDF/Points is damaged"});
+}
+
+/// Ctrl-C, while the solver runs: nothing is left.
+TEST_F(BodyCommand, IsStoppedBySignals) {
+  for (const char* signal : {"INT", "TERM"}) {
+    const Outcome outcome =
+        in_shell("timeout -s " + std::string(signal) + " 1 " + CLEFT_BIN + "/cleft-cut --mesh '" +
+                 (in / "skin.obj") + "' --path '" + (in / "path.csv") +
+                 "' --simulate --set mesh.element_size=0.35 --out '" + (out / "cut.obj") + "' 2>&1");
+    EXPECT_NE(outcome.output.find("stopped"), std::string::npos) << outcome.output;
+    EXPECT_EQ(out.entries(), 0);
+    EXPECT_EQ(temporary.entries(), 0);
+  }
+}
+
+}  // namespace cleft
