@@ -116,7 +116,7 @@ Json info_of_study(const std::string& file) {
                      {"bytes", study.coefficient_bytes(i)},
                      {"modes_error", study.modes_error(i)},
                      {"report", shown(study.report(i))},
-                     {"parameters", study.parameters(i).numbers()}});
+                     {"parameters", parameters_of(study.parameters(i))}});
   return {{"format", "cleft-study"},
           {"cases", study.size()},
           {"modes", study.modes()},

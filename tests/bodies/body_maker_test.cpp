@@ -150,7 +150,7 @@ TEST(MakeBody, CopiesAtCrossings) {
       }
     int most = 0;
     for (const auto& [place, count] : copies) most = std::max(most, count);
-    EXPECT_EQ(most, m.name.find("X") != std::string::npos ? 4 : m.name == "a T" ? 3 : 2) << m.name;
+    EXPECT_EQ(most, m.name.find('X') != std::string::npos ? 4 : m.name == "a T" ? 3 : 2) << m.name;
   }
 }
 

@@ -20,7 +20,7 @@ void write_cylinder(const TemporaryFolder& folder) {
   std::string mesh;
   for (int i = 0; i <= along; ++i)
     for (int j = 0; j <= around; ++j) {
-      const double angle = (j - around / 2) * 0.1;
+      const double angle = (j - around / 2.0) * 0.1;
       mesh += "v " + shortest(3. * i - 30) + " " + shortest(radius * std::sin(angle)) + " " +
               shortest(radius * std::cos(angle)) + "\n";
     }
