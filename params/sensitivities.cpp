@@ -47,7 +47,8 @@ void check_sensitivities(const std::vector<std::string>& names, const Parameters
     // Its entries of the matrix are not there, and a skin of less than 0 does not exist.
     if (name == row_of(parameters, parameters.skin.bending_stiffness).name &&
         parameters.skin.bending_stiffness == 0)
-      throw InputError(where + " " + name + ": is 0, where it has no derivative; set it above 0");
+      throw InputError(std::string(where).append(" ").append(name) +
+                       ": is 0, where it has no derivative; set it above 0");
   }
 }
 

@@ -69,6 +69,7 @@ void solve_finite_series(SharedStiffness& shared, const Release& release, std::s
   NewtonSolver newton(shared.mesh(), system, patch, release, *shared.chosen().solver, shared.residual(),
                       largest_load);
   std::vector<ForcesOfParameter> forces;
+  forces.reserve(names.size());
   for (const std::string& name : names) forces.emplace_back(system, output.parameters(), name);
   Block displacement = Block::Zero(system.owned(), 1);
   const int frames = static_cast<int>(release.released.size());

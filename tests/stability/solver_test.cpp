@@ -117,9 +117,8 @@ TEST(SolverLimits, FlatWedges) {
   record_limit({.method = "wedges of the patch",
                 .limit = "elements much flatter than wide",
                 .shown = "wedges 1e4 times wider than high: error below " + power_of_ten(sound.error) +
-                         ", estimated as " + power_of_ten(sound.rounding) +
-                         "; 1e10 times: error below " + power_of_ten(beyond.error) + ", estimated as " +
-                         power_of_ten(beyond.rounding),
+                         ", estimated as " + power_of_ten(sound.rounding) + "; 1e10 times: error below " +
+                         power_of_ten(beyond.error) + ", estimated as " + power_of_ten(beyond.rounding),
                 .noticed = refused_by_rounding + " (here from " + power_of_ten(refused) + " times)",
                 .then = "refused, no file"});
 }
