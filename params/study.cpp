@@ -265,8 +265,24 @@ Case read_case(const std::string& path, const std::vector<std::string>& assignme
   return study.base;
 }
 
+namespace {
+
+/// MPa: as large as those of skin. Of the third, the smaller principal stress is tension too.
+constexpr Prestress unit_tensions[] = {{0.01, 0, 0}, {0, 0.01, 0}, {0.01, 0.01, 0.005}};
+
+std::vector<Case> in_unit_tensions(const std::vector<Case>& cases) {
+  std::vector<Case> result;
+  for (const Case& one : cases)
+    for (const Prestress& tension : unit_tensions)
+      result.emplace_back(one).parameters.skin.prestress = tension;
+  return result;
+}
+
+}  // namespace
+
 std::vector<Case> cases_of(const Study& study) {
   std::vector<Case> cases = find_sampling(study.sampling.method, study.name).sample(study);
+  if (study.sampling.unit_tensions) cases = in_unit_tensions(cases);
   Mistakes mistakes;
   std::set<std::string> identities;
   for (const Case& one : cases) {

@@ -52,11 +52,15 @@ struct Variation {
   std::optional<Range> range;
 };
 
-/// [sampling]: how variations become cases. Count and seed are those of methods that draw from ranges.
+/// [sampling]: how variations become cases. Count, seed and level are those of methods that draw from ranges.
 struct SamplingSettings {
   std::string method = "grid";
   std::size_t count = 0;
   std::uint64_t seed = 0;
+  int level = 0;  ///< of a sparse grid
+  /// Each case three times, in skin whose tension is a unit along the cut, across it, or both with shear:
+  /// every other tension is a sum of these.
+  bool unit_tensions = false;
 };
 
 /// The name under which the folder of a study keeps the body of its cases.

@@ -262,7 +262,9 @@ bool CaseWork::publish(CaseOnItsWay& one) const {
                    {"sampling",
                     {{"method", study_.sampling.method},
                      {"count", study_.sampling.count},
-                     {"seed", study_.sampling.seed}}}};
+                     {"seed", study_.sampling.seed},
+                     {"level", study_.sampling.level},
+                     {"unit_tensions", study_.sampling.unit_tensions}}}};
   for (const Parameter& row : parameter_table())
     std::visit([&](const auto& v) { manifest["parameters"][row.name] = v; },
                get_parameter(one.one->parameters, row));

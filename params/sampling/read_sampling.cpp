@@ -12,6 +12,7 @@ namespace cleft {
 namespace {
 
 constexpr std::int64_t most_values = 100'000;  // of one parameter
+constexpr std::int64_t most_level = 12;
 
 class SamplingReader {
  public:
@@ -25,6 +26,7 @@ class SamplingReader {
     else
       method_ = &find_sampling(study_.sampling.method, path_);
     if (vary) read_variations(*vary, "");
+    if (study_.sampling.unit_tensions) check_tensions(*sampling);
     if (draws() && (!vary || vary->empty()))
       mistakes_.add(where(*sampling) + ": sampling method '" + method_->name +
                     "' draws from ranges; give them under [vary], as NAME = { from = a, to = b }");
@@ -36,13 +38,43 @@ class SamplingReader {
   bool takes_values() const { return method_ && !method_->draws; }
 
   void read_settings(const toml::table& table) {
-    check_keys(table, {"method", "count", "seed"}, "sampling.", "");
+    check_keys(table, {"method", "count", "seed", "level", "unit_tensions"}, "sampling.", "");
     mistakes_.collect([&] { read_method(table); });
     mistakes_.collect([&] { read_number(table, "count", 1, most_cases, study_.sampling.count); });
     mistakes_.collect([&] { read_number(table, "seed", 0, INT64_MAX, study_.sampling.seed); });
-    if (draws() && !table.contains("count"))
-      mistakes_.add(where(table) + ": sampling method '" + method_->name +
-                    "' needs count = n, the number of cases");
+    mistakes_.collect([&] { read_number(table, "level", 1, most_level, study_.sampling.level); });
+    mistakes_.collect([&] { read_unit_tensions(table); });
+    if (draws() && !table.contains(number_of_cases()))
+      mistakes_.add(where(table) + ": sampling method '" + method_->name + "' needs " +
+                    (method_->levels ? "level = n: 1 takes the middle and the ends of each range, 2 pairs too"
+                                     : "count = n, the number of cases"));
+  }
+
+  /// The key that says how many cases are drawn.
+  const char* number_of_cases() const { return method_->levels ? "level" : "count"; }
+
+  void read_unit_tensions(const toml::table& table) {
+    const toml::node* node = table.get("unit_tensions");
+    if (!node) return;
+    const auto given = node->value_exact<bool>();
+    if (!given) throw InputError(where(*node) + ": sampling.unit_tensions: must be true or false");
+    study_.sampling.unit_tensions = *given;
+  }
+
+  /// The unit tensions are those of every case.
+  void check_tensions(const toml::table& table) {
+    const auto is_tension = [](const std::string& name) { return name.starts_with("skin.prestress_"); };
+    std::string own;
+    for (const Variation& variation : study_.vary)
+      if (is_tension(variation.name)) own = variation.name + " under [vary]";
+    for (const std::string& name : study_.given)
+      if (is_tension(name)) own = name + " under [case]";
+    if (!own.empty())
+      mistakes_.add(where(table) + ": sampling.unit_tensions sets the skin's prestress; remove " + own);
+    if (!is_linear_in_prestress(study_.base.parameters))
+      mistakes_.add(where(table) +
+                    ": sampling.unit_tensions: tensions are sums of others in the small model alone, without "
+                    "cut.contact and skin.initial_stress_stiffness");
   }
 
   void check_keys(const toml::table& table, const std::vector<std::string>& known, const std::string& prefix,
@@ -74,6 +106,9 @@ class SamplingReader {
       throw InputError(where(*node) + ": sampling." + key + ": method '" + method_->name +
                        "' takes the values under [vary]; remove " + key +
                        ", or set method = " + drawing_methods());
+    if (method_ && method_->levels != (key == "level"))
+      throw InputError(where(*node) + ": sampling." + key + ": method '" + method_->name + "' takes " +
+                       (method_->levels ? "level" : "count and seed") + "; remove " + key);
     const auto given = node->value<std::int64_t>();
     if (!given || *given < least || *given > most)
       throw InputError(where(*node) + ": sampling." + key + (given ? " = " + std::to_string(*given) : "") +
@@ -145,7 +180,8 @@ class SamplingReader {
       result.values = range_values(parameter, range, table);
     } else if (draws() && table.contains("count")) {
       throw InputError(where(table) + ": " + parameter.name + ": method '" + method_->name +
-                       "' draws as many cases as sampling.count says; remove count from the range");
+                       "' draws as many cases as sampling." + number_of_cases() +
+                       " says; remove count from the range");
     }
     return result;
   }

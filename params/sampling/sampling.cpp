@@ -10,13 +10,15 @@ std::vector<Case> sample_grid(const Study& study);
 std::vector<Case> sample_list(const Study& study);
 std::vector<Case> sample_latin_hypercube(const Study& study);
 std::vector<Case> sample_sobol(const Study& study);
+std::vector<Case> sample_sparse_grid(const Study& study);
 
 namespace {
 
 const SamplingMethod methods[] = {{"grid", sample_grid, false},
                                   {"list", sample_list, false},
                                   {"latin-hypercube", sample_latin_hypercube, true},
-                                  {"sobol", sample_sobol, true}};
+                                  {"sobol", sample_sobol, true},
+                                  {"sparse-grid", sample_sparse_grid, true, true}};
 
 }  // namespace
 

@@ -14,7 +14,9 @@ constexpr std::size_t most_cases = 1'000'000;  ///< of a study
 struct SamplingMethod {
   std::string name;
   std::vector<Case> (*sample)(const Study& study);
-  bool draws;  ///< sampling.count cases from ranges, by sampling.seed; otherwise variations give values
+  bool draws;  ///< cases from ranges; otherwise variations give values
+  /// Of a method that draws: sampling.level says how many; otherwise sampling.count and sampling.seed.
+  bool levels = false;
 };
 
 /// Finds a method by name; throws InputError "<where>: unknown sampling method ...".

@@ -254,6 +254,61 @@ TEST(Sampling, WhatIsMissingOrOutOfPlaceIsTold) {
   expect_message("[vary]\n'cut.frames' = { from = 1, to = 2, count = 2 }\n", {"cut.frames: takes texts"});
 }
 
+TEST(Sampling, ASparseGridHasSmolyaksPointsAndAHigherLevelKeepsThem) {
+  const auto points = [](int level, int dimensions) {
+    Study study;
+    study.sampling = {"sparse-grid", 0, 0, level};
+    for (int k = 0; k < dimensions; ++k) study.vary.push_back({names[k], {}, Range{0, 1}});
+    return points_of(study);
+  };
+  // Counts of nested Clenshaw-Curtis grids: Smolyak 1963; Novak and Ritter, Numer. Math. 75 (1996), table 1.
+  EXPECT_EQ(points(1, 1).size(), 3u);
+  EXPECT_EQ(points(3, 1).size(), 9u);
+  EXPECT_EQ(points(2, 2).size(), 13u);
+  EXPECT_EQ(points(3, 2).size(), 29u);
+  EXPECT_EQ(points(2, 6).size(), 85u);
+  const auto low = points(1, 3), high = points(2, 3);
+  ASSERT_EQ(low.size(), 7u);
+  EXPECT_TRUE(std::equal(low.begin(), low.end(), high.begin()));
+  EXPECT_EQ(low.front(), (std::vector<double>{0.5, 0.5, 0.5}));
+  const std::set<std::vector<double>> all(high.begin(), high.end());
+  EXPECT_EQ(all.size(), 25u) << "no point twice";
+  EXPECT_TRUE(all.contains({0, 1, 0.5}));
+  EXPECT_TRUE(all.contains({0.5, 0.5, 0.853553390593}));
+}
+
+TEST(Sampling, UnitTensionsMakeThreeCasesOfEach) {
+  const auto cases = cases_of_text(
+      "[vary]\n'cut.depth' = { from = 2, to = 4 }\n[sampling]\nmethod = 'sparse-grid'\nlevel = 1\n"
+      "unit_tensions = true\n");
+  ASSERT_EQ(cases.size(), 9u);
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    EXPECT_EQ(cases[i].parameters.cut.depth, (std::vector<double>{3, 2, 4}[i / 3]));
+  const auto tension = [&](std::size_t i) { return cases[i].parameters.skin.prestress; };
+  const Prestress a = tension(0), b = tension(1), c = tension(2);
+  const double independent = a.uu * (b.vv * c.uv - b.uv * c.vv) - a.vv * (b.uu * c.uv - b.uv * c.uu) +
+                             a.uv * (b.uu * c.vv - b.vv * c.uu);
+  EXPECT_GT(independent, 0.1 * 0.01 * 0.01 * 0.01);
+  for (const Prestress& one : {a, b, c}) EXPECT_GE(one.uu * one.vv, one.uv * one.uv) << "no compression";
+}
+
+TEST(Sampling, ALevelAndUnitTensionsThatDoNotFitAreTold) {
+  const std::string vary = "[vary]\n'cut.depth' = { from = 1, to = 2 }\n";
+  expect_message(vary + "[sampling]\nmethod = 'sparse-grid'\n", {"line 3: ", "needs level = n"});
+  expect_message(vary + "[sampling]\nmethod = 'sparse-grid'\nlevel = 13\n",
+                 {"line 5: sampling.level = 13: must be a whole number between 1 and 12"});
+  expect_message(vary + "[sampling]\nmethod = 'sparse-grid'\nlevel = 1\ncount = 3\n",
+                 {"line 6: sampling.count: method 'sparse-grid' takes level; remove count"});
+  expect_message(vary + "[sampling]\nmethod = 'sobol'\ncount = 3\nlevel = 1\n",
+                 {"line 6: sampling.level: method 'sobol' takes count and seed; remove level"});
+  expect_message("[vary]\n'skin.prestress_v' = [0.01, 0.02]\n[sampling]\nunit_tensions = true\n",
+                 {"line 3: sampling.unit_tensions sets the skin's prestress; remove skin.prestress_v"});
+  expect_message("[case]\nmodel = 'finite'\n[vary]\n'cut.depth' = [1, 2]\n[sampling]\nunit_tensions = true\n",
+                 {"line 5: sampling.unit_tensions: tensions are sums of others in the small model alone"});
+  expect_message(vary + "[sampling]\nmethod = 'sparse-grid'\nlevel = 1\nunit_tensions = 1\n",
+                 {"line 6: sampling.unit_tensions: must be true or false"});
+}
+
 TEST(Sampling, DrawnCasesThatDoNotFitAreNamed) {
   // Of the plain sequence 0, 1/2, 3/4, 1/4: 10, 40, 55 and 25 mm fit into 60 mm, of twice that two do not.
   const std::string end = " }\n[sampling]\nmethod = 'sobol'\ncount = 4\n";

@@ -1,0 +1,68 @@
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "params/sampling/sampling.h"
+
+namespace cleft {
+
+namespace {
+
+/// The nodes of one range that a level adds, from 0 to 1: its middle, its ends, then the Chebyshev points
+/// between (Clenshaw and Curtis).
+std::vector<double> added_nodes(int level) {
+  if (level == 0) return {0.5};
+  if (level == 1) return {0, 1};
+  std::vector<double> nodes;
+  const int intervals = 1 << level;
+  for (int i = 1; i < intervals; i += 2)
+    nodes.push_back((1 - std::cos(std::numbers::pi * i / intervals)) / 2);
+  return nodes;
+}
+
+/// Calls `use` with every list of `levels.size()` levels whose sum is `total`, in lexicographical order.
+template <class Use>
+void for_each_sum(std::vector<int>& levels, std::size_t from, int total, const Use& use) {
+  if (from + 1 == levels.size()) {
+    levels[from] = total;
+    use();
+    return;
+  }
+  for (levels[from] = 0; levels[from] <= total; ++levels[from])
+    for_each_sum(levels, from + 1, total - levels[from], use);
+}
+
+}  // namespace
+
+/// The sparse grid of Smolyak (1963) with nested Chebyshev points: level 1 is the middle of all ranges and
+/// the ends of each, level 2 adds two points between on each and the ends of all pairs. Polynomials of as
+/// high a total degree as the level are exact between them. A higher level keeps the cases of the lower ones.
+std::vector<Case> sample_sparse_grid(const Study& study) {
+  const std::vector<Variation> ranges = ranges_by_name(study);
+  std::vector<Case> cases;
+  std::vector<int> levels(ranges.size());
+  for (int total = 0; total <= study.sampling.level; ++total)
+    for_each_sum(levels, 0, total, [&] {
+      std::vector<std::vector<double>> nodes;
+      for (const int level : levels) nodes.push_back(added_nodes(level));
+      std::vector<std::size_t> at(ranges.size(), 0);
+      for (bool more = true; more;) {
+        Case& one = cases.emplace_back(study.base);
+        for (std::size_t k = 0; k < ranges.size(); ++k) set_drawn(one, ranges[k], nodes[k][at[k]], 1);
+        more = false;
+        for (std::size_t k = ranges.size(); k-- > 0 && !more;) {
+          more = ++at[k] < nodes[k].size();
+          if (!more) at[k] = 0;
+        }
+      }
+      if (cases.size() > most_cases)
+        throw InputError(study.name + ": sampling.level = " + std::to_string(study.sampling.level) + " for " +
+                         std::to_string(ranges.size()) + " ranges makes more than " +
+                         std::to_string(most_cases) + " cases; take a lower one");
+    });
+  return cases;
+}
+
+}  // namespace cleft
