@@ -68,8 +68,8 @@ ScalpelPath::ScalpelPath(const std::vector<Point>& points) {
       const double a = double(k) / pieces;
       if (k > 0) s += arc_length(curve, i, chord[i + 1] - chord[i], double(k - 1) / pieces, a);
       const double d = (1 - a) * depth[i] + a * depth[i + 1];
-      samples_.push_back(
-          {s, curve.value(i, a), normalized(curve.derivative(i, a)), normalized(direction.value(i, a)), d});
+      samples_.push_back({s, curve.value(i, a), normalized(curve.derivative(i, a)),
+                          normalized(direction.value(i, a)), d, k == 0 || k == pieces});
       if (k + 1 == pieces && i + 1 < segments) s += arc_length(curve, i, chord[i + 1] - chord[i], a, 1);
     }
   for (const Sample& sample : samples_)
@@ -112,6 +112,13 @@ ScalpelPath ScalpelPath::from_table(const NumberTable& table, const std::string&
   } catch (const InputError& error) {
     throw FileError(name, error.what());
   }
+}
+
+std::vector<double> ScalpelPath::given() const {
+  std::vector<double> places;
+  for (const Sample& sample : samples_)
+    if (sample.given) places.push_back(sample.s);
+  return places;
 }
 
 std::size_t ScalpelPath::interval(double s) const {
@@ -169,6 +176,7 @@ double ScalpelPath::extend(double s, const Point& next, double beyond) {
   constexpr int pieces = 4, parts = 8, pieces_beyond = 16;
   Sample from = sample_at(s);
   from.tangent = normalized(from.tangent);
+  from.given = true;
   const Vec3 way = next.position - from.position;
   const double chord = norm(way);
   if (!(chord > Limits::same_point * length()))
@@ -192,10 +200,11 @@ double ScalpelPath::extend(double s, const Point& next, double beyond) {
     const Vec3 tangent =
         6 * a * b * way + chord * (b * (b - 2 * a) * from.tangent + a * (a - 2 * b) * to.tangent);
     added.push_back({s, place(a), normalized(tangent), normalized(lerp(from.outward, to.outward, a)),
-                     b * from.depth + a * to.depth});
+                     b * from.depth + a * to.depth, k == pieces * parts});
   }
   for (int k = 1; k <= pieces_beyond; ++k) {
     Sample ahead = added.back();
+    ahead.given = false;
     ahead.s += beyond / pieces_beyond;
     ahead.position += beyond / pieces_beyond * ahead.tangent;
     added.push_back(ahead);

@@ -38,6 +38,10 @@ class ScalpelPath {
 
   double length() const { return samples_.back().s; }
 
+  /// The arc lengths of the points that the path was made of or extended to, increasing. Between them it is
+  /// interpolated: in its first and last interval it bends less than the points do.
+  std::vector<double> given() const;
+
   /// For a path that is not known in advance: keeps the path up to s, continues from there smoothly to
   /// `next`, and straight for `beyond`. Returns the arc length of `next`. Throws InputError if the direction
   /// is tangential to the path, which is then unchanged.
@@ -81,6 +85,7 @@ class ScalpelPath {
     double s;
     Vec3 position, tangent, outward;
     double depth;
+    bool given = false;  // one of the points
   };
   std::size_t interval(double s) const;
   Sample sample_at(double s) const;

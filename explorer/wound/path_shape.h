@@ -1,0 +1,44 @@
+// The shape of a cut's surroundings from place to place: how the path curves in the skin, how the blade is
+// tilted, how deep it is, and how the skin is curved. A family of fields is evaluated with it.
+//
+// All of it is of the skin before the cut, at rest, whatever has been cut since. A path is first unrolled
+// into a plane, so that its curvature there is the geodesic one: a great circle of a sphere is straight.
+#pragma once
+
+#include <vector>
+
+#include "explorer/incision/incision.h"
+
+namespace cleft {
+
+/// At a place of a path, in its frame: along, across = outward x along. Lengths in mm, angles in degrees.
+struct LocalShape {
+  double curvature = 0;  ///< 1/mm, of the path in the skin; positive: it curves toward +v, across
+  double tilt = 0;       ///< of the blade against the skin's normal; positive: the bottom is toward +v
+  double depth = 0;      ///< of the blade, along itself
+  /// 1/mm, the curvature tensor of the skin; positive where the body bulges: 1/R, 1/R, 0 of a sphere.
+  double skin_u = 0, skin_v = 0, skin_uv = 0;
+};
+
+/// The shape of all of a path.
+struct PathShape {
+  std::vector<double> stations;  ///< mm along the path, increasing
+  std::vector<LocalShape> values;
+
+  /// Linear between the stations, and as at the ends beyond them. There must be a station.
+  LocalShape at(double s) const;
+};
+
+/// `scale` is mm per mesh unit, `s` mm along the path, within it. `smoothing`, mm, above 0, is the scale
+/// below which shape is noise: points of the path, and vertices of the skin, within this distance are fitted,
+/// with weights that fall to 0 there; next to the path's ends points as far as twice the distance on the one
+/// side. Where there are too few, the distance grows. Of a path much shorter than `smoothing` no curvature is
+/// known, it is nearly 0; without enough vertices around, up to four times the distance, the skin's is 0.
+/// Throws InputError if the smoothing or the scale is not above 0.
+LocalShape local_shape(const Incision& incision, double scale, double s, double smoothing);
+
+/// The same at even distances of a quarter of the smoothing or less, from 0 to the end of the path; of a path
+/// that is found as the blade moves, to where it has come.
+PathShape shape_along(const Incision& incision, double scale, double smoothing);
+
+}  // namespace cleft
