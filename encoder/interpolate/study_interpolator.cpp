@@ -147,28 +147,36 @@ RecordedParameters StudyInterpolator::complete(const CaseParameters& values) con
   return parameters;
 }
 
-Field StudyInterpolator::at(const CaseParameters& values) const {
+StudyInterpolator::Recipe StudyInterpolator::recipe(const CaseParameters& values) const {
   const RecordedParameters parameters = complete(values);
-  const DisplacementModel::Prediction prediction = model_->at(parameters);
+  return {parameters, model_->at(parameters), geometry_.at(parameters)};
+}
 
-  std::vector<Summand> summands;
-  for (int i = 0; i < cases_.size(); ++i)
-    summands.push_back({prediction.weights[i], cases_.control_points(i)});
-  for (Eigen::Index d = 0; d < prediction.derivatives.size(); ++d)
-    summands.push_back({prediction.derivatives[d], cases_.derivative_points(static_cast<std::size_t>(d))});
-
-  Field field = cases_.field_of(sum_of(summands), geometry_.at(parameters));
-  const double largest = largest_displacement(
-      field, sample_places(field.parametrization().geometry(), node_spacing(cases_.cases().front())));
-  const double error = largest > 0 ? prediction.error / largest : 0;
-  field.parameters = parameters;
+void StudyInterpolator::tell(Field& field, const Recipe& recipe, double largest) const {
+  const double error = largest > 0 ? recipe.prediction.error / largest : 0;
+  field.parameters = recipe.parameters;
   field.interpolation = {regression().covariance().name, static_cast<double>(cases_.size()),
-                         std::hypot(error, fit_error(prediction, largest)), error,
-                         model_->outside(parameters)};
+                         std::hypot(error, fit_error(recipe.prediction, largest)), error,
+                         model_->outside(recipe.parameters)};
   const double none = std::nan("");
   field.report = {none, none, none, none, none, none, none, none, none, none, none, none, none, none, none};
   field.report.node_error = field.report.spline_error = field.interpolation->estimated_error;
   field.report.largest_displacement = largest;
+}
+
+Field StudyInterpolator::at(const CaseParameters& values) const {
+  const Recipe recipe = this->recipe(values);
+  const auto& [weights, derivatives, error] = recipe.prediction;
+  std::vector<Summand> summands;
+  summands.reserve(static_cast<std::size_t>(weights.size() + derivatives.size()));
+  for (int i = 0; i < cases_.size(); ++i) summands.push_back({weights[i], cases_.control_points(i)});
+  for (Eigen::Index d = 0; d < derivatives.size(); ++d)
+    summands.push_back({derivatives[d], cases_.derivative_points(static_cast<std::size_t>(d))});
+
+  Field field = cases_.field_of(sum_of(summands), recipe.geometry);
+  tell(field, recipe,
+       largest_displacement(
+           field, sample_places(field.parametrization().geometry(), node_spacing(cases_.cases().front()))));
   return field;
 }
 

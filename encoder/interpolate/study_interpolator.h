@@ -44,6 +44,17 @@ class StudyInterpolator {
   /// Field::interpolation.
   Field at(const CaseParameters& values) const;
 
+  /// What at() makes a field of.
+  struct Recipe {
+    RecordedParameters parameters;
+    DisplacementModel::Prediction prediction;  ///< weights of the cases, and the error in mm
+    FieldGeometry geometry;
+  };
+  /// Throws as at() does.
+  Recipe recipe(const CaseParameters& values) const;
+  /// Sets parameters, report and interpolation of a field that was made by a recipe.
+  void tell(Field& field, const Recipe& recipe, double largest_displacement) const;
+
  private:
   RecordedParameters complete(const CaseParameters& values) const;
   /// Of the sum of the cases' fields, from their own errors, over its largest displacement.

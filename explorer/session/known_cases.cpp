@@ -74,6 +74,12 @@ int KnownCases::nearest(const std::map<std::string, double>& parameters) const {
   return nearest;
 }
 
+std::shared_ptr<const FamilyFields> KnownCases::family() {
+  if (!family_ && Family::describes(study_.varying()))
+    family_ = std::make_shared<const FamilyFields>(std::make_shared<const Family>(study_.path()));
+  return family_;
+}
+
 std::vector<std::string> KnownCases::notices() const {
   std::vector<std::string> notices;
   if (!study_.older().empty())

@@ -13,6 +13,7 @@
 #include "explorer/study/find.h"
 #include "explorer/study/raw_case.h"
 #include "explorer/study/study.h"
+#include "explorer/wound/family_fields.h"
 
 namespace cleft {
 
@@ -30,6 +31,9 @@ class KnownCases {
   const std::optional<Finding>& finding(const std::string& condition, int i);
   /// The simulation of case i; the last few are kept. Throws as RawCase does.
   std::shared_ptr<const RawCase> raw(int i);
+  /// The fields for the shape of skin and cut, where the study is a family; else null. Reads all cases the
+  /// first time.
+  std::shared_ptr<const FamilyFields> family();
 
   /// The parameters in which the cases differ, then the figures.
   std::vector<std::string> column_names() const;
@@ -49,6 +53,7 @@ class KnownCases {
   std::map<int, CaseFigures> figures_;
   std::map<std::string, std::map<int, std::optional<Finding>>> findings_;  // by condition
   std::map<int, std::shared_ptr<const RawCase>> raws_;
+  std::shared_ptr<const FamilyFields> family_;
 };
 
 }  // namespace cleft

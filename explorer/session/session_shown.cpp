@@ -89,6 +89,7 @@ std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {
 
 std::optional<CutFields> Session::cut_fields(int i) {
   if (!study()) return std::nullopt;
+  if (const auto family = opened_.cases->family()) return CutFields(family, state().tension);
   if (!state().tension) return CutFields(field_of(i));
   return CutFields(std::make_shared<const PrestressFields>(*study(), i), state().tension);
 }

@@ -8,7 +8,7 @@ namespace cleft {
 Contractor::Contractor(VaryingField field, double scale)
     : field_(std::move(field)),
       scale_(scale),
-      times_(replay_times(field_.fields(), field_.contraction_tolerance())) {}
+      times_(replay_times(field_.typical(), field_.contraction_tolerance())) {}
 
 void Contractor::sort(std::vector<ActiveVertex>& active) {
   std::sort(active.begin(), active.end(), [](const ActiveVertex& a, const ActiveVertex& b) {

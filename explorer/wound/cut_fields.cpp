@@ -17,6 +17,13 @@ Wound CutFields::wound(const Incision& cut, double scale, const std::optional<Pa
   if (one_ && own)
     throw InputError(std::string("the path has prestresses along it: they need ") + three_cases);
   if (one_) return {cut, *one_, scale};
+  if (family_) {
+    IncisionVolume volume(cut, family_->shape(), scale);
+    const SkinTension tension = tension_.value_or(default_tension(cut.path()));
+    VaryingField field =
+        family_->along(cut, scale, own ? *own : prestress_along(volume, cut.path().length(), tension));
+    return {cut, std::move(field), std::move(volume)};
+  }
   if (own) return {cut, three_->along(*own), scale};
   if (!tension_)
     throw InputError(
@@ -34,16 +41,18 @@ Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const
 
 CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,
                           const std::vector<double>& prestresses) {
-  if (format_of(file) != "cleft-study") {
-    if (!direction.empty())
-      throw InputError(std::string("--tension needs ") + three_cases + "; " + file + " is one case");
-    return CutFields(std::make_shared<const Field>(read_field(file)));
-  }
   std::optional<SkinTension> tension;
   if (!direction.empty())
     tension = SkinTension{{direction[0], direction[1], direction[2]},
                           std::max(prestresses[0], prestresses[1]),
                           std::min(prestresses[0], prestresses[1])};
+  if (format_of(file) != "cleft-study") {
+    if (!direction.empty())
+      throw InputError(std::string("--tension needs ") + three_cases + "; " + file + " is one case");
+    return CutFields(std::make_shared<const Field>(read_field(file)));
+  }
+  if (Family::describes(PublishedStudy(file).varying()))
+    return {std::make_shared<const FamilyFields>(std::make_shared<const Family>(file)), tension};
   return {std::make_shared<const PrestressFields>(file), tension};
 }
 

@@ -1,10 +1,12 @@
-// The fields that open the cuts in a skin: one case's field for all directions of a cut, or fields of three
-// prestresses, superposed as the skin's tension turns against each path.
+// The fields that open the cuts in a skin: one case's field for all directions of a cut; fields of three
+// prestresses, superposed as the skin's tension turns against each path; or a family, whose fields follow the
+// shape of the skin and the blade too.
 #pragma once
 
 #include <memory>
 #include <optional>
 
+#include "explorer/wound/family_fields.h"
 #include "explorer/wound/prestress_fields.h"
 #include "explorer/wound/wound.h"
 
@@ -16,9 +18,15 @@ class CutFields {
   /// Without `tension`, each path must have its own prestresses.
   CutFields(std::shared_ptr<const PrestressFields> three, const std::optional<SkinTension>& tension)
       : three_(std::move(three)), tension_(tension) {}
+  /// Without `tension` that of the default case, which turns with each path as a whole (default_tension).
+  CutFields(std::shared_ptr<const FamilyFields> family, const std::optional<SkinTension>& tension)
+      : family_(std::move(family)), tension_(tension) {}
 
-  const Field& shape() const { return one_ ? *one_ : three_->shape(); }
+  const Field& shape() const { return one_ ? *one_ : three_ ? three_->shape() : family_->shape(); }
+  /// Whether the fields turn with the tension.
   bool turning() const { return !one_; }
+  /// Whether they follow the shape of the skin and the blade.
+  bool following_shape() const { return family_ != nullptr; }
 
   /// The wound of a cut whose surroundings are known; neither the cut nor this must end before it. `own`:
   /// prestresses along its path that override the tension. Throws InputError if a tension is given for one
@@ -28,6 +36,7 @@ class CutFields {
  private:
   std::shared_ptr<const Field> one_;
   std::shared_ptr<const PrestressFields> three_;
+  std::shared_ptr<const FamilyFields> family_;
   std::optional<SkinTension> tension_;
 };
 
@@ -35,9 +44,9 @@ class CutFields {
 Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,
                        double scale);
 
-/// The fields of a field file, or of a study.dffd of three cases with different prestress. `direction` (three
-/// numbers) and `prestresses` (two, MPa, in either order) are the tension, if they are not empty. Throws
-/// InputError if a tension is given for one case's field.
+/// The fields of a field file, of a study.dffd of three cases with different prestress, or of a family.
+/// `direction` (three numbers) and `prestresses` (two, MPa, in either order) are the tension, if they are not
+/// empty. Throws InputError if a tension is given for one case's field.
 CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,
                           const std::vector<double>& prestresses);
 

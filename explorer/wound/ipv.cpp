@@ -49,6 +49,7 @@ IncisionVolume::IncisionVolume(const Incision& incision, const VaryingField& fie
       field_(field.shape()),
       scale_(scale),
       margin_(margin_of(field_)),
+      follows_shape_(field.follows_shape()),
       room_(incision, field, scale) {
   labels_ = incision.surroundings().labels();
   std::vector<int> later(incision.mesh().vertices().size());
@@ -69,7 +70,10 @@ void IncisionVolume::follow_path() {
   room_.follow_path(incision_);
 }
 
-void IncisionVolume::opened_by(const VaryingField& field) { room_ = WoundRoom(incision_, field, scale_); }
+void IncisionVolume::opened_by(const VaryingField& field) {
+  follows_shape_ = field.follows_shape();
+  room_ = WoundRoom(incision_, field, scale_);
+}
 
 double IncisionVolume::part_held_back(double s, Side side) const {
   const PathFrame frame = incision_.path().at(s);
@@ -231,7 +235,7 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
                                     : 0;
   if (weight <= 0) return std::nullopt;
   const PathFrame frame = skin_frame(at.s);
-  const double lift = lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));
+  const double lift = follows_shape_ ? 0 : lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));
   return ActiveVertex{
       vertex,        {u_in, v_in, at.w}, at.side,           frame.along, frame.across + lift * frame.outward,
       frame.outward, at.s * scale_,      place.time_offset, weight,      at.on_cut};

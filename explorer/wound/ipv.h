@@ -96,6 +96,7 @@ class IncisionVolume {
   const Incision& incision_;
   const Field& field_;
   double scale_, margin_;
+  bool follows_shape_;                       // displacements contain the lift of a tilted blade
   std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
   WoundRoom room_;
   std::vector<Vec3> along_;      // T at even distances along the path, means

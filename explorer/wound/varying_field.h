@@ -1,8 +1,10 @@
-// The field of a cut in skin whose prestress varies along the cut: fields of the same canonical cut,
-// superposed with weights that vary along the path.
+// The field of a cut that changes along its path: in skin whose prestress varies, fields of the same
+// canonical cut, superposed with weights that vary along the path; in skin whose shape varies, the fields of
+// a family for the shapes at stations of the path, linear between them.
 #pragma once
 
-#include <array>
+#include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,13 @@ namespace cleft {
 /// A member of field.parameters. Throws InputError where it is not recorded.
 double parameter_of(const Field& field, const double& member);
 
+/// The field for the shape of the skin and the cut at a place of the path.
+struct StationField {
+  double s;  ///< mm along the path
+  std::shared_ptr<const Field> field;
+  Prestress prestress;  ///< MPa, in the path's frame there
+};
+
 class VaryingField {
  public:
   /// One field along the whole path. Fields must outlive this object and its copies.
@@ -24,9 +33,26 @@ class VaryingField {
   VaryingField(std::vector<const Field*> fields, std::vector<double> stations,
                std::vector<std::vector<double>> weights);
 
+  /// Of a family: stations, at least one, in the order of s. Places are those of `shape`, whose canonical cut
+  /// the fields have but for its depth. Throws InputError if they have another cut or patch.
+  VaryingField(std::shared_ptr<const Field> shape, std::vector<StationField> stations);
+  /// Of a family: a further station beyond the last one, of this object and its copies. Beyond the last
+  /// station the field is as there.
+  void extend(StationField station);
+  /// mm along the path: where the last station is; infinite of fields that are no family's.
+  double known_to() const {
+    return along_ ? along_->stations.back() : std::numeric_limits<double>::infinity();
+  }
+
   /// The canonical cut, the patch and the parametrisation, which all fields have in common.
-  const Field& shape() const { return *fields_.front(); }
-  std::span<const Field* const> fields() const { return fields_; }
+  const Field& shape() const { return along_ ? *along_->shape : *fields_.front(); }
+  /// Fields that change over time as all others do: of a family one, which stands for the others.
+  std::vector<const Field*> typical() const {
+    return along_ ? std::vector{along_->fields.front().get()} : fields_;
+  }
+  /// Whether the fields are for the local shape of the skin and the blade: its tilt is in their
+  /// displacements.
+  bool follows_shape() const { return along_ != nullptr; }
   double contraction_tolerance() const;
 
   /// Field::contract at s mm of the path. Memory of `out` is reused from call to call.
@@ -40,11 +66,26 @@ class VaryingField {
   double prestress(double Prestress::*component, double s) const;
 
  private:
-  std::vector<double> weights_at(double s) const;
+  /// A field and its weight at a place.
+  struct Part {
+    const Field* field;
+    double weight;
+  };
+  /// The stations of a family's fields.
+  struct Along {
+    std::shared_ptr<const Field> shape;
+    std::vector<double> stations;
+    std::vector<std::shared_ptr<const Field>> fields;
+    std::vector<Prestress> prestress;
+    double contraction_tolerance = 0;
+  };
+  void parts_at(double s, std::vector<Part>& parts) const;
+  Vec3 place_in(const Field& field, const Vec3& uvw) const;
 
-  std::vector<const Field*> fields_;
+  std::vector<const Field*> fields_;  // all but a family's
   std::vector<double> stations_;
-  std::vector<std::vector<double>> weights_;  // none: one field, as it is
+  std::vector<std::vector<double>> weights_;  // of all fields at each station; none: one field, as it is
+  std::shared_ptr<Along> along_;              // shared by all copies
 };
 
 }  // namespace cleft

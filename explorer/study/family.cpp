@@ -1,0 +1,86 @@
+#include "explorer/study/family.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "encoder/interpolate/case_modes.h"
+#include "params/parameters/table.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr std::array shape_names = {"cut.curvature",    "cut.tilt",         "cut.depth",
+                                    "skin.curvature_u", "skin.curvature_v", "skin.curvature_uv",
+                                    "patch.height",     "patch.slope"};
+constexpr std::array prestress_names = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
+/// What modes leave of each case, root mean square: a tenth of a fit's error.
+constexpr double error_of_modes = 5e-4;
+
+template <class List>
+bool is_in(const List& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+struct Family::Parts {
+  explicit Parts(const std::string& study) : between(study), modes(between, error_of_modes) {}
+  StudyInterpolator between;
+  CaseModes modes;
+};
+
+bool Family::describes(const std::vector<std::string>& varying) {
+  bool any_shape = false;
+  std::size_t components = 0;
+  for (const std::string& name : varying)
+    if (is_in(shape_names, name))
+      any_shape = true;
+    else if (is_in(prestress_names, name))
+      ++components;
+    else
+      return false;
+  return any_shape && components == prestress_names.size();
+}
+
+Family::Family(const std::string& study) : parts_(std::make_unique<Parts>(study)) {
+  std::vector<std::string> varying;
+  for (const auto& [name, least, greatest] : parts_->between.varying()) {
+    varying.push_back(name);
+    if (is_in(shape_names, name)) shapes_[name] = {least, greatest};
+  }
+  if (!describes(varying)) {
+    std::string list;
+    for (const std::string& name : varying) list += (list.empty() ? "" : ", ") + name;
+    throw InputError(
+        study + ": its cases differ in " + list +
+        "; those of a family differ in the shape of the skin or the cut (cut.curvature, ...) and "
+        "in unit tensions (sampling.unit_tensions), but in nothing else");
+  }
+  std::map<std::string, double> middle;
+  for (const auto& [name, range] : shapes_)
+    middle[name] = range.least < 0 && range.greatest > 0 ? 0 : (range.least + range.greatest) / 2;
+  const Prestress& own = parts_->between.cases().cases().front().parameters->skin.prestress;
+  middle_ = at(middle, own).field;
+}
+
+Family::~Family() = default;
+
+Family::Member Family::at(std::map<std::string, double> shapes, const Prestress& prestress) const {
+  double beyond = 0;
+  CaseParameters values;
+  for (const auto& [name, range] : shapes_) {
+    const double wanted = shapes.at(name), value = std::clamp(wanted, range.least, range.greatest);
+    beyond = std::max(beyond, std::abs(wanted - value) / ((range.greatest - range.least) / 2));
+    values[name] = value;
+  }
+  const std::array components = {prestress.uu, prestress.vv, prestress.uv};
+  const auto recorded = parts_->between.cases().cases().front().parameters.numbers();
+  for (std::size_t k = 0; k < components.size(); ++k)
+    if (recorded.contains(prestress_names[k])) values[prestress_names[k]] = components[k];
+  return {std::make_shared<const Field>(parts_->modes.at(values)), beyond};
+}
+
+}  // namespace cleft

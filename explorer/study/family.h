@@ -1,0 +1,53 @@
+// A family: a study whose cases differ in the shape of the skin and of the cut in it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "encoder/field/field.h"
+
+namespace cleft {
+
+class Family {
+ public:
+  /// A parameter that differs among the cases, and its range there.
+  struct Range {
+    double least, greatest;
+  };
+
+  /// Reads a study folder or a study.dffd: some seconds for 100 cases. Throws InputError if it is none by
+  /// describes(), with the reason, or if the study cannot be interpolated.
+  explicit Family(const std::string& study);
+  ~Family();
+  Family(const Family&) = delete;
+  Family& operator=(const Family&) = delete;
+
+  /// Whether cases that differ in these parameters are a family: in shapes of the skin and the cut that
+  /// change along a path (cut.curvature, cut.tilt, cut.depth, skin.curvature_u, _v and _uv), and in all three
+  /// components of the skin's prestress, but in nothing else.
+  static bool describes(const std::vector<std::string>& varying);
+
+  /// The shapes that differ among the cases, by name.
+  const std::map<std::string, Range>& shapes() const { return shapes_; }
+  /// The parameters of the case in the middle: 0 or the mean of the range.
+  const Field& middle() const { return *middle_; }
+  std::shared_ptr<const Field> shared_middle() const { return middle_; }
+
+  /// The field for values of all shapes() and the prestress, MPa, in milliseconds. Values beyond the cases'
+  /// are taken as the nearest of theirs; `outside` tells how far beyond they are, over half the range.
+  struct Member {
+    std::shared_ptr<const Field> field;
+    double outside;
+  };
+  Member at(std::map<std::string, double> shapes, const Prestress& prestress) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+  std::map<std::string, Range> shapes_;
+  std::shared_ptr<const Field> middle_;
+};
+
+}  // namespace cleft

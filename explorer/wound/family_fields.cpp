@@ -1,0 +1,120 @@
+#include "explorer/wound/family_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "explorer/wound/room.h"
+
+namespace cleft {
+
+namespace {
+
+/// In depths of the cut: shapes are smoothed at the scale of what a cut moves.
+constexpr double smoothing_in_depths = 2;
+/// Of the family's ranges: shapes at stations differ from straight lines between others by no more.
+constexpr double straight_enough = 0.02;
+/// Of the path's length: its start and its end are apart by more, or it is a loop.
+constexpr double least_chord = 1e-3;
+/// Of a path's turn from the middle of the canonical cut to a place.
+constexpr double most_turned = std::numbers::pi / 2;
+
+/// A symmetric tensor in the plane, (uu, vv, uv), whose axes are turned back by an angle: a direction at phi
+/// is then at phi + angle.
+std::array<double, 3> turned(const std::array<double, 3>& tensor, double angle) {
+  const double mean = (tensor[0] + tensor[1]) / 2, half = (tensor[0] - tensor[1]) / 2;
+  const double c = std::cos(2 * angle), s = std::sin(2 * angle);
+  return {mean + half * c - tensor[2] * s, mean - half * c + tensor[2] * s, half * s + tensor[2] * c};
+}
+
+/// The shape and the prestress of the case that stands for a place.
+struct CaseShape {
+  std::map<std::string, double> shapes;
+  Prestress prestress;
+};
+
+Prestress prestress_at(const PathPrestress& along, double s) {
+  const auto next = static_cast<std::size_t>(
+      std::upper_bound(along.stations.begin(), along.stations.end(), s) - along.stations.begin());
+  const std::size_t a = next == 0 ? 0 : next - 1, b = std::min(next, along.stations.size() - 1);
+  const double part = a == b ? 0 : (s - along.stations[a]) / (along.stations[b] - along.stations[a]);
+  const Prestress &x = along.values[a], &y = along.values[b];
+  return {std::lerp(x.uu, y.uu, part), std::lerp(x.vv, y.vv, part), std::lerp(x.uv, y.uv, part)};
+}
+
+CaseShape case_of(const LocalShape& local, const Prestress& prestress, double u_from_middle) {
+  const double angle = std::clamp(local.curvature * u_from_middle, -most_turned, most_turned);
+  const auto skin = turned({local.skin_u, local.skin_v, local.skin_uv}, angle);
+  const auto tension = turned({prestress.uu, prestress.vv, prestress.uv}, angle);
+  return {{{"cut.curvature", local.curvature},
+           {"cut.tilt", local.tilt},
+           {"cut.depth", local.depth},
+           {"skin.curvature_u", skin[0]},
+           {"skin.curvature_v", skin[1]},
+           {"skin.curvature_uv", skin[2]}},
+          {tension[0], tension[1], tension[2]}};
+}
+
+/// Numbers whose changes by 1 matter alike.
+std::vector<double> normalised(const CaseShape& one, const Family& family, double prestress) {
+  std::vector<double> list;
+  for (const auto& [name, range] : family.shapes())
+    list.push_back(std::clamp(one.shapes.at(name), range.least, range.greatest) /
+                   (range.greatest - range.least));
+  for (const double component : {one.prestress.uu, one.prestress.vv, one.prestress.uv})
+    list.push_back(component / prestress);
+  return list;
+}
+
+/// Places of a list, the first and the last among them, between which the others are on straight lines.
+std::vector<std::size_t> bends_of(const std::vector<double>& s, const std::vector<std::vector<double>>& x) {
+  std::vector<std::size_t> kept{0};
+  const auto straight = [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = a + 1; i < b; ++i)
+      for (std::size_t k = 0; k < x[i].size(); ++k) {
+        const double line = std::lerp(x[a][k], x[b][k], (s[i] - s[a]) / (s[b] - s[a]));
+        if (std::abs(x[i][k] - line) > straight_enough) return false;
+      }
+    return true;
+  };
+  for (std::size_t i = 1; i < s.size(); ++i)
+    if (i + 1 == s.size() || !straight(kept.back(), i + 1)) kept.push_back(i);
+  return kept;
+}
+
+}  // namespace
+
+SkinTension default_tension(const ScalpelPath& path) {
+  const Prestress own = Parameters{}.skin.prestress;
+  const Vec3 chord = path.at(path.length()).position - path.at(0).position;
+  return {norm(chord) > least_chord * path.length() ? chord : path.at(0).along, own.uu, own.vv};
+}
+
+VaryingField FamilyFields::along(const Incision& incision, double scale,
+                                 const PathPrestress& prestress) const {
+  const CanonicalCut& cut = shape().cut();
+  const double length = incision.path().length() * scale;
+  const PathShape shapes = shape_along(incision, scale, smoothing_in_depths * cut.depth);
+  double largest = 0;
+  for (const Prestress& one : prestress.values)
+    largest = std::max({largest, std::abs(one.uu), std::abs(one.vv), std::abs(one.uv)});
+  std::vector<CaseShape> cases;
+  std::vector<std::vector<double>> numbers;
+  for (std::size_t i = 0; i < shapes.stations.size(); ++i) {
+    const double s = shapes.stations[i];
+    const double u = canonical_place(s, length, cut).u - cut.start - cut.length / 2;
+    cases.push_back(case_of(shapes.values[i], prestress_at(prestress, s), u));
+    numbers.push_back(normalised(cases.back(), *family_, largest > 0 ? largest : 1));
+  }
+  std::vector<StationField> stations;
+  for (const std::size_t i : bends_of(shapes.stations, numbers)) {
+    const double s = shapes.stations[i];
+    stations.push_back(
+        {s, family_->at(cases[i].shapes, cases[i].prestress).field, prestress_at(prestress, s)});
+  }
+  return {family_->shared_middle(), std::move(stations)};
+}
+
+}  // namespace cleft

@@ -1,0 +1,35 @@
+// The field of a cut from a family, for the shape of the skin and the blade at each place of the path.
+#pragma once
+
+#include <memory>
+
+#include "explorer/study/family.h"
+#include "explorer/wound/path_shape.h"
+#include "explorer/wound/prestress_fields.h"
+#include "explorer/wound/varying_field.h"
+
+namespace cleft {
+
+/// The skin's tension where none is given: that of the default case, with its u along the line from the
+/// path's start to its end (of a loop: along its start), as a simulation of the body has it.
+SkinTension default_tension(const ScalpelPath& path);
+
+class FamilyFields {
+ public:
+  explicit FamilyFields(std::shared_ptr<const Family> family) : family_(std::move(family)) {}
+
+  const Field& shape() const { return family_->middle(); }
+  const Family& family() const { return *family_; }
+
+  /// The fields at stations of the path, between which its shape changes linearly but for a fiftieth of the
+  /// family's ranges. A case of the family has one curvature all along its cut, in skin of one tension and
+  /// one curvature in space. At u of its cut the path has turned against both by its curvature times the way
+  /// from the middle: so what is found at a place of the path is turned by as much. `prestress` is in the
+  /// path's own frame.
+  VaryingField along(const Incision& incision, double scale, const PathPrestress& prestress) const;
+
+ private:
+  std::shared_ptr<const Family> family_;
+};
+
+}  // namespace cleft
