@@ -35,7 +35,8 @@ constexpr int tilt_places = 4;
 constexpr double farthest = 8;
 
 double above_0(double x, const std::string& what) {
-  if (!(x > 0)) throw InputError("the " + what + " is " + shortest(x) + "; it must be above 0");
+  if (!(x > 0 && std::isfinite(x)))
+    throw InputError("the " + what + " is " + shortest(x) + "; it must be above 0, and finite");
   return x;
 }
 
@@ -67,6 +68,7 @@ class Shapes {
   double end() const { return end_; }
 
   LocalShape at(double s) {
+    s = std::clamp(s, 0., end_);
     LocalShape shape;
     const Vec3 outward = normal(s);
     Vec3 along = direction(s, outward);
@@ -145,13 +147,11 @@ class Shapes {
     double angle = 0;
     Unrolled at{0, 0, s};
     Vec3 from = place(s);
-    const double ahead = !places.empty() && places.front() < s ? -1 : 1;
-    along = ahead * along;
     for (const double to : places) {
       const Vec3 next = place(to), way = next - from, in_skin = way - dot(way, outward) * outward;
       const double length = norm(way);
       if (norm(in_skin) > 0) angle += std::atan2(dot(cross(along, in_skin), outward), dot(along, in_skin));
-      at = {at.x + ahead * length * std::cos(angle), at.y + ahead * length * std::sin(angle), to};
+      at = {at.x + length * std::cos(angle), at.y + length * std::sin(angle), to};
       unrolled.push_back(at);
       if (!(length > 0)) continue;
       outward = normal(to), from = next;

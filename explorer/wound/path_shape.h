@@ -29,12 +29,12 @@ struct PathShape {
   LocalShape at(double s) const;
 };
 
-/// `scale` is mm per mesh unit, `s` mm along the path, within it. `smoothing`, mm, above 0, is the scale
+/// `scale` is mm per mesh unit, `s` mm along the path, clamped to it. `smoothing`, mm, above 0, is the scale
 /// below which shape is noise: points of the path, and vertices of the skin, within this distance are fitted,
 /// with weights that fall to 0 there; next to the path's ends points as far as twice the distance on the one
 /// side. Where there are too few, the distance grows. Of a path much shorter than `smoothing` no curvature is
 /// known, it is nearly 0; without enough vertices around, up to four times the distance, the skin's is 0.
-/// Throws InputError if the smoothing or the scale is not above 0.
+/// Throws InputError if the smoothing or the scale is not above 0, or infinite.
 LocalShape local_shape(const Incision& incision, double scale, double s, double smoothing);
 
 /// The same at even distances of a quarter of the smoothing or less, from 0 to the end of the path; of a path

@@ -89,6 +89,7 @@ std::vector<Vec3> SkinFit::vertices(const Vec3& center, const Vec3& outward, int
   }
   std::sort(found.begin(), found.end());  // sums do not depend on the way over the triangles
   std::vector<Vec3> places;
+  places.reserve(found.size());
   for (const int v : found) places.push_back(scale_ * mesh_.vertex(v).original);
   return places;
 }

@@ -75,7 +75,7 @@ Worst errors(const Incision& cut, double smoothing, const std::function<LocalSha
 
 /// For the report: the largest errors.
 void record(const std::string& what, const Worst& w) {
-  std::printf("  %-52s curvature %.5f, skin %.5f %.5f %.5f 1/mm, tilt %.2f degrees\n", what.c_str(),
+  std::printf("  %-42s curvature %.1e, skin %.1e %.1e %.1e 1/mm, tilt %.2f degrees\n", what.c_str(),
               w.curvature, w.u, w.v, w.uv, w.tilt);
 }
 
@@ -116,17 +116,28 @@ TEST(PathShape, ACurvatureThatChangesIsFollowed) {
   }
 }
 
+/// Neither of the path nor of the skin, whose tensor is that along the way of the hand.
 TEST(PathShape, ATremorIsNoCurvature) {
-  const SurfaceMesh plate = skin(45, 3, 0, flat);
-  for (const double smoothing : {5., 8., 12.})
+  constexpr double r = 50;
+  const SurfaceMesh tube = skin(35, 3, 0.1, [](double, double y) { return std::sqrt(r * r - y * y) - r; });
+  for (const double smoothing : {5., 8., 12.}) {
+    Worst all;
     for (const double phase : {0., 0.7, 1.6, 2.5}) {
       std::vector<Vec3> points;
-      for (int i = 0; i <= 160; ++i)
-        points.push_back({-20 + i * 0.25, 0.3 * std::sin(2 * pi * i * 0.25 / 3 + phase), 0});
-      const Worst worst = errors(incision(plate, points), smoothing, [](double) { return LocalShape{}; });
-      record("tremor, smoothing " + std::to_string(int(smoothing)), worst);
-      EXPECT_LT(worst.curvature, smoothing < 8 ? 0.08 : 0.03);
+      for (int i = 0; i <= 160; ++i) {
+        const double y = 0.3 * std::sin(2 * pi * i * 0.25 / 3 + phase);
+        points.push_back({-20 + i * 0.25, y, std::sqrt(r * r - y * y) - r});
+      }
+      const Incision cut = incision(tube, points, 3, [](const Vec3& p) { return Vec3{0, p.y, p.z + r}; });
+      const Worst worst = errors(cut, smoothing, [](double) { return LocalShape{.skin_v = 1 / r}; });
+      all = {std::max(all.curvature, worst.curvature), std::max(all.u, worst.u), std::max(all.v, worst.v),
+             std::max(all.uv, worst.uv), std::max(all.tilt, worst.tilt)};
     }
+    record("tremor, smoothing " + std::to_string(int(smoothing)), all);
+    EXPECT_LT(all.curvature, smoothing < 8 ? 0.08 : 0.03);
+    EXPECT_LT(std::max(all.u, all.v), 0.05 / r);
+    EXPECT_LT(all.uv, (smoothing < 8 ? 0.25 : 0.1) / r);
+  }
 }
 
 /// On a sphere and a cylinder, of irregular triangles too.
@@ -289,6 +300,72 @@ TEST(PathShape, IsTheSameAfterTheCut) {
   }
 }
 
+/// An earlier wound, which crosses the path, is closed at rest.
+TEST(PathShape, IsTheSameOverAnEarlierWound) {
+  constexpr double r = 30;
+  const SurfaceMesh tube = skin(26, 3, 0.25, [](double x, double) { return std::sqrt(r * r - x * x) - r; });
+  const auto outward = [](const Vec3& p) { return Vec3{p.x, 0, p.z + r}; };
+  std::vector<Vec3> points, other;
+  for (int i = -10; i <= 10; ++i) points.push_back({0, 1.5 * i, 0});
+  for (int i = -6; i <= 6; ++i) other.push_back({1.0 * i, 1, std::sqrt(r * r - i * i) - r});
+  CutMesh mesh(tube);
+  Incision first(mesh, path_through(other, outward, 3), {});
+  first.advance_to(first.path().length());
+  const Worst worst = errors(Incision(mesh, path_through(points, outward, 3)), 6,
+                             [](double) { return LocalShape{.skin_v = 1 / r}; });
+  record("over an earlier wound, cylinder of 30", worst);
+  EXPECT_LT(std::max({worst.u, worst.v, worst.uv}), 0.001 / r);
+  EXPECT_LT(worst.curvature, 1e-6);
+}
+
+/// Where points are few the path is what is interpolated between them.
+TEST(PathShape, OfSparsePoints) {
+  const SurfaceMesh plate = skin(45, 3, 0, flat);
+  for (const LocalShape& at : shape_along(incision(plate, {{-30, 3, 0}, {30, 3, 0}}), 1, 5).values)
+    EXPECT_NEAR(at.curvature, 0, 1e-12);
+  const Incision bent = incision(plate, {{-30, 0, 0}, {0, 6, 0}, {30, 0, 0}});  // a natural spline
+  // y = 6 - 3 (x / 30)^2 (3 - |x| / 30), whose curvature at the middle is -18 / 900.
+  EXPECT_NEAR(shape_along(bent, 1, 5).at(bent.path().length() / 2).curvature, -18. / 900, 0.15 * 18. / 900);
+  EXPECT_NEAR(shape_along(bent, 1, 5).at(0).curvature, 0, 0.2 * 18. / 900);
+}
+
+/// What lies across the path changes its sign; the skin's tensor does not.
+TEST(PathShape, OfTheWayBack) {
+  const SurfaceMesh tube = skin(26, 2, 0.2, [](double x, double) { return std::sqrt(900 - x * x) - 30; });
+  const auto outward = [](const Vec3& p) { return Vec3{p.x, -5, p.z + 30}; };
+  std::vector<Vec3> points;
+  for (int i = -10; i <= 10; ++i) {
+    const double x = i, y = 0.8 * i + 0.02 * i * i;
+    points.push_back({x, y, std::sqrt(900 - x * x) - 30});
+  }
+  const PathShape there = shape_along(incision(tube, points, 3, outward), 1, 6);
+  std::reverse(points.begin(), points.end());
+  const PathShape back = shape_along(incision(tube, points, 3, outward), 1, 6);
+  for (double s = 0; s <= there.stations.back(); s += 1) {
+    const LocalShape a = there.at(s), b = back.at(there.stations.back() - s);
+    EXPECT_GT(a.curvature, 0.008);
+    EXPECT_NEAR(a.curvature, -b.curvature, 2e-4);
+    EXPECT_GT(a.tilt, 3);
+    EXPECT_NEAR(a.tilt, -b.tilt, 0.1);
+    EXPECT_NEAR(a.skin_u, b.skin_u, 2e-4);
+    EXPECT_NEAR(a.skin_v, b.skin_v, 2e-4);
+    EXPECT_NEAR(a.skin_uv, b.skin_uv, 2e-4);
+  }
+}
+
+TEST(ScalpelPath, KnowsThePointsItWasMadeOf) {
+  ScalpelPath path = path_through({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, up, 1);
+  const auto places = [](const ScalpelPath& p) { return p.given(); };
+  ASSERT_EQ(places(path).size(), 3u);
+  EXPECT_NEAR(places(path)[1], 1, 1e-12);
+  EXPECT_EQ(places(path)[2], path.length());
+  EXPECT_NEAR(places(path.scaled(2))[1], 2, 1e-12);
+  const double next = path.extend(2, {{2.5, 0, 0}, {0, 0, 1}, 1}, 4);
+  ASSERT_EQ(places(path).size(), 4u);
+  EXPECT_EQ(places(path)[2], 2);
+  EXPECT_EQ(places(path)[3], next);
+}
+
 /// Two plates, one above the other, that are joined at one edge: the lower one is skin of its own.
 TEST(PathShape, TheFarSideOfAFoldDoesNotCount) {
   SurfaceMesh fold;
@@ -312,6 +389,11 @@ TEST(PathShape, TheFarSideOfAFoldDoesNotCount) {
   for (const LocalShape& at : shape_along(cut, 1, 4.5).values) {
     EXPECT_NEAR(at.skin_u, 0, 1e-12);
     EXPECT_NEAR(at.skin_v, 0, 1e-12);
+  }
+  for (const LocalShape& at : shape_along(cut, 1, 7).values) {  // as far as the bent edge: it bulges
+    EXPECT_NEAR(at.skin_u, 0, 1e-3);
+    EXPECT_GT(at.skin_v, 0);
+    EXPECT_LT(at.skin_v, 0.01);
   }
 }
 
