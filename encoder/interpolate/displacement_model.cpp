@@ -18,13 +18,19 @@ namespace {
 constexpr double share_below_estimate = 0.95;
 constexpr Eigen::Index few_points = 2000;
 
-/// Exponents of the power law in the features that fits the columns' norms best.
+/// Exponents of the power law in the features that fits the columns' norms best. A load that hardly moves
+/// anything has none.
 Eigen::VectorXd exponents_of(const Eigen::MatrixXd& places, const Eigen::VectorXd& norms) {
-  const Eigen::Index n = places.rows(), d = places.cols();
-  if (n < d + 1 || norms.minCoeff() <= 0) return Eigen::VectorXd::Zero(d);
+  const Eigen::Index d = places.cols();
+  std::vector<Eigen::Index> moved;
+  for (Eigen::Index i = 0; i < norms.size(); ++i)
+    if (norms[i] > least_size * std::sqrt(norms.squaredNorm() / static_cast<double>(norms.size())))
+      moved.push_back(i);
+  const auto n = static_cast<Eigen::Index>(moved.size());
+  if (n < d + 1) return Eigen::VectorXd::Zero(d);
   Eigen::MatrixXd design(n, d + 1);
-  design << Eigen::VectorXd::Ones(n), places;
-  return shortest_least_squares(design, Eigen::VectorXd(norms.array().log().matrix())).tail(d);
+  design << Eigen::VectorXd::Ones(n), places(moved, Eigen::all);
+  return shortest_least_squares(design, Eigen::VectorXd(norms(moved).array().log().matrix())).tail(d);
 }
 
 Eigen::MatrixXd few_of(const Eigen::MatrixXd& samples) {
@@ -142,11 +148,14 @@ void DisplacementModel::choose(const std::vector<int>& cases, const Eigen::Matri
   }
   for (KernelRegression& regression : methods) {
     const Eigen::MatrixXd residuals = normal.leftCols(regression.left_out().rows()) * regression.left_out();
-    Eigen::VectorXd errors(n);
+    Eigen::VectorXd errors(n), sizes(n);
+    for (Eigen::Index i = 0; i < n; ++i) sizes[i] = largest_point(normal.col(i));
+    const double least =
+        std::max(least_size * std::sqrt(sizes.squaredNorm() / static_cast<double>(n)), 1e-300);
     std::vector<double> ratios;
     for (Eigen::Index i = 0; i < n; ++i) {
       const double residual = largest_point(residuals.col(i));
-      errors[i] = residual / std::max(largest_point(normal.col(i)), 1e-300);
+      errors[i] = residual / std::max(sizes[i], least);
       ratios.push_back(residual / regression.left_out_deviation()[i]);
     }
     const double error = std::sqrt(errors.squaredNorm() / static_cast<double>(n));

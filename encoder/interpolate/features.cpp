@@ -52,6 +52,10 @@ bool is_prestress(const RecordedParameters& p, const void* member) {
                      [&](double Prestress::*component) { return &(sigma.*component) == member; });
 }
 
+bool is_prestress(const RecordedParameters& p, const std::string& name) {
+  return is_prestress(p, member_of(p, name));
+}
+
 std::vector<std::string> varying_parameters(const std::vector<RecordedParameters>& cases) {
   std::vector<std::string> names;
   for (const auto& [name, value] : cases.front().numbers())
@@ -175,7 +179,7 @@ Features::Slope Features::slope(const RecordedParameters& parameters, const std:
   constexpr double part = 1e-4;
   const double at_case = parameters.number(name).value();
   double unit = std::abs(at_case);
-  if (unit == 0 && is_prestress(parameters, member_of(parameters, name)))
+  if (unit == 0 && is_prestress(parameters, name))
     for (const auto other : prestress) unit = std::max(unit, std::abs(parameters->skin.prestress.*other));
   Slope slope;
   slope.step = part * (unit > 0 ? unit : 1);

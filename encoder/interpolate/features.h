@@ -74,6 +74,8 @@ class Features {
 
 /// Whether `member` is the address of a component of these parameters' prestress.
 bool is_prestress(const RecordedParameters& p, const void* member);
+/// Whether a parameter of this name is one.
+bool is_prestress(const RecordedParameters& p, const std::string& name);
 
 /// Names of the parameters in which cases differ, sorted.
 std::vector<std::string> varying_parameters(const std::vector<RecordedParameters>& cases);

@@ -70,8 +70,11 @@ GeometryModel::GeometryModel(const std::vector<RecordedParameters>& parameters,
   middle_ = 0.5 * (least + greatest), half_ = 0.5 * (greatest - least);
   for (Eigen::Index i = 0; i < n; ++i) places_.row(i) = place_of(parameters[i]).transpose();
 
-  Eigen::MatrixXd design(n, d + 1), measures(n, plain_measures + static_cast<Eigen::Index>(times_.size()));
-  design << Eigen::VectorXd::Ones(n), places_;
+  for (Eigen::Index k = 0; k < d; ++k)
+    if (!is_prestress(parameters.front(), varying_[static_cast<std::size_t>(k)])) measured_by_.push_back(k);
+  Eigen::MatrixXd design(n, std::ssize(measured_by_) + 1),
+      measures(n, plain_measures + static_cast<Eigen::Index>(times_.size()));
+  design << Eigen::VectorXd::Ones(n), places_(Eigen::all, measured_by_);
   for (Eigen::Index i = 0; i < n; ++i) measures.row(i) = measures_of(geometries[i], times_).transpose();
   linear_ = shortest_least_squares(design, measures);
   left_ = measures - design * linear_;
@@ -89,8 +92,8 @@ Eigen::VectorXd GeometryModel::place_of(const RecordedParameters& parameters) co
 
 FieldGeometry GeometryModel::at(const RecordedParameters& parameters) const {
   const Eigen::VectorXd place = place_of(parameters);
-  Eigen::VectorXd row(place.size() + 1);
-  row << 1, place;
+  Eigen::VectorXd row(std::ssize(measured_by_) + 1);
+  row << 1, place(measured_by_);
   const Eigen::ArrayXd squared = (places_.rowwise() - place.transpose()).rowwise().squaredNorm();
   const Eigen::VectorXd near = (squared + 1e-24).inverse().square();
   Eigen::VectorXd measures = linear_.transpose() * row + left_.transpose() * (near / near.sum());

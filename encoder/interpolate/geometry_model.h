@@ -10,9 +10,9 @@
 
 namespace cleft {
 
-/// Domain, start, length and depth of the cut, and the path of the tip as parts of duration and length. The
-/// measures of a body are linear in its parameters; the model is a linear fit, and its residual at the cases
-/// (rounding to the mesh) is interpolated by inverse distances (Shepard 1968).
+/// Domain, start, length and depth of the cut, and the path of the tip as parts of duration and length: of
+/// any prestress. The measures of a body are linear in its parameters; the model is a linear fit, and its
+/// residual at the cases (rounding to the mesh) is interpolated by inverse distances (Shepard 1968).
 class GeometryModel {
  public:
   GeometryModel(const std::vector<RecordedParameters>& parameters,
@@ -23,6 +23,7 @@ class GeometryModel {
   Eigen::VectorXd place_of(const RecordedParameters& parameters) const;
 
   std::vector<std::string> varying_;
+  std::vector<Eigen::Index> measured_by_;  // of these: all but prestresses
   Eigen::VectorXd middle_, half_;
   Eigen::MatrixXd places_;     // n x d, from -1 to 1
   std::vector<double> times_;  // of the tip's path, 0 to 1

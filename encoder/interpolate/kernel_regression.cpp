@@ -145,6 +145,8 @@ KernelRegression::KernelRegression(const TrainingCases& cases, Covariance covari
   const Eigen::MatrixXd inverse = factor_.solve(Eigen::MatrixXd::Identity(m, m));
   const auto blocks = blocks_of(cases);
   left_out_.resize(m, n), left_out_deviation_.resize(n);
+  const Eigen::VectorXd squares = cases.gram.diagonal().head(n);
+  const double least = std::max(squares.mean() * least_size * least_size, 1e-300);
   double sum = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& block = blocks[i];
@@ -160,7 +162,7 @@ KernelRegression::KernelRegression(const TrainingCases& cases, Covariance covari
       left_out_.col(i) = inverse(Eigen::all, block) * shares;
       left_out_deviation_[i] = std::sqrt(std::max(shares[0], 1e-300));
     }
-    const double whole = std::max(cases.gram(i, i), 1e-300);
+    const double whole = std::max(squares[i], least);
     sum += std::max(0., left_out_.col(i).dot(cases.gram * left_out_.col(i))) / whole;
   }
   left_out_error_ = std::sqrt(sum / static_cast<double>(n));

@@ -16,6 +16,10 @@
 
 namespace cleft {
 
+/// Of the root mean square of all cases' data: smaller ones are compared with this. A cut along the tension
+/// does not open, and what is left out of nothing tells nothing about a method.
+inline constexpr double least_size = 0.2;
+
 /// The n cases of a regression. Without gram there are no leave-one-out errors.
 struct TrainingCases {
   Eigen::MatrixXd features;  ///< n x d, from -1 to 1
@@ -59,7 +63,7 @@ class KernelRegression {
   const Eigen::MatrixXd& left_out() const { return left_out_; }
   /// Standard deviation of r_i.
   const Eigen::VectorXd& left_out_deviation() const { return left_out_deviation_; }
-  /// sqrt of the mean of |r_i|^2 / |y_i|^2.
+  /// sqrt of the mean of |r_i|^2 / |y_i|^2 (least_size).
   double left_out_error() const { return left_out_error_; }
 
   /// Weights of the cases, followed by the slopes, for the prediction at these features under this load.
