@@ -170,6 +170,7 @@ void ScalpelCutting::extend(ScalpelPath::Point next) {
   next.outward = normalized(next.outward + end.outward);
   // The field moves vertices from half its cut's length ahead of the blade on.
   const double beyond = (setup_.fields ? setup_.fields->shape().cut().length / 2 : far) / setup_.scale;
+  if (setup_.fields) wounds_.follow_shape(*setup_.fields);
   incision.extend(next, beyond);
   free_cuts_.back().push_back(next);
 }

@@ -19,9 +19,8 @@ Wound CutFields::wound(const Incision& cut, double scale, const std::optional<Pa
   if (one_) return {cut, *one_, scale};
   if (family_) {
     IncisionVolume volume(cut, family_->shape(), scale);
-    const SkinTension tension = tension_.value_or(default_tension(cut.path()));
-    VaryingField field =
-        family_->along(cut, scale, own ? *own : prestress_along(volume, cut.path().length(), tension));
+    VaryingField field = family_->along(
+        cut, scale, own ? *own : prestress_along(volume, cut.path().length(), tension_of(cut)));
     return {cut, std::move(field), std::move(volume)};
   }
   if (own) return {cut, three_->along(*own), scale};
@@ -30,6 +29,17 @@ Wound CutFields::wound(const Incision& cut, double scale, const std::optional<Pa
         "the field file holds several cases: give --tension and --prestress, or the path columns "
         "skin.prestress_u, _v, _uv, or one case.dffd");
   return wound_in_tension(cut, *three_, *tension_, scale);
+}
+
+SkinTension CutFields::tension_of(const Incision& cut) const {
+  return tension_ ? *tension_ : default_tension(cut.path(), cut.extended_to() > 0);
+}
+
+void CutFields::follow_shape(Wound& wound) const {
+  if (!family_) return;
+  const Incision& cut = *wound.incision;
+  if (const auto s = family_->next_station(cut, wound.scale(), wound.field))
+    family_->extend(wound.field, cut, wound.scale(), *s, prestress_at(wound.volume, *s, tension_of(cut)));
 }
 
 Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,

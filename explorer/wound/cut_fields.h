@@ -32,8 +32,13 @@ class CutFields {
   /// prestresses along its path that override the tension. Throws InputError if a tension is given for one
   /// field, or none for three.
   Wound wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own = {}) const;
+  /// Follows the shape of a path that is found as the blade moves, to where its volume knows it: one station
+  /// at most. The wound is one of wound().
+  void follow_shape(Wound& wound) const;
 
  private:
+  SkinTension tension_of(const Incision& cut) const;
+
   std::shared_ptr<const Field> one_;
   std::shared_ptr<const PrestressFields> three_;
   std::shared_ptr<const FamilyFields> family_;

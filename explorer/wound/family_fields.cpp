@@ -13,7 +13,9 @@ namespace cleft {
 namespace {
 
 /// In depths of the cut: shapes are smoothed at the scale of what a cut moves.
-constexpr double smoothing_in_depths = 2;
+constexpr double smoothing_in_depths = 8. / 3;
+/// Of the smoothing: the distance of stations while a path is found.
+constexpr double station_in_smoothing = 0.25;
 /// Of the family's ranges: shapes at stations differ from straight lines between others by no more.
 constexpr double straight_enough = 0.02;
 /// Of the path's length: its start and its end are apart by more, or it is a loop.
@@ -35,7 +37,7 @@ struct CaseShape {
   Prestress prestress;
 };
 
-Prestress prestress_at(const PathPrestress& along, double s) {
+Prestress between(const PathPrestress& along, double s) {
   const auto next = static_cast<std::size_t>(
       std::upper_bound(along.stations.begin(), along.stations.end(), s) - along.stations.begin());
   const std::size_t a = next == 0 ? 0 : next - 1, b = std::min(next, along.stations.size() - 1);
@@ -55,6 +57,11 @@ CaseShape case_of(const LocalShape& local, const Prestress& prestress, double u_
            {"skin.curvature_v", skin[1]},
            {"skin.curvature_uv", skin[2]}},
           {tension[0], tension[1], tension[2]}};
+}
+
+/// Of the place on the canonical cut of s mm of a path, mm.
+double from_middle(double s, double length, const CanonicalCut& cut) {
+  return canonical_place(s, length, cut).u - cut.start - cut.length / 2;
 }
 
 /// Numbers whose changes by 1 matter alike.
@@ -86,17 +93,20 @@ std::vector<std::size_t> bends_of(const std::vector<double>& s, const std::vecto
 
 }  // namespace
 
-SkinTension default_tension(const ScalpelPath& path) {
+SkinTension default_tension(const ScalpelPath& path, bool grows) {
   const Prestress own = Parameters{}.skin.prestress;
   const Vec3 chord = path.at(path.length()).position - path.at(0).position;
-  return {norm(chord) > least_chord * path.length() ? chord : path.at(0).along, own.uu, own.vv};
+  const bool along_start = grows || norm(chord) < least_chord * path.length();
+  return {along_start ? path.at(0).along : chord, own.uu, own.vv};
 }
+
+double FamilyFields::smoothing() const { return smoothing_in_depths * shape().cut().depth; }
 
 VaryingField FamilyFields::along(const Incision& incision, double scale,
                                  const PathPrestress& prestress) const {
   const CanonicalCut& cut = shape().cut();
   const double length = incision.path().length() * scale;
-  const PathShape shapes = shape_along(incision, scale, smoothing_in_depths * cut.depth);
+  const PathShape shapes = shape_along(incision, scale, smoothing());
   double largest = 0;
   for (const Prestress& one : prestress.values)
     largest = std::max({largest, std::abs(one.uu), std::abs(one.vv), std::abs(one.uv)});
@@ -104,17 +114,31 @@ VaryingField FamilyFields::along(const Incision& incision, double scale,
   std::vector<std::vector<double>> numbers;
   for (std::size_t i = 0; i < shapes.stations.size(); ++i) {
     const double s = shapes.stations[i];
-    const double u = canonical_place(s, length, cut).u - cut.start - cut.length / 2;
-    cases.push_back(case_of(shapes.values[i], prestress_at(prestress, s), u));
+    cases.push_back(case_of(shapes.values[i], between(prestress, s), from_middle(s, length, cut)));
     numbers.push_back(normalised(cases.back(), *family_, largest > 0 ? largest : 1));
   }
   std::vector<StationField> stations;
   for (const std::size_t i : bends_of(shapes.stations, numbers)) {
     const double s = shapes.stations[i];
-    stations.push_back(
-        {s, family_->at(cases[i].shapes, cases[i].prestress).field, prestress_at(prestress, s)});
+    stations.push_back({s, family_->at(cases[i].shapes, cases[i].prestress).field, between(prestress, s)});
   }
   return {family_->shared_middle(), std::move(stations)};
+}
+
+std::optional<double> FamilyFields::next_station(const Incision& incision, double scale,
+                                                 const VaryingField& field) const {
+  const double come = incision.extended_to() * scale;
+  if (incision.extended_to() > 0 && come >= field.known_to() + station_in_smoothing * smoothing())
+    return come;
+  return std::nullopt;
+}
+
+void FamilyFields::extend(VaryingField& field, const Incision& incision, double scale, double s,
+                          const Prestress& prestress) const {
+  const double length = incision.path().length() * scale;
+  const CaseShape one =
+      case_of(local_shape(incision, scale, s, smoothing()), prestress, from_middle(s, length, shape().cut()));
+  field.extend({s, family_->at(one.shapes, one.prestress).field, prestress});
 }
 
 }  // namespace cleft

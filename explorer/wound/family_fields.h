@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "explorer/study/family.h"
 #include "explorer/wound/path_shape.h"
@@ -11,8 +12,9 @@
 namespace cleft {
 
 /// The skin's tension where none is given: that of the default case, with its u along the line from the
-/// path's start to its end (of a loop: along its start), as a simulation of the body has it.
-SkinTension default_tension(const ScalpelPath& path);
+/// path's start to its end (of a loop, or a path that grows: along its start), as a simulation of the body
+/// has it.
+SkinTension default_tension(const ScalpelPath& path, bool grows);
 
 class FamilyFields {
  public:
@@ -28,7 +30,16 @@ class FamilyFields {
   /// path's own frame.
   VaryingField along(const Incision& incision, double scale, const PathPrestress& prestress) const;
 
+  /// Whether a path that is found as the blade moves has come so far beyond the field's last station that
+  /// there is another one; its place, mm.
+  std::optional<double> next_station(const Incision& incision, double scale, const VaryingField& field) const;
+  /// Adds that station.
+  void extend(VaryingField& field, const Incision& incision, double scale, double s,
+              const Prestress& prestress) const;
+
  private:
+  double smoothing() const;
+
   std::shared_ptr<const Family> family_;
 };
 

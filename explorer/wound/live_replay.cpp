@@ -81,7 +81,8 @@ void LiveReplay::follow_path(const std::vector<int>& changed) {
     const auto number = static_cast<std::size_t>(v) + 1;
     const auto at = volume_.locate(v);
     const Placed& was = placed_[number];
-    if (at.has_value() == was.anywhere &&
+    const bool known = !at || at->s <= was.known || at->s > contractor_.field().known_to();
+    if (at.has_value() == was.anywhere && known &&
         (!at || (at->side == was.side && std::hypot(at->s - was.s, at->uvw.y - was.across) < misplaced &&
                  norm(at->along - was.along) < turned && std::abs(at->weight - was.weight) < reweighted)))
       continue;
@@ -114,7 +115,8 @@ void LiveReplay::take_place(int vertex, const std::optional<ActiveVertex>& at) {
   if (incision_.extended_to() > 0) {
     placed_.resize(std::max(placed_.size(), slots_.size()));
     placed_[static_cast<std::size_t>(vertex) + 1] =
-        at ? Placed{true, at->side, at->s, at->uvw.y, at->weight, at->along} : Placed{};
+        at ? Placed{true, at->side, at->s, at->uvw.y, at->weight, at->along, contractor_.field().known_to()}
+           : Placed{};
   }
   if (at) waiting_.push({-at->time_offset, vertex, slots_[static_cast<std::size_t>(vertex) + 1].version});
 }

@@ -24,7 +24,8 @@ class LiveReplay {
   explicit LiveReplay(Wound& wound, std::size_t most_entering = std::numeric_limits<std::size_t>::max());
 
   /// Must be called after every change of the incision, and of later ones in its mesh. If the path was
-  /// extended, vertices keep their coordinates until these are wrong by `misplaced`.
+  /// extended, vertices keep their coordinates until these are wrong by `misplaced`, and the field of the
+  /// shape ahead until the shape beside them is known.
   void follow();
   /// The blade is at s mm of the path.
   void move_to(double s);
@@ -67,6 +68,7 @@ class LiveReplay {
     double s = 0, across = 0;  // mm
     double weight = 0;
     Vec3 along;
+    double known = 0;  ///< mm of the path to which its shape was known
   };
   /// A vertex gets new coordinates if they are wrong by this distance, mm, T by this angle, rad, or the
   /// weight by this. Over a quarter of a millimetre a wound's displacements change by some hundredths of a

@@ -1,6 +1,7 @@
 // The wounds of a mesh while the newest of them is cut, with its blade at its tip: live replays, superposed.
 #pragma once
 
+#include "explorer/wound/cut_fields.h"
 #include "explorer/wound/live_replay.h"
 #include "explorer/wound/wounds.h"
 
@@ -16,6 +17,10 @@ class LiveWounds : public Wounds {
   /// Must be called after each change of the mesh: updates the first `count` wounds, or all.
   void follow(std::size_t count);
   void follow() { follow(size()); }
+  /// The fields of the newest wound follow the shape of its path, to where it was at the last follow().
+  void follow_shape(const CutFields& fields) {
+    if (!empty()) fields.follow_shape(newest());
+  }
   /// Moves the blade of each wound to its tip.
   void move_to_tips();
   /// Moves the blade of the newest wound to the end of its path.

@@ -47,20 +47,23 @@ Prestress prestress_of(const RecordedParameters& p) {
   return {p.value_or(sigma.uu, 0.), p.value_or(sigma.vv, 0.), p.value_or(sigma.uv, 0.)};
 }
 
+Prestress prestress_at(const IncisionVolume& volume, double s, const SkinTension& tension) {
+  const double mean = (tension.larger + tension.smaller) / 2, half = (tension.larger - tension.smaller) / 2;
+  const PathFrame frame = volume.skin_frame(s / volume.scale());
+  const double along = dot(tension.direction, frame.along), across = dot(tension.direction, frame.across);
+  if (std::hypot(along, across) < upright * norm(tension.direction))
+    throw InputError("the tension stands upright on the skin " + shortest(s / volume.scale()) +
+                     " mesh units along the path; give its direction in the skin");
+  const double twice = 2 * std::atan2(across, along);
+  return {mean + half * std::cos(twice), mean - half * std::cos(twice), half * std::sin(twice)};
+}
+
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension) {
   PathPrestress result;
-  const double mean = (tension.larger + tension.smaller) / 2, half = (tension.larger - tension.smaller) / 2;
   for (int i = 0; i <= pieces; ++i) {
-    const double s = length * i / pieces;
-    const PathFrame frame = volume.skin_frame(s);
-    const double along = dot(tension.direction, frame.along), across = dot(tension.direction, frame.across);
-    if (std::hypot(along, across) < upright * norm(tension.direction))
-      throw InputError("the tension stands upright on the skin " + shortest(s) +
-                       " mesh units along the path; give its direction in the skin");
-    const double twice = 2 * std::atan2(across, along);
-    result.stations.push_back(s * volume.scale());
-    result.values.push_back(
-        {mean + half * std::cos(twice), mean - half * std::cos(twice), half * std::sin(twice)});
+    const double s = length * i / pieces * volume.scale();
+    result.stations.push_back(s);
+    result.values.push_back(prestress_at(volume, s, tension));
   }
   return result;
 }

@@ -28,8 +28,11 @@ struct SkinTension {
 /// A case's prestress, MPa; components that are not recorded are 0.
 Prestress prestress_of(const RecordedParameters& parameters);
 
-/// The prestress in the frame of the skin along the path. Throws InputError if the direction is normal to the
-/// skin.
+/// The prestress in the frame of the skin at s mm of the path, MPa. Throws InputError if the direction is
+/// normal to the skin.
+Prestress prestress_at(const IncisionVolume& volume, double s, const SkinTension& tension);
+
+/// The same along all of a path, whose length is in mesh units.
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension);
 
 class PrestressFields {

@@ -53,6 +53,7 @@ class Wounds {
   /// Adds a wound; earlier ones keep their addresses. Until its own relief is known, that of the wound before
   /// it holds.
   Wound& add(Wound wound);
+  Wound& newest() { return wounds_.back(); }
   std::vector<const Wound*> first(std::size_t count) const;
   const Relief& relief(std::size_t newest) const { return relief_[newest]; }
   void set_relief(std::size_t newest, Relief relief) { relief_[newest] = std::move(relief); }
