@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # solve_a_body.sh recompute|ranks|calculix PYTHON CLEFT WRITE_SUBJECT SOLVE_WITH_RULE SUBJECT: meshes the body of a subject,
-# solves it (ranks: on three), and again by the independent solver or by ccx (with its integration rule). 77: ccx or
-# modules are missing.
+# solves it (ranks: on three, twice, to the same bytes), and again by the independent solver or by ccx (with its
+# integration rule). 77: ccx or modules are missing.
 set -eu
 here=$(dirname "$0") by=$1 python=$2 cleft=$3 write_subject=$4 solve_with_rule=$5 subject=$6
 export PYTHONDONTWRITEBYTECODE=1
@@ -16,5 +16,10 @@ if [ "$by" = calculix ]; then
   "$solve_with_rule" "$place/case.toml" "$place/case.h5" "$place/body.h5"
 else
   $many "$cleft" solve "$place/case.toml" --mesh "$place/body.h5" --out "$place/case.h5" --no-estimate
+fi
+if [ "$by" = ranks ]; then
+  cp "$place/case.h5" "$place/first.h5"
+  $many "$cleft" solve "$place/case.toml" --mesh "$place/body.h5" --out "$place/case.h5" --no-estimate
+  cmp "$place/first.h5" "$place/case.h5"
 fi
 "$python" "$here/../solver/$program" "$place/case.h5"

@@ -132,11 +132,13 @@ Subject small_subject(const std::string& name) {
   };
   if (name == "axial") return with(cylinder_along(60));
   if (name == "around") return with(cylinder_around(60));
+  if (name == "bent") return with(cylinder_around(30));
   if (name == "sphere") return with(sphere_cap(80));
-  if (name == "cross") {
-    const Bend bend = sphere_cap(80);
+  if (name == "plate" || name == "cross") {
+    const Bend bend = name == "plate" ? Bend(flat) : sphere_cap(80);
     Subject subject = with(bend);
     subject.paths.push_back(path_on(bend, straight(length, true), depth));
+    if (name == "plate") return subject;
     subject.bone = sheet(below(bend, [](double x, double) { return 4 + 0.2 * x; }), half, half, edge);
     return subject;
   }

@@ -49,7 +49,8 @@ struct Subject {
   std::optional<SurfaceMesh> bone;
 };
 
-/// The small ones that are solved a second time by other programs: axial, around, sphere, cross (on bone).
+/// The small ones that are solved a second time by other programs: axial and around (a cylinder of 60 mm),
+/// bent (around one of 30 mm), sphere, plate (two cuts that cross), cross (on a sphere, above bone).
 Subject small_subject(const std::string& name);
 
 }  // namespace cleft::testing
