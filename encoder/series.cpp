@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -41,6 +42,13 @@ CanonicalCut cut_of(const Snapshot& s, const Eigen::MatrixX3d& last, double larg
   return cut;
 }
 
+/// Of a patch along u and v: its grid's, whatever its shape; of others, what the nodes take up.
+std::optional<std::array<Interval, 2>> own_domain(const Snapshot& s) {
+  const auto& patch = s.parameters->patch;
+  if (!s.coordinates || !s.parameters.has(patch.length) || !s.parameters.has(patch.width)) return {};
+  return {{{{-patch.length / 2, patch.length / 2}, {-patch.width / 2, patch.width / 2}}}};
+}
+
 FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
   FieldGeometry g;
   for (int axis = 0; axis < 3; ++axis) {
@@ -50,6 +58,7 @@ FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
     // A body without extent along an axis is the same everywhere along it.
     if (g.domain[axis].front == g.domain[axis].back) g.domain[axis].front -= 1, g.domain[axis].back += 1;
   }
+  if (const auto own = own_domain(s)) g.domain[0] = (*own)[0], g.domain[1] = (*own)[1];
   g.domain[3] = {s.times.front(), s.times.back()};
   g.cut = cut;
   if (g.cut.length > 0 && !(g.domain[1].front < 0 && g.domain[1].back > 0))
@@ -85,8 +94,9 @@ FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
 void check_cut(const Snapshot& s) {
   const std::string several =
       s.body.empty()
-          ? "cut.radius, cut.tilt, cut.count and cut.branch make snapshots to measure against, not "
-            "to encode"
+          ? "cut.radius, cut.count and cut.branch make snapshots to measure against, not to encode "
+            "(cut.curvature makes a curved cut to encode); a tilted cut: solve it again, which writes its "
+            "coordinates"
           : "a field holds one cut that does not cross itself; cleft cut --simulate opens several";
   for (const auto& [left, right] : s.pairs) {
     const Vec3& at = s.points[left];
@@ -119,8 +129,64 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader) {
   return quantities;
 }
 
+/// The nodes of a body or a shaped patch in the coordinates of its cut, and the directions of these there.
+struct OwnCoordinates {
+  std::vector<Vec3> places;                 // of all nodes
+  std::vector<std::array<Vec3, 3>> frames;  // of all nodes
+  std::vector<std::size_t> kept;            // the nodes of the series
+
+  explicit OwnCoordinates(const SnapshotReader& reader) {
+    const std::vector<double> at = reader.point_array({"canonical", 3, false}, 0);
+    const std::vector<double> axes = reader.point_array({"frame", 9, false}, 0);
+    places.resize(at.size() / 3), frames.resize(axes.size() / 9);
+    for (std::size_t i = 0; i < at.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = at[i];
+    for (std::size_t i = 0; i < axes.size(); ++i) frames[i / 9][i % 9 / 3][static_cast<int>(i % 3)] = axes[i];
+    const auto domain = own_domain(reader.snapshot());
+    for (std::size_t n = 0; n < places.size(); ++n)
+      if (!domain || (within((*domain)[0], places[n].x) && within((*domain)[1], places[n].y)))
+        kept.push_back(n);
+  }
+
+  static bool within(const Interval& range, double x) {
+    const double slack = 1e-9 * (range.back - range.front);
+    return range.front - slack <= x && x <= range.back + slack;
+  }
+
+  Vec3 components(std::size_t node, const Vec3& d) const {
+    return {dot(frames[node][0], d), dot(frames[node][1], d), dot(frames[node][2], d)};
+  }
+
+  /// The snapshot in these coordinates, of the nodes that are kept. Cells are left out where the coordinates
+  /// jump, as they do beyond the middle of a curved cut's circle.
+  Snapshot of(const Snapshot& s) const {
+    constexpr double most_stretched = 4;
+    Snapshot moved = s;
+    std::vector<std::int64_t> number(s.points.size(), -1);
+    for (std::size_t i = 0; i < kept.size(); ++i) number[kept[i]] = static_cast<std::int64_t>(i);
+    moved.points.clear(), moved.cell_types.clear(), moved.connectivity.clear(), moved.cell_offsets = {0};
+    for (const std::size_t n : kept) moved.points.push_back(places[n]);
+    const auto jumps = [&](std::int64_t a, std::int64_t b) {
+      return norm(places[a] - places[b]) > most_stretched * norm(s.points[a] - s.points[b]);
+    };
+    for (std::size_t c = 0; c + 1 < s.cell_offsets.size(); ++c) {
+      const std::span cell(s.connectivity.begin() + s.cell_offsets[c],
+                           s.connectivity.begin() + s.cell_offsets[c + 1]);
+      if (std::any_of(cell.begin(), cell.end(),
+                      [&](std::int64_t n) { return number[n] < 0 || (s.coordinates && jumps(n, cell[0])); }))
+        continue;
+      for (const std::int64_t n : cell) moved.connectivity.push_back(number[n]);
+      moved.cell_types.push_back(s.cell_types[c]);
+      moved.cell_offsets.push_back(static_cast<std::int64_t>(moved.connectivity.size()));
+    }
+    for (auto& pair : moved.pairs)
+      for (std::int32_t& node : pair) node = static_cast<std::int32_t>(number[node]);
+    return moved;
+  }
+};
+
 /// The solver's, which imported data do not know.
-std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader) {
+std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader,
+                                             const std::optional<OwnCoordinates>& own) {
   const std::string prefix = "displacement_per_";
   std::vector<SeriesDerivative> derivatives;
   if (reader.snapshot().source) return derivatives;
@@ -136,7 +202,16 @@ std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader) {
       Eigen::MatrixX3d frame = Eigen::Map<const RowMajor>(numbers.data(), nodes, 3);
       if (j == 0) closed = frame;
       frame -= closed;
-      for (Eigen::Index n = 0; n < nodes; ++n)
+      if (own) {
+        Eigen::MatrixX3d turned(static_cast<Eigen::Index>(own->kept.size()), 3);
+        for (Eigen::Index i = 0; i < turned.rows(); ++i) {
+          const auto n = static_cast<Eigen::Index>(own->kept[i]);
+          const Vec3 d = own->components(own->kept[i], {frame(n, 0), frame(n, 1), frame(n, 2)});
+          turned.row(i) << d.x, d.y, d.z;
+        }
+        frame = turned;
+      }
+      for (Eigen::Index n = 0; n < frame.rows(); ++n)
         if (!frame.row(n).allFinite())
           throw InputError("frame " + std::to_string(j) + ", node " + std::to_string(n) + ": " + array.name +
                            " is not finite; a field can only stand for finite numbers");
@@ -147,33 +222,14 @@ std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader) {
   return derivatives;
 }
 
-/// The nodes of a body in the coordinates of its cut, and the directions of these there.
-struct BodyCoordinates {
-  std::vector<Vec3> places;                 // N
-  std::vector<std::array<Vec3, 3>> frames;  // N
-
-  explicit BodyCoordinates(const SnapshotReader& reader) {
-    const std::vector<double> at = reader.point_array({"canonical", 3, false}, 0);
-    const std::vector<double> axes = reader.point_array({"frame", 9, false}, 0);
-    places.resize(at.size() / 3), frames.resize(axes.size() / 9);
-    for (std::size_t i = 0; i < at.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = at[i];
-    for (std::size_t i = 0; i < axes.size(); ++i) frames[i / 9][i % 9 / 3][static_cast<int>(i % 3)] = axes[i];
-  }
-
-  Vec3 components(std::size_t node, const Vec3& d) const {
-    return {dot(frames[node][0], d), dot(frames[node][1], d), dot(frames[node][2], d)};
-  }
-};
-
 }  // namespace
 
 Series::Series(const SnapshotReader& reader) {
-  std::optional<BodyCoordinates> body;
+  std::optional<OwnCoordinates> own;
   std::optional<Snapshot> moved;
-  if (!reader.snapshot().body.empty()) {
-    body.emplace(reader);
-    moved = reader.snapshot();
-    moved->points = body->places;
+  if (!reader.snapshot().body.empty() || reader.snapshot().coordinates) {
+    own.emplace(reader);
+    moved = own->of(reader.snapshot());
   }
   const Snapshot& s = moved ? *moved : reader.snapshot();
   if (s.frames() < 2)
@@ -184,16 +240,17 @@ Series::Series(const SnapshotReader& reader) {
   const std::vector<Vec3> closed = reader.displacement(0);
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);
-    Eigen::MatrixX3d& frame = frames.emplace_back(static_cast<Eigen::Index>(d.size()), 3);
-    for (std::size_t n = 0; n < d.size(); ++n) {
-      const Vec3 change = body ? body->components(n, d[n] - closed[n]) : d[n] - closed[n];
-      for (int axis = 0; axis < 3; ++axis) frame(static_cast<Eigen::Index>(n), axis) = change[axis];
+    Eigen::MatrixX3d& frame = frames.emplace_back(static_cast<Eigen::Index>(s.points.size()), 3);
+    for (Eigen::Index i = 0; i < frame.rows(); ++i) {
+      const std::size_t n = own ? own->kept[i] : static_cast<std::size_t>(i);
+      const Vec3 change = own ? own->components(n, d[n] - closed[n]) : d[n] - closed[n];
+      frame.row(i) << change.x, change.y, change.z;
     }
     largest.push_back(frame.rowwise().norm().maxCoeff());
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
   centres = cell_centres(s, samples);
-  quantities = quantities_of(reader), derivatives = derivatives_of(reader);
+  quantities = quantities_of(reader), derivatives = derivatives_of(reader, own);
   geometry = geometry_of(s, cut_of(s, frames.back(), largest_displacement));
 }
 

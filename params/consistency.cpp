@@ -13,8 +13,9 @@ namespace cleft {
 
 namespace {
 
-constexpr double most_nodes = 1e7;  // unknowns and their neighbours are counted in 32 bits
-constexpr double most_moved = 0.9;  // of the room between a cut and the patch's side
+constexpr double most_nodes = 1e7;   // unknowns and their neighbours are counted in 32 bits
+constexpr double most_moved = 0.9;   // of the room between a cut and the patch's side
+constexpr double most_turned = 1.3;  // radians, of half a curved cut
 const double widest_half_angle = std::numbers::pi / 3;
 
 /// Text of a computed length.
@@ -40,6 +41,7 @@ class ConsistencyCheck {
   double check() {
     check_size();
     check_arc();
+    check_shape();
     check_elements();
     check_cuts_beside();
     check_room();
@@ -86,6 +88,37 @@ class ConsistencyCheck {
     need(span_ < p_.patch.length, named(length_) + in_mesh(length_, meshed_.length, p_.patch.length) +
                                       (radius > 0 ? ", " + rounded(span_) + " mm along u" : "") +
                                       ": must be less than " + named(p_.patch.length));
+  }
+
+  /// What is not known of patches whose shape is not a box, and what a bend cannot be.
+  void check_shape() const {
+    const double half_angle = std::abs(p_.cut.curvature) * meshed_.length / 2;
+    need(p_.cut.curvature == 0 || p_.cut.radius == 0,
+         named(p_.cut.curvature) + ", " + named(p_.cut.radius) +
+             ": a cut curves by one of them; set the other to 0");
+    need(half_angle <= most_turned, named(p_.cut.curvature) + ": " + named(length_) + " would turn by " +
+                                        rounded(half_angle) + " rad to either side; at most " +
+                                        shortest(most_turned) +
+                                        ": make the curvature smaller, or the cut shorter");
+    if (!is_shaped(p_)) return;
+    const auto& skin = p_.skin;
+    const std::string& shape = row_of(p_, p_.cut.curvature != 0    ? p_.cut.curvature
+                                          : skin.curvature_u != 0  ? skin.curvature_u
+                                          : skin.curvature_v != 0  ? skin.curvature_v
+                                          : skin.curvature_uv != 0 ? skin.curvature_uv
+                                                                   : p_.patch.slope)
+                                   .name;
+    const auto refuse = [&](bool present, const auto& member, const std::string& remedy) {
+      need(!present, row_of(p_, member).name + " = " + text_of(p_, member) + ": not with " + shape +
+                         " so far; set " + remedy + ", or " + shape + " to 0");
+    };
+    refuse(p_.model == Model::finite, p_.model, "it to small");
+    refuse(skin.bending_stiffness > 0, skin.bending_stiffness, "it to 0");
+    refuse(skin.edges == SkinEdges::free, skin.edges, "it to held");
+    refuse(p_.tissue.prestress_share > 0, p_.tissue.prestress_share, "it to 0");
+    refuse(p_.cut.radius > 0, p_.cut.radius, "cut.curvature in its place");
+    refuse(p_.cut.count > 1, p_.cut.count, "it to 1");
+    refuse(p_.cut.branch > 0, p_.cut.branch, "it to 0");
   }
 
   void check_elements() const {
@@ -155,7 +188,8 @@ class ConsistencyCheck {
   }
 
   void check_materials() const {
-    need(p_.foundation.stiffness > 0 || p_.foundation.side_stiffness > 0,
+    need(p_.foundation.stiffness > 0 || p_.foundation.side_stiffness > 0 ||
+             p_.patch.bottom == PatchBottom::bone,
          "foundation.stiffness and foundation.side_stiffness = 0: the patch would float; hold it by one of "
          "them");
     need(p_.tissue.poisson_ratio <= 0.49 || p_.tissue.formulation == TissueFormulation::mean_dilatation,

@@ -24,6 +24,12 @@ std::vector<std::string> smooth_groups() {
   return groups;
 }
 
+/// Those of the skin's shape belong to the mesh too.
+bool shapes_the_mesh(const Parameters& p, const Parameter& row) {
+  const void* member = row.address(p);
+  return member == &p.skin.curvature_u || member == &p.skin.curvature_v || member == &p.skin.curvature_uv;
+}
+
 /// "a, b or c".
 std::string either(const std::vector<std::string>& names) {
   std::string text = names.front();
@@ -44,6 +50,8 @@ void check_sensitivities(const std::vector<std::string>& names, const Parameters
     const Parameter& row = find_parameter(name, where);
     if (row.is_text() || std::find(groups.begin(), groups.end(), group_of(row)) == groups.end())
       throw InputError(where + " " + name + ": must be a number of " + either(groups));
+    if (shapes_the_mesh(parameters, row))
+      throw InputError(where + " " + name + ": is a shape, with which the mesh changes; vary it in a study");
     // Its entries of the matrix are not there, and a skin of less than 0 does not exist.
     if (name == row_of(parameters, parameters.skin.bending_stiffness).name &&
         parameters.skin.bending_stiffness == 0)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "solver/compliance.h"
 #include "solver/node_gather.h"
 
 namespace cleft {
@@ -23,19 +24,20 @@ CaseOutput::CaseOutput(SharedStiffness& shared, const Release& release, std::siz
   report().constraints = 3 * report().pairs;
   report().frames = static_cast<int>(release.released.size());
   const Body* body = shared_.job().options.body.get();
+  const PatchMesh& mesh = shared_.mesh();
+  const bool coordinates = body || !mesh.canonical.empty(), compliance = has_compliance(mesh);
   std::vector<SnapshotArray> arrays;
-  if (body)
-    arrays = {{"canonical", 3, false}, {"frame", 9, false}};
-  else
-    arrays = {{"compliance", 1, false}, {"dent", 3, false}};
+  if (coordinates) arrays = {{"canonical", 3, false}, {"frame", 9, false}};
+  if (compliance) arrays.insert(arrays.end(), {{"compliance", 1, false}, {"dent", 3, false}});
   for (const std::string& name : derivatives) arrays.push_back({array_of(name), 3, true});
   writing_ = std::make_unique<SnapshotOutput>(shared_.job().cases[number_].out,
                                               describe(parameters(), shared_.mesh(), release, body), arrays,
                                               shared_.system().communicator());
-  if (body) {
-    writing_->write_vectors("canonical", 0, body->canonical);
-    writing_->write_frames("frame", body->frames);
-  } else {
+  if (coordinates) {
+    writing_->write_vectors("canonical", 0, body ? body->canonical : mesh.canonical);
+    writing_->write_frames("frame", body ? body->frames : mesh.frames);
+  }
+  if (compliance) {
     writing_->write_scalars("compliance", shared_.compliance().at_node);
     writing_->write_vectors("dent", 0, at_nodes(shared_.compliance().dent.data()));
   }

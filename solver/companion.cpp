@@ -38,7 +38,8 @@ Parameters with_elements(Parameters p, double times) {
 /// In a patch in which the mesh errs as in the whole one. Cuts other than a single straight, upright one keep
 /// theirs.
 Parameters near_the_cut(Parameters p) {
-  if (p.cut.count > 1 || p.cut.branch > 0 || p.cut.radius > 0 || p.cut.tilt != 0) return with_grading(p);
+  if (p.cut.count > 1 || p.cut.branch > 0 || p.cut.radius > 0 || p.cut.tilt != 0 || is_shaped(p))
+    return with_grading(p);
   const MeshedCut cut = meshed_cut(p);
   const double margin = near * std::max(cut.length, cut.depth);
   p.patch.length = std::min(p.patch.length, cut.length + 2 * margin);

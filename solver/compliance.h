@@ -14,6 +14,10 @@ inline constexpr double pressed_radius = 2;  ///< mm, of the disc that is presse
 /// Only the part of a disc on the patch is loaded. Quadrature points are a third of an element apart.
 Block disc_loads(const PatchMesh& mesh, const PatchSystem& system, std::span<const Vec3> centers);
 
+/// Whether the mesh has one: a box, whose quarters are alike, but for a tilted cut. Bodies and shaped patches
+/// would have to be pressed at every node.
+inline bool has_compliance(const PatchMesh& mesh) { return !mesh.is_body() && !mesh.is_shaped(); }
+
 struct Compliance {
   std::vector<double> at_node;  ///< mm/MPa: of the skin above each node, positive into the skin
   Block dent;  ///< mm/MPa: displacement under unit pressure on the disc around the cut's start

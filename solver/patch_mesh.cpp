@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "solver/patch_mesh_grid.h"
+#include "solver/shaped_mesh.h"
 
 namespace cleft {
 
@@ -25,6 +26,8 @@ class PatchMesher {
     if (p_.cut.branch > 0) add_branch();
     add_elements();
     add_sides();
+    if (p_.patch.bottom == PatchBottom::bone) mesh_.on_bone.assign(mesh_.bottom.size(), true);
+    if (has_coordinates(p_)) give_shape(mesh_, grid_, grid_node_, p_);
     return std::move(mesh_);
   }
 
@@ -41,6 +44,7 @@ class PatchMesher {
         for (int i = 0; i < columns_u(); ++i) {
           mesh_.points.push_back(grid_.point(i, j, k));
           mesh_.skin_above.push_back(node(i, j, 0));
+          grid_node_.push_back(node(i, j, k));
         }
     for (int k = 0; k <= grid_.bottom; ++k) mesh_.lines_depth.push_back(std::abs(grid_.w[k]));
   }
@@ -81,6 +85,7 @@ class PatchMesher {
       pair.depth = mesh_.lines_depth[k];
       mesh_.points.push_back(mesh_.points[pair.left]);
       mesh_.skin_above.push_back(top);
+      grid_node_.push_back(node(i, j, k));
       mesh_.pairs.push_back(pair);
       right_of[pair.left] = pair.right;
     }
@@ -150,6 +155,7 @@ class PatchMesher {
   const Parameters& p_;
   const PatchGrid grid_;
   std::vector<int> right_of_, right_of_branch_;  // by node: itself where it is not doubled
+  std::vector<int> grid_node_;                   // by node: that of the grid at its place
   PatchMesh mesh_;
 };
 

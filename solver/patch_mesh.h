@@ -23,7 +23,7 @@ struct NodePair {
 
 /// Node numbers index `points`. The mesh depends on the parameters alone, not on the number of ranks.
 struct PatchMesh {
-  std::vector<Vec3> points;                ///< (u, v, w), or of a body in space, closed, mm
+  std::vector<Vec3> points;                ///< (u, v, w), or of a body or shaped patch in space, closed, mm
   std::vector<std::array<int, 6>> wedges;  ///< lower triangle, then upper, both counter-clockwise from above
   std::vector<std::array<int, 3>> skin;    ///< top faces, of the first wedges; counter-clockwise from above
   std::vector<std::array<int, 3>> bottom;  ///< bottom faces
@@ -42,11 +42,18 @@ struct PatchMesh {
   /// + i, i along u, j along v, k downward.
   std::array<int, 3> grid{};
 
-  /// Of a body (solver/body_mesh.h), which has no lines and no grid; empty for a patch.
+  /// Of a body (solver/body_mesh.h), which has no lines and no grid, and of a shaped patch; else empty.
   std::vector<Vec3> tension;  ///< by triangle of skin: the direction of skin.prestress_u
-  std::vector<bool> on_bone;  ///< by face of the bottom
+  std::vector<bool> on_bone;  ///< by face of the bottom; also of a patch on bone
+
+  /// Of a patch that is shaped or whose cut is tilted (has_coordinates); else empty: by node, coordinates of
+  /// the cut (u along it, v across it, w = -depth below the skin, mm), and unit vectors of these directions
+  /// in space.
+  std::vector<Vec3> canonical;
+  std::vector<std::array<Vec3, 3>> frames;
 
   bool is_body() const { return grid[0] == 0; }
+  bool is_shaped() const { return !is_body() && !tension.empty(); }  ///< a patch that is not a box
   /// Along which skin.prestress_u pulls the triangle on a wedge.
   Vec3 tension_of(int wedge) const { return tension.empty() ? Vec3{1, 0, 0} : tension[wedge]; }
 };
@@ -57,10 +64,11 @@ struct PatchMesh {
 /// from them they grow by mesh.grading. The mesh is made for a cut of mesh.cut_length by mesh.cut_depth if
 /// these are given; a branch has its own length always, and leaves toward +v where u = 0: its nodes on the
 /// first cut have three copies, in the pairs (left, right with u < 0) and then (right with u < 0, right with
-/// u > 0). Nodes move in v only onto a curved or tilted cut, and the patch stays a box. An upright straight
-/// cut's triangles are mirrored in v = 0 (several cuts: where the squares between them are even in number);
-/// those of a chess board (diagonal_rises) in u = 0 too where the squares along u are even in number. Throws
-/// InputError if moving the nodes would flatten an element.
+/// u > 0). Nodes move in v only onto a curved or tilted cut, and the patch stays a box; then a patch that
+/// is_shaped gets its shape (solver/shaped_mesh.h). An upright straight cut's triangles are mirrored in v = 0
+/// (several cuts: where the squares between them are even in number); those of a chess board (diagonal_rises)
+/// in u = 0 too where the squares along u are even in number. Throws InputError if moving the nodes would
+/// flatten an element.
 PatchMesh make_patch_mesh(const Parameters& parameters);
 
 /// Whether square (i, j), counted along u and v from the first cut's start, is halved by the diagonal that

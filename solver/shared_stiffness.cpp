@@ -49,7 +49,7 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
   if (!checked_) {
     check_rounding(*system_, chosen_);
     checked_ = true;
-    if (!body) {
+    if (has_compliance(mesh_)) {
       job_.progress("compliance of the skin");
       compliance_ = compliance_of(mesh_, *system_, *chosen_.solver);
     }

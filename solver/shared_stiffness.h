@@ -38,7 +38,7 @@ class SharedStiffness {
   const ChosenSolver& chosen() const { return chosen_; }
   const Compliance& compliance() const {
     return compliance_;
-  }  ///< valid once solve() has begun; none of a body
+  }  ///< valid once solve() has begun; if has_compliance()
 
  private:
   /// The error of mesh and patch, of members whose cut opens in the same order.

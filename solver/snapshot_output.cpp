@@ -43,6 +43,11 @@ Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Rel
     s.body = body->hash;
     s.tension = body->tension;
     for (const Support support : body->support) s.support.push_back(static_cast<std::uint8_t>(support));
+  } else {
+    s.coordinates = !mesh.canonical.empty();
+    s.tension = mesh.tension;
+    for (const bool bone : mesh.on_bone)
+      s.support.push_back(static_cast<std::uint8_t>(bone ? Support::bone : Support::springs));
   }
   return s;
 }

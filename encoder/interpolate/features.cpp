@@ -27,6 +27,11 @@ std::array<const double*, 9> needed(const Parameters& p) {
           &p.cut.length};
 }
 
+/// Measured by its length: products, which may be negative.
+std::array<const double*, 4> curvatures(const Parameters& p) {
+  return {&p.cut.curvature, &p.skin.curvature_u, &p.skin.curvature_v, &p.skin.curvature_uv};
+}
+
 /// Measured in lengths of the cut.
 std::array<const double*, 10> lengths(const Parameters& p) {
   return {&p.cut.depth,   &p.patch.length, &p.patch.width,       &p.patch.height,    &p.cut.radius,
@@ -78,13 +83,16 @@ std::vector<Features::Raw> Features::raw(const RecordedParameters& p) const {
       list.push_back({p.name_of(*k) + " " + cut + " / " + tissue, *k * L / E, true});
     for (const double* length : lengths(*p))
       if (p.has(*length)) list.push_back({p.name_of(*length) + " / " + cut, *length / L, true});
+    for (const double* curvature : curvatures(*p))
+      if (p.has(*curvature)) list.push_back({p.name_of(*curvature) + " " + cut, *curvature * L, false});
     if (loading_ == Loading::general)
       for (const auto component : prestress) {
         const double& sigma = p->skin.prestress.*component;
         list.push_back({p.name_of(sigma) + " " + skin + over, sigma * t / (E * L), true});
       }
     for (const std::string& name : varying_)
-      if (const void* member = member_of(p, name); !is_in(needed(*p), member) && !is_in(lengths(*p), member))
+      if (const void* member = member_of(p, name);
+          !is_in(needed(*p), member) && !is_in(lengths(*p), member) && !is_in(curvatures(*p), member))
         list.push_back({name, p.number(name).value(), false});
   } else {
     for (const std::string& name : varying_) list.push_back({name, p.number(name).value(), true});

@@ -18,6 +18,9 @@ enum class MeshFront { effective, nodes };
 /// equilibrium, so that only what the cut releases moves it; or nothing, as on a piece that was cut out.
 enum class SkinEdges { held, free };
 
+/// What holds the bottom of the patch: springs, or bone to which the tissue is grown.
+enum class PatchBottom { springs, bone };
+
 /// Small strains, in which all is linear; or finite ones.
 enum class Model { small, finite };
 
@@ -30,16 +33,18 @@ struct Prestress {
   double uu = 0, vv = 0, uv = 0;
 };
 
-/// Lengths in mm, stresses in MPa, springs in N/mm^3, angles in degrees.
+/// Lengths in mm, curvatures in 1/mm, stresses in MPa, springs in N/mm^3, angles in degrees.
 struct Parameters {
   Model model = Model::small;
   struct Patch {
     double length = 100, width = 100, height = 8;
+    double slope = 0;
+    PatchBottom bottom = PatchBottom::springs;
   } patch;
   struct Cut {
     double length = 30, depth = 3;
     bool contact = false;
-    double radius = 0, tilt = 0, count = 1, spacing = 5, branch = 0;
+    double radius = 0, curvature = 0, tilt = 0, count = 1, spacing = 5, branch = 0;
     FrameEvery frames = FrameEvery::column;
   } cut;
   struct Mesh {
@@ -50,6 +55,7 @@ struct Parameters {
   struct Skin {
     double thickness = 1.5, young_modulus = 0.13, poisson_ratio = 0.4;
     Prestress prestress{0.01, 0.03, 0};
+    double curvature_u = 0, curvature_v = 0, curvature_uv = 0;
     SkinEdges edges = SkinEdges::held;
     bool initial_stress_stiffness = false;
     double bending_stiffness = 0;
@@ -72,6 +78,19 @@ struct Parameters {
 /// superpose.
 inline bool is_linear_in_prestress(const Parameters& p) {
   return p.model == Model::small && !p.cut.contact && !p.skin.initial_stress_stiffness;
+}
+
+/// Whether the patch is a box that is bent or whose bottom slopes (solver/patch_shape.h).
+inline bool is_shaped(const Parameters& p) {
+  return p.cut.curvature != 0 || p.skin.curvature_u != 0 || p.skin.curvature_v != 0 ||
+         p.skin.curvature_uv != 0 || p.patch.slope != 0;
+}
+
+/// Whether the nodes of a patch know their coordinates along and across the cut: where it is a single one
+/// without a branch, and its radius is not that of cut.radius. Of an upright straight cut in a box these are
+/// the nodes' places, and snapshots do not repeat them.
+inline bool has_coordinates(const Parameters& p) {
+  return is_shaped(p) || (p.cut.tilt != 0 && p.cut.radius == 0 && p.cut.count == 1 && p.cut.branch == 0);
 }
 
 }  // namespace cleft

@@ -71,11 +71,19 @@ std::vector<Parameter> make_table() {
       positive(CLEFT_MEMBER(patch.length), "mm", "length of the tissue patch along the cut (u)"),
       positive(CLEFT_MEMBER(patch.width), "mm", "width of the patch across the cut (v)"),
       positive(CLEFT_MEMBER(patch.height), "mm", "height of the patch below the skin (w)"),
+      between(CLEFT_MEMBER(patch.slope), "", -2, 2,
+              "how much deeper the patch's bottom lies for each mm toward +v, near the cut; it levels off "
+              "between a quarter and seven quarters of patch.height"),
+      choice(CLEFT_MEMBER(patch.bottom), {"springs", "bone"},
+             "springs: the bottom is held by foundation.stiffness; bone: the tissue is grown to bone"),
       positive(CLEFT_MEMBER(cut.length), "mm", "length of the cut (an arc: along it), centred on the patch"),
       positive(CLEFT_MEMBER(cut.depth), "mm", "depth of the cut below the skin"),
       choice(CLEFT_MEMBER(cut.contact), no_or_yes,
              "true: the lips of the cut press on each other, without friction"),
       not_negative(CLEFT_MEMBER(cut.radius), "mm", "radius of a cut that curves toward +v; 0: straight"),
+      between(CLEFT_MEMBER(cut.curvature), "1/mm", -0.2, 0.2,
+              "curvature of the cut, positive toward +v, in a patch that bends with it, for fields; the "
+              "prestress is that at the middle of the cut, and keeps its direction in the plane"),
       between(CLEFT_MEMBER(cut.tilt), "degrees", -60, 60,
               "tilt of the blade: the cut's bottom lies toward +v"),
       whole_between(CLEFT_MEMBER(cut.count), "", 1, 100,
@@ -102,6 +110,13 @@ std::vector<Parameter> make_table() {
       stress(CLEFT_NAMED("skin.prestress_u", skin.prestress.uu), "prestress of the skin along the cut"),
       stress(CLEFT_NAMED("skin.prestress_v", skin.prestress.vv), "prestress of the skin across the cut"),
       stress(CLEFT_NAMED("skin.prestress_uv", skin.prestress.uv), "shear prestress of the skin"),
+      between(CLEFT_MEMBER(skin.curvature_u), "1/mm", -0.1, 0.1,
+              "curvature of the skin along the cut, positive where the body bulges; it fades away from the "
+              "cut"),
+      between(CLEFT_MEMBER(skin.curvature_v), "1/mm", -0.1, 0.1,
+              "curvature of the skin across the cut, likewise"),
+      between(CLEFT_MEMBER(skin.curvature_uv), "1/mm", -0.1, 0.1,
+              "twist of the skin: how its normal turns toward +v along the cut, likewise"),
       choice(
           CLEFT_MEMBER(skin.edges), {"held", "free"},
           "held: the skin around the patch pulls at its edges, so that the closed patch is in equilibrium; "

@@ -171,11 +171,12 @@ Snapshot read_all_but_displacements(const h5::File& file) {
     s.residual_closure = file.read<double>("/frames/residual_closure", {s.frames()});
   }
   s.case_hash = file.read_text("/", "case");
-  if (file.has_attribute("/", "body")) {
-    s.body = file.read_text("/", "body");
+  if (file.has_attribute("/", "body")) s.body = file.read_text("/", "body");
+  s.coordinates = file.has_attribute("/", "coordinates");
+  if (!s.body.empty() || file.has("/skin/tension"))
     s.tension = as_vectors(file.read<double>("/skin/tension", {0, 3}));
+  if (!s.body.empty() || file.has("/foundation/support"))
     s.support = file.read<std::uint8_t>("/foundation/support", {s.foundation_triangles.size()});
-  }
   for (const std::string& name : file.attribute_names("/parameters")) {
     try {
       s.parameters.set(name, file.read_number("/parameters", name));

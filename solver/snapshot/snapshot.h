@@ -52,10 +52,12 @@ struct Snapshot {
 
   RecordedParameters parameters;
   std::string case_hash;
-  std::string body;  ///< hash of the body that was solved: points are in space, and the arrays `canonical`
-                     ///< and `frame` hold every node's coordinates of the cut; empty for a patch
-  std::vector<Vec3> tension;             ///< of a body, by triangle of skin: direction of skin.prestress_u
-  std::vector<std::uint8_t> support;     ///< of a body, by foundation triangle: 0 springs, 1 bone
+  std::string body;  ///< hash of the body that was solved; empty for a patch
+  /// Of a shaped patch: points are in space, and the arrays `canonical` and `frame` hold every node's
+  /// coordinates of the cut, as those of a body do.
+  bool coordinates = false;
+  std::vector<Vec3> tension;  ///< of a body or a shaped patch, by triangle of skin: direction of prestress_u
+  std::vector<std::uint8_t> support;     ///< by foundation triangle: 0 springs, 1 bone; empty: all springs
   std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs and have no residuals
 
   std::size_t frames() const { return times.size(); }

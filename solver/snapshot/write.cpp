@@ -110,14 +110,14 @@ SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
   file_.write_text("/", "case", s.case_hash);
   file_.write_text("/", "producer", producer());
   if (!s.body.empty()) file_.write_text("/", "body", s.body);
+  if (s.coordinates) file_.write_text("/", "coordinates", "canonical");
   write_vtk_mesh(file_, s);
   write_vtk_steps(file_, s, arrays);
   write_table(file_, "/foundation/triangles", s.foundation_triangles);
   write_table(file_, "/foundation/quads", s.foundation_quads);
-  if (!s.body.empty()) {
+  if (!s.body.empty() || !s.tension.empty())
     file_.write<double>("/skin/tension", as_numbers(s.tension), {s.tension.size(), 3});
-    write_list(file_, "/foundation/support", s.support);
-  }
+  if (!s.body.empty() || !s.support.empty()) write_list(file_, "/foundation/support", s.support);
   write_cut(file_, s);
   write_parameters(file_, s);
   if (s.source) write_source(file_, *s.source);

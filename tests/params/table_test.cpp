@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace cleft {
 
 TEST(ParameterTable, EveryRowWritesTheMemberItReads) {
@@ -11,7 +13,8 @@ TEST(ParameterTable, EveryRowWritesTheMemberItReads) {
     SCOPED_TRACE(row.name);
     const Value old = get_parameter(defaults, row);
     std::vector<Value> values(row.choices.begin(), row.choices.end());
-    if (!row.is_text()) values = {row.whole ? 2. : row.greatest > 1 ? 1.25 : 0.25};
+    if (!row.is_text())
+      values = {row.whole ? 2. : row.greatest > 1 ? 1.25 : std::min(0.25, row.greatest / 2)};
     for (const Value& value : values) {
       Parameters p;
       set_parameter(p, row.name, value, "here");

@@ -1,0 +1,263 @@
+#include "solver/patch_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "params/meshed_cut.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double largest_step = 0.1;  // mm
+constexpr double twist_fall = 20;     // mm over which the twist fades, along and across
+constexpr double beyond_the_cut = 2;  // mm for which a curved cut's curvature goes on
+
+FramedCurve::Place sum(const FramedCurve::Place& p, double h, const FramedCurve::Place& slope) {
+  return {p.at + h * slope.at, p.t + h * slope.t, p.b + h * slope.b, p.n + h * slope.n};
+}
+
+FramedCurve::Place slope_of(const FramedCurve::Place& p, const FramedCurve::Rates& k) {
+  return {p.t, k.bend * p.b - k.normal * p.n, -k.bend * p.t - k.twist * p.n, k.normal * p.t + k.twist * p.b};
+}
+
+FramedCurve::Place orthonormal(FramedCurve::Place p) {
+  p.t = normalized(p.t);
+  p.n = normalized(p.n - dot(p.n, p.t) * p.t);
+  p.b = cross(p.n, p.t);
+  return p;
+}
+
+/// Of a cubic with these values and slopes at the ends of a step, at the part of it.
+Vec3 cubic(const Vec3& a, const Vec3& da, const Vec3& b, const Vec3& db, double step, double part) {
+  const double q = 1 - part;
+  return q * q * (1 + 2 * part) * a + part * part * (1 + 2 * q) * b + step * part * q * (q * da - part * db);
+}
+
+/// How far from the middle of the cut its surroundings keep their curvature along it, mm.
+double core_of(const Parameters& p) {
+  const MeshedCut cut = meshed_cut(p);
+  return std::max(10., cut.length / 2 + cut.depth);
+}
+
+/// The same across it. The opening feels curvatures across as far as this: with less, that of a cut of 30 mm
+/// on a sphere of 60 mm is 1 % less. The profile turns by no more than about 0.8 radians, so that it does not
+/// come down to the axis about which a curvature along the cut turns it.
+double core_across(const Parameters& p) {
+  constexpr double times = 1.4, most_turned = 0.72;
+  const double core = times * core_of(p), ratio = core * p.skin.curvature_v / most_turned;
+  return core * std::pow(1 + ratio * ratio * ratio * ratio, -0.25);
+}
+
+TurnAndBack path_turn(const Parameters& p) {
+  const double core = meshed_cut(p).length / 2 + beyond_the_cut;
+  return {core, core / 4, 0.5};
+}
+
+}  // namespace
+
+FramedCurve::FramedCurve(std::function<Rates(double)> rates, double reach) : rates_(std::move(rates)) {
+  const auto steps = static_cast<std::size_t>(std::ceil(reach / largest_step));
+  step_ = reach / static_cast<double>(std::max<std::size_t>(1, steps));
+  for (auto* list : {&forward_, &back_}) {
+    list->push_back({{}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    list->reserve(steps + 1);
+    while (list->size() <= steps) integrate(list == &forward_ ? step_ : -step_, *list);
+  }
+}
+
+void FramedCurve::integrate(double h, std::vector<Place>& places) const {
+  const Place& p = places.back();
+  const double s = h * static_cast<double>(places.size() - 1);
+  const Rates first = rates_(s), middle = rates_(s + h / 2), last = rates_(s + h);
+  const Place k1 = slope_of(p, first), k2 = slope_of(sum(p, h / 2, k1), middle),
+              k3 = slope_of(sum(p, h / 2, k2), middle), k4 = slope_of(sum(p, h, k3), last);
+  places.push_back(orthonormal(sum(sum(sum(sum(p, h / 6, k1), h / 3, k2), h / 3, k3), h / 6, k4)));
+}
+
+FramedCurve::Place FramedCurve::operator()(double s) const {
+  const std::vector<Place>& places = s < 0 ? back_ : forward_;
+  const double along = std::abs(s) / step_, sign = s < 0 ? -1 : 1;
+  const auto n = static_cast<std::size_t>(along);
+  if (n + 1 >= places.size()) {
+    Place end = places.back();
+    end.at += (s - sign * step_ * static_cast<double>(places.size() - 1)) * end.t;
+    return end;
+  }
+  const double part = along - static_cast<double>(n), h = sign * step_;
+  const Place &a = places[n], &b = places[n + 1];
+  const Place da = slope_of(a, rates_(h * static_cast<double>(n))),
+              db = slope_of(b, rates_(h * static_cast<double>(n + 1)));
+  return orthonormal({cubic(a.at, da.at, b.at, db.at, h, part), cubic(a.t, da.t, b.t, db.t, h, part),
+                      cubic(a.b, da.b, b.b, db.b, h, part), cubic(a.n, da.n, b.n, db.n, h, part)});
+}
+
+/// The fall has the integral fall (1 - back) / 2, the rise at the end -back fall / 2.
+TurnAndBack::TurnAndBack(double core, double fall, double back)
+    : core_(core),
+      fall_(fall),
+      back_(back),
+      plateau_(std::max(0., (core + fall * (1 - back) / 2) / back - fall / 2)),
+      end_(core_ + 2 * fall_ + plateau_) {}
+
+double TurnAndBack::operator()(double s) const {
+  s = std::abs(s);
+  if (s <= core_) return 1;
+  if (s >= end_) return 0;
+  const auto cosine = [&](double from) { return std::cos(std::numbers::pi * (s - from) / fall_); };
+  if (s < core_ + fall_) return (1 - back_) / 2 + (1 + back_) / 2 * cosine(core_);
+  if (s <= core_ + fall_ + plateau_) return -back_;
+  return -back_ / 2 * (1 + cosine(core_ + fall_ + plateau_));
+}
+
+double TurnAndBack::integral(double s) const {
+  const double x = std::abs(s), in_fall = std::clamp(x - core_, 0., fall_),
+               in_plateau = std::clamp(x - core_ - fall_, 0., plateau_),
+               in_rise = std::clamp(x - core_ - fall_ - plateau_, 0., fall_);
+  const auto sine = [&](double part) {
+    return fall_ / std::numbers::pi * std::sin(std::numbers::pi * part / fall_);
+  };
+  const double sum = std::min(x, core_) + (1 - back_) / 2 * in_fall + (1 + back_) / 2 * sine(in_fall) -
+                     back_ * in_plateau - back_ / 2 * (in_rise + sine(in_rise));
+  return std::copysign(sum, s);
+}
+
+PatchShape::PatchShape(const Parameters& p)
+    : curvature_(p.cut.curvature),
+      half_length_(meshed_cut(p).length / 2),
+      flat_(p.skin.curvature_u == 0 && p.skin.curvature_v == 0 && p.skin.curvature_uv == 0),
+      slope_(p.patch.slope),
+      height_(p.patch.height),
+      cut_depth_(meshed_cut(p).depth),
+      path_turn_(path_turn(p)),
+      along_turn_(core_of(p), core_of(p) / 2, 1),
+      twist_turn_(core_of(p), std::max(core_of(p) / 2, twist_fall), 1),
+      across_turn_(core_across(p), core_across(p) / 2, 1),
+      twist_(p.skin.curvature_uv),
+      twist_core_(std::min(20., core_of(p))),
+      path_([k = p.cut.curvature,
+             turn = path_turn_](double s) { return FramedCurve::Rates{.bend = k * turn(s)}; },
+            path_turn_.reach()),
+      spine_([k = p.skin.curvature_u, twist = twist_, turn = along_turn_, twists = twist_turn_](
+                 double s) { return FramedCurve::Rates{.normal = k * turn(s), .twist = twist * twists(s)}; },
+             std::max(along_turn_.reach(), twist_turn_.reach())),
+      profile_([k = p.skin.curvature_v,
+                turn = across_turn_](double s) { return FramedCurve::Rates{.normal = k * turn(s)}; },
+               across_turn_.reach()) {}
+
+/// Three quarters of the height, and of what is below the cut, are the most by which the bottom moves.
+double PatchShape::depth(double v, double w) const {
+  const double grid = -w;
+  if (slope_ == 0 || grid <= cut_depth_) return grid;
+  const double room = 0.75 * (slope_ * v > 0 ? height_ : height_ - cut_depth_);
+  const double bottom = height_ + room * std::tanh(slope_ * v / room);
+  return cut_depth_ + (grid - cut_depth_) * (bottom - cut_depth_) / (height_ - cut_depth_);
+}
+
+/// v (1 + (v/c)^4)^(-1/4), which differs from v by v (v/c)^4 / 4 near 0 and tends to c.
+double PatchShape::across(double v) const {
+  if (curvature_ == 0) return v;
+  const double ratio = v * curvature_ / 0.55;
+  return v * std::pow(1 + ratio * ratio * ratio * ratio, -0.25);
+}
+
+double PatchShape::across_slope(double v) const {
+  if (curvature_ == 0) return 1;
+  const double ratio = v * curvature_ / 0.55;
+  return std::pow(1 + ratio * ratio * ratio * ratio, -1.25);
+}
+
+PatchShape::Plane PatchShape::in_plane(double u, double v) const {
+  if (curvature_ == 0) return {u, v};
+  const FramedCurve::Place path = path_(u);
+  const double g = across(v);
+  return {path.at.x + g * path.b.x, path.at.y + g * path.b.y + (v - g)};
+}
+
+double PatchShape::plane_determinant(double u, double v) const {
+  if (curvature_ == 0) return 1;
+  const double slope = across_slope(v);
+  return (1 - curvature_ * path_turn_(u) * across(v)) * (slope + (1 - slope) * path_(u).t.x);
+}
+
+/// B and N are turned back about T by the angle that the twist has turned them, times a part that rises from
+/// 0 to 1 across.
+PatchShape::Surface PatchShape::surface(double x, double y) const {
+  if (flat_) return {{x, y, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const FramedCurve::Place spine = spine_(x), profile = profile_(y);
+  const FramedCurve::Rates rates = spine_.rates(x);
+  const double beyond = std::clamp((std::abs(y) - twist_core_) / twist_fall, 0., 1.);
+  const double part = (1 - std::cos(std::numbers::pi * beyond)) / 2,
+               turned = twist_ * twist_turn_.integral(x);
+  const double part_slope =
+      std::copysign(std::numbers::pi / 2 / twist_fall * std::sin(std::numbers::pi * beyond), y);
+  const double angle = turned * part, twist = rates.twist * (1 - part);
+  const Vec3 b = std::cos(angle) * spine.b + std::sin(angle) * spine.n;
+  const Vec3 n = std::cos(angle) * spine.n - std::sin(angle) * spine.b;
+  const double across = profile.at.x, up = profile.at.z;
+  Surface s;
+  s.at = spine.at + across * b + up * n;
+  s.x = (1 + rates.normal * (across * std::sin(angle) + up * std::cos(angle))) * spine.t +
+        twist * (up * b - across * n);
+  s.y = profile.t.x * b + profile.t.z * n + turned * part_slope * (across * n - up * b);
+  s.normal = normalized(cross(s.x, s.y));
+  return s;
+}
+
+Vec3 PatchShape::place(double u, double v, double depth) const {
+  const Plane p = in_plane(u, v);
+  const Surface s = surface(p.x, p.y);
+  return s.at - depth * s.normal;
+}
+
+Vec3 PatchShape::tension(double u, double v) const {
+  const Plane p = in_plane(u, v);
+  return normalized(surface(p.x, p.y).x);
+}
+
+/// The nearest place of an arc and its tangents is the arc's own foot where it is within the cut; elsewhere
+/// the nearer one of the two tangents'.
+std::array<double, 2> PatchShape::coordinates(double u, double v) const {
+  if (curvature_ == 0 || (v == 0 && std::abs(u) <= half_length_)) return {u, v};
+  const Plane p = in_plane(u, v);
+  const double radius = 1 / std::abs(curvature_), sign = curvature_ < 0 ? -1 : 1, y = sign * p.y;
+  const double angle = std::atan2(p.x, radius - y), widest = half_length_ / radius;
+  std::array<double, 2> best{};
+  double least = std::numeric_limits<double>::infinity();
+  if (std::abs(angle) <= widest) {
+    best = {radius * angle, sign * (radius - std::hypot(p.x, radius - y))};
+    least = std::abs(best[1]);
+  }
+  for (const double side : {1., -1.}) {
+    const double c = std::cos(widest), s = std::sin(widest);
+    const double x = side * p.x - radius * s, up = y - radius * (1 - c);  // from the end of the arc
+    const double along = c * x + s * up, off = c * up - s * x;
+    if (along < 0 || std::abs(off) >= least) continue;
+    least = std::abs(off);
+    best = {side * (half_length_ + along), sign * off};
+  }
+  if (least == std::numeric_limits<double>::infinity()) {  // behind all of them: the arc's nearer end
+    const double end = p.x < 0 ? -1 : 1, c = std::cos(widest), s = std::sin(widest);
+    const double x = std::abs(p.x) - radius * s, up = y - radius * (1 - c);
+    best = {end * half_length_, sign * std::copysign(std::hypot(x, up), c * up - s * x)};
+  }
+  return best;
+}
+
+std::array<Vec3, 3> PatchShape::frame(double along) const {
+  Plane at{along, 0}, direction{1, 0};
+  if (curvature_ != 0) {
+    const double inside = std::clamp(along, -half_length_, half_length_), beyond = along - inside;
+    const double angle = curvature_ * inside, half = std::sin(angle / 2);
+    direction = {std::cos(angle), std::sin(angle)};
+    at = {std::sin(angle) / curvature_ + beyond * direction.x,
+          2 * half * half / curvature_ + beyond * direction.y};
+  }
+  const Surface s = surface(at.x, at.y);
+  const Vec3 t = normalized(direction.x * s.x + direction.y * s.y);
+  return {t, cross(s.normal, t), s.normal};
+}
+
+}  // namespace cleft
