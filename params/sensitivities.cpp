@@ -51,7 +51,8 @@ void check_sensitivities(const std::vector<std::string>& names, const Parameters
     if (row.is_text() || std::find(groups.begin(), groups.end(), group_of(row)) == groups.end())
       throw InputError(where + " " + name + ": must be a number of " + either(groups));
     if (shapes_the_mesh(parameters, row))
-      throw InputError(where + " " + name + ": is a shape, with which the mesh changes; vary it in a study");
+      throw InputError(std::string(where).append(" ").append(name) +
+                       ": is a shape, with which the mesh changes; vary it in a study");
     // Its entries of the matrix are not there, and a skin of less than 0 does not exist.
     if (name == row_of(parameters, parameters.skin.bending_stiffness).name &&
         parameters.skin.bending_stiffness == 0)
