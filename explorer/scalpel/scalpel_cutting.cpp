@@ -55,7 +55,11 @@ ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
 
 void ScalpelCutting::add_cut(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering) {
   auto cut = std::make_unique<Incision>(mesh_, path, options);
-  if (setup_.fields) wounds_.add(setup_.fields->wound(*cut, setup_.scale), entering);
+  const bool grows = std::isfinite(options.refined);
+  if (setup_.fields)
+    wounds_.add(grows ? setup_.fields->growing_wound(*cut, setup_.scale, options.refined * setup_.scale)
+                      : setup_.fields->wound(*cut, setup_.scale),
+                entering);
   cuts_.push_back(std::move(cut));
 }
 

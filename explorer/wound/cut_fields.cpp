@@ -1,6 +1,7 @@
 #include "explorer/wound/cut_fields.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/h5/h5.h"
@@ -13,14 +14,16 @@ constexpr const char* three_cases =
     "a study.dffd of three cases that differ in skin.prestress_u, _v and _uv alone";
 }
 
-Wound CutFields::wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own) const {
+Wound CutFields::wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own,
+                       double known) const {
   if (one_ && own)
     throw InputError(std::string("the path has prestresses along it: they need ") + three_cases);
   if (one_) return {cut, *one_, scale};
   if (family_) {
     IncisionVolume volume(cut, family_->shape(), scale);
-    VaryingField field = family_->along(
-        cut, scale, own ? *own : prestress_along(volume, cut.path().length(), tension_of(cut)));
+    const SkinTension tension = tension_of(cut, std::isfinite(known));
+    VaryingField field =
+        family_->along(cut, scale, own ? *own : prestress_along(volume, cut.path().length(), tension), known);
     return {cut, std::move(field), std::move(volume)};
   }
   if (own) return {cut, three_->along(*own), scale};
@@ -31,15 +34,16 @@ Wound CutFields::wound(const Incision& cut, double scale, const std::optional<Pa
   return wound_in_tension(cut, *three_, *tension_, scale);
 }
 
-SkinTension CutFields::tension_of(const Incision& cut) const {
-  return tension_ ? *tension_ : default_tension(cut.path(), cut.extended_to() > 0);
+SkinTension CutFields::tension_of(const Incision& cut, bool grows) const {
+  return tension_ ? *tension_ : default_tension(cut.path(), grows);
 }
 
 void CutFields::follow_shape(Wound& wound) const {
   if (!family_) return;
   const Incision& cut = *wound.incision;
   if (const auto s = family_->next_station(cut, wound.scale(), wound.field))
-    family_->extend(wound.field, cut, wound.scale(), *s, prestress_at(wound.volume, *s, tension_of(cut)));
+    family_->extend(wound.field, cut, wound.scale(), *s,
+                    prestress_at(wound.volume, *s, tension_of(cut, true)));
 }
 
 Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,

@@ -3,6 +3,7 @@
 // shape of the skin and the blade too.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -31,13 +32,19 @@ class CutFields {
   /// The wound of a cut whose surroundings are known; neither the cut nor this must end before it. `own`:
   /// prestresses along its path that override the tension. Throws InputError if a tension is given for one
   /// field, or none for three.
-  Wound wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own = {}) const;
-  /// Follows the shape of a path that is found as the blade moves, to where its volume knows it: one station
-  /// at most. The wound is one of wound().
+  Wound wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own = {}) const {
+    return wound(cut, scale, own, std::numeric_limits<double>::infinity());
+  }
+  /// The same of a path that is found as the blade moves, of which `known` mm are known: follow_shape().
+  Wound growing_wound(const Incision& cut, double scale, double known) const {
+    return wound(cut, scale, {}, known);
+  }
+  /// Follows the shape of a growing path to where the wound's volume knows it: one station at most.
   void follow_shape(Wound& wound) const;
 
  private:
-  SkinTension tension_of(const Incision& cut) const;
+  Wound wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own, double known) const;
+  SkinTension tension_of(const Incision& cut, bool grows) const;
 
   std::shared_ptr<const Field> one_;
   std::shared_ptr<const PrestressFields> three_;

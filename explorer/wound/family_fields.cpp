@@ -14,10 +14,12 @@ namespace {
 
 /// In depths of the cut: shapes are smoothed at the scale of what a cut moves.
 constexpr double smoothing_in_depths = 8. / 3;
-/// Of the smoothing: the distance of stations while a path is found.
-constexpr double station_in_smoothing = 0.25;
-/// Of the family's ranges: shapes at stations differ from straight lines between others by no more.
-constexpr double straight_enough = 0.02;
+/// Of the smoothing: the distance of stations while a path is found, and how far behind the tip its curvature
+/// is taken to be known: at the tip itself it is the hand's tremor.
+constexpr double station_in_smoothing = 0.25, behind_tip_in_smoothing = 0.5;
+/// Of the family's ranges: shapes at stations differ from straight lines between others by no more, and from
+/// station to station.
+constexpr double straight_enough = 0.005, near_enough = 0.1;
 /// Of the path's length: its start and its end are apart by more, or it is a loop.
 constexpr double least_chord = 1e-3;
 /// Of a path's turn from the middle of the canonical cut to a place.
@@ -65,20 +67,24 @@ double from_middle(double s, double length, const CanonicalCut& cut) {
 }
 
 /// Numbers whose changes by 1 matter alike.
-std::vector<double> normalised(const CaseShape& one, const Family& family, double prestress) {
+std::vector<double> normalised(const CaseShape& one, const Prestress& local, const Family& family,
+                               double prestress) {
   std::vector<double> list;
   for (const auto& [name, range] : family.shapes())
     list.push_back(std::clamp(one.shapes.at(name), range.least, range.greatest) /
                    (range.greatest - range.least));
-  for (const double component : {one.prestress.uu, one.prestress.vv, one.prestress.uv})
-    list.push_back(component / prestress);
+  for (const Prestress& tension : {one.prestress, local})
+    for (const double component : {tension.uu, tension.vv, tension.uv}) list.push_back(component / prestress);
   return list;
 }
 
-/// Places of a list, the first and the last among them, between which the others are on straight lines.
+/// Places of a list, the first and the last among them, between which the others are on straight lines that
+/// are not too long: fields are no linear functions of what is linear along the path.
 std::vector<std::size_t> bends_of(const std::vector<double>& s, const std::vector<std::vector<double>>& x) {
   std::vector<std::size_t> kept{0};
   const auto straight = [&](std::size_t a, std::size_t b) {
+    for (std::size_t k = 0; k < x[a].size(); ++k)
+      if (std::abs(x[b][k] - x[a][k]) > near_enough) return false;
     for (std::size_t i = a + 1; i < b; ++i)
       for (std::size_t k = 0; k < x[i].size(); ++k) {
         const double line = std::lerp(x[a][k], x[b][k], (s[i] - s[a]) / (s[b] - s[a]));
@@ -102,11 +108,13 @@ SkinTension default_tension(const ScalpelPath& path, bool grows) {
 
 double FamilyFields::smoothing() const { return smoothing_in_depths * shape().cut().depth; }
 
-VaryingField FamilyFields::along(const Incision& incision, double scale,
-                                 const PathPrestress& prestress) const {
+VaryingField FamilyFields::along(const Incision& incision, double scale, const PathPrestress& prestress,
+                                 double known) const {
   const CanonicalCut& cut = shape().cut();
   const double length = incision.path().length() * scale;
-  const PathShape shapes = shape_along(incision, scale, smoothing());
+  PathShape shapes = shape_along(incision, scale, smoothing());
+  while (shapes.stations.size() > 1 && shapes.stations.back() > known)
+    shapes.stations.pop_back(), shapes.values.pop_back();
   double largest = 0;
   for (const Prestress& one : prestress.values)
     largest = std::max({largest, std::abs(one.uu), std::abs(one.vv), std::abs(one.uv)});
@@ -114,8 +122,9 @@ VaryingField FamilyFields::along(const Incision& incision, double scale,
   std::vector<std::vector<double>> numbers;
   for (std::size_t i = 0; i < shapes.stations.size(); ++i) {
     const double s = shapes.stations[i];
-    cases.push_back(case_of(shapes.values[i], between(prestress, s), from_middle(s, length, cut)));
-    numbers.push_back(normalised(cases.back(), *family_, largest > 0 ? largest : 1));
+    const Prestress local = between(prestress, s);
+    cases.push_back(case_of(shapes.values[i], local, from_middle(s, length, cut)));
+    numbers.push_back(normalised(cases.back(), local, *family_, largest > 0 ? largest : 1));
   }
   std::vector<StationField> stations;
   for (const std::size_t i : bends_of(shapes.stations, numbers)) {
@@ -127,9 +136,8 @@ VaryingField FamilyFields::along(const Incision& incision, double scale,
 
 std::optional<double> FamilyFields::next_station(const Incision& incision, double scale,
                                                  const VaryingField& field) const {
-  const double come = incision.extended_to() * scale;
-  if (incision.extended_to() > 0 && come >= field.known_to() + station_in_smoothing * smoothing())
-    return come;
+  const double known = incision.extended_to() * scale - behind_tip_in_smoothing * smoothing();
+  if (known >= field.known_to() + station_in_smoothing * smoothing()) return known;
   return std::nullopt;
 }
 

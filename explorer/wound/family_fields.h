@@ -1,6 +1,7 @@
 // The field of a cut from a family, for the shape of the skin and the blade at each place of the path.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -23,12 +24,13 @@ class FamilyFields {
   const Field& shape() const { return family_->middle(); }
   const Family& family() const { return *family_; }
 
-  /// The fields at stations of the path, between which its shape changes linearly but for a fiftieth of the
-  /// family's ranges. A case of the family has one curvature all along its cut, in skin of one tension and
-  /// one curvature in space. At u of its cut the path has turned against both by its curvature times the way
-  /// from the middle: so what is found at a place of the path is turned by as much. `prestress` is in the
-  /// path's own frame.
-  VaryingField along(const Incision& incision, double scale, const PathPrestress& prestress) const;
+  /// The fields at stations of the path, between which its shape changes linearly and by at most a tenth of
+  /// the family's ranges. A case of the family has one curvature all along its cut, in skin of one tension
+  /// and one curvature in space. At u of its cut the path has turned against both by its curvature times the
+  /// way from the middle: so what is found at a place of the path is turned by as much. `prestress` is in the
+  /// path's own frame. Of a path that grows, only the first `known` mm are known.
+  VaryingField along(const Incision& incision, double scale, const PathPrestress& prestress,
+                     double known = std::numeric_limits<double>::infinity()) const;
 
   /// Whether a path that is found as the blade moves has come so far beyond the field's last station that
   /// there is another one; its place, mm.

@@ -70,6 +70,7 @@ void LiveReplay::follow() {
   }
   if (extended) follow_path(changed);
   extended_to_ = incision_.extended_to();
+  follow_shape();
   enter();
 }
 
@@ -81,8 +82,7 @@ void LiveReplay::follow_path(const std::vector<int>& changed) {
     const auto number = static_cast<std::size_t>(v) + 1;
     const auto at = volume_.locate(v);
     const Placed& was = placed_[number];
-    const bool known = !at || at->s <= was.known || at->s > contractor_.field().known_to();
-    if (at.has_value() == was.anywhere && known &&
+    if (at.has_value() == was.anywhere &&
         (!at || (at->side == was.side && std::hypot(at->s - was.s, at->uvw.y - was.across) < misplaced &&
                  norm(at->along - was.along) < turned && std::abs(at->weight - was.weight) < reweighted)))
       continue;
@@ -90,6 +90,19 @@ void LiveReplay::follow_path(const std::vector<int>& changed) {
     position_[number] = rest_[number];
     touched_.push_back(v);
     take_place(v, at);
+  }
+}
+
+/// Those that were ahead of the shape that the field knew.
+void LiveReplay::follow_shape() {
+  for (; !ahead_.empty() && ahead_.top().enters <= contractor_.field().known_to(); ahead_.pop()) {
+    const auto [s, v, version] = ahead_.top();
+    const auto number = static_cast<std::size_t>(v) + 1;
+    if (slots_[number].version != version) continue;
+    leave(v);
+    position_[number] = rest_[number];
+    touched_.push_back(v);
+    place(v);
   }
 }
 
@@ -115,10 +128,12 @@ void LiveReplay::take_place(int vertex, const std::optional<ActiveVertex>& at) {
   if (incision_.extended_to() > 0) {
     placed_.resize(std::max(placed_.size(), slots_.size()));
     placed_[static_cast<std::size_t>(vertex) + 1] =
-        at ? Placed{true, at->side, at->s, at->uvw.y, at->weight, at->along, contractor_.field().known_to()}
-           : Placed{};
+        at ? Placed{true, at->side, at->s, at->uvw.y, at->weight, at->along} : Placed{};
   }
-  if (at) waiting_.push({-at->time_offset, vertex, slots_[static_cast<std::size_t>(vertex) + 1].version});
+  if (!at) return;
+  const std::uint32_t version = slots_[static_cast<std::size_t>(vertex) + 1].version;
+  waiting_.push({-at->time_offset, vertex, version});
+  if (at->s > contractor_.field().known_to()) ahead_.push({at->s, vertex, version});
 }
 
 /// Those whose own time has begun; what a step has just changed before those that are late.

@@ -68,7 +68,6 @@ class LiveReplay {
     double s = 0, across = 0;  // mm
     double weight = 0;
     Vec3 along;
-    double known = 0;  ///< mm of the path to which its shape was known
   };
   /// A vertex gets new coordinates if they are wrong by this distance, mm, T by this angle, rad, or the
   /// weight by this. Over a quarter of a millimetre a wound's displacements change by some hundredths of a
@@ -76,7 +75,7 @@ class LiveReplay {
   /// each of them.
   static constexpr double misplaced = 0.25, turned = 0.1, reweighted = 0.05;
   struct Waiting {
-    double enters;  ///< mm of the path
+    double enters;  ///< mm of the path; or, of those ahead, where it must be known
     int vertex;
     std::uint32_t version;
     bool operator<(const Waiting& other) const { return enters > other.enters; }
@@ -84,6 +83,7 @@ class LiveReplay {
 
   std::vector<int> changed_vertices();
   void follow_path(const std::vector<int>& changed);
+  void follow_shape();
   void leave(int vertex);
   void place(int vertex);
   void take_place(int vertex, const std::optional<ActiveVertex>& at);
@@ -102,6 +102,7 @@ class LiveReplay {
   std::vector<Placed> placed_;  // of a path that is extended
   std::vector<Batch> batches_;
   std::priority_queue<Waiting> waiting_;
+  std::priority_queue<Waiting> ahead_;  // of what the field's shape is known for
   std::deque<Waiting> late_;
   std::vector<ActiveVertex> entering_;
   std::vector<int> chain_end_;  // vertices of the chain's end as of the last follow()

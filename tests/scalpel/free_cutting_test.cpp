@@ -6,6 +6,7 @@
 #include "explorer/wound/replay.h"
 #include "tests/haptic/surfaces.h"
 #include "tests/incision/stress/soundness.h"
+#include "tests/wound/family_file.h"
 #include "tests/wound/fields.h"
 
 namespace cleft {
@@ -140,6 +141,40 @@ TEST(FreeCutting, ItOpensAsTheCutWouldHaveThatWasDrawnBefore) {
     // gradient is at most 0.15 there: 0.04 and 0.18 mm.
     EXPECT_LT(farthest, 0.22) << bend;
   }
+}
+
+/// A family's field is that of the path's shape as far as the blade has come; its displacements double from a
+/// straight path to this one.
+TEST(FreeCutting, AFamilyFollowsTheShapeOfThePath) {
+  const SurfaceMesh mesh = ball_on_its_side(54);
+  const testing::FamilyFile file({.with_twist = false, .length = 30, .slope = 30});
+  const CutFields fields = read_cut_fields(file.file(), {0, 1, 0}, {0.03, 0.01});
+  ScalpelCutting cutting(mesh, {{}, {}, fields, 1, 0});
+  const ScalpelPath path = over_the_ball(-20, 20, 0, 1.5);  // of a radius of 33 mm
+  cut_along(cutting, path, 32);
+  take_out(cutting);
+  const double tip = cutting.incision()->tip();
+  ASSERT_GT(tip, 30);
+  Incision incision(mesh, cutting.incision()->path());  // all of it known before
+  incision.advance_to(tip);
+  const Replay replay(fields.wound(incision, 1)),
+      straight(Wound(incision, testing::made({0, 0, 4, 30, 30}, {0.01, 0.03, 0}), 1));
+  std::vector<Vec3> seen(replay.vertex_count()), seen_straight(seen.size());
+  replay.positions(tip, seen), straight.positions(tip, seen_straight);
+  double farthest = 0, moved = 0, from_straight = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (incision.mesh().vertex(static_cast<int>(v)).kind != VertexKind::skin ||
+        cutting.mesh().vertex(static_cast<int>(v)).kind != VertexKind::skin ||
+        std::abs(incision.path().coordinates(mesh.points[v]).v) > 11)
+      continue;
+    const Vec3 felt = cutting.position(static_cast<int>(v)) - cutting.mesh().position(static_cast<int>(v));
+    farthest = std::max(farthest, norm(seen[v] - replay.rest()[v] - felt));
+    from_straight = std::max(from_straight, norm(seen_straight[v] - replay.rest()[v] - felt));
+    moved = std::max(moved, norm(felt));
+  }
+  // Where the blade has been, the path's curvature is known to 0.005 / mm, half the smoothing behind its tip.
+  EXPECT_LT(farthest, 30 * 0.005 * moved);
+  EXPECT_GT(from_straight, 0.4 * moved);
 }
 
 }  // namespace

@@ -1,0 +1,169 @@
+// Cuts opened by a family of fields, whose displacements follow a formula of the shape.
+#include "explorer/wound/family_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "encoder/interpolate/case_modes.h"
+#include "explorer/wound/cut_fields.h"
+#include "tests/incision/meshes.h"
+#include "tests/wound/family_file.h"
+
+namespace cleft {
+namespace {
+
+using namespace testing;
+
+const FamilyFile& family_file() {
+  static const FamilyFile file({});
+  return file;
+}
+
+/// A path on a circle in the plane z = 0, which curves toward +v for a curvature above 0.
+std::vector<Vec3> arc(double curvature, double length) {
+  std::vector<Vec3> points;
+  for (int i = 0; i <= 20; ++i) {
+    const double s = length * (i / 20. - 0.5);
+    points.push_back({std::sin(curvature * s) / curvature, (1 - std::cos(curvature * s)) / curvature, 0});
+  }
+  return points;
+}
+
+/// Of two fields along one canonical cut, relative to the second's largest displacement.
+double apart(const VaryingField& field, double s, const Field& truth) {
+  double largest = 0, off = 0;
+  for (const double x : {-8., -2., 3., 9.})
+    for (const double y : {-6., -1., 0., 2., 10.})
+      for (const double part : {0., 0.4, 1.}) {
+        const Side side = y < 0 ? Side::left : Side::right;
+        const Vec3 common{x, y, -part * field.shape().cut().depth}, own{x, y, -part * truth.cut().depth};
+        const Vec3 should = truth.displacement(own, side, 18);
+        largest = std::max(largest, norm(should));
+        off = std::max(off, norm(field.displacement(common, side, 18, s) - should));
+      }
+  return off / largest;
+}
+
+struct Cut {
+  SurfaceMesh plane = grid(60, 60, -30, -30, 1);
+  Incision incision;
+  explicit Cut(const std::vector<Vec3>& points, double depth = 3)
+      : incision(plane, path_through(points, up, depth)) {
+    incision.advance_to(incision.path().length());
+  }
+};
+
+/// The limit of what is compared: the modes of the family, and the smoothing of paths.
+constexpr double close = 3e-3;
+
+}  // namespace
+
+TEST(Family, AnArcOpensAsTheCaseOfItsCurvatureInTheTensionAtItsMiddle) {
+  const CutFields fields = read_cut_fields(family_file().file(), {0.6, 0.8, 0}, {0.03, 0.01});
+  ASSERT_TRUE(fields.following_shape());
+  // The larger tension is at an angle of atan(4 / 3) to x, along which the arc's middle lies.
+  const double c2 = 0.36 - 0.64, s2 = 2 * 0.6 * 0.8;
+  const Prestress middle{0.02 + 0.01 * c2, 0.02 - 0.01 * c2, 0.01 * s2};
+  for (const double curvature : {-0.05, 0.05, 0.1}) {
+    const Cut cut(arc(curvature, 20));
+    const Wound wound = fields.wound(cut.incision, 1);
+    for (const double s : {3., 7., 10., 16.})
+      EXPECT_LT(apart(wound.field, s, made({curvature, 0, 3}, middle)), close) << curvature << " at " << s;
+    // The frame at the ends is a mean over half of the depth, to the one side.
+    for (const double s : {0., 20.})
+      EXPECT_LT(apart(wound.field, s, made({curvature, 0, 3}, middle)), 0.25 * std::abs(curvature)) << s;
+    EXPECT_GT(apart(wound.field, 10, made({0, 0, 3}, middle)), 10 * close);
+    // The relief of further cuts needs the tension across the path where it is.
+    const double turn = curvature * 10;  // of the path's end against its middle
+    EXPECT_NEAR(wound.field.prestress(&Prestress::vv, 20),
+                0.02 - 0.01 * std::cos(2 * (std::atan2(0.8, 0.6) - turn)), 0.02 * std::abs(curvature));
+  }
+}
+
+TEST(Family, DepthIsThatOfTheBladeAtEachPlace) {
+  const CutFields fields = read_cut_fields(family_file().file(), {0, 1, 0}, {0.03, 0.01});
+  const SurfaceMesh plane = grid(60, 60, -30, -30, 1);
+  std::vector<ScalpelPath::Point> points;
+  for (int i = 0; i <= 20; ++i) points.push_back({{i - 10., 0, 0}, {0, 0, 1}, 2 + 0.1 * i});
+  Incision incision(plane, ScalpelPath(points));
+  incision.advance_to(20);
+  const Wound wound = fields.wound(incision, 1);
+  for (const double s : {2., 10., 17.})
+    EXPECT_LT(apart(wound.field, s, made({0, 0, 2 + 0.1 * s}, {0.01, 0.03, 0})), close) << s;
+}
+
+TEST(Family, TheSkinsCurvaturesAreTurnedIntoThePath) {
+  // A cylinder around the x axis; a path at an angle to it sees the twist sin cos / R.
+  const double radius = 25, angle = 0.5;
+  SurfaceMesh skin = grid(80, 80, -40, -40, 1);
+  const auto on_skin = [&](double x, double y) {
+    return Vec3{x, radius * std::sin(y / radius), radius * (std::cos(y / radius) - 1)};
+  };
+  for (Vec3& p : skin.points) p = on_skin(p.x, p.y);
+  std::vector<ScalpelPath::Point> points;
+  for (int i = 0; i <= 20; ++i) {
+    const double s = i - 10, y = s * std::sin(angle);
+    points.push_back({on_skin(s * std::cos(angle), y), {0, std::sin(y / radius), std::cos(y / radius)}, 3});
+  }
+  Incision incision(skin, ScalpelPath(points));
+  incision.advance_to(20);
+  const FamilyFields fields(std::make_shared<const Family>(family_file().file()));
+  const PathPrestress prestress{{0, 20}, {{0.01, 0.03, 0}, {0.01, 0.03, 0}}};
+  const VaryingField field = fields.along(incision, 1, prestress);
+  const double twist = std::sin(angle) * std::cos(angle) / radius;
+  EXPECT_LT(apart(field, 10, made({0, twist, 3}, {0.01, 0.03, 0})), 10 * close);
+  EXPECT_GT(apart(field, 10, made({0, -twist, 3}, {0.01, 0.03, 0})), 0.1);
+  EXPECT_GT(apart(field, 10, made({0, 0, 3}, {0.01, 0.03, 0})), 0.1);
+}
+
+TEST(Family, BeyondItsShapesTheNearestIsTakenAndTold) {
+  const Family family(family_file().file());
+  const auto at = [&](double curvature) {
+    return family.at({{"cut.curvature", curvature}, {"skin.curvature_uv", 0}, {"cut.depth", 3}},
+                     {0.01, 0.03, 0});
+  };
+  EXPECT_EQ(at(0.08).outside, 0);
+  EXPECT_NEAR(at(0.15).outside, 0.5, 1e-12);
+  const Vec3 place{0, 1, 0};
+  EXPECT_EQ(norm(at(0.15).field->displacement(place, Side::right, 10) -
+                 at(0.1).field->displacement(place, Side::right, 10)),
+            0);
+}
+
+TEST(Family, ModesAreTheInterpolatedFields) {
+  const StudyInterpolator study(family_file().file());
+  const CaseModes modes(study, 1e-4);
+  EXPECT_LT(modes.count(), 20);
+  for (const double curvature : {-0.07, 0.02, 0.09}) {
+    const CaseParameters values = {{"cut.curvature", curvature}, {"skin.curvature_uv", 0.01},
+                                   {"cut.depth", 2.7},           {"skin.prestress_u", 0.02},
+                                   {"skin.prestress_v", 0.03},   {"skin.prestress_uv", -0.004}};
+    const Field a = modes.at(values), b = study.at(values);
+    EXPECT_LT(apart(VaryingField(a), 0, b), 1e-3);
+    EXPECT_EQ(a.parameters.numbers(), b.parameters.numbers());
+  }
+}
+
+TEST(Family, WithoutATensionItIsTheDefaultCasesAlongThePathAsAWhole) {
+  const CutFields fields = read_cut_fields(family_file().file(), {}, {});
+  const Cut cut(arc(0.05, 20));
+  const Wound wound = fields.wound(cut.incision, 1);
+  EXPECT_LT(apart(wound.field, 10, made({0.05, 0, 3}, Parameters{}.skin.prestress)), close);
+}
+
+TEST(Family, AStudyThatIsNoneIsRefusedWithTheReason) {
+  const FamilyFile plain({.with_twist = false, .with_shear = false});
+  EXPECT_THROW(read_cut_fields(plain.file(), {}, {}), InputError);
+  try {
+    Family family(plain.file());
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("cut.curvature"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("sampling.unit_tensions"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace cleft
