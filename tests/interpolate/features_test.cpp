@@ -55,6 +55,28 @@ TEST(Features, FollowTheParametersThatVary) {
   EXPECT_EQ(Features(varied_records(), Loading::general).size(), 3);
 }
 
+TEST(Features, OfCurvaturesAreTheirAnglesWithSigns) {
+  std::vector<RecordedParameters> cases;
+  for (const double curvature : {-0.02, 0., 0.01, 0.02})
+    for (const double slope : {-0.1, 0.2})
+      for (const double tilt : {0., 30.})
+        cases.push_back(recorded(
+            parameters_with({{"cut.curvature", curvature}, {"patch.slope", slope}, {"cut.tilt", tilt}})));
+  const Features features(cases, Loading::superposed);
+  ASSERT_EQ(features.size(), 3);
+  EXPECT_EQ(features.names()[0], "cut.curvature cut.length");
+  const auto at = [&](double curvature, double slope, double tilt) -> Eigen::VectorXd {
+    return features.at(recorded(
+        parameters_with({{"cut.curvature", curvature}, {"patch.slope", slope}, {"cut.tilt", tilt}})));
+  };
+  // From -1 to 1, in proportion.
+  EXPECT_NEAR(at(0.02, 0, 0)[0], 1, 1e-12);
+  EXPECT_NEAR(at(0.005, 0, 0)[0], 0.25, 1e-12);
+  EXPECT_NEAR(at(-0.01, 0, 0)[0], -0.5, 1e-12);
+  EXPECT_NEAR((at(0, 0.05, 15) - at(0, -0.1, 0)).cwiseAbs().minCoeff(), 0, 1e-12);
+  EXPECT_NEAR((at(0, 0.05, 15) - at(0, -0.1, 0)).sum(), 2, 1e-12);  // half of both ranges
+}
+
 TEST(Features, KnowWhatTheStudyNeverVariedAlone) {
   // Springs as stiff as the tissue in all cases: their ratio to it is always the same.
   std::vector<RecordedParameters> cases;
