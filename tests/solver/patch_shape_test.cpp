@@ -147,6 +147,22 @@ TEST(PatchShape, TheSkinHasTheCurvaturesThatAreAskedFor) {
   EXPECT_NEAR(norm(shape.tension(4, 0) - along), 0, 1e-12);
 }
 
+/// Everywhere, by differences: near the cut, where curvatures turn back, and where the twist fades.
+TEST(PatchShape, DepthIsAlongTheNormalAndTensionAlongTheImageOfTheFirstAxis) {
+  Parameters p = coarse();
+  p.skin.curvature_u = 0.02, p.skin.curvature_v = -0.03, p.skin.curvature_uv = 0.015;
+  const PatchShape shape(p);
+  constexpr double h = 1e-4;
+  for (const double u : {-28., -14., -4., 3., 11., 17., 24.})
+    for (const double v : {-29., -19., -6., 2., 8., 16., 22.}) {
+      const Vec3 along = 0.5 / h * (shape.place(u + h, v, 0) - shape.place(u - h, v, 0));
+      const Vec3 across = 0.5 / h * (shape.place(u, v + h, 0) - shape.place(u, v - h, 0));
+      EXPECT_NEAR(norm(shape.tension(u, v) - normalized(along)), 0, 1e-6);
+      const Vec3 outward = shape.place(u, v, 0) - shape.place(u, v, 1);
+      EXPECT_NEAR(norm(outward - normalized(cross(along, across))), 0, 1e-6);
+    }
+}
+
 TEST(PatchShape, ItsBottomSlopesAndLevelsOff) {
   Parameters p = coarse();
   p.patch.slope = 0.3;
