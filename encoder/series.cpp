@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/curved_places.h"
 
 namespace cleft {
 
@@ -129,11 +131,13 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader) {
   return quantities;
 }
 
-/// The nodes of a body or a shaped patch in the coordinates of its cut, and the directions of these there.
+/// The nodes of a body or a shaped patch in the coordinates of its cut, and the directions of these there. A
+/// node beside a curved cut may have several places (curved_places.h): the first ones are those of all nodes.
 struct OwnCoordinates {
-  std::vector<Vec3> places;                 // of all nodes
-  std::vector<std::array<Vec3, 3>> frames;  // of all nodes
-  std::vector<std::size_t> kept;            // the nodes of the series
+  std::vector<Vec3> places;
+  std::vector<std::array<Vec3, 3>> frames;  // of all places
+  std::vector<std::size_t> node;            // of all places
+  std::vector<std::size_t> kept;            // the places of the series
 
   explicit OwnCoordinates(const SnapshotReader& reader) {
     const std::vector<double> at = reader.point_array({"canonical", 3, false}, 0);
@@ -141,10 +145,33 @@ struct OwnCoordinates {
     places.resize(at.size() / 3), frames.resize(axes.size() / 9);
     for (std::size_t i = 0; i < at.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = at[i];
     for (std::size_t i = 0; i < axes.size(); ++i) frames[i / 9][i % 9 / 3][static_cast<int>(i % 3)] = axes[i];
+    node.resize(places.size());
+    std::iota(node.begin(), node.end(), std::size_t{0});
     const auto domain = own_domain(reader.snapshot());
+    if (domain) add_further_places(*reader.snapshot().parameters);
     for (std::size_t n = 0; n < places.size(); ++n)
       if (!domain || (within((*domain)[0], places[n].x) && within((*domain)[1], places[n].y)))
         kept.push_back(n);
+  }
+
+  /// Frames depend on the place along the cut alone.
+  void add_further_places(const Parameters& parameters) {
+    if (parameters.cut.curvature == 0) return;
+    std::vector<std::size_t> along(places.size());
+    std::iota(along.begin(), along.end(), std::size_t{0});
+    std::sort(along.begin(), along.end(),
+              [this](std::size_t a, std::size_t b) { return places[a].x < places[b].x; });
+    for (std::size_t n = 0, nodes = places.size(); n < nodes; ++n)
+      for (const Vec3& place : further_places(parameters, places[n])) {
+        const auto after = std::lower_bound(along.begin(), along.end(), place.x,
+                                            [this](std::size_t a, double u) { return places[a].x < u; });
+        if (after == along.begin() || after == along.end()) continue;
+        const std::size_t a = *(after - 1), b = *after;
+        const double part = (place.x - places[a].x) / (places[b].x - places[a].x);
+        std::array<Vec3, 3> frame;
+        for (int k = 0; k < 3; ++k) frame[k] = normalized(lerp(frames[a][k], frames[b][k], part));
+        places.push_back(place), frames.push_back(frame), node.push_back(n);
+      }
   }
 
   static bool within(const Interval& range, double x) {
@@ -152,8 +179,9 @@ struct OwnCoordinates {
     return range.front - slack <= x && x <= range.back + slack;
   }
 
-  Vec3 components(std::size_t node, const Vec3& d) const {
-    return {dot(frames[node][0], d), dot(frames[node][1], d), dot(frames[node][2], d)};
+  /// Of a displacement at a place.
+  Vec3 components(std::size_t place, const Vec3& d) const {
+    return {dot(frames[place][0], d), dot(frames[place][1], d), dot(frames[place][2], d)};
   }
 
   /// The snapshot in these coordinates, of the nodes that are kept. Cells are left out where the coordinates
@@ -161,7 +189,7 @@ struct OwnCoordinates {
   Snapshot of(const Snapshot& s) const {
     constexpr double most_stretched = 4;
     Snapshot moved = s;
-    std::vector<std::int64_t> number(s.points.size(), -1);
+    std::vector<std::int64_t> number(places.size(), -1);
     for (std::size_t i = 0; i < kept.size(); ++i) number[kept[i]] = static_cast<std::int64_t>(i);
     moved.points.clear(), moved.cell_types.clear(), moved.connectivity.clear(), moved.cell_offsets = {0};
     for (const std::size_t n : kept) moved.points.push_back(places[n]);
@@ -205,7 +233,7 @@ std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader,
       if (own) {
         Eigen::MatrixX3d turned(static_cast<Eigen::Index>(own->kept.size()), 3);
         for (Eigen::Index i = 0; i < turned.rows(); ++i) {
-          const auto n = static_cast<Eigen::Index>(own->kept[i]);
+          const auto n = static_cast<Eigen::Index>(own->node[own->kept[i]]);
           const Vec3 d = own->components(own->kept[i], {frame(n, 0), frame(n, 1), frame(n, 2)});
           turned.row(i) << d.x, d.y, d.z;
         }
@@ -242,8 +270,9 @@ Series::Series(const SnapshotReader& reader) {
     const std::vector<Vec3> d = reader.displacement(j);
     Eigen::MatrixX3d& frame = frames.emplace_back(static_cast<Eigen::Index>(s.points.size()), 3);
     for (Eigen::Index i = 0; i < frame.rows(); ++i) {
-      const std::size_t n = own ? own->kept[i] : static_cast<std::size_t>(i);
-      const Vec3 change = own ? own->components(n, d[n] - closed[n]) : d[n] - closed[n];
+      const std::size_t n = own ? own->node[own->kept[i]] : static_cast<std::size_t>(i);
+      const Vec3 moved_by = d[n] - closed[n],
+                 change = own ? own->components(own->kept[i], moved_by) : moved_by;
       frame.row(i) << change.x, change.y, change.z;
     }
     largest.push_back(frame.rowwise().norm().maxCoeff());
