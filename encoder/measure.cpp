@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -18,10 +19,12 @@ struct Frame {
   int worst_node = 0;
 };
 
+std::span<const Sample> nodes_of(const Series& series) { return {series.samples.data(), series.nodes}; }
+
 std::vector<Vec3> spline_at(const Field& field, const Series& series, double t) {
   std::vector<Place> places;
-  places.reserve(series.samples.size());
-  for (const Sample& sample : series.samples) places.push_back({sample.uvw, sample.side, t});
+  places.reserve(series.nodes);
+  for (const Sample& sample : nodes_of(series)) places.push_back({sample.uvw, sample.side, t});
   std::vector<Vec3> values(places.size());
   field.displacements(places, values);
   return values;
@@ -47,7 +50,7 @@ void add_shape(Frame& f, const Field& field, const Series& series, std::size_t f
   const double t = series.times[frame], top = series.geometry.domain[2].back;
   const double start = series.geometry.cut.start, tip = series.geometry.tip.at(t);
   const double tiny = 1e-9 * (series.geometry.domain[0].back - series.geometry.domain[0].front);
-  for (const Sample& sample : series.samples) {
+  for (const Sample& sample : nodes_of(series)) {
     const bool uncut_plane = sample.uvw.y == 0 && sample.side == Side::both && series.geometry.cut.length > 0;
     const bool end = std::abs(sample.uvw.x - start) <= tiny || std::abs(sample.uvw.x - tip) <= tiny;
     if (uncut_plane && !end && sample.uvw.z == top)
@@ -94,7 +97,7 @@ FitReport measure(const Field& field, const Series& series) {
                [&](int j) { frames[j] = measure_frame(field, series, static_cast<std::size_t>(j)); });
   FitReport report;
   report.condition = field.report.condition, report.fit_seconds = field.report.fit_seconds;
-  report.nodes = static_cast<double>(series.samples.size());
+  report.nodes = static_cast<double>(series.nodes);
   report.frames = static_cast<double>(series.times.size());
   const double scale = report.largest_displacement = series.largest_displacement;
   if (scale == 0) return report;  // nothing moves: every figure is 0
@@ -122,9 +125,9 @@ NodeResidual residual_of(Field& field, const Series& series, double bound) {
   NodeResidual residual;
   // Half a step each way is sqrt(3) / 2 steps together; a little less for rounding.
   residual.quantum = (1 - 1e-9) * 2 / std::sqrt(3.) * bound;
-  residual.nodes = static_cast<int>(series.samples.size());
+  residual.nodes = static_cast<int>(series.nodes);
   residual.frames = static_cast<int>(series.times.size()) - 1;
-  residual.values.resize(series.samples.size() * 3 * static_cast<std::size_t>(residual.frames));
+  residual.values.resize(series.nodes * 3 * static_cast<std::size_t>(residual.frames));
   std::vector<double> largest(series.times.size());
   parallel_for(static_cast<int>(largest.size()), [&](int frame) {
     const std::size_t j = frame;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -138,6 +139,7 @@ struct OwnCoordinates {
   std::vector<std::array<Vec3, 3>> frames;  // of all places
   std::vector<std::size_t> node;            // of all places
   std::vector<std::size_t> kept;            // the places of the series
+  std::size_t nodes = 0;                    // of these, the first ones: of nodes, one for each
 
   explicit OwnCoordinates(const SnapshotReader& reader) {
     const std::vector<double> at = reader.point_array({"canonical", 3, false}, 0);
@@ -151,12 +153,13 @@ struct OwnCoordinates {
     if (domain) add_further_places(*reader.snapshot().parameters);
     for (std::size_t n = 0; n < places.size(); ++n)
       if (!domain || (within((*domain)[0], places[n].x) && within((*domain)[1], places[n].y)))
-        kept.push_back(n);
+        kept.push_back(n), nodes += node[n] == n;
+    if (domain && std::abs(reader.snapshot().parameters->cut.curvature) > 0) fill_gaps(*domain);
   }
 
   /// Frames depend on the place along the cut alone.
   void add_further_places(const Parameters& parameters) {
-    if (parameters.cut.curvature == 0) return;
+    if (!(std::abs(parameters.cut.curvature) > 0)) return;  // 0, or not recorded
     std::vector<std::size_t> along(places.size());
     std::iota(along.begin(), along.end(), std::size_t{0});
     std::sort(along.begin(), along.end(),
@@ -171,6 +174,30 @@ struct OwnCoordinates {
         std::array<Vec3, 3> frame;
         for (int k = 0; k < 3; ++k) frame[k] = normalized(lerp(frames[a][k], frames[b][k], part));
         places.push_back(place), frames.push_back(frame), node.push_back(n);
+      }
+  }
+
+  /// Beyond the patch's edges, which are no lines of these coordinates, displacements are as at the nearest
+  /// column of nodes: what a fit would have there is neither known nor bounded.
+  void fill_gaps(const std::array<Interval, 2>& domain) {
+    constexpr int gaps = 24;  // that the domain is divided into, along and across
+    std::map<std::pair<double, double>, std::vector<std::size_t>> columns;
+    for (const std::size_t n : kept) columns[{places[n].x, places[n].y}].push_back(n);
+    const double along = (domain[0].back - domain[0].front) / gaps,
+                 across = (domain[1].back - domain[1].front) / gaps;
+    for (int i = 0; i <= gaps; ++i)
+      for (int j = 0; j <= gaps; ++j) {
+        const double u = domain[0].front + i * along, v = domain[1].front + j * across;
+        const std::vector<std::size_t>* nearest = nullptr;
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& [at, column] : columns)
+          if (const double off = std::hypot((at.first - u) / along, (at.second - v) / across); off < least)
+            least = off, nearest = &column;
+        if (!nearest || least < 1) continue;
+        for (const std::size_t n : *nearest) {
+          kept.push_back(places.size());
+          places.push_back({u, v, places[n].z}), frames.push_back(frames[n]), node.push_back(node[n]);
+        }
       }
   }
 
@@ -265,6 +292,7 @@ Series::Series(const SnapshotReader& reader) {
                      " frame; a time series needs at least 2");
   check_cut(s);
   times = s.times, samples = samples_of(s), pairs = s.pairs, released = s.released;
+  nodes = own ? own->nodes : samples.size();
   const std::vector<Vec3> closed = reader.displacement(0);
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);

@@ -26,8 +26,11 @@ struct SeriesDerivative {
 };
 
 struct Series {
-  std::vector<double> times;             ///< F, mm
-  std::vector<Sample> samples;           ///< N
+  std::vector<double> times;    ///< F, mm
+  std::vector<Sample> samples;  ///< N
+  /// Of the samples, the first ones: nodes of the snapshot, at which errors are measured. Further ones are
+  /// places at which a shaped patch's displacements are known too; they are fitted alike.
+  std::size_t nodes = 0;
   std::vector<Eigen::MatrixX3d> frames;  ///< F: N x 3, displacement from frame 0, mm; frame 0 is zero
   std::vector<double> largest;           ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;       ///< mm, of all

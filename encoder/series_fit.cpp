@@ -35,8 +35,9 @@ void one_thread_a_product() {
   if (openblas_set_num_threads) openblas_set_num_threads(1);
 }
 
-Misfit misfit_of(const Eigen::MatrixX3d& errors, double limit) {
-  const Eigen::VectorXd distances = errors.rowwise().norm();
+/// At the nodes.
+Misfit misfit_of(const Eigen::MatrixX3d& errors, const Series& series, double limit) {
+  const Eigen::VectorXd distances = errors.topRows(static_cast<Eigen::Index>(series.nodes)).rowwise().norm();
   return {distances.maxCoeff(), (distances.array() > limit).cast<double>().mean()};
 }
 
@@ -52,7 +53,7 @@ double space_misfit(const Series& series, const Parametrization& parametrization
     if (sum > most) return;
     const std::size_t frame = frames[i];
     const auto factor = fit.space().factorize(fit.normal(frame, of_search));
-    sum += misfit_of(fit.misfit(factor.solve(fit.project(frame)), frame), limit).beyond;
+    sum += misfit_of(fit.misfit(factor.solve(fit.project(frame)), frame), series, limit).beyond;
   });
   return sum;
 }
@@ -186,7 +187,7 @@ Misfit SeriesFit::misfit(double limit) const {
   parallel_for(frames, [&](int j) {
     const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
     const std::size_t frame = j + first_;
-    misfits[j] = misfit_of(fit_.misfit(x.reshaped(ties().size(), 3), frame), limit);
+    misfits[j] = misfit_of(fit_.misfit(x.reshaped(ties().size(), 3), frame), series_, limit);
   });
   Misfit all;
   for (const Misfit& one : misfits) {
