@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <queue>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -17,6 +19,11 @@ constexpr double least_determinant = 0.2;  // of a wedge: least over mean Jacobi
 constexpr double least_part = 0.1;         // of the thickness
 constexpr int most_rounds = 40;
 constexpr double most_cut = 0.8;  // of the thickness: layers of the cut
+// Columns turn from the blade's direction to the normals over so many times their way aside: there the tissue
+// is compressed to the rest of 1 less one over it.
+constexpr double turned_over = 2.5;
+constexpr double least_over = 0.5;  // of the thickness
+constexpr double most_aside = 3;    // of the thickness: how far aside columns go, about 70 degrees
 
 /// Neighbours along edges.
 std::vector<std::vector<int>> neighbors_of(const SurfaceMesh& mesh) {
@@ -75,43 +82,83 @@ class Extruder {
     return "(" + rounded(p.x) + ", " + rounded(p.y) + ", " + rounded(p.z) + ")";
   }
 
-  /// Means over the neighbourhood, as far as the tissue is thick, with the blades' directions fixed.
-  void set_directions() {
-    const std::vector<Vec3> normal = normals_of(s_.mesh);
-    e_.inward.resize(normal.size());
-    const auto fixed = [&](std::size_t p) { return squared_norm(blade_[p]) > 0; };
-    for (std::size_t p = 0; p < normal.size(); ++p) e_.inward[p] = fixed(p) ? blade_[p] : -normal[p];
-    double mean_edge = 0;
+  /// Where columns that no blade turns go: means over the neighbourhood, as far as the tissue is thick.
+  std::vector<Vec3> upright(const std::vector<Vec3>& normal) const {
+    double edge = 0;
     int edges = 0;
     for (std::size_t p = 0; p < normal.size(); ++p)
       for (const int q : around_[p])
-        if (fixed(p)) mean_edge += norm(s_.mesh.points[p] - s_.mesh.points[q]), ++edges;
-    const double part = edges > 0 ? layers_.depth.back() / (mean_edge / edges) : 4;
+        if (squared_norm(blade_[p]) > 0) edge += norm(s_.mesh.points[p] - s_.mesh.points[q]), ++edges;
+    const double part = edges > 0 ? layers_.depth.back() / (edge / edges) : 4;
     const int rounds = std::clamp(static_cast<int>(part * part / 2), 4, 60);
+    std::vector<Vec3> inward(normal.size());
+    for (std::size_t p = 0; p < normal.size(); ++p) inward[p] = -normal[p];
     for (int round = 0; round < rounds; ++round) {
-      std::vector<Vec3> next = e_.inward;
+      std::vector<Vec3> next = inward;
       for (std::size_t p = 0; p < next.size(); ++p) {
-        if (fixed(p)) continue;
-        Vec3 sum = e_.inward[p];
-        for (const int q : around_[p]) sum += e_.inward[q];
+        Vec3 sum = inward[p];
+        for (const int q : around_[p]) sum += inward[q];
         if (const Vec3 mean = normalized(sum); dot(mean, normal[p]) < -0.5) next[p] = mean;
       }
-      e_.inward = next;
+      inward = next;
     }
+    return inward;
   }
 
+  /// How far aside of these columns go for each mm below the skin: on the cuts as the blade, away from them
+  /// less and less.
+  std::vector<Vec3> ways_aside(const std::vector<Vec3>& inward) const {
+    std::vector<Vec3> aside(inward.size());
+    std::vector<double> distance(inward.size(), std::numeric_limits<double>::infinity());
+    std::vector<int> nearest(inward.size(), -1);
+    using Reached = std::pair<double, int>;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
+    for (std::size_t p = 0; p < inward.size(); ++p) {
+      const double down = dot(blade_[p], inward[p]);
+      if (squared_norm(blade_[p]) == 0 || down <= 0) continue;
+      aside[p] = 1 / down * blade_[p] - inward[p];
+      if (norm(aside[p]) > most_aside) aside[p] = most_aside * normalized(aside[p]);
+      distance[p] = 0, nearest[p] = static_cast<int>(p), queue.push({0., static_cast<int>(p)});
+    }
+    while (!queue.empty()) {
+      const auto [at, p] = queue.top();
+      queue.pop();
+      if (at > distance[p]) continue;
+      for (const int q : around_[p])
+        if (const double d = at + norm(s_.mesh.points[q] - s_.mesh.points[p]); d < distance[q])
+          distance[q] = d, nearest[q] = nearest[p], queue.push({d, q});
+    }
+    std::vector<Vec3> result(inward.size());
+    for (std::size_t p = 0; p < inward.size(); ++p) {
+      if (nearest[p] < 0) continue;
+      const Vec3& way = aside[nearest[p]];
+      const double over = std::max(least_over, turned_over * norm(way)) * layers_.depth.back();
+      if (distance[p] < over) result[p] = (1 - distance[p] / over) * (way - dot(way, inward[p]) * inward[p]);
+    }
+    return result;
+  }
+
+  void set_directions() {
+    e_.inward = upright(normals_of(s_.mesh));
+    aside_ = ways_aside(e_.inward);
+    for (std::size_t p = 0; p < aside_.size(); ++p)
+      e_.inward[p] = squared_norm(blade_[p]) > 0 ? blade_[p] : normalized(e_.inward[p] + aside_[p]);
+  }
+
+  /// Columns that lean end as deep as upright ones.
   void set_thickness(const SurfaceIndex* bone) {
-    const double whole = layers_.depth.back();
-    e_.thickness.assign(s_.mesh.points.size(), whole);
+    for (const Vec3& aside : aside_)
+      e_.thickness.push_back(layers_.depth.back() * std::sqrt(1 + squared_norm(aside)));
     e_.on_bone.assign(s_.mesh.points.size(), false);
     if (!bone) return;
     for (std::size_t p = 0; p < s_.mesh.points.size(); ++p) {
       const Vec3& at = s_.mesh.points[p];
-      if (bone->meets(at, -whole * e_.inward[p]) && !bone->meets(at, 3 * whole * e_.inward[p]))
+      const Vec3 whole = e_.thickness[p] * e_.inward[p];
+      if (bone->meets(at, -1. * whole) && !bone->meets(at, 3. * whole))
         throw InputError("bone lies above the skin at " + place(at) +
                          " mm; check units and places of --bone");
-      if (const auto part = bone->meets(at, whole * e_.inward[p])) {
-        e_.thickness[p] = std::max(0.05, *part) * whole;
+      if (const auto part = bone->meets(at, whole)) {
+        e_.thickness[p] *= std::max(0.05, *part);
         e_.on_bone[p] = true;
       }
     }
@@ -151,6 +198,7 @@ class Extruder {
   const Layers& layers_;
   const std::vector<Vec3>& blade_;
   std::vector<std::vector<int>> around_;
+  std::vector<Vec3> aside_;  // of each column, for each mm below the skin
   Extrusion e_;
 };
 

@@ -36,9 +36,10 @@ struct Extrusion {
 };
 
 /// Directions are those of the blades on the cuts (`blade`: by point, zero elsewhere), and elsewhere mean
-/// normals, blended over the thickness. Where wedges would be turned inside out, columns are made thinner,
-/// down to a tenth of the thickness, and their directions nearer to the normals. Throws InputError where bone
-/// is above the skin.
+/// normals; they turn from one to the other over a distance in proportion to the blade's tilt. Thickness is
+/// measured along them such that leaning columns end as deep as upright ones. Where wedges would be turned
+/// inside out, columns are made thinner, down to a tenth of the thickness, and their directions nearer to the
+/// normals. Throws InputError where bone is above the skin.
 Extrusion extrude(const LinedSurface& surface, const Layers& layers, const std::vector<Vec3>& blade,
                   const SurfaceIndex* bone);
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "params/meshed_cut.h"
@@ -86,6 +88,39 @@ TEST(Extrusion, BoneAboveTheSkinIsRefused) {
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("bone lies above the skin at ("), std::string::npos) << e.what();
   }
+}
+
+/// Below a leaning blade columns lean as it does, and less and less away from it; all end at the same depth,
+/// none is thinned.
+TEST(Extrusion, ALeaningBladeThinsNothing) {
+  for (const double degrees : {0., 15., 30., 45., 60.})
+    for (const auto& bend : {testing::Bend(testing::flat), testing::sphere_cap(80)}) {
+      LinedSurface s;
+      s.mesh = testing::sheet(bend, 44, 44, 1.1);
+      s.outline.assign(s.mesh.points.size(), false);
+      const Layers layers = make_layers({}, 3);
+      const double angle = degrees * std::numbers::pi / 180, tangent = std::tan(angle);
+      std::vector<Vec3> blade(s.mesh.points.size());
+      const std::vector<Vec3> normals = normals_of(s.mesh);
+      for (std::size_t p = 0; p < blade.size(); ++p) {
+        const Vec3 &at = s.mesh.points[p], &normal = normals[p];
+        if (std::abs(at.y) > 1e-9 || std::abs(at.x) > 8.9) continue;
+        const Vec3 across = normalized(Vec3{0, 1, 0} - normal.y * normal);
+        blade[p] = -std::cos(angle) * normal + std::sin(angle) * across;
+      }
+      const Extrusion e = extrude(s, layers, blade, nullptr);
+      EXPECT_EQ(e.thinned, 0) << degrees;
+      EXPECT_TRUE(e.turned.empty());
+      EXPECT_GT(e.least_determinant, 0.3) << degrees;
+      for (std::size_t p = 0; p < blade.size(); ++p) {
+        if (squared_norm(blade[p]) > 0) EXPECT_LT(norm(e.inward[p] - blade[p]), 1e-12);
+        // Directions are means; of a sphere's outline the normals are of half a neighbourhood.
+        const double deep = -e.thickness[p] * dot(e.inward[p], normals[p]);
+        EXPECT_NEAR(deep, 8, 0.05 * 8 * std::max(1., tangent)) << degrees << " " << s.mesh.points[p].y;
+        if (norm(s.mesh.points[p]) > 3 * 8 * tangent + 20)
+          EXPECT_GT(-dot(e.inward[p], normals[p]), 0.99) << degrees;
+      }
+    }
 }
 
 /// A sharp ridge and a thin lamella are too thin for the whole thickness: the tissue becomes thinner there,
