@@ -269,12 +269,17 @@ class Maker {
       if (time > body_.times.back() + 1e-9 * length) {
         body_.times.push_back(time), body_.position.push_back(tip - length / 2);
         body_.released.push_back(static_cast<int>(body_.pairs.size()));
-      } else {  // at the same place as the frame before
+      } else if (body_.times.size() > 1) {  // at the same place as the frame before
         body_.released.back() = static_cast<int>(body_.pairs.size());
-      }
+      }  // in frame 0 all is closed: they open with the next one
+    }
+    if (body_.released.back() < static_cast<int>(body_.pairs.size())) {
+      body_.times.push_back(before + length), body_.position.push_back(length / 2);
+      body_.released.push_back(static_cast<int>(body_.pairs.size()));
     }
     if (body_.times.size() == frames_before) return;
-    if (lines.back().s_to - longer.front < 0.99 * length) {  // it has left the skin: nothing opens any more
+    if (lines.back().s_to - longer.front < 0.99 * length &&
+        body_.times.back() < before + length) {  // it has left the skin: nothing opens any more
       body_.times.push_back(before + length), body_.position.push_back(length / 2);
       body_.released.push_back(body_.released.back());
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -18,6 +19,8 @@ namespace bg = boost::geometry;
 using Point = bg::model::point<double, 3, bg::cs::cartesian>;
 using Box = bg::model::box<Point>;
 using Entry = std::pair<Box, int>;
+
+constexpr unsigned first_boxes = 16;
 
 Point point_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 
@@ -64,19 +67,27 @@ template <class Counts>
 SurfacePlace SurfaceIndex::nearest_of(const Vec3& x, double reach, const Counts& counts) const {
   SurfacePlace best;
   double least = reach * reach;
-  const auto all = static_cast<unsigned>(tree_->boxes.size());
-  // Boxes by their distance: none further away than the best triangle holds a better one.
-  for (auto entry = tree_->boxes.qbegin(bg::index::nearest(point_of(x), all)); entry != tree_->boxes.qend();
-       ++entry) {
-    if (bg::comparable_distance(point_of(x), entry->first) > least) break;
-    const Corners corners = tree_->corners(entry->second);
-    if (!counts(corners)) continue;
-    const Vec3 at = closest_point(x, corners).position;
-    if (const double distance = squared_norm(at - x); distance < least || best.triangle < 0) {
-      if (distance > least) continue;
-      least = distance;
-      best.triangle = entry->second, best.position = at;
+  // The nearest boxes, more and more of them, until those left out are further away than the best triangle.
+  // (Boost's iterator over all of them sorts what it has found again and again.)
+  std::vector<std::pair<double, int>> found;
+  for (unsigned most = first_boxes;; most *= 4) {
+    std::size_t looked_at = 0;
+    found.clear();
+    tree_->boxes.query(bg::index::nearest(point_of(x), most),
+                       boost::make_function_output_iterator([&](const Entry& e) {
+                         found.emplace_back(bg::comparable_distance(point_of(x), e.first), e.second);
+                       }));
+    std::sort(found.begin(), found.end());
+    for (; looked_at < found.size() && found[looked_at].first <= least; ++looked_at) {
+      const int number = found[looked_at].second;
+      const Corners corners = tree_->corners(number);
+      if (!counts(corners)) continue;
+      const Vec3 at = closest_point(x, corners).position;
+      const double distance = squared_norm(at - x);
+      if (distance < least || (best.triangle < 0 && distance <= least))
+        least = distance, best.triangle = number, best.position = at;
     }
+    if (looked_at < found.size() || found.size() < most) break;
   }
   if (best.triangle < 0) return best;
   const auto [a, b, c] = tree_->corners(best.triangle);

@@ -211,6 +211,20 @@ TEST(MakeBody, APathMayLeaveTheSkin) {
   EXPECT_EQ(body.released[last], body.released[last - 1]);
 }
 
+/// Wherever it begins near the outline, frame 0 is closed and the last one has all pairs.
+TEST(MakeBody, APathMayBeginAtTheOutline) {
+  for (const double begin : {39.9, 39.99, 40., 40.01, 40.05, 40.15})
+    for (const double end : {20., 60.}) {
+      if (begin >= 40 && end > 40) continue;  // not on the skin
+      const Body body = make_body(request(testing::flat, {{{begin, 0}, {end, 0}}}));
+      EXPECT_EQ(body.released.front(), 0);
+      EXPECT_EQ(body.released.back(), static_cast<int>(body.pairs.size()));
+      EXPECT_TRUE(std::ranges::is_sorted(body.times));
+      EXPECT_GT(body.times[1], 0);
+      EXPECT_NEAR(body.times.back(), std::abs(end - begin), 1e-9);
+    }
+}
+
 /// The tension lies in the triangles, along the given direction as it is seen there.
 TEST(MakeBody, TheTensionLiesInTheSkin) {
   BodyRequest r = request(testing::cylinder_along(40), {along});

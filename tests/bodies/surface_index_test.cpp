@@ -63,6 +63,33 @@ TEST(SurfaceIndex, FindsTheNearestPlaceOfAllTriangles) {
   }
 }
 
+/// Long triangles across each other, whose boxes all hold the places: as many as are looked at in any one
+/// round, and far more. (Sorting all boxes that were found again and again took minutes.)
+TEST(SurfaceIndex, FindsTheNearestAmongManyWhoseBoxesOverlap) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> in(-1, 1);
+  const auto place = [&] { return Vec3{in(random), in(random), in(random)}; };
+  for (const int count : {3, 16, 17, 200, 12000}) {
+    Surface s;
+    s.mesh = {};
+    for (int t = 0; t < count; ++t) {
+      const Vec3 middle = place(), way = 30. * place(), aside = 0.05 * place();
+      s.mesh.points.insert(s.mesh.points.end(), {middle - way, middle + way, middle + aside});
+      s.mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    const SurfaceIndex index(s.mesh);
+    for (int i = 0; i < 600; ++i) {
+      const Vec3 x = place();
+      const SurfacePlace found = index.nearest(x);
+      ASSERT_GE(found.triangle, 0);
+      if (i >= 50) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int t = 0; t < count; ++t) nearest = std::min(nearest, s.distance(x, t));
+      ASSERT_NEAR(norm(found.position - x), nearest, 1e-9) << count;
+    }
+  }
+}
+
 /// Of the two sides of a fold only that which faces alike, within reach.
 TEST(SurfaceIndex, KeepsToTrianglesThatFaceAlikeAndAreNear) {
   const Surface s;
