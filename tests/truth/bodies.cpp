@@ -1,0 +1,221 @@
+// How far replays on bodies of all shapes are from simulations of these very bodies:
+//   cleft-truth-bodies [--field NAME=FILE]... [--csv FILE] [SUBJECT]...
+// prints a table in Markdown; each body is simulated once (minutes in all).
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "base/command/command.h"
+#include "base/error.h"
+#include "base/h5/h5.h"
+#include "base/output_file.h"
+#include "base/stopwatch.h"
+#include "base/text.h"
+#include "explorer/body/simulate.h"
+#include "explorer/body/simulated_wounds.h"
+#include "explorer/wound/cut_fields.h"
+#include "explorer/wound/replayed_wounds.h"
+#include "params/parameters/table.h"
+#include "tests/truth/body_subjects.h"
+#include "tests/truth/truth_cases.h"
+
+namespace {
+
+using namespace cleft;
+
+constexpr double end = 1;  // mm of a cut
+
+struct Options {
+  std::vector<std::string> subjects, fields, assignments;
+  std::string csv;
+  double reach = 40;
+  bool list = false;
+};
+
+/// The fields of one column, in the tension of a body.
+struct Source {
+  std::string name;
+  std::function<CutFields(const SkinTension&)> fields;
+};
+
+/// A file of any kind; a family's and three prestresses' are turned with the body's tension.
+Source from_file(const std::string& named) {
+  const auto split = named.find('=');
+  if (split == std::string::npos || split == 0 || split + 1 == named.size())
+    throw InputError("--field " + named + ": must be NAME=FILE");
+  const std::string file = named.substr(split + 1);
+  if (format_of(file) != "cleft-study") {
+    const auto field = std::make_shared<const Field>(read_field(file));
+    return {named.substr(0, split), [field](const SkinTension&) { return CutFields(field); }};
+  }
+  if (Family::describes(PublishedStudy(file).varying())) {
+    const auto family = std::make_shared<const FamilyFields>(std::make_shared<const Family>(file));
+    return {named.substr(0, split),
+            [family](const SkinTension& tension) { return CutFields(family, tension); }};
+  }
+  const auto three = std::make_shared<const PrestressFields>(file);
+  return {named.substr(0, split), [three](const SkinTension& tension) { return CutFields(three, tension); }};
+}
+
+/// The default case's field, and those of three prestresses.
+std::vector<Source> default_sources() {
+  const TruthCases cases("");
+  const auto one = std::make_shared<const Field>(cases.canonical());
+  const auto three = std::make_shared<const PrestressFields>(cases.prestresses());
+  return {{"default case", [one](const SkinTension&) { return CutFields(one); }},
+          {"three tensions", [three](const SkinTension& tension) { return CutFields(three, tension); }}};
+}
+
+struct Off {
+  double opening = 0, skin = 0;  ///< largest errors over the largest opening
+  double inner = 0;              ///< of the opening, without the last millimetre before each end
+  double where = 0;              ///< of the opening's error: part of its cut's length
+  bool warned = false;           ///< by cleft cut
+  double seconds = 0;            ///< to cut and to prepare the replay
+};
+
+/// One body, cut and opened by fields as cleft cut does, against its simulation.
+Off compare(const BodyRequest& request, const CutFields& fields, const BodySimulation& simulation) {
+  const Stopwatch watch;
+  CutMesh mesh(request.skin);
+  std::vector<std::unique_ptr<Incision>> made;
+  std::vector<const Incision*> cuts;
+  IncisionOptions how;
+  how.reach = reach_of(fields.shape(), 1);
+  for (const ScalpelPath& path : request.paths) {
+    made.push_back(std::make_unique<Incision>(mesh, path, how));
+    made.back()->advance_to(path.length());
+    cuts.push_back(made.back().get());
+  }
+  std::vector<Wound> opened;
+  opened.reserve(cuts.size());
+  for (const Incision* cut : cuts) opened.push_back(fields.wound(*cut, 1));
+  const ReplayedWounds wounds(std::move(opened));
+  std::vector<Vec3> replayed(wounds.vertex_count()), simulated(wounds.vertex_count());
+  wounds.positions(wounds.duration(), replayed);
+  Off off;
+  off.seconds = watch.seconds();
+  const SimulatedWounds truth(cuts, 1, simulation.body, *simulation.series);
+  truth.positions(truth.duration(), simulated);
+  const ReplayOff all = replay_off(cuts, replayed, simulated);
+  off.opening = all.relative_opening(), off.skin = all.gape > 0 ? all.displacement / all.gape : 0;
+  for (const Validity& v : wounds.validity(fields.turning())) off.warned |= !v.warnings.empty();
+  double worst = 0;
+  for (const Incision* cut : cuts)
+    for (const auto& c : cut->chain()) {
+      const double s = mesh.vertex(c.left).s, length = cut->path().length();
+      const double error =
+          norm((simulated[c.right] - simulated[c.left]) - (replayed[c.right] - replayed[c.left]));
+      if (error > worst) worst = error, off.where = s / length;
+      if (all.gape > 0 && std::min(s, length - s) > end) off.inner = std::max(off.inner, error / all.gape);
+    }
+  return off;
+}
+
+/// The tension that the simulation has: that of the case, along the chord of the first path.
+SkinTension tension_of(const BodyRequest& request) {
+  const auto& prestress = request.parameters.skin.prestress;
+  if (prestress.uv != 0) throw InputError("--set skin.prestress_uv: shear is not compared here");
+  SkinTension tension = default_tension(request.paths.front(), false);
+  tension.larger = prestress.uu, tension.smaller = prestress.vv;
+  return tension;
+}
+
+class Table {
+ public:
+  Table(const std::vector<Source>& sources, std::string csv) : csv_(std::move(csv)) {
+    std::string head = "| body | opening, mm | nodes | s |", line = "|---|---|---|---|";
+    text_ = "body,opening_mm,nodes,simulation_s,thinned_columns,cut_depth_mm";
+    for (const auto& [name, fields] : sources) {
+      head += " " + name + ": opening | inside | skin |", line += "---|---|---|";
+      for (const char* column :
+           {"opening_error", "skin_error", "inner_opening_error", "where", "warned", "replay_s"})
+        text_ += "," + name + " " + column;
+    }
+    std::printf("%s\n%s\n", head.c_str(), line.c_str());
+    std::fflush(stdout);
+  }
+
+  void add(const std::string& name, const BodySimulation& simulation, const std::vector<Off>& offs) {
+    char cell[200];
+    const BodyReport& body = simulation.report;
+    std::printf("| %s | %.2f%s | %d | %.0f |", name.c_str(), simulation.gape, body.least_depth > 0 ? "!" : "",
+                body.nodes, simulation.seconds);
+    std::snprintf(cell, sizeof cell, "\n\"%s\",%.4f,%d,%.1f,%d,%.2f", name.c_str(), simulation.gape,
+                  body.nodes, simulation.seconds, body.thinned, body.least_depth);
+    text_ += cell;
+    for (const Off& off : offs) {
+      std::printf(" %.2f%s | %.2f | %.2f |", off.opening, off.warned ? "*" : "", off.inner, off.skin);
+      std::snprintf(cell, sizeof cell, ",%.4f,%.4f,%.4f,%.2f,%d,%.2f", off.opening, off.skin, off.inner,
+                    off.where, off.warned ? 1 : 0, off.seconds);
+      text_ += cell;
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+    if (!csv_.empty()) write_text_file(csv_, text_ + "\n");
+  }
+
+ private:
+  std::string csv_, text_;
+};
+
+void run(const Options& options) {
+  std::vector<testing::NamedSubject> subjects = testing::body_subjects(options.reach + 5);
+  if (!options.subjects.empty())
+    std::erase_if(subjects, [&](const testing::NamedSubject& one) {
+      return std::ranges::none_of(options.subjects, [&](const std::string& part) {
+        return one.name.find(part) != std::string::npos;
+      });
+    });
+  if (subjects.empty())
+    throw InputError(options.subjects.front() + ": no body has this in its name; see --list");
+  if (options.list) {
+    for (const auto& one : subjects) std::printf("%s\n", one.name.c_str());
+    return;
+  }
+  BodyRequest common;
+  for (const std::string& assignment : options.assignments)
+    set_from_text(common.parameters, assignment, "--set");
+  common.reach = options.reach;
+  std::vector<Source> sources;
+  for (const std::string& named : options.fields) sources.push_back(from_file(named));
+  if (sources.empty()) sources = default_sources();
+  Table table(sources, options.csv);
+  for (const auto& [name, make] : subjects) {
+    try {
+      const testing::Subject subject = make();
+      BodyRequest request = common;
+      request.skin = subject.skin, request.paths = subject.paths;
+      std::optional<SurfaceIndex> bone;
+      if (subject.bone) bone.emplace(*subject.bone), request.bone = &*bone;
+      const SkinTension tension = tension_of(request);
+      const BodySimulation simulation = simulate(request);
+      std::vector<Off> offs;
+      offs.reserve(sources.size());
+      for (const Source& source : sources)
+        offs.push_back(compare(request, source.fields(tension), simulation));
+      table.add(name, simulation, offs);
+    } catch (const InputError& e) {
+      std::fprintf(stderr, "cleft-truth-bodies: %s: %s\n", name.c_str(), e.what());
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CommandLine app("Tells how far replays are from simulations of the very bodies that are cut.",
+                  "cleft-truth-bodies");
+  Options o;
+  app.add_option("SUBJECT", o.subjects, "only the bodies that have this in their names [all]");
+  app.add_option("--field", o.fields,
+                 "NAME=FILE: a case.dffd, or a study.dffd of three tensions or of a family, which are turned "
+                 "with the body's tension; again for further columns [the default case, and three tensions]")
+      ->allow_extra_args(false);
+  app.add_option("--set", o.assignments, "NAME=VALUE: of the simulations, such as mesh.element_size=0.5")
+      ->allow_extra_args(false);
+  app.add_option("--reach", o.reach, "how far bodies go around the cuts, mm")->capture_default_str();
+  app.add_option("--csv", o.csv, "the table too, with the place of the largest error and times");
+  app.add_flag("--list", o.list, "the names of the bodies");
+  return run_command(app, argc, argv, [&] { run(o); });
+}

@@ -1,0 +1,142 @@
+#include "tests/truth/body_subjects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "examples/head/surface_mesher.h"
+
+namespace cleft::testing {
+
+namespace {
+
+using Places = std::vector<std::pair<double, double>>;
+constexpr double edge = 2, jitter = 0.25, depth = 3, length = 30;
+
+/// From so many mm before to so many mm behind a place of the plane, at an angle in degrees.
+Places straight(double length_of_cut, double angle = 0, double x = 0, double y = 0) {
+  Places places;
+  const int pieces = std::max(8, static_cast<int>(length_of_cut / 2));
+  const double c = std::cos(angle * std::numbers::pi / 180), s = std::sin(angle * std::numbers::pi / 180);
+  for (int i = 0; i <= pieces; ++i) {
+    const double along = length_of_cut * (double(i) / pieces - 0.5);
+    places.emplace_back(x + c * along, y + s * along);
+  }
+  return places;
+}
+
+Places wave(double amplitude, double wavelength) {
+  Places places;
+  for (int i = 0; i <= 60; ++i) {
+    const double x = wavelength * (i / 60. - 0.5);
+    places.emplace_back(x, amplitude * std::sin(2 * std::numbers::pi * x / wavelength));
+  }
+  return places;
+}
+
+/// Two straight legs, joined by half a circle.
+Places flap(double radius, double leg) {
+  Places places;
+  for (int i = 0; i < 6; ++i) places.emplace_back(leg * (i / 6. - 1), -radius);
+  for (int i = 0; i <= 20; ++i) {
+    const double angle = std::numbers::pi * (i / 20. - 0.5);
+    places.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  for (int i = 5; i >= 0; --i) places.emplace_back(leg * (i / 6. - 1), radius);
+  return places;
+}
+
+Places ellipse(double half_x, double half_y) {
+  Places places;
+  for (int i = 0; i <= 60; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 60;
+    places.emplace_back(half_x * std::cos(angle), half_y * std::sin(angle));
+  }
+  places.back() = places.front();
+  return places;
+}
+
+/// The path with a depth that goes from one number to the other.
+ScalpelPath deepening(const ScalpelPath& path, double from, double to) {
+  std::vector<ScalpelPath::Point> points;
+  for (const double s : path.given()) {
+    const PathFrame at = path.at(s);
+    points.push_back({at.position, at.outward, from + (to - from) * s / path.length()});
+  }
+  return ScalpelPath(points);
+}
+
+/// A sheet that goes around the places of all paths.
+Subject on(const Bend& bend, const std::vector<Places>& all, double margin, double deep = depth,
+           double tilt = 0) {
+  double half_x = 0, half_y = 0;
+  Subject subject;
+  for (const Places& places : all) {
+    for (const auto& [x, y] : places)
+      half_x = std::max(half_x, std::abs(x)), half_y = std::max(half_y, std::abs(y));
+    subject.paths.push_back(path_on(bend, places, deep, tilt));
+  }
+  subject.skin = sheet(bend, half_x + margin, half_y + margin, edge, jitter);
+  return subject;
+}
+
+Subject head_cheek() {
+  const head::TriangleMesh mesh = head::mesh_head(12000);
+  std::vector<ScalpelPath::Point> points;
+  for (const auto& [position, normal] : head::cheek_path(2)) points.push_back({position, normal, depth});
+  return {"", {mesh.points, mesh.triangles}, {ScalpelPath(points)}, {}};
+}
+
+/// From `a` to `b` mm deep between x = -half and half.
+Subject above_bone(double a, double b, double half, double margin) {
+  Subject subject = on(flat, {straight(length)}, margin);
+  const auto deep = [=](double x, double) {
+    return (a + b) / 2 + (b - a) / 2 * std::clamp(x / half, -1., 1.);
+  };
+  subject.bone = sheet(below(flat, deep), length / 2 + margin + 5, margin + 5, edge);
+  return subject;
+}
+
+}  // namespace
+
+std::vector<NamedSubject> body_subjects(double margin) {
+  std::vector<NamedSubject> all;
+  const auto add = [&](const std::string& name, const Bend& bend, const std::vector<Places>& paths,
+                       double deep = depth, double tilt = 0) {
+    all.push_back({name, [=] { return on(bend, paths, margin, deep, tilt); }});
+  };
+  const auto text = [](double x) { return shortest(x); };
+  const Places usual = straight(length);
+  add("flat, straight", flat, {usual});
+  for (const double r : {60., 30., 20., 15.}) add("arc of " + text(r), flat, {arc(r, length)});
+  for (const double a : {5., 8.}) add("sine of " + text(a), flat, {wave(a, 40)});
+  for (const double a : {15., 30., 45.}) add("tilted by " + text(a), flat, {usual}, depth, a);
+  for (const double l : {10., 20., 60., 90., 120.}) add(text(l) + " mm long", flat, {straight(l)});
+  for (const double d : {1.5, 6.}) add(text(d) + " mm deep", flat, {usual}, d);
+  all.push_back({"2 to 4 mm deep", [=] {
+                   Subject subject = on(flat, {usual}, margin);
+                   subject.paths = {deepening(subject.paths[0], 2, 4)};
+                   return subject;
+                 }});
+  for (const double r : {100., 60., 30.}) {
+    add("along a cylinder of " + text(r), cylinder_along(r), {usual});
+    add("around a cylinder of " + text(r), cylinder_around(r), {usual});
+    add("at 45 degrees on a cylinder of " + text(r), cylinder_along(r), {straight(length, 45)});
+  }
+  for (const double r : {80., 40.}) add("sphere of " + text(r), sphere_cap(r), {usual});
+  add("saddle of 60", saddle(60), {usual});
+  add("torus of 60 and 40", torus_outside(60, 40), {usual});
+  all.push_back({"bone 5 to 8 mm below", [=] { return above_bone(5, 8, length / 2, margin); }});
+  all.push_back({"bone 5 to 8 mm below within 10", [=] { return above_bone(5, 8, 5, margin); }});
+  for (const double d : {10., 4.})
+    add("parallel, " + text(d) + " apart", flat,
+        {straight(length, 0, 0, -d / 2), straight(length, 0, 0, d / 2)});
+  add("T, branch of 15", flat, {usual, straight(15, 90, 0, 7.5)});
+  add("X at 90 degrees", flat, {usual, straight(length, 90)});
+  add("flap, U of radius 10", flat, {flap(10, 15)});
+  add("excision, ellipse 30 x 14", flat, {ellipse(15, 7)});
+  all.push_back({"cheek of the generated head", head_cheek});
+  return all;
+}
+
+}  // namespace cleft::testing
