@@ -16,6 +16,7 @@ constexpr double longest = 4. / 3, shortest_part = 4. / 5;  // of the wanted len
 constexpr double straight_rim = 0.9;     // cosine of the turn of the outline where a point may go
 constexpr double least_agreement = 0.5;  // of a triangle's normal before and after a change: cosine
 constexpr double least_shape = 0.15;     // 4 sqrt(3) area / sum of squared sides; 1: equilateral
+constexpr double most_bulge = 0.25;      // of an edge: how far its middle is from the surface
 
 using Edge = std::pair<int, int>;
 Edge key(int a, int b) { return std::minmax(a, b); }
@@ -137,8 +138,7 @@ class Remesher {
         if (length(a, b) <= longest * wanted(a, b) || lines_.contains(key(a, b))) continue;
         const std::vector<int> both = triangles_of(a, b);
         if (both.empty() || both.size() > 2) continue;
-        const int m =
-            add_point(on_shape(0.5 * (p_[a] + p_[b])), both.size() == 1 && s_.outline[a] && s_.outline[b]);
+        const int m = add_point(middle(a, b), both.size() == 1 && s_.outline[a] && s_.outline[b]);
         for (const int t : both) {
           auto first = t_[t], second = t_[t];
           std::replace(first.begin(), first.end(), b, m);
@@ -267,6 +267,12 @@ class Remesher {
   }
 
   Vec3 on_shape(const Vec3& x) const { return shape_.nearest(x).position; }
+  /// Of an edge, on the surface; but not where another part of the surface is nearer, through which it
+  /// passes: both halves are shorter than the edge, so that splitting ends.
+  Vec3 middle(int a, int b) const {
+    const Vec3 straight = 0.5 * (p_[a] + p_[b]), on = on_shape(straight);
+    return norm(on - straight) < most_bulge * length(a, b) ? on : straight;
+  }
 
   // ---- what is left
 
