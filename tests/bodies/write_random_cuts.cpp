@@ -71,6 +71,7 @@ void write_cuts(const stress::Subject& subject, const std::string& folder, unsig
   const double scale = size / diagonal(subject.mesh);
   const stress::Ground ground(subject.mesh);
   write(subject.mesh, folder + name + ".obj");
+  const std::string begin = folder + name + "-";
   std::mt19937_64 random(seed);
   std::optional<ScalpelPath> earlier;
   for (int i = 0; i < stress::path_kinds; ++i) {
@@ -79,12 +80,12 @@ void write_cuts(const stress::Subject& subject, const std::string& folder, unsig
     if (!path) continue;
     std::string kind_name = stress::name_of(kind);
     std::ranges::replace(kind_name, ' ', '-');
-    const std::string file = folder + name + "-" + kind_name + ".csv";
+    std::string file = begin;
+    file.append(kind_name).append(".csv");
     write(*path, scale, file);
     std::printf("%s\t%s\t%s\t%s", name.c_str(), kind_name.c_str(), shortest(scale).c_str(),
                 (folder + name + ".obj").c_str());
-    if (kind == stress::PathKind::across && earlier)
-      std::printf("\t%s", (folder + name + "-straight.csv").c_str());
+    if (kind == stress::PathKind::across && earlier) std::printf("\t%s", (begin + "straight.csv").c_str());
     std::printf("\t%s\n", file.c_str());
     if (kind == stress::PathKind::straight) earlier = path;
   }
