@@ -16,8 +16,8 @@ constexpr std::array shape_names = {"cut.curvature",    "cut.tilt",         "cut
                                     "skin.curvature_u", "skin.curvature_v", "skin.curvature_uv",
                                     "patch.height",     "patch.slope"};
 constexpr std::array prestress_names = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
-/// What modes leave of each case, root mean square: a tenth of a fit's error.
-constexpr double error_of_modes = 5e-4;
+/// What modes leave of each case, root mean square: a fraction of the error of its fit.
+constexpr double error_of_modes = 2e-3;
 
 template <class List>
 bool is_in(const List& names, const std::string& name) {

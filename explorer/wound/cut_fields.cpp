@@ -22,8 +22,8 @@ Wound CutFields::wound(const Incision& cut, double scale, const std::optional<Pa
   if (family_) {
     IncisionVolume volume(cut, family_->shape(), scale);
     const SkinTension tension = tension_of(cut, std::isfinite(known));
-    VaryingField field =
-        family_->along(cut, scale, own ? *own : prestress_along(volume, cut.path().length(), tension), known);
+    VaryingField field = family_->along(
+        cut, volume, own ? *own : prestress_along(volume, cut.path().length(), tension), known);
     return {cut, std::move(field), std::move(volume)};
   }
   if (own) return {cut, three_->along(*own), scale};
@@ -42,8 +42,7 @@ void CutFields::follow_shape(Wound& wound) const {
   if (!family_) return;
   const Incision& cut = *wound.incision;
   if (const auto s = family_->next_station(cut, wound.scale(), wound.field))
-    family_->extend(wound.field, cut, wound.scale(), *s,
-                    prestress_at(wound.volume, *s, tension_of(cut, true)));
+    family_->extend(wound.field, cut, wound.scale(), *s, tension_of(cut, true));
 }
 
 Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,

@@ -12,8 +12,11 @@ namespace cleft {
 
 namespace {
 
-/// In depths of the cut: shapes are smoothed at the scale of what a cut moves.
+/// In depths of the cut: the skin is smoothed at the scale of what a cut moves.
 constexpr double smoothing_in_depths = 8. / 3;
+/// In lengths of the canonical cut: the tension that a cut releases anywhere opens it over all of its length,
+/// so that what a path does from place to place matters as little as its direction's changes sum up to.
+constexpr double smoothing_in_lengths = 0.5;
 /// Of the smoothing: the distance of stations while a path is found, and how far behind the tip its curvature
 /// is taken to be known: at the tip itself it is the hand's tremor.
 constexpr double station_in_smoothing = 0.25, behind_tip_in_smoothing = 0.5;
@@ -106,10 +109,13 @@ SkinTension default_tension(const ScalpelPath& path, bool grows) {
   return {along_start ? path.at(0).along : chord, own.uu, own.vv};
 }
 
-double FamilyFields::smoothing() const { return smoothing_in_depths * shape().cut().depth; }
+Smoothing FamilyFields::smoothing() const {
+  return {smoothing_in_lengths * shape().cut().length, smoothing_in_depths * shape().cut().depth};
+}
 
-VaryingField FamilyFields::along(const Incision& incision, double scale, const PathPrestress& prestress,
-                                 double known) const {
+VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume& volume,
+                                 const PathPrestress& prestress, double known) const {
+  const double scale = volume.scale();
   const CanonicalCut& cut = shape().cut();
   const double length = incision.path().length() * scale;
   PathShape shapes = shape_along(incision, scale, smoothing());
@@ -119,34 +125,43 @@ VaryingField FamilyFields::along(const Incision& incision, double scale, const P
   for (const Prestress& one : prestress.values)
     largest = std::max({largest, std::abs(one.uu), std::abs(one.vv), std::abs(one.uv)});
   std::vector<CaseShape> cases;
+  std::vector<Prestress> local;
   std::vector<std::vector<double>> numbers;
   for (std::size_t i = 0; i < shapes.stations.size(); ++i) {
     const double s = shapes.stations[i];
-    const Prestress local = between(prestress, s);
-    cases.push_back(case_of(shapes.values[i], local, from_middle(s, length, cut)));
-    numbers.push_back(normalised(cases.back(), local, *family_, largest > 0 ? largest : 1));
+    const PathFrame frame = volume.skin_frame(s / scale);
+    const Vec3& along = shapes.values[i].along;
+    const double ahead = std::atan2(dot(cross(frame.along, along), frame.outward), dot(frame.along, along));
+    const Prestress own = between(prestress, s);
+    const auto [uu, vv, uv] = turned({own.uu, own.vv, own.uv}, -ahead);
+    local.push_back({uu, vv, uv});
+    cases.push_back(case_of(shapes.values[i], local.back(), from_middle(s, length, cut)));
+    numbers.push_back(normalised(cases.back(), local.back(), *family_, largest > 0 ? largest : 1));
+    for (int c = 0; c < 3; ++c) numbers.back().push_back(along[c]);
   }
   std::vector<StationField> stations;
   for (const std::size_t i : bends_of(shapes.stations, numbers)) {
     const double s = shapes.stations[i];
-    stations.push_back({s, family_->at(cases[i].shapes, cases[i].prestress).field, between(prestress, s)});
+    stations.push_back(
+        {s, family_->at(cases[i].shapes, cases[i].prestress).field, local[i], shapes.values[i].along});
   }
   return {family_->shared_middle(), std::move(stations)};
 }
 
 std::optional<double> FamilyFields::next_station(const Incision& incision, double scale,
                                                  const VaryingField& field) const {
-  const double known = incision.extended_to() * scale - behind_tip_in_smoothing * smoothing();
-  if (known >= field.known_to() + station_in_smoothing * smoothing()) return known;
+  const double known = incision.extended_to() * scale - behind_tip_in_smoothing * smoothing().skin;
+  if (known >= field.known_to() + station_in_smoothing * smoothing().skin) return known;
   return std::nullopt;
 }
 
 void FamilyFields::extend(VaryingField& field, const Incision& incision, double scale, double s,
-                          const Prestress& prestress) const {
+                          const SkinTension& tension) const {
   const double length = incision.path().length() * scale;
-  const CaseShape one =
-      case_of(local_shape(incision, scale, s, smoothing()), prestress, from_middle(s, length, shape().cut()));
-  field.extend({s, family_->at(one.shapes, one.prestress).field, prestress});
+  const LocalShape local = local_shape(incision, scale, s, smoothing());
+  const Prestress prestress = prestress_in({local.along, cross(local.outward, local.along)}, tension, s);
+  const CaseShape one = case_of(local, prestress, from_middle(s, length, shape().cut()));
+  field.extend({s, family_->at(one.shapes, one.prestress).field, prestress, local.along});
 }
 
 }  // namespace cleft

@@ -28,8 +28,9 @@ class FamilyFields {
   /// the family's ranges. A case of the family has one curvature all along its cut, in skin of one tension
   /// and one curvature in space. At u of its cut the path has turned against both by its curvature times the
   /// way from the middle: so what is found at a place of the path is turned by as much. `prestress` is in the
-  /// path's own frame. Of a path that grows, only the first `known` mm are known.
-  VaryingField along(const Incision& incision, double scale, const PathPrestress& prestress,
+  /// frame of `volume`, which is one without a family's field yet. Of a path that grows, only the first
+  /// `known` mm are known.
+  VaryingField along(const Incision& incision, const IncisionVolume& volume, const PathPrestress& prestress,
                      double known = std::numeric_limits<double>::infinity()) const;
 
   /// Whether a path that is found as the blade moves has come so far beyond the field's last station that
@@ -37,10 +38,10 @@ class FamilyFields {
   std::optional<double> next_station(const Incision& incision, double scale, const VaryingField& field) const;
   /// Adds that station.
   void extend(VaryingField& field, const Incision& incision, double scale, double s,
-              const Prestress& prestress) const;
+              const SkinTension& tension) const;
 
  private:
-  double smoothing() const;
+  Smoothing smoothing() const;
 
   std::shared_ptr<const Family> family_;
 };

@@ -49,7 +49,6 @@ IncisionVolume::IncisionVolume(const Incision& incision, const VaryingField& fie
       field_(field.shape()),
       scale_(scale),
       margin_(margin_of(field_)),
-      follows_shape_(field.follows_shape()),
       room_(incision, field, scale) {
   labels_ = incision.surroundings().labels();
   std::vector<int> later(incision.mesh().vertices().size());
@@ -71,7 +70,8 @@ void IncisionVolume::follow_path() {
 }
 
 void IncisionVolume::opened_by(const VaryingField& field) {
-  follows_shape_ = field.follows_shape();
+  family_.reset();
+  if (field.follows_shape()) family_ = field;
   room_ = WoundRoom(incision_, field, scale_);
 }
 
@@ -144,6 +144,7 @@ PathFrame IncisionVolume::skin_frame(double s) const {
         station_[b] > station_[a] ? std::clamp((s - station_[a]) / (station_[b] - station_[a]), 0., 1.) : 0;
     frame.outward = normalized(lerp(normal_[a], normal_[b], part));
   }
+  if (family_) frame.along = *family_->along(s * scale_);
   frame.along = normalized(frame.along - dot(frame.along, frame.outward) * frame.outward);
   frame.across = cross(frame.outward, frame.along);
   return frame;
@@ -235,7 +236,7 @@ std::optional<ActiveVertex> IncisionVolume::activate(int vertex, const Place& at
                                     : 0;
   if (weight <= 0) return std::nullopt;
   const PathFrame frame = skin_frame(at.s);
-  const double lift = follows_shape_ ? 0 : lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));
+  const double lift = family_ ? 0 : lift_of_tilted_blade(path.at(at.s).outward, frame, std::abs(v));
   return ActiveVertex{
       vertex,        {u_in, v_in, at.w}, at.side,           frame.along, frame.across + lift * frame.outward,
       frame.outward, at.s * scale_,      place.time_offset, weight,      at.on_cut};

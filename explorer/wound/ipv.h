@@ -46,7 +46,8 @@ class IncisionVolume {
   /// The incision and the field must outlive it.
   IncisionVolume(const Incision& incision, const VaryingField& field, double scale);
 
-  /// The field that opens the cut, where it is another than that of the constructor, of the same shape.
+  /// The field that opens the cut, where it is another than that of the constructor, of the same shape. A
+  /// family's tells the directions of frames.
   void opened_by(const VaryingField& field);
 
   /// Must be called after each change of the mesh with the vertices of changed triangles and new vertices,
@@ -96,7 +97,7 @@ class IncisionVolume {
   const Incision& incision_;
   const Field& field_;
   double scale_, margin_;
-  bool follows_shape_;                       // displacements contain the lift of a tilted blade
+  std::optional<VaryingField> family_;       // displaces along its own directions, and lifts a tilted blade
   std::vector<Surroundings::Label> labels_;  // of vertices that came later, too
   WoundRoom room_;
   std::vector<Vec3> along_;      // T at even distances along the path, means

@@ -51,12 +51,13 @@ struct Unrolled {
 class Shapes {
  public:
   /// For places from one to another.
-  Shapes(const Incision& incision, double scale, double smoothing, double from, double to)
+  Shapes(const Incision& incision, double scale, const Smoothing& smoothing, double from, double to)
       : incision_(incision),
         scale_(above_0(scale, "scale")),
-        smoothing_(above_0(smoothing, "smoothing")),
+        path_smoothing_(above_0(smoothing.path, "smoothing")),
+        smoothing_(above_0(smoothing.skin, "smoothing")),
         end_((incision.extended_to() > 0 ? incision.extended_to() : incision.path().length()) * scale),
-        skin_(incision, scale, from - farthest * smoothing, to + farthest * smoothing),
+        skin_(incision, scale, from - farthest * reach(smoothing), to + farthest * reach(smoothing)),
         normals_(pieces(nodes_a_smoothing) + 1) {
     find_points();
   }
@@ -77,12 +78,15 @@ class Shapes {
     const auto [curvature, turned] = bend(s, outward, along);
     shape.curvature = curvature;
     along = std::cos(turned) * along + std::sin(turned) * cross(outward, along);
+    shape.along = along, shape.outward = outward;
     if (const auto skin = skin_.at(s, outward, along, smoothing_))
       shape.skin_u = skin->uu, shape.skin_v = skin->vv, shape.skin_uv = skin->uv;
     return shape;
   }
 
  private:
+  static double reach(const Smoothing& smoothing) { return std::max(smoothing.skin, smoothing.path / 2); }
+
   Vec3 place(double s) const { return scale_ * incision_.path().at(s / scale_).position; }
 
   void find_points() {
@@ -91,7 +95,7 @@ class Shapes {
       if (s > end_) break;
       if (!points_.empty()) {
         const double from = points_.back();
-        const double pieces = std::ceil((s - from) / (sparse * smoothing_));
+        const double pieces = std::ceil((s - from) / (sparse * path_smoothing_));
         for (int i = 1; i < pieces && i < most_pieces; ++i) points_.push_back(from + (s - from) * i / pieces);
       }
       points_.push_back(s);
@@ -161,7 +165,7 @@ class Shapes {
 
   /// The curvature of the path at s, and by how much its smooth direction is turned against `along`.
   std::pair<double, double> bend(double s, const Vec3& outward, const Vec3& along) {
-    double half = smoothing_, from = 0, to = 0;
+    double half = path_smoothing_, from = 0, to = 0;
     std::vector<double> back, ahead;
     for (;; half *= growth) {
       from = std::max(0., std::min(s - half, end_ - 2 * half)),
@@ -186,7 +190,7 @@ class Shapes {
     SmallFit<3> circle;
     constexpr double past = 1.05;  // the last points count, too
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double x = points[i].x / smoothing_, y = points[i].y / smoothing_, r = x * x + y * y;
+      const double x = points[i].x / path_smoothing_, y = points[i].y / path_smoothing_, r = x * x + y * y;
       const double gap = points[std::min(i + 1, points.size() - 1)].s - points[i == 0 ? 0 : i - 1].s;
       const double weight = gap * falling(std::abs(points[i].s - s) / (past * reach));
       fit.add({1, x, r, x * r}, y, weight);
@@ -207,11 +211,11 @@ class Shapes {
     const double y = 2 * a / (1 + std::sqrt(root));  // of the curve at x = 0
     const double by_x = b + d * y * y, by_y = 2 * c * y - 1, slope = -by_x / by_y;
     const double second = -(2 * c + 4 * d * y * slope + 2 * c * slope * slope) / by_y;
-    return {second / std::pow(1 + slope * slope, 1.5) / smoothing_, std::atan(slope)};
+    return {second / std::pow(1 + slope * slope, 1.5) / path_smoothing_, std::atan(slope)};
   }
 
   const Incision& incision_;
-  double scale_, smoothing_, end_;
+  double scale_, path_smoothing_, smoothing_, end_;  // the latter of the skin
   SkinFit skin_;
   std::vector<double> points_;                // of the path, mm
   std::vector<std::optional<Vec3>> normals_;  // at even distances from 0 to the end
@@ -229,14 +233,18 @@ LocalShape PathShape::at(double s) const {
   for (const auto member : {&LocalShape::curvature, &LocalShape::tilt, &LocalShape::depth,
                             &LocalShape::skin_u, &LocalShape::skin_v, &LocalShape::skin_uv})
     shape.*member = (1 - part) * values[next - 1].*member + part * values[next].*member;
+  for (const auto member : {&LocalShape::along, &LocalShape::outward}) {
+    const Vec3 sum = lerp(values[next - 1].*member, values[next].*member, part);
+    shape.*member = norm(sum) > 0 ? normalized(sum) : values[next].*member;
+  }
   return shape;
 }
 
-LocalShape local_shape(const Incision& incision, double scale, double s, double smoothing) {
+LocalShape local_shape(const Incision& incision, double scale, double s, const Smoothing& smoothing) {
   return Shapes(incision, scale, smoothing, s, s).at(s);
 }
 
-PathShape shape_along(const Incision& incision, double scale, double smoothing) {
+PathShape shape_along(const Incision& incision, double scale, const Smoothing& smoothing) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Shapes shapes(incision, scale, smoothing, -infinity, infinity);
   const std::size_t pieces = shapes.pieces(stations_a_smoothing);

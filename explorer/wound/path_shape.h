@@ -18,6 +18,8 @@ struct LocalShape {
   double depth = 0;      ///< of the blade, along itself
   /// 1/mm, the curvature tensor of the skin; positive where the body bulges: 1/R, 1/R, 0 of a sphere.
   double skin_u = 0, skin_v = 0, skin_uv = 0;
+  Vec3 along = {};    ///< unit, in space: the path's smooth direction, in which all of this is
+  Vec3 outward = {};  ///< unit: the skin's normal
 };
 
 /// The shape of all of a path.
@@ -29,16 +31,22 @@ struct PathShape {
   LocalShape at(double s) const;
 };
 
-/// `scale` is mm per mesh unit, `s` mm along the path, clamped to it. `smoothing`, mm, above 0, is the scale
-/// below which shape is noise: points of the path, and vertices of the skin, within this distance are fitted,
-/// with weights that fall to 0 there; next to the path's ends points as far as twice the distance on the one
-/// side. Where there are too few, the distance grows. Of a path much shorter than `smoothing` no curvature is
-/// known, it is nearly 0; without enough vertices around, up to four times the distance, the skin's is 0.
-/// Throws InputError if the smoothing or the scale is not above 0, or infinite.
-LocalShape local_shape(const Incision& incision, double scale, double s, double smoothing);
+/// The scales below which shape is noise, mm, above 0: of the path's curvature and direction, and of the
+/// skin.
+struct Smoothing {
+  double path, skin;
+};
 
-/// The same at even distances of a quarter of the smoothing or less, from 0 to the end of the path; of a path
-/// that is found as the blade moves, to where it has come.
-PathShape shape_along(const Incision& incision, double scale, double smoothing);
+/// `scale` is mm per mesh unit, `s` mm along the path, clamped to it. Points of the path, and vertices of the
+/// skin, within the distances of the smoothing are fitted, with weights that fall to 0 there; next to the
+/// path's ends points as far as twice the distance on the one side. Where there are too few, the distance
+/// grows. Of a path much shorter than its smoothing no curvature is known, it is nearly 0; without enough
+/// vertices around, up to four times the distance, the skin's is 0. Throws InputError if the smoothing or the
+/// scale is not above 0, or infinite.
+LocalShape local_shape(const Incision& incision, double scale, double s, const Smoothing& smoothing);
+
+/// The same at even distances of a quarter of the skin's smoothing or less, from 0 to the end of the path; of
+/// a path that is found as the blade moves, to where it has come.
+PathShape shape_along(const Incision& incision, double scale, const Smoothing& smoothing);
 
 }  // namespace cleft

@@ -47,13 +47,12 @@ Prestress prestress_of(const RecordedParameters& p) {
   return {p.value_or(sigma.uu, 0.), p.value_or(sigma.vv, 0.), p.value_or(sigma.uv, 0.)};
 }
 
-Prestress prestress_at(const IncisionVolume& volume, double s, const SkinTension& tension) {
+Prestress prestress_in(const std::array<Vec3, 2>& directions, const SkinTension& tension, double s) {
   const double mean = (tension.larger + tension.smaller) / 2, half = (tension.larger - tension.smaller) / 2;
-  const PathFrame frame = volume.skin_frame(s / volume.scale());
-  const double along = dot(tension.direction, frame.along), across = dot(tension.direction, frame.across);
+  const double along = dot(tension.direction, directions[0]), across = dot(tension.direction, directions[1]);
   if (std::hypot(along, across) < upright * norm(tension.direction))
-    throw InputError("the tension stands upright on the skin " + shortest(s / volume.scale()) +
-                     " mesh units along the path; give its direction in the skin");
+    throw InputError("the tension stands upright on the skin " + shortest(s) +
+                     " mm along the path; give its direction in the skin");
   const double twice = 2 * std::atan2(across, along);
   return {mean + half * std::cos(twice), mean - half * std::cos(twice), half * std::sin(twice)};
 }
@@ -61,9 +60,9 @@ Prestress prestress_at(const IncisionVolume& volume, double s, const SkinTension
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension) {
   PathPrestress result;
   for (int i = 0; i <= pieces; ++i) {
-    const double s = length * i / pieces * volume.scale();
-    result.stations.push_back(s);
-    result.values.push_back(prestress_at(volume, s, tension));
+    const PathFrame frame = volume.skin_frame(length * i / pieces);
+    result.stations.push_back(length * i / pieces * volume.scale());
+    result.values.push_back(prestress_in({frame.along, frame.across}, tension, result.stations.back()));
   }
   return result;
 }

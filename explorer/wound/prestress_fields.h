@@ -2,6 +2,7 @@
 // alone, superposed at each place of the path for the prestress there.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -28,11 +29,11 @@ struct SkinTension {
 /// A case's prestress, MPa; components that are not recorded are 0.
 Prestress prestress_of(const RecordedParameters& parameters);
 
-/// The prestress in the frame of the skin at s mm of the path, MPa. Throws InputError if the direction is
-/// normal to the skin.
-Prestress prestress_at(const IncisionVolume& volume, double s, const SkinTension& tension);
+/// The prestress along and across two unit vectors, within the skin at s mm of the path, MPa. Throws
+/// InputError if the direction is normal to the skin.
+Prestress prestress_in(const std::array<Vec3, 2>& directions, const SkinTension& tension, double s);
 
-/// The same along all of a path, whose length is in mesh units.
+/// The same in the frame of the skin along all of a path, whose length is in mesh units.
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension);
 
 class PrestressFields {

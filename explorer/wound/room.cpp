@@ -8,8 +8,10 @@ namespace cleft {
 
 namespace {
 
-/// Displacements are no more than the room over this: their change adds at most its inverse to the strain.
-constexpr double least_room = 4;
+/// Displacements are no more than the room over this: their change adds at most its inverse to the strain. Of
+/// a family: beyond the medial axis of a bend its field is the same displacement seen from another part of
+/// the path, and what is left of the jump is its error.
+constexpr double least_room = 4, least_room_of_family = 1.5;
 /// x - x^3 / (3 * 1.5^2) rises with a slope of 1 from 0, and is 1 with a slope of 0 at 1.5.
 constexpr double full_weight = 1.5;
 /// The strain that coordinates which are further apart than their vertices may add.
@@ -21,7 +23,7 @@ constexpr double rise_in_length = 4;
 constexpr double resolved_part = 0.1;
 /// Inside a bend the field of a straight cut is no guide: displacements fall from this part of the way to the
 /// medial axis on, by what agrees best with simulated arcs (tests/truth).
-constexpr double free_part = 0.5;
+constexpr double free_part = 0.5, free_part_of_family = 0.8;
 /// In how many equal pieces of the path the room next to it is sampled; of one that grows at each of its
 /// steps.
 constexpr int room_pieces = 512, room_pieces_of_growing = 128;
@@ -137,7 +139,9 @@ WoundRoom::WoundRoom(const Incision& incision, const VaryingField& field, double
     : largest_(field, incision.path().length() * scale),
       scale_(scale),
       length_(incision.path().length() * scale),
-      cut_(field.shape().cut()) {
+      cut_(field.shape().cut()),
+      least_room_(field.follows_shape() ? least_room_of_family : least_room),
+      free_part_(field.follows_shape() ? free_part_of_family : free_part) {
   const double largest = largest_.anywhere(), resolved = resolved_part * cut_.length;
   if (length_ < resolved && largest > 0)
     short_cut_ = std::min(1., length_ / resolved * LargestDisplacement(field, resolved).anywhere() / largest);
@@ -174,7 +178,7 @@ double WoundRoom::bend(const Place& at, bool right) const {
 }
 
 double WoundRoom::weight(const Place& at) const {
-  const double enough = full_weight * least_room * largest(at.s, at.across) / scale_;
+  const double enough = full_weight * least_room_ * largest(at.s, at.across) / scale_;
   if (!(enough > 0)) return 1;  // nothing moves
   double room = enough;
   for (const bool right : {false, true})
@@ -184,7 +188,7 @@ double WoundRoom::weight(const Place& at) const {
   const double x = full_weight * room / enough;
   const double in_room = room >= enough ? 1 : x - x * x * x / (3 * full_weight * full_weight);
   const double used = std::abs(at.straight) / (bend(at, at.straight > 0) + std::abs(at.straight));
-  const double y = std::clamp((used - free_part) / (1 - free_part), 0., 1.);
+  const double y = std::clamp((used - free_part_) / (1 - free_part_), 0., 1.);
   return std::min(in_room, 1 - y * y * (3 - 2 * y));
 }
 

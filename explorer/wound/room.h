@@ -94,6 +94,7 @@ class WoundRoom {
   double short_cut_ = 1;
   double scale_, length_;  // mm per mesh unit; of the path as the field was sampled for it, mm
   CanonicalCut cut_;
+  double least_room_, free_part_;  // of the kind of field
 };
 
 }  // namespace cleft

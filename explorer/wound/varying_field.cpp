@@ -72,6 +72,7 @@ void VaryingField::extend(StationField station) {
   if (!same_cut_and_patch(*along_->shape, *station.field))
     throw InputError("the fields of a family are not of cuts of one length in patches of one size");
   along_->stations.push_back(station.s), along_->prestress.push_back(station.prestress);
+  along_->direction.push_back(station.along);
   along_->contraction_tolerance =
       std::max(along_->contraction_tolerance, station.field->contraction_tolerance());
   along_->fields.push_back(std::move(station.field));
@@ -161,6 +162,13 @@ double VaryingField::prestress(double Prestress::*component, double s) const {
   for (const auto& [field, weight] : parts)
     sum += weight * parameter_of(*field, field->parameters->skin.prestress.*component);
   return sum;
+}
+
+std::optional<Vec3> VaryingField::along(double s) const {
+  if (!along_) return std::nullopt;
+  const auto [a, b, part] = between(along_->stations, s);
+  const Vec3 sum = lerp(along_->direction[a], along_->direction[b], part);
+  return norm(sum) > 0 ? normalized(sum) : along_->direction[b];
 }
 
 }  // namespace cleft

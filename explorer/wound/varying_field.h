@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,8 @@ double parameter_of(const Field& field, const double& member);
 struct StationField {
   double s;  ///< mm along the path
   std::shared_ptr<const Field> field;
-  Prestress prestress;  ///< MPa, in the path's frame there
+  Prestress prestress;  ///< MPa, along `along`, across it, and shear
+  Vec3 along;           ///< unit, in space: the direction of u there
 };
 
 class VaryingField {
@@ -64,6 +66,8 @@ class VaryingField {
   /// A component of the fields' prestresses at s mm of the path, superposed, MPa. Throws InputError where a
   /// field does not record it.
   double prestress(double Prestress::*component, double s) const;
+  /// The direction of u at s mm of the path, in space, unit; none where it is the path's own.
+  std::optional<Vec3> along(double s) const;
 
  private:
   /// A field and its weight at a place.
@@ -77,6 +81,7 @@ class VaryingField {
     std::vector<double> stations;
     std::vector<std::shared_ptr<const Field>> fields;
     std::vector<Prestress> prestress;
+    std::vector<Vec3> direction;
     double contraction_tolerance = 0;
   };
   void parts_at(double s, std::vector<Part>& parts) const;

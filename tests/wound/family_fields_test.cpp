@@ -112,7 +112,8 @@ TEST(Family, TheSkinsCurvaturesAreTurnedIntoThePath) {
   incision.advance_to(20);
   const FamilyFields fields(std::make_shared<const Family>(family_file().file()));
   const PathPrestress prestress{{0, 20}, {{0.01, 0.03, 0}, {0.01, 0.03, 0}}};
-  const VaryingField field = fields.along(incision, 1, prestress);
+  const IncisionVolume volume(incision, fields.shape(), 1);
+  const VaryingField field = fields.along(incision, volume, prestress);
   const double twist = std::sin(angle) * std::cos(angle) / radius;
   EXPECT_LT(apart(field, 10, made({0, twist, 3}, {0.01, 0.03, 0})), 10 * close);
   EXPECT_GT(apart(field, 10, made({0, -twist, 3}, {0.01, 0.03, 0})), 0.1);

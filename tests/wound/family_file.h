@@ -17,8 +17,8 @@ struct MadeShape {
   double slope = 3;    ///< by which displacements grow with the curvature, mm
 };
 
-/// A small field that opens by a millimetre or so, (1 + slope curvature + 20 curvature^2 + 10 twist) depth / 3
-/// times one that is linear in the prestress; its w is that of the cut's depth.
+/// A small field that opens by a millimetre or so, (1 + slope curvature + 20 curvature^2 + 10 twist) depth /
+/// 3 times one that is linear in the prestress; its w is that of the cut's depth.
 inline Field made(const MadeShape& shape, const Prestress& sigma) {
   constexpr double unit = 0.01;  // MPa
   const double length = shape.length;

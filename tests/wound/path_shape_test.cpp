@@ -63,7 +63,7 @@ Worst errors(const Incision& cut, double smoothing, const std::function<LocalSha
     EXPECT_TRUE(std::isfinite(by));
     most = std::max(most, std::abs(by));
   };
-  const PathShape shape = shape_along(cut, 1, smoothing);
+  const PathShape shape = shape_along(cut, 1, {smoothing, smoothing});
   for (std::size_t i = 0; i < shape.stations.size(); ++i) {
     const LocalShape is = shape.values[i], should = exact(shape.stations[i]);
     raise(worst.curvature, is.curvature - should.curvature), raise(worst.tilt, is.tilt - should.tilt);
@@ -207,7 +207,7 @@ TEST(PathShape, Saddles) {
       // x y / 40 at the origin, along x: the normal curvatures vanish, and the tensor's shear is -1/40.
       const Incision cut = incision(skin(26, h, jitter, [](double x, double y) { return x * y / 40; }),
                                     {{-8, 0, 0}, {0, 0, 0}, {8, 0, 0}});
-      const LocalShape at = local_shape(cut, 1, 8, 8);
+      const LocalShape at = local_shape(cut, 1, 8, {8, 8});
       EXPECT_NEAR(at.skin_uv, -1. / 40, 0.03 / 40);
       EXPECT_NEAR(at.skin_u, 0, 0.03 / 40);
       EXPECT_NEAR(at.skin_v, 0, 0.03 / 40);
@@ -256,7 +256,7 @@ TEST(PathShape, TiltAndDepthAreTheBlades) {
     const Incision cut = incision(plate, {{-15, 0, 0}, {0, 0, 0}, {15, 0, 0}}, 2.5, [&](const Vec3&) {
       return Vec3{0, -std::sin(tilt), std::cos(tilt)};
     });
-    const LocalShape at = local_shape(cut, 2, 7, 6);
+    const LocalShape at = local_shape(cut, 2, 7, {6, 6});
     EXPECT_NEAR(at.tilt, degrees, 1e-9);
     EXPECT_NEAR(at.depth, 5, 1e-12);
   }
@@ -272,7 +272,7 @@ TEST(PathShape, LengthsAreInMm) {
   for (Vec3& p : mesh.points) p *= 0.1;
   for (Vec3& p : points) p *= 0.1;
   const Incision in_cm = incision(mesh, points, 0.3, [](const Vec3& p) { return p + Vec3{0, 0, 4}; });
-  const PathShape a = shape_along(cut, 1, 6), b = shape_along(in_cm, 10, 6);
+  const PathShape a = shape_along(cut, 1, {6, 6}), b = shape_along(in_cm, 10, {6, 6});
   ASSERT_EQ(a.stations.size(), b.stations.size());
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     EXPECT_NEAR(a.values[i].curvature, b.values[i].curvature, 1e-6);
@@ -289,9 +289,9 @@ TEST(PathShape, IsTheSameAfterTheCut) {
   std::vector<Vec3> points;
   for (int i = -10; i <= 10; ++i) points.push_back({0.3 * i, 1.5 * i, std::sqrt(r * r - 0.09 * i * i) - r});
   Incision cut = incision(tube, points, 3, [](const Vec3& p) { return Vec3{p.x, 0, p.z + r}; });
-  const PathShape before = shape_along(cut, 1, 6);
+  const PathShape before = shape_along(cut, 1, {6, 6});
   cut.advance_to(cut.path().length());
-  const PathShape after = shape_along(cut, 1, 6);
+  const PathShape after = shape_along(cut, 1, {6, 6});
   for (std::size_t i = 0; i < before.values.size(); ++i) {
     EXPECT_EQ(before.values[i].skin_u, after.values[i].skin_u);
     EXPECT_EQ(before.values[i].skin_v, after.values[i].skin_v);
@@ -321,12 +321,13 @@ TEST(PathShape, IsTheSameOverAnEarlierWound) {
 /// Where points are few the path is what is interpolated between them.
 TEST(PathShape, OfSparsePoints) {
   const SurfaceMesh plate = skin(45, 3, 0, flat);
-  for (const LocalShape& at : shape_along(incision(plate, {{-30, 3, 0}, {30, 3, 0}}), 1, 5).values)
+  for (const LocalShape& at : shape_along(incision(plate, {{-30, 3, 0}, {30, 3, 0}}), 1, {5, 5}).values)
     EXPECT_NEAR(at.curvature, 0, 1e-12);
   const Incision bent = incision(plate, {{-30, 0, 0}, {0, 6, 0}, {30, 0, 0}});  // a natural spline
   // y = 6 - 3 (x / 30)^2 (3 - |x| / 30), whose curvature at the middle is -18 / 900.
-  EXPECT_NEAR(shape_along(bent, 1, 5).at(bent.path().length() / 2).curvature, -18. / 900, 0.15 * 18. / 900);
-  EXPECT_NEAR(shape_along(bent, 1, 5).at(0).curvature, 0, 0.2 * 18. / 900);
+  EXPECT_NEAR(shape_along(bent, 1, {5, 5}).at(bent.path().length() / 2).curvature, -18. / 900,
+              0.15 * 18. / 900);
+  EXPECT_NEAR(shape_along(bent, 1, {5, 5}).at(0).curvature, 0, 0.2 * 18. / 900);
 }
 
 /// What lies across the path changes its sign; the skin's tensor does not.
@@ -338,9 +339,9 @@ TEST(PathShape, OfTheWayBack) {
     const double x = i, y = 0.8 * i + 0.02 * i * i;
     points.push_back({x, y, std::sqrt(900 - x * x) - 30});
   }
-  const PathShape there = shape_along(incision(tube, points, 3, outward), 1, 6);
+  const PathShape there = shape_along(incision(tube, points, 3, outward), 1, {6, 6});
   std::reverse(points.begin(), points.end());
-  const PathShape back = shape_along(incision(tube, points, 3, outward), 1, 6);
+  const PathShape back = shape_along(incision(tube, points, 3, outward), 1, {6, 6});
   for (double s = 0; s <= there.stations.back(); s += 1) {
     const LocalShape a = there.at(s), b = back.at(there.stations.back() - s);
     EXPECT_GT(a.curvature, 0.008);
@@ -386,11 +387,11 @@ TEST(PathShape, TheFarSideOfAFoldDoesNotCount) {
       fold.triangles.push_back({a, d, c});
     }
   const Incision cut = incision(fold, {{-5, -8, 0}, {-5, 0, 0}, {-5, 8, 0}}, 1);
-  for (const LocalShape& at : shape_along(cut, 1, 4.5).values) {
+  for (const LocalShape& at : shape_along(cut, 1, {4.5, 4.5}).values) {
     EXPECT_NEAR(at.skin_u, 0, 1e-12);
     EXPECT_NEAR(at.skin_v, 0, 1e-12);
   }
-  for (const LocalShape& at : shape_along(cut, 1, 7).values) {  // as far as the bent edge: it bulges
+  for (const LocalShape& at : shape_along(cut, 1, {7, 7}).values) {  // as far as the bent edge: it bulges
     EXPECT_NEAR(at.skin_u, 0, 1e-3);
     EXPECT_GT(at.skin_v, 0);
     EXPECT_LT(at.skin_v, 0.01);
@@ -410,7 +411,7 @@ TEST(PathShape, IsFiniteAtRimsOfShortPathsAndOfLoops) {
   std::vector<Vec3> rim, loop;
   for (int i = -11; i <= 11; ++i) rim.push_back({11, double(i), shape(11, 0)});
   const Incision at_rim = incision(tube, rim, 3, outward);
-  finite(shape_along(at_rim, 1, 6));
+  finite(shape_along(at_rim, 1, {6, 6}));
   const Worst worst = errors(at_rim, 6, [](double) { return LocalShape{.skin_v = 1 / r}; });
   record("1 mm from the rim of a cylinder of 30", worst);
   EXPECT_LT(std::max({worst.u, worst.v, worst.uv}), 0.1 / r);
@@ -418,15 +419,16 @@ TEST(PathShape, IsFiniteAtRimsOfShortPathsAndOfLoops) {
     const double x = 6 * std::cos(2 * pi * i / 40), y = 6 * std::sin(2 * pi * i / 40);
     loop.push_back({x, y, shape(x, y)});
   }
-  const PathShape round = shape_along(incision(tube, loop, 3, outward), 1, 6);
+  const PathShape round = shape_along(incision(tube, loop, 3, outward), 1, {6, 6});
   finite(round);
   for (const LocalShape& at : round.values) EXPECT_NEAR(at.curvature, 1. / 6, 0.02 / 6);
-  const PathShape little = shape_along(incision(tube, {{0, 0, 0}, {0, 1.1, 0}, {0, 2, 0}}, 3, outward), 1, 6);
+  const PathShape little =
+      shape_along(incision(tube, {{0, 0, 0}, {0, 1.1, 0}, {0, 2, 0}}, 3, outward), 1, {6, 6});
   finite(little);
   EXPECT_NEAR(little.at(1).skin_v, 1 / r, 0.03 / r);
-  finite(shape_along(incision(tube, {{0, 0, 0}, {0, 1, 0}, {0.5, 1.7, 0}}, 3, outward), 1, 6));
+  finite(shape_along(incision(tube, {{0, 0, 0}, {0, 1, 0}, {0.5, 1.7, 0}}, 3, outward), 1, {6, 6}));
   const SurfaceMesh few{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {{0, 1, 2}}};
-  finite(shape_along(incision(few, {{-2, -2, 0}, {2, -2, 0}}), 1, 5));
+  finite(shape_along(incision(few, {{-2, -2, 0}, {2, -2, 0}}), 1, {5, 5}));
 }
 
 /// A path that is found as the blade moves has the shape of what has been cut.
@@ -435,10 +437,10 @@ TEST(PathShape, OfALiveCutEndsAtTheBlade) {
   const std::vector<Vec3> points = arc(25, 40, 1);
   Incision cut = incision(plate, {points[0], points[1]});
   for (std::size_t i = 1; i < points.size(); ++i) cut.extend({points[i], {0, 0, 1}, 3}, 5);
-  const PathShape shape = shape_along(cut, 1, 8);
+  const PathShape shape = shape_along(cut, 1, {8, 8});
   EXPECT_NEAR(shape.stations.back(), cut.extended_to(), 1e-12);
   for (const LocalShape& at : shape.values) EXPECT_NEAR(at.curvature, 1. / 25, 0.02 / 25);
-  EXPECT_EQ(local_shape(cut, 1, shape.stations.back(), 8).curvature, shape.values.back().curvature);
+  EXPECT_EQ(local_shape(cut, 1, shape.stations.back(), {8, 8}).curvature, shape.values.back().curvature);
 }
 
 TEST(PathShape, TakesMillisecondsOnALargeMesh) {
@@ -449,10 +451,10 @@ TEST(PathShape, TakesMillisecondsOnALargeMesh) {
   options.reach = 25;
   const Incision cut(large, path_through(points, up, 3), options);
   const auto begin = std::chrono::steady_clock::now();
-  const PathShape shape = shape_along(cut, 1, 8);
+  const PathShape shape = shape_along(cut, 1, {8, 8});
   const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const auto then = std::chrono::steady_clock::now();
-  for (int i = 0; i < 20; ++i) local_shape(cut, 1, 20 + i, 8);
+  for (int i = 0; i < 20; ++i) local_shape(cut, 1, 20 + i, {8, 8});
   const double one = std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count() / 20;
   std::printf("  %zu vertices: %zu stations in %.1f ms, one in %.2f ms\n", cut.mesh().vertices().size(),
               shape.stations.size(), 1e3 * all, 1e3 * one);
@@ -470,8 +472,8 @@ TEST(PathShape, IsLinearBetweenStations) {
 
 TEST(PathShape, RefusesWhatIsNoLength) {
   const Incision cut = incision(skin(20, 3, 0, flat), {{-5, 0, 0}, {5, 0, 0}});
-  EXPECT_THROW(shape_along(cut, 1, 0), InputError);
-  EXPECT_THROW(local_shape(cut, 0, 1, 5), InputError);
+  EXPECT_THROW(shape_along(cut, 1, {0, 0}), InputError);
+  EXPECT_THROW(local_shape(cut, 0, 1, {5, 5}), InputError);
 }
 
 }  // namespace
