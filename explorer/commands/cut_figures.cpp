@@ -85,6 +85,9 @@ Json figures_of(const Validity& v) {
           {"guarded_vertices", v.guarded_vertices},
           {"guarded_mm", v.guarded},
           {"guarded_at_mm", v.guarded_at},
+          {"expected_opening_error", v.expected_error.largest},
+          {"expected_opening_error_at_mm", v.expected_error.at},
+          {"expected_opening_error_because", v.expected_error.cause},
           {"junction_tension", v.junction_tension ? finite(*v.junction_tension) : Json()}};
 }
 

@@ -254,8 +254,9 @@ int main(int argc, char** argv) {
       ->required();
   auto* field =
       app.add_option("--field", o.field,
-                     "field file case.dffd that opens the cut; or study.dffd of three cases of other "
-                     "prestress, for a tension that turns against the path");
+                     "field file case.dffd that opens the cut; study.dffd of three cases of other "
+                     "prestress, for a tension that turns against the path; or of a family, for the shape of "
+                     "skin and blade too");
   auto* rest = app.add_flag("--rest", o.rest, "leave the cut closed");
   field->excludes(rest);
   app.add_option("--out", o.out,

@@ -142,8 +142,8 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
   std::vector<StationField> stations;
   for (const std::size_t i : bends_of(shapes.stations, numbers)) {
     const double s = shapes.stations[i];
-    stations.push_back(
-        {s, family_->at(cases[i].shapes, cases[i].prestress).field, local[i], shapes.values[i].along});
+    const auto [field, outside] = family_->at(cases[i].shapes, cases[i].prestress);
+    stations.push_back({s, field, local[i], shapes.values[i].along, outside});
   }
   return {family_->shared_middle(), std::move(stations)};
 }
@@ -161,7 +161,8 @@ void FamilyFields::extend(VaryingField& field, const Incision& incision, double 
   const LocalShape local = local_shape(incision, scale, s, smoothing());
   const Prestress prestress = prestress_in({local.along, cross(local.outward, local.along)}, tension, s);
   const CaseShape one = case_of(local, prestress, from_middle(s, length, shape().cut()));
-  field.extend({s, family_->at(one.shapes, one.prestress).field, prestress, local.along});
+  const auto [there, outside] = family_->at(one.shapes, one.prestress);
+  field.extend({s, there, prestress, local.along, outside});
 }
 
 }  // namespace cleft

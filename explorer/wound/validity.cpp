@@ -17,6 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_radius = 2. / 3, least_radius_not_turned = 2.7, least_spacing = 0.4;
 /// Of the opening at its widest: lips that are held back by no more are within the error of openings.
 constexpr double greatest_held_back = 0.1;
+/// Of the largest opening: an expected error that is warned of.
+constexpr double greatest_expected = 0.1;
 constexpr double greatest_tilt = 45, greatest_defect = 0.1;
 /// Prestresses along, across and in shear differ by no more than this part of them where a cut opens alike
 /// whichever way it goes.
@@ -176,9 +178,10 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     const auto warn = [&](const std::string& what) {
       v.warnings.push_back(which + what + ": its opening may be off by more than a tenth");
     };
-    const bool known = turned || pulled_alike(field);
+    const bool known = turned || pulled_alike(field), family = cuts[i]->field.follows_shape();
+    v.expected_error = opening_error_of(*cuts[i], turned, {nearest_beside, !known && !junctions[i].empty()});
     const double radius = canonical * (known ? least_radius : least_radius_not_turned);
-    if (v.smallest_radius < radius)
+    if (!family && v.smallest_radius < radius)
       warn("the path bends with a radius of " + rounded(v.smallest_radius) + " mm, below " + rounded(radius) +
            (known ? "" : " where the tension does not turn with it (give --tension)"));
     if (v.held_back > greatest_held_back * opening(field, std::min(length, canonical)))
@@ -189,7 +192,7 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
       warn("near " + rounded(v.guarded_at) + " mm of the path the skin would turn over or tear: " +
            std::to_string(v.guarded_vertices) + " of its vertices move otherwise, by up to " +
            shortest(std::round(100 * v.guarded) / 100) + " mm");
-    if (v.largest_tilt > greatest_tilt)
+    if (!family && v.largest_tilt > greatest_tilt)
       warn("the blade is tilted by " + rounded(v.largest_tilt) + " degrees, above " + rounded(greatest_tilt));
     if (length > canonical * (1 + rounding) && v.length_defect > greatest_defect)
       warn("the path is " + rounded(length) + " mm long, and the field's cut of " + rounded(canonical) +
@@ -203,6 +206,12 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
            (*pulled > greatest_junction_tension
                 ? ", above 0.33"
                 : ", and the tension does not turn with it (give --tension)"));
+    const OpeningError& expected = v.expected_error;
+    if (v.warnings.empty() && expected.largest > greatest_expected)
+      v.warnings.push_back(which + "near " + rounded(expected.at) +
+                           " mm of the path the opening is expected to be off by " +
+                           shortest(std::round(100 * expected.largest) / 100) +
+                           " of its largest, mostly because " + expected.cause);
   }
   return result;
 }

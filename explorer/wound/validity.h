@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "explorer/wound/guard.h"
+#include "explorer/wound/opening_error.h"
 #include "explorer/wound/wound.h"
 
 namespace cleft {
@@ -28,6 +29,9 @@ struct Validity {
   /// there are, by how much at most, and where along the path, mm.
   int guarded_vertices = 0;
   double guarded = 0, guarded_at = 0;
+  /// The expected error of the opening against a simulation of the body, over the largest opening: along the
+  /// path, and its largest.
+  OpeningError expected_error;
   std::vector<std::string> warnings;
 };
 

@@ -72,7 +72,7 @@ void VaryingField::extend(StationField station) {
   if (!same_cut_and_patch(*along_->shape, *station.field))
     throw InputError("the fields of a family are not of cuts of one length in patches of one size");
   along_->stations.push_back(station.s), along_->prestress.push_back(station.prestress);
-  along_->direction.push_back(station.along);
+  along_->direction.push_back(station.along), along_->outside.push_back(station.outside);
   along_->contraction_tolerance =
       std::max(along_->contraction_tolerance, station.field->contraction_tolerance());
   along_->fields.push_back(std::move(station.field));
@@ -169,6 +169,12 @@ std::optional<Vec3> VaryingField::along(double s) const {
   const auto [a, b, part] = between(along_->stations, s);
   const Vec3 sum = lerp(along_->direction[a], along_->direction[b], part);
   return norm(sum) > 0 ? normalized(sum) : along_->direction[b];
+}
+
+double VaryingField::outside(double s) const {
+  if (!along_) return 0;
+  const auto [a, b, part] = between(along_->stations, s);
+  return std::lerp(along_->outside[a], along_->outside[b], part);
 }
 
 }  // namespace cleft

@@ -23,6 +23,7 @@ struct StationField {
   std::shared_ptr<const Field> field;
   Prestress prestress;  ///< MPa, along `along`, across it, and shear
   Vec3 along;           ///< unit, in space: the direction of u there
+  double outside = 0;   ///< how far the shape is beyond those of the family, over half a range
 };
 
 class VaryingField {
@@ -68,6 +69,8 @@ class VaryingField {
   double prestress(double Prestress::*component, double s) const;
   /// The direction of u at s mm of the path, in space, unit; none where it is the path's own.
   std::optional<Vec3> along(double s) const;
+  /// How far the shape at s mm of the path is beyond those of a family, over half their range.
+  double outside(double s) const;
 
  private:
   /// A field and its weight at a place.
@@ -82,6 +85,7 @@ class VaryingField {
     std::vector<std::shared_ptr<const Field>> fields;
     std::vector<Prestress> prestress;
     std::vector<Vec3> direction;
+    std::vector<double> outside;
     double contraction_tolerance = 0;
   };
   void parts_at(double s, std::vector<Part>& parts) const;

@@ -70,6 +70,7 @@ struct Off {
   double opening = 0, skin = 0;  ///< largest errors over the largest opening
   double inner = 0;              ///< of the opening, without the last millimetre before each end
   double where = 0;              ///< of the opening's error: part of its cut's length
+  double expected = 0;           ///< of `inner`, as cleft cut tells it
   bool warned = false;           ///< by cleft cut
   double seconds = 0;            ///< to cut and to prepare the replay
 };
@@ -99,7 +100,10 @@ Off compare(const BodyRequest& request, const CutFields& fields, const BodySimul
   truth.positions(truth.duration(), simulated);
   const ReplayOff all = replay_off(cuts, replayed, simulated);
   off.opening = all.relative_opening(), off.skin = all.gape > 0 ? all.displacement / all.gape : 0;
-  for (const Validity& v : wounds.validity(fields.turning())) off.warned |= !v.warnings.empty();
+  for (const Validity& v : wounds.validity(fields.turning())) {
+    off.warned |= !v.warnings.empty();
+    off.expected = std::max(off.expected, v.expected_error.largest);
+  }
   double worst = 0;
   for (const Incision* cut : cuts)
     for (const auto& c : cut->chain()) {
@@ -127,9 +131,9 @@ class Table {
     std::string head = "| body | opening, mm | nodes | s |", line = "|---|---|---|---|";
     text_ = "body,opening_mm,nodes,simulation_s,thinned_columns,cut_depth_mm";
     for (const auto& [name, fields] : sources) {
-      head += " " + name + ": opening | inside | skin |", line += "---|---|---|";
-      for (const char* column :
-           {"opening_error", "skin_error", "inner_opening_error", "where", "warned", "replay_s"})
+      head += " " + name + ": opening | inside | expected | skin |", line += "---|---|---|---|";
+      for (const char* column : {"opening_error", "skin_error", "inner_opening_error", "expected_error",
+                                 "where", "warned", "replay_s"})
         text_ += "," + name + " " + column;
     }
     std::printf("%s\n%s\n", head.c_str(), line.c_str());
@@ -145,9 +149,11 @@ class Table {
                   body.nodes, simulation.seconds, body.thinned, body.least_depth);
     text_ += cell;
     for (const Off& off : offs) {
-      std::printf(" %.2f%s | %.2f | %.2f |", off.opening, off.warned ? "*" : "", off.inner, off.skin);
-      std::snprintf(cell, sizeof cell, ",%.4f,%.4f,%.4f,%.2f,%d,%.2f", off.opening, off.skin, off.inner,
-                    off.where, off.warned ? 1 : 0, off.seconds);
+      std::printf(" %.2f%s | %.2f | %.2f | %.2f |", off.opening, off.warned ? "*" : "", off.inner,
+                  off.expected, off.skin);
+      within_ += off.inner <= 2 * off.expected, ++all_;
+      std::snprintf(cell, sizeof cell, ",%.4f,%.4f,%.4f,%.4f,%.2f,%d,%.2f", off.opening, off.skin, off.inner,
+                    off.expected, off.where, off.warned ? 1 : 0, off.seconds);
       text_ += cell;
     }
     std::printf("\n");
@@ -155,8 +161,12 @@ class Table {
     if (!csv_.empty()) write_text_file(csv_, text_ + "\n");
   }
 
+  /// Of how many replays the error is within twice what is expected.
+  void end() const { std::printf("\nWithin twice the expected error: %d of %d.\n", within_, all_); }
+
  private:
   std::string csv_, text_;
+  int within_ = 0, all_ = 0;
 };
 
 void run(const Options& options) {
@@ -199,6 +209,7 @@ void run(const Options& options) {
       std::fprintf(stderr, "cleft-truth-bodies: %s: %s\n", name.c_str(), e.what());
     }
   }
+  table.end();
 }
 
 }  // namespace

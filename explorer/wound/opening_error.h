@@ -1,0 +1,33 @@
+// The expected error of a replayed opening against a simulation of the very body that is cut.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "explorer/wound/wound.h"
+
+namespace cleft {
+
+/// Along a path, over the largest opening of the cut.
+struct OpeningError {
+  std::vector<double> stations;  ///< mm along the path
+  std::vector<double> values;
+  double largest = 0, at = 0;  ///< of these, and where, mm
+  std::string cause;           ///< of the largest one: its greatest part, as what follows "because"
+};
+
+/// What the surroundings of a cut add to its error.
+struct Neighbourhood {
+  double nearest_cut = 0;         ///< mm: beside it; infinite if there is none
+  bool unknown_junction = false;  ///< it meets another cut, and its field does not turn with the tension
+};
+
+/// Sums the squares of what is known to make replays differ from simulations, each by a law whose factor is
+/// that of the bodies in tests/truth/bodies.md, of cuts as long and as deep as the canonical one: bends, in a
+/// tension that does or does not turn with the path; the blade's tilt and depth; the skin's curvatures;
+/// longer paths; other cuts. A family knows bends, tilts, depths and curvatures: there it is how far they are
+/// beyond the family, and how far the path's direction is from that which opens it. Bone and changes of the
+/// tissue are not known. `turned`: whether the fields follow the tension.
+OpeningError opening_error_of(const Wound& cut, bool turned, const Neighbourhood& neighbourhood);
+
+}  // namespace cleft
