@@ -187,9 +187,10 @@ int main(int argc, char** argv) {
   app.add_option("--path", o.path,
                  "CSV with columns x,y,z,nx,ny,nz[,depth], in the mesh's units: where the cut goes "
                  "[wherever the scalpel does]");
-  app.add_option("--field", o.field,
-                 "field file case.dffd that opens the cut; or study.dffd of three cases of other prestress, or of a "
-                 "family");
+  app.add_option(
+      "--field", o.field,
+      "field file case.dffd that opens the cut; or study.dffd of three cases of other prestress, or of a "
+      "family");
   o.tension.add_to(app);
   app.add_option("--depth", o.depth,
                  "depth of the cut, mm [the path's column, else the field's; without a path the scalpel's]")

@@ -35,7 +35,9 @@ Wound CutFields::wound(const Incision& cut, double scale, const std::optional<Pa
 }
 
 SkinTension CutFields::tension_of(const Incision& cut, bool grows) const {
-  return tension_ ? *tension_ : default_tension(cut.path(), grows);
+  if (tension_) return *tension_;
+  if (!*of_first_) *of_first_ = default_tension(cut.path(), grows);
+  return **of_first_;
 }
 
 void CutFields::follow_shape(Wound& wound) const {

@@ -19,7 +19,8 @@ class CutFields {
   /// Without `tension`, each path must have its own prestresses.
   CutFields(std::shared_ptr<const PrestressFields> three, const std::optional<SkinTension>& tension)
       : three_(std::move(three)), tension_(tension) {}
-  /// Without `tension` that of the default case, which turns with each path as a whole (default_tension).
+  /// Without `tension` that of the default case along the first path (default_tension), for all cuts that
+  /// this object and its copies open.
   CutFields(std::shared_ptr<const FamilyFields> family, const std::optional<SkinTension>& tension)
       : family_(std::move(family)), tension_(tension) {}
 
@@ -50,6 +51,7 @@ class CutFields {
   std::shared_ptr<const PrestressFields> three_;
   std::shared_ptr<const FamilyFields> family_;
   std::optional<SkinTension> tension_;
+  std::shared_ptr<std::optional<SkinTension>> of_first_ = std::make_shared<std::optional<SkinTension>>();
 };
 
 /// The wound of a cut in skin under one tension, which turns against the path; the fields must outlive it.

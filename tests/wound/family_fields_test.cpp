@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
 #include "encoder/interpolate/case_modes.h"
 #include "explorer/wound/cut_fields.h"
+#include "explorer/wound/opening_error.h"
 #include "tests/incision/meshes.h"
 #include "tests/wound/family_file.h"
 
@@ -153,6 +155,43 @@ TEST(Family, WithoutATensionItIsTheDefaultCasesAlongThePathAsAWhole) {
   const Cut cut(arc(0.05, 20));
   const Wound wound = fields.wound(cut.incision, 1);
   EXPECT_LT(apart(wound.field, 10, made({0.05, 0, 3}, Parameters{}.skin.prestress)), close);
+}
+
+TEST(Family, WithoutATensionAFurtherCutIsInTheSkinOfTheFirst) {
+  const CutFields fields = read_cut_fields(family_file().file(), {}, {});
+  const Cut first({{-10, 0, 0}, {10, 0, 0}}), second({{3, -10, 0}, {3, 10, 0}});
+  const Prestress own = Parameters{}.skin.prestress;
+  EXPECT_LT(apart(fields.wound(first.incision, 1).field, 10, made({}, own)), close);
+  EXPECT_LT(apart(fields.wound(second.incision, 1).field, 10, made({}, {own.vv, own.uu, 0})), close);
+}
+
+/// tests/truth/bodies.md has the errors themselves.
+TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
+  const CutFields fields = read_cut_fields(family_file().file(), {0, 1, 0}, {0.03, 0.01});
+  const auto error = [&](const std::vector<Vec3>& points, const CutFields& by) {
+    const Cut cut(points);
+    const Wound wound = by.wound(cut.incision, 1);
+    return opening_error_of(wound, by.turning(), {std::numeric_limits<double>::infinity(), false});
+  };
+  const CutFields one(std::make_shared<Field>(made({}, {0.01, 0.03, 0})));
+  std::vector<Vec3> winding;
+  for (int i = 0; i <= 80; ++i) {
+    const double x = (i - 40) / 4.;
+    winding.push_back({x, 3 * std::sin(2 * std::numbers::pi * x / 20), 0});
+  }
+  for (const CutFields& by : {fields, one}) EXPECT_LT(error(arc(1e-6, 20), by).largest, 0.03);
+  EXPECT_LT(error(arc(1. / 20, 20), fields).largest, 0.03) << "it knows how a cut bends";
+  const OpeningError bent = error(arc(1. / 20, 20), one);
+  EXPECT_GT(bent.largest, 0.2);
+  EXPECT_NE(bent.cause.find("bends"), std::string::npos) << bent.cause;
+  EXPECT_GT(error(arc(1. / 6, 12), fields).largest, 0.05) << "beyond its shapes";
+  const OpeningError wound_about = error(winding, fields);
+  EXPECT_GT(wound_about.largest, 0.1);
+  EXPECT_EQ(wound_about.cause, "the path winds");
+  EXPECT_EQ(wound_about.stations.size(), wound_about.values.size());
+  const Cut straight(arc(1e-6, 20));
+  const Wound wound = fields.wound(straight.incision, 1);
+  EXPECT_GT(opening_error_of(wound, true, {4, false}).largest, 0.15) << "another cut 4 mm away";
 }
 
 TEST(Family, AStudyThatIsNoneIsRefusedWithTheReason) {
