@@ -13,7 +13,7 @@ struct OpeningError {
   std::vector<double> stations;  ///< mm along the path
   std::vector<double> values;
   double largest = 0, at = 0;  ///< of these, and where, mm
-  std::string cause;           ///< of the largest one: its greatest part, as what follows "because"
+  std::string cause;           ///< of the largest one: its greatest part, a clause
 };
 
 /// What the surroundings of a cut add to its error.

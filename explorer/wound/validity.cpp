@@ -208,10 +208,8 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
                 : ", and the tension does not turn with it (give --tension)"));
     const OpeningError& expected = v.expected_error;
     if (v.warnings.empty() && expected.largest > greatest_expected)
-      v.warnings.push_back(which + "near " + rounded(expected.at) +
-                           " mm of the path the opening is expected to be off by " +
-                           shortest(std::round(100 * expected.largest) / 100) +
-                           " of its largest, mostly because " + expected.cause);
+      v.warnings.push_back(which + "its opening may be off by " +
+                           shortest(std::round(100 * expected.largest) / 100) + ": " + expected.cause);
   }
   return result;
 }
