@@ -20,14 +20,15 @@ struct OpeningError {
 struct Neighbourhood {
   double nearest_cut = 0;         ///< mm: beside it; infinite if there is none
   bool unknown_junction = false;  ///< it meets another cut, and its field does not turn with the tension
+  double held_back = 0;  ///< of its lips or other vertices, by bends or the guard, over its largest opening
 };
 
 /// Sums the squares of what is known to make replays differ from simulations, each by a law whose factor is
 /// that of the bodies in tests/truth/bodies.md, of cuts as long and as deep as the canonical one: bends, in a
 /// tension that does or does not turn with the path; the blade's tilt and depth; the skin's curvatures;
-/// longer paths; other cuts. A family knows bends, tilts, depths and curvatures: there it is how far they are
-/// beyond the family, and how far the path's direction is from that which opens it. Bone and changes of the
-/// tissue are not known. `turned`: whether the fields follow the tension.
+/// longer paths; other cuts; what is held back. A family knows bends, tilts, depths and curvatures: there it
+/// is how far they are beyond the family, and how far the path's direction is from that which opens it. Bone
+/// and changes of the tissue are not known. `turned`: whether the fields follow the tension.
 OpeningError opening_error_of(const Wound& cut, bool turned, const Neighbourhood& neighbourhood);
 
 }  // namespace cleft

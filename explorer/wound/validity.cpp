@@ -83,21 +83,24 @@ void find_guarded(const std::vector<const Wound*>& cuts, const Guard& guard, std
   }
 }
 
-/// The opening of the canonical cut at its widest, when it has come to t.
-double opening(const Field& field, double t) {
+/// The opening of the canonical cut at its widest, when it has come to t, with the fields along a path's
+/// start.
+double opening(const VaryingField& field, double t) {
+  const double start = field.shape().cut().start;
   double widest = 0;
   for (int i = 1; i < opening_samples; ++i) {
-    const Vec3 place{field.cut().start + t * i / opening_samples, 0, 0};
-    widest = std::max(
-        widest, norm(field.displacement(place, Side::right, t) - field.displacement(place, Side::left, t)));
+    const double s = t * i / opening_samples;
+    const Vec3 place{start + s, 0, 0};
+    widest = std::max(widest, norm(field.displacement(place, Side::right, t, s) -
+                                   field.displacement(place, Side::left, t, s)));
   }
   return widest;
 }
 
 /// Aitken: openings at equal steps of length that near their limit by equal factors.
-double length_defect(const Field& field) {
-  const double length = field.cut().length, a = opening(field, length / 2), b = opening(field, 0.75 * length),
-               c = opening(field, length);
+double length_defect(const VaryingField& field) {
+  const double length = field.shape().cut().length, a = opening(field, length / 2),
+               b = opening(field, 0.75 * length), c = opening(field, length);
   const double bend = (b - a) - (c - b);
   if (!(c > 0) || c <= b) return 0;
   return bend > 0 ? (c - b) * (c - b) / bend / c : infinity;
@@ -162,7 +165,7 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     v.smallest_radius = smallest_radius(way) * scale;
     find_held_back(*cuts[i], length, v);
     v.largest_tilt = largest_tilt(*cuts[i], way.length());
-    v.length_defect = length_defect(field);
+    v.length_defect = length_defect(cuts[i]->field);
     v.nearest_cut = infinity;
     double nearest_beside = infinity;  // cuts that meet squarely are none beside each other
     for (std::size_t j = 0; j < cuts.size(); ++j) {
@@ -179,16 +182,19 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
       v.warnings.push_back(which + what + ": its opening may be off by more than a tenth");
     };
     const bool known = turned || pulled_alike(field), family = cuts[i]->field.follows_shape();
-    v.expected_error = opening_error_of(*cuts[i], turned, {nearest_beside, !known && !junctions[i].empty()});
+    const double widest = opening(cuts[i]->field, std::min(length, canonical));
+    v.expected_error = opening_error_of(*cuts[i], turned,
+                                        {nearest_beside, !known && !junctions[i].empty(),
+                                         widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
     const double radius = canonical * (known ? least_radius : least_radius_not_turned);
     if (!family && v.smallest_radius < radius)
       warn("the path bends with a radius of " + rounded(v.smallest_radius) + " mm, below " + rounded(radius) +
            (known ? "" : " where the tension does not turn with it (give --tension)"));
-    if (v.held_back > greatest_held_back * opening(field, std::min(length, canonical)))
+    if (v.held_back > greatest_held_back * widest)
       warn("near " + rounded(v.held_back_at) + " mm of the path its lips are held back by up to " +
            shortest(std::round(100 * v.held_back) / 100) +
            " mm, so that they do not pass through each other where the path bends or comes back");
-    if (v.guarded > greatest_held_back * opening(field, std::min(length, canonical)))
+    if (v.guarded > greatest_held_back * widest)
       warn("near " + rounded(v.guarded_at) + " mm of the path the skin would turn over or tear: " +
            std::to_string(v.guarded_vertices) + " of its vertices move otherwise, by up to " +
            shortest(std::round(100 * v.guarded) / 100) + " mm");

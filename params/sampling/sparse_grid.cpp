@@ -46,6 +46,7 @@ std::vector<Case> sample_sparse_grid(const Study& study) {
   for (int total = 0; total <= study.sampling.level; ++total)
     for_each_sum(levels, 0, total, [&] {
       std::vector<std::vector<double>> nodes;
+      nodes.reserve(levels.size());
       for (const int level : levels) nodes.push_back(added_nodes(level));
       std::vector<std::size_t> at(ranges.size(), 0);
       for (bool more = true; more;) {

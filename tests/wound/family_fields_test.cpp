@@ -171,7 +171,7 @@ TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
   const auto error = [&](const std::vector<Vec3>& points, const CutFields& by) {
     const Cut cut(points);
     const Wound wound = by.wound(cut.incision, 1);
-    return opening_error_of(wound, by.turning(), {std::numeric_limits<double>::infinity(), false});
+    return opening_error_of(wound, by.turning(), {std::numeric_limits<double>::infinity(), false, 0});
   };
   const CutFields one(std::make_shared<Field>(made({}, {0.01, 0.03, 0})));
   std::vector<Vec3> winding;
@@ -191,7 +191,7 @@ TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
   EXPECT_EQ(wound_about.stations.size(), wound_about.values.size());
   const Cut straight(arc(1e-6, 20));
   const Wound wound = fields.wound(straight.incision, 1);
-  EXPECT_GT(opening_error_of(wound, true, {4, false}).largest, 0.15) << "another cut 4 mm away";
+  EXPECT_GT(opening_error_of(wound, true, {4, false, 0}).largest, 0.15) << "another cut 4 mm away";
 }
 
 TEST(Family, AStudyThatIsNoneIsRefusedWithTheReason) {
