@@ -73,6 +73,7 @@ OpeningError opening_error_of(const Wound& cut, bool turned, const Neighbourhood
         {length > canonical.length ? of_length * (1 - canonical.length / length) : 0,
          "the path is longer than the field's cut"},
         {of_neighbour * std::exp(-neighbourhood.nearest_cut / neighbour_reach), "another cut is next to it"},
+        {neighbourhood.held_back, "the skin would turn over"},
         {neighbourhood.unknown_junction ? of_junction : 0,
          "it meets another cut in a tension that does not turn with it"}};
     if (family) {

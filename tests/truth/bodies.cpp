@@ -128,10 +128,10 @@ SkinTension tension_of(const BodyRequest& request) {
 class Table {
  public:
   Table(const std::vector<Source>& sources, std::string csv) : csv_(std::move(csv)) {
-    std::string head = "| body | opening, mm | nodes | s |", line = "|---|---|---|---|";
+    std::string head = "| body | mm |", line = "|---|---|";
     text_ = "body,opening_mm,nodes,simulation_s,thinned_columns,cut_depth_mm";
     for (const auto& [name, fields] : sources) {
-      head += " " + name + ": opening | inside | expected | skin |", line += "---|---|---|---|";
+      head += " " + name + ": error | expected | skin |", line += "---|---|---|";
       for (const char* column : {"opening_error", "skin_error", "inner_opening_error", "expected_error",
                                  "where", "warned", "replay_s"})
         text_ += "," + name + " " + column;
@@ -143,14 +143,12 @@ class Table {
   void add(const std::string& name, const BodySimulation& simulation, const std::vector<Off>& offs) {
     char cell[200];
     const BodyReport& body = simulation.report;
-    std::printf("| %s | %.2f%s | %d | %.0f |", name.c_str(), simulation.gape, body.least_depth > 0 ? "!" : "",
-                body.nodes, simulation.seconds);
+    std::printf("| %s | %.2f%s |", name.c_str(), simulation.gape, body.least_depth > 0 ? "!" : "");
     std::snprintf(cell, sizeof cell, "\n\"%s\",%.4f,%d,%.1f,%d,%.2f", name.c_str(), simulation.gape,
                   body.nodes, simulation.seconds, body.thinned, body.least_depth);
     text_ += cell;
     for (const Off& off : offs) {
-      std::printf(" %.2f%s | %.2f | %.2f | %.2f |", off.opening, off.warned ? "*" : "", off.inner,
-                  off.expected, off.skin);
+      std::printf(" %.2f%s | %.2f | %.2f |", off.inner, off.warned ? "*" : "", off.expected, off.skin);
       within_ += off.inner <= 2 * off.expected, ++all_;
       std::snprintf(cell, sizeof cell, ",%.4f,%.4f,%.4f,%.4f,%.2f,%d,%.2f", off.opening, off.skin, off.inner,
                     off.expected, off.where, off.warned ? 1 : 0, off.seconds);

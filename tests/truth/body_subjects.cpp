@@ -121,7 +121,7 @@ std::vector<NamedSubject> body_subjects(double margin) {
   for (const double r : {100., 60., 30.}) {
     add("along a cylinder of " + text(r), cylinder_along(r), {usual});
     add("around a cylinder of " + text(r), cylinder_around(r), {usual});
-    add("at 45 degrees on a cylinder of " + text(r), cylinder_along(r), {straight(length, 45)});
+    add("45 degrees on a cylinder of " + text(r), cylinder_along(r), {straight(length, 45)});
   }
   for (const double r : {80., 40.}) add("sphere of " + text(r), sphere_cap(r), {usual});
   add("saddle of 60", saddle(60), {usual});

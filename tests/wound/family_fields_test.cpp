@@ -192,6 +192,10 @@ TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
   const Cut straight(arc(1e-6, 20));
   const Wound wound = fields.wound(straight.incision, 1);
   EXPECT_GT(opening_error_of(wound, true, {4, false, 0}).largest, 0.15) << "another cut 4 mm away";
+  const OpeningError held =
+      opening_error_of(wound, true, {std::numeric_limits<double>::infinity(), false, 0.2});
+  EXPECT_NEAR(held.largest, 0.2, 0.01);
+  EXPECT_EQ(held.cause, "the skin would turn over");
 }
 
 TEST(Family, AStudyThatIsNoneIsRefusedWithTheReason) {
