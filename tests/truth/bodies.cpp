@@ -131,7 +131,7 @@ class Table {
     std::string head = "| body | mm |", line = "|---|---|";
     text_ = "body,opening_mm,nodes,simulation_s,thinned_columns,cut_depth_mm";
     for (const auto& [name, fields] : sources) {
-      head += " " + name + ": error | expected | skin |", line += "---|---|---|";
+      head += " " + name + " | expected | skin |", line += "---|---|---|";
       for (const char* column : {"opening_error", "skin_error", "inner_opening_error", "expected_error",
                                  "where", "warned", "replay_s"})
         text_ += "," + name + " " + column;
