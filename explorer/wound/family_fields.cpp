@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "explorer/wound/room.h"
+#include "explorer/wound/stations.h"
 
 namespace cleft {
 
@@ -42,11 +43,8 @@ struct CaseShape {
   Prestress prestress;
 };
 
-Prestress between(const PathPrestress& along, double s) {
-  const auto next = static_cast<std::size_t>(
-      std::upper_bound(along.stations.begin(), along.stations.end(), s) - along.stations.begin());
-  const std::size_t a = next == 0 ? 0 : next - 1, b = std::min(next, along.stations.size() - 1);
-  const double part = a == b ? 0 : (s - along.stations[a]) / (along.stations[b] - along.stations[a]);
+Prestress prestress_at(const PathPrestress& along, double s) {
+  const auto [a, b, part] = between(along.stations, s);
   const Prestress &x = along.values[a], &y = along.values[b];
   return {std::lerp(x.uu, y.uu, part), std::lerp(x.vv, y.vv, part), std::lerp(x.uv, y.uv, part)};
 }
@@ -132,7 +130,7 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
     const PathFrame frame = volume.skin_frame(s / scale);
     const Vec3& along = shapes.values[i].along;
     const double ahead = std::atan2(dot(cross(frame.along, along), frame.outward), dot(frame.along, along));
-    const Prestress own = between(prestress, s);
+    const Prestress own = prestress_at(prestress, s);
     const auto [uu, vv, uv] = turned({own.uu, own.vv, own.uv}, -ahead);
     local.push_back({uu, vv, uv});
     cases.push_back(case_of(shapes.values[i], local.back(), from_middle(s, length, cut)));

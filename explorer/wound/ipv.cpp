@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "explorer/wound/stations.h"
 
 namespace cleft {
 
@@ -137,11 +138,7 @@ PathFrame IncisionVolume::skin_frame(double s) const {
   const std::size_t before = std::min(static_cast<std::size_t>(place), along_.size() - 2);
   frame.along = lerp(along_[before], along_[before + 1], place - static_cast<double>(before));
   if (!station_.empty()) {
-    const auto next =
-        static_cast<std::size_t>(std::upper_bound(station_.begin(), station_.end(), s) - station_.begin());
-    const std::size_t a = next == 0 ? 0 : next - 1, b = std::min(next, station_.size() - 1);
-    const double part =
-        station_[b] > station_[a] ? std::clamp((s - station_[a]) / (station_[b] - station_[a]), 0., 1.) : 0;
+    const auto [a, b, part] = between(station_, s);
     frame.outward = normalized(lerp(normal_[a], normal_[b], part));
   }
   if (family_) frame.along = *family_->along(s * scale_);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "explorer/wound/stations.h"
 #include "params/material/isotropic.h"
 
 namespace cleft {
@@ -40,11 +41,8 @@ struct Influence {
 };
 
 double linear(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const std::size_t next = std::upper_bound(x.begin(), x.end(), at) - x.begin();
-  if (next == 0) return y.front();
-  if (next == x.size()) return y.back();
-  const double part = (at - x[next - 1]) / (x[next] - x[next - 1]);
-  return (1 - part) * y[next - 1] + part * y[next];
+  const auto [before, after, part] = between(x, at);
+  return before == after ? y[before] : (1 - part) * y[before] + part * y[after];
 }
 
 /// Skin and tissue as a field's case has them.

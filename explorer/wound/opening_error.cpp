@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "explorer/wound/path_shape.h"
-#include "explorer/wound/prestress_fields.h"
 
 namespace cleft {
 
@@ -38,13 +37,6 @@ struct Part {
 
 double square(double x) { return x * x; }
 
-bool pulled_alike(const Field& field) {
-  const Prestress& sigma = field.parameters->skin.prestress;
-  return field.parameters.has(sigma.uu) && field.parameters.has(sigma.vv) &&
-         std::abs(sigma.uu - sigma.vv) + 2 * std::abs(field.parameters.value_or(sigma.uv, 0.)) <=
-             0.05 * (sigma.uu + sigma.vv);
-}
-
 /// By the angle in radians between the path and the direction along which a family opens it.
 double astray(const Wound& cut, double s) {
   const PathFrame frame = cut.incision->path().at(s / cut.scale());
@@ -54,10 +46,10 @@ double astray(const Wound& cut, double s) {
 
 }  // namespace
 
-OpeningError opening_error_of(const Wound& cut, bool turned, const Neighbourhood& neighbourhood) {
+OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood& neighbourhood) {
   const Field& field = cut.field.shape();
   const CanonicalCut& canonical = field.cut();
-  const bool family = cut.field.follows_shape(), known = turned || pulled_alike(field);
+  const bool family = cut.field.follows_shape();
   const PathShape shape =
       shape_along(*cut.incision, cut.scale(), {smoothing_of_path, smoothing_of_skin * canonical.depth});
   const PathShape whole = family ? shape_along(*cut.incision, cut.scale(),

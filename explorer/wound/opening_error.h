@@ -28,7 +28,8 @@ struct Neighbourhood {
 /// tension that does or does not turn with the path; the blade's tilt and depth; the skin's curvatures;
 /// longer paths; other cuts; what is held back. A family knows bends, tilts, depths and curvatures: there it
 /// is how far they are beyond the family, and how far the path's direction is from that which opens it. Bone
-/// and changes of the tissue are not known. `turned`: whether the fields follow the tension.
-OpeningError opening_error_of(const Wound& cut, bool turned, const Neighbourhood& neighbourhood);
+/// and changes of the tissue are not known. `known`: whether the fields follow the
+/// tension, or it pulls alike in all directions.
+OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood& neighbourhood);
 
 }  // namespace cleft

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "explorer/wound/skin_fit.h"
 #include "explorer/wound/small_fit.h"
+#include "explorer/wound/stations.h"
 
 namespace cleft {
 
@@ -224,18 +225,15 @@ class Shapes {
 }  // namespace
 
 LocalShape PathShape::at(double s) const {
-  const auto next =
-      static_cast<std::size_t>(std::upper_bound(stations.begin(), stations.end(), s) - stations.begin());
-  if (next == 0) return values.front();
-  if (next == stations.size()) return values.back();
-  const double part = (s - stations[next - 1]) / (stations[next] - stations[next - 1]);
+  const auto [a, b, part] = between(stations, s);
+  if (a == b) return values[a];
   LocalShape shape;
   for (const auto member : {&LocalShape::curvature, &LocalShape::tilt, &LocalShape::depth,
                             &LocalShape::skin_u, &LocalShape::skin_v, &LocalShape::skin_uv})
-    shape.*member = (1 - part) * values[next - 1].*member + part * values[next].*member;
+    shape.*member = (1 - part) * values[a].*member + part * values[b].*member;
   for (const auto member : {&LocalShape::along, &LocalShape::outward}) {
-    const Vec3 sum = lerp(values[next - 1].*member, values[next].*member, part);
-    shape.*member = norm(sum) > 0 ? normalized(sum) : values[next].*member;
+    const Vec3 sum = lerp(values[a].*member, values[b].*member, part);
+    shape.*member = norm(sum) > 0 ? normalized(sum) : values[b].*member;
   }
   return shape;
 }

@@ -183,7 +183,7 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     };
     const bool known = turned || pulled_alike(field), family = cuts[i]->field.follows_shape();
     const double widest = opening(cuts[i]->field, std::min(length, canonical));
-    v.expected_error = opening_error_of(*cuts[i], turned,
+    v.expected_error = opening_error_of(*cuts[i], known,
                                         {nearest_beside, !known && !junctions[i].empty(),
                                          widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
     const double radius = canonical * (known ? least_radius : least_radius_not_turned);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "explorer/wound/stations.h"
 
 namespace cleft {
 
@@ -25,19 +26,6 @@ bool same_cut_and_patch(const Field& a, const Field& b) {
 bool same_depths(const Field& a, const Field& b) {
   return same(a.cut().depth, b.cut().depth) && same(a.domain(2).front, b.domain(2).front) &&
          same(a.domain(2).back, b.domain(2).back);
-}
-
-/// The stations next to a place, and the part of the way from one to the other.
-struct Between {
-  std::size_t before, after;
-  double part;
-};
-
-Between between(const std::vector<double>& stations, double s) {
-  const auto next =
-      static_cast<std::size_t>(std::upper_bound(stations.begin(), stations.end(), s) - stations.begin());
-  const std::size_t a = next == 0 ? 0 : next - 1, b = std::min(next, stations.size() - 1);
-  return {a, b, a == b ? 0 : (s - stations[a]) / (stations[b] - stations[a])};
 }
 
 }  // namespace
