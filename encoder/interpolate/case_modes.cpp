@@ -11,21 +11,70 @@ namespace {
 constexpr Eigen::Index piece = 4096;  // control points' numbers that are in double precision at a time
 constexpr int places_along_lips = 16;
 
-/// The inner products of columns, in double precision.
-Eigen::MatrixXd gram_of(const std::vector<std::span<const float>>& columns, const Eigen::VectorXd& scales) {
-  const auto count = static_cast<Eigen::Index>(columns.size()),
-             size = static_cast<Eigen::Index>(columns.front().size());
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(count, count), block(piece, count);
-  for (Eigen::Index first = 0; first < size; first += piece) {
-    const Eigen::Index rows = std::min(piece, size - first);
-    for (Eigen::Index i = 0; i < count; ++i)
-      block.col(i).head(rows) =
-          Eigen::Map<const Eigen::VectorXf>(columns[static_cast<std::size_t>(i)].data() + first, rows)
-              .cast<double>() /
-          scales[i];
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(block.topRows(rows).transpose());
+/// Control points of all cases and derivatives, each over its norm.
+class CaseColumns {
+ public:
+  explicit CaseColumns(const CommonCases& cases) {
+    for (int i = 0; i < cases.size(); ++i) columns_.push_back(cases.control_points(i));
+    for (std::size_t d = 0; d < cases.derivatives().size(); ++d)
+      columns_.push_back(cases.derivative_points(d));
+    norms_.resize(count());
+    for (Eigen::Index i = 0; i < count(); ++i) {
+      const auto& column = columns_[static_cast<std::size_t>(i)];
+      const double norm = Eigen::Map<const Eigen::VectorXf>(column.data(), size()).cast<double>().norm();
+      norms_[i] = norm > 0 ? norm : 1;
+    }
   }
+
+  Eigen::Index count() const { return static_cast<Eigen::Index>(columns_.size()); }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(columns_.front().size()); }
+  const Eigen::VectorXd& norms() const { return norms_; }
+
+  /// Calls use(first, rows, block) for all of the numbers, a piece at a time: `rows` of them from the first
+  /// on. A block has as many rows everywhere, 0 beyond the last number.
+  template <class Number, class Use>
+  void for_pieces(const Use& use) const {
+    Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> block(piece, count());
+    for (Eigen::Index first = 0; first < size(); first += piece) {
+      const Eigen::Index rows = std::min(piece, size() - first);
+      block.bottomRows(piece - rows).setZero();
+      for (Eigen::Index i = 0; i < count(); ++i)
+        block.col(i).head(rows) =
+            Eigen::Map<const Eigen::VectorXf>(columns_[static_cast<std::size_t>(i)].data() + first, rows)
+                .cast<Number>() /
+            static_cast<Number>(norms_[i]);
+      use(first, rows, block);
+    }
+  }
+
+ private:
+  std::vector<std::span<const float>> columns_;
+  Eigen::VectorXd norms_;
+};
+
+/// The inner products of columns, in double precision.
+Eigen::MatrixXd gram_of(const CaseColumns& columns) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.count(), columns.count());
+  columns.for_pieces<double>([&](Eigen::Index, Eigen::Index, const Eigen::MatrixXd& block) {
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
+  });
   return gram.selfadjointView<Eigen::Lower>();
+}
+
+/// Sums of columns. Blocks are all of one size, so that numbers which are the same in all columns stay the
+/// same, bit for bit: a matrix product adds up its last rows in another order if they do not fill a register.
+std::vector<std::vector<float>> sums_of(const CaseColumns& columns, const Eigen::MatrixXd& weights) {
+  std::vector<std::vector<float>> sums(static_cast<std::size_t>(weights.cols()));
+  for (auto& sum : sums) sum.resize(static_cast<std::size_t>(columns.size()));
+  const Eigen::MatrixXf rounded = weights.cast<float>();
+  Eigen::MatrixXf product(piece, weights.cols());
+  columns.for_pieces<float>([&](Eigen::Index first, Eigen::Index rows, const Eigen::MatrixXf& block) {
+    product.noalias() = block * rounded;
+    for (Eigen::Index k = 0; k < weights.cols(); ++k)
+      Eigen::Map<Eigen::VectorXf>(sums[static_cast<std::size_t>(k)].data() + first, rows) =
+          product.col(k).head(rows);
+  });
+  return sums;
 }
 
 /// Of the lips when all is cut, mm.
@@ -42,42 +91,22 @@ double largest_of_lips(const Field& field) {
 }  // namespace
 
 CaseModes::CaseModes(const StudyInterpolator& study, double error) : study_(study) {
-  const CommonCases& cases = study.cases();
-  std::vector<std::span<const float>> columns;
-  columns.reserve(static_cast<std::size_t>(cases.size()) + cases.derivatives().size());
-  for (int i = 0; i < cases.size(); ++i) columns.push_back(cases.control_points(i));
-  for (std::size_t d = 0; d < cases.derivatives().size(); ++d) columns.push_back(cases.derivative_points(d));
-  const auto count = static_cast<Eigen::Index>(columns.size());
-  Eigen::VectorXd scales(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const std::span<const float> column = columns[static_cast<std::size_t>(i)];
-    const double norm =
-        Eigen::Map<const Eigen::VectorXf>(column.data(), static_cast<Eigen::Index>(column.size()))
-            .cast<double>()
-            .norm();
-    scales[i] = norm > 0 ? norm : 1;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram_of(columns, scales));
+  const CaseColumns columns(study.cases());
+  const Eigen::MatrixXd gram = gram_of(columns);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
   const Eigen::MatrixXd vectors = solver.eigenvectors().rowwise().reverse();
   const Eigen::VectorXd values = solver.eigenvalues().reverse().cwiseMax(0.);
 
-  // What K modes leave of the i-th case: 1 - the sum of its squared coordinates, lambda_k V_ik^2.
-  Eigen::VectorXd left = Eigen::VectorXd::Ones(count);
+  // What K modes leave of the i-th case: its square less the sum of those of its coordinates, lambda_k
+  // V_ik^2. The square is 1, or 0 of a load that moves nothing.
+  Eigen::VectorXd left = gram.diagonal();
   Eigen::Index kept = 0;
-  while (kept < count && left.maxCoeff() > error * error) {
+  while (kept < columns.count() && left.maxCoeff() > error * error) {
     left -= values[kept] * vectors.col(kept).cwiseAbs2();
     ++kept;
   }
-  shares_ = vectors.leftCols(kept).transpose() * scales.asDiagonal();
-  for (Eigen::Index k = 0; k < kept; ++k) {
-    std::vector<Summand> summands;
-    summands.reserve(columns.size());
-    for (Eigen::Index i = 0; i < count; ++i)
-      summands.push_back({vectors(i, k) / scales[i], columns[static_cast<std::size_t>(i)]});
-    std::vector<float>& mode = modes_.emplace_back();
-    for (const Vec3& point : sum_of(summands))
-      for (int c = 0; c < 3; ++c) mode.push_back(static_cast<float>(point[c]));
-  }
+  shares_ = vectors.leftCols(kept).transpose() * columns.norms().asDiagonal();
+  modes_ = sums_of(columns, vectors.leftCols(kept));
 }
 
 Field CaseModes::at(const CaseParameters& values) const {

@@ -150,6 +150,13 @@ TEST(Family, ModesAreTheInterpolatedFields) {
   }
 }
 
+TEST(Family, ALoadThatMovesNothingNeedsNoMode) {
+  FamilyFile::Options options;
+  options.along = 0;
+  const FamilyFile file(options);
+  EXPECT_LT(CaseModes(StudyInterpolator(file.file()), 1e-4).count(), 20);
+}
+
 TEST(Family, WithoutATensionItIsTheDefaultCasesAlongThePathAsAWhole) {
   const CutFields fields = read_cut_fields(family_file().file(), {}, {});
   const Cut cut(arc(0.05, 20));

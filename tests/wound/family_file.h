@@ -15,6 +15,7 @@ struct MadeShape {
   double curvature = 0, twist = 0, depth = 3;
   double length = 20;  ///< of the cut
   double slope = 3;    ///< by which displacements grow with the curvature, mm
+  double along = 1;    ///< what the prestress along the cut moves, over what it moves by default
 };
 
 /// A small field that opens by a millimetre or so, (1 + slope curvature + 20 curvature^2 + 10 twist) depth /
@@ -38,8 +39,8 @@ inline Field made(const MadeShape& shape, const Prestress& sigma) {
           const double x = greville(u, i) + length / 2, side = j < v.size() / 2 ? -1 : 1;
           const double open = std::sqrt(std::max(0., x * (greville(t, l) - x)));
           const double g = size * open * std::exp(-0.1 * std::abs(greville(v, j))) * (k + 1) / 5.;
-          c.push_back(
-              {g * (sigma.uu + 0.2 * sigma.vv), g * side * sigma.vv, g * (0.3 * sigma.uv + 0.1 * sigma.vv)});
+          c.push_back({g * (shape.along * sigma.uu + 0.2 * sigma.vv), g * side * sigma.vv,
+                       g * (0.3 * sigma.uv + 0.1 * sigma.vv)});
         }
   Field field(u, v, w, t, std::move(c), {-length / 2, length, shape.depth});
   Parameters p;
@@ -58,7 +59,7 @@ class FamilyFile {
  public:
   struct Options {
     bool with_twist = true, with_shear = true;
-    double length = 20, slope = 3;
+    double length = 20, slope = 3, along = 1;
   };
 
   explicit FamilyFile(const Options& options) {
@@ -71,7 +72,7 @@ class FamilyFile {
             if (!options.with_shear && sigma.uv != 0) continue;
             const std::string name = "case" + std::to_string(cases.size());
             write_field(folder_ / (name + ".dffd"),
-                        made({curvature, twist, depth, options.length, options.slope}, sigma));
+                        made({curvature, twist, depth, options.length, options.slope, options.along}, sigma));
             cases.push_back({name, folder_ / (name + ".dffd"), {}});
           }
     write_study(file(), study_records(cases));
