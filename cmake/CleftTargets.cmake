@@ -44,6 +44,10 @@ if(CLEFT_SANITIZE)
   target_link_options(cleft_options INTERFACE -fsanitize=${CLEFT_SANITIZE})
 endif()
 
+# Libraries, commands and their precompiled headers are position-independent, so that the Python module, a shared object, is
+# linked from the same libraries. No other library replaces their functions, so the compiler may inline them all the same.
+set(cleft_position_independent -fPIC -fno-semantic-interposition)
+
 # cleft_library(NAME SOURCES... [SEPARATE] [HEADERS GROUP] [LINK ...]): a static library; the target is Cleft::NAME too. GROUP:
 # the precompiled headers (PrecompiledHeaders.cmake), without it those of the standard library. SEPARATE: each source is
 # compiled alone, where the machine code of inner loops shall not depend on what else is in the library.
@@ -55,6 +59,7 @@ function(cleft_library name)
   target_include_directories(cleft_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/cleft>)
   target_compile_features(cleft_${name} PUBLIC cxx_std_20)
+  target_compile_options(cleft_${name} PRIVATE ${cleft_position_independent})
   target_link_libraries(cleft_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:cleft_warnings>)
   target_link_libraries(cleft_${name} PUBLIC $<BUILD_INTERFACE:cleft_options>)
   cleft_use_headers(cleft_${name} "${arg_HEADERS}")
@@ -66,6 +71,7 @@ endfunction()
 # cleft_command(NAME SOURCE LINK...): the executable cleft-NAME (or `cleft` itself), installed beside the others.
 function(cleft_command name source)
   add_executable(${name} ${source})
+  target_compile_options(${name} PRIVATE ${cleft_position_independent})
   target_link_libraries(${name} PRIVATE ${ARGN} cleft_command cleft_warnings)
   cleft_use_headers(${name} json)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -8,6 +8,8 @@ namespace cleft::h5 {
 
 namespace {
 
+bool apart = false;  // see read_apart()
+
 /// Once, before the first call. Errors are reported through exceptions, not printed; and files are closed
 /// here, checked, not at the program's end, where HDF5 1.10 crashes over one that a full disk kept it from
 /// closing.
@@ -28,6 +30,8 @@ Handle file_access() {
 }
 
 }  // namespace
+
+void read_apart() { apart = true; }
 
 std::string version() {
   unsigned major = 0, minor = 0, release = 0;
@@ -65,7 +69,9 @@ File File::create(const std::string& path, Growth growth) {
 File File::open(const std::string& path) {
   begin_hdf5();
   if (!std::filesystem::is_regular_file(path)) throw FileError(path, "no such file, or not a file");
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose);
+  const Handle access = file_access();
+  if (apart) H5Pset_fapl_stdio(access);
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   if (file < 0)
     throw FileError(path, "is not an HDF5 file, or is cut short or damaged; write or copy it again");
   return {path, std::move(file)};

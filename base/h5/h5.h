@@ -32,6 +32,11 @@ class Handle {
 /// Version of the library: "1.10.8".
 std::string version();
 
+/// For a process in which others use this library too: files are read by its driver for C's streams from now
+/// on. Files that others have opened by the usual driver, with settings of theirs, are then other files to
+/// the library, which would refuse them otherwise, and closes no object of theirs.
+void read_apart();
+
 using Shape = std::vector<hsize_t>;
 
 /// How a dataset is stored, besides its checksums.

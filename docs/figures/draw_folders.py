@@ -10,9 +10,11 @@ import re
 import sys
 from pathlib import Path
 
-TOP = ["base", "params", "solver", "encoder", "haptic", "explorer", "tradeoff", "cli", "examples"]
+TOP = ["base", "params", "solver", "encoder", "haptic", "explorer", "tradeoff", "cli", "examples",
+       "python"]
 FILL = {"base": "#e8e8e8", "params": "#fdf0c4", "solver": "#fbd9c6", "encoder": "#d3e6f5", "haptic": "#e9d7ee",
-        "explorer": "#d6edd2", "tradeoff": "#f6d5dd", "cli": "#e8e8e8", "examples": "#e8e8e8"}
+        "explorer": "#d6edd2", "tradeoff": "#f6d5dd", "cli": "#e8e8e8", "examples": "#e8e8e8",
+        "python": "#e8e8e8"}
 CHARACTER, HEIGHT, GAP, LAYER, MARGIN, WIDTH = 7.3, 26, 18, 66, 20, 940
 
 

@@ -16,6 +16,7 @@ struct Options {
 
 Json to_json(const PublishedStudy& study, int i, const Finding& f) {
   return {{"case", i + 1},
+          {"hash", study.hash(i)},
           {"name", study.name(i)},
           {"length_cut_mm", {f.first_t, f.last_t}},
           {"place_mm", {f.least_u, f.greatest_u}},
@@ -29,7 +30,9 @@ std::string to_text(const PublishedStudy& study, int i, const Finding& f) {
   char figures[200];
   std::snprintf(figures, sizeof figures, "  %.1f to %.1f mm cut, u %.1f to %.1f mm, gape up to %.2f mm",
                 f.first_t, f.last_t, f.least_u, f.greatest_u, f.gape);
-  return "case " + std::to_string(i + 1) + ": " + study.name(i) + "\n" + figures +
+  const std::string& hash = study.hash(i);
+  return "case " + std::to_string(i + 1) + (hash.empty() ? "" : " (" + hash + ")") + ": " + study.name(i) +
+         "\n" + figures +
          (!f.confirmed   ? " (the simulation is not kept)"
           : *f.confirmed ? " (confirmed by the simulation)"
                          : " (NOT confirmed by the simulation)");

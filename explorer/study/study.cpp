@@ -18,15 +18,19 @@ PublishedStudy::PublishedStudy(const std::string& path) : path_(path) {
   if (fs::is_regular_file(path) && format_of(path) == "cleft-study") {
     packed_.emplace(path);
     for (int i = 0; i < packed_->size(); ++i)
-      cases_.push_back({packed_->name(i), "", packed_->parameters(i), i});
+      cases_.push_back({packed_->name(i), "", packed_->name(i), packed_->parameters(i), i});
     if (cases_.empty()) throw InputError(path + ": holds no case; run `cleft pack` again");
     name_and_sort();
     return;
   }
   folder_ = fs::is_directory(path);
+  const std::string of_study = fs::exists(fs::absolute(path).parent_path() / "manifest.json")
+                                   ? fs::absolute(path).parent_path().filename().string()
+                                   : "";
   for (const StudyCase& one :
-       folder_ ? published_study_cases(path, &older_) : std::vector<StudyCase>{{"", path}}) {
-    Case& added = cases_.emplace_back(Case{one.field_file, "", read_field_parameters(one.field_file), -1});
+       folder_ ? published_study_cases(path, &older_) : std::vector<StudyCase>{{of_study, path}}) {
+    Case& added =
+        cases_.emplace_back(Case{one.field_file, "", one.name, read_field_parameters(one.field_file), -1});
     for (const auto& [name, value] : one.choices.texts()) added.parameters.set(name, value);
   }
   name_and_sort();
@@ -59,6 +63,11 @@ void PublishedStudy::name_and_sort() {
 std::string PublishedStudy::snapshot(int i) const {
   const fs::path opened(path_);
   return (packed_ ? opened.parent_path() / "cases" / file(i) : fs::path(file(i)).parent_path()) / "case.h5";
+}
+
+FitReport PublishedStudy::report(int i) const {
+  const Case& wanted = cases_.at(i);
+  return packed_ ? packed_->report(wanted.packed) : read_field_report(wanted.file);
 }
 
 Field PublishedStudy::read(int i) const {

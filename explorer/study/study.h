@@ -28,6 +28,11 @@ class PublishedStudy {
   const std::vector<std::string>& varying() const { return varying_; }
   /// With switches and choices, if the study records them.
   const RecordedParameters& parameters(int i) const { return cases_.at(i).parameters; }
+  /// The identity of a published case, by which `cleft status` and the folder cases/ name it; empty for a
+  /// field file that belongs to no study.
+  const std::string& hash(int i) const { return cases_.at(i).hash; }
+  /// The report of its fit, without its coefficients.
+  FitReport report(int i) const;
   const std::string& file(int i) const { return cases_.at(i).file; }
   /// The path of its simulation, if that was kept.
   std::string snapshot(int i) const;
@@ -46,7 +51,7 @@ class PublishedStudy {
 
  private:
   struct Case {
-    std::string file, name;
+    std::string file, name, hash;
     RecordedParameters parameters;
     int packed = -1;  // its number in the study file
   };

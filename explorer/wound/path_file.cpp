@@ -24,19 +24,26 @@ std::vector<std::string> prestress_columns() {
 }  // namespace
 
 ScalpelPath read_path(const std::string& file, double depth, double scale, const Field* field) {
-  const NumberTable table = read_csv(file);
-  ScalpelPath path = ScalpelPath::from_table(table, file, prestress_columns());
+  return path_of(read_csv(file), file, depth, scale, field);
+}
+
+ScalpelPath path_of(const NumberTable& table, const std::string& name, double depth, double scale,
+                    const Field* field) {
+  ScalpelPath path = ScalpelPath::from_table(table, name, prestress_columns());
   if (depth > 0)
     path.set_depth(depth / scale);
   else if (table.column("depth") < 0 && field)
     path.set_depth(field->cut().depth / scale);
   else if (table.column("depth") < 0)
-    throw FileError(file, "has no column 'depth', and there is no field that knows one: give --depth in mm");
+    throw FileError(name, "has no column 'depth', and there is no field that knows one: give --depth in mm");
   return path;
 }
 
 std::optional<PathPrestress> read_prestress(const std::string& file, const ScalpelPath& path, double scale) {
-  const NumberTable table = read_csv(file);
+  return prestress_of(read_csv(file), path, scale);
+}
+
+std::optional<PathPrestress> prestress_of(const NumberTable& table, const ScalpelPath& path, double scale) {
   int column[3];
   for (int i = 0; i < 3; ++i) column[i] = table.column(prestress_columns()[i]);
   if (std::max({column[0], column[1], column[2]}) < 0) return std::nullopt;

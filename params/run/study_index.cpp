@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr int version = 2;  // sealed
+constexpr int version = 3;
 
 /// Stamp and size of a case's manifest; whether it has one.
 bool look_at_manifest(int cases, const std::string& hash, IndexedCase& entry) {
@@ -45,15 +45,19 @@ void read_manifest(const std::string& file, IndexedCase& entry) {
   const Json size = manifest.value("size", Json::object());
   entry.nodes = size.value("nodes", 0.), entry.columns = size.value("columns", 0.);
   entry.memory = size.value("memory", 0.);
+  const Json encoder = manifest.value("encoder", Json::object());
+  entry.node_error = encoder.value("node_error", 0.);
+  entry.largest_displacement = encoder.value("largest_displacement_mm", 0.);
 }
 
 Json row_of(const std::string& hash, const IndexedCase& e) {
   return Json::array({hash, e.stamp, e.manifest_bytes, e.solve, e.seconds, e.bytes, e.nodes, e.columns,
-                      e.memory, e.snapshot});
+                      e.memory, e.node_error, e.largest_displacement, e.snapshot});
 }
 
 IndexedCase entry_of(const Json& row) {
-  return {row.at(1), row.at(2), row.at(3), row.at(4), row.at(5), row.at(6), row.at(7), row.at(8), row.at(9)};
+  return {row.at(1), row.at(2), row.at(3), row.at(4),  row.at(5), row.at(6),
+          row.at(7), row.at(8), row.at(9), row.at(10), row.at(11)};
 }
 
 std::map<std::string, IndexedCase> written_index(const std::string& file) {

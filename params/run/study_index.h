@@ -15,6 +15,7 @@ struct IndexedCase {
   std::string solve;                                      ///< identity of what the solver saw
   double seconds = 0, bytes = 0, nodes = 0, columns = 0;  ///< what it cost, and how large it is; 0: unknown
   double memory = 0;                                      ///< most bytes the solver held
+  double node_error = 0, largest_displacement = 0;        ///< of its field (mm); 0: unknown
   bool snapshot = true;                                   ///< whether its raw data were kept
 };
 

@@ -44,6 +44,7 @@ tradeoff/replays:base|encoder/field|solver/snapshot|explorer/incision|explorer/w
 tradeoff:base|base/command|params|params/parameters|params/run|solver/snapshot|encoder|encoder/field|encoder/field/file|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|tradeoff/rivals|tradeoff/replays
 cli:base|base/command|base/h5|params|params/parameters|params/run|solver/snapshot|encoder/field|encoder/field/file
 examples/head:base|base/command
+python:base|base/h5|params|params/parameters|solver/snapshot|encoder|encoder/field|encoder/field/file|encoder/interpolate|explorer/incision|explorer/study|explorer/wound|explorer/scene
 PARTS
 )
 variants='kernels|parametrization|sampling|material'  # folders of one library that hold a file for each variant
@@ -63,12 +64,12 @@ forbid() {
   found=$(cd "$root" && grep -rnE --include='*.h' --include='*.cpp' "#include <($pattern)" "$@" | grep -vE "^(${except:-$^})")
   [ -z "$found" ] || complain "$*" "$name" "$found"
 }
-forbid "deal.II or Trilinos" 'deal\.II/|Epetra|ml_|Teuchos|dmumps' base params solver/snapshot encoder haptic explorer tradeoff cli examples
-forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer tradeoff cli examples
-except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session explorer/io/formats tradeoff cli
+forbid "deal.II or Trilinos" 'deal\.II/|Epetra|ml_|Teuchos|dmumps' base params solver/snapshot encoder haptic explorer tradeoff cli examples python
+forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer tradeoff cli examples python
+except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session explorer/io/formats tradeoff cli python
 forbid "Qt" 'Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session explorer/io explorer/view tradeoff cli examples
 forbid "Eigen" 'Eigen/' base params encoder/field haptic
-forbid "HDF5" 'hdf5|H5' params solver encoder haptic explorer tradeoff cli examples
+forbid "HDF5" 'hdf5|H5' params solver encoder haptic explorer tradeoff cli examples python
 found=$(cd "$root" && grep -rn --include='*.h' --include='*.cpp' '#include "encoder/import/' base params solver encoder haptic \
   explorer tradeoff cli examples | grep -v '^encoder/import/')
 [ -z "$found" ] || complain "other folders" "encoder/import" "$found"

@@ -3,7 +3,7 @@
 set -eu
 root=$1; here=$(cd "$(dirname "$0")" && pwd)
 copy=$(mktemp -d); trap 'rm -rf "$copy"' EXIT
-(cd "$root" && find base params solver encoder haptic explorer tradeoff cli examples \( -name '*.h' -o -name '*.cpp' \) -print0 |
+(cd "$root" && find base params solver encoder haptic explorer tradeoff cli examples python \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 cp --parents -t "$copy"); mkdir -p "$copy/haptic"
 "$here/check_includes.sh" "$copy" || { echo "the copy itself fails"; exit 1; }
 while IFS='|' read -r folder include; do
@@ -44,6 +44,8 @@ encoder/import|"encoder/encode.h"
 encoder/import|"explorer/io/mesh_file.h"
 encoder/import|<hdf5.h>
 encoder|"encoder/import/series.h"
+python|"explorer/io/mesh_file.h"
+python|<hdf5.h>
 CASES
 # The same for lists by hand of what a table states.
 "$here/check_tables.sh" "$copy" || { echo "the copy itself fails"; exit 1; }

@@ -13,3 +13,8 @@ run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/consumer -B ${work}/build -DCMAKE_PRE
 run(${CMAKE_COMMAND} --build ${work}/build)
 run(${work}/build/consumer ${work}/field.dffd)
 run(${work}/prefix/bin/cleft check ${work}/field.dffd)
+if(PYTHON_FOLDER)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${work}/prefix/${PYTHON_FOLDER} ${PYTHON} -c
+    "import cleft, sys; assert cleft.__file__.startswith(sys.argv[1]); print(cleft.open(sys.argv[2])(0, 0, 0, 0, outside='clamp'))"
+    ${work}/prefix ${work}/field.dffd)
+endif()

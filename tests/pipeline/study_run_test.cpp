@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/text.h"
 #include "params/run/study_folder.h"
@@ -41,6 +42,30 @@ nlohmann::json status(const std::string& folder) {
   return nlohmann::json::parse(expect_success(run_cleft("status", {folder, "--json"})).output);
 }
 
+/// The table of the cases as CSV holds what it holds as JSON, and figures are those of the cases' fields.
+void expect_tables_agree(const std::string& folder) {
+  const nlohmann::json cases = status(folder)["cases"];
+  std::istringstream csv(expect_success(run_cleft("status", {folder, "--csv"})).output);
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line,
+            "case,state,skin.prestress_v,tissue.young_modulus,node_error,largest_displacement_mm,nodes,bytes,"
+            "seconds,raw_data");
+  for (const auto& one : cases) {
+    std::getline(csv, line);
+    EXPECT_EQ(line.substr(0, line.find(',')), one["case"]);
+    EXPECT_NE(line.find(one["node_error"].dump() + "," + one["largest_displacement_mm"].dump()),
+              std::string::npos)
+        << line;
+    const std::string field = folder + "/cases/" + one["case"].get<std::string>() + "/case.dffd";
+    const auto report =
+        nlohmann::json::parse(expect_success(run_cleft("info", {field, "--json"})).output)["report"];
+    EXPECT_EQ(one["node_error"], report["node_error"]);
+    EXPECT_EQ(one["largest_displacement_mm"], report["largest_displacement_mm"]);
+  }
+  EXPECT_FALSE(std::getline(csv, line)) << line;
+}
+
 }  // namespace
 
 TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
@@ -56,6 +81,7 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   EXPECT_FALSE(fs::exists(folder)) << "--dry-run must write nothing";
   expect_success(run_cleft("run", {file, "--out", folder}));
   EXPECT_EQ(status(folder)["published"], 4);
+  expect_tables_agree(folder);
   expect_success(run_cleft("check", {folder}));
   EXPECT_TRUE(fs::is_empty(folder + "/attempts"));
   EXPECT_FALSE(fs::exists(folder + "/pack.log"));

@@ -15,6 +15,12 @@ namespace {
 
 const FileFormat field_format{"cleft-field", field_version, "field file", "cleft encode"};
 
+Json read_header(const std::string& path) {
+  const h5::File file = h5::File::open(path);
+  require_format(file, field_format);
+  return header_from(file.read<std::uint8_t>("/header", {0}));
+}
+
 std::string residual_of_quantity(std::size_t index) {
   return "/residual_of_quantity_" + std::to_string(index);
 }
@@ -96,11 +102,11 @@ bool is_older_field(const std::string& path) {
 }
 
 RecordedParameters read_field_parameters(const std::string& path) {
-  return told_of_file(path, [&] {
-    const h5::File file = h5::File::open(path);
-    require_format(file, field_format);
-    return parameters_of(header_from(file.read<std::uint8_t>("/header", {0})));
-  });
+  return told_of_file(path, [&] { return parameters_of(read_header(path)); });
+}
+
+FitReport read_field_report(const std::string& path) {
+  return told_of_file(path, [&] { return report_of(read_header(path)); });
 }
 
 std::optional<NodeResidual> read_residual(const std::string& path,

@@ -25,6 +25,8 @@ bool is_older_field(const std::string& path);
 
 /// Only the case's parameters: coefficients stay on disk.
 RecordedParameters read_field_parameters(const std::string& path);
+/// Only the report of the fit, likewise.
+FitReport read_field_report(const std::string& path);
 
 /// The residual of the field at the nodes of its snapshot, in the order of writing; none if the file holds
 /// none.
