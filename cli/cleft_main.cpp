@@ -26,7 +26,7 @@ const std::vector<Command> commands = {
 };
 
 std::string usage() {
-  std::string text = "Usage: cleft COMMAND [OPTIONS]\n\nCommands (each has --help):\n";
+  std::string text = "Usage: cleft COMMAND [OPTIONS]\n       cleft help COMMAND\n\nCommands:\n";
   for (const auto& [name, help] : commands)
     text += "  " + name + std::string(13 - name.size(), ' ') + help + "\n";
   return text + "\nOptions: --help, --version. Exit codes: 0 done, 1 failed, 2 wrong usage or input.\n";
@@ -36,21 +36,25 @@ std::string usage() {
 
 int main(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
-  if (word == "--help" || word == "-h") return std::cout << usage(), 0;
+  const bool help = word == "help" && argc > 2;
+  if (!help && (word == "--help" || word == "-h" || word == "help")) return std::cout << usage(), 0;
   if (word == "--version") return std::cout << cleft::producer() << "\n", 0;
   if (word.empty()) return std::cerr << usage(), 2;
 
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.name);
+  const std::string wanted = help ? argv[2] : word;
   for (const std::string& name : names)
-    if (name == word) {
+    if (name == wanted) {
       const std::string program = cleft::executable_folder() + "/cleft-" + name;
-      execv(program.c_str(), argv + 1);
+      std::string flag = "--help";
+      char* const for_help[] = {argv[2], flag.data(), nullptr};
+      execv(program.c_str(), help ? for_help : argv + 1);
       return std::cerr << "cleft: failed: " << program
                        << " could not be started; is the installation complete?\n",
              1;
     }
-  return std::cerr << "cleft: error: unknown command '" << word << "'" << cleft::did_you_mean(word, names)
+  return std::cerr << "cleft: error: unknown command '" << wanted << "'" << cleft::did_you_mean(wanted, names)
                    << " (see cleft --help)\n",
          2;
 }

@@ -74,7 +74,7 @@ function(cleft_command name source)
   target_compile_options(${name} PRIVATE ${cleft_position_independent})
   target_link_libraries(${name} PRIVATE ${ARGN} cleft_command cleft_warnings)
   cleft_use_headers(${name} json)
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT commands)
 endfunction()
 
 # cleft_needs(TARGET COMMAND...): TARGET runs the commands, so they are built before it.

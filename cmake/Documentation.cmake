@@ -16,13 +16,14 @@ endif()
 find_program(CLEFT_PYTHON python3 HINTS /usr/bin)
 if(CLEFT_PYTHON)
   set(pages ${CLEFT_PYTHON} ${PROJECT_SOURCE_DIR}/docs/generate/help_pages.py)
-  add_custom_target(man COMMAND ${pages} man ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_BINARY_DIR}/man VERBATIM)
+  add_custom_target(man COMMAND ${pages} man ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_BINARY_DIR}/man
+    COMMAND gzip -9nrf ${PROJECT_BINARY_DIR}/man VERBATIM)
   add_custom_target(completion
     COMMAND ${pages} completion ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_BINARY_DIR}/completion/cleft VERBATIM)
   foreach(target man completion)
     cleft_needs(${target} ${cleft_commands})
   endforeach()
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT commands OPTIONAL)
   install(FILES ${PROJECT_BINARY_DIR}/completion/cleft DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-    OPTIONAL)
+    COMPONENT commands OPTIONAL)
 endif()

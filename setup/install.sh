@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # install.sh [SECTION...]: installs the Debian packages of packages.txt that are missing, and nothing else: what building
-# needs, and the sections that are named: solver, explorer, python, tests, benchmarks, docs. `demo`, and no argument: solver
-# and explorer; `tests` adds these and python too, and `benchmarks` adds the tests. Says what it will do; works as root or
-# through sudo; does nothing when all is there.
+# needs, and the sections that are named: solver, explorer, python, tests, benchmarks, docs, packages. `demo`, and no
+# argument: solver and explorer; `tests` adds these and python too, and `benchmarks` adds the tests. Says what it will do;
+# works as root or through sudo; does nothing when all is there.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 
@@ -12,8 +12,8 @@ for section in "${@:-demo}"; do
     demo) sections+="solver explorer " ;;
     tests) sections+="solver explorer python tests " ;;
     benchmarks) sections+="solver explorer python tests benchmarks " ;;
-    build | solver | explorer | python | docs) sections+="$section " ;;
-    *) echo "install.sh: error: unknown section '$section': build, solver, explorer, python, demo, tests, benchmarks or docs" >&2; exit 2 ;;
+    build | solver | explorer | python | docs | packages) sections+="$section " ;;
+    *) echo "install.sh: error: unknown section '$section': build, solver, explorer, python, demo, tests, benchmarks, docs or packages" >&2; exit 2 ;;
   esac
 done
 

@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <regex>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -55,7 +57,18 @@ void print_figures(const Json& figures, bool as_json) {
   }
 }
 
-Progress::Progress(std::string task) : task_(std::move(task)), terminal_(isatty(STDERR_FILENO) == 1) {
+std::string part_and_time_left(double first, double done, double all, double seconds) {
+  constexpr double enough = 5;  // seconds, for a pace
+  const std::string part = std::to_string(static_cast<int>(100 * (done - 1) / all)) + " %";
+  if (!(done > first && seconds >= enough)) return part;
+  const double left = seconds * (all - done + 1) / (done - first);
+  const bool minutes = left > 90;
+  return part + " (about " + std::to_string(static_cast<int>(std::lround(minutes ? left / 60 : left))) +
+         (minutes ? " min left)" : " s left)");
+}
+
+Progress::Progress(std::string task)
+    : task_(std::move(task)), terminal_(isatty(STDERR_FILENO) == 1), silent_(CommandLine::quiet()) {
   if (const char* file = std::getenv(progress_file)) file_ = file;
 }
 
@@ -65,9 +78,27 @@ Progress::~Progress() {
 
 void Progress::operator()(const std::string& state) {
   if (!file_.empty()) std::ofstream(file_) << state << "\n";  // nothing depends on it
-  if (!terminal_) return;
-  std::cerr << "\r\033[K" << task_ << ": " << state << std::flush;
-  written_ = true;
+  if (silent_) return;
+  if (terminal_) {
+    std::cerr << "\r\033[K" << task_ << ": " << with_time_left(state) << std::flush;
+    written_ = true;
+    return;
+  }
+  const std::string line = with_time_left(state);  // keeps the pace
+  if (!file_.empty() || Clock::now() - last_line_ < std::chrono::minutes(1)) return;
+  std::cerr << task_ + ": " + line + "\n";
+  last_line_ = Clock::now();
+}
+
+std::string Progress::with_time_left(const std::string& state) {
+  static const std::regex counted(R"((.*?)(\d+) of (\d+)$)");
+  std::smatch parts;
+  if (!std::regex_match(state, parts, counted)) return state;
+  const double done = std::stod(parts[2]), all = std::stod(parts[3]);
+  if (parts[1] != step_ || done < first_) step_ = parts[1], step_began_ = Clock::now(), first_ = done;
+  if (!(all > 0)) return state;
+  const std::chrono::duration<double> elapsed = Clock::now() - step_began_;
+  return state + ", " + part_and_time_left(first_, done, all, elapsed.count());
 }
 
 }  // namespace cleft

@@ -1,6 +1,7 @@
 // What all commands share: exit codes, --version, progress, and figures as text or JSON.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -22,8 +23,9 @@ void print_figures(const Json& figures, bool as_json);
 /// process.
 inline constexpr const char* progress_file = "CLEFT_PROGRESS";
 
-/// A line of progress on stderr, overwritten in place on a terminal and omitted otherwise; also in the file
-/// of CLEFT_PROGRESS.
+/// A line of progress on stderr: on a terminal overwritten in place; elsewhere a line a minute, if the
+/// command is nobody's child by CLEFT_PROGRESS, in whose file each state is too. A state that ends in "N of
+/// M" is followed by the percentage, and by the time that the rest of this step takes at its pace so far.
 class Progress {
  public:
   explicit Progress(std::string task);
@@ -33,8 +35,19 @@ class Progress {
   void operator()(const std::string& state);
 
  private:
+  using Clock = std::chrono::steady_clock;
+  std::string with_time_left(const std::string& state);
+
   std::string task_, file_;
-  bool terminal_, written_ = false;
+  bool terminal_, silent_, written_ = false;
+  Clock::time_point last_line_ = Clock::now();
+  std::string step_;              // the state before its "N of M"
+  Clock::time_point step_began_;  // with this N:
+  double first_ = 0;
 };
+
+/// "12 %", and " (about 2 min left)" where the pace is known: of step `done` of `all`, where `first` was
+/// begun `seconds` ago.
+std::string part_and_time_left(double first, double done, double all, double seconds);
 
 }  // namespace cleft

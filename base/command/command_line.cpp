@@ -29,6 +29,8 @@ Check bounded(double least, bool open) {
       std::string(open ? "> " : ">= ") + shortest(least)));
 }
 
+bool asked_for_quiet = false;
+
 }  // namespace
 
 Check at_least(double least) { return bounded(least, false); }
@@ -124,8 +126,11 @@ void CommandLine::footer(std::function<std::string()> text) { app_->footer(std::
 std::size_t CommandLine::count(const std::string& name) const { return app_->count(name); }
 std::string CommandLine::name() const { return app_->get_name(); }
 
+bool CommandLine::quiet() { return asked_for_quiet; }
+
 int CommandLine::parse(int argc, char** argv, const std::string& version) {
   app_->set_version_flag("--version", version);
+  app_->add_flag("--quiet", asked_for_quiet, "tell nothing of the progress");
   app_->get_formatter()->column_width(34);
   try {
     app_->parse(argc, argv);

@@ -72,6 +72,8 @@ class CommandLine {
   /// How often the option was given.
   [[nodiscard]] std::size_t count(const std::string& name) const;
   [[nodiscard]] std::string name() const;  ///< "cleft solve"
+  /// Whether --quiet was given, which every command has: no lines of progress.
+  static bool quiet();
 
   /// Sets the variables. Returns an exit code where the command shall end at once: 0 after --help and
   /// --version, 2 after a wrong usage, which stderr has been told; else -1.

@@ -1,5 +1,6 @@
 // cleft status: what of a study is done.
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -16,8 +17,7 @@ void add_figures(Json& entry, const IndexedCase& known) {
   const auto figure = [](double value) { return value > 0 ? Json(value) : Json(); };
   entry["node_error"] = figure(known.node_error);
   entry["largest_displacement_mm"] = figure(known.largest_displacement);
-  entry["nodes"] = figure(known.nodes);
-  entry["bytes"] = figure(known.bytes);
+  entry["bytes"] = static_cast<std::int64_t>(known.bytes);
   entry["seconds"] = figure(known.seconds);
   entry["raw_data"] = known.snapshot ? "kept" : "dropped";
 }

@@ -38,4 +38,5 @@ for page in "$work"/man/cleft-*.1; do
     grep -qF -- "${option//-/\\-}\\fR" "$page" || { echo "$page: $option is missing"; bad=1; }
   done
 done
+diff <("$bin/cleft" help encode) <("$bin/cleft" encode --help) || bad=1
 exit $bad
