@@ -18,7 +18,7 @@ import numpy as np
 
 import cleft
 from cleft import _cleft
-from small_study import command, make_study
+from small_study import FAMILY, THREE_PRESTRESSES, command, make_study
 
 
 def places(field, count, seed=1):
@@ -312,33 +312,48 @@ print(u.tolist(), sum("libhdf5" in line and "r-xp" in line for line in open("/pr
 
     # Cuts
 
-    def test_a_cut_is_that_of_the_command(self):
-        head, path, out = (os.path.join(self.folder, name) for name in ("head.stl", "path.csv", "cut.vtp"))
+    def head(self):
+        """The file of a head, that of a path on it, and the head as a vtkPolyData."""
+        head, path = (os.path.join(self.folder, name) for name in ("head.stl", "path.csv"))
         command("make-head", "--out", head, "--path", path)
-        field = os.path.join(self.case, "case.dffd")
-        figures = json.loads(command("cleft", "cut", "--mesh", head, "--path", path, "--field", field, "--progress", 40,
-                                     "--out", out, "--json"))
-        from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkFiltersCore import vtkCleanPolyData
         from vtkmodules.vtkIOGeometry import vtkSTLReader
-        from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-        reader, written = vtkSTLReader(), vtkXMLPolyDataReader()
+        reader, clean = vtkSTLReader(), vtkCleanPolyData()
         reader.SetFileName(head)
-        clean = vtkCleanPolyData()
         clean.SetInputConnection(reader.GetOutputPort())
         clean.SetToleranceIsAbsolute(True)
         clean.SetAbsoluteTolerance(0)
         clean.Update()
-        written.SetFileName(out)
-        written.Update()
-        data = written.GetOutput()
+        return head, path, clean.GetOutput()
+
+    @staticmethod
+    def written(file):
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(file)
+        reader.Update()
+        return reader.GetOutput()
+
+    @staticmethod
+    def same_points(mine, theirs):
+        """In any order; files hold 32-bit coordinates of some 100 mm."""
+        mine, theirs = (x[np.lexsort(np.round(x, 4).T)] for x in (mine, theirs))
+        np.testing.assert_allclose(mine, theirs, atol=1e-4)
+
+    def test_a_cut_is_that_of_the_command(self):
+        head, path, mesh = self.head()
+        out = os.path.join(self.folder, "cut.vtp")
+        field = os.path.join(self.case, "case.dffd")
+        figures = json.loads(command("cleft", "cut", "--mesh", head, "--path", path, "--field", field, "--progress", 40,
+                                     "--out", out, "--json"))
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        data = self.written(out)
         expected = vtk_to_numpy(data.GetPoints().GetData())
         rows = np.loadtxt(path, delimiter=",", skiprows=1)
         for given in (path, rows, [rows], [path]):
-            opened = cleft.cut(clean.GetOutput(), given, cleft.open(field), progress=40)
+            opened = cleft.cut(mesh, given, cleft.open(field), progress=40)
             self.assertEqual(len(opened.triangles), figures["triangles_after"])
-            mine, theirs = (x[np.lexsort(np.round(x, 4).T)] for x in (opened.positions(), expected))
-            np.testing.assert_allclose(mine, theirs, atol=1e-4)  # files hold 32-bit coordinates of some 100 mm
+            self.same_points(opened.positions(), expected)
         self.assertAlmostEqual(opened.cuts[0]["expected_opening_error"], figures["cuts"][0]["expected_opening_error"], 4)
         self.assertEqual(opened.progress, 40)
         np.testing.assert_array_equal(opened.positions(0.0), opened.rest)
@@ -348,7 +363,7 @@ print(u.tolist(), sum("libhdf5" in line and "r-xp" in line for line in open("/pr
             mine, theirs = (vtk_to_numpy(one.GetPointData().GetArray(name)) for one in (made, data))
             np.testing.assert_allclose(np.sort(mine, axis=0), np.sort(theirs, axis=0), atol=1e-3)
 
-        points, triangles = cleft._cut.mesh_arrays(clean.GetOutput())
+        points, triangles = cleft._cut.mesh_arrays(mesh)
         with_field = lambda **options: cleft.cut((points, triangles), rows, cleft.open(field), **options)
         self.refuses("tension: is for a study", lambda: with_field(tension=((1, 0, 0), (0.03, 0.01))))
         self.refuses("scale = 0", lambda: with_field(scale=0))
@@ -356,6 +371,33 @@ print(u.tolist(), sum("libhdf5" in line and "r-xp" in line for line in open("/pr
         self.refuses("(N, 6) or (N, 7)", lambda: cleft.cut((points, triangles), rows[:, :4], field))
         self.refuses("the path never touches the mesh", lambda: cleft.cut((points, triangles), rows + 1000, field))
         self.refuses("a str is none", lambda: cleft.cut("head.stl", rows, field))
+
+    def test_a_cut_follows_the_tension_and_the_shape_as_by_the_command(self):
+        head, path, mesh = self.head()
+        out = os.path.join(self.folder, "opened.vtp")
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        direction, prestress = (0.1, 0.2, 1.0), (0.03, 0.01)
+        for name, text in (("three", THREE_PRESTRESSES), ("family", FAMILY)):
+            study = cleft.Study(make_study(self.folder, text, name))
+            figures = json.loads(command("cleft", "cut", "--mesh", head, "--path", path, "--field", study._file(), "--tension",
+                                         ",".join(map(str, direction)), "--prestress", ",".join(map(str, prestress)), "--out",
+                                         out, "--json"))
+            opened = cleft.cut(mesh, path, study, tension=(direction, prestress))
+            self.assertEqual(len(opened.triangles), figures["triangles_after"])
+            self.assertAlmostEqual(opened.cuts[0]["expected_opening_error"], figures["cuts"][0]["expected_opening_error"], 6)
+            largest = np.linalg.norm(opened.positions() - opened.rest, axis=1).max()
+            self.assertAlmostEqual(largest, figures["largest_displacement_mm"], 5)
+            self.assertGreater(largest, 0.1)
+            self.same_points(opened.positions(), vtk_to_numpy(self.written(out).GetPoints().GetData()))
+            again = cleft.cut(mesh, path, study._file(), tension=(direction, prestress))
+            np.testing.assert_array_equal(again.positions(), opened.positions())
+        values = {"cut.curvature": 0.013, "skin.prestress_u": 0.01, "skin.prestress_v": 0.03, "skin.prestress_uv": 0.002}
+        ours, theirs = (os.path.join(self.folder, name) for name in ("curved.dffd", "theirs.dffd"))
+        cleft.interpolate(study, values, out=ours)
+        command("cleft", "interpolate", study.path, "--out", theirs, "--set",
+                ",".join(f"{name}={value}" for name, value in values.items()))
+        with open(ours, "rb") as a, open(theirs, "rb") as b:
+            self.assertEqual(a.read(), b.read())
 
     # Other packages
 

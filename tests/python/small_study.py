@@ -1,23 +1,40 @@
-"""A study of four cases that takes seconds, made by the commands, for the tests of the Python module."""
+"""Studies that take seconds, made by the commands, for the tests of the Python module."""
 
 import os
 import subprocess
 
 BIN = os.environ["CLEFT_BIN"]
-STUDY = """
-name = "small"
+PATCH = """
 [case]
-patch.length = 14
-patch.width = 8
+patch.length = {length}
+patch.width = {width}
 patch.height = 4
 cut.length = 8
 cut.depth = 2
 mesh.element_size = 1.5
+[encode]
+tolerance = 0.05
+"""
+FOUR_CASES = PATCH.format(length=14, width=8) + """
 [vary]
 "tissue.young_modulus" = [0.01, 0.03]
 "skin.prestress_v" = [0.02, 0.04]
-[encode]
-tolerance = 0.05
+"""
+THREE_PRESTRESSES = PATCH.format(length=14, width=8) + """
+[vary]
+"skin.prestress_u" = [0.01, 0, 0.01]
+"skin.prestress_v" = [0, 0.01, 0.01]
+"skin.prestress_uv" = [0, 0, 0.005]
+[sampling]
+method = "list"
+"""
+FAMILY = PATCH.format(length=20, width=16) + """
+[vary]
+"cut.curvature" = { from = -0.02, to = 0.02 }
+[sampling]
+method = "sparse-grid"
+level = 1
+unit_tensions = true
 """
 
 
@@ -31,9 +48,9 @@ def command(*words, check=True, stdin=None):
     return done.stdout
 
 
-def make_study(folder):
-    file = os.path.join(folder, "study.toml")
-    with open(file, "w") as out:
-        out.write(STUDY)
-    command("cleft", "run", file, "--out", os.path.join(folder, "study"))
-    return os.path.join(folder, "study")
+def make_study(folder, text=FOUR_CASES, name="study"):
+    path = os.path.join(folder, name)
+    with open(path + ".toml", "w") as out:
+        out.write(text)
+    command("cleft", "run", path + ".toml", "--out", path)
+    return path
