@@ -29,9 +29,19 @@ int main(int argc, char** argv) {
     if (app.count("--modes") && !(error >= 1e-4 && error <= 0.1))
       throw InputError("--modes " + shortest(error) + ": must be from 0.0001 to 0.1");
     std::vector<std::string> older;
-    PackedStudy study{study_records(published_study_cases(folder, &older))};
+    const std::vector<StudyCase> cases = published_study_cases(folder, &older);
     if (!older.empty()) std::cerr << "cleft pack: " << note_of_older(folder, older) << "\n";
-    if (error > 0) study = with_common_modes(study, error);
+    Progress progress("packing");
+    PackedStudy study;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      progress("case " + std::to_string(i + 1) + " of " + std::to_string(cases.size()));
+      study.cases.push_back(std::move(study_records({cases[i]}).front()));
+    }
+    if (error > 0) {
+      progress("finding common modes");
+      study = with_common_modes(study, error);
+    }
+    progress("writing");
     const std::string out = (fs::path(folder) / "study.dffd").string();
     write_study(out, study.cases, study.modes);
     const StudyFile file(out);
