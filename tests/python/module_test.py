@@ -296,6 +296,9 @@ print(u.tolist(), sum("libhdf5" in line and "r-xp" in line for line in open("/pr
         error = np.linalg.norm(found - displacement, axis=2).max() / largest
         self.assertLessEqual(field.report["node_error"], 0.05)
         self.assertAlmostEqual(error, field.report["spline_error"], delta=1e-9)
+        sorted_ = cleft.encode(points, pairs, times, displacement, tolerance=0.05)
+        self.assertEqual(field.report, sorted_.report)
+        np.testing.assert_array_equal(sorted_(*points.T, 7.0, lip), field(*points.T, 7.0, lip))
         self.assertEqual(field.parameters["skin.thickness"], 2)
         command("cleft", "check", out)
         np.testing.assert_array_equal(cleft.open(out)(*points.T, 7.0, lip), field(*points.T, 7.0, lip))
