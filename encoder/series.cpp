@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "encoder/curved_places.h"
+#include "params/cut_curve.h"
 
 namespace cleft {
 
@@ -132,6 +133,15 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader) {
   return quantities;
 }
 
+/// Of a cut that curves; none where its snapshot does not say that it does.
+std::optional<CutCurve> curve_of(const RecordedParameters& recorded) {
+  Parameters parameters = *recorded;
+  for (double* member : {&parameters.cut.curvature, &parameters.cut.curvature_rate})
+    if (std::isnan(*member)) *member = 0;  // not recorded
+  if (!is_curved(parameters)) return std::nullopt;
+  return CutCurve(parameters);
+}
+
 /// The nodes of a body or a shaped patch in the coordinates of its cut, and the directions of these there. A
 /// node beside a curved cut may have several places (curved_places.h): the first ones are those of all nodes.
 struct OwnCoordinates {
@@ -150,22 +160,22 @@ struct OwnCoordinates {
     node.resize(places.size());
     std::iota(node.begin(), node.end(), std::size_t{0});
     const auto domain = own_domain(reader.snapshot());
-    if (domain) add_further_places(*reader.snapshot().parameters);
+    const auto curve = curve_of(reader.snapshot().parameters);
+    if (domain && curve) add_further_places(*curve);
     for (std::size_t n = 0; n < places.size(); ++n)
       if (!domain || (within((*domain)[0], places[n].x) && within((*domain)[1], places[n].y)))
         kept.push_back(n), nodes += node[n] == n;
-    if (domain && std::abs(reader.snapshot().parameters->cut.curvature) > 0) fill_gaps(*domain);
+    if (domain && curve) fill_gaps(*domain);
   }
 
   /// Frames depend on the place along the cut alone.
-  void add_further_places(const Parameters& parameters) {
-    if (!(std::abs(parameters.cut.curvature) > 0)) return;  // 0, or not recorded
+  void add_further_places(const CutCurve& cut) {
     std::vector<std::size_t> along(places.size());
     std::iota(along.begin(), along.end(), std::size_t{0});
     std::sort(along.begin(), along.end(),
               [this](std::size_t a, std::size_t b) { return places[a].x < places[b].x; });
     for (std::size_t n = 0, nodes = places.size(); n < nodes; ++n)
-      for (const Vec3& place : further_places(parameters, places[n])) {
+      for (const Vec3& place : further_places(cut, places[n])) {
         const auto after = std::lower_bound(along.begin(), along.end(), place.x,
                                             [this](std::size_t a, double u) { return places[a].x < u; });
         if (after == along.begin() || after == along.end()) continue;

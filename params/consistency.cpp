@@ -92,17 +92,19 @@ class ConsistencyCheck {
 
   /// What is not known of patches whose shape is not a box, and what a bend cannot be.
   void check_shape() const {
-    const double half_angle = std::abs(p_.cut.curvature) * meshed_.length / 2;
-    need(p_.cut.curvature == 0 || p_.cut.radius == 0,
-         named(p_.cut.curvature) + ", " + named(p_.cut.radius) +
-             ": a cut curves by one of them; set the other to 0");
-    need(half_angle <= most_turned, named(p_.cut.curvature) + ": " + named(length_) + " would turn by " +
+    const double half = meshed_.length / 2, rate = std::abs(p_.cut.curvature_rate);
+    // Where the cut bends back, its middle half is turned by less than its ends.
+    const double half_angle = std::abs(p_.cut.curvature) * half + rate * half * half / 2;
+    const double& bend = p_.cut.curvature != 0 ? p_.cut.curvature : p_.cut.curvature_rate;
+    need(!is_curved(p_) || p_.cut.radius == 0,
+         named(bend) + ", " + named(p_.cut.radius) + ": a cut curves by one of them; set the other to 0");
+    need(half_angle <= most_turned, named(bend) + ": " + named(length_) + " would turn by " +
                                         rounded(half_angle) + " rad to either side; at most " +
                                         shortest(most_turned) +
                                         ": make the curvature smaller, or the cut shorter");
     if (!is_shaped(p_)) return;
     const auto& skin = p_.skin;
-    const std::string& shape = row_of(p_, p_.cut.curvature != 0    ? p_.cut.curvature
+    const std::string& shape = row_of(p_, is_curved(p_)            ? bend
                                           : skin.curvature_u != 0  ? skin.curvature_u
                                           : skin.curvature_v != 0  ? skin.curvature_v
                                           : skin.curvature_uv != 0 ? skin.curvature_uv

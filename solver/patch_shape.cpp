@@ -11,9 +11,9 @@ namespace cleft {
 
 namespace {
 
-constexpr double largest_step = 0.1;  // mm
+constexpr double largest_step = 0.05;  // mm
 constexpr double twist_fall = 20;     // mm over which the twist fades, along and across
-constexpr double beyond_the_cut = 2;  // mm for which a curved cut's curvature goes on
+constexpr double beyond_the_cut = 1;  // mm for which a curved cut's curvature goes on
 
 FramedCurve::Place sum(const FramedCurve::Place& p, double h, const FramedCurve::Place& slope) {
   return {p.at + h * slope.at, p.t + h * slope.t, p.b + h * slope.b, p.n + h * slope.n};
@@ -49,11 +49,6 @@ double core_across(const Parameters& p) {
   constexpr double times = 1.4, most_turned = 0.72;
   const double core = times * core_of(p), ratio = core * p.skin.curvature_v / most_turned;
   return core * std::pow(1 + ratio * ratio * ratio * ratio, -0.25);
-}
-
-TurnAndBack path_turn(const Parameters& p) {
-  const double core = meshed_cut(p).length / 2 + beyond_the_cut;
-  return {core, core / 4, 0.5};
 }
 
 }  // namespace
@@ -124,22 +119,59 @@ double TurnAndBack::integral(double s) const {
   return std::copysign(sum, s);
 }
 
-PatchShape::PatchShape(const Parameters& p)
+BendAndBack::BendAndBack(const Parameters& p)
     : curvature_(p.cut.curvature),
-      half_length_(meshed_cut(p).length / 2),
+      rate_(p.cut.curvature_rate),
+      core_(meshed_cut(p).length / 2 + beyond_the_cut),
+      fall_(core_ / 6),
+      halves_{half(1), half(-1)} {}
+
+/// The fall has the integral fall (at_end - back) / 2, the rise at the end -back fall / 2.
+BendAndBack::Half BendAndBack::half(double way) const {
+  const double at_end = curvature_ + way * rate_ * core_;
+  const double turned = core_ * (curvature_ + at_end) / 2 + fall_ * at_end / 2;  // with no way back
+  if (turned == 0) return {at_end, 0, 0};
+  const double back = std::copysign(std::max(std::abs(at_end), std::abs(turned) / core_) / 2, turned);
+  const double plateau = turned / back - fall_;
+  if (plateau >= 0) return {at_end, back, plateau};
+  return {at_end, turned / fall_, 0};
+}
+
+double BendAndBack::operator()(double s) const {
+  const auto& [at_end, back, plateau] = halves_[s < 0 ? 1 : 0];
+  const double x = std::abs(s) - core_;
+  if (x <= 0) return curvature_ + rate_ * s;
+  const auto cosine = [&](double from) { return std::cos(std::numbers::pi * (x - from) / fall_); };
+  if (x < fall_) return (at_end - back) / 2 + (at_end + back) / 2 * cosine(0);
+  if (x <= fall_ + plateau) return -back;
+  if (x >= 2 * fall_ + plateau) return 0;
+  return -back / 2 * (1 + cosine(fall_ + plateau));
+}
+
+double BendAndBack::reach() const {
+  return core_ + 2 * fall_ + std::max(halves_[0].plateau, halves_[1].plateau);
+}
+
+double BendAndBack::greatest() const {
+  double greatest = 0;
+  for (const auto& [at_end, back, plateau] : halves_)
+    greatest = std::max({greatest, std::abs(at_end), std::abs(back)});
+  return greatest;
+}
+
+PatchShape::PatchShape(const Parameters& p)
+    : cut_(p),
       flat_(p.skin.curvature_u == 0 && p.skin.curvature_v == 0 && p.skin.curvature_uv == 0),
       slope_(p.patch.slope),
       height_(p.patch.height),
       cut_depth_(meshed_cut(p).depth),
-      path_turn_(path_turn(p)),
+      bend_(p),
       along_turn_(core_of(p), core_of(p) / 2, 1),
       twist_turn_(core_of(p), std::max(core_of(p) / 2, twist_fall), 1),
       across_turn_(core_across(p), core_across(p) / 2, 1),
       twist_(p.skin.curvature_uv),
       twist_core_(std::min(20., core_of(p))),
-      path_([k = p.cut.curvature,
-             turn = path_turn_](double s) { return FramedCurve::Rates{.bend = k * turn(s)}; },
-            path_turn_.reach()),
+      path_([bend = bend_](double s) { return FramedCurve::Rates{.bend = bend(s)}; }, bend_.reach()),
       spine_([k = p.skin.curvature_u, twist = twist_, turn = along_turn_, twists = twist_turn_](
                  double s) { return FramedCurve::Rates{.normal = k * turn(s), .twist = twist * twists(s)}; },
              std::max(along_turn_.reach(), twist_turn_.reach())),
@@ -158,28 +190,28 @@ double PatchShape::depth(double v, double w) const {
 
 /// v (1 + (v/c)^4)^(-1/4), which differs from v by v (v/c)^4 / 4 near 0 and tends to c.
 double PatchShape::across(double v) const {
-  if (curvature_ == 0) return v;
-  const double ratio = v * curvature_ / 0.55;
+  if (cut_.is_straight()) return v;
+  const double ratio = v * bend_.greatest() / 0.55;
   return v * std::pow(1 + ratio * ratio * ratio * ratio, -0.25);
 }
 
 double PatchShape::across_slope(double v) const {
-  if (curvature_ == 0) return 1;
-  const double ratio = v * curvature_ / 0.55;
+  if (cut_.is_straight()) return 1;
+  const double ratio = v * bend_.greatest() / 0.55;
   return std::pow(1 + ratio * ratio * ratio * ratio, -1.25);
 }
 
 PatchShape::Plane PatchShape::in_plane(double u, double v) const {
-  if (curvature_ == 0) return {u, v};
+  if (cut_.is_straight()) return {u, v};
   const FramedCurve::Place path = path_(u);
   const double g = across(v);
   return {path.at.x + g * path.b.x, path.at.y + g * path.b.y + (v - g)};
 }
 
 double PatchShape::plane_determinant(double u, double v) const {
-  if (curvature_ == 0) return 1;
+  if (cut_.is_straight()) return 1;
   const double slope = across_slope(v);
-  return (1 - curvature_ * path_turn_(u) * across(v)) * (slope + (1 - slope) * path_(u).t.x);
+  return (1 - bend_(u) * across(v)) * (slope + (1 - slope) * path_(u).t.x);
 }
 
 /// B and N are turned back about T by the angle that the twist has turned them, times a part that rises from
@@ -217,44 +249,26 @@ Vec3 PatchShape::tension(double u, double v) const {
   return normalized(surface(p.x, p.y).x);
 }
 
-/// The nearest place of an arc and its tangents is the arc's own foot where it is within the cut; elsewhere
-/// the nearer one of the two tangents'.
 std::array<double, 2> PatchShape::coordinates(double u, double v) const {
-  if (curvature_ == 0 || (v == 0 && std::abs(u) <= half_length_)) return {u, v};
+  const double half = cut_.half_length();
+  if (cut_.is_straight() || (v == 0 && std::abs(u) <= half)) return {u, v};
   const Plane p = in_plane(u, v);
-  const double radius = 1 / std::abs(curvature_), sign = curvature_ < 0 ? -1 : 1, y = sign * p.y;
-  const double angle = std::atan2(p.x, radius - y), widest = half_length_ / radius;
-  std::array<double, 2> best{};
-  double least = std::numeric_limits<double>::infinity();
-  if (std::abs(angle) <= widest) {
-    best = {radius * angle, sign * (radius - std::hypot(p.x, radius - y))};
-    least = std::abs(best[1]);
+  const auto feet = cut_.feet(p.x, p.y);
+  if (!feet.empty()) return feet.front();
+  // Behind all of it: the nearer end.
+  std::array<double, 2> nearest{0, std::numeric_limits<double>::infinity()};
+  for (const double end : {-half, half}) {
+    const CutCurve::Place at = cut_(end);
+    const double x = p.x - at.x, y = p.y - at.y, distance = std::hypot(x, y),
+                 side = std::cos(at.direction) * y - std::sin(at.direction) * x;
+    if (distance < std::abs(nearest[1])) nearest = {end, std::copysign(distance, side)};
   }
-  for (const double side : {1., -1.}) {
-    const double c = std::cos(widest), s = std::sin(widest);
-    const double x = side * p.x - radius * s, up = y - radius * (1 - c);  // from the end of the arc
-    const double along = c * x + s * up, off = c * up - s * x;
-    if (along < 0 || std::abs(off) >= least) continue;
-    least = std::abs(off);
-    best = {side * (half_length_ + along), sign * off};
-  }
-  if (least == std::numeric_limits<double>::infinity()) {  // behind all of them: the arc's nearer end
-    const double end = p.x < 0 ? -1 : 1, c = std::cos(widest), s = std::sin(widest);
-    const double x = std::abs(p.x) - radius * s, up = y - radius * (1 - c);
-    best = {end * half_length_, sign * std::copysign(std::hypot(x, up), c * up - s * x)};
-  }
-  return best;
+  return nearest;
 }
 
 std::array<Vec3, 3> PatchShape::frame(double along) const {
-  Plane at{along, 0}, direction{1, 0};
-  if (curvature_ != 0) {
-    const double inside = std::clamp(along, -half_length_, half_length_), beyond = along - inside;
-    const double angle = curvature_ * inside, half = std::sin(angle / 2);
-    direction = {std::cos(angle), std::sin(angle)};
-    at = {std::sin(angle) / curvature_ + beyond * direction.x,
-          2 * half * half / curvature_ + beyond * direction.y};
-  }
+  const CutCurve::Place at = cut_(along);
+  const Plane direction{std::cos(at.direction), std::sin(at.direction)};
   const Surface s = surface(at.x, at.y);
   const Vec3 t = normalized(direction.x * s.x + direction.y * s.y);
   return {t, cross(s.normal, t), s.normal};

@@ -7,17 +7,18 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "params/cut_curve.h"
 #include "params/parameters/parameters.h"
 
 namespace cleft {
 
 /// A curve with a frame that turns with it (Darboux): T along it, N the normal of the surface that it is on,
 /// B = N x T. Starts at 0 in the middle, along the first axis, with N along the third. Integrated by the
-/// classical Runge-Kutta method in steps of a tenth of a millimetre and interpolated by cubics: exact to
+/// classical Runge-Kutta method in steps of a twentieth of a millimetre and interpolated by cubics: exact to
 /// about 1e-8 mm.
 class FramedCurve {
  public:
-  /// Per mm along the curve, even functions of the arc length: T' = bend B - normal N, B' = -bend T - twist
+  /// Per mm along the curve, functions of the arc length: T' = bend B - normal N, B' = -bend T - twist
   /// N, N' = normal T + twist B.
   struct Rates {
     double bend = 0, normal = 0, twist = 0;
@@ -53,10 +54,30 @@ class TurnAndBack {
   double core_, fall_, back_, plateau_, end_;
 };
 
+/// The curvature of a curved cut's path through its patch. Beyond the ends of the cut it goes on for 2 mm,
+/// and then each side turns back what it has turned: from what it is there, like a cosine, to as much on the
+/// other side as takes about as long as the cut's half, and back to 0.
+class BendAndBack {
+ public:
+  explicit BendAndBack(const Parameters& parameters);
+  double operator()(double s) const;
+  double reach() const;     ///< 0 from there on, mm
+  double greatest() const;  ///< of its absolute values
+
+ private:
+  struct Half {
+    double at_end, back, plateau;
+  };
+  Half half(double way) const;
+
+  double curvature_, rate_, core_, fall_;
+  std::array<Half, 2> halves_;  // ahead, and behind
+};
+
 /// Maps (u, v, w) of a patch whose cut is straight onto the shaped one. Three maps in turn:
 ///
 /// - bottom: below the cut w is stretched, so that the bottom is `slope` mm deeper for each mm toward +v;
-/// - plane: (u, v) -> C(u) + g(v) N(u) + (v - g(v)) e_y, with the curve C of curvature cut.curvature and its
+/// - plane: (u, v) -> C(u) + g(v) N(u) + (v - g(v)) e_y, with the curve C of the cut (CutCurve) and its
 ///   normal N. g(v) is v near the curve and never reaches its evolute. The curve turns back beyond the cut's
 ///   ends, so that the patch is a strip of its width;
 /// - surface: (x, y) -> C2(x) + a(y) B(x) + b(y) N(x): a curve of normal curvature skin.curvature_u and
@@ -96,10 +117,11 @@ class PatchShape {
   double across(double v) const;  // g
   double across_slope(double v) const;
 
-  double curvature_, half_length_;     // of the mesh's cut, and half of its length
+  CutCurve cut_;                       // the mesh's
   bool flat_;                          // the skin
   double slope_, height_, cut_depth_;  // of the bottom
-  TurnAndBack path_turn_, along_turn_, twist_turn_, across_turn_;
+  BendAndBack bend_;
+  TurnAndBack along_turn_, twist_turn_, across_turn_;
   double twist_, twist_core_;  // at the middle, and how far across it reaches undiminished
   FramedCurve path_, spine_, profile_;
 };

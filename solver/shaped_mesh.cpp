@@ -25,8 +25,8 @@ std::string shape_of(const Parameters& p) {
     text += (text.empty() ? "" : ", ") + row.name + " = " + shortest(member) +
             (row.unit.empty() ? "" : " " + row.unit);
   };
-  for (const double* member : {&p.cut.curvature, &p.cut.tilt, &p.skin.curvature_u, &p.skin.curvature_v,
-                               &p.skin.curvature_uv, &p.patch.slope})
+  for (const double* member : {&p.cut.curvature, &p.cut.curvature_rate, &p.cut.tilt, &p.skin.curvature_u,
+                               &p.skin.curvature_v, &p.skin.curvature_uv, &p.patch.slope})
     add(*member);
   return text;
 }

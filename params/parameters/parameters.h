@@ -44,7 +44,7 @@ struct Parameters {
   struct Cut {
     double length = 30, depth = 3;
     bool contact = false;
-    double radius = 0, curvature = 0, tilt = 0, count = 1, spacing = 5, branch = 0;
+    double radius = 0, curvature = 0, curvature_rate = 0, tilt = 0, count = 1, spacing = 5, branch = 0;
     FrameEvery frames = FrameEvery::column;
   } cut;
   struct Mesh {
@@ -80,10 +80,13 @@ inline bool is_linear_in_prestress(const Parameters& p) {
   return p.model == Model::small && !p.cut.contact && !p.skin.initial_stress_stiffness;
 }
 
+/// Whether the cut curves in a patch that bends with it.
+inline bool is_curved(const Parameters& p) { return p.cut.curvature != 0 || p.cut.curvature_rate != 0; }
+
 /// Whether the patch is a box that is bent or whose bottom slopes (solver/patch_shape.h).
 inline bool is_shaped(const Parameters& p) {
-  return p.cut.curvature != 0 || p.skin.curvature_u != 0 || p.skin.curvature_v != 0 ||
-         p.skin.curvature_uv != 0 || p.patch.slope != 0;
+  return is_curved(p) || p.skin.curvature_u != 0 || p.skin.curvature_v != 0 || p.skin.curvature_uv != 0 ||
+         p.patch.slope != 0;
 }
 
 /// Whether the nodes of a patch know their coordinates along and across the cut: where it is a single one

@@ -84,6 +84,9 @@ std::vector<Parameter> make_table() {
       between(CLEFT_MEMBER(cut.curvature), "1/mm", -0.2, 0.2,
               "curvature of the cut, positive toward +v, in a patch that bends with it, for fields; the "
               "prestress is that at the middle of the cut, and keeps its direction in the plane"),
+      between(
+          CLEFT_MEMBER(cut.curvature_rate), "1/mm^2", -0.02, 0.02,
+          "by how much cut.curvature, which is that at the middle of the cut, grows for each mm along it"),
       between(CLEFT_MEMBER(cut.tilt), "degrees", -60, 60,
               "tilt of the blade: the cut's bottom lies toward +v"),
       whole_between(CLEFT_MEMBER(cut.count), "", 1, 100,

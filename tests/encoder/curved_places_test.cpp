@@ -24,7 +24,9 @@ class Curve {
       for (int i = 0; i < steps; ++i) {
         const double s = way * i * step;
         points_[way > 0 ? steps + i : steps - i] = {s, at, direction};
-        const double turn = std::abs(s + way * step / 2) < half ? way * p.cut.curvature * step : 0;
+        const double middle = s + way * step / 2;
+        const double turn =
+            std::abs(middle) < half ? way * (p.cut.curvature + p.cut.curvature_rate * middle) * step : 0;
         at += way * step * Vec3{std::cos(direction + turn / 2), std::sin(direction + turn / 2), 0};
         direction += turn;
       }
@@ -62,28 +64,29 @@ class Curve {
   std::vector<Point> points_{2 * steps};
 };
 
-TEST(FurtherPlaces, AreAllFeetOfNormalsOnTheInnerSideButTheNearest) {
+TEST(FurtherPlaces, AreAllFeetOfNormalsOnTheSideOfTheNearest) {
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> along(-30, 30), across(0, 45);
-  for (const double curvature : {1. / 15, -1. / 22}) {
+  std::uniform_real_distribution<double> along(-30, 30), across(-45, 45);
+  for (const auto& [curvature, rate] :
+       {std::pair{1. / 15, 0.}, {-1. / 22, 0.}, {0., 0.005}, {0.02, -0.004}}) {
     Parameters p;
-    p.cut.curvature = curvature;
+    p.cut.curvature = curvature, p.cut.curvature_rate = rate;
     const Curve curve(p);
+    const CutCurve cut(p);
     int several = 0;
-    for (int k = 0; k < 200; ++k) {
-      const std::vector<Vec3> feet = curve.feet({along(random), std::copysign(across(random), curvature), 0});
-      ASSERT_FALSE(feet.empty());
-      if (feet.front().y * curvature < 0) continue;
+    for (int k = 0; k < 300; ++k) {
+      const std::vector<Vec3> feet = curve.feet({along(random), across(random), 0});
+      if (feet.empty()) continue;  // behind both ends
       const Vec3 nearest{feet.front().x, feet.front().y, -1};
-      std::vector<Vec3> places = further_places(p, nearest);
+      std::vector<Vec3> places = further_places(cut, nearest);
       std::erase_if(places, [](const Vec3& place) { return std::abs(place.x) > 59; });
       std::vector<Vec3> should(feet.begin() + 1, feet.end());
-      std::erase_if(should, [&](const Vec3& foot) { return foot.y * curvature < 0; });
+      std::erase_if(should, [&](const Vec3& foot) { return foot.y * nearest.y < 0; });
       ASSERT_EQ(places.size(), should.size()) << nearest.x << ", " << nearest.y;
       std::sort(places.begin(), places.end(),
                 [](const Vec3& a, const Vec3& b) { return std::abs(a.y) < std::abs(b.y); });
       for (std::size_t i = 0; i < places.size(); ++i) {
-        EXPECT_NEAR(places[i].x, should[i].x, 0.02);
+        EXPECT_NEAR(places[i].x, should[i].x, 0.05);  // where normals nearly meet, that is ill-conditioned
         EXPECT_NEAR(places[i].y, should[i].y, 0.02);
         EXPECT_EQ(places[i].z, -1);
       }
@@ -95,10 +98,10 @@ TEST(FurtherPlaces, AreAllFeetOfNormalsOnTheInnerSideButTheNearest) {
 
 TEST(FurtherPlaces, AreNoneOfStraightCutsAndOnTheOuterSide) {
   Parameters p;
-  EXPECT_TRUE(further_places(p, {0, 20, 0}).empty());
+  EXPECT_TRUE(further_places(CutCurve(p), {0, 20, 0}).empty());
   p.cut.curvature = 0.05;
-  EXPECT_TRUE(further_places(p, {0, -20, 0}).empty());
-  EXPECT_TRUE(further_places(p, {0, 0, 0}).empty());
+  EXPECT_TRUE(further_places(CutCurve(p), {0, -20, 0}).empty());
+  EXPECT_TRUE(further_places(CutCurve(p), {0, 0, 0}).empty());
 }
 
 }  // namespace

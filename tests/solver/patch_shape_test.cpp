@@ -36,15 +36,26 @@ std::string refusal_of(const Parameters& p) {
   return "";
 }
 
-/// The nearest place of an arc of curvature k and half length h, with straight continuations, by search.
-std::array<double, 2> searched(const Vec3& at, double k, double h) {
-  std::array<double, 2> best{0, 1e9};
-  for (int n = -40000; n <= 40000; ++n) {
-    const double s = n * 1e-3, inside = std::clamp(s, -h, h), beyond = s - inside, a = k * inside;
-    const Vec3 c{std::sin(a) / k + beyond * std::cos(a), (1 - std::cos(a)) / k + beyond * std::sin(a), 0};
-    const Vec3 off = at - c;
-    const double v = std::copysign(norm(off), std::cos(a) * off.y - std::sin(a) * off.x);
-    if (std::abs(v) < std::abs(best[1])) best = {s, v};
+/// The nearest place of a cut of curvature k, which grows by `rate` for each mm, and half length h, with
+/// straight continuations, by search.
+std::array<double, 2> searched(const Vec3& at, double k, double rate, double h) {
+  std::array<double, 2> best{};
+  double nearest = 1e9;
+  constexpr double step = 1e-3;
+  for (const double way : {1., -1.}) {
+    Vec3 c;
+    double a = 0;
+    for (double s = 0; s <= 40; s += step) {
+      const Vec3 off = at - c;
+      if (norm(off) < nearest) {  // within half a step: the distance is the one across the curve there
+        nearest = norm(off);
+        best = {way * s, std::cos(a) * off.y - std::sin(a) * off.x};
+      }
+      const double inside = std::clamp(h - s, 0., step);
+      const double turn = (k + rate * way * (s + inside / 2)) * way * inside;
+      c += way * step * Vec3{std::cos(a + turn / 2), std::sin(a + turn / 2), 0};
+      a += turn;
+    }
   }
   return best;
 }
@@ -82,14 +93,14 @@ TEST(PatchShape, ACurvedCutIsAnArcOfItsLength) {
 
 TEST(PatchShape, CoordinatesAreThoseOfTheNearestPlace) {
   Parameters p = coarse();
-  for (const double k : {0.03, -0.12}) {
-    p.cut.curvature = k;
+  for (const auto& [k, rate] : {std::pair{0.03, 0.}, {-0.12, 0.}, {0., 0.02}, {0.05, -0.015}}) {
+    p.cut.curvature = k, p.cut.curvature_rate = rate;
     const PatchShape shape(p);
     const double h = meshed_cut(p).length / 2;
     for (const double u : {-20., -7., -2.5, 0.3, 6., 11.})
       for (const double v : {-15., -4., 0.5, 3., 12.}) {
         const auto [along, across] = shape.coordinates(u, v);
-        const auto [s, d] = searched(shape.place(u, v, 0), k, h);
+        const auto [s, d] = searched(shape.place(u, v, 0), k, rate, h);
         EXPECT_NEAR(across, d, 1e-6) << k << " " << u << " " << v;
         EXPECT_NEAR(along, s, 1e-2) << k << " " << u << " " << v;
       }
@@ -98,16 +109,18 @@ TEST(PatchShape, CoordinatesAreThoseOfTheNearestPlace) {
 
 TEST(PatchShape, ThePlanesDeterminantIsThatOfItsMap) {
   Parameters p = coarse();
-  p.cut.curvature = 0.1;
-  const PatchShape shape(p);
-  constexpr double h = 1e-4;
-  for (const double u : {-25., -8., -3., 0.7, 6.5, 9., 14.})
-    for (const double v : {-20., -5., -1., 2., 9., 25.}) {
-      const Vec3 along = 0.5 / h * (shape.place(u + h, v, 0) - shape.place(u - h, v, 0));
-      const Vec3 across = 0.5 / h * (shape.place(u, v + h, 0) - shape.place(u, v - h, 0));
-      EXPECT_NEAR(shape.plane_determinant(u, v), along.x * across.y - along.y * across.x, 1e-5);
-      EXPECT_GT(shape.plane_determinant(u, v), 0.1);
-    }
+  constexpr double h = 1e-3;
+  for (const auto& [k, rate] : {std::pair{0.1, 0.}, {0.02, 0.01}}) {
+    p.cut.curvature = k, p.cut.curvature_rate = rate;
+    const PatchShape shape(p);
+    for (const double u : {-25., -8., -3., 0.7, 6.5, 9., 14.})
+      for (const double v : {-20., -5., -1., 2., 9., 25.}) {
+        const Vec3 along = 0.5 / h * (shape.place(u + h, v, 0) - shape.place(u - h, v, 0));
+        const Vec3 across = 0.5 / h * (shape.place(u, v + h, 0) - shape.place(u, v - h, 0));
+        EXPECT_NEAR(shape.plane_determinant(u, v), along.x * across.y - along.y * across.x, 1e-5);
+        EXPECT_GT(shape.plane_determinant(u, v), 0.1);
+      }
+  }
 }
 
 TEST(PatchShape, NearTheCutTheSkinIsACylinderOrASphere) {
@@ -198,10 +211,11 @@ TEST(PatchShape, ATiltedCutsCoordinatesAreUpright) {
 /// Of a patch whose shape is the mirror image in v = 0 and in the plane of the diagonals: its nodes are.
 TEST(PatchShape, MirroredShapesAreMirrorImages) {
   Parameters p = coarse();
-  p.cut.curvature = 0.06, p.cut.tilt = 20, p.patch.slope = 0.2;
+  p.cut.curvature = 0.06, p.cut.curvature_rate = 0.004, p.cut.tilt = 20, p.patch.slope = 0.2;
   p.skin.curvature_u = 0.02, p.skin.curvature_v = 0.03, p.skin.curvature_uv = 0.01;
   Parameters q = p;
-  q.cut.curvature = -0.06, q.cut.tilt = -20, q.patch.slope = -0.2, q.skin.curvature_uv = -0.01;
+  q.cut.curvature = -0.06, q.cut.curvature_rate = -0.004, q.cut.tilt = -20, q.patch.slope = -0.2,
+  q.skin.curvature_uv = -0.01;
   const PatchShape shape(p), mirrored(q);
   for (const double u : {-22., -5., 1., 12.})
     for (const double v : {-18., -2., 3., 20.}) {
