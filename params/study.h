@@ -40,6 +40,13 @@ struct Case {
 struct Range {
   double from, to;
   bool logarithmic = false;  ///< scale = "log": equal steps are equal factors
+  /// alone = true: varied from the case's own value, while all others are in their middle.
+  bool alone = false;
+  /// shares = NAME: where the other range is at an end this one is in its middle, and the other way round; it
+  /// is empty else.
+  std::string shares = {};
+  /// with = { ... }: further values of the cases that are varied alone.
+  std::vector<std::pair<std::string, Value>> with = {};
 
   /// The value `part` of `whole` steps along it; the ends exactly.
   double at(double part, double whole) const;

@@ -25,7 +25,7 @@ class SamplingReader {
       read_settings(*sampling);
     else
       method_ = &find_sampling(study_.sampling.method, path_);
-    if (vary) read_variations(*vary, "");
+    if (vary) read_variations(*vary, ""), check_shares(*vary);
     if (study_.sampling.unit_tensions) check_tensions(*sampling);
     if (draws() && (!vary || vary->empty()))
       mistakes_.add(where(*sampling) + ": sampling method '" + method_->name +
@@ -188,7 +188,8 @@ class SamplingReader {
 
   Range read_range(const Parameter& parameter, const toml::table& table) {
     const std::string place = where(table), here = place + ": " + parameter.name;
-    check_keys(table, {"from", "to", "count", "scale"}, "", " in the range of " + parameter.name);
+    check_keys(table, {"from", "to", "count", "scale", "alone", "with", "shares"}, "",
+               " in the range of " + parameter.name);
     const auto from = table["from"].value<double>(), to = table["to"].value<double>();
     if (!from || !to) throw InputError(here + ": a range is " + range_form());
     const std::string scale = table["scale"].value_or(std::string(table.contains("scale") ? "" : "linear"));
@@ -200,7 +201,67 @@ class SamplingReader {
     if (scale == "log" && (*from <= 0 || *to <= 0))
       throw InputError(here + ": from = " + shortest(*from) + ", to = " + shortest(*to) +
                        ": with scale = \"log\" both must be greater than 0");
-    return {*from, *to, scale == "log"};
+    const bool alone = read_alone(parameter, table);
+    return {*from,
+            *to,
+            scale == "log",
+            alone,
+            read_shares(parameter, table, alone),
+            read_with(parameter, table, alone)};
+  }
+
+  bool read_alone(const Parameter& parameter, const toml::table& table) const {
+    const toml::node* node = table.get("alone");
+    if (!node) return false;
+    const std::string here = where(*node) + ": " + parameter.name + ": alone";
+    if (!method_ || !method_->levels)
+      throw InputError(here + ": is for sampling method \"sparse-grid\"; remove it");
+    const auto given = node->value_exact<bool>();
+    if (!given) throw InputError(here + ": must be true or false");
+    return *given;
+  }
+
+  std::string read_shares(const Parameter& parameter, const toml::table& table, bool alone) const {
+    const toml::node* node = table.get("shares");
+    if (!node) return "";
+    const std::string here = where(*node) + ": " + parameter.name + ": shares";
+    if (!method_ || !method_->levels || alone)
+      throw InputError(here +
+                       ": is for ranges of sampling method \"sparse-grid\" that are not alone; remove it");
+    const auto name = node->value<std::string>();
+    if (!name) throw InputError(here + ": must be the name of another range, in quotes");
+    return *name;
+  }
+
+  /// Of all ranges, once all are read.
+  void check_shares(const toml::table& vary) {
+    for (const Variation& one : study_.vary) {
+      if (!one.range || one.range->shares.empty()) continue;
+      const auto other = std::find_if(study_.vary.begin(), study_.vary.end(), [&](const Variation& v) {
+        return v.name == one.range->shares && v.name != one.name;
+      });
+      if (other == study_.vary.end() || !other->range || other->range->alone || !other->range->shares.empty())
+        mistakes_.add(where(vary.contains(one.name) ? *vary.get(one.name) : vary) + ": " + one.name +
+                      ": shares = \"" + one.range->shares +
+                      "\": must name another range under [vary], which is not alone and shares with none");
+    }
+  }
+
+  std::vector<std::pair<std::string, Value>> read_with(const Parameter& parameter, const toml::table& table,
+                                                       bool alone) const {
+    std::vector<std::pair<std::string, Value>> values;
+    const toml::node* node = table.get("with");
+    if (!node) return values;
+    const std::string place = where(*node), here = place + ": " + parameter.name + ": with";
+    if (!alone) throw InputError(here + ": is of what is varied alone; add alone = true, or remove it");
+    const toml::table* list = node->as_table();
+    if (!list) throw InputError(here + ": must be { \"NAME\" = VALUE, ... }");
+    for (const auto& [key, value] : *list) {
+      const Parameter& other = find_parameter(std::string(key.str()), where(value));
+      values.emplace_back(other.name, value_of(value, other.name, where(value)));
+      check_value(other, values.back().second, where(value));
+    }
+    return values;
   }
 
   std::vector<Value> range_values(const Parameter& parameter, const Range& range,

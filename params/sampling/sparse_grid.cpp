@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "params/parameters/table.h"
 #include "params/sampling/sampling.h"
 
 namespace cleft {
@@ -20,6 +21,34 @@ std::vector<double> added_nodes(int level) {
   for (int i = 1; i < intervals; i += 2)
     nodes.push_back((1 - std::cos(std::numbers::pi * i / intervals)) / 2);
   return nodes;
+}
+
+/// Whether what is varied alone is, and whether a range that is not is at level 0 then.
+bool are_allowed(const std::vector<int>& levels, const std::vector<Variation>& ranges) {
+  std::size_t raised = 0, alone = 0;
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    if (levels[k] > 0) ++raised, alone += ranges[k].range->alone;
+  return alone == 0 || raised == 1;
+}
+
+double number_of(const Case& one, const Variation& variation) {
+  return std::get<double>(get_parameter(one.parameters, *find_parameter(variation.name)));
+}
+
+/// The parts of the ranges at a node of each. Two that share, a square of nodes, are turned into the diamond
+/// that fits into it.
+std::vector<double> parts_of(const std::vector<Variation>& ranges,
+                             const std::vector<std::vector<double>>& nodes,
+                             const std::vector<std::size_t>& at) {
+  std::vector<double> parts;
+  for (std::size_t k = 0; k < ranges.size(); ++k) parts.push_back(nodes[k][at[k]]);
+  for (std::size_t k = 0; k < ranges.size(); ++k)
+    for (std::size_t other = 0; other < ranges.size(); ++other)
+      if (ranges[other].name == ranges[k].range->shares) {
+        const double a = nodes[other][at[other]], b = nodes[k][at[k]];
+        parts[other] = (a + b) / 2, parts[k] = (1 + a - b) / 2;
+      }
+  return parts;
 }
 
 /// Calls `use` with every list of `levels.size()` levels whose sum is `total`, in lexicographical order.
@@ -39,19 +68,32 @@ void for_each_sum(std::vector<int>& levels, std::size_t from, int total, const U
 /// The sparse grid of Smolyak (1963) with nested Chebyshev points: level 1 is the middle of all ranges and
 /// the ends of each, level 2 adds two points between on each and the ends of all pairs. Polynomials of as
 /// high a total degree as the level are exact between them. A higher level keeps the cases of the lower ones.
+/// What is varied alone has the nodes of one range, and no pairs; the middle is the case's own value.
 std::vector<Case> sample_sparse_grid(const Study& study) {
   const std::vector<Variation> ranges = ranges_by_name(study);
   std::vector<Case> cases;
   std::vector<int> levels(ranges.size());
   for (int total = 0; total <= study.sampling.level; ++total)
     for_each_sum(levels, 0, total, [&] {
+      if (!are_allowed(levels, ranges)) return;
       std::vector<std::vector<double>> nodes;
       nodes.reserve(levels.size());
       for (const int level : levels) nodes.push_back(added_nodes(level));
       std::vector<std::size_t> at(ranges.size(), 0);
       for (bool more = true; more;) {
-        Case& one = cases.emplace_back(study.base);
-        for (std::size_t k = 0; k < ranges.size(); ++k) set_drawn(one, ranges[k], nodes[k][at[k]], 1);
+        Case one(study.base);
+        bool again = false;  // what is varied alone has its own value at a node
+        const std::vector<double> parts = parts_of(ranges, nodes, at);
+        for (std::size_t k = 0; k < ranges.size(); ++k) {
+          const Range& range = *ranges[k].range;
+          if (levels[k] == 0 && range.alone) continue;
+          set_drawn(one, ranges[k], parts[k], 1);
+          for (const auto& [name, value] : range.with)
+            set_parameter(one.parameters, name, value, ranges[k].name);
+          again = again || (range.alone && range.with.empty() &&
+                            number_of(one, ranges[k]) == number_of(study.base, ranges[k]));
+        }
+        if (!again) cases.push_back(std::move(one));
         more = false;
         for (std::size_t k = ranges.size(); k-- > 0 && !more;) {
           more = ++at[k] < nodes[k].size();

@@ -277,6 +277,69 @@ TEST(Sampling, ASparseGridHasSmolyaksPointsAndAHigherLevelKeepsThem) {
   EXPECT_TRUE(all.contains({0.5, 0.5, 0.853553390593}));
 }
 
+TEST(Sampling, WhatIsVariedAloneStartsFromItsOwnValueAndHasNoPairs) {
+  const auto cases = cases_of_text(
+      "[case]\npatch.height = 9\n[vary]\n'cut.depth' = { from = 2, to = 4 }\n"
+      "'cut.curvature_rate' = { from = -0.004, to = 0.004, alone = true }\n"
+      "'patch.height' = { from = 5, to = 9, alone = true }\n"
+      "[sampling]\nmethod = 'sparse-grid'\nlevel = 2\n");
+  ASSERT_EQ(cases.size(), 1 + 4 + 4 + 3u) << "a height of 9 is the middle's own";
+  std::set<double> rates, heights;
+  for (const Case& one : cases) {
+    const Parameters& p = one.parameters;
+    EXPECT_LE((p.cut.depth != 3) + (p.cut.curvature_rate != 0) + (p.patch.height != 9), 1);
+    rates.insert(p.cut.curvature_rate), heights.insert(p.patch.height);
+  }
+  EXPECT_EQ(*rates.begin(), -0.004);
+  EXPECT_EQ(*rates.rbegin(), 0.004);
+  EXPECT_EQ(rates.size(), 5u);
+  EXPECT_EQ(*heights.begin(), 5);
+  const auto on_bone = cases_of_text(
+      "[vary]\n'patch.height' = { from = 5, to = 8, alone = true, with = { 'patch.bottom' = 'bone' } }\n"
+      "[sampling]\nmethod = 'sparse-grid'\nlevel = 1\n");
+  ASSERT_EQ(on_bone.size(), 3u);
+  EXPECT_EQ(on_bone[0].parameters.patch.bottom, PatchBottom::springs);
+  EXPECT_EQ(on_bone[1].parameters.patch.bottom, PatchBottom::bone);
+  EXPECT_EQ(on_bone[2].parameters.patch.height, 8);
+  const std::string end = " }\n[sampling]\nmethod = 'sparse-grid'\nlevel = 1\n";
+  expect_message("[vary]\n'cut.depth' = { from = 2, to = 4, with = { 'cut.tilt' = 3 }" + end,
+                 {"line 2: cut.depth: with: is of what is varied alone; add alone = true"});
+  expect_message("[vary]\n'cut.depth' = { from = 2, to = 4, alone = true, with = { 'cut.tlt' = 3 }" + end,
+                 {"line 2: ", "cut.tlt", "cut.tilt"});
+  expect_message("[vary]\n'cut.depth' = { from = 2, to = 4, alone = true, with = 3" + end,
+                 {"line 2: cut.depth: with: must be {"});
+  expect_message("[vary]\n'cut.depth' = { from = 2, to = 4, count = 3, alone = true }\n",
+                 {"line 2: cut.depth: alone: is for sampling method \"sparse-grid\"; remove it"});
+  expect_message(
+      "[vary]\n'cut.depth' = { from = 2, to = 4, alone = 1 }\n[sampling]\nmethod = 'sparse-grid'\nlevel = "
+      "1\n",
+      {"line 2: cut.depth: alone: must be true or false"});
+}
+
+TEST(Sampling, RangesThatShareAreADiamond) {
+  const auto cases = cases_of_text(
+      "[vary]\n'cut.curvature' = { from = -0.06, to = 0.06 }\n"
+      "'cut.curvature_rate' = { from = -0.004, to = 0.004, shares = 'cut.curvature' }\n"
+      "[sampling]\nmethod = 'sparse-grid'\nlevel = 2\n");
+  ASSERT_EQ(cases.size(), 13u);
+  std::set<std::pair<double, double>> places;
+  for (const Case& one : cases) {
+    const Parameters& p = one.parameters;
+    EXPECT_LE(std::abs(p.cut.curvature) / 0.06 + std::abs(p.cut.curvature_rate) / 0.004, 1 + 1e-9);
+    places.emplace(p.cut.curvature, p.cut.curvature_rate);
+  }
+  for (const auto& place : {std::pair{0.06, 0.}, {-0.06, 0.}, {0., 0.004}, {0., -0.004}, {0.03, 0.002}})
+    EXPECT_TRUE(places.contains(place)) << place.first << ", " << place.second;
+  EXPECT_EQ(places.size(), 13u);
+  const std::string end = " }\n[sampling]\nmethod = 'sparse-grid'\nlevel = 1\n";
+  expect_message("[vary]\n'cut.depth' = { from = 2, to = 4, shares = 'cut.tilt'" + end,
+                 {"line 2: cut.depth: shares = \"cut.tilt\": must name another range"});
+  expect_message("[vary]\n'cut.depth' = { from = 2, to = 4, shares = 'cut.depth'" + end,
+                 {"must name another range"});
+  expect_message("[vary]\n'cut.depth' = { from = 2, to = 4, count = 3, shares = 'cut.tilt' }\n",
+                 {"cut.depth: shares: is for ranges of sampling method \"sparse-grid\""});
+}
+
 TEST(Sampling, UnitTensionsMakeThreeCasesOfEach) {
   const auto cases = cases_of_text(
       "[vary]\n'cut.depth' = { from = 2, to = 4 }\n[sampling]\nmethod = 'sparse-grid'\nlevel = 1\n"
