@@ -110,7 +110,7 @@ CaseModes::CaseModes(const StudyInterpolator& study, double error) : study_(stud
 }
 
 Field CaseModes::at(const CaseParameters& values) const {
-  const StudyInterpolator::Recipe recipe = study_.recipe(values);
+  const StudyInterpolator::Recipe recipe = study_.recipe(values, false);
   const auto& [cases, derivatives, error] = recipe.prediction;
   Eigen::VectorXd weights(shares_.cols());
   weights << cases, derivatives;

@@ -15,8 +15,8 @@ class CaseModes {
   CaseModes(const StudyInterpolator& study, double error);
 
   int count() const { return static_cast<int>(modes_.size()); }
-  /// StudyInterpolator::at(), within the error of the modes, ten to a hundred times as fast. The largest
-  /// displacement of its report is that of the lips when all is cut.
+  /// StudyInterpolator::at(), also of what could not be meshed, within the error of the modes, ten to a
+  /// hundred times as fast. The largest displacement of its report is that of the lips when all is cut.
   Field at(const CaseParameters& values) const;
 
  private:

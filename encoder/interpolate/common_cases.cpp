@@ -156,6 +156,22 @@ void CommonCases::check_alike(const Own& a, const Own& b) {
   if (numbers.size() != b.parameters.numbers().size()) check_alike(b, a);
 }
 
+/// Cases of an older version, without a parameter that is 0 by default, are those with 0; and a choice that
+/// differs becomes a number, where it can.
+std::vector<CommonCases::Own> CommonCases::made_alike(std::vector<Own> all) {
+  bool springs = false, bone = false;
+  for (Own& own : all)
+    for (RecordedParameters* p : {&own.parameters, &own.kept.parameters}) {
+      if (p->has((*p)->cut.curvature) && !p->has((*p)->cut.curvature_rate))
+        p->set((*p)->cut.curvature_rate, 0);
+      if (p->has((*p)->patch.bottom)) ((*p)->patch.bottom == PatchBottom::bone ? bone : springs) = true;
+    }
+  if (springs && bone)
+    for (Own& own : all)
+      for (RecordedParameters* p : {&own.parameters, &own.kept.parameters}) number_bottom(*p);
+  return all;
+}
+
 std::array<BSplineBasis, 4> CommonCases::common_bases(const std::vector<Own>& all) {
   constexpr const char* axes[] = {"along the cut", "across it", "in height", "in time"};
   if (all.empty()) throw InputError("the study holds no case; run it, or cleft pack it again");
@@ -186,6 +202,19 @@ std::vector<bool> CommonCases::distinct(const std::vector<Own>& all) {
   return list;
 }
 
+void number_bottom(RecordedParameters& p) {
+  const bool bone = p->patch.bottom == PatchBottom::bone;
+  p.erase(p.name_of(p->patch.bottom));
+  p.set(on_bone_name, bone ? 1. : 0.);
+}
+
+void name_bottom(RecordedParameters& p) {
+  const auto number = p.number(on_bone_name);
+  if (!number) return;
+  p.erase(on_bone_name);
+  p.set(p.name_of(p->patch.bottom), std::string(*number > 0.5 ? "bone" : "springs"));
+}
+
 std::vector<StudyMember> read_members(const std::string& study) {
   std::vector<StudyMember> members;
   for_each_member(study, [&](StudyMember member) { members.push_back(std::move(member)); });
@@ -210,7 +239,7 @@ CommonCases CommonCases::of_records(const std::vector<const StudyRecord*>& recor
 
 CommonCases::CommonCases(const std::vector<StudyMember>& members) : CommonCases(own_of(members)) {}
 
-CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all)) {
+CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all = made_alike(std::move(all)))) {
   parametrization_ = all.front().parametrization;
   const std::vector<bool> is_kept = distinct(all);
   for (std::size_t i = 0; i < all.size(); ++i) {

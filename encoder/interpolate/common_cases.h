@@ -22,6 +22,13 @@ struct StudyMember {
 /// FileError if one is damaged.
 std::vector<StudyMember> read_members(const std::string& study);
 
+/// The name of a number, 0 or 1, that stands for patch.bottom = "bone" where a study has cases on bone and on
+/// springs: nothing lies between, but what is added from one to the other can be interpolated.
+inline constexpr const char* on_bone_name = "patch.on_bone";
+/// Of the parameters of a case of such a study: with the number in place of the choice, and back.
+void number_bottom(RecordedParameters& parameters);
+void name_bottom(RecordedParameters& parameters);
+
 /// Called repeatedly with the completed part of the work, 0 to 1; an exception from it ends the work.
 using ReportPart = std::function<void(double part)>;
 
@@ -76,6 +83,7 @@ class CommonCases {
   static Own own_of(const StudyMember& member);
   static std::vector<Own> own_of(const std::vector<StudyMember>& members);
   static void check_alike(const Own& a, const Own& b);
+  static std::vector<Own> made_alike(std::vector<Own> all);
   static std::array<BSplineBasis, 4> common_bases(const std::vector<Own>& all);
   static std::vector<bool> distinct(const std::vector<Own>& all);
 

@@ -85,6 +85,8 @@ std::vector<Features::Raw> Features::raw(const RecordedParameters& p) const {
       if (p.has(*length)) list.push_back({p.name_of(*length) + " / " + cut, *length / L, true});
     for (const double* curvature : curvatures(*p))
       if (p.has(*curvature)) list.push_back({p.name_of(*curvature) + " " + cut, *curvature * L, false});
+    if (const double& rate = p->cut.curvature_rate; p.has(rate))
+      list.push_back({p.name_of(rate) + " " + cut + "^2", rate * L * L, false});
     if (loading_ == Loading::general)
       for (const auto component : prestress) {
         const double& sigma = p->skin.prestress.*component;
@@ -92,7 +94,8 @@ std::vector<Features::Raw> Features::raw(const RecordedParameters& p) const {
       }
     for (const std::string& name : varying_)
       if (const void* member = member_of(p, name);
-          !is_in(needed(*p), member) && !is_in(lengths(*p), member) && !is_in(curvatures(*p), member))
+          !is_in(needed(*p), member) && !is_in(lengths(*p), member) && !is_in(curvatures(*p), member) &&
+          member != &p->cut.curvature_rate)
         list.push_back({name, p.number(name).value(), false});
   } else {
     for (const std::string& name : varying_) list.push_back({name, p.number(name).value(), true});

@@ -34,6 +34,7 @@ std::vector<Loading> loadings_of(const RecordedParameters& p) {
   return {Loading::superposed, Loading::general};
 }
 
+constexpr int most_compared = 128;
 constexpr double time_to_read = 0.4, time_to_sample = 0.3;  // of the whole, and of the rest
 
 ReportPart share_of(const ReportPart& report, double begin, double end) {
@@ -59,18 +60,53 @@ StudyInterpolator::StudyInterpolator(CommonCases cases, const ReportPart& report
     }
   }
   if (report) report(0);
+  const std::vector<Loading> loadings = loadings_of(parameters_.front());
+  groups_ = parameter_groups(parameters_);
+  // Where most parameters vary together and some alone, a model of all would have to tell from the latter's
+  // few cases how the field changes with everything: what each of them changes is a model of its own.
+  if (!groups_.alone.empty() && loadings.front() == Loading::superposed && cases_.derivatives().empty()) {
+    model_.emplace(model_of(groups_.together));
+    for (const ParameterGroup& one : groups_.alone) alone_.push_back(model_of(one));
+    return;
+  }
   const CaseSamples samples = this->samples();
-  for (const Loading loading : loadings_of(parameters_.front())) {
+  for (const Loading loading : loadings) {
     if (report) report(time_to_sample);
     DisplacementModel model(parameters_, samples, loading);
     if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));
   }
 }
 
+DisplacementModel StudyInterpolator::model_of(const ParameterGroup& group) const {
+  std::vector<RecordedParameters> parameters;
+  for (const int i : group.cases) parameters.push_back(parameters_[static_cast<std::size_t>(i)]);
+  CaseSamples samples;
+  samples.cases = representative_cases(parameters, most_compared);
+  std::vector<int> compared;
+  for (const int i : samples.cases) compared.push_back(group.cases[static_cast<std::size_t>(i)]);
+  samples.displacements = sample_cases(cases_, places_in_common(cases_), compared);
+  return {parameters, samples, Loading::superposed};
+}
+
+RecordedParameters StudyInterpolator::varied_in(const ParameterGroup& group,
+                                                RecordedParameters parameters) const {
+  for (const auto& [name, value] : groups_.base)
+    if (std::find(group.names.begin(), group.names.end(), name) == group.names.end())
+      parameters.set(name, value);
+  return parameters;
+}
+
+DisplacementModel::Prediction StudyInterpolator::of_all(const std::vector<int>& cases,
+                                                        const DisplacementModel::Prediction& of_some) const {
+  DisplacementModel::Prediction all{Eigen::VectorXd::Zero(cases_.size()), {}, of_some.error};
+  for (std::size_t k = 0; k < cases.size(); ++k)
+    all.weights[cases[k]] = of_some.weights[static_cast<Eigen::Index>(k)];
+  return all;
+}
+
 /// If there are many cases, some determine the method and its error; and fields between them needs no
 /// derivatives.
 CaseSamples StudyInterpolator::samples() const {
-  constexpr int most_compared = 128;
   constexpr std::size_t most_rows = 512;
   const CommonPlaces places = places_in_common(cases_);
   CaseSamples samples;
@@ -99,7 +135,7 @@ double StudyInterpolator::fit_error(const DisplacementModel::Prediction& predict
   return std::max(median(fits), largest > 0 ? std::sqrt(squares) / largest : 0);
 }
 
-RecordedParameters StudyInterpolator::complete(const CaseParameters& values) const {
+RecordedParameters StudyInterpolator::complete(const CaseParameters& values, bool meshable) const {
   const auto list = [&] {
     std::string text;
     for (const Range& range : varying_)
@@ -120,6 +156,8 @@ RecordedParameters StudyInterpolator::complete(const CaseParameters& values) con
         throw InputError("unknown parameter '" + n + "'" + did_you_mean(n, names) + "; in this study vary " +
                          list());
       const Parameter* row = find_parameter(n);
+      if (n == on_bone_name && v != 0 && v != 1)
+        throw InputError(n + " = " + shortest(v) + ": must be 0, on springs, or 1, on bone");
       if (row)
         check_value(*row, v, "no such case");
       else if (!std::isfinite(v))
@@ -142,22 +180,46 @@ RecordedParameters StudyInterpolator::complete(const CaseParameters& values) con
   Parameters whole;
   for (const auto& [name, value] : parameters.all())
     if (find_parameter(name)) set_parameter(whole, name, value, "no such case");
-  if (parameters.has(parameters->cut.length) && parameters.has(parameters->patch.length))
+  if (meshable && parameters.has(parameters->cut.length) && parameters.has(parameters->patch.length))
     check_consistency(whole, "no such case");
   return parameters;
 }
 
-StudyInterpolator::Recipe StudyInterpolator::recipe(const CaseParameters& values) const {
-  const RecordedParameters parameters = complete(values);
-  return {parameters, model_->at(parameters), geometry_.at(parameters)};
+StudyInterpolator::Recipe StudyInterpolator::recipe(const CaseParameters& values, bool meshable) const {
+  const RecordedParameters parameters = complete(values, meshable);
+  if (alone_.empty()) return {parameters, model_->at(parameters), geometry_.at(parameters)};
+  DisplacementModel::Prediction sum =
+      of_all(groups_.together.cases, model_->at(varied_in(groups_.together, parameters)));
+  const RecordedParameters base = varied_in({}, parameters);
+  double squares = sum.error * sum.error;
+  for (std::size_t k = 0; k < alone_.size(); ++k) {
+    const ParameterGroup& group = groups_.alone[k];
+    const RecordedParameters varied = varied_in(group, parameters);
+    if (varied.numbers() == base.numbers()) continue;
+    const auto changed = alone_[k].at(varied);
+    sum.weights += of_all(group.cases, changed).weights - of_all(group.cases, alone_[k].at(base)).weights;
+    squares += changed.error * changed.error;
+  }
+  sum.error = std::sqrt(squares);
+  return {parameters, sum, geometry_.at(parameters)};
+}
+
+/// Of what varies together and of what varies alone, the farthest.
+double StudyInterpolator::outside(const RecordedParameters& parameters) const {
+  if (alone_.empty()) return model_->outside(parameters);
+  double outside = model_->outside(varied_in(groups_.together, parameters));
+  for (std::size_t k = 0; k < alone_.size(); ++k)
+    outside = std::max(outside, alone_[k].outside(varied_in(groups_.alone[k], parameters)));
+  return outside;
 }
 
 void StudyInterpolator::tell(Field& field, const Recipe& recipe, double largest) const {
   const double error = largest > 0 ? recipe.prediction.error / largest : 0;
   field.parameters = recipe.parameters;
+  name_bottom(field.parameters);
   field.interpolation = {regression().covariance().name, static_cast<double>(cases_.size()),
                          std::hypot(error, fit_error(recipe.prediction, largest)), error,
-                         model_->outside(recipe.parameters)};
+                         outside(recipe.parameters)};
   const double none = std::nan("");
   field.report = {none, none, none, none, none, none, none, none, none, none, none, none, none, none, none};
   field.report.node_error = field.report.spline_error = field.interpolation->estimated_error;

@@ -10,6 +10,7 @@
 #include "encoder/interpolate/common_cases.h"
 #include "encoder/interpolate/displacement_model.h"
 #include "encoder/interpolate/geometry_model.h"
+#include "encoder/interpolate/parameter_groups.h"
 
 namespace cleft {
 
@@ -32,6 +33,7 @@ class StudyInterpolator {
 
   const std::vector<Range>& varying() const { return varying_; }
   const CommonCases& cases() const { return cases_; }
+  /// Of the model of what varies together.
   const Features& features() const { return model_->features(); }
   const KernelRegression& regression() const { return model_->regression(); }
   /// Leave-one-out errors: the largest residual of each case over its largest displacement.
@@ -50,22 +52,32 @@ class StudyInterpolator {
     DisplacementModel::Prediction prediction;  ///< weights of the cases, and the error in mm
     FieldGeometry geometry;
   };
-  /// Throws as at() does.
-  Recipe recipe(const CaseParameters& values) const;
+  /// Throws as at() does. `meshable`: a patch of these parameters could be meshed and solved. A shape that
+  /// varies along a path need not be one all along a cut.
+  Recipe recipe(const CaseParameters& values, bool meshable = true) const;
   /// Sets parameters, report and interpolation of a field that was made by a recipe.
   void tell(Field& field, const Recipe& recipe, double largest_displacement) const;
 
  private:
-  RecordedParameters complete(const CaseParameters& values) const;
+  RecordedParameters complete(const CaseParameters& values, bool meshable) const;
   /// Of the sum of the cases' fields, from their own errors, over its largest displacement.
+  double outside(const RecordedParameters& parameters) const;
   double fit_error(const DisplacementModel::Prediction& prediction, double largest) const;
   CaseSamples samples() const;
+  DisplacementModel model_of(const ParameterGroup& group) const;
+  /// The parameters with base values of all but those of the group.
+  RecordedParameters varied_in(const ParameterGroup& group, RecordedParameters parameters) const;
+  /// The prediction of a model of some of the cases, for all of them.
+  DisplacementModel::Prediction of_all(const std::vector<int>& cases,
+                                       const DisplacementModel::Prediction& of_some) const;
 
   CommonCases cases_;
   std::vector<RecordedParameters> parameters_;  // of the cases
   std::vector<Range> varying_;
   GeometryModel geometry_;
-  std::optional<DisplacementModel> model_;
+  std::optional<DisplacementModel> model_;  // of all cases, or of those in which nothing varies alone
+  ParameterGroups groups_;
+  std::vector<DisplacementModel> alone_;  // of each of groups_.alone
 };
 
 }  // namespace cleft
