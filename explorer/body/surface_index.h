@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -37,5 +38,9 @@ class SurfaceIndex {
   struct Tree;
   std::unique_ptr<Tree> tree_;
 };
+
+/// Tells how far from a place, in a unit direction, the surface is; infinite beyond 100. The surface must
+/// outlive it.
+std::function<double(const Vec3& place, const Vec3& direction)> distance_to(const SurfaceIndex& surface);
 
 }  // namespace cleft

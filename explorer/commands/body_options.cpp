@@ -35,7 +35,9 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
 
 void BodyOptions::add_to(CommandLine& app) {
   app_ = &app;
-  app.add_option("--bone", bone, "of a simulation: surface of the bone below, to which the tissue is grown");
+  app.add_option(
+      "--bone", bone,
+      "surface of the bone below, to which the tissue is grown: of a simulation, and of a family's fields");
   app.add_option("--case", case_file,
                  "of a simulation: case file, for skin, tissue, mesh.element_size along the cuts, "
                  "mesh.grading, and patch.height, the thickness of the tissue [the defaults]");
@@ -53,9 +55,9 @@ void BodyOptions::add_to(CommandLine& app) {
       ->expected(3);
 }
 
-std::string BodyOptions::first_given() const {
+std::string BodyOptions::first_given(bool but_bone) const {
   for (const char* name : {"--bone", "--case", "--set", "--reach", "--direction"})
-    if (app_->count(name) > 0) return name;
+    if (app_->count(name) > 0 && !(but_bone && name == std::string("--bone"))) return name;
   return "";
 }
 

@@ -18,9 +18,8 @@ struct BodyOptions {
   double reach = 40;  ///< mm
 
   void add_to(CommandLine& app);
-  /// The first of these options that was given; empty if none was.
-  std::string first_given() const;
-  bool given() const { return !first_given().empty(); }
+  /// The first of these options that was given; empty if none was. --bone may not count.
+  std::string first_given(bool but_bone) const;
 
   /// Without skin, paths and bone.
   BodyRequest request() const;

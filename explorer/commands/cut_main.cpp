@@ -183,12 +183,11 @@ void move(const ReplayedWounds& wounds, const CutFields& fields, const Options& 
 
 /// Moves the mesh as a simulation of these very cuts says, and tells how far replays, if `positions` holds
 /// them, are from it.
-void move_as_simulated(const Options& options, const Cuts& cuts, bool replayed, std::vector<Vec3>& positions,
-                       Json& figures) {
+void move_as_simulated(const Options& options, const Cuts& cuts, const std::optional<SurfaceIndex>& bone,
+                       bool replayed, std::vector<Vec3>& positions, Json& figures) {
   BodyRequest request = options.body.request();
   request.skin = scaled(cuts.uncut, options.scale);
   for (const Incision* one : cuts.list) request.paths.push_back(one->path().scaled(options.scale));
-  const std::optional<SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin);
   if (bone) request.bone = &*bone;
   Progress progress("simulating");
   static StopCount stop = 0;
@@ -222,11 +221,13 @@ void cut(const Options& options) {
   figures["us_per_step"] = 1e6 * cuts.stepping / figures["steps"].get<double>();
   for (const Incision* one : cuts.list) figures["cuts"].push_back(figures_of(*one, options.scale));
   std::unique_ptr<ReplayedWounds> wounds;
+  const std::optional<SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin);
   if (fields) {
+    if (bone) fields = fields->above_bone(distance_to(*bone));
     wounds = open(options, *fields, cuts);
     move(*wounds, *fields, options, cuts.t, result.points, figures);
   }
-  if (options.simulate) move_as_simulated(options, cuts, fields.has_value(), result.points, figures);
+  if (options.simulate) move_as_simulated(options, cuts, bone, fields.has_value(), result.points, figures);
   if (skin.volume) {
     figures["cells_added"] = write_cut_volume(*skin.volume, skin.surface, cuts.list, wounds.get(),
                                               options.scale, cuts.t, options.out);
@@ -290,7 +291,8 @@ int main(int argc, char** argv) {
     if (o.simulate && is_volume(o.mesh))
       throw InputError("--simulate, --mesh " + o.mesh +
                        ": a mesh of volume is not simulated yet; give its surface");
-    if (!o.simulate && o.body.given()) throw InputError(o.body.first_given() + ": is for --simulate");
+    if (const std::string option = o.body.first_given(!o.field.empty()); !o.simulate && !option.empty())
+      throw InputError(option + ": is for --simulate" + (option == "--bone" ? " and --field" : ""));
     cut(o);
   });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "encoder/interpolate/case_modes.h"
@@ -12,9 +13,12 @@ namespace cleft {
 
 namespace {
 
-constexpr std::array shape_names = {"cut.curvature",    "cut.tilt",         "cut.depth",
-                                    "skin.curvature_u", "skin.curvature_v", "skin.curvature_uv",
-                                    "patch.height",     "patch.slope"};
+constexpr const char* height_name = "patch.height";
+constexpr std::array shape_names = {"cut.curvature",     "cut.curvature_rate", "cut.tilt",
+                                    "cut.depth",         "skin.curvature_u",   "skin.curvature_v",
+                                    "skin.curvature_uv", height_name};
+/// The choice between springs and bone, and the number that stands for it.
+constexpr std::array bottom_names = {"patch.bottom", on_bone_name};
 constexpr std::array prestress_names = {"skin.prestress_u", "skin.prestress_v", "skin.prestress_uv"};
 /// What modes leave of each case, root mean square: a fraction of the error of its fit.
 constexpr double error_of_modes = 2e-3;
@@ -40,7 +44,7 @@ bool Family::describes(const std::vector<std::string>& varying) {
       any_shape = true;
     else if (is_in(prestress_names, name))
       ++components;
-    else
+    else if (!is_in(bottom_names, name))
       return false;
   return any_shape && components == prestress_names.size();
 }
@@ -59,9 +63,16 @@ Family::Family(const std::string& study) : parts_(std::make_unique<Parts>(study)
         "; those of a family differ in the shape of the skin or the cut (cut.curvature, ...) and "
         "in unit tensions (sampling.unit_tensions), but in nothing else");
   }
+  for (const CommonCase& one : parts_->between.cases().cases())
+    if (const auto number = one.parameters.number(on_bone_name)) {
+      on_bone_ = true;
+      if (*number == 0) whole_height_ = one.parameters->patch.height;
+    }
   std::map<std::string, double> middle;
   for (const auto& [name, range] : shapes_)
-    middle[name] = range.least < 0 && range.greatest > 0 ? 0 : (range.least + range.greatest) / 2;
+    middle[name] = name == height_name                     ? std::numeric_limits<double>::infinity()
+                   : range.least < 0 && range.greatest > 0 ? 0
+                                                           : (range.least + range.greatest) / 2;
   const Prestress& own = parts_->between.cases().cases().front().parameters->skin.prestress;
   middle_ = at(middle, own).field;
 }
@@ -73,8 +84,14 @@ Family::Member Family::at(std::map<std::string, double> shapes, const Prestress&
   CaseParameters values;
   for (const auto& [name, range] : shapes_) {
     const double wanted = shapes.at(name), value = std::clamp(wanted, range.least, range.greatest);
-    beyond = std::max(beyond, std::abs(wanted - value) / ((range.greatest - range.least) / 2));
+    if (std::isfinite(wanted))
+      beyond = std::max(beyond, std::abs(wanted - value) / ((range.greatest - range.least) / 2));
     values[name] = value;
+  }
+  if (on_bone_) {
+    const bool bone = shapes.at(height_name) < whole_height_;
+    values[on_bone_name] = bone;
+    if (!bone) values[height_name] = whole_height_;
   }
   const std::array components = {prestress.uu, prestress.vv, prestress.uv};
   const auto recorded = parts_->between.cases().cases().front().parameters.numbers();

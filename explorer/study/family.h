@@ -25,8 +25,8 @@ class Family {
   Family& operator=(const Family&) = delete;
 
   /// Whether cases that differ in these parameters are a family: in shapes of the skin and the cut that
-  /// change along a path (cut.curvature, cut.tilt, cut.depth, skin.curvature_u, _v and _uv), and in all three
-  /// components of the skin's prestress, but in nothing else.
+  /// change along a path (cut.curvature, cut.curvature_rate, cut.tilt, cut.depth, skin.curvature_u, _v and
+  /// _uv), and in all three components of the skin's prestress, but in nothing else.
   static bool describes(const std::vector<std::string>& varying);
 
   /// The shapes that differ among the cases, by name.
@@ -35,8 +35,13 @@ class Family {
   const Field& middle() const { return *middle_; }
   std::shared_ptr<const Field> shared_middle() const { return middle_; }
 
-  /// The field for values of all shapes() and the prestress, MPa, in milliseconds. Values beyond the cases'
-  /// are taken as the nearest of theirs; `outside` tells how far beyond they are, over half the range.
+  /// Whether bone below the skin changes the field.
+  bool knows_bone() const { return on_bone_; }
+  /// The height of the tissue where there is no bone, mm, of a family that knows bone.
+  double whole_height() const { return whole_height_; }
+  /// The field for values of all shapes() and the prestress, MPa, in milliseconds. The height is that of the
+  /// tissue above bone: where some cases are on springs, as these from their height on. Values beyond the
+  /// cases' are taken as the nearest of theirs; `outside` tells how far beyond they are, over half the range.
   struct Member {
     std::shared_ptr<const Field> field;
     double outside;
@@ -47,6 +52,8 @@ class Family {
   struct Parts;
   std::unique_ptr<Parts> parts_;
   std::map<std::string, Range> shapes_;
+  bool on_bone_ = false;     // some cases are on bone, and
+  double whole_height_ = 0;  // this is the others' patch.height, mm
   std::shared_ptr<const Field> middle_;
 };
 

@@ -14,8 +14,24 @@ constexpr const char* three_cases =
     "a study.dffd of three cases that differ in skin.prestress_u, _v and _uv alone";
 }
 
+CutFields CutFields::above_bone(TissueAboveBone tissue) const {
+  CutFields result = *this;
+  result.tissue_ = std::move(tissue);
+  if (family_)
+    result.family_ = std::make_shared<const FamilyFields>(family_->shared_family(), result.tissue_);
+  return result;
+}
+
 Wound CutFields::wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own,
                        double known) const {
+  Wound wound = opened(cut, scale, own, known);
+  wound.tissue = tissue_;
+  wound.follows_bone = family_ && family_->family().knows_bone();
+  return wound;
+}
+
+Wound CutFields::opened(const Incision& cut, double scale, const std::optional<PathPrestress>& own,
+                        double known) const {
   if (one_ && own)
     throw InputError(std::string("the path has prestresses along it: they need ") + three_cases);
   if (one_) return {cut, *one_, scale};

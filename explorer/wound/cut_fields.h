@@ -30,6 +30,9 @@ class CutFields {
   /// Whether they follow the shape of the skin and the blade.
   bool following_shape() const { return family_ != nullptr; }
 
+  /// The same fields over bone: a family that has cases on bone follows it.
+  CutFields above_bone(TissueAboveBone tissue) const;
+
   /// The wound of a cut whose surroundings are known; neither the cut nor this must end before it. `own`:
   /// prestresses along its path that override the tension. Throws InputError if a tension is given for one
   /// field, or none for three.
@@ -45,12 +48,15 @@ class CutFields {
 
  private:
   Wound wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own, double known) const;
+  Wound opened(const Incision& cut, double scale, const std::optional<PathPrestress>& own,
+               double known) const;
   SkinTension tension_of(const Incision& cut, bool grows) const;
 
   std::shared_ptr<const Field> one_;
   std::shared_ptr<const PrestressFields> three_;
   std::shared_ptr<const FamilyFields> family_;
   std::optional<SkinTension> tension_;
+  TissueAboveBone tissue_;
   std::shared_ptr<std::optional<SkinTension>> of_first_ = std::make_shared<std::optional<SkinTension>>();
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr double smoothing_in_depths = 8. / 3;
 /// In lengths of the canonical cut: the tension that a cut releases anywhere opens it over all of its length,
 /// so that what a path does from place to place matters as little as its direction's changes sum up to.
-constexpr double smoothing_in_lengths = 0.5;
+constexpr double smoothing_in_lengths = 0.45;
 /// Of the smoothing: the distance of stations while a path is found, and how far behind the tip its curvature
 /// is taken to be known: at the tip itself it is the hand's tremor.
 constexpr double station_in_smoothing = 0.25, behind_tip_in_smoothing = 0.5;
@@ -49,16 +49,36 @@ Prestress prestress_at(const PathPrestress& along, double s) {
   return {std::lerp(x.uu, y.uu, part), std::lerp(x.vv, y.vv, part), std::lerp(x.uv, y.uv, part)};
 }
 
+/// The greatest part of the rate with which the case's curvature and its rate are within the diamond of their
+/// ranges: beyond it there are no cases. `x` is the way from the middle of the cut.
+double part_of_rate(const LocalShape& local, double x, double most_curvature, double most_rate) {
+  const auto is_within = [&](double part) {
+    const double rate = part * local.curvature_rate;
+    return std::abs(local.curvature - rate * x) / most_curvature + std::abs(rate) / most_rate <= 1;
+  };
+  if (is_within(1)) return 1;
+  double least = 0, most = 1;
+  for (int round = 0; round < 20; ++round) {
+    const double middle = (least + most) / 2;
+    (is_within(middle) ? least : most) = middle;
+  }
+  return least;
+}
+
 CaseShape case_of(const LocalShape& local, const Prestress& prestress, double u_from_middle) {
-  const double angle = std::clamp(local.curvature * u_from_middle, -most_turned, most_turned);
+  const double at_middle = local.curvature - local.curvature_rate * u_from_middle;
+  const double angle =
+      std::clamp((at_middle + local.curvature) / 2 * u_from_middle, -most_turned, most_turned);
   const auto skin = turned({local.skin_u, local.skin_v, local.skin_uv}, angle);
   const auto tension = turned({prestress.uu, prestress.vv, prestress.uv}, angle);
-  return {{{"cut.curvature", local.curvature},
+  return {{{"cut.curvature", at_middle},
+           {"cut.curvature_rate", local.curvature_rate},
            {"cut.tilt", local.tilt},
            {"cut.depth", local.depth},
            {"skin.curvature_u", skin[0]},
            {"skin.curvature_v", skin[1]},
-           {"skin.curvature_uv", skin[2]}},
+           {"skin.curvature_uv", skin[2]},
+           {"patch.height", local.tissue}},
           {tension[0], tension[1], tension[2]}};
 }
 
@@ -71,9 +91,13 @@ double from_middle(double s, double length, const CanonicalCut& cut) {
 std::vector<double> normalised(const CaseShape& one, const Prestress& local, const Family& family,
                                double prestress) {
   std::vector<double> list;
-  for (const auto& [name, range] : family.shapes())
-    list.push_back(std::clamp(one.shapes.at(name), range.least, range.greatest) /
-                   (range.greatest - range.least));
+  for (const auto& [name, range] : family.shapes()) {
+    const double value = one.shapes.at(name), width = range.greatest - range.least;
+    // No bone is as far from the deepest one as that from the one nearest to the skin.
+    list.push_back(
+        (std::isfinite(value) ? std::clamp(value, range.least, range.greatest) : range.greatest + width) /
+        width);
+  }
   for (const Prestress& tension : {one.prestress, local})
     for (const double component : {tension.uu, tension.vv, tension.uv}) list.push_back(component / prestress);
   return list;
@@ -111,12 +135,32 @@ Smoothing FamilyFields::smoothing() const {
   return {smoothing_in_lengths * shape().cut().length, smoothing_in_depths * shape().cut().depth};
 }
 
+/// The shape with what the family has cases of: in one without changing curvatures a path is the circle. And
+/// with the bone below.
+LocalShape FamilyFields::known_to_family(LocalShape local, const Incision& incision, double scale,
+                                         double s) const {
+  const auto& shapes = family_->shapes();
+  if (!shapes.contains("cut.curvature_rate")) {
+    local.curvature_rate = 0;
+  } else {
+    const double x = from_middle(s, incision.path().length() * scale, shape().cut());
+    local.curvature_rate *=
+        part_of_rate(local, x, shapes.at("cut.curvature").greatest, shapes.at("cut.curvature_rate").greatest);
+  }
+  if (tissue_ && family_->knows_bone())
+    local.tissue = mean_tissue(tissue_, scale * incision.path().at(s / scale).position, local,
+                               smoothing().skin, family_->whole_height());
+  return local;
+}
+
 VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume& volume,
                                  const PathPrestress& prestress, double known) const {
   const double scale = volume.scale();
   const CanonicalCut& cut = shape().cut();
   const double length = incision.path().length() * scale;
   PathShape shapes = shape_along(incision, scale, smoothing());
+  for (std::size_t i = 0; i < shapes.stations.size(); ++i)
+    shapes.values[i] = known_to_family(shapes.values[i], incision, scale, shapes.stations[i]);
   while (shapes.stations.size() > 1 && shapes.stations.back() > known)
     shapes.stations.pop_back(), shapes.values.pop_back();
   double largest = 0;
@@ -156,7 +200,7 @@ std::optional<double> FamilyFields::next_station(const Incision& incision, doubl
 void FamilyFields::extend(VaryingField& field, const Incision& incision, double scale, double s,
                           const SkinTension& tension) const {
   const double length = incision.path().length() * scale;
-  const LocalShape local = local_shape(incision, scale, s, smoothing());
+  const LocalShape local = known_to_family(local_shape(incision, scale, s, smoothing()), incision, scale, s);
   const Prestress prestress = prestress_in({local.along, cross(local.outward, local.along)}, tension, s);
   const CaseShape one = case_of(local, prestress, from_middle(s, length, shape().cut()));
   const auto [there, outside] = family_->at(one.shapes, one.prestress);

@@ -19,10 +19,13 @@ SkinTension default_tension(const ScalpelPath& path, bool grows);
 
 class FamilyFields {
  public:
-  explicit FamilyFields(std::shared_ptr<const Family> family) : family_(std::move(family)) {}
+  /// `tissue`: above bone, where there is any.
+  explicit FamilyFields(std::shared_ptr<const Family> family, TissueAboveBone tissue = {})
+      : family_(std::move(family)), tissue_(std::move(tissue)) {}
 
   const Field& shape() const { return family_->middle(); }
   const Family& family() const { return *family_; }
+  std::shared_ptr<const Family> shared_family() const { return family_; }
 
   /// The fields at stations of the path, between which its shape changes linearly and by at most a tenth of
   /// the family's ranges. A case of the family has one curvature all along its cut, in skin of one tension
@@ -42,8 +45,10 @@ class FamilyFields {
 
  private:
   Smoothing smoothing() const;
+  LocalShape known_to_family(LocalShape local, const Incision& incision, double scale, double s) const;
 
   std::shared_ptr<const Family> family_;
+  TissueAboveBone tissue_;
 };
 
 }  // namespace cleft

@@ -25,6 +25,8 @@ constexpr double of_junction = 0.6;
 constexpr double of_winding = 2;      // mm: times the curvature's difference from that which opens it
 constexpr double of_direction = 0.3;  // a radian: between the path and the direction that opens it
 constexpr double of_outside = 0.1;    // half a range beyond the family
+/// Of bone: at 5 mm, with a power of how much nearer it is than where it does not count.
+constexpr double of_bone = 0.15, near_bone = 5, far_bone = 12, bone_power = 1.75;
 
 constexpr double degrees_45 = 45;
 /// mm: noise of paths is smoothed over so much, and of skin over so many depths of the cut.
@@ -36,6 +38,12 @@ struct Part {
 };
 
 double square(double x) { return x * x; }
+
+/// Of a field that does not know the bone below.
+double error_over_bone(double tissue) {
+  const double nearer = std::max(0., far_bone - tissue) / (far_bone - near_bone);
+  return of_bone * std::pow(nearer, bone_power);
+}
 
 /// By the angle in radians between the path and the direction along which a family opens it.
 double astray(const Wound& cut, double s) {
@@ -84,6 +92,13 @@ OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood&
                         of_twist * std::abs(local.skin_uv)) *
                            in_cuts,
                        "the skin is curved"});
+    }
+    if (cut.tissue && !cut.follows_bone) {
+      const Vec3 place = cut.scale() * cut.incision->path().at(s / cut.scale()).position;
+      const double whole = field.parameters.value_or(field.parameters->patch.height, far_bone);
+      parts.push_back(
+          {error_over_bone(mean_tissue(cut.tissue, place, local, smoothing_of_skin * canonical.depth, whole)),
+           "there is bone below, which the field does not know"});
     }
     double sum = 0;
     const Part* greatest = &parts.front();

@@ -26,8 +26,10 @@ constexpr double stations_a_smoothing = 4, nodes_a_smoothing = 2, most_pieces = 
 constexpr std::size_t least_points = 5;
 constexpr double growth = 1.25, sparse = 1.5;
 /// What draws the path's curvature, and how it changes, towards 0, in units of the smoothing: nothing beside
-/// what points over twice the smoothing tell, and much of it beside a fifth of the smoothing.
-constexpr double straight = 1e-6, steady = 2e-2;
+/// what points over twice the smoothing tell, and much of it beside a fifth of the smoothing. How the
+/// curvature changes is known from a cubic: beside a hand's tremor of some tenths of a millimetre it is, with
+/// a smoothing above `hand` mm, the better known the longer it is, as the square of its third power.
+constexpr double straight = 1e-6, steady = 2e-2, hand = 8;
 /// Half the way over which the path's direction is that of a chord, in smoothings.
 constexpr double chord = 1e-2;
 /// Places within the smoothing, on each side, that the blade's tilt is a mean of.
@@ -76,8 +78,8 @@ class Shapes {
     Vec3 along = direction(s, outward);
     shape.tilt = tilt(s);
     shape.depth = incision_.path().depth(s / scale_) * scale_;
-    const auto [curvature, turned] = bend(s, outward, along);
-    shape.curvature = curvature;
+    const auto [curvature, rate, turned] = bend(s, outward, along);
+    shape.curvature = curvature, shape.curvature_rate = rate;
     along = std::cos(turned) * along + std::sin(turned) * cross(outward, along);
     shape.along = along, shape.outward = outward;
     if (const auto skin = skin_.at(s, outward, along, smoothing_))
@@ -164,8 +166,12 @@ class Shapes {
     }
   }
 
-  /// The curvature of the path at s, and by how much its smooth direction is turned against `along`.
-  std::pair<double, double> bend(double s, const Vec3& outward, const Vec3& along) {
+  struct Bend {
+    double curvature, rate;  // 1/mm, 1/mm^2
+    double turned;           // the path's smooth direction against the one at hand
+  };
+
+  Bend bend(double s, const Vec3& outward, const Vec3& along) {
     double half = path_smoothing_, from = 0, to = 0;
     std::vector<double> back, ahead;
     for (;; half *= growth) {
@@ -184,9 +190,11 @@ class Shapes {
     return curvature_of(unrolled, s, std::max({half, s - from, to - s}));
   }
 
+  double steadiness() const { return steady * std::min(1., std::pow(hand / path_smoothing_, 6)); }
+
   /// A circle's equation whose curvature may change along it: exact for arcs, however long.
   ///   y = a + b x + (c + d x) (x^2 + y^2)
-  std::pair<double, double> curvature_of(const std::vector<Unrolled>& points, double s, double reach) const {
+  Bend curvature_of(const std::vector<Unrolled>& points, double s, double reach) const {
     SmallFit<4> fit;
     SmallFit<3> circle;
     constexpr double past = 1.05;  // the last points count, too
@@ -198,7 +206,7 @@ class Shapes {
       circle.add({1, x, r}, y, weight);
     }
     double a = 0, b = 0, c = 0, d = 0;
-    if (const auto found = fit.solve({0, 0, straight, steady}); found && points.size() >= least_points)
+    if (const auto found = fit.solve({0, 0, straight, steadiness()}); found && points.size() >= least_points)
       std::tie(a, b, c, d) = std::tuple((*found)[0], (*found)[1], (*found)[2], (*found)[3]);
     else if (const auto arc = circle.solve({
                  0,
@@ -208,11 +216,17 @@ class Shapes {
              arc && points.size() >= 3)
       a = (*arc)[0], b = (*arc)[1], c = (*arc)[2];
     const double root = 1 - 4 * a * c;
-    if (!(root > 0)) return {0, 0};
-    const double y = 2 * a / (1 + std::sqrt(root));  // of the curve at x = 0
-    const double by_x = b + d * y * y, by_y = 2 * c * y - 1, slope = -by_x / by_y;
-    const double second = -(2 * c + 4 * d * y * slope + 2 * c * slope * slope) / by_y;
-    return {second / std::pow(1 + slope * slope, 1.5) / path_smoothing_, std::atan(slope)};
+    if (!(root > 0)) return {0, 0, 0};
+    // y, its derivatives by x, and those of x^2 + y^2, at x = 0.
+    const double y = 2 * a / (1 + std::sqrt(root)), q = 1 - 2 * c * y;
+    const double first = (b + d * y * y) / q, squares_first = 2 * y * first;
+    const double second = (2 * d * squares_first + 2 * c * (1 + first * first)) / q,
+                 squares_second = 2 * (1 + first * first + y * second);
+    const double third = (3 * d * squares_second + 6 * c * first * second) / q, length = 1 + first * first;
+    return {second / std::pow(length, 1.5) / path_smoothing_,
+            (third * length - 3 * first * second * second) / std::pow(length, 3) /
+                (path_smoothing_ * path_smoothing_),
+            std::atan(first)};
   }
 
   const Incision& incision_;
@@ -228,14 +242,30 @@ LocalShape PathShape::at(double s) const {
   const auto [a, b, part] = between(stations, s);
   if (a == b) return values[a];
   LocalShape shape;
-  for (const auto member : {&LocalShape::curvature, &LocalShape::tilt, &LocalShape::depth,
-                            &LocalShape::skin_u, &LocalShape::skin_v, &LocalShape::skin_uv})
+  for (const auto member :
+       {&LocalShape::curvature, &LocalShape::curvature_rate, &LocalShape::tilt, &LocalShape::depth,
+        &LocalShape::skin_u, &LocalShape::skin_v, &LocalShape::skin_uv})
     shape.*member = (1 - part) * values[a].*member + part * values[b].*member;
   for (const auto member : {&LocalShape::along, &LocalShape::outward}) {
     const Vec3 sum = lerp(values[a].*member, values[b].*member, part);
     shape.*member = norm(sum) > 0 ? normalized(sum) : values[b].*member;
   }
   return shape;
+}
+
+double mean_tissue(const TissueAboveBone& tissue, const Vec3& place, const LocalShape& at, double reach,
+                   double whole) {
+  constexpr int along = 3, across = 1;  // samples to either side
+  double sum = 0, weights = 0;
+  for (int i = -along; i <= along; ++i)
+    for (int j = -across; j <= across; ++j) {
+      const double x = static_cast<double>(i) / (along + 1), y = static_cast<double>(j) / (along + 1);
+      const double weight = falling(std::hypot(x, y));
+      const Vec3 there = place + reach * (x * at.along + y * cross(at.outward, at.along));
+      sum += weight * std::min(tissue(there, -at.outward), whole), weights += weight;
+    }
+  constexpr double rounding = 1e-9;
+  return sum < (1 - rounding) * whole * weights ? sum / weights : std::numeric_limits<double>::infinity();
 }
 
 LocalShape local_shape(const Incision& incision, double scale, double s, const Smoothing& smoothing) {

@@ -5,6 +5,8 @@
 // into a plane, so that its curvature there is the geodesic one: a great circle of a sphere is straight.
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <vector>
 
 #include "explorer/incision/incision.h"
@@ -13,9 +15,11 @@ namespace cleft {
 
 /// At a place of a path, in its frame: along, across = outward x along. Lengths in mm, angles in degrees.
 struct LocalShape {
-  double curvature = 0;  ///< 1/mm, of the path in the skin; positive: it curves toward +v, across
-  double tilt = 0;       ///< of the blade against the skin's normal; positive: the bottom is toward +v
-  double depth = 0;      ///< of the blade, along itself
+  double curvature = 0;       ///< 1/mm, of the path in the skin; positive: it curves toward +v, across
+  double curvature_rate = 0;  ///< 1/mm^2: by how much the curvature grows for each mm along the path
+  double tilt = 0;            ///< of the blade against the skin's normal; positive: the bottom is toward +v
+  double depth = 0;           ///< of the blade, along itself
+  double tissue = std::numeric_limits<double>::infinity();  ///< mm, above bone, if there is any below
   /// 1/mm, the curvature tensor of the skin; positive where the body bulges: 1/R, 1/R, 0 of a sphere.
   double skin_u = 0, skin_v = 0, skin_uv = 0;
   Vec3 along = {};    ///< unit, in space: the path's smooth direction, in which all of this is
@@ -30,6 +34,15 @@ struct PathShape {
   /// Linear between the stations, and as at the ends beyond them. There must be a station.
   LocalShape at(double s) const;
 };
+
+/// How thick the tissue is above bone: mm from a place, in the space of the mesh but in mm, in a direction;
+/// infinite where there is no bone.
+using TissueAboveBone = std::function<double(const Vec3& place, const Vec3& inward)>;
+
+/// The mean of that next to a place of the skin, over `reach` mm along the cut and less across it, of at most
+/// `whole` mm each; infinite where all are as thick.
+double mean_tissue(const TissueAboveBone& tissue, const Vec3& place, const LocalShape& at, double reach,
+                   double whole);
 
 /// The scales below which shape is noise, mm, above 0: of the path's curvature and direction, and of the
 /// skin.

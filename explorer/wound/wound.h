@@ -3,6 +3,7 @@
 
 #include "explorer/incision/incision.h"
 #include "explorer/wound/ipv.h"
+#include "explorer/wound/path_shape.h"
 #include "explorer/wound/varying_field.h"
 
 namespace cleft {
@@ -36,6 +37,8 @@ struct Wound {
   const Incision* incision;
   VaryingField field;
   IncisionVolume volume;
+  TissueAboveBone tissue = {};  ///< if there is bone below
+  bool follows_bone = false;    ///< the field is for the bone, where there is any
 };
 
 }  // namespace cleft

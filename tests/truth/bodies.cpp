@@ -201,7 +201,9 @@ void run(const Options& options) {
       std::vector<Off> offs;
       offs.reserve(sources.size());
       for (const Source& source : sources)
-        offs.push_back(compare(request, source.fields(tension), simulation));
+        offs.push_back(compare(
+            request, bone ? source.fields(tension).above_bone(distance_to(*bone)) : source.fields(tension),
+            simulation));
       table.add(name, simulation, offs);
     } catch (const InputError& e) {
       std::fprintf(stderr, "cleft-truth-bodies: %s: %s\n", name.c_str(), e.what());

@@ -34,6 +34,33 @@ Places wave(double amplitude, double wavelength) {
   return places;
 }
 
+/// A path of a length, mm, whose curvature is a function of the part of it, around the middle of its ends.
+template <class Curvature>
+Places bending(double length_of_cut, const Curvature& curvature) {
+  constexpr int steps = 3000, points = 60;
+  const double step = length_of_cut / steps;
+  Places places;
+  double x = 0, y = 0, direction = 0;
+  for (int i = 0; i <= steps; ++i) {
+    if (i % (steps / points) == 0) places.emplace_back(x, y);
+    const double turn = step * curvature((i + 0.5) / steps);
+    x += step * std::cos(direction + turn / 2), y += step * std::sin(direction + turn / 2);
+    direction += turn;
+  }
+  const auto [end_x, end_y] = places.back();
+  const double long_way = std::hypot(end_x, end_y), c = end_x / long_way, s = end_y / long_way;
+  for (auto& [px, py] : places) {
+    const double from_x = px - end_x / 2, from_y = py - end_y / 2;
+    px = c * from_x + s * from_y, py = c * from_y - s * from_x;
+  }
+  return places;
+}
+
+/// Of two arcs that bend to either side.
+Places s_shape(double radius, double length_of_cut) {
+  return bending(length_of_cut, [=](double part) { return (part < 0.5 ? 1 : -1) / radius; });
+}
+
 /// Two straight legs, joined by half a circle.
 Places flap(double radius, double leg) {
   Places places;
@@ -109,6 +136,10 @@ std::vector<NamedSubject> body_subjects(double margin) {
   const Places usual = straight(length);
   add("flat, straight", flat, {usual});
   for (const double r : {60., 30., 20., 15.}) add("arc of " + text(r), flat, {arc(r, length)});
+  for (const double r : {30., 20., 15.}) add("S of " + text(r), flat, {s_shape(r, length)});
+  add("S of 15, 45 mm long", flat, {s_shape(15, 45)});
+  add("spiral to 15", flat, {bending(length, [](double part) { return part / 15; })});
+  add("wave of 6 in 60", flat, {wave(6, 60)});
   for (const double a : {5., 8.}) add("sine of " + text(a), flat, {wave(a, 40)});
   for (const double a : {15., 30., 45.}) add("tilted by " + text(a), flat, {usual}, depth, a);
   for (const double l : {10., 20., 60., 90., 120.}) add(text(l) + " mm long", flat, {straight(l)});

@@ -16,18 +16,22 @@ struct MadeShape {
   double length = 20;  ///< of the cut
   double slope = 3;    ///< by which displacements grow with the curvature, mm
   double along = 1;    ///< what the prestress along the cut moves, over what it moves by default
+  double rate = 0;     ///< cut.curvature_rate
+  double bone = 0;     ///< how deep it is, mm; 0: none
 };
 
-/// A small field that opens by a millimetre or so, (1 + slope curvature + 20 curvature^2 + 10 twist) depth /
-/// 3 times one that is linear in the prestress; its w is that of the cut's depth.
+/// A small field that opens by a millimetre or so, (1 + slope curvature + 20 curvature^2 + 10 twist + 100
+/// rate) depth / 3 times one, bone / 10 times that on bone, that is linear in the prestress; its w is that of
+/// the cut's depth.
 inline Field made(const MadeShape& shape, const Prestress& sigma) {
   constexpr double unit = 0.01;  // MPa
   const double length = shape.length;
   const BSplineBasis u = BSplineBasis::uniform(3, 20, -30, 30), v = BSplineBasis::broken(3, 8, -20, 0, 20),
-                     w = BSplineBasis::uniform(3, 5, -8, 0), t = BSplineBasis::uniform(3, 8, 0, length);
-  const double size =
-      (1 + shape.slope * shape.curvature + 20 * shape.curvature * shape.curvature + 10 * shape.twist) *
-      shape.depth / 3 / unit / 100;
+                     w = BSplineBasis::uniform(3, 5, shape.bone > 0 ? -shape.bone : -8, 0),
+                     t = BSplineBasis::uniform(3, 8, 0, length);
+  const double size = (1 + shape.slope * shape.curvature + 20 * shape.curvature * shape.curvature +
+                       10 * shape.twist + 100 * shape.rate) *
+                      (shape.bone > 0 ? shape.bone / 10 : 1) * shape.depth / 3 / unit / 100;
   const auto greville = [](const BSplineBasis& b, int i) {
     return (b.knots()[i + 1] + b.knots()[i + 2] + b.knots()[i + 3]) / 3;
   };
@@ -48,6 +52,11 @@ inline Field made(const MadeShape& shape, const Prestress& sigma) {
   p.skin.prestress = sigma;
   field.parameters = RecordedParameters(p);
   field.parameters.set("cut.curvature", shape.curvature);
+  field.parameters.set("cut.curvature_rate", shape.rate);
+  if (shape.bone > 0) {
+    field.parameters.set("patch.bottom", std::string("bone"));
+    field.parameters.set("patch.height", shape.bone);
+  }
   field.parameters.set("skin.curvature_uv", shape.twist);
   field.report.spline_error = 1e-6;
   field.report.largest_displacement = 0.1;
@@ -60,9 +69,14 @@ class FamilyFile {
   struct Options {
     bool with_twist = true, with_shear = true;
     double length = 20, slope = 3, along = 1;
+    bool with_rate_and_bone = false;  ///< in place of twists and depths
   };
 
   explicit FamilyFile(const Options& options) {
+    if (options.with_rate_and_bone) {
+      write_rates_and_bones(options.length);
+      return;
+    }
     std::vector<StudyCase> cases;
     for (const double curvature : {-0.1, -0.05, 0., 0.05, 0.1})
       for (const double twist : {-0.03, 0., 0.03})
@@ -81,6 +95,22 @@ class FamilyFile {
   std::string file() const { return folder_ / "study.dffd"; }
 
  private:
+  void write_rates_and_bones(double length) {
+    std::vector<MadeShape> shapes;
+    for (const double curvature : {-0.03, 0., 0.03})
+      for (const double rate : {-0.003, 0., 0.003})
+        shapes.push_back({.curvature = curvature, .length = length, .rate = rate});
+    for (const double bone : {5., 6.5, 8.}) shapes.push_back({.length = length, .bone = bone});
+    std::vector<StudyCase> cases;
+    for (const MadeShape& shape : shapes)
+      for (const Prestress& sigma : {Prestress{0.01, 0, 0}, {0, 0.01, 0}, {0.01, 0.01, 0.005}}) {
+        const std::string name = "case" + std::to_string(cases.size());
+        write_field(folder_ / (name + ".dffd"), made(shape, sigma));
+        cases.push_back({name, folder_ / (name + ".dffd"), {}});
+      }
+    write_study(file(), study_records(cases));
+  }
+
   TemporaryFolder folder_;
 };
 
