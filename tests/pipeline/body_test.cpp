@@ -34,10 +34,6 @@ void write_cylinder(const TemporaryFolder& folder) {
   folder.write("path.csv", "x,y,z,nx,ny,nz,depth\n-8,0,30,0,0,1,2\n0,0,30,0,0,1,2\n8,0,30,0,0,1,2\n");
 }
 
-nlohmann::json figures(const Outcome& outcome) {
-  return nlohmann::json::parse(outcome.output.substr(outcome.output.find('{')));
-}
-
 }  // namespace
 
 TEST(BodyStudy, ItsCasesAreSimulatedEncodedAndReplayedOnThatBody) {
@@ -51,13 +47,13 @@ TEST(BodyStudy, ItsCasesAreSimulatedEncodedAndReplayedOnThatBody) {
   expect_success(run_cleft("run", {study, "--out", out}));
   // The folder stands for itself.
   std::filesystem::remove(folder / "wrist.h5");
-  const nlohmann::json status = figures(expect_success(run_cleft("status", {out, "--json"})));
+  const nlohmann::json status = figures_of(expect_success(run_cleft("status", {out, "--json"})));
   EXPECT_EQ(status.at("published"), 2);
   expect_success(run_cleft("check", {out}));
 
   // The second case's field on that cylinder, against its simulation there.
   const std::string field = status.at("cases").at(1).at("case").get<std::string>();
-  const nlohmann::json cut = figures(expect_success(
+  const nlohmann::json cut = figures_of(expect_success(
       run_cleft("cut", {"--mesh", mesh, "--path", path, "--field", out + "/cases/" + field + "/case.dffd",
                         "--simulate", "--set", "mesh.element_size=1", "--set", "skin.prestress_v=0.03",
                         "--out", folder / "cut.vtp", "--json"})));

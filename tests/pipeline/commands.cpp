@@ -49,3 +49,8 @@ Outcome expect_success(Outcome outcome) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   return outcome;
 }
+
+nlohmann::json figures_of(const Outcome& outcome) {
+  const std::size_t begin = outcome.output.find('{');
+  return nlohmann::json::parse(begin == std::string::npos ? outcome.output : outcome.output.substr(begin));
+}

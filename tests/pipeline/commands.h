@@ -1,6 +1,7 @@
 // Runs the commands as a user would.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ Outcome in_shell(const std::string& command);
 
 /// `command` of the shell where no file may grow beyond `kilobytes`, as on a full disk.
 Outcome on_a_full_disk(int kilobytes, const std::string& command);
+
+/// What a command printed with --json, behind what a library may have written before.
+nlohmann::json figures_of(const Outcome& outcome);
 
 /// Fails the test, with the output, where the exit code differs.
 Outcome expect_success(Outcome outcome);

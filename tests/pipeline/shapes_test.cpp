@@ -34,7 +34,7 @@ Fitted fitted(const std::vector<std::string>& settings) {
   for (const std::string& one : settings) arguments.insert(arguments.end(), {"--set", one});
   const Outcome solved = expect_success(run_cleft("solve", arguments));
   expect_success(run_cleft("encode", {folder / "case.h5", "--out", folder / "case.dffd"}));
-  return {nlohmann::json::parse(solved.output)["gape_mm"], read_field(folder / "case.dffd")};
+  return {figures_of(solved)["gape_mm"], read_field(folder / "case.dffd")};
 }
 
 }  // namespace
@@ -70,8 +70,8 @@ TEST(Shapes, RanksGiveTheSameSnapshot) {
   const auto solve = [&](const std::string& out) -> std::vector<std::string> {
     return {folder / "case.toml", "--out", folder / out, "--json", "--no-estimate"};
   };
-  const auto one = nlohmann::json::parse(expect_success(run_cleft("solve", solve("one.h5"))).output);
-  const auto two = nlohmann::json::parse(expect_success(solve_on_ranks(2, solve("two.h5"))).output);
+  const auto one = figures_of(expect_success(run_cleft("solve", solve("one.h5"))));
+  const auto two = figures_of(expect_success(solve_on_ranks(2, solve("two.h5"))));
   EXPECT_NEAR(two["gape_mm"].get<double>(), one["gape_mm"].get<double>(), 1e-9);
   expect_success(run_cleft("check", {folder / "two.h5"}));
 }
