@@ -12,8 +12,8 @@ namespace cleft {
 namespace {
 
 constexpr double largest_step = 0.05;  // mm
-constexpr double twist_fall = 20;     // mm over which the twist fades, along and across
-constexpr double beyond_the_cut = 1;  // mm for which a curved cut's curvature goes on
+constexpr double twist_fall = 20;      // mm over which the twist fades, along and across
+constexpr double beyond_the_cut = 1;   // mm for which a curved cut's curvature goes on
 
 FramedCurve::Place sum(const FramedCurve::Place& p, double h, const FramedCurve::Place& slope) {
   return {p.at + h * slope.at, p.t + h * slope.t, p.b + h * slope.b, p.n + h * slope.n};
