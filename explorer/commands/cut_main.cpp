@@ -19,6 +19,7 @@
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/wound/cut_fields.h"
+#include "explorer/wound/mesh_cuts.h"
 #include "explorer/wound/path_file.h"
 #include "explorer/wound/replayed_wounds.h"
 #include "params/run/signal_handler.h"
@@ -54,21 +55,13 @@ struct Skin {
   }
 };
 
-std::vector<PointArray> point_arrays(const std::vector<const Incision*>& cuts, const std::vector<Vec3>& moved,
-                                     double scale) {
-  PointArray displacement{"displacement", 3, {}}, depth{"depth", 1, {}}, region{"region", 1, {}},
-      s{"s", 1, {}};
-  const CutMesh& mesh = cuts.front()->mesh();
+std::vector<PointArray> point_arrays(const MeshCuts& cuts, const std::vector<Vec3>& moved) {
+  PointArray displacement{"displacement", 3, {}};
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    const CutMesh::Vertex& v = mesh.vertices()[i];
-    const Vec3 d = moved[i] - v.position;
+    const Vec3 d = moved[i] - cuts.mesh().vertices()[i].position;
     displacement.values.insert(displacement.values.end(), {d.x, d.y, d.z});
-    depth.values.push_back(v.depth * scale);
-    region.values.push_back(v.depth_fraction == 0 ? 0 : side_of(v.kind) == Side::right ? 2 : 1);
-    const bool on_cut = v.kind != VertexKind::skin;
-    s.values.push_back(scale * (on_cut ? v.s : cuts.back()->path().coordinates(v.position).s));
   }
-  return {displacement, depth, region, s};
+  return {displacement, {"depth", 1, cuts.depths()}, {"region", 1, cuts.regions()}, {"s", 1, cuts.along()}};
 }
 
 void check_files(const Options& options) {
@@ -86,17 +79,6 @@ void check_files(const Options& options) {
   const OutputFile probe(options.out);
 }
 
-IncisionOptions incision_options(const Options& options, const ScalpelPath& path, const Field* field) {
-  IncisionOptions result;
-  if (options.max_edge && *options.max_edge > 0 && *options.max_edge < path.length() * options.scale / 1000)
-    throw InputError("--max-edge " + shortest(*options.max_edge) +
-                     ": at least a thousandth of the path's length, " +
-                     shortest(path.length() * options.scale / 1000) + " mm");
-  if (options.max_edge) result.max_edge = *options.max_edge / options.scale;
-  if (field) result.reach = reach_of(*field, options.scale);
-  return result;
-}
-
 std::vector<ScalpelPath> read_paths(const Options& options, const Field* field) {
   std::vector<ScalpelPath> paths;
   for (const std::string& file : options.paths)
@@ -104,52 +86,20 @@ std::vector<ScalpelPath> read_paths(const Options& options, const Field* field) 
   return paths;
 }
 
-/// The cuts, made one after the other, the last one as far as --progress. A surface far from the origin is
-/// cut in coordinates from `origin`.
-struct Cuts {
-  Vec3 origin;
-  SurfaceMesh uncut;
-  CutMesh mesh;
-  std::vector<std::unique_ptr<Incision>> made;
-  std::vector<const Incision*> list;
-  double t = 0;  // where the blade is, mm of all paths
-  double making = 0, stepping = 0;
+/// A surface far from the origin is cut in coordinates from its cut.
+std::unique_ptr<MeshCuts> make_cuts(const Options& options, const Skin& skin, const Field* field) {
+  const std::vector<ScalpelPath> paths = read_paths(options, field);
+  MeshCutsOptions how{options.scale, {}, options.max_edge};
+  if (options.progress >= 0) how.progress = options.progress;
+  const Vec3 origin = skin.volume ? Vec3{} : local_origin(skin.surface, paths.front());
+  return std::make_unique<MeshCuts>(skin.surface, origin, paths, field, how);
+}
 
-  Cuts(const Options& options, const Skin& skin, const std::vector<ScalpelPath>& paths, const Field* field)
-      : origin(skin.volume ? Vec3{} : local_origin(skin.surface, paths.front())),
-        uncut(moved(skin.surface, -origin)),
-        mesh(uncut) {
-    for (const ScalpelPath& path : paths) {
-      const IncisionOptions how = incision_options(options, path, field);
-      const double length = path.length() * options.scale;
-      const bool last = &path == &paths.back();
-      const double progress = options.progress < 0 || !last ? length : std::min(options.progress, length);
-      Stopwatch watch;
-      make(path.moved(-origin), how, progress / options.scale, watch);
-      stepping += watch.lap(), making += watch.seconds();
-      list.push_back(made.back().get());
-      t += progress;
-    }
-  }
-
- private:
-  void make(ScalpelPath path, const IncisionOptions& how, double progress, Stopwatch& watch) {
-    try {
-      made.push_back(std::make_unique<Incision>(mesh, std::move(path), how));
-      watch.lap();
-      made.back()->advance_to(progress);
-    } catch (const InputError& e) {
-      if (origin == Vec3{}) throw;
-      throw InputError(e.what() + std::string(" (places relative to ") + place_of(origin) + ")");
-    }
-  }
-};
-
-std::unique_ptr<ReplayedWounds> open(const Options& options, const CutFields& fields, const Cuts& cuts) {
+std::unique_ptr<ReplayedWounds> open(const Options& options, const CutFields& fields, const MeshCuts& cuts) {
   std::vector<Wound> opened;
-  for (std::size_t k = 0; k < cuts.list.size(); ++k) {
-    const Incision& cut = *cuts.list[k];
-    const auto own = read_prestress(options.paths[k], cut.path().moved(cuts.origin), options.scale);
+  for (std::size_t k = 0; k < cuts.cuts().size(); ++k) {
+    const Incision& cut = *cuts.cuts()[k];
+    const auto own = read_prestress(options.paths[k], cut.path().moved(cuts.origin()), options.scale);
     try {
       opened.push_back(fields.wound(cut, options.scale, own));
     } catch (const InputError& e) {
@@ -183,24 +133,24 @@ void move(const ReplayedWounds& wounds, const CutFields& fields, const Options& 
 
 /// Moves the mesh as a simulation of these very cuts says, and tells how far replays, if `positions` holds
 /// them, are from it.
-void move_as_simulated(const Options& options, const Cuts& cuts, const std::optional<SurfaceIndex>& bone,
+void move_as_simulated(const Options& options, const MeshCuts& cuts, const std::optional<SurfaceIndex>& bone,
                        bool replayed, std::vector<Vec3>& positions, Json& figures) {
   BodyRequest request = options.body.request();
-  request.skin = scaled(cuts.uncut, options.scale);
-  for (const Incision* one : cuts.list) request.paths.push_back(one->path().scaled(options.scale));
+  request.skin = scaled(cuts.uncut(), options.scale);
+  for (const Incision* one : cuts.cuts()) request.paths.push_back(one->path().scaled(options.scale));
   if (bone) request.bone = &*bone;
   Progress progress("simulating");
   static StopCount stop = 0;
   const SignalHandler handler({SIGINT, SIGTERM}, [](int) { stop = stop + 1; });
   const BodySimulation simulation = simulate(request, std::ref(progress), &stop);
-  const SimulatedWounds wounds(cuts.list, options.scale, simulation.body, *simulation.series);
+  const SimulatedWounds wounds(cuts.cuts(), options.scale, simulation.body, *simulation.series);
   std::vector<Vec3> simulated(positions.size());
-  wounds.positions(cuts.t, simulated);
+  wounds.positions(cuts.progress(), simulated);
   Json told = figures_of(simulation.report);
   told["gape_mm"] = simulation.gape;
   told["seconds"] = simulation.seconds;
   told["moved_vertices"] = wounds.active();
-  if (replayed) told["replay"] = figures_of(replay_off(cuts.list, positions, simulated), options.scale);
+  if (replayed) told["replay"] = figures_of(replay_off(cuts.cuts(), positions, simulated), options.scale);
   figures["simulated"] = told;
   warn_of(simulation.report, "cleft cut");
   positions = std::move(simulated);
@@ -213,27 +163,28 @@ void cut(const Options& options) {
     fields = read_cut_fields(options.field, options.tension.direction, options.tension.prestresses);
   Skin skin(options.mesh);
   const Field* shape = fields ? &fields->shape() : nullptr;
-  const Cuts cuts(options, skin, read_paths(options, shape), shape);
-  SurfaceMesh result = cuts.mesh.surface();
-  Json figures = figures_of(cuts.list, cuts.uncut, options.scale);
+  const auto made = make_cuts(options, skin, shape);
+  const MeshCuts& cuts = *made;
+  SurfaceMesh result = cuts.mesh().surface();
+  Json figures = figures_of(cuts.cuts(), cuts.uncut(), options.scale);
   figures["mesh"] = figures_of(skin.report);
-  figures["cut_ms"] = 1e3 * cuts.making;
-  figures["us_per_step"] = 1e6 * cuts.stepping / figures["steps"].get<double>();
-  for (const Incision* one : cuts.list) figures["cuts"].push_back(figures_of(*one, options.scale));
+  figures["cut_ms"] = 1e3 * cuts.seconds();
+  figures["us_per_step"] = 1e6 * cuts.stepping_seconds() / figures["steps"].get<double>();
+  for (const Incision* one : cuts.cuts()) figures["cuts"].push_back(figures_of(*one, options.scale));
   std::unique_ptr<ReplayedWounds> wounds;
-  const std::optional<SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin);
+  const std::optional<SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin());
   if (fields) {
     if (bone) fields = fields->above_bone(distance_to(*bone));
     wounds = open(options, *fields, cuts);
-    move(*wounds, *fields, options, cuts.t, result.points, figures);
+    move(*wounds, *fields, options, cuts.progress(), result.points, figures);
   }
   if (options.simulate) move_as_simulated(options, cuts, bone, fields.has_value(), result.points, figures);
   if (skin.volume) {
-    figures["cells_added"] = write_cut_volume(*skin.volume, skin.surface, cuts.list, wounds.get(),
-                                              options.scale, cuts.t, options.out);
+    figures["cells_added"] = write_cut_volume(*skin.volume, skin.surface, cuts.cuts(), wounds.get(),
+                                              options.scale, cuts.progress(), options.out);
   } else {
-    const auto arrays = point_arrays(cuts.list, result.points, options.scale);
-    write_mesh(options.out, moved(std::move(result), cuts.origin), arrays);
+    const auto arrays = point_arrays(cuts, result.points);
+    write_mesh(options.out, moved(std::move(result), cuts.origin()), arrays);
   }
   print_figures(figures, options.json);
 }
