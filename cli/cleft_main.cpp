@@ -14,15 +14,16 @@ struct Command {
   std::string name, help;
 };
 const std::vector<Command> commands = {
-    {"run", "run a study of many cases"},       {"status", "what of a study is done"},
-    {"solve", "simulate a growing cut"},        {"body", "mesh a body with its cuts, to solve it"},
-    {"encode", "fit a field to a snapshot"},    {"eval", "displacements of a field"},
-    {"cut", "cut a surface mesh along a path"}, {"haptic", "feel and cut a mesh"},
-    {"explore", "look at a study, or draw it"}, {"info", "what a file holds"},
-    {"check", "verify files and studies"},      {"find", "cases where a condition holds"},
-    {"advise", "settings for an error"},        {"chart", "speed against accuracy"},
-    {"export", "write files for ParaView"},     {"import", "take another program's series"},
-    {"pack", "a study's fields in one file"},   {"interpolate", "a case never simulated"},
+    {"run", "run a study of many cases"},         {"status", "what of a study is done"},
+    {"solve", "simulate a growing cut"},          {"body", "mesh a body with its cuts, to solve it"},
+    {"encode", "fit a field to a snapshot"},      {"eval", "displacements of a field"},
+    {"cut", "cut a surface mesh along a path"},   {"haptic", "feel and cut a mesh"},
+    {"explore", "look at a study, or draw it"},   {"info", "what a file holds"},
+    {"check", "verify files and studies"},        {"find", "cases where a condition holds"},
+    {"advise", "settings for an error"},          {"chart", "speed against accuracy"},
+    {"export", "write files for ParaView"},       {"import", "take another program's series"},
+    {"decode", "a field as its source's series"}, {"pack", "a study's fields in one file"},
+    {"interpolate", "a case never simulated"},
 };
 
 std::string usage() {

@@ -89,14 +89,14 @@ Json info_of_field(const std::string& file) {
     info["quantities"].push_back({{"name", quantity.name},
                                   {"components", quantity.components},
                                   {"largest", quantity.largest},
+                                  {"scale", quantity.scale},
                                   {"error", quantity.error},
                                   {"spline_error", quantity.spline_error}});
   for (const ParameterDerivative& one : field.by_parameter)
     info["by_parameter"].push_back(
         {{"parameter", one.parameter}, {"largest", one.largest}, {"error", one.error}});
   if (field.report.raw_bytes() > 0)
-    info["ratio_to_32_bit"] =
-        field.report.raw_bytes() / static_cast<double>(std::filesystem::file_size(file));
+    info["ratio_to_32_bit"] = raw_bytes(field) / static_cast<double>(std::filesystem::file_size(file));
   if (const Json manifest = manifest_of(file); !manifest.empty()) {
     info["raw_data"] = manifest.value("snapshot", "kept");
     for (const char* figure : {"fit_seconds", "measure_seconds"})

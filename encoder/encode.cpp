@@ -25,17 +25,18 @@ class Encoder {
  public:
   Encoder(const Series& series, const EncodeOptions& options,
           const std::function<void(const std::string&)>& progress,
-          SeriesFit::Start start = SeriesFit::Start::zero)
+          SeriesFit::Start start = SeriesFit::Start::zero, const std::string& name = "displacement")
       : series_(series), options_(options), progress_(progress), start_(start) {
     const bool cut = series.geometry.cut.length > 0;
     parametrization_ = make_parametrization(cut ? options.parametrization : "fixed", series.geometry);
     scale_ = series.largest_displacement > 0 ? series.largest_displacement : 1;
-    limit_ = options.tolerance * scale_;
+    limit_ = options.tolerance_of(name).limit(scale_);
   }
 
   /// The smallest rung whose spline alone keeps the tolerance; the largest there is where none does.
   Rung smallest_rung() const {
-    const std::vector<Rung> rungs = supported(ladder_of(*parametrization_), series_, *parametrization_);
+    const std::vector<Rung> rungs =
+        supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
     std::size_t i = first_within(rungs);
     while (i + 1 < rungs.size() && fit_of(rungs[i]).misfit(limit_).beyond > 0) ++i;
     return rungs[std::min(i, rungs.size() - 1)];
@@ -46,7 +47,8 @@ class Encoder {
       const SeriesFit fit = fit_of(*options_.rung);
       return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit), {}};
     }
-    const std::vector<Rung> rungs = supported(ladder_of(*parametrization_), series_, *parametrization_);
+    const std::vector<Rung> rungs =
+        supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
     // The smallest rung that is sufficient for single frames; if there is none, a good rung with a residual.
     const std::size_t good = parametrization_->moves() ? rungs.size() / 2 : rungs.size() - 1;
     const std::size_t within = first_within(rungs);
@@ -117,7 +119,8 @@ std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions
   for (const SeriesQuantity& quantity : series.quantities)
     for (int first = 0; first < quantity.frames.front().cols(); first += 3) {
       const Series part = series_of(series, quantity, first);
-      const Rung rung = Encoder(part, options, progress, SeriesFit::Start::any).smallest_rung();
+      const Rung rung =
+          Encoder(part, options, progress, SeriesFit::Start::any, quantity.name).smallest_rung();
       if (!largest || size(rung) > size(*largest)) largest = rung;
     }
   return largest;
@@ -134,8 +137,9 @@ Encoded encode(const Series& series, const EncodeOptions& options,
   Encoded encoded = Encoder(series, chosen, progress).run();
   for (const SeriesQuantity& data : series.quantities) {
     progress("fitting " + data.name);
-    const std::optional<double> tolerance = options.rung ? std::nullopt : std::optional(options.tolerance);
-    FittedQuantity fitted = fit_quantity(series, data, encoded.field, tolerance);
+    std::optional<double> limit;
+    if (!options.rung) limit = options.tolerance_of(data.name).limit(data.scale > 0 ? data.scale : 1);
+    FittedQuantity fitted = fit_quantity(series, data, encoded.field, limit);
     encoded.field.quantities.push_back(std::move(fitted.quantity));
     encoded.of_quantities.push_back(std::move(fitted.residual));
   }

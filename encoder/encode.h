@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -13,11 +14,26 @@
 
 namespace cleft {
 
+/// A bound of errors: relative to a field's scale (of the displacement: its largest), or in its own unit.
+struct FieldTolerance {
+  double value = 0.01;
+  bool absolute = false;
+
+  double limit(double scale) const { return absolute ? value : value * scale; }
+};
+
 struct EncodeOptions {
   std::string parametrization = "front";
   /// Bound of node_error: the largest error at any node and frame, relative to the largest displacement. The
   /// encoder takes the fewest knots and the coarsest quanta that satisfy it.
   double tolerance = 0.01;
+  /// Instead of `tolerance`, by the name of a field; the displacement's is "displacement".
+  std::map<std::string, FieldTolerance> tolerances = {};
+
+  FieldTolerance tolerance_of(const std::string& field) const {
+    const auto found = tolerances.find(field);
+    return found == tolerances.end() ? FieldTolerance{tolerance, false} : found->second;
+  }
   /// Instead of a tolerance: spans of the bases. Rounding of the coefficients then costs about a hundredth of
   /// the error.
   std::optional<Rung> rung;

@@ -1,6 +1,12 @@
 // cleft encode: a snapshot to its field.
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+#include <sstream>
 
 #include "base/command/command.h"
 #include "base/error.h"
@@ -28,18 +34,96 @@ Json figures_of(const Field& field, const std::string& out) {
        {"quantum_mm", field.quantum},
        {"parametrization", field.parametrization().name()},
        {"bytes", bytes},
-       {"ratio_to_32_bit", field.report.raw_bytes() / bytes}});
+       {"ratio_to_32_bit", raw_bytes(field) / bytes}});
   figures["versions"] = {
       {"cleft", producer()},
       {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                     std::to_string(EIGEN_MINOR_VERSION)},
       {"HDF5", h5::version()}};
   for (const Quantity& quantity : field.quantities)
-    figures["quantities"].push_back(
-        {{"name", quantity.name}, {"error", quantity.error}, {"spline_error", quantity.spline_error}});
+    figures["quantities"].push_back({{"name", quantity.name},
+                                     {"scale", quantity.scale},
+                                     {"error", quantity.error},
+                                     {"spline_error", quantity.spline_error}});
   for (const ParameterDerivative& one : field.by_parameter)
     figures["by_parameter"].push_back({{"parameter", one.parameter}, {"error", one.error}});
   return figures;
+}
+
+std::optional<FieldSource> source_of(const Snapshot& s) {
+  if (!s.source) return {};
+  FieldSource source{s.source->file, s.source->origin, s.source->axes, s.times, s.source->fields, {}};
+  for (double& t : source.times) t += s.source->time_start;
+  if (!s.source->break_map.empty()) source.map = BreakMap::from(s.source->break_map);
+  return source;
+}
+
+/// "0.01" for all fields, "NAME=0.02" for one; 2% is 0.02, and a number with a unit (0.5K) is absolute.
+void parse_tolerance(const std::string& text, EncodeOptions& options) {
+  const std::size_t equals = text.find('=');
+  const std::string name = equals == text.npos ? "" : text.substr(0, equals);
+  const std::string value = equals == text.npos ? text : text.substr(equals + 1);
+  const std::size_t end = value.find_first_not_of("0123456789.eE+-");
+  std::string number = value.substr(0, end), unit = end == value.npos ? "" : value.substr(end);
+  if (!number.empty() && !unit.empty() && (number.back() == 'e' || number.back() == 'E'))
+    unit = number.back() + unit, number.pop_back();  // of eV, say
+  const std::string where = "--tolerance" + (name.empty() ? "" : " " + name);
+  FieldTolerance tolerance{parse_number(number, where), !unit.empty() && unit != "%"};
+  if (unit == "%") tolerance.value /= 100;
+  const bool good = tolerance.absolute ? tolerance.value > 0 && std::isfinite(tolerance.value)
+                                       : tolerance.value >= least_tolerance && tolerance.value < 1;
+  if (!good)
+    throw InputError(where + ": " + value +
+                     ": must be at least 1e-9 and less than 1, or positive with the field's unit");
+  if (name.empty() && tolerance.absolute)
+    options.tolerances["displacement"] = tolerance;
+  else if (name.empty())
+    options.tolerance = tolerance.value;
+  else if (!options.tolerances.emplace(name, tolerance).second)
+    throw InputError(where + " is given twice");
+}
+
+void check_names(const EncodeOptions& options, const Series& series) {
+  std::vector<std::string> names = {"displacement"};
+  for (const SeriesQuantity& quantity : series.quantities) names.push_back(quantity.name);
+  for (const auto& [name, tolerance] : options.tolerances) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    std::string list;
+    for (const std::string& known : names) list.append(list.empty() ? "" : ", ").append(known);
+    throw InputError("--tolerance " + name + ": the snapshot has no such field; there are: " + list);
+  }
+}
+
+/// A warning where the spline, which is what is drawn, is off by more than twice the tolerance.
+std::string warning_of(const Field& field, const Series& series, const EncodeOptions& options) {
+  const FitReport& report = field.report;
+  const double scale = report.largest_displacement,
+               limit = options.tolerance_of("displacement").limit(scale > 0 ? scale : 1);
+  if (options.rung || report.spline_error * scale <= 2 * limit) return "";
+  const Vec3& at = series.samples[static_cast<std::size_t>(report.worst_node)].uvw;
+  const CanonicalCut& cut = field.cut();
+  const double tip = field.parametrization().geometry().tip.at(report.worst_time);
+  const bool beside_front = std::min(std::abs(at.x - tip), std::abs(at.x - cut.start)) < 0.1 * cut.length;
+  const auto digits = [](double x) {
+    std::ostringstream text;
+    text << std::setprecision(3) << x;
+    return text.str();
+  };
+  const std::string cause =
+      cut.length == 0 ? "the field has no break; where the data jump, import them with the plane of the jump "
+                        "(cleft import "
+                        "--break), or with a smaller --open-at"
+      : beside_front
+          ? "beside the front of the break the knots are as dense as the nodes allow; refine the mesh "
+            "there, or write more frames"
+      : at.y == 0 ? "on the break, away from its ends; see whether all of it opens as one (cleft info, cleft "
+                    "import --open-at)"
+                  : "away from the break the nodes do not determine more knots; refine the mesh there";
+  return "the spline, which is what is drawn between the nodes, is off by " +
+         digits(100 * report.spline_error) + " % of the largest displacement, " +
+         digits(report.spline_error * scale / limit) + " times the tolerance, at node " +
+         shortest(report.worst_node) + " (u = " + digits(at.x) + ", v = " + digits(at.y) +
+         ", w = " + digits(at.z) + " mm) and t = " + digits(report.worst_time) + ": " + cause;
 }
 
 /// Spans of bases with about so many control points: as many as requested if nothing is tied.
@@ -91,12 +175,16 @@ int main(int argc, char** argv) {
   EncodeOptions options;
   app.add_option("CASE.h5", snapshot, "snapshot")->required();
   app.add_option("--out", out, "field to write, case.dffd")->required();
+  std::vector<std::string> tolerances;
   auto* tolerance =
       app.add_option(
-             "--tolerance", options.tolerance,
-             "largest error at any node and frame over the largest displacement (of a further quantity: over "
-             "its largest value), at most")
-          ->capture_default_str();
+             "--tolerance", tolerances,
+             "[FIELD=]X,...: largest error at any node and frame over the largest displacement (of a further "
+             "quantity: over its largest value, or its range where that is less), at most; with a unit, such "
+             "as "
+             "T=0.5K, in the field's own; for all fields, or for one (default: 0.01)")
+          ->delimiter(',')
+          ->allow_extra_args(false);
   app.add_option("--control-points", counts,
                  "U,V,W,T: control points along each axis instead of a tolerance, V for both sides together")
       ->delimiter(',')
@@ -110,23 +198,30 @@ int main(int argc, char** argv) {
   app.add_flag("--json", json, "print the figures as JSON");
 
   return run_command(app, argc, argv, [&] {
-    if (!(options.tolerance >= least_tolerance && options.tolerance < 1))
-      throw InputError("--tolerance: " + shortest(options.tolerance) +
-                       ": must be at least 1e-9 and less than 1");
+    for (const std::string& text : tolerances) parse_tolerance(text, options);
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
     refuse_to_overwrite(out, {snapshot});
     const OutputFile probe(out);  // reports a bad name before the work
-    Progress progress("encoding");
+    std::optional<Progress> bar("encoding");
+    const auto progress = [&](const std::string& state) { (*bar)(state); };
     const SnapshotReader reader(snapshot);
     progress("reading");
     const Series series(reader);
-    Encoded encoded = encode(series, options, [&](const std::string& state) { progress(state); });
+    check_names(options, series);
+    Encoded encoded = encode(series, options, progress);
     Field& field = encoded.field;
     field.parameters = reader.snapshot().parameters;
     field.case_hash = reader.snapshot().case_hash;
+    field.source = source_of(reader.snapshot());
     progress("writing");
     write_field(out, field, encoded.residual ? &*encoded.residual : nullptr, {}, encoded.of_quantities);
     verify_written(out, encoded);
-    print_figures(figures_of(field, out), json);
+    Json figures = figures_of(field, out);
+    bar.reset();
+    if (const std::string warning = warning_of(field, series, options); !warning.empty()) {
+      figures["warnings"] = Json::array({warning});
+      std::cerr << "cleft encode: warning: " << warning << "\n";
+    }
+    print_figures(figures, json);
   });
 }

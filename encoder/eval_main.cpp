@@ -106,7 +106,9 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
                      std::to_string(s.frames() - 1));
 
   std::vector<Place> places;
-  for (const Sample& sample : samples_of(s)) {
+  std::vector<double> axes;  // of the displacement, where nodes have their own
+  if (s.coordinates) axes = reader.point_array(frame_array, 0);
+  for (const Sample& sample : samples_in_field(reader)) {
     const std::string where = nodes + ", node " + std::to_string(places.size());
     for (int axis = 0; axis < 3; ++axis) inside(field, axis, sample.uvw[axis], where);
     places.push_back({sample.uvw, sample.side, s.times[j]});
@@ -120,7 +122,12 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
   }
   std::string text = "du,dv,dw" + quantity_names(field) + "\n";
   for (std::size_t n = 0; n < values.size(); ++n) {
-    text += row_of(residual ? values[n] + residual->at(n, j) : values[n]);
+    Vec3 d = residual ? values[n] + residual->at(n, j) : values[n];
+    if (!axes.empty()) {
+      const double* a = &axes[9 * n];
+      d = d.x * Vec3{a[0], a[1], a[2]} + d.y * Vec3{a[3], a[4], a[5]} + d.z * Vec3{a[6], a[7], a[8]};
+    }
+    text += row_of(d);
     for (std::size_t q = 0; q < of_quantities.size(); ++q) {
       std::vector<double> numbers(static_cast<std::size_t>(field.quantities[q].components));
       field.quantity(q, places[n].uvw, places[n].side, places[n].t, numbers);

@@ -126,13 +126,15 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
                                  : fixed(rung, parametrization.geometry(), frames);
 }
 
-std::vector<Rung> ladder_of(const Parametrization& parametrization) {
+std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round) {
   std::vector<Rung> rungs;
   if (parametrization.moves()) {
     // Where lengths next to the front are measured as displacements grow, six spans along the cut are needed
     // at once: with five, openings next to the front are off by twice as much.
     const bool front = parametrization.resolves_front();
     Rung r = front ? Rung{2, 4, 2, 3, 2, 1, 8} : Rung{1, 3, 2, 3, 2, 1, 8};
+    constexpr int around = 3;  // spans of an angle for each of a height
+    if (round) r.above *= around;
     rungs.push_back(r);
     using Steps = std::vector<int Rung::*>;
     const Steps of_tip = {&Rung::across, &Rung::across, &Rung::along,  &Rung::across, &Rung::along,
@@ -143,7 +145,7 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization) {
                             &Rung::before, &Rung::below,  &Rung::across, &Rung::above,  &Rung::across,
                             &Rung::along,  &Rung::across, &Rung::along,  &Rung::across};
     for (int Rung::*const step : front ? of_front : of_tip) {
-      ++(r.*step);
+      r.*step += round && step == &Rung::above ? around : 1;
       r.time = 8 + static_cast<int>(rungs.size()) / 2;
       rungs.push_back(r);
     }

@@ -29,7 +29,7 @@ inline constexpr int most_time_spans = 32;
 std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& parametrization, int frames);
 
 /// Rungs of growing size, each contained in the next. The order of refinement that follows the tip comes from
-/// trials on a few cuts.
-std::vector<Rung> ladder_of(const Parametrization& parametrization);
+/// trials on a few cuts. `round`: the height is an angle around the front, over which the whole body changes.
+std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round = false);
 
 }  // namespace cleft

@@ -23,13 +23,13 @@ class Spline {
   const std::vector<Field>& parts() const { return parts_; }
   int components() const { return static_cast<int>(data_.frames.front().cols()); }
 
-  /// N x components: the data less the spline.
+  /// Nodes x components: the data less the spline.
   Eigen::MatrixXd left(std::size_t frame) const {
     std::vector<Place> places;
-    for (const Sample& sample : series_.samples)
-      places.push_back({sample.uvw, sample.side, series_.times[frame]});
+    for (std::size_t n = 0; n < series_.nodes; ++n)
+      places.push_back({series_.samples[n].uvw, series_.samples[n].side, series_.times[frame]});
     std::vector<Vec3> values(places.size());
-    Eigen::MatrixXd left = data_.frames[frame];
+    Eigen::MatrixXd left = data_.frames[frame].topRows(static_cast<Eigen::Index>(series_.nodes));
     for (int first = 0; first < components(); first += at_once) {
       parts_[first / at_once].displacements(places, values);
       for (std::size_t n = 0; n < values.size(); ++n)
@@ -44,7 +44,7 @@ class Spline {
     std::vector<double> errors(data_.frames.size());
     parallel_for(static_cast<int>(errors.size()), [&](int j) {
       const std::size_t frame = j;
-      errors[frame] = left(frame).rowwise().norm().maxCoeff();
+      errors[frame] = norms_of(left(frame)).maxCoeff();
     });
     return *std::max_element(errors.begin(), errors.end());
   }
@@ -70,6 +70,20 @@ class Spline {
   std::vector<Field> parts_;
 };
 
+/// The field plus the components from `first` on of a constant; functions sum to 1.
+Field shifted(const Field& field, const Eigen::RowVectorXd& by, int first) {
+  std::vector<Vec3> points = field.coefficients();
+  for (Vec3& point : points)
+    for (int c = first; c < std::min<int>(first + at_once, static_cast<int>(by.size())); ++c)
+      point[c - first] += by(c);
+  return {field.shared_parametrization(),
+          {field.basis(0), field.basis(1), field.basis(2), field.basis(3)},
+          std::move(points)};
+}
+
+/// The largest norm of a change by 1 of each component, each way.
+double norm_of_ones(int components) { return norms_of(Eigen::MatrixXd::Ones(1, components))(0); }
+
 Spline fitted(const Series& series, const SeriesQuantity& data, const Field& field) {
   const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
   std::vector<Field> parts;
@@ -77,6 +91,7 @@ Spline fitted(const Series& series, const SeriesQuantity& data, const Field& fie
     const Series part = series_of(series, data, first);
     const SeriesFit fit(part, field.shared_parametrization(), bases, SeriesFit::Start::any);
     parts.push_back(fit.field(fit.control_points()));
+    if (!data.middle.isZero(0)) parts.back() = shifted(parts.back(), data.middle, first);
   }
   return {series, data, std::move(parts)};
 }
@@ -85,12 +100,11 @@ Spline fitted(const Series& series, const SeriesQuantity& data, const Field& fie
 NodeResidual residual_of(const Spline& spline, const Series& series, double bound, double& largest) {
   NodeResidual residual;
   residual.components = spline.components(), residual.first_frame = 0;
-  // Half a step each way is sqrt(components) / 2 steps together; a little less for rounding.
-  residual.quantum = (1 - 1e-9) * 2 / std::sqrt(static_cast<double>(residual.components)) * bound;
-  residual.nodes = static_cast<int>(series.samples.size());
+  // Half a step each way; a little less for rounding.
+  residual.quantum = (1 - 1e-9) * 2 / norm_of_ones(residual.components) * bound;
+  residual.nodes = static_cast<int>(series.nodes);
   residual.frames = static_cast<int>(series.times.size());
-  residual.values.resize(series.samples.size() * static_cast<std::size_t>(residual.components) *
-                         series.times.size());
+  residual.values.resize(series.nodes * static_cast<std::size_t>(residual.components) * series.times.size());
   std::vector<double> errors(series.times.size());
   parallel_for(residual.frames, [&](int j) {
     const std::size_t frame = j;
@@ -102,7 +116,7 @@ NodeResidual residual_of(const Spline& spline, const Series& series, double boun
             static_cast<std::int32_t>(std::lround(left(n, c) / residual.quantum));
         left(n, c) -= residual.at(node, c, frame);
       }
-    errors[frame] = left.rowwise().norm().maxCoeff();
+    errors[frame] = norms_of(left).maxCoeff();
   });
   largest = *std::max_element(errors.begin(), errors.end());
   return residual;
@@ -114,25 +128,26 @@ Series series_of(const Series& series, const SeriesQuantity& quantity, int compo
   Series result = series;
   result.quantities.clear(), result.derivatives.clear();
   result.centres = {};  // displacements alone are linear in a cell
-  result.largest_displacement = quantity.largest;
+  result.largest_displacement = quantity.scale;
   for (std::size_t j = 0; j < series.frames.size(); ++j) {
     const Eigen::MatrixXd& all = quantity.frames[j];
     const Eigen::Index columns = std::min<Eigen::Index>(3, all.cols() - component);
     result.frames[j].setZero();
-    result.frames[j].leftCols(columns) = all.middleCols(component, columns);
+    result.frames[j].leftCols(columns) =
+        all.middleCols(component, columns).rowwise() - quantity.middle.segment(component, columns);
     result.largest[j] = result.frames[j].rowwise().norm().maxCoeff();
   }
   return result;
 }
 
 FittedQuantity fit_quantity(const Series& series, const SeriesQuantity& data, const Field& field,
-                            std::optional<double> tolerance) {
+                            std::optional<double> limit_of_data) {
   const Spline exact = fitted(series, data, field);
-  const double scale = data.largest > 0 ? data.largest : 1, misfit = exact.error();
-  const double limit = tolerance ? *tolerance * scale : 0;
+  const double scale = data.scale > 0 ? data.scale : 1, misfit = exact.error(),
+               limit = limit_of_data.value_or(0);
   const bool within = misfit <= share_of_fit * limit;
   const double bound = std::max(within ? limit : 1.02 * misfit, finest_bound * scale);
-  double step = share_of_steps * 2 / std::sqrt(static_cast<double>(exact.components())) * bound;
+  double step = share_of_steps * 2 / norm_of_ones(exact.components()) * bound;
   std::optional<Spline> stepped(exact.stepped(step));
   double error = stepped->error();
   for (int times = 0; error > bound && times < 12; ++times) {
@@ -141,9 +156,9 @@ FittedQuantity fit_quantity(const Series& series, const SeriesQuantity& data, co
     error = stepped->error();
   }
   FittedQuantity result{{data.name, exact.components(), stepped->coefficients(), data.largest, error / scale,
-                         error / scale, step},
+                         error / scale, step, data.scale},
                         {}};
-  if (!tolerance || error <= limit) return result;
+  if (!limit_of_data || error <= limit) return result;
   double largest = 0;
   result.residual = residual_of(*stepped, series, limit, largest);
   result.quantity.error = largest / scale;

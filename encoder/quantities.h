@@ -10,7 +10,7 @@
 namespace cleft {
 
 /// The series of three components of a quantity, the first of them `component`, as data of a fit: columns
-/// beyond its last are 0; only nodes are used. largest_displacement is the quantity's largest value.
+/// beyond its last are 0; only nodes are used. largest_displacement is the quantity's scale.
 Series series_of(const Series& series, const SeriesQuantity& quantity, int component);
 
 struct FittedQuantity {
@@ -18,10 +18,10 @@ struct FittedQuantity {
   std::optional<NodeResidual> residual;  ///< if the spline alone does not satisfy the tolerance
 };
 
-/// Fits a quantity of the series over the bases of the field. `tolerance` bounds its largest error at any
-/// node and frame, over its largest value; without one there is no bound and no residual. Control points are
-/// multiples of a quantum that costs a small part of the tolerance, or of the error.
+/// Fits a quantity of the series over the bases of the field. `limit` bounds the norm of its error at any
+/// node and frame, in its own unit; without one there is no bound and no residual. Control points are
+/// multiples of a quantum that costs a small part of the limit, or of the error.
 FittedQuantity fit_quantity(const Series& series, const SeriesQuantity& data, const Field& field,
-                            std::optional<double> tolerance);
+                            std::optional<double> limit);
 
 }  // namespace cleft

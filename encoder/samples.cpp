@@ -22,4 +22,12 @@ std::vector<Sample> samples_of(const Snapshot& snapshot) {
   return samples;
 }
 
+std::vector<Sample> samples_in_field(const SnapshotReader& reader) {
+  if (!reader.snapshot().coordinates) return samples_of(reader.snapshot());
+  Snapshot moved = reader.snapshot();
+  const std::vector<double> at = reader.point_array(canonical_array, 0);
+  for (std::size_t i = 0; i < at.size(); ++i) moved.points[i / 3][static_cast<int>(i % 3)] = at[i];
+  return samples_of(moved);
+}
+
 }  // namespace cleft

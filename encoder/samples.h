@@ -19,4 +19,7 @@ struct Sample {
 /// without a partner are uncut.
 std::vector<Sample> samples_of(const Snapshot& snapshot);
 
+/// The same in the coordinates of the field: those of the cut where the snapshot has them.
+std::vector<Sample> samples_in_field(const SnapshotReader& reader);
+
 }  // namespace cleft

@@ -4,56 +4,41 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/break_ends.h"
 #include "encoder/curved_places.h"
+#include "encoder/field/break_map.h"
 #include "params/cut_curve.h"
 
 namespace cleft {
 
 namespace {
 
-/// The cut between nodes that stay whole. Where a snapshot only knows the pairs that part, it begins and has
-/// its bottom at the nodes of v = 0 next to them; where there are none it reaches the body's edge.
-CanonicalCut cut_of(const Snapshot& s, const Eigen::MatrixX3d& last, double largest) {
-  const std::size_t open = s.released.back();
-  if (open == 0) return {};
-  constexpr double far = std::numeric_limits<double>::infinity();
-  const double tiny = 1e-9 * s.cut_length;
-  std::vector<bool> divided(s.points.size(), false);
-  double first = far, lowest = far, highest = -far;
-  for (std::size_t p = 0; p < open; ++p) {
-    if ((last.row(s.pairs[p][1]) - last.row(s.pairs[p][0])).norm() <= 1e-6 * largest)
-      continue;  // it never parts
-    for (const std::int32_t node : s.pairs[p]) divided[node] = true;
-    const Vec3& at = s.points[s.pairs[p][0]];
-    first = std::min(first, at.x), lowest = std::min(lowest, at.z), highest = std::max(highest, at.z);
-  }
-  double before = -far, below = -far;
-  for (std::size_t n = 0; n < s.points.size(); ++n) {
-    const Vec3& at = s.points[n];
-    if (divided[n] || std::abs(at.y) > tiny) continue;
-    if (at.x < first && at.z >= lowest && at.z <= highest) before = std::max(before, at.x);
-    if (at.z < lowest) below = std::max(below, at.z);
-  }
-  CanonicalCut cut{s.cut_start, s.cut_length, s.cut_depth};
-  if (std::abs(cut.start - first) <= tiny && before > -far) cut.length += first - before, cut.start = before;
-  if (std::abs(cut.depth + lowest) <= tiny && below > -far) cut.depth = -below;
-  return cut;
+/// Whether each pair parts in some frame.
+std::vector<bool> parted(const Snapshot& s, const std::vector<Eigen::MatrixX3d>& frames, double largest) {
+  // Where nothing moves, another field has told which ones were released.
+  std::vector<bool> parts(s.pairs.size(), largest == 0);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (const Eigen::MatrixX3d& d : frames)
+      parts[p] = parts[p] || (d.row(s.pairs[p][1]) - d.row(s.pairs[p][0])).norm() > 1e-6 * largest;
+  return parts;
 }
 
 /// Of a patch along u and v: its grid's, whatever its shape; of others, what the nodes take up.
 std::optional<std::array<Interval, 2>> own_domain(const Snapshot& s) {
   const auto& patch = s.parameters->patch;
-  if (!s.coordinates || !s.parameters.has(patch.length) || !s.parameters.has(patch.width)) return {};
+  if (!s.coordinates || s.source || !s.parameters.has(patch.length) || !s.parameters.has(patch.width))
+    return {};
   return {{{{-patch.length / 2, patch.length / 2}, {-patch.width / 2, patch.width / 2}}}};
 }
 
-FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
+FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
   FieldGeometry g;
   for (int axis = 0; axis < 3; ++axis) {
     const auto [least, greatest] = std::minmax_element(
@@ -62,22 +47,24 @@ FieldGeometry geometry_of(const Snapshot& s, CanonicalCut cut) {
     // A body without extent along an axis is the same everywhere along it.
     if (g.domain[axis].front == g.domain[axis].back) g.domain[axis].front -= 1, g.domain[axis].back += 1;
   }
+  // The cut of a plane mesh goes through it. It stands for a slab a third of the cut deep.
+  const bool plane = std::all_of(s.points.begin(), s.points.end(), [](const Vec3& p) { return p.z == 0; });
+  if (s.cut_length > 0 && plane) g.domain[2] = {-s.cut_length / 3, 0};
   if (const auto own = own_domain(s)) g.domain[0] = (*own)[0], g.domain[1] = (*own)[1];
   g.domain[3] = {s.times.front(), s.times.back()};
-  g.cut = cut;
+  const BreakEnds ends = break_ends(s, parts, {g.domain[0], g.domain[1], g.domain[2]});
+  g.cut = ends.cut;
   if (g.cut.length > 0 && !(g.domain[1].front < 0 && g.domain[1].back > 0))
     throw InputError("the nodes reach from v = " + shortest(g.domain[1].front) + " to " +
                      shortest(g.domain[1].back) + " mm: the cut plane v = 0 does not divide them");
-  const auto [nearest, farthest] = std::minmax_element(s.position.begin(), s.position.end());
+  const auto [nearest, farthest] = std::minmax_element(ends.tip.begin(), ends.tip.end());
   const double slack = 1e-6 * (g.domain[0].back - g.domain[0].front);
   if (g.cut.length > 0 && (*farthest < g.domain[0].front - slack || *nearest > g.domain[0].back + slack))
     throw InputError("the tip stands between u = " + shortest(*nearest) + " and " + shortest(*farthest) +
                      " mm, and the nodes between " + shortest(g.domain[0].front) + " and " +
                      shortest(g.domain[0].back) + " mm: mend /cut/position, and /cut's start and length");
-  // The tip is at `position`; frame 0 is closed, and then it grows with the blade.
   for (std::size_t j = 0; j < s.times.size(); ++j) {
-    const bool closed = j == 0 && g.cut.start != s.cut_start && s.position.front() != s.position.back();
-    const double at = closed ? g.cut.start : std::clamp(s.position[j], g.domain[0].front, g.domain[0].back);
+    const double at = std::clamp(ends.tip[j], g.domain[0].front, g.domain[0].back);
     g.tip.times.push_back(s.times[j]), g.tip.positions.push_back(at);
   }
   // Points on a straight line are left out.
@@ -115,19 +102,23 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader) {
   if (!reader.snapshot().source) return quantities;  // a simulation's own arrays are about its solver
   const auto nodes = static_cast<Eigen::Index>(reader.snapshot().points.size());
   for (const SnapshotArray& array : reader.point_arrays()) {
+    if (reader.snapshot().coordinates &&
+        (array.name == canonical_array.name || array.name == frame_array.name))
+      continue;
     const auto components = static_cast<Eigen::Index>(array.components);
-    SeriesQuantity quantity{array.name, {}, 0};
+    SeriesQuantity quantity{array.name, {}, 0, 0, {}};
     for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) {
       const std::vector<double> numbers = reader.point_array(array, j);
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
       quantity.frames.emplace_back(Eigen::Map<const RowMajor>(numbers.data(), nodes, components));
-      const Eigen::VectorXd sizes = quantity.frames.back().rowwise().norm();
+      const Eigen::VectorXd sizes = norms_of(quantity.frames.back());
       for (Eigen::Index n = 0; n < nodes; ++n)
         if (!std::isfinite(sizes(n)))
           throw InputError("frame " + std::to_string(j) + ", node " + std::to_string(n) + ": " + array.name +
                            " is not finite; a field can only stand for finite numbers");
       quantity.largest = std::max(quantity.largest, sizes.maxCoeff());
     }
+    set_scale(quantity);
     quantities.push_back(std::move(quantity));
   }
   return quantities;
@@ -142,6 +133,19 @@ std::optional<CutCurve> curve_of(const RecordedParameters& recorded) {
   return CutCurve(parameters);
 }
 
+/// What the displacements from frame 0 leave out. Its error is as large as theirs may be.
+void add_start(std::vector<SeriesQuantity>& quantities, const std::vector<Vec3>& closed, std::size_t frames,
+               double largest_displacement) {
+  Eigen::MatrixXd start(static_cast<Eigen::Index>(closed.size()), 3);
+  for (Eigen::Index n = 0; n < start.rows(); ++n) start.row(n) << closed[n].x, closed[n].y, closed[n].z;
+  const double largest = start.rowwise().norm().maxCoeff();
+  if (largest == 0) return;
+  SeriesQuantity quantity{Series::at_start, std::vector(frames, start), largest, 0, {}};
+  set_scale(quantity);
+  if (largest_displacement > 0) quantity.scale = largest_displacement;
+  quantities.push_back(std::move(quantity));
+}
+
 /// The nodes of a body or a shaped patch in the coordinates of its cut, and the directions of these there. A
 /// node beside a curved cut may have several places (curved_places.h): the first ones are those of all nodes.
 struct OwnCoordinates {
@@ -150,10 +154,12 @@ struct OwnCoordinates {
   std::vector<std::size_t> node;            // of all places
   std::vector<std::size_t> kept;            // the places of the series
   std::size_t nodes = 0;                    // of these, the first ones: of nodes, one for each
+  bool round = false;                       // whether w is an angle around a front
+  double turn = 0;                          // a whole turn of it, in mm; 0: it has none
 
   explicit OwnCoordinates(const SnapshotReader& reader) {
-    const std::vector<double> at = reader.point_array({"canonical", 3, false}, 0);
-    const std::vector<double> axes = reader.point_array({"frame", 9, false}, 0);
+    const std::vector<double> at = reader.point_array(canonical_array, 0);
+    const std::vector<double> axes = reader.point_array(frame_array, 0);
     places.resize(at.size() / 3), frames.resize(axes.size() / 9);
     for (std::size_t i = 0; i < at.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = at[i];
     for (std::size_t i = 0; i < axes.size(); ++i) frames[i / 9][i % 9 / 3][static_cast<int>(i % 3)] = axes[i];
@@ -162,10 +168,21 @@ struct OwnCoordinates {
     const auto domain = own_domain(reader.snapshot());
     const auto curve = curve_of(reader.snapshot().parameters);
     if (domain && curve) add_further_places(*curve);
+    if (const auto& source = reader.snapshot().source; source && !source->break_map.empty())
+      add_turned_places(BreakMap::from(source->break_map));
     for (std::size_t n = 0; n < places.size(); ++n)
       if (!domain || (within((*domain)[0], places[n].x) && within((*domain)[1], places[n].y)))
         kept.push_back(n), nodes += node[n] == n;
     if (domain && curve) fill_gaps(*domain);
+  }
+
+  /// Around a front, the angle of a node near its ends is known with a turn more or less.
+  void add_turned_places(const BreakMap& map) {
+    round = map.round().has_value();
+    turn = round && map.round()->whole_circle() ? 2 * std::numbers::pi * map.round()->radius : 0;
+    for (std::size_t n = 0, nodes = places.size(); n < nodes; ++n)
+      if (const auto again = map.again(places[n]))
+        places.push_back(*again), frames.push_back(frames[n]), node.push_back(n);
   }
 
   /// Frames depend on the place along the cut alone.
@@ -216,6 +233,14 @@ struct OwnCoordinates {
     return range.front - slack <= x && x <= range.back + slack;
   }
 
+  /// Values at the places of the series, of values at the nodes.
+  Eigen::MatrixXd at_places(const Eigen::MatrixXd& values) const {
+    Eigen::MatrixXd moved(static_cast<Eigen::Index>(kept.size()), values.cols());
+    for (Eigen::Index i = 0; i < moved.rows(); ++i)
+      moved.row(i) = values.row(static_cast<Eigen::Index>(node[kept[i]]));
+    return moved;
+  }
+
   /// Of a displacement at a place.
   Vec3 components(std::size_t place, const Vec3& d) const {
     return {dot(frames[place][0], d), dot(frames[place][1], d), dot(frames[place][2], d)};
@@ -231,7 +256,8 @@ struct OwnCoordinates {
     moved.points.clear(), moved.cell_types.clear(), moved.connectivity.clear(), moved.cell_offsets = {0};
     for (const std::size_t n : kept) moved.points.push_back(places[n]);
     const auto jumps = [&](std::int64_t a, std::int64_t b) {
-      return norm(places[a] - places[b]) > most_stretched * norm(s.points[a] - s.points[b]);
+      return norm(places[a] - places[b]) > most_stretched * norm(s.points[a] - s.points[b]) ||
+             (turn > 0 && std::abs(places[a].z - places[b].z) > turn / 2);
     };
     for (std::size_t c = 0; c + 1 < s.cell_offsets.size(); ++c) {
       const std::span cell(s.connectivity.begin() + s.cell_offsets[c],
@@ -289,11 +315,38 @@ std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader,
 
 }  // namespace
 
+void set_scale(SeriesQuantity& quantity) {
+  const Eigen::Index components = quantity.frames.front().cols();
+  Eigen::RowVectorXd middle = Eigen::RowVectorXd::Zero(components);
+  if (components == 1) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Eigen::MatrixXd& frame : quantity.frames)
+      low = std::min(low, frame.minCoeff()), high = std::max(high, frame.maxCoeff());
+    middle(0) = (low + high) / 2;
+  } else {
+    for (const Eigen::MatrixXd& frame : quantity.frames)
+      middle += frame.colwise().mean() / static_cast<double>(quantity.frames.size());
+  }
+  double farthest = 0;
+  for (const Eigen::MatrixXd& frame : quantity.frames)
+    farthest = std::max(farthest, norms_of(frame.rowwise() - middle).maxCoeff());
+  const bool about_middle = 2 * farthest < quantity.largest;
+  quantity.middle = about_middle ? middle : Eigen::RowVectorXd::Zero(components);
+  quantity.scale = about_middle && farthest > 0 ? 2 * farthest : quantity.largest;
+}
+
+Eigen::VectorXd norms_of(const Eigen::MatrixXd& rows) {
+  if (rows.cols() != 6) return rows.rowwise().norm();
+  return (rows.leftCols<3>().rowwise().squaredNorm() + 2 * rows.rightCols<3>().rowwise().squaredNorm())
+      .cwiseSqrt();
+}
+
 Series::Series(const SnapshotReader& reader) {
   std::optional<OwnCoordinates> own;
   std::optional<Snapshot> moved;
   if (!reader.snapshot().body.empty() || reader.snapshot().coordinates) {
     own.emplace(reader);
+    round = own->round;
     moved = own->of(reader.snapshot());
   }
   const Snapshot& s = moved ? *moved : reader.snapshot();
@@ -303,6 +356,8 @@ Series::Series(const SnapshotReader& reader) {
   check_cut(s);
   times = s.times, samples = samples_of(s), pairs = s.pairs, released = s.released;
   nodes = own ? own->nodes : samples.size();
+  for (std::size_t i = nodes; i < samples.size(); ++i)
+    if (samples[i].uvw.y == 0) samples[i].side = samples[own->node[own->kept[i]]].side;
   const std::vector<Vec3> closed = reader.displacement(0);
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);
@@ -317,8 +372,13 @@ Series::Series(const SnapshotReader& reader) {
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
   centres = cell_centres(s, samples);
-  quantities = quantities_of(reader), derivatives = derivatives_of(reader, own);
-  geometry = geometry_of(s, cut_of(s, frames.back(), largest_displacement));
+  quantities = quantities_of(reader);
+  if (s.source) add_start(quantities, closed, s.frames(), largest_displacement);
+  if (own)  // the places of a node all have its values
+    for (SeriesQuantity& quantity : quantities)
+      for (Eigen::MatrixXd& frame : quantity.frames) frame = own->at_places(frame);
+  derivatives = derivatives_of(reader, own);
+  geometry = geometry_of(s, parted(s, frames, largest_displacement));
 }
 
 }  // namespace cleft

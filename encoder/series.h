@@ -15,8 +15,20 @@ namespace cleft {
 struct SeriesQuantity {
   std::string name;
   std::vector<Eigen::MatrixXd> frames;  ///< F: N x components
-  double largest = 0;                   ///< largest Euclidean norm over the components, at any node and frame
+  double largest = 0;                   ///< largest norm (norms_of), at any node and frame
+  /// What a tolerance is relative to: `largest`, or the range of the values where they vary about something
+  /// else than 0 and that is less (a pressure of 101325 +- 10 Pa has 20). Of a vector or tensor, twice the
+  /// largest norm of its difference from its mean.
+  double scale = 0;
+  Eigen::RowVectorXd middle;  ///< what the values vary about; 0 where `scale` is `largest`
 };
+
+/// Sets scale and middle from the frames and `largest`.
+void set_scale(SeriesQuantity& quantity);
+
+/// Norms of the rows: Euclidean; of six components, of the symmetric tensor XX YY ZZ XY YZ XZ, whose norm
+/// does not depend on the axes.
+Eigen::VectorXd norms_of(const Eigen::MatrixXd& rows);
 
 /// The derivative of the displacement from frame 0 by a parameter, mm per unit of the parameter.
 struct SeriesDerivative {
@@ -35,9 +47,13 @@ struct Series {
   std::vector<double> largest;           ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;       ///< mm, of all
   CellCentres centres;
-  std::vector<SeriesQuantity> quantities;     ///< of imported data: the fields besides the displacement
+  /// Of imported data: the fields besides the displacement, and `at_start`, the displacement of frame 0 in
+  /// all frames, where it is not 0.
+  std::vector<SeriesQuantity> quantities;
+  static constexpr const char* at_start = "displacement_at_start";
   std::vector<SeriesDerivative> derivatives;  ///< of a simulation: those that the snapshot holds
   FieldGeometry geometry;
+  bool round = false;                              ///< whether w is an angle around a round front
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: number of open pairs
 

@@ -22,6 +22,11 @@ int SpaceFit::Parts::place_of(const Vec3& uvw, Limit limit, double share,
 
 void SpaceFit::Parts::add_samples(const std::vector<Sample>& samples) {
   const bool ahead_is_tied = ties.size() < bases[0].size() * V * W;
+  const FieldGeometry& geometry = parametrization.geometry();
+  // The cut's whole extent over time; nothing there is tied in the last frame.
+  const auto in_cut = [&](const Vec3& uvw) {
+    return uvw.x > geometry.cut.start && uvw.x < geometry.tip.positions.back() && uvw.z > -geometry.cut.depth;
+  };
   std::map<std::array<double, 4>, int> known;
   std::map<double, std::vector<std::array<int, 2>>> of_planes;  // place and sample
   for (std::size_t s = 0; s < samples.size(); ++s) {
@@ -30,9 +35,9 @@ void SpaceFit::Parts::add_samples(const std::vector<Sample>& samples) {
     for (const Limit limit : {Limit::from_left, Limit::from_right}) {
       const bool left = limit == Limit::from_left, uncut_plane = uvw.y == 0 && side == Side::both;
       // Uncut tissue on the plane is both sides' business where nothing ties them.
-      if (uncut_plane ? ahead_is_tied && !left : left != (uvw.y < 0 || (uvw.y == 0 && side == Side::left)))
-        continue;
-      const int place = place_of(uvw, limit, uncut_plane && !ahead_is_tied ? 0.5 : 1, known);
+      const bool tied = ahead_is_tied && !in_cut(uvw);
+      if (uncut_plane ? tied && !left : left != (uvw.y < 0 || (uvw.y == 0 && side == Side::left))) continue;
+      const int place = place_of(uvw, limit, uncut_plane && !tied ? 0.5 : 1, known);
       of_planes[uvw.x].push_back({place, static_cast<int>(s)});
       // Functions sum to 1, and so do their products: the mean diagonal is about the sum of squares over
       // them.

@@ -123,4 +123,10 @@ void Field::quantity(std::size_t index, const Vec3& uvw, Side side, double t, st
       }
 }
 
+double raw_bytes(const Field& field) {
+  int components = field.report.largest_displacement > 0 || field.quantities.empty() ? 3 : 0;
+  for (const Quantity& quantity : field.quantities) components += quantity.components;
+  return field.report.raw_bytes() * components / 3;
+}
+
 }  // namespace cleft

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "encoder/field/break_map.h"
 #include "encoder/field/bspline.h"
 #include "encoder/field/collapsed_field.h"
 #include "encoder/field/control_grid.h"
@@ -34,10 +35,12 @@ struct Quantity {
   std::string name;
   int components = 1;
   std::vector<double> coefficients;  ///< [(((i * V + j) * W + k) * T + l) * components + c]
-  double largest = 0;       ///< Euclidean norm over the components, at any node and frame of the data
-  double error = 0;         ///< the same of the difference from them, as stored, over `largest`
+  double largest =
+      0;             ///< norm over the components (of six: of the tensor), at any node and frame of the data
+  double error = 0;  ///< the same of the difference from them, as stored, over `scale`
   double spline_error = 0;  ///< the same for the spline alone (equal where no residual is stored)
   double quantum = 0;       ///< unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
+  double scale = 0;  ///< what errors are relative to: `largest`, or the data's range where that is less
 };
 
 /// The derivative of the displacement by a parameter of the case, over the field's bases, for interpolation
@@ -48,6 +51,18 @@ struct ParameterDerivative {
   double quantum = 0;                ///< unknowns are whole multiples of it
   double largest = 0;                ///< Euclidean norm, at any node and frame of the data
   double error = 0;                  ///< the same of the difference from them, over `largest`
+};
+
+/// Where imported data come from, so that they can be written as they were. Points x of that space are at
+/// (u, v, w) = axes (x - origin); a break that is no plane, or lies below parts of the body, has a map from
+/// there to the field's own coordinates.
+struct FieldSource {
+  std::string file;                 ///< the series' name, without folders
+  Vec3 origin;                      ///<
+  std::array<Vec3, 3> axes;         ///< unit vectors of u, v, w, right-handed
+  std::vector<double> times;        ///< of the frames, in the source
+  std::vector<std::string> fields;  ///< SOURCE:NAME: the names there, and here
+  std::optional<BreakMap> map;      ///<
 };
 
 class Field {
@@ -115,6 +130,7 @@ class Field {
   std::string case_hash;
   FitReport report;
   std::optional<Interpolation> interpolation;
+  std::optional<FieldSource> source;
 
  private:
   friend class CollapsedField;
@@ -132,5 +148,8 @@ class Field {
   const KernelTable* kernels_;
   double largest_coefficient_ = 0;
 };
+
+/// Bytes of the data, displacements (unless nothing moves) and further quantities, as 32-bit numbers.
+double raw_bytes(const Field& field);
 
 }  // namespace cleft

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/import/break_surface.h"
 
 namespace cleft {
 
@@ -17,6 +19,12 @@ std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+/// To three digits, for messages.
+double rounded(double x) {
+  const double unit = x > 0 ? std::pow(10, std::floor(std::log10(x)) - 2) : 1;
+  return std::round(x / unit) * unit;
+}
+
 class Search {
  public:
   Search(const Series& series, const std::optional<Vec3>& flat)
@@ -26,17 +34,22 @@ class Search {
 
   const Groups& groups() const { return groups_; }
 
-  void watch(const std::function<void(std::size_t)>& progress) {
-    if (!groups_.empty()) partings_ = partings(series_, groups_, progress);
+  void watch(const std::optional<OpenAt>& open_at, std::vector<std::string>& notes,
+             const std::function<void(std::size_t)>& progress) {
+    if (groups_.empty()) return;
+    partings_ = partings(series_, groups_, open_at, progress);
+    if (!partings_.because.empty())
+      notes.push_back("pairs count as open from a jump of " + shortest(rounded(partings_.open_at)) + " in '" +
+                      series_.fields()[telling_field(series_)].name + "' on (the largest is " +
+                      shortest(rounded(partings_.largest_jump)) + "): " + partings_.because +
+                      "; --open-at sets it");
   }
 
   /// The plane of the nodes that part; none where there are none.
   std::optional<Plane> found(std::vector<std::string>& notes) const {
-    std::vector<Vec3> parting, all;
+    const std::vector<Vec3> parting = parting_places();
+    std::vector<Vec3> all;
     for (const auto& group : groups_) all.push_back(place_of(group));
-    const auto frames = static_cast<std::int32_t>(series_.frames());
-    for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
-      if (partings_.first_frame[p] < frames) parting.push_back(place_of(partings_.pairs[p]));
     if (all.empty()) return {};
     if (parting.empty()) {
       notes.push_back(counted(nodes_in_groups(), "coincident node") + " never part in '" +
@@ -45,9 +58,35 @@ class Search {
       return {};
     }
     if (const auto plane = common_plane(parting, tolerance_, flat_)) return plane;
-    const auto plane = common_plane(all, tolerance_, flat_);
-    if (!plane) refuse_scattered(parting);
-    return plane;
+    return common_plane(all, tolerance_, flat_);
+  }
+
+  /// The pairs of a break that is no plane, and its best plane: over it, the break is a surface.
+  void pair_on_surface(Break& found) const {
+    const std::vector<Vec3> parting = parting_places();
+    if (parting.empty()) return;
+    const Spread spread = spread_of(parting);
+    const Vec3 u = flat_ ? normalized(spread.axis[0] - dot(spread.axis[0], *flat_) * *flat_) : spread.axis[0];
+    const Vec3 v = flat_ ? cross(*flat_, u) : spread.axis[2], w = cross(u, v);
+    if (spread.deviation[flat_ ? 0 : 1] <= tolerance_) refuse_scattered(parting);
+    const auto local = [&](const Vec3& p) {
+      const Vec3 x = p - spread.centre;
+      return Vec3{dot(u, x), dot(v, x), dot(w, x)};
+    };
+    refuse_several();
+    BreakPlaces places{{}, {}, {}, {}, tolerance_};
+    for (const Vec3& p : parting) places.pairs.push_back(local(p));
+    std::vector<Vec3> all;
+    for (const Vec3& p : mesh_.points) all.push_back(local(p));
+    places.u = range_of(all, 0), places.w = range_of(all, 2);
+    double farthest = 0;
+    const BreakMap surface = surface_through(places, farthest);
+    if (farthest > folded * std::sqrt(squared_norm(local(parting.front()) - local(parting.back()))))
+      refuse_scattered(parting);
+    found.plane = Plane{forward(v), dot(forward(v), spread.centre)};
+    found.curved = true;
+    const double sign = dot(forward(v), v);
+    pair_where(found, [&](const Vec3& p) { return sign * surface.canonical(local(p)).y; });
   }
 
   /// The given plane, or a nearby one that contains the coincident nodes exactly.
@@ -76,15 +115,61 @@ class Search {
   }
 
   /// Pairs each left node of a place in the plane with a right one.
-  void pair_nodes(Break& found) const {
-    const Plane& plane = *found.plane;
-    const std::vector<double> side = sides(plane);
+  void pair_in_plane(Break& found) const {
+    pair_where(found, [&](const Vec3& p) { return found.plane->distance(p); });
+  }
+
+ private:
+  using Distance = std::function<double(const Vec3&)>;  // of a point from the break, with a sign
+  static constexpr double folded = 0.02;                // of the break's extent
+
+  std::vector<Vec3> parting_places() const {
+    std::vector<Vec3> parting;
+    const auto frames = static_cast<std::int32_t>(series_.frames());
+    for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
+      if (partings_.first_frame[p] < frames) parting.push_back(place_of(partings_.pairs[p]));
+    return parting;
+  }
+
+  /// Throws where the nodes that part are not connected by cells.
+  void refuse_several() const {
+    std::vector<std::int32_t> place(mesh_.points.size(), -1);  // of nodes that part: the first of their group
+    const auto frames = static_cast<std::int32_t>(series_.frames());
+    for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
+      if (partings_.first_frame[p] < frames) {
+        const auto [a, b] = partings_.pairs[p];
+        place[b] = place[a] = place[a] >= 0 ? place[a] : a;
+      }
+    Sets sets(mesh_.points.size());
+    for (std::size_t c = 0; c < mesh_.cell_types.size(); ++c) {
+      std::int32_t first = -1;
+      for (auto i = mesh_.cell_offsets[c]; i < mesh_.cell_offsets[c + 1]; ++i)
+        if (const std::int32_t at = place[mesh_.connectivity[i]]; at >= 0) {
+          if (first >= 0) sets.join(first, at);
+          first = at;
+        }
+    }
+    std::set<std::int32_t> breaks;
+    for (std::size_t n = 0; n < place.size(); ++n)
+      if (place[n] >= 0) breaks.insert(sets.root(place[n]));
+    if (breaks.size() > 1)
+      throw InputError(series_.path() + ": " + counted(nodes_in_groups(), "coincident node") + " at " +
+                       counted(groups_.size(), "place") +
+                       " lie in no common plane, and those that part are " + std::to_string(breaks.size()) +
+                       " breaks that do not touch each other; a snapshot holds one: say which with --break "
+                       "nx,ny,nz,offset");
+  }
+
+  void pair_where(Break& found, const Distance& distance) const {
+    const std::vector<double> side = sides(distance);
+    // A surface through places is as near to others of the break as its curvature between them lets it be.
+    const double near = found.curved ? 100 * tolerance_ : tolerance_;
     std::map<NodePair, std::int32_t> first_frame;
     for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
       first_frame[partings_.pairs[p]] = partings_.first_frame[p];
     std::size_t elsewhere = 0, one_sided = 0, crowded = 0;
     for (const auto& group : groups_) {
-      if (std::abs(plane.distance(place_of(group))) > tolerance_) {
+      if (std::abs(distance(place_of(group))) > near) {
         elsewhere += group.size();
         continue;
       }
@@ -117,7 +202,6 @@ class Search {
       found.notes.push_back("no nodes are doubled in the break's plane: the snapshot has no pairs");
   }
 
- private:
   template <class Nodes>
   Vec3 place_of(const Nodes& nodes) const {
     return mesh_.points[*nodes.begin()];
@@ -139,7 +223,8 @@ class Search {
         series_.path() + ": " + counted(nodes_in_groups(), "coincident node") + " at " +
         counted(groups_.size(), "place") +
         (many ? std::string(flat_ ? " are a point" : " are on a line") + ", through which many planes go"
-              : " lie in no common plane (up to " + shortest(farthest) + " from the best one)") +
+              : " lie in no common plane (up to " + shortest(farthest) +
+                    " from the best one), nor on one surface over it") +
         "; say which plane with --break nx,ny,nz,offset, or --break none");
   }
 
@@ -166,8 +251,8 @@ class Search {
                      " away; the plane is that of the points x with n . x = offset");
   }
 
-  /// Of the nodes of groups: the sum of their cells' centroids' distances from the plane.
-  std::vector<double> sides(const Plane& plane) const {
+  /// Of the nodes of groups: the sum of their cells' centroids' distances from the break.
+  std::vector<double> sides(const Distance& distance) const {
     std::vector<char> asked(mesh_.points.size());
     for (const auto& group : groups_)
       for (const std::int32_t node : group) asked[node] = 1;
@@ -177,7 +262,7 @@ class Search {
       const auto* last = mesh_.connectivity.data() + mesh_.cell_offsets[c + 1];
       if (std::none_of(first, last, [&](std::int64_t i) { return asked[i]; })) continue;
       double sum = 0;
-      for (const auto* i = first; i != last; ++i) sum += plane.distance(mesh_.points[*i]);
+      for (const auto* i = first; i != last; ++i) sum += distance(mesh_.points[*i]);
       const double centroid = sum / static_cast<double>(last - first);
       if (std::abs(centroid) <= tolerance_) continue;  // an interface element, between the two sides
       for (const auto* i = first; i != last; ++i) side[*i] += centroid;
@@ -195,21 +280,27 @@ class Search {
 
 }  // namespace
 
-Break find_break(Series& series, const std::optional<std::string>& given, const std::optional<Vec3>& flat,
+Break find_break(Series& series, const std::optional<std::string>& given,
+                 const std::optional<OpenAt>& open_at, const std::optional<Vec3>& flat,
                  const std::function<void(std::size_t)>& progress) {
   Break result;
   const Groups groups = coincident_groups(series.mesh().points, same_place(series.mesh()));
-  if (is_unwelded(series.mesh(), groups)) {
+  const bool in_pieces = series.in_pieces();
+  if (in_pieces || is_unwelded(series.mesh(), groups)) {
     const std::size_t before = series.mesh().points.size(), gone = weld(series, groups);
-    result.notes.push_back("nearly every cell has nodes of its own: " + std::to_string(gone) + " of " +
-                           counted(before, "node") +
-                           " that agree with another at their place in all fields and frames were welded");
+    result.notes.push_back(
+        std::string(in_pieces ? "the mesh comes in pieces" : "nearly every cell has nodes of its own") +
+        ": " + std::to_string(gone) + " of " + counted(before, "node") +
+        " that agree with another at their place in all fields and frames were welded");
   }
   if (given == "none") return result;
   Search search(series, flat);
-  search.watch(progress);
+  search.watch(open_at, result.notes, progress);
   result.plane = given ? search.given(*given) : search.found(result.notes);
-  if (result.plane) search.pair_nodes(result);
+  if (result.plane)
+    search.pair_in_plane(result);
+  else
+    search.pair_on_surface(result);
   return result;
 }
 

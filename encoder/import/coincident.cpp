@@ -11,27 +11,6 @@ namespace cleft {
 
 namespace {
 
-/// Sets of points, joined one by one.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t root(std::int32_t i) {
-    while (parent_[i] != i) {
-      auto& up = parent_[i];
-      i = up = parent_[up];
-    }
-    return i;
-  }
-  /// The lowest number is the root.
-  void join(std::int32_t a, std::int32_t b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
-
 std::uint64_t key(const Vec3& place, double size) {
   std::uint64_t hash = 0;
   for (int i = 0; i < 3; ++i) {

@@ -40,9 +40,10 @@ int main(int argc, char** argv) {
   CommandLine app("Takes another program's time series as a snapshot, and finds its discontinuity.",
                   "cleft import");
   ImportOptions o;
-  std::string plane, box = "smaller";
+  std::string plane, open_at, box = "smaller";
   bool json = false;
-  app.add_option("SERIES", o.series, "a .pvd that lists .vtu files with their times, or a temporal .vtkhdf")
+  app.add_option("SERIES", o.series,
+                 "a .pvd that lists .vtu, .pvtu or .vtp files with their times, or a temporal .vtkhdf")
       ->required();
   app.add_option("--field", o.fields,
                  "SOURCE[:NAME],...: arrays of the points to take, and their names here; one "
@@ -53,6 +54,10 @@ int main(int argc, char** argv) {
   app.add_option("--break", plane,
                  "nx,ny,nz,offset: the discontinuity's plane, of the points x with n . x = offset; "
                  "or none (default: that of the coincident nodes that part)");
+  app.add_option(
+      "--open-at", open_at,
+      "jump above which a pair is open: a number in units of the field that tells, such as 0.002, or "
+      "a share of the largest jump, such as 0.5% (default: rounding, or the data's noise)");
   app.add_option("--box", box,
                  "without a break: along the axes (aligned), the nodes' principal ones (principal), or "
                  "those where they save a fifth (smaller)")
@@ -69,6 +74,7 @@ int main(int argc, char** argv) {
 
   return run_command(app, argc, argv, [&] {
     if (app.count("--break") > 0) o.break_plane = plane;
+    if (app.count("--open-at") > 0) o.open_at = open_at;
     o.box = boxes.at(box);
     ImportReport report;
     {

@@ -18,6 +18,7 @@ struct ImportOptions {
   Box box = Box::smaller;
   std::vector<std::string> parameters =
       {};  ///< NAME=VALUE: parameters of skin, tissue and load, which the series does not hold
+  std::optional<std::string> open_at = {};  ///< jump above which a pair is open; nothing: found
 };
 
 struct ImportReport {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "encoder/import/coincident.h"
@@ -22,14 +24,29 @@ std::vector<double> rounding_of(const Series& series);
 /// The field that decides whether a pair is open: the displacement, or the first field.
 std::size_t telling_field(const Series& series);
 
+/// The jump above which a pair is open: in units of the field, or a share of its largest jump.
+struct OpenAt {
+  double value = 0;
+  bool is_share = false;
+};
+
+/// "0.002", or "0.5%" of the largest jump. Throws InputError for anything else.
+OpenAt parse_open_at(const std::string& text);
+
 /// The frames from which the values of coincident nodes differ.
 struct Partings {
   std::vector<NodePair> pairs;  ///< all within each group, lower node first
   std::vector<std::int32_t>
-      first_frame;  ///< of each pair: the first whose jump exceeds rounding; frames: none
+      first_frame;  ///< of each pair: the first whose jump exceeds `open_at`; frames: none
+  double open_at = 0, largest_jump = 0;
+  std::string because;  ///< why `open_at` is more than rounding; empty if it is not
 };
 
-Partings partings(const Series& series, const Groups& groups,
+/// Without `given`, `open_at` is rounding (rounding_of), or more where the data say so. Pairs are closed in
+/// frame 0: what they jump there is noise. So are jumps that turn around from frame to frame as often as not.
+/// Where no pair is ever closed and many are nearly closed, as with cohesive elements, it is 0.5 % of the
+/// largest jump.
+Partings partings(const Series& series, const Groups& groups, const std::optional<OpenAt>& given = {},
                   const std::function<void(std::size_t)>& progress = {});
 
 }  // namespace cleft

@@ -3,14 +3,20 @@
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
+#include <vtkIdList.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
+#include <vtkXMLPUnstructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUtilities.h>
 
@@ -36,11 +42,28 @@ std::vector<T> values_of(vtkDataArray* array) {
   return {copy->GetPointer(0), copy->GetPointer(0) + copy->GetNumberOfValues()};
 }
 
-SourceMesh mesh_of(vtkUnstructuredGrid* grid) {
+/// The cells of a surface, one by one: VTK keeps them by kind.
+void add_cells(SourceMesh& mesh, vtkPolyData* surface) {
+  mesh.cell_offsets = {0};
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c) {
+    surface->GetCellPoints(c, corners);
+    mesh.cell_types.push_back(static_cast<std::uint8_t>(surface->GetCellType(c)));
+    mesh.connectivity.insert(mesh.connectivity.end(), corners->begin(), corners->end());
+    mesh.cell_offsets.push_back(static_cast<std::int64_t>(mesh.connectivity.size()));
+  }
+}
+
+SourceMesh mesh_of(vtkPointSet* points) {
   SourceMesh mesh;
-  const std::vector<double> numbers = values_of<vtkDoubleArray, double>(grid->GetPoints()->GetData());
+  const std::vector<double> numbers = values_of<vtkDoubleArray, double>(points->GetPoints()->GetData());
   for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
     mesh.points.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(points);
+  if (!grid) {
+    add_cells(mesh, vtkPolyData::SafeDownCast(points));
+    return mesh;
+  }
   if (grid->GetNumberOfCells() == 0) {
     mesh.cell_offsets = {0};
     return mesh;
@@ -57,10 +80,20 @@ std::vector<std::string> names_of(vtkDataArraySelection* selection) {
   return names;
 }
 
-/// One .vtu file, open.
+/// A file of pieces, each with its own nodes where they meet.
+constexpr const char* of_pieces = ".pvtu";
+
+vtkSmartPointer<vtkXMLReader> reader_of(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  if (ending == of_pieces) return vtkSmartPointer<vtkXMLPUnstructuredGridReader>::New();
+  if (ending == ".vtp") return vtkSmartPointer<vtkXMLPolyDataReader>::New();
+  return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
+}
+
+/// One .vtu, .pvtu or .vtp file, open.
 class VtuFile {
  public:
-  explicit VtuFile(const std::string& path) : path_(path), reading_(reader_.Get()) {
+  explicit VtuFile(const std::string& path) : path_(path), reader_(reader_of(path)), reading_(reader_.Get()) {
     if (!std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
     reader_->SetFileName(path.c_str());
@@ -77,7 +110,8 @@ class VtuFile {
     for (const std::string& name : arrays) reader_->GetPointDataArraySelection()->EnableArray(name.c_str());
     reader_->Update();
     refuse_errors();
-    vtkUnstructuredGrid* grid = reader_->GetOutput();
+    auto* grid = vtkPointSet::SafeDownCast(reader_->GetOutputDataObject(0));
+    if (auto* cells = vtkUnstructuredGrid::SafeDownCast(grid)) cells->RemoveGhostCells();
     if (!grid || !grid->GetPoints() || grid->GetNumberOfPoints() == 0)
       throw FileError(path_, "holds no points");
     SourceFrame frame{mesh_of(grid), {}};
@@ -91,7 +125,7 @@ class VtuFile {
       throw FileError(path_, "cannot be read as an unstructured grid: " + reading_.reason());
   }
 
-  SourceArray array_of(vtkUnstructuredGrid* grid, const std::string& name) const {
+  SourceArray array_of(vtkPointSet* grid, const std::string& name) const {
     vtkDataArray* array = grid->GetPointData()->GetArray(name.c_str());
     if (!array) throw FileError(path_, "the array '" + name + "' of the points holds no numbers");
     return {array->GetNumberOfComponents(), array->GetDataType() == VTK_FLOAT,
@@ -99,7 +133,7 @@ class VtuFile {
   }
 
   std::string path_;
-  vtkNew<vtkXMLUnstructuredGridReader> reader_;
+  vtkSmartPointer<vtkXMLReader> reader_;
   VtkListener reading_;
 };
 
@@ -122,6 +156,7 @@ class PvdFiles : public FrameFiles {
     return all;
   }
   const std::vector<double>& times() const override { return times_; }
+  bool in_pieces() const override { return in_pieces_; }
   const std::string& file(std::size_t frame) const override { return frames_[frame]; }
   std::vector<std::string> point_arrays(std::size_t frame) const override {
     return VtuFile(frames_[frame]).point_arrays();
@@ -139,9 +174,13 @@ class PvdFiles : public FrameFiles {
     const char *name = entry->GetAttribute("file"), *time = entry->GetAttribute("timestep");
     if (!name || !time) throw InputError(where + " lacks " + (name ? "timestep" : "file"));
     const std::string file = (fs::path(path_).parent_path() / name).string();
-    if (fs::path(file).extension() != ".vtu")
-      throw InputError(where + ": '" + name +
-                       "' is no .vtu file; write unstructured grids, each whole in a file");
+    const std::string ending = fs::path(file).extension().string();
+    if (ending != ".vtu" && ending != of_pieces && ending != ".vtp")
+      throw InputError(
+          where + ": '" + name +
+          "' is no .vtu file, nor a .pvtu or .vtp; write unstructured grids or surfaces, each whole "
+          "in a file (in ParaView: Merge Blocks, then Save Data as .pvd)");
+    in_pieces_ = in_pieces_ || ending == of_pieces;
     if (!fs::is_regular_file(file)) throw InputError(where + ": there is no file '" + file + "'");
     frames_.push_back(file);
     times_.push_back(parse_number(time, where + ", timestep"));
@@ -150,9 +189,12 @@ class PvdFiles : public FrameFiles {
   std::string path_;
   std::vector<std::string> frames_;
   std::vector<double> times_;
+  bool in_pieces_ = false;
 };
 
 }  // namespace
+
+SourceMesh read_vtu_mesh(const std::string& path) { return VtuFile(path).read({}).mesh; }
 
 std::unique_ptr<FrameFiles> open_pvd(const std::string& path) { return std::make_unique<PvdFiles>(path); }
 

@@ -14,17 +14,6 @@ namespace {
 
 constexpr std::uint8_t polyhedron = 42;  // VTK_POLYHEDRON
 
-std::unique_ptr<FrameFiles> open_files(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".pvd") return open_pvd(path);
-  if (ending == ".vtkhdf" || ending == ".hdf" || ending == ".h5" || ending == ".hdf5")
-    return open_vtkhdf(path);
-  if (ending == ".vtu")
-    throw InputError(path +
-                     ": is one frame, and a series needs 2; list the .vtu files with their times in a .pvd");
-  throw InputError(path + ": unknown ending '" + ending + "' of a series; known are .pvd .vtkhdf");
-}
-
 void check_times(const std::string& path, const std::vector<double>& times) {
   if (times.size() < 2)
     throw InputError(path + ": holds " + std::to_string(times.size()) +
@@ -80,6 +69,17 @@ double diagonal(const std::vector<Vec3>& points) {
   return norm(high - low);
 }
 
+std::unique_ptr<FrameFiles> open_series(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".pvd") return open_pvd(path);
+  if (ending == ".vtkhdf" || ending == ".hdf" || ending == ".h5" || ending == ".hdf5")
+    return open_vtkhdf(path);
+  if (ending == ".vtu")
+    throw InputError(path +
+                     ": is one frame, and a series needs 2; list the .vtu files with their times in a .pvd");
+  throw InputError(path + ": unknown ending '" + ending + "' of a series; known are .pvd .vtkhdf");
+}
+
 std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts) {
   std::vector<SeriesField> fields;
   std::set<std::string> names;
@@ -99,12 +99,13 @@ std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts) {
 }
 
 Series::Series(const std::string& path, const std::vector<SeriesField>& fields)
-    : path_(path), files_(open_files(path)), fields_(fields) {
+    : path_(path), files_(open_series(path)), fields_(fields) {
   check_times(path, times());
   const SourceFrame first = files_->read(0, sources_there(0));
   check_cells(where(0), first.mesh);
   describe_fields(first);
   mesh_ = mesh_as_read_ = first.mesh;
+  leave_loose_nodes();
 }
 
 std::string Series::where(std::size_t frame) const {
@@ -161,8 +162,16 @@ void Series::check_values(std::size_t frame, const SourceFrame& found) const {
         array.values.size() != components * found.mesh.points.size())
       throw InputError(where(frame) + ": field '" + fields_[f].source +
                        "' has another shape than in frame 0");
-    const auto bad = std::find_if(array.values.begin(), array.values.end(),
-                                  [](double value) { return !std::isfinite(value); });
+    const auto is_bad = [](double value) { return !std::isfinite(value); };
+    auto bad = array.values.end();
+    if (kept_.empty()) bad = std::find_if(array.values.begin(), array.values.end(), is_bad);
+    for (const std::int32_t node : kept_) {
+      const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(components) * node,
+                 last = first + static_cast<std::ptrdiff_t>(components);
+      if (const auto found_bad = std::find_if(first, last, is_bad);
+          found_bad != last && bad == array.values.end())
+        bad = found_bad;
+    }
     if (bad != array.values.end())
       throw InputError(where(frame) + ": field '" + fields_[f].source + "' is " +
                        (std::isnan(*bad) ? "not a number" : "infinite") + " at node " +
@@ -193,14 +202,33 @@ FieldValues Series::frame(std::size_t frame) const {
   return values;
 }
 
-void Series::weld(const std::vector<std::int32_t>& number) {
-  CLEFT_CHECK(number.size(), ==, mesh_as_read_.points.size());
-  kept_.assign(static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1, -1);
-  mesh_.points.resize(kept_.size());
-  for (std::size_t i = number.size(); i-- > 0;) {
-    kept_[number[i]] = static_cast<std::int32_t>(i);
-    mesh_.points[number[i]] = mesh_as_read_.points[i];
+void Series::leave_loose_nodes() {
+  std::vector<std::int32_t> number(mesh_.points.size(), -1);
+  for (const std::int64_t corner : mesh_.connectivity) number[corner] = 0;
+  loose_ = static_cast<std::size_t>(std::count(number.begin(), number.end(), -1));
+  if (loose_ == 0 || loose_ == number.size()) {
+    loose_ = 0;
+    return;
   }
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] == 0) {
+      number[i] = static_cast<std::int32_t>(kept_.size());
+      kept_.push_back(static_cast<std::int32_t>(i));
+    }
+  for (std::int64_t& corner : mesh_.connectivity) corner = number[corner];
+  mesh_.points.resize(kept_.size());
+  for (std::size_t i = 0; i < kept_.size(); ++i) mesh_.points[i] = mesh_as_read_.points[kept_[i]];
+}
+
+void Series::weld(const std::vector<std::int32_t>& number) {
+  CLEFT_CHECK(number.size(), ==, mesh_.points.size());
+  std::vector<std::int32_t> kept(
+      static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1, -1);
+  for (std::size_t i = number.size(); i-- > 0;)
+    kept[number[i]] = kept_.empty() ? static_cast<std::int32_t>(i) : kept_[i];
+  kept_ = std::move(kept);
+  mesh_.points.resize(kept_.size());
+  for (std::size_t i = 0; i < kept_.size(); ++i) mesh_.points[i] = mesh_as_read_.points[kept_[i]];
   for (std::int64_t& corner : mesh_.connectivity) corner = number[corner];
 }
 

@@ -33,7 +33,7 @@ class Series {
   const std::vector<double>& times() const { return files_->times(); }
   std::size_t frames() const { return times().size(); }
   const std::vector<SeriesField>& fields() const { return fields_; }
-  /// The mesh of the first frame.
+  /// The mesh of the first frame, without the nodes that no cell has, unless there are no cells.
   const SourceMesh& mesh() const { return mesh_; }
 
   /// Throws FileError if the frame has other nodes or cells than the first, lacks a field, or holds a value
@@ -41,6 +41,10 @@ class Series {
   FieldValues frame(std::size_t frame) const;
   /// The largest distance of a node from its place in the first frame, over the frames read so far.
   double farthest_moved() const { return farthest_moved_; }
+
+  bool in_pieces() const { return files_->in_pieces(); }  ///< see FrameFiles
+  /// Nodes that were left out because no cell has them.
+  std::size_t loose_nodes() const { return loose_; }
 
   /// Merges nodes with equal `number`, which get the values of the first of them; the numbers are consecutive
   /// from 0.
@@ -50,6 +54,7 @@ class Series {
   std::string where(std::size_t frame) const;
   std::vector<std::string> sources_there(std::size_t frame) const;
   void describe_fields(const SourceFrame& first);
+  void leave_loose_nodes();
   void check_mesh(std::size_t frame, const SourceMesh& mesh) const;
   void check_values(std::size_t frame, const SourceFrame& values) const;
 
@@ -58,6 +63,7 @@ class Series {
   std::vector<SeriesField> fields_;
   SourceMesh mesh_as_read_, mesh_;
   std::vector<std::int32_t> kept_;  ///< nodes as read, one for each node; empty: all
+  std::size_t loose_ = 0;
   mutable double farthest_moved_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "base/error.h"
 #include "solver/snapshot/snapshot.h"
@@ -138,14 +139,25 @@ class SnapshotCheck {
   const Snapshot& s_;
 };
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
 std::optional<SnapshotSource> read_source(const h5::File& file) {
   if (!file.has("/import")) return {};
   const std::vector<Vec3> axes = as_vectors(file.read_numbers("/import", "axes", 9));
-  return SnapshotSource{file.read_text("/import", "source"),
-                        as_vectors(file.read_numbers("/import", "origin", 3)).front(),
-                        {axes[0], axes[1], axes[2]},
-                        file.read_number("/import", "time_start"),
-                        file.read_text("/import", "break")};
+  return SnapshotSource{
+      file.read_text("/import", "source"),
+      as_vectors(file.read_numbers("/import", "origin", 3)).front(),
+      {axes[0], axes[1], axes[2]},
+      file.read_number("/import", "time_start"),
+      file.read_text("/import", "break"),
+      file.has("/import/break_map") ? file.read<double>("/import/break_map", {0}) : std::vector<double>(),
+      file.has_attribute("/import", "fields") ? lines_of(file.read_text("/import", "fields"))
+                                              : std::vector<std::string>()};
 }
 
 Snapshot read_all_but_displacements(const h5::File& file) {

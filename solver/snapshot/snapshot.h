@@ -26,6 +26,10 @@ struct SnapshotSource {
   std::array<Vec3, 3> axes;  ///< unit vectors of u, v, w in that space, right-handed
   double time_start = 0;     ///< time of the first frame in the source
   std::string break_plane;   ///< nx,ny,nz,offset in that space: points x with n . x = offset; or "none"
+  /// Of a break that is no plane, or has a round front: its map to canonical coordinates (encoder/field/
+  /// break_map.h), from (u, v, w) as they are placed here. `coordinates` are then its values at the nodes.
+  std::vector<double> break_map = {};
+  std::vector<std::string> fields = {};  ///< SOURCE:NAME: names of fields there and here; none: not recorded
 };
 
 /// The contents without the displacements. N points, C cells, P pairs, F frames. Lengths in mm.
@@ -71,6 +75,9 @@ struct SnapshotArray {
   std::size_t components = 1;  ///< numbers for each point
   bool varies = false;         ///< F N rows instead of N
 };
+
+/// Where `coordinates` is set, or of a body: every node's coordinates of the cut, and their unit vectors.
+inline const SnapshotArray canonical_array{"canonical", 3, false}, frame_array{"frame", 9, false};
 
 /// Writes a snapshot completely or not at all: displacement frame by frame, further arrays, then finish().
 class SnapshotWriter {

@@ -22,7 +22,7 @@ solver:base|base/command|base/h5|params|params/parameters|params/material|solver
 encoder/field:base|params/parameters
 encoder/field/file:base|base/h5|encoder/field|params/parameters
 encoder:base|base/command|base/h5|params|params/parameters|encoder/field|encoder/field/file|solver/snapshot
-encoder/import:base|base/command|base/h5|solver/snapshot|params/parameters
+encoder/import:base|base/command|base/h5|solver/snapshot|params/parameters|encoder/field|encoder/field/file
 encoder/interpolate:base|base/command|encoder/field|encoder/field/file|params|params/parameters
 encoder/modes:base|base/command|encoder/field|encoder/field/file|encoder/interpolate|params|params/parameters
 haptic:base|encoder/field|params/parameters

@@ -81,6 +81,36 @@ std::array<BSplineBasis, 4> bases_of(const Field& field) {
   return {field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
 }
 
+Json numbers_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+void put_source(Json& header, const FieldSource& source) {
+  Json& entry = header["source"];
+  entry = {{"file", source.file}, {"origin", numbers_of(source.origin)}};
+  for (const Vec3& axis : source.axes) entry["axes"].push_back(numbers_of(axis));
+  entry["times"] = source.times, entry["fields"] = source.fields;
+  if (source.map) entry["map"] = source.map->numbers();
+}
+
+Vec3 vector_of(const Json& list) {
+  Vec3 v;
+  for (int i = 0; i < 3; ++i) v[i] = number(list.at(static_cast<std::size_t>(i)));
+  if (!std::isfinite(squared_norm(v))) throw InputError("the source's place is not finite");
+  return v;
+}
+
+std::optional<FieldSource> source_of(const Json& header) {
+  if (!header.contains("source")) return {};
+  const Json& entry = header.at("source");
+  FieldSource source;
+  source.file = entry.at("file").get<std::string>();
+  source.origin = vector_of(entry.at("origin"));
+  for (std::size_t i = 0; i < 3; ++i) source.axes[i] = vector_of(entry.at("axes").at(i));
+  source.times = entry.at("times").get<std::vector<double>>();
+  source.fields = entry.at("fields").get<std::vector<std::string>>();
+  if (entry.contains("map")) source.map = BreakMap::from(entry.at("map").get<std::vector<double>>());
+  return source;
+}
+
 Json header_of(const Field& field, int slices) {
   Json header{{"case", field.case_hash},
               {"parametrization", field.parametrization().name()},
@@ -97,6 +127,7 @@ Json header_of(const Field& field, int slices) {
   for (const auto& [name, value] : field.parameters.numbers()) header["parameters"][name] = value;
   for (const auto& [name, value] : field.parameters.texts()) header["choices"][name] = value;
   for (const Figure& figure : figures) header["report"][figure.name] = field.report.*figure.value;
+  if (field.source) put_source(header, *field.source);
   if (field.interpolation) {
     header["interpolation"]["method"] = field.interpolation->method;
     for (const auto& figure : interpolation_figures)
@@ -242,6 +273,7 @@ Field field_of(const Json& header, Points&& points_of) {
     field.parameters = parameters_of(header);
     field.report = report_of(header);
     field.interpolation = interpolation_of(header);
+    field.source = source_of(header);
     return field;
   });
 }

@@ -1,0 +1,81 @@
+#include "encoder/break_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/snapshot/break_front.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double far = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
+                     const std::array<Interval, 3>& domain) {
+  BreakEnds ends{{s.cut_start, s.cut_length, s.cut_depth}, s.position};
+  const std::size_t open = s.released.back();
+  if (open == 0) return {{}, s.position};
+  const double slack = 1e-6 * s.cut_length;
+  std::vector<std::int8_t> sides(s.points.size(), 0);
+  double first = far, last = -far, lowest = far, highest = -far;
+  for (std::size_t p = 0; p < open; ++p) {
+    if (!parted[p]) continue;
+    sides[s.pairs[p][0]] = -1, sides[s.pairs[p][1]] = 1;
+    const Vec3& at = s.points[s.pairs[p][0]];
+    first = std::min(first, at.x), last = std::max(last, at.x);
+    lowest = std::min(lowest, at.z), highest = std::max(highest, at.z);
+  }
+  if (last < first) return ends;  // none parts
+  std::vector<bool> at_front = nodes_at_front(s.cell_offsets, s.connectivity, s.pairs, sides);
+  if (s.cell_types.empty())  // nodes of v = 0 tell instead
+    for (std::size_t n = 0; n < at_front.size(); ++n)
+      at_front[n] = sides[n] == 0 && std::abs(s.points[n].y) <= slack;
+  std::vector<Vec3> whole;
+  for (std::size_t n = 0; n < at_front.size(); ++n)
+    if (at_front[n]) whole.push_back(s.points[n]);
+  double before = -far, below = -far;
+  for (const Vec3& at : whole) {
+    const bool beside =
+        at.z > lowest - slack && at.z<highest + slack, under = at.x> first - slack && at.x < last + slack;
+    if (beside && at.x < first - slack) before = std::max(before, at.x);
+    if (under && at.z < lowest - slack) below = std::max(below, at.z);
+  }
+  const bool imported = s.source && !s.cell_types.empty();
+  if (imported || std::abs(ends.cut.start - first) <= slack) {
+    const double end = ends.cut.start + ends.cut.length;
+    ends.cut.start = before > -far ? before : domain[0].front;
+    ends.cut.length = end - ends.cut.start;
+  }
+  if (imported || std::abs(ends.cut.depth + lowest) <= slack)
+    ends.cut.depth = below > -far ? -below : -domain[2].front;
+  const bool at_once = s.position.front() == s.position.back();
+  if (!imported) {
+    if (s.source && ends.cut.start != s.cut_start && !at_once) ends.tip.front() = ends.cut.start;
+    return ends;
+  }
+
+  // The tip that is recorded stands at an open pair where all open at once, or where nothing is whole ahead.
+  double of_open = -far;
+  for (std::size_t j = 0, p = 0; j < ends.tip.size(); ++j) {
+    for (; p < (at_once ? open : static_cast<std::size_t>(s.released[j])); ++p)
+      of_open = std::max(of_open, s.points[s.pairs[p][0]].x);
+    double& tip = ends.tip[j];
+    if (tip <= of_open + slack) {
+      double ahead = far;
+      for (const Vec3& at : whole)
+        if (at.x > of_open + slack) ahead = std::min(ahead, at.x);
+      tip = ahead < far ? ahead : domain[0].back;
+    }
+    if (tip > domain[0].back - slack) tip = domain[0].back;
+  }
+  // A front that is closed in frame 0 grows with the blade from where the cut begins.
+  if (!at_once && before > -far) ends.tip.front() = ends.cut.start;
+  ends.cut.length = ends.tip.back() - ends.cut.start;
+  return ends;
+}
+
+}  // namespace cleft

@@ -1,0 +1,251 @@
+#include "tests/import/cracked_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+namespace cleft {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Turned by an angle about c.
+Vec3 turned(const Vec3& x, double angle) {
+  return {std::cos(angle) * x.x - std::sin(angle) * x.y, std::sin(angle) * x.x + std::cos(angle) * x.y, x.z};
+}
+
+CrackedBody named(CrackedBody body, const std::string& name) {
+  body.name = name;
+  return body;
+}
+
+/// The body's places and displacements moved rigidly.
+CrackedBody posed(CrackedBody body, const std::string& name, const Pose& pose) {
+  const auto place = body.place;
+  const auto displacement = body.displacement;
+  body.place = [=](const Vec3& abc) { return pose.point(place(abc)); };
+  body.displacement = [=](const Vec3& abc, int side, double t) {
+    return pose.vector(displacement(abc, side, t));
+  };
+  return named(std::move(body), name);
+}
+
+CrackedBody bent(const std::string& name, const std::function<Vec3(const Vec3&)>& place) {
+  CrackedBody body = edge_crack();
+  body.place = place;
+  return named(std::move(body), name);
+}
+
+/// What the body does besides the crack: it bends and twists, smoothly in space.
+Vec3 of_body(const Vec3& x, double t) {
+  return 1e-5 * t * Vec3{x.x * x.y, 0.5 * x.x * x.x - 0.3 * x.y * x.y + 2 * x.x, x.y * x.z - x.x};
+}
+
+/// The same over places, with what the body does added.
+CrackedBody with_body(CrackedBody body) {
+  body.displacement = [place = body.place, crack = body.displacement](const Vec3& abc, int side, double t) {
+    return crack(abc, side, t) + of_body(place(abc), t);
+  };
+  return body;
+}
+
+/// Growing rings of a disc of nodes are circles: squares of (s, t) of half side r <= inner become circles of
+/// radius r, and turn back into squares at `outer`.
+Vec3 disc(double s, double t, double b, double inner, double outer) {
+  const double r = std::max(std::abs(s), std::abs(t)), h = std::hypot(s, t);
+  if (r == 0) return {0, b, 0};
+  const double square = std::clamp((r - inner) / (outer - inner), 0., 1.);
+  const double scale = (1 - square) * r / h + square;
+  return {scale * s, b, scale * t};
+}
+
+/// Flow around a disc of radius R in the plane y = 0: harmonic, odd in y, on the disc +- sqrt(1 - (r / R)^2);
+/// in oblate spheroidal coordinates.
+double through_disc(const Vec3& x, double R, int side) {
+  const double r2 = (x.x * x.x + x.z * x.z) / (R * R), y = x.y / R;
+  const double q = r2 + y * y - 1;
+  const double zeta2 = 0.5 * (q + std::sqrt(q * q + 4 * y * y));
+  const double zeta = std::sqrt(std::max(zeta2, 0.));
+  const double xi2 = zeta > 1e-7 ? y * y / (zeta * zeta) : std::max(0., 1 - r2);
+  const double xi = std::copysign(std::sqrt(std::max(xi2, 0.)), side != 0 ? side : x.y);
+  const double decay = 1 - zeta * (pi / 2 - std::atan(zeta));
+  return xi * decay;
+}
+
+/// Around a slit of half length R along x: Im of sqrt(R^2 - z^2), on the slit +- sqrt(R^2 - x^2), less what
+/// is linear far away.
+double around_slit(double x, double y, double R, int side) {
+  const double p = R * R - x * x + y * y, q = -2 * x * y, size = std::hypot(p, q);
+  const double real = std::sqrt(std::max(0., 0.5 * (size + p)));
+  return std::copysign(real, side != 0 ? side : y) - y;
+}
+
+}  // namespace
+
+std::vector<double> planes(double front, double back, int cells) {
+  std::vector<double> list;
+  for (int i = 0; i <= cells; ++i) list.push_back(front + (back - front) * i / cells);
+  return list;
+}
+
+Vec3 beside_front(double a, double b, int side) {
+  const double r = std::hypot(a, b), angle = side != 0 && b == 0 && a < 0 ? side * pi : std::atan2(b, a);
+  constexpr double kappa = 3 - 4 * 0.3;
+  const double c = std::cos(angle / 2), s = std::sin(angle / 2);
+  return std::sqrt(r) * Vec3{c * (kappa - 1 + 2 * s * s), s * (kappa + 1 - 2 * c * c), 0};
+}
+
+CrackedBody::Mesh CrackedBody::mesh() const {
+  Mesh mesh;
+  std::map<std::tuple<std::size_t, std::size_t, std::size_t, int>, std::int64_t> numbers;
+  const bool flat = c.size() == 1;
+  const auto node = [&](std::size_t i, std::size_t j, std::size_t k, double b_of_cell) {
+    const Vec3 abc{a[i], b[j], c[k]};
+    const bool on_crack = std::find(cracks.begin(), cracks.end(), abc.y) != cracks.end() && doubled(abc);
+    const int side = !on_crack ? 0 : b_of_cell < abc.y ? -1 : 1;
+    const auto [at, is_new] =
+        numbers.try_emplace({i, j, k, side}, static_cast<std::int64_t>(mesh.nodes.size()));
+    if (is_new) mesh.nodes.push_back({abc, side}), mesh.series.add_point(place(abc));
+    return at->second;
+  };
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    for (std::size_t j = 0; j + 1 < b.size(); ++j)
+      for (std::size_t k = 0; k + 1 < c.size() + (flat ? 1 : 0); ++k) {
+        const double middle = (b[j] + b[j + 1]) / 2;
+        if (!solid({(a[i] + a[i + 1]) / 2, middle, c[k]})) continue;
+        std::vector<std::int64_t> corners;
+        for (const std::size_t level : {k, k + 1}) {
+          if (flat && level > k) continue;
+          for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+            corners.push_back(node(i + x, j + y, level, middle));
+        }
+        mesh.series.add_cell(flat ? quad : hexahedron, corners);
+      }
+  return mesh;
+}
+
+SourceSeries CrackedBody::series() const {
+  Mesh made = mesh();
+  SourceSeries series = std::move(made.series);
+  series.times = times;
+  auto& field = series.fields.emplace_back(SourceSeries::Field{"displacement", 3, {}});
+  for (const double t : times) {
+    auto& values = field.frames.emplace_back();
+    for (const Node& node : made.nodes) {
+      const Vec3 d = displacement(node.abc, node.side, t);
+      values.insert(values.end(), {d.x, d.y, d.z});
+    }
+  }
+  return series;
+}
+
+CrackedBody edge_crack() {
+  CrackedBody body;
+  body.name = "edge crack, hexahedra, axis-parallel";
+  body.a = planes(0, 40, 40), body.b = planes(-15, 15, 30), body.c = planes(-6, 0, 4);
+  body.times = planes(0, 12, 12);
+  body.doubled = [](const Vec3& abc) { return abc.x < 24; };
+  body.displacement = [](const Vec3& abc, int side, double t) {
+    return 0.01 * t * beside_front(abc.x - 2 * t, abc.y, side);
+  };
+  return body;
+}
+
+std::vector<CrackedBody> cracked_bodies() {
+  std::vector<CrackedBody> rows = {edge_crack()};
+  Pose by_thirty;
+  by_thirty.axes[0] = turned({1, 0, 0}, pi / 6), by_thirty.axes[1] = turned({0, 1, 0}, pi / 6);
+  by_thirty.origin = {3, 4, 5};
+  rows.push_back(posed(edge_crack(), "rotated by 30 degrees", by_thirty));
+  rows.push_back(bent("wavy edge and bottom", [](const Vec3& x) {
+    return Vec3{x.x + 0.03 * std::sin(2.1 * x.z + 0.4 * x.y) * (1 - x.x / 40), x.y,
+                x.z + 0.03 * std::sin(1.3 * x.x) * (1 + x.z / 6)};
+  }));
+
+  CrackedBody notch = named(edge_crack(), "crack from a notch root");
+  notch.solid = [](const Vec3& x) { return x.x > 6 || std::abs(x.y) > 2; };
+  notch.doubled = [](const Vec3& x) { return 6 <= x.x && x.x < 24; };
+  notch.displacement = [](const Vec3& x, int side, double t) {
+    return 0.01 * t * beside_front(x.x - 6 - 2 * t, x.y, side);
+  };
+  notch.times = planes(0, 9, 9);
+  rows.push_back(notch);
+
+  CrackedBody penny = named(edge_crack(), "penny crack inside the body");
+  penny.a = penny.c = planes(-15, 15, 24), penny.b = planes(-12, 12, 16);
+  penny.times = planes(0, 6, 6);
+  penny.place = [](const Vec3& x) { return disc(x.x, x.z, x.y, 11.25, 15); };
+  penny.doubled = [](const Vec3& x) { return std::max(std::abs(x.x), std::abs(x.z)) < 8.75; };
+  penny.displacement = [place = penny.place](const Vec3& x, int side, double t) {
+    return t == 0 ? Vec3{} : Vec3{0, 0.1 * t * through_disc(place(x), 1.25 * (t + 1), side), 0};
+  };
+  rows.push_back(posed(with_body(penny), penny.name, Pose::random(3)));
+
+  // Half a disc, wider than deep by 1.5.
+  CrackedBody elliptic = named(penny, "half elliptic crack at a face");
+  elliptic.c = planes(-15, 0, 12);
+  elliptic.place = [](const Vec3& x) {
+    const Vec3 p = disc(x.x, x.z, x.y, 11.25, 15);
+    return Vec3{1.5 * p.x, p.y, p.z};
+  };
+  elliptic.displacement = [](const Vec3& x, int side, double t) {
+    return t == 0 ? Vec3{}
+                  : Vec3{0, 0.1 * t * through_disc(disc(x.x, x.z, x.y, 11.25, 15), 1.25 * (t + 1), side), 0};
+  };
+  rows.push_back(posed(with_body(elliptic), elliptic.name, Pose::random(4)));
+
+  CrackedBody plane = named(edge_crack(), "2D edge crack, one plane of nodes");
+  plane.c = {0};
+  rows.push_back(plane);
+
+  CrackedBody slit = named(edge_crack(), "2D slit inside, a pulse past it");
+  slit.a = planes(-20, 20, 40), slit.c = {0}, slit.times = planes(0, 12, 24);
+  slit.doubled = [](const Vec3& x) { return std::abs(x.x) < 8; };
+  slit.displacement = [](const Vec3& x, int side, double t) {
+    return std::sin(0.5 * t) *
+           Vec3{0.1 * std::cos(0.1 * x.x + 0.08 * x.y - 0.3 * t), 0.1 * around_slit(x.x, x.y, 8, side), 0};
+  };
+  rows.push_back(slit);
+
+  CrackedBody noisy = named(edge_crack(), "noise of 1e-6, opening of 1e-3");
+  noisy.displacement = [](const Vec3& x, int side, double t) {
+    // The same for every call: a number from the bits of place and time.
+    const auto noise = [&](int i) {
+      const double number =
+          std::sin(12.9898 * x.x + 78.233 * x.y + 37.719 * x.z + 4.581 * t + 9.151 * side + i) * 43758.5453;
+      return 2e-6 * (number - std::floor(number) - 0.5);
+    };
+    return 1.6e-5 * t * beside_front(x.x - 2 * t, x.y, side) + Vec3{noise(0), noise(1), noise(2)};
+  };
+  rows.push_back(noisy);
+
+  // The law's elastic branch: ahead of the front, pairs open by up to 1e-3 of the largest opening.
+  CrackedBody cohesive = named(edge_crack(), "cohesive elements: closed pairs open by 1e-3");
+  cohesive.displacement = [](const Vec3& x, int side, double t) {
+    const double elastic = side * 3e-4 * t * std::exp(-std::max(0., x.x - 2 * t) / 4);
+    return 0.01 * t * beside_front(x.x - 2 * t, x.y, side) + Vec3{0, elastic, 0};
+  };
+  cohesive.doubled = [](const Vec3&) { return true; };
+  rows.push_back(cohesive);
+
+  rows.push_back(with_body(bent("curved, radius 60", [](const Vec3& x) {
+    const double turn = x.x / 60;
+    return Vec3{(60 - x.y) * std::sin(turn), 60 - (60 - x.y) * std::cos(turn), x.z};
+  })));
+  rows.push_back(with_body(bent("kinked by 30 degrees", [](const Vec3& x) {
+    return Vec3{x.x, x.y + std::max(0., x.x - 10) * std::tan(pi / 6), x.z};
+  })));
+  // A sheet that is curved along the crack and across the thickness, and turned.
+  rows.push_back(
+      posed(with_body(bent("curved both ways, turned",
+                           [](const Vec3& x) {
+                             return Vec3{x.x, x.y + 2 * std::sin(0.12 * x.x) + 0.05 * x.z * x.z, x.z};
+                           })),
+            "curved both ways, turned", Pose::random(5)));
+  return rows;
+}
+
+}  // namespace cleft

@@ -1,0 +1,375 @@
+// Bodies with cracks of any shape and place: errors of their fields against closed forms.
+#include "tests/import/cracked_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/text.h"
+#include "encoder/field/file/field_file.h"
+#include "tests/pipeline/commands.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double tolerance = 0.01;
+
+/// Largest errors over nodes and frames, over the largest displacement.
+struct Errors {
+  double nodes = 0;    ///< of the file: the spline and the residual
+  double spline = 0;   ///< of the spline alone
+  double opening = 0;  ///< of the spline's jump at doubled nodes
+  double bytes = 0;
+  std::string said;  ///< by the commands
+};
+
+/// The place of each node in the field, and the directions of its displacement in the source's space.
+struct FieldPlaces {
+  std::vector<Vec3> uvw;
+  std::vector<Side> sides;
+  std::vector<std::array<Vec3, 3>> frames;
+
+  explicit FieldPlaces(const SnapshotReader& reader) {
+    const Snapshot& s = reader.snapshot();
+    uvw = s.points;
+    frames.assign(uvw.size(), s.source->axes);
+    if (s.coordinates) {
+      const std::vector<double> at = reader.point_array({"canonical", 3, false}, 0),
+                                axes = reader.point_array({"frame", 9, false}, 0);
+      for (std::size_t n = 0; n < uvw.size(); ++n) {
+        uvw[n] = {at[3 * n], at[3 * n + 1], at[3 * n + 2]};
+        for (int k = 0; k < 3; ++k) {
+          frames[n][k] = {};
+          for (int i = 0; i < 3; ++i) frames[n][k] += axes[9 * n + 3 * k + i] * s.source->axes[i];
+        }
+      }
+    }
+    for (const Vec3& p : uvw) sides.push_back(side_of(p.y));
+    for (const auto& [left, right] : s.pairs) sides[left] = Side::left, sides[right] = Side::right;
+  }
+};
+
+Errors measured(const CrackedBody& body) {
+  const TemporaryFolder folder;
+  Errors errors;
+  const std::string snapshot = folder / "case.h5", file = folder / "case.dffd",
+                    values = folder / "values.csv";
+  const Outcome imported =
+      run_cleft("import", {body.series().write(folder), "--field", "displacement", "--out", snapshot});
+  EXPECT_EQ(imported.exit_code, 0) << body.name << ": " << imported.output;
+  errors.said = imported.output;
+  if (imported.exit_code != 0) return errors;
+  const Outcome encoded = run_cleft("encode", {snapshot, "--tolerance", shortest(tolerance), "--out", file});
+  EXPECT_EQ(encoded.exit_code, 0) << body.name << ": " << encoded.output;
+  errors.said += encoded.output;
+  if (encoded.exit_code != 0) return errors;
+
+  const SnapshotReader reader(snapshot);
+  const Field field = read_field(file);
+  const FieldPlaces places(reader);
+  const auto residual = read_residual(file);
+  const std::vector<CrackedBody::Node> nodes = body.nodes();
+  double largest = 0;
+  for (std::size_t j = 0; j < body.times.size(); ++j) {
+    std::vector<Vec3> exact(nodes.size()), off(nodes.size());
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      exact[n] = body.displacement(nodes[n].abc, nodes[n].side, body.times[j]) -
+                 body.displacement(nodes[n].abc, nodes[n].side, body.times[0]);
+      largest = std::max(largest, norm(exact[n]));
+      const auto in_space = [&](const Vec3& d) {
+        const auto& [u, v, w] = places.frames[n];
+        return d.x * u + d.y * v + d.z * w;
+      };
+      const Vec3 spline = field.displacement(places.uvw[n], places.sides[n], body.times[j]);
+      off[n] = in_space(spline) - exact[n];
+      errors.spline = std::max(errors.spline, norm(off[n]));
+      const Vec3 kept = residual && j > 0 ? spline + residual->at(n, j) : spline;
+      errors.nodes = std::max(errors.nodes, norm(in_space(kept) - exact[n]));
+    }
+    // Nodes at one place follow each other by side.
+    std::map<std::array<double, 3>, std::array<std::size_t, 2>> pairs;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      if (nodes[n].side != 0) pairs[{nodes[n].abc.x, nodes[n].abc.y, nodes[n].abc.z}][nodes[n].side > 0] = n;
+    for (const auto& [abc, pair] : pairs)
+      errors.opening = std::max(errors.opening, norm(off[pair[1]] - off[pair[0]]));
+  }
+  errors.nodes /= largest, errors.spline /= largest, errors.opening /= largest;
+  errors.bytes = static_cast<double>(std::filesystem::file_size(file));
+  return errors;
+}
+
+class CrackedBodies : public testing::TestWithParam<std::size_t> {};
+
+}  // namespace
+
+TEST_P(CrackedBodies, TheFieldAndItsOpeningKeepTheTolerance) {
+  const CrackedBody body = cracked_bodies()[GetParam()];
+  const Errors errors = measured(body);
+  std::printf("| %s | %.4f | %.4f | %.4f | %.0f |\n", body.name.c_str(), errors.nodes, errors.spline,
+              errors.opening, errors.bytes);
+  EXPECT_LE(errors.nodes, 1.0001 * tolerance) << body.name << "\n" << errors.said;
+  EXPECT_LE(errors.spline, 2 * tolerance) << body.name << "\n" << errors.said;
+  EXPECT_LE(errors.opening, 2 * tolerance) << body.name << "\n" << errors.said;
+}
+
+namespace {
+
+class FieldsOfASeries : public testing::Test {
+ protected:
+  const TemporaryFolder folder;
+  const std::string snapshot = folder / "case.h5", file = folder / "case.dffd";
+
+  Outcome import(const SourceSeries& series, const std::string& fields, std::vector<std::string> more = {}) {
+    std::filesystem::remove(snapshot);
+    more.insert(more.begin(), {series.write(folder), "--field", fields, "--out", snapshot});
+    return expect_success(run_cleft("import", more));
+  }
+  Outcome encode(const std::string& tolerances = "0.01") {
+    std::filesystem::remove(file);
+    return expect_success(run_cleft("encode", {snapshot, "--tolerance", tolerances, "--out", file}));
+  }
+  /// Largest norm of the difference of a quantity, as kept at the nodes, from a field of the series;
+  /// `double_shear` of tensors.
+  double error(const SourceSeries& series, std::size_t of_series, std::size_t of_field) {
+    const Field field = read_field(file);
+    const auto residual = read_quantity_residual(file, of_field);
+    const FieldPlaces places{SnapshotReader(snapshot)};
+    const auto& data = series.fields[of_series];
+    double worst = 0;
+    for (std::size_t j = 0; j < series.times.size(); ++j)
+      for (std::size_t n = 0; n < places.uvw.size(); ++n) {
+        std::vector<double> values(static_cast<std::size_t>(data.components));
+        field.quantity(of_field, places.uvw[n], places.sides[n], series.times[j], values);
+        double square = 0;
+        for (int c = 0; c < data.components; ++c) {
+          const double kept = values[c] + (residual ? residual->at(n, c, j) : 0);
+          square += std::pow(kept - data.frames[j][n * data.components + c], 2) * (c < 3 ? 1 : 2);
+        }
+        worst = std::max(worst, std::sqrt(square));
+      }
+    return worst;
+  }
+};
+
+/// A pressure about a large mean that jumps across a slit.
+SourceSeries::Field pressure_of(const CrackedBody& body, double mean, double amplitude) {
+  SourceSeries::Field field{"p", 1, {}};
+  for (const double t : body.times) {
+    auto& values = field.frames.emplace_back();
+    for (const auto& [abc, side] : body.nodes())
+      values.push_back(mean + amplitude * body.displacement(abc, side, t).y);
+  }
+  return field;
+}
+
+CrackedBody slit() {
+  for (const CrackedBody& body : cracked_bodies())
+    if (body.name.find("slit") != std::string::npos) return body;
+  throw std::logic_error("no body with a slit");
+}
+
+}  // namespace
+
+TEST_F(FieldsOfASeries, ToleranceIsOfTheRangeOfAPressure) {
+  const CrackedBody body = slit();
+  SourceSeries series = body.series();
+  series.fields = {pressure_of(body, 101325, 12)};
+  double low = 1e300, high = -1e300;
+  for (const auto& frame : series.fields[0].frames)
+    for (const double p : frame) low = std::min(low, p), high = std::max(high, p);
+  ASSERT_LT(high - low, 40);
+  import(series, "p");
+  encode();
+  EXPECT_NEAR(read_field(file).quantities[0].scale, high - low, 1e-6 * (high - low));
+  EXPECT_LE(error(series, 0, 0), 0.01 * (high - low));
+  encode("p=0.05Pa");
+  EXPECT_LE(error(series, 0, 0), 0.05);
+  const Outcome wrong =
+      run_cleft("encode", {snapshot, "--tolerance", "T=0.1", "--out", folder / "none.dffd"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.output.find("no such field; there are: displacement, p"), std::string::npos)
+      << wrong.output;
+}
+
+TEST_F(FieldsOfASeries, ATensorsNormIsTheSameInAllAxes) {
+  const CrackedBody body = edge_crack();
+  double largest = 0;
+  for (unsigned seed = 0; seed < 2; ++seed) {
+    const Pose pose = seed == 0 ? Pose() : Pose::random(seed);
+    SourceSeries series = body.series();
+    for (Vec3& p : series.mesh.points) p = pose.point(p);
+    for (auto& frame : series.fields[0].frames)
+      for (std::size_t i = 0; i < frame.size(); i += 3) {
+        const Vec3 d = pose.vector({frame[i], frame[i + 1], frame[i + 2]});
+        frame[i] = d.x, frame[i + 1] = d.y, frame[i + 2] = d.z;
+      }
+    SourceSeries::Field stress{"stress", 6, {}};
+    for (const double t : body.times) {
+      auto& values = stress.frames.emplace_back();
+      for (const auto& [abc, side] : body.nodes()) {
+        const Vec3 d = body.displacement(abc, side, t);
+        const std::vector<double> tensor = pose.tensor({d.x, d.y, 0.1, 3 * d.y, 2 * d.x, -d.y});
+        values.insert(values.end(), tensor.begin(), tensor.end());
+      }
+    }
+    series.fields.push_back(stress);
+    import(series, "displacement,stress");
+    encode("0.02,stress=0.05");
+    const Quantity quantity = read_field(file).quantities[0];
+    if (seed == 0) largest = quantity.largest;
+    EXPECT_NEAR(quantity.largest, largest, 1e-9 * largest);
+    EXPECT_LE(quantity.error, 0.05);
+  }
+}
+
+TEST_F(FieldsOfASeries, NodesWithoutCellsAreLeftOut) {
+  const CrackedBody body = edge_crack();
+  SourceSeries series = body.series();
+  const std::size_t nodes = series.mesh.points.size();
+  for (int i = 0; i < 20; ++i) {
+    series.add_point({1000. + i, 50, 3});
+    for (auto& frame : series.fields[0].frames) frame.insert(frame.end(), {1e6, std::nan(""), -1e6});
+  }
+  const Outcome outcome = import(series, "displacement");
+  EXPECT_NE(outcome.output.find("20 nodes belong to no cell"), std::string::npos) << outcome.output;
+  EXPECT_EQ(SnapshotReader(snapshot).snapshot().points.size(), nodes);
+  encode();
+  EXPECT_LE(read_field(file).report.spline_error, 0.01);
+}
+
+/// As FEniCSx writes from two processes: each its cells and their nodes, also those of the other's border.
+TEST_F(FieldsOfASeries, PiecesAreJoined) {
+  const SourceSeries whole = edge_crack().series();
+  std::string list;
+  for (const bool second : {false, true}) {
+    SourceSeries piece;
+    piece.times = whole.times, piece.fields = {{"displacement", 3, {}}};
+    std::map<std::int64_t, std::int64_t> number;
+    for (std::size_t c = 0; c < whole.mesh.cell_types.size(); ++c) {
+      std::vector<std::int64_t> corners(whole.mesh.connectivity.begin() + whole.mesh.cell_offsets[c],
+                                        whole.mesh.connectivity.begin() + whole.mesh.cell_offsets[c + 1]);
+      if ((whole.mesh.points[corners[0]].x + whole.mesh.points[corners[0]].y / 3 > 12) != second) continue;
+      for (std::int64_t& corner : corners) {
+        const auto [at, is_new] = number.try_emplace(corner, static_cast<std::int64_t>(number.size()));
+        if (is_new) piece.add_point(whole.mesh.points[corner]);
+        corner = at->second;
+      }
+      piece.add_cell(whole.mesh.cell_types[c], corners);
+    }
+    for (const auto& frame : whole.fields[0].frames) {
+      auto& values = piece.fields[0].frames.emplace_back(3 * number.size());
+      for (const auto& [node, here] : number)
+        std::copy_n(frame.begin() + 3 * node, 3, values.begin() + 3 * here);
+    }
+    piece.write(folder, second ? "second" : "first");
+  }
+  for (std::size_t j = 0; j < whole.times.size(); ++j) {
+    const std::string number = std::to_string(j);
+    folder.write(
+        "frame_" + number + ".pvtu",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
+        "byte_order=\"LittleEndian\">\n<PUnstructuredGrid GhostLevel=\"0\">\n<PPointData>"
+        "<PDataArray type=\"Float64\" Name=\"displacement\" NumberOfComponents=\"3\"/></PPointData>\n"
+        "<PPoints><PDataArray type=\"Float64\" NumberOfComponents=\"3\"/></PPoints>\n<Piece Source=\"first_" +
+            number + ".vtu\"/>\n<Piece Source=\"second_" + number +
+            ".vtu\"/>\n</PUnstructuredGrid>\n</VTKFile>\n");
+    list += "<DataSet timestep=\"" + shortest(whole.times[j]) + "\" file=\"frame_" + number + ".pvtu\"/>\n";
+  }
+  const std::string series = folder.write("pieces.pvd",
+                                          "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+                                          "version=\"0.1\">\n<Collection>\n" +
+                                              list + "</Collection>\n</VTKFile>\n");
+  const Outcome outcome =
+      expect_success(run_cleft("import", {series, "--field", "displacement", "--out", snapshot}));
+  EXPECT_NE(outcome.output.find("comes in pieces"), std::string::npos) << outcome.output;
+  EXPECT_EQ(SnapshotReader(snapshot).snapshot().points.size(), whole.mesh.points.size());
+  encode();
+  EXPECT_LE(read_field(file).report.spline_error, 0.01);
+  EXPECT_LE(read_field(file).report.gape_error, 0.01);
+}
+
+TEST_F(FieldsOfASeries, ADisplacementOfFrame0IsKept) {
+  CrackedBody body = edge_crack();
+  body.displacement = [of = body.displacement](const Vec3& abc, int side, double t) {
+    return of(abc, side, t) + Vec3{0.3, 0.001 * abc.x * abc.x, 0};
+  };
+  const SourceSeries series = body.series();
+  import(series, "displacement");
+  encode();
+  const Field field = read_field(file);
+  ASSERT_EQ(field.quantities.size(), 1u);
+  EXPECT_EQ(field.quantities[0].name, "displacement_at_start");
+  SourceSeries at_start = series;
+  for (auto& frame : at_start.fields[0].frames) frame = series.fields[0].frames[0];
+  EXPECT_LE(error(at_start, 0, 0), 0.01 * field.report.largest_displacement);
+}
+
+/// The series comes back in its own axes, names and times: at its own nodes within the tolerance, and on its
+/// mesh, of which the field knows nothing, within the error of the spline.
+TEST_F(FieldsOfASeries, IsDecodedAsItWas) {
+  for (const char* name : {"curved both ways, turned", "penny crack inside the body",
+                           "half elliptic crack at a face", "2D edge crack, one plane of nodes"}) {
+    SourceSeries series;
+    for (const CrackedBody& body : cracked_bodies())
+      if (body.name == name) series = body.series();
+    for (double& t : series.times) t = 3 + 0.5 * t;
+    series.fields[0].name = "U";
+    SourceSeries::Field stress{"S", 6, {}};
+    for (auto& frame : series.fields[0].frames) {
+      auto& values = stress.frames.emplace_back();
+      for (std::size_t i = 0; i < frame.size(); i += 3) {
+        frame[i] += 0.01;  // there from the beginning
+        values.insert(values.end(),
+                      {frame[i], frame[i + 1], frame[i + 2], 2 * frame[i + 1], frame[i], -frame[i + 2]});
+      }
+    }
+    series.fields.push_back(stress);
+    const TemporaryFolder place;
+    const std::string pvd = series.write(place), h5 = place / "case.h5", dffd = place / "case.dffd";
+    expect_success(run_cleft("import", {pvd, "--field", "U:displacement,S:stress", "--out", h5}));
+    expect_success(run_cleft("encode", {h5, "--tolerance", "0.01", "--out", dffd}));
+    const Field field = read_field(dffd);
+    expect_success(run_cleft("decode", {dffd, "--on", place / "series_0.vtu", "--out", place / "on.pvd"}));
+    expect_success(run_cleft("decode", {dffd, "--nodes", h5, "--out", place / "at_nodes"}));
+    for (const bool on : {true, false}) {
+      const Series decoded(place / (on ? "on.pvd" : "at_nodes.pvd"), parse_fields({"U", "S"}));
+      EXPECT_EQ(decoded.times(), series.times);
+      EXPECT_LE(largest_difference(decoded.mesh().points, series.mesh.points), 1e-9 * 30);
+      double of_u = 0, of_s = 0;
+      for (std::size_t j = 0; j < series.times.size(); ++j) {
+        const FieldValues values = decoded.frame(j);
+        for (std::size_t i = 0; i < values[0].size(); i += 3) {
+          double u = 0, s = 0;
+          for (std::size_t c = 0; c < 3; ++c)
+            u += std::pow(values[0][i + c] - series.fields[0].frames[j][i + c], 2);
+          for (std::size_t c = 0; c < 6; ++c)
+            s += std::pow(values[1][2 * i + c] - stress.frames[j][2 * i + c], 2) * (c < 3 ? 1 : 2);
+          of_u = std::max(of_u, std::sqrt(u)), of_s = std::max(of_s, std::sqrt(s));
+        }
+      }
+      // Displacement and what it was in frame 0 each have the tolerance.
+      const Quantity& tensor =
+          field.quantities[0].name == "stress" ? field.quantities[0] : field.quantities[1];
+      EXPECT_LE(of_u, (on ? 4 : 2) * 0.01 * field.report.largest_displacement)
+          << name << (on ? " on" : " nodes");
+      EXPECT_LE(of_s, (on ? std::max(0.01, tensor.spline_error) : 0.01) * 1.001 * tensor.scale)
+          << name << (on ? " on" : " nodes");
+    }
+  }
+}
+
+TEST_F(FieldsOfASeries, ASplineThatIsOffIsWarnedOf) {
+  import(edge_crack().series(), "displacement");
+  EXPECT_EQ(encode().output.find("warning"), std::string::npos);
+  import(edge_crack().series(), "displacement", {"--break", "none"});
+  const std::string said = encode().output;
+  EXPECT_NE(said.find("cleft encode: warning: the spline"), std::string::npos) << said;
+  EXPECT_NE(said.find("--break"), std::string::npos) << said;
+}
+
+INSTANTIATE_TEST_SUITE_P(, CrackedBodies, testing::Range(std::size_t{0}, cracked_bodies().size()));
+
+}  // namespace cleft
