@@ -15,9 +15,10 @@ namespace {
 
 /// In depths of the cut: the skin is smoothed at the scale of what a cut moves.
 constexpr double smoothing_in_depths = 8. / 3;
-/// In lengths of the canonical cut: the tension that a cut releases anywhere opens it over all of its length,
-/// so that what a path does from place to place matters as little as its direction's changes sum up to.
-constexpr double smoothing_in_lengths = 0.45;
+/// In lengths of the canonical cut, to each side. The tension that a cut releases anywhere opens it over much
+/// of its length, so that a hand's tremor matters little; and what a path does within that is known from its
+/// curvature and how that changes.
+constexpr double smoothing_in_lengths = 0.25;
 /// Of the smoothing: the distance of stations while a path is found, and how far behind the tip its curvature
 /// is taken to be known: at the tip itself it is the hand's tremor.
 constexpr double station_in_smoothing = 0.25, behind_tip_in_smoothing = 0.5;

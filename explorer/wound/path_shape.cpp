@@ -29,7 +29,7 @@ constexpr double growth = 1.25, sparse = 1.5;
 /// what points over twice the smoothing tell, and much of it beside a fifth of the smoothing. How the
 /// curvature changes is known from a cubic: beside a hand's tremor of some tenths of a millimetre it is, with
 /// a smoothing above `hand` mm, the better known the longer it is, as the square of its third power.
-constexpr double straight = 1e-6, steady = 2e-2, hand = 8;
+constexpr double straight = 1e-6, steady = 2e-2, hand = 6;
 /// Half the way over which the path's direction is that of a chord, in smoothings.
 constexpr double chord = 1e-2;
 /// Places within the smoothing, on each side, that the blade's tilt is a mean of.

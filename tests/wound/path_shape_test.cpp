@@ -115,7 +115,7 @@ TEST(PathShape, ACurvatureThatChangesIsFollowed) {
     });
     record("clothoid of +-1/25, smoothing " + std::to_string(int(smoothing)), worst);
     EXPECT_LT(worst.curvature, 0.04 * (smoothing == 8 ? 0.18 : 0.1));  // at the ends; less between
-    if (smoothing > 8) EXPECT_LT(worst.rate, 0.15 * rate);
+    if (smoothing > 8) EXPECT_LT(worst.rate, 0.2 * rate);              // at the ends
   }
 }
 
