@@ -83,15 +83,23 @@ void parse_tolerance(const std::string& text, EncodeOptions& options) {
     throw InputError(where + " is given twice");
 }
 
+/// The names of all fields, for messages.
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list.append(list.empty() ? "" : ", ").append(name);
+  return list;
+}
+
 void check_names(const EncodeOptions& options, const Series& series) {
   std::vector<std::string> names = {"displacement"};
   for (const SeriesQuantity& quantity : series.quantities) names.push_back(quantity.name);
-  for (const auto& [name, tolerance] : options.tolerances) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    std::string list;
-    for (const std::string& known : names) list.append(list.empty() ? "" : ", ").append(known);
-    throw InputError("--tolerance " + name + ": the snapshot has no such field; there are: " + list);
-  }
+  const auto is_unknown = [&](const auto& tolerance) {
+    return std::find(names.begin(), names.end(), tolerance.first) == names.end();
+  };
+  const auto wrong = std::find_if(options.tolerances.begin(), options.tolerances.end(), is_unknown);
+  if (wrong == options.tolerances.end()) return;
+  throw InputError("--tolerance " + wrong->first +
+                   ": the snapshot has no such field; there are: " + listed(names));
 }
 
 /// A warning where the spline, which is what is drawn, is off by more than twice the tolerance.
