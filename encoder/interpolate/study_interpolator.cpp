@@ -135,7 +135,20 @@ double StudyInterpolator::fit_error(const DisplacementModel::Prediction& predict
   return std::max(median(fits), largest > 0 ? std::sqrt(squares) / largest : 0);
 }
 
-RecordedParameters StudyInterpolator::complete(const CaseParameters& values, bool meshable) const {
+/// Where cases on springs have one height, and those on bone others, the height tells which it is.
+CaseParameters StudyInterpolator::with_bottom(CaseParameters values) const {
+  const RecordedParameters& own = parameters_.front();
+  const auto height = values.find(own.name_of(own->patch.height));
+  const auto springs = groups_.base.find(own.name_of(own->patch.height));
+  if (!groups_.base.contains(on_bone_name) || values.contains(on_bone_name) || height == values.end() ||
+      springs == groups_.base.end())
+    return values;
+  values[on_bone_name] = height->second == springs->second ? 0 : 1;
+  return values;
+}
+
+RecordedParameters StudyInterpolator::complete(const CaseParameters& given, bool meshable) const {
+  const CaseParameters values = with_bottom(given);
   const auto list = [&] {
     std::string text;
     for (const Range& range : varying_)

@@ -59,7 +59,8 @@ class StudyInterpolator {
   void tell(Field& field, const Recipe& recipe, double largest_displacement) const;
 
  private:
-  RecordedParameters complete(const CaseParameters& values, bool meshable) const;
+  RecordedParameters complete(const CaseParameters& given, bool meshable) const;
+  CaseParameters with_bottom(CaseParameters values) const;
   /// Of the sum of the cases' fields, from their own errors, over its largest displacement.
   double outside(const RecordedParameters& parameters) const;
   double fit_error(const DisplacementModel::Prediction& prediction, double largest) const;

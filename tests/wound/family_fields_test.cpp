@@ -181,6 +181,25 @@ TEST(Family, ASpiralOpensAsTheCaseOfItsCurvatureAndOfHowThatChanges) {
   }
 }
 
+TEST(Family, TheHeightOfTheTissueTellsWhetherItIsOnBone) {
+  const StudyInterpolator study(file_of_rates_and_bones().file());
+  const auto field_at = [&](double height) {
+    return study.at({{"cut.curvature", 0},
+                     {"cut.curvature_rate", 0},
+                     {"patch.height", height},
+                     {"skin.prestress_u", 0.02},
+                     {"skin.prestress_v", 0.02},
+                     {"skin.prestress_uv", 0}});
+  };
+  const double springs = Parameters{}.patch.height;
+  for (const double height : {5.5, springs}) {
+    const Field field = field_at(height);
+    const double bone = height == springs ? 0 : height;
+    EXPECT_LT(apart(VaryingField(field), 0, made({.length = 40, .bone = bone}, {0.02, 0.02, 0})), 0.02);
+    EXPECT_EQ(field.parameters.texts().at("patch.bottom"), bone > 0 ? "bone" : "springs");
+  }
+}
+
 TEST(Family, KnowsTheBoneBelowWhereThereIsAny) {
   const CutFields fields = read_cut_fields(file_of_rates_and_bones().file(), {1, 0, 0}, {0.02, 0.02});
   const Cut cut(arc(1e-6, 40));
