@@ -266,16 +266,19 @@ TEST_F(FieldsOfASeries, PiecesAreJoined) {
     }
     piece.write(folder, second ? "second" : "first");
   }
-  for (std::size_t j = 0; j < whole.times.size(); ++j) {
-    const std::string number = std::to_string(j);
-    folder.write(
-        "frame_" + number + ".pvtu",
+  const auto joined = [](const std::string& number) {
+    std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
         "byte_order=\"LittleEndian\">\n<PUnstructuredGrid GhostLevel=\"0\">\n<PPointData>"
         "<PDataArray type=\"Float64\" Name=\"displacement\" NumberOfComponents=\"3\"/></PPointData>\n"
-        "<PPoints><PDataArray type=\"Float64\" NumberOfComponents=\"3\"/></PPoints>\n<Piece Source=\"first_" +
-            number + ".vtu\"/>\n<Piece Source=\"second_" + number +
-            ".vtu\"/>\n</PUnstructuredGrid>\n</VTKFile>\n");
+        "<PPoints><PDataArray type=\"Float64\" NumberOfComponents=\"3\"/></PPoints>\n";
+    for (const char* piece : {"first_", "second_"})
+      text.append("<Piece Source=\"").append(piece).append(number).append(".vtu\"/>\n");
+    return text.append("</PUnstructuredGrid>\n</VTKFile>\n");
+  };
+  for (std::size_t j = 0; j < whole.times.size(); ++j) {
+    const std::string number = std::to_string(j);
+    folder.write("frame_" + number + ".pvtu", joined(number));
     list += "<DataSet timestep=\"" + shortest(whole.times[j]) + "\" file=\"frame_" + number + ".pvtu\"/>\n";
   }
   const std::string series = folder.write("pieces.pvd",
