@@ -177,12 +177,14 @@ def check_field(cleft, case, folder):
         frames = len(file["VTKHDF/Steps/Values"])
         data = {name: file["VTKHDF/PointData/" + name][:].reshape(frames, -1, width)
                 for name, width in (("displacement", 3), ("stress", 6))}
+    data["displacement_at_start"] = np.repeat(data["displacement"][:1], frames, axis=0)
     data["displacement"] = data["displacement"] - data["displacement"][0]
     found = {name: np.empty_like(array) for name, array in data.items()}
     for j in range(frames):
         run(cleft, "eval", field, "--nodes", case, "--frame", str(j), "--out", str(values))
         table = np.loadtxt(values, delimiter=",", skiprows=1)
-        found["displacement"][j], found["stress"][j] = table[:, :3], table[:, 3:]
+        found["displacement"][j], found["stress"][j] = table[:, :3], table[:, 3:9]
+        found["displacement_at_start"][j] = table[:, 9:]
     for name, array in data.items():
         error = np.linalg.norm(found[name] - array, axis=2).max() / np.linalg.norm(array, axis=2).max()
         print(f"{name} of the field: off by {error:.4f}")
