@@ -6,5 +6,7 @@ namespace cleft {
 /// Version of case.dffd. It is part of the identity of a case: if it increases, the next run encodes its
 /// cases again.
 inline constexpr int field_version = 3;
+/// Version of a field of several pieces.
+inline constexpr int field_version_of_pieces = 4;
 
 }  // namespace cleft

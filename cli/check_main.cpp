@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/h5/h5.h"
 #include "encoder/field/file/field_file.h"
+#include "encoder/field/file/pieces_at_nodes.h"
 #include "encoder/field/file/study_file.h"
 #include "params/run/study_folder.h"
 #include "solver/snapshot/snapshot.h"
@@ -23,6 +24,12 @@ void check_study_file(const std::string& file) {
 }
 
 void check_field_file(const std::string& file) {
+  if (pieces_in(file) > 0) {
+    read_blended(file);
+    nodes_in(file);
+    h5::File::open(file).read_everything();
+    return;
+  }
   const Field field = read_field(file);
   read_residual(file);
   for (std::size_t q = 0; q < field.quantities.size(); ++q) read_quantity_residual(file, q);

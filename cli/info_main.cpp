@@ -7,6 +7,7 @@
 #include "base/command/command.h"
 #include "base/error.h"
 #include "base/sealed_json.h"
+#include "encoder/field/blended_field.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/field_record.h"
 #include "encoder/field/file/study_file.h"
@@ -43,6 +44,7 @@ Json info_of_snapshot(const std::string& file) {
                {"cells", s.cell_types.size()},
                {"skin_triangles", s.skin().size()},
                {"pairs", s.pairs.size()},
+               {"breaks", s.pieces.empty() ? (s.pairs.empty() ? 0 : 1) : s.pieces.size()},
                {"frames", s.frames()},
                {s.source ? "duration" : "duration_mm", s.times.back()},
                {"cut", {{"start", s.cut_start}, {"length", s.cut_length}, {"depth", s.cut_depth}}},
@@ -67,8 +69,33 @@ Json manifest_of(const std::string& field) {
   return std::filesystem::exists(manifest) ? read_sealed(manifest) : Json::object();
 }
 
-Json info_of_field(const std::string& file) {
-  const Field field = read_field(file);
+Json info_of_field(const Field& field, const std::string& file);
+
+/// Of several breaks: the largest errors, and each piece.
+Json info_of_pieces(const std::string& file) {
+  std::vector<Field> fields;
+  for (FieldPiece& piece : read_pieces(file)) fields.push_back(std::move(piece.field));
+  FitReport report = report_of(fields);
+  const auto nodes = static_cast<double>(nodes_in(file));
+  const double raw = raw_bytes(fields.front()) * nodes / report.nodes;
+  report.nodes = nodes;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(file));
+  Json info = {{"format", "cleft-field"},
+               {"case", fields.front().case_hash},
+               {"report", shown(report)},
+               {"bytes", bytes},
+               {"ratio_to_32_bit", raw / bytes}};
+  for (const Field& field : fields) {
+    Json piece = info_of_field(field, file);
+    for (const char* of_file : {"format", "case", "bytes", "parameters", "ratio_to_32_bit"})
+      piece.erase(of_file);
+    info["pieces"].push_back(std::move(piece));
+  }
+  info["parameters"] = parameters_of(fields.front().parameters);
+  return info;
+}
+
+Json info_of_field(const Field& field, const std::string& file) {
   Json counts = Json::array(), domain = Json::object();
   for (int axis = 0; axis < 4; ++axis) {
     counts.push_back(field.basis(axis).size());
@@ -186,7 +213,8 @@ void print_info(Json info, bool as_json) {
 Json info_of(const std::string& file) {
   const std::string format = format_of(file);
   if (format == "cleft-snapshot") return info_of_snapshot(file);
-  if (format == "cleft-field") return info_of_field(file);
+  if (format == "cleft-field")
+    return pieces_in(file) > 0 ? info_of_pieces(file) : info_of_field(read_field(file), file);
   if (format == "cleft-study") return info_of_study(file);
   throw FileError(file, "is neither a snapshot nor a field nor a study");
 }

@@ -12,6 +12,18 @@ namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
 
+/// Of an arm of a break: whether others begin at its first and last u and at its lowest w
+/// (encoder/field/field_source.h). There it is open to the end of the domain.
+struct Joined {
+  bool first = false, last = false, lowest = false;
+
+  explicit Joined(const Snapshot& s) {
+    if (!s.source || s.source->break_extent.size() < 8) return;
+    const std::vector<double>& extent = s.source->break_extent;
+    first = extent[4] != 0, last = extent[5] != 0, lowest = extent[6] != 0;
+  }
+};
+
 }  // namespace
 
 BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
@@ -37,6 +49,8 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
   std::vector<Vec3> whole;
   for (std::size_t n = 0; n < at_front.size(); ++n)
     if (at_front[n]) whole.push_back(s.points[n]);
+  const Joined joined(s);
+  if (joined.last) std::erase_if(whole, [&](const Vec3& at) { return at.x > last - slack; });
   double before = -far, below = -far;
   for (const Vec3& at : whole) {
     const bool beside =
@@ -44,6 +58,8 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
     if (beside && at.x < first - slack) before = std::max(before, at.x);
     if (under && at.z < lowest - slack) below = std::max(below, at.z);
   }
+  if (joined.first) before = -far;
+  if (joined.lowest) below = -far;
   const bool imported = s.source && !s.cell_types.empty();
   if (imported || std::abs(ends.cut.start - first) <= slack) {
     const double end = ends.cut.start + ends.cut.length;

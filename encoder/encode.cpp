@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "base/error.h"
 #include "base/stopwatch.h"
@@ -20,6 +21,7 @@ namespace cleft {
 namespace {
 
 constexpr double share_of_space = 0.9;  // of the tolerance, for fits of single frames
+constexpr int most_tries = 6;           // of finer knots for an arm of a break
 
 class Encoder {
  public:
@@ -53,8 +55,18 @@ class Encoder {
     const std::size_t good = parametrization_->moves() ? rungs.size() / 2 : rungs.size() - 1;
     const std::size_t within = first_within(rungs);
     progress_("fitting all frames");
-    const SeriesFit fit = fit_of(rungs[within < rungs.size() ? within : good]);
-    const Misfit misfit = fit.misfit(share_of_fit * limit_);
+    std::size_t rung = within < rungs.size() ? within : good;
+    auto fitted = fitted_on(rungs[rung]);
+    Misfit misfit = fitted->misfit(share_of_fit * limit_);
+    // What other arms do passes the ends of an arm in few frames, between those that the search for knots has
+    // looked at.
+    for (int more = 0; series_.arm && more < most_tries && misfit.largest > limit_ && rung + 1 < rungs.size();
+         ++more) {
+      auto finer = fitted_on(rungs[++rung]);
+      const Misfit of_finer = finer->misfit(share_of_fit * limit_);
+      if (of_finer.largest < misfit.largest) fitted = std::move(finer), misfit = of_finer;
+    }
+    const SeriesFit& fit = *fitted;
     Encoded encoded{with_steps(fit, misfit.beyond == 0 ? limit_ : above(misfit)), {}};
     if (encoded.field.report.spline_error * scale_ > limit_) {
       progress_("coding what the spline leaves");
@@ -68,6 +80,12 @@ class Encoder {
   SeriesFit fit_of(const Rung& rung) const {
     return {series_, parametrization_,
             bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())), start_};
+  }
+
+  std::unique_ptr<SeriesFit> fitted_on(const Rung& rung) const {
+    return std::make_unique<SeriesFit>(
+        series_, parametrization_, bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())),
+        start_);
   }
 
   std::size_t first_within(const std::vector<Rung>& rungs) const {

@@ -15,6 +15,7 @@
 #include "base/output_file.h"
 #include "base/text.h"
 #include "encoder/encode.h"
+#include "encoder/field/blended_field.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/field_record.h"
 #include "params/encode_limits.h"
@@ -23,18 +24,33 @@ using namespace cleft;
 
 namespace {
 
-Json figures_of(const Field& field, const std::string& out) {
+Json control_points_of(const Field& field) {
+  return {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()};
+}
+
+/// Of several pieces errors are the largest, and times those of all. `nodes`: of the whole body.
+Json figures_of(const std::vector<Field>& pieces, std::size_t nodes, const std::string& out) {
+  const Field& field = pieces.front();
   const double bytes = static_cast<double>(std::filesystem::file_size(out));
-  Json figures = shown(field.report);
-  figures.update(
-      {{"control_points",
-        {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}},
-       {"fit_seconds", field.report.fit_seconds},
-       {"measure_seconds", field.report.measure_seconds},
-       {"quantum_mm", field.quantum},
-       {"parametrization", field.parametrization().name()},
-       {"bytes", bytes},
-       {"ratio_to_32_bit", raw_bytes(field) / bytes}});
+  FitReport report = report_of(pieces);
+  const double raw = raw_bytes(field) * static_cast<double>(nodes) / report.nodes;
+  report.nodes = static_cast<double>(nodes);
+  Json figures = shown(report);
+  double fit_seconds = 0, measure_seconds = 0;
+  for (const Field& piece : pieces)
+    fit_seconds += piece.report.fit_seconds, measure_seconds += piece.report.measure_seconds;
+  figures.update({{"control_points", control_points_of(field)},
+                  {"fit_seconds", fit_seconds},
+                  {"measure_seconds", measure_seconds},
+                  {"quantum_mm", field.quantum},
+                  {"parametrization", field.parametrization().name()},
+                  {"bytes", bytes},
+                  {"ratio_to_32_bit", raw / bytes}});
+  for (std::size_t p = 0; p < pieces.size() && pieces.size() > 1; ++p)
+    figures["pieces"].push_back({{"nodes", pieces[p].report.nodes},
+                                 {"control_points", control_points_of(pieces[p])},
+                                 {"spline_error", pieces[p].report.spline_error},
+                                 {"gape_error", pieces[p].report.gape_error}});
   figures["versions"] = {
       {"cleft", producer()},
       {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
@@ -55,6 +71,7 @@ std::optional<FieldSource> source_of(const Snapshot& s) {
   FieldSource source{s.source->file, s.source->origin, s.source->axes, s.times, s.source->fields, {}};
   for (double& t : source.times) t += s.source->time_start;
   if (!s.source->break_map.empty()) source.map = BreakMap::from(s.source->break_map);
+  if (!s.source->break_extent.empty()) source.extent = BreakExtent::from(s.source->break_extent);
   return source;
 }
 
@@ -153,23 +170,94 @@ Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
 }
 
 /// The report is that of the file's content; otherwise no file is written.
-void verify_written(const std::string& out, const Encoded& encoded) {
+void verify_written(const std::string& out, const std::vector<Encoded>& all) {
   const auto same = [](const std::optional<NodeResidual>& kept, const std::optional<NodeResidual>& residual) {
     return kept.has_value() == residual.has_value() &&
            (!kept || (kept->quantum == residual->quantum && kept->values == residual->values));
   };
-  const Field kept = read_field(out), &field = encoded.field;
-  bool good = kept.coefficients() == field.coefficients() && same(read_residual(out), encoded.residual) &&
-              kept.quantities.size() == field.quantities.size() &&
-              kept.by_parameter.size() == field.by_parameter.size();
-  for (std::size_t q = 0; good && q < field.quantities.size(); ++q)
-    good = kept.quantities[q].coefficients == field.quantities[q].coefficients &&
-           same(read_quantity_residual(out, q), encoded.of_quantities[q]);
-  for (std::size_t d = 0; good && d < field.by_parameter.size(); ++d)
-    good = kept.by_parameter[d].control_points == field.by_parameter[d].control_points;
+  const auto as_written = [&](const FieldPiece& kept, const Encoded& encoded) {
+    const Field& field = encoded.field;
+    bool good = kept.field.coefficients() == field.coefficients() && same(kept.residual, encoded.residual) &&
+                kept.field.quantities.size() == field.quantities.size() &&
+                kept.field.by_parameter.size() == field.by_parameter.size();
+    for (std::size_t q = 0; good && q < field.quantities.size(); ++q)
+      good = kept.field.quantities[q].coefficients == field.quantities[q].coefficients &&
+             same(kept.of_quantities[q], encoded.of_quantities[q]);
+    for (std::size_t d = 0; good && d < field.by_parameter.size(); ++d)
+      good = kept.field.by_parameter[d].control_points == field.by_parameter[d].control_points;
+    return good;
+  };
+  std::vector<FieldPiece> kept;
+  if (all.size() > 1) {
+    kept = read_pieces(out);
+  } else {
+    kept.push_back({read_field(out), read_residual(out), {}});
+    for (std::size_t q = 0; q < kept.front().field.quantities.size(); ++q)
+      kept.front().of_quantities.push_back(read_quantity_residual(out, q));
+  }
+  bool good = kept.size() == all.size();
+  for (std::size_t p = 0; good && p < all.size(); ++p) good = as_written(kept[p], all[p]);
   if (good) return;
   std::filesystem::remove(out);
   throw std::runtime_error(out + ": reads back as something else than was written, and was removed");
+}
+
+/// The snapshot, or the pieces of one with several breaks.
+std::vector<SnapshotReader> readers_of(const std::string& path) {
+  std::vector<SnapshotReader> readers;
+  readers.emplace_back(path);
+  const std::size_t pieces = readers.front().snapshot().pieces.size();
+  if (pieces > 0) readers.clear();
+  for (std::size_t p = 0; p < pieces; ++p) readers.emplace_back(path, p);
+  return readers;
+}
+
+void write_encoded(const std::string& out, const std::vector<Encoded>& all, std::size_t nodes) {
+  const Encoded& first = all.front();
+  if (all.size() == 1)
+    return write_field(out, first.field, first.residual ? &*first.residual : nullptr, {},
+                       first.of_quantities);
+  std::vector<FieldPiece> pieces;
+  for (const Encoded& one : all) pieces.push_back({one.field, one.residual, one.of_quantities});
+  write_pieces(out, pieces, nodes);
+}
+
+struct Task {
+  std::string snapshot, out;
+  EncodeOptions options;
+};
+
+/// The figures of what was written, with warnings.
+Json encode_file(const Task& task, const std::function<void(const std::string&)>& progress) {
+  const std::vector<SnapshotReader> readers = readers_of(task.snapshot);
+  progress("reading");
+  std::vector<Series> series;
+  for (const SnapshotReader& reader : readers) series.emplace_back(reader);
+  check_names(task.options, series.front());
+  if (series.size() > 1) share_scales(series);
+  std::vector<Encoded> all;
+  Json warnings = Json::array();
+  for (std::size_t p = 0; p < series.size(); ++p) {
+    const std::string of =
+        series.size() > 1 ? "piece " + std::to_string(p + 1) + " of " + std::to_string(series.size()) + ": "
+                          : "";
+    all.push_back(encode(series[p], task.options, [&](const std::string& state) { progress(of + state); }));
+    Field& field = all.back().field;
+    const Snapshot& s = readers[p].snapshot();
+    field.parameters = s.parameters, field.case_hash = s.case_hash, field.source = source_of(s);
+    if (const std::string warning = warning_of(field, series[p], task.options); !warning.empty())
+      warnings.push_back(of + warning);
+  }
+  progress("writing");
+  const std::size_t nodes = series.size() > 1 ? SnapshotReader(task.snapshot).snapshot().points.size()
+                                              : readers.front().snapshot().points.size();
+  write_encoded(task.out, all, nodes);
+  verify_written(task.out, all);
+  std::vector<Field> fields;
+  for (Encoded& one : all) fields.push_back(std::move(one.field));
+  Json figures = figures_of(fields, series.size() > 1 ? nodes : series.front().nodes, task.out);
+  if (!warnings.empty()) figures["warnings"] = warnings;
+  return figures;
 }
 
 }  // namespace
@@ -210,26 +298,13 @@ int main(int argc, char** argv) {
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
     refuse_to_overwrite(out, {snapshot});
     const OutputFile probe(out);  // reports a bad name before the work
-    std::optional<Progress> bar("encoding");
-    const auto progress = [&](const std::string& state) { (*bar)(state); };
-    const SnapshotReader reader(snapshot);
-    progress("reading");
-    const Series series(reader);
-    check_names(options, series);
-    Encoded encoded = encode(series, options, progress);
-    Field& field = encoded.field;
-    field.parameters = reader.snapshot().parameters;
-    field.case_hash = reader.snapshot().case_hash;
-    field.source = source_of(reader.snapshot());
-    progress("writing");
-    write_field(out, field, encoded.residual ? &*encoded.residual : nullptr, {}, encoded.of_quantities);
-    verify_written(out, encoded);
-    Json figures = figures_of(field, out);
-    bar.reset();
-    if (const std::string warning = warning_of(field, series, options); !warning.empty()) {
-      figures["warnings"] = Json::array({warning});
-      std::cerr << "cleft encode: warning: " << warning << "\n";
+    Json figures;
+    {
+      Progress bar("encoding");
+      figures = encode_file({snapshot, out, options}, [&](const std::string& state) { bar(state); });
     }
+    for (const Json& warning : figures.value("warnings", Json::array()))
+      std::cerr << "cleft encode: warning: " << warning.get<std::string>() << "\n";
     print_figures(figures, json);
   });
 }

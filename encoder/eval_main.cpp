@@ -1,11 +1,14 @@
 // cleft eval: displacements of a field at points given as CSV, or at the nodes of its snapshot.
+#include <functional>
 #include <iostream>
 
 #include "base/command/command.h"
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "encoder/field/blended_field.h"
 #include "encoder/field/file/field_file.h"
+#include "encoder/field/file/pieces_at_nodes.h"
 #include "encoder/samples.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -33,10 +36,15 @@ std::string quantity_names(const Field& field) {
   return names;
 }
 
-std::string quantity_values(const Field& field, const Vec3& uvw, Side side, double t) {
+const Field& first_of(const Field& field) { return field; }
+const Field& first_of(const BlendedField& field) { return field.first(); }
+
+template <class AField>
+std::string quantity_values(const AField& field, const Vec3& uvw, Side side, double t) {
   std::string text;
-  for (std::size_t q = 0; q < field.quantities.size(); ++q) {
-    std::vector<double> values(static_cast<std::size_t>(field.quantities[q].components));
+  const auto& quantities = first_of(field).quantities;
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    std::vector<double> values(static_cast<std::size_t>(quantities[q].components));
     field.quantity(q, uvw, side, t, values);
     for (const double value : values) text += "," + shortest(value);
   }
@@ -45,7 +53,35 @@ std::string quantity_values(const Field& field, const Vec3& uvw, Side side, doub
 
 std::string row_of(const Vec3& d) { return shortest(d.x) + "," + shortest(d.y) + "," + shortest(d.z); }
 
-std::string evaluate_rows(const Field& field, const NumberTable& table, const std::string& file) {
+/// The field of one break, or of several, at rows of a table.
+struct AtRows {
+  std::function<Vec3(const Vec3&, Side, double)> displacement;
+  std::function<std::string(const Vec3&, Side, double)> quantities;
+  std::function<Vec3(const Vec3&, const std::string&)> inside;  ///< throws InputError outside of the domain
+};
+
+AtRows rows_of(const Field& field) {
+  return {[&](const Vec3& uvw, Side side, double t) { return field.displacement(uvw, side, t); },
+          [&](const Vec3& uvw, Side side, double t) { return quantity_values(field, uvw, side, t); },
+          [&](const Vec3& uvw, const std::string& where) {
+            return Vec3{inside(field, 0, uvw.x, where), inside(field, 1, uvw.y, where),
+                        inside(field, 2, uvw.z, where)};
+          }};
+}
+
+AtRows rows_of(const BlendedField& field) {
+  return {[&](const Vec3& uvw, Side side, double t) { return field.displacement(uvw, side, t); },
+          [&](const Vec3& uvw, Side side, double t) { return quantity_values(field, uvw, side, t); },
+          [&](const Vec3& uvw, const std::string& where) {
+            if (field.is_inside(uvw)) return uvw;
+            throw InputError(where + ": (" + shortest(uvw.x) + ", " + shortest(uvw.y) + ", " +
+                             shortest(uvw.z) + ") mm is outside of the body that the field was fitted to");
+          }};
+}
+
+/// `first`: the field, or the first of its pieces. Of several pieces a side may be given away from v = 0.
+std::string evaluate_rows(const AtRows& at_rows, const Field& first, bool several, const NumberTable& table,
+                          const std::string& file) {
   int at[5];
   for (int c = 0; c < 5; ++c) {
     at[c] = table.column(columns[c]);
@@ -53,7 +89,7 @@ std::string evaluate_rows(const Field& field, const NumberTable& table, const st
       throw FileError(file,
                       std::string("column '") + columns[c] + "' is missing; the columns are u,v,w,side,t");
   }
-  std::string text = "du,dv,dw" + quantity_names(field) + "\n";
+  std::string text = "du,dv,dw" + quantity_names(first) + "\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& row = table.rows[r];
     const std::string where = file + ", row " + std::to_string(r + 1);
@@ -61,13 +97,12 @@ std::string evaluate_rows(const Field& field, const NumberTable& table, const st
     if (side != -1 && side != 0 && side != 1)
       throw InputError(where + ": side = " + shortest(side) +
                        ": must be -1 (left), 1 (right) or 0 (by the sign of v)");
-    const Vec3 uvw{inside(field, 0, row[at[0]], where), inside(field, 1, row[at[1]], where),
-                   inside(field, 2, row[at[2]], where)};
-    if (uvw.y * side < 0)
+    const Vec3 uvw = at_rows.inside({row[at[0]], row[at[1]], row[at[2]]}, where);
+    if (uvw.y * side < 0 && !several)
       throw InputError(where + ": side = " + shortest(side) + " contradicts v = " + shortest(uvw.y));
     const auto lip = static_cast<Side>(static_cast<int>(side));
-    const double t = inside(field, 3, row[at[4]], where);
-    text += row_of(field.displacement(uvw, lip, t)) + quantity_values(field, uvw, lip, t) + "\n";
+    const double t = inside(first, 3, row[at[4]], where);
+    text += row_of(at_rows.displacement(uvw, lip, t)) + at_rows.quantities(uvw, lip, t) + "\n";
   }
   return text;
 }
@@ -140,6 +175,53 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
   return text;
 }
 
+/// The same of a field of several pieces, along the axes of the snapshot.
+std::string evaluate_nodes_of_pieces(const std::string& file, const std::string& nodes, std::size_t frame) {
+  const SnapshotReader reader(nodes);
+  const Snapshot& s = reader.snapshot();
+  if (frame >= s.frames())
+    throw InputError("--frame: " + std::to_string(frame) + ": " + nodes + " holds frames 0 to " +
+                     std::to_string(s.frames() - 1));
+  std::vector<NodesOfPiece> of_pieces;
+  for (const SnapshotPiece& piece : s.pieces)
+    of_pieces.push_back(
+        counting_nodes(piece.nodes, static_cast<std::size_t>(piece.counting), piece.places, piece.pairs));
+  const PiecesAtNodes at_nodes(read_pieces(file), std::move(of_pieces),
+                               places_inside_cells(s.points_in_source(), s.cell_offsets, s.connectivity),
+                               s.frames());
+  const Field& first = at_nodes.field().first();
+  check_fit(first, {}, s, file, nodes);
+  const double t = s.times[frame];
+  const std::vector<Vec3> moved = at_nodes.displacement(t, frame);
+  std::vector<std::vector<double>> quantities;
+  for (std::size_t q = 0; q < first.quantities.size(); ++q)
+    quantities.push_back(at_nodes.quantity(q, t, frame));
+  std::string text = "du,dv,dw" + quantity_names(first) + "\n";
+  for (std::size_t n = 0; n < moved.size(); ++n) {
+    text += row_of(moved[n]);
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+      const auto components = static_cast<std::size_t>(first.quantities[q].components);
+      for (std::size_t c = 0; c < components; ++c) text += "," + shortest(quantities[q][n * components + c]);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string evaluated(const std::string& file, const std::string& points, const std::string& nodes,
+                      int frame) {
+  const bool several = pieces_in(file) > 0;
+  if (several && !nodes.empty())
+    return evaluate_nodes_of_pieces(file, nodes, static_cast<std::size_t>(frame));
+  if (several) {
+    const BlendedField field = read_blended(file);
+    return evaluate_rows(rows_of(field), field.first(), true, read_csv(points), points);
+  }
+  const Field field = read_field(file);
+  return nodes.empty() ? evaluate_rows(rows_of(field), field, false, read_csv(points), points)
+                       : evaluate_nodes(field, file, nodes, frame);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -168,9 +250,7 @@ int main(int argc, char** argv) {
       "CSV to write, columns du,dv,dw and the field's further quantities (default: standard output)");
   return run_command(app, argc, argv, [&] {
     refuse_to_overwrite(out, nodes.empty() ? std::vector{file, points} : std::vector{file, nodes});
-    const Field field = read_field(file);
-    const std::string text = nodes.empty() ? evaluate_rows(field, read_csv(points), points)
-                                           : evaluate_nodes(field, file, nodes, frame);
+    const std::string text = evaluated(file, points, nodes, frame);
     if (out.empty())
       std::cout << text;
     else

@@ -77,6 +77,7 @@ Frame measure_frame(const Field& field, const Series& series, std::size_t j) {
   for (std::size_t p = 0; p < series.pairs.size(); ++p) {
     const auto left = static_cast<std::size_t>(series.pairs[p][0]),
                right = static_cast<std::size_t>(series.pairs[p][1]);
+    if (std::max(left, right) >= series.nodes) continue;
     const bool open = static_cast<std::int32_t>(p) < series.released[j];
     double& kind = open ? f.gape : f.false_gap;
     kind = std::max(kind, norm(off(right) - off(left)));

@@ -355,8 +355,8 @@ Series::Series(const SnapshotReader& reader) {
                      " frame; a time series needs at least 2");
   check_cut(s);
   times = s.times, samples = samples_of(s), pairs = s.pairs, released = s.released;
-  nodes = own ? own->nodes : samples.size();
-  for (std::size_t i = nodes; i < samples.size(); ++i)
+  nodes = s.counting ? *s.counting : own ? own->nodes : samples.size();
+  for (std::size_t i = nodes; own && i < samples.size(); ++i)
     if (samples[i].uvw.y == 0) samples[i].side = samples[own->node[own->kept[i]]].side;
   const std::vector<Vec3> closed = reader.displacement(0);
   for (std::size_t j = 0; j < s.frames(); ++j) {
@@ -372,6 +372,9 @@ Series::Series(const SnapshotReader& reader) {
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
   centres = cell_centres(s, samples);
+  if (s.source && s.source->break_extent.size() >= 8)
+    arm = std::any_of(s.source->break_extent.begin() + 4, s.source->break_extent.begin() + 8,
+                      [](double joined) { return joined != 0; });
   quantities = quantities_of(reader);
   if (s.source) add_start(quantities, closed, s.frames(), largest_displacement);
   if (own)  // the places of a node all have its values
@@ -379,6 +382,34 @@ Series::Series(const SnapshotReader& reader) {
       for (Eigen::MatrixXd& frame : quantity.frames) frame = own->at_places(frame);
   derivatives = derivatives_of(reader, own);
   geometry = geometry_of(s, parted(s, frames, largest_displacement));
+}
+
+void share_scales(std::vector<Series>& pieces) {
+  double largest = 0;
+  for (const Series& piece : pieces) largest = std::max(largest, piece.largest_displacement);
+  for (Series& piece : pieces) piece.largest_displacement = largest;
+  const auto has_start = [](const Series& piece) {
+    return !piece.quantities.empty() && piece.quantities.back().name == Series::at_start;
+  };
+  if (std::any_of(pieces.begin(), pieces.end(), has_start))
+    for (Series& piece : pieces)
+      if (!has_start(piece)) {
+        const Eigen::MatrixXd none =
+            Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(piece.samples.size()), 3);
+        piece.quantities.push_back(
+            {Series::at_start, std::vector(piece.times.size(), none), 0, 0, Eigen::RowVectorXd::Zero(3)});
+      }
+  for (std::size_t q = 0; q < pieces.front().quantities.size(); ++q) {
+    double most = 0, scale = 0, low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Series& piece : pieces) {
+      const SeriesQuantity& quantity = piece.quantities[q];
+      most = std::max(most, quantity.largest), scale = std::max(scale, quantity.scale);
+      for (const Eigen::MatrixXd& frame : quantity.frames)
+        if (frame.cols() == 1) low = std::min(low, frame.minCoeff()), high = std::max(high, frame.maxCoeff());
+    }
+    if (low < high) scale = std::min(most, high - low);
+    for (Series& piece : pieces) piece.quantities[q].largest = most, piece.quantities[q].scale = scale;
+  }
 }
 
 }  // namespace cleft

@@ -53,6 +53,7 @@ struct Series {
   static constexpr const char* at_start = "displacement_at_start";
   std::vector<SeriesDerivative> derivatives;  ///< of a simulation: those that the snapshot holds
   FieldGeometry geometry;
+  bool arm = false;                                ///< whether the break ends at others
   bool round = false;                              ///< whether w is an angle around a round front
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: number of open pairs
@@ -61,5 +62,8 @@ struct Series {
   /// in the plane v = 0; FileError that names frame and node if a displacement is not finite.
   explicit Series(const SnapshotReader& reader);
 };
+
+/// Tolerances of the pieces of one body are relative to the body's largest values, not to each piece's.
+void share_scales(std::vector<Series>& pieces);
 
 }  // namespace cleft

@@ -14,7 +14,8 @@ std::string text_of(const Shape& shape) {
 }
 
 BroadcastPlaces::BroadcastPlaces(const Numbers& u, const Numbers& v, const Numbers& w, const Numbers& t,
-                                 const Numbers& side) {
+                                 const Numbers& side, Sides sides)
+    : sides_(sides) {
   const std::array<const Numbers*, 5> arrays = {&u, &v, &w, &t, &side};
   py::ssize_t axes = 0;
   for (const Numbers* a : arrays) axes = std::max(axes, a->ndim());
@@ -76,7 +77,7 @@ void BroadcastPlaces::places(std::size_t first, std::span<Place> out, const Fiel
       const double side = x[4];
       Place& place = out[done + i];
       place = {{x[0], x[1], x[2]}, static_cast<Side>(side > 0 ? 1 : side < 0 ? -1 : 0), x[3]};
-      bool good = (side == 0 || side == 1 || side == -1) && !(x[1] * side < 0);
+      bool good = (side == 0 || side == 1 || side == -1) && (sides_ == Sides::any || !(x[1] * side < 0));
       for (int axis = 0; field && axis < 4; ++axis)
         good &= x[axis] >= allowed[axis].front && x[axis] <= allowed[axis].back;
       if (!good) refuse(first + done + i, place, side, field);

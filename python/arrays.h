@@ -29,9 +29,11 @@ std::string text_of(const Shape& shape);
 /// The arrays must outlive it; places() needs no interpreter.
 class BroadcastPlaces {
  public:
+  /// Whether a side must agree with the sign of v, or may be of a break that is elsewhere.
+  enum class Sides { by_v, any };
   /// Throws InputError that names the shapes if these do not fit together.
-  BroadcastPlaces(const Numbers& u, const Numbers& v, const Numbers& w, const Numbers& t,
-                  const Numbers& side);
+  BroadcastPlaces(const Numbers& u, const Numbers& v, const Numbers& w, const Numbers& t, const Numbers& side,
+                  Sides sides = Sides::by_v);
 
   const Shape& shape() const { return shape_; }
   std::size_t size() const { return size_; }
@@ -50,6 +52,7 @@ class BroadcastPlaces {
   std::array<Source, 5> sources_;  // u, v, w, t, side
   Shape shape_;
   std::size_t size_ = 1;
+  Sides sides_;
 };
 
 /// A new array of the shape and `components` more, if these are not 0.
@@ -103,6 +106,7 @@ struct SharedField {
 };
 
 void bind_field(py::module_& module);
+void bind_blended(py::module_& module);
 void bind_study(py::module_& module);
 void bind_snapshot(py::module_& module);
 void bind_encode(py::module_& module);

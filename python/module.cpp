@@ -14,6 +14,7 @@ PYBIND11_MODULE(_cleft, module) {
   cleft::h5::read_apart();  // h5py and VTK use the same library
   module.def("hdf5_version", &cleft::h5::version);
   bind_field(module);
+  bind_blended(module);
   bind_study(module);
   bind_snapshot(module);
   bind_encode(module);

@@ -16,7 +16,7 @@ void require_format(const h5::File& file, const FileFormat& format) {
     throw FileError(file.path(), "is not a " + noun + " (no attribute format = \"" + format.name + "\"); " +
                                      writer + " writes one");
   const double found = file.read_number("/", "version");
-  if (found != format.version)
+  if (found != format.version && (format.further == 0 || found != format.further))
     throw FileError(file.path(), noun + " format version " + shortest(found) +
                                      "; this program reads version " + std::to_string(format.version) +
                                      ": run " + writer + " again");

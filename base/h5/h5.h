@@ -118,6 +118,7 @@ struct FileFormat {
   const char* name;
   int version;
   const char *noun, *writer;  ///< its name in messages, and the command that writes it
+  int further = 0;            ///< another version that is read; 0: none
 };
 void write_format(h5::File& file, const FileFormat& format);
 /// Throws FileError if the file has another format or version.

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "encoder/field/break_map.h"
 #include "encoder/field/bspline.h"
 #include "encoder/field/collapsed_field.h"
 #include "encoder/field/control_grid.h"
+#include "encoder/field/field_source.h"
 #include "encoder/field/fit_report.h"
 #include "encoder/field/history.h"
 #include "encoder/field/kernels.h"
@@ -51,18 +51,6 @@ struct ParameterDerivative {
   double quantum = 0;                ///< unknowns are whole multiples of it
   double largest = 0;                ///< Euclidean norm, at any node and frame of the data
   double error = 0;                  ///< the same of the difference from them, over `largest`
-};
-
-/// Where imported data come from, so that they can be written as they were. Points x of that space are at
-/// (u, v, w) = axes (x - origin); a break that is no plane, or lies below parts of the body, has a map from
-/// there to the field's own coordinates.
-struct FieldSource {
-  std::string file;                 ///< the series' name, without folders
-  Vec3 origin;                      ///<
-  std::array<Vec3, 3> axes;         ///< unit vectors of u, v, w, right-handed
-  std::vector<double> times;        ///< of the frames, in the source
-  std::vector<std::string> fields;  ///< SOURCE:NAME: the names there, and here
-  std::optional<BreakMap> map;      ///<
 };
 
 class Field {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/import/break_components.h"
 #include "encoder/import/break_surface.h"
 
 namespace cleft {
@@ -25,14 +26,81 @@ double rounded(double x) {
   return std::round(x / unit) * unit;
 }
 
+using Distance = std::function<double(const Vec3&)>;  // of a point from the break, with a sign
+
+/// Of the nodes of groups: the sum of their cells' centroids' distances from the break.
+std::vector<double> sides(const SourceMesh& mesh, const Groups& groups, const Distance& distance,
+                          double tolerance, const std::vector<char>& kept = {}) {
+  std::vector<char> asked(mesh.points.size());
+  for (const auto& group : groups)
+    for (const std::int32_t node : group) asked[node] = 1;
+  std::vector<double> side(mesh.points.size());
+  for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {
+    const auto* first = mesh.connectivity.data() + mesh.cell_offsets[c];
+    const auto* last = mesh.connectivity.data() + mesh.cell_offsets[c + 1];
+    if (std::none_of(first, last, [&](std::int64_t i) { return asked[i]; })) continue;
+    if (!kept.empty() && !std::all_of(first, last, [&](std::int64_t i) { return kept[i]; })) continue;
+    double sum = 0;
+    for (const auto* i = first; i != last; ++i) sum += distance(mesh.points[*i]);
+    const double centroid = sum / static_cast<double>(last - first);
+    if (std::abs(centroid) <= tolerance) continue;  // an interface element, between the two sides
+    for (const auto* i = first; i != last; ++i) side[*i] += centroid;
+  }
+  return side;
+}
+
+/// Nodes at one place of a break; those without cells are on no side.
+struct NodesBySide {
+  std::vector<std::int32_t> left, right;
+
+  NodesBySide(const std::vector<std::int32_t>& group, const std::vector<double>& side) {
+    for (const std::int32_t node : group)
+      if (side[node] != 0) (side[node] < 0 ? left : right).push_back(node);
+  }
+  /// Each left node with a right one.
+  std::vector<NodePair> pairs() const {
+    std::vector<NodePair> list;
+    if (left.empty() || right.empty()) return list;
+    for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i)
+      list.push_back({left[std::min(i, left.size() - 1)], right[std::min(i, right.size() - 1)]});
+    return list;
+  }
+};
+
 class Search {
  public:
   Search(const Series& series, const std::optional<Vec3>& flat)
       : series_(series), mesh_(series.mesh()), flat_(flat), tolerance_(in_plane(mesh_)) {
     groups_ = coincident_groups(mesh_.points, same_place(mesh_));
+    asked_.assign(groups_.size(), 1);
   }
 
   const Groups& groups() const { return groups_; }
+
+  /// Breaks that do not touch, and arms of those that branch; none where all is one break.
+  std::vector<BreakComponent> components() const {
+    if (groups_.empty()) return {};
+    auto list = break_components(mesh_, groups_, partings_, static_cast<std::int32_t>(series_.frames()));
+    if (list.size() < 2) list.clear();
+    return list;
+  }
+
+  /// Looks at the groups of one of them from now on, and at those that part in no frame.
+  void look_at(const BreakComponent& component) {
+    const auto frames = static_cast<std::int32_t>(series_.frames());
+    std::vector<char> parts(mesh_.points.size());
+    for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
+      if (partings_.first_frame[p] < frames) parts[partings_.pairs[p][0]] = parts[partings_.pairs[p][1]] = 1;
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      asked_[g] =
+          std::none_of(groups_[g].begin(), groups_[g].end(), [&](std::int32_t n) { return parts[n]; });
+    for (const std::size_t g : component.groups) asked_[g] = 1;
+  }
+  std::vector<Vec3> places_of(const std::vector<std::size_t>& groups) const {
+    std::vector<Vec3> places;
+    for (const std::size_t g : groups) places.push_back(place_of(groups_[g]));
+    return places;
+  }
 
   void watch(const std::optional<OpenAt>& open_at, std::vector<std::string>& notes,
              const std::function<void(std::size_t)>& progress) {
@@ -49,7 +117,8 @@ class Search {
   std::optional<Plane> found(std::vector<std::string>& notes) const {
     const std::vector<Vec3> parting = parting_places();
     std::vector<Vec3> all;
-    for (const auto& group : groups_) all.push_back(place_of(group));
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      if (asked_[g]) all.push_back(place_of(groups_[g]));
     if (all.empty()) return {};
     if (parting.empty()) {
       notes.push_back(counted(nodes_in_groups(), "coincident node") + " never part in '" +
@@ -62,7 +131,7 @@ class Search {
   }
 
   /// The pairs of a break that is no plane, and its best plane: over it, the break is a surface.
-  void pair_on_surface(Break& found) const {
+  void pair_on_surface(Break& found, std::vector<std::string>& notes) const {
     const std::vector<Vec3> parting = parting_places();
     if (parting.empty()) return;
     const Spread spread = spread_of(parting);
@@ -73,7 +142,6 @@ class Search {
       const Vec3 x = p - spread.centre;
       return Vec3{dot(u, x), dot(v, x), dot(w, x)};
     };
-    refuse_several();
     BreakPlaces places{{}, {}, {}, {}, tolerance_};
     for (const Vec3& p : parting) places.pairs.push_back(local(p));
     std::vector<Vec3> all;
@@ -86,7 +154,14 @@ class Search {
     found.plane = Plane{forward(v), dot(forward(v), spread.centre)};
     found.curved = true;
     const double sign = dot(forward(v), v);
-    pair_where(found, [&](const Vec3& p) { return sign * surface.canonical(local(p)).y; });
+    const Vec3 centre = spread.centre;
+    pair_where(
+        found,
+        [=](const Vec3& p) {
+          const Vec3 x = p - centre;
+          return sign * surface.canonical({dot(u, x), dot(v, x), dot(w, x)}).y;
+        },
+        notes);
   }
 
   /// The given plane, or a nearby one that contains the coincident nodes exactly.
@@ -115,91 +190,64 @@ class Search {
   }
 
   /// Pairs each left node of a place in the plane with a right one.
-  void pair_in_plane(Break& found) const {
-    pair_where(found, [&](const Vec3& p) { return found.plane->distance(p); });
+  void pair_in_plane(Break& found, std::vector<std::string>& notes) const {
+    pair_where(
+        found, [plane = *found.plane](const Vec3& p) { return plane.distance(p); }, notes);
   }
 
  private:
-  using Distance = std::function<double(const Vec3&)>;  // of a point from the break, with a sign
-  static constexpr double folded = 0.02;                // of the break's extent
+  static constexpr double folded = 0.02;  // of the break's extent
 
   std::vector<Vec3> parting_places() const {
     std::vector<Vec3> parting;
     const auto frames = static_cast<std::int32_t>(series_.frames());
+    std::vector<char> node_asked(mesh_.points.size());
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (const std::int32_t node : groups_[g]) node_asked[node] = asked_[g];
     for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
-      if (partings_.first_frame[p] < frames) parting.push_back(place_of(partings_.pairs[p]));
+      if (partings_.first_frame[p] < frames && node_asked[partings_.pairs[p][0]])
+        parting.push_back(place_of(partings_.pairs[p]));
     return parting;
   }
 
-  /// Throws where the nodes that part are not connected by cells.
-  void refuse_several() const {
-    std::vector<std::int32_t> place(mesh_.points.size(), -1);  // of nodes that part: the first of their group
-    const auto frames = static_cast<std::int32_t>(series_.frames());
-    for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
-      if (partings_.first_frame[p] < frames) {
-        const auto [a, b] = partings_.pairs[p];
-        place[b] = place[a] = place[a] >= 0 ? place[a] : a;
-      }
-    Sets sets(mesh_.points.size());
-    for (std::size_t c = 0; c < mesh_.cell_types.size(); ++c) {
-      std::int32_t first = -1;
-      for (auto i = mesh_.cell_offsets[c]; i < mesh_.cell_offsets[c + 1]; ++i)
-        if (const std::int32_t at = place[mesh_.connectivity[i]]; at >= 0) {
-          if (first >= 0) sets.join(first, at);
-          first = at;
-        }
-    }
-    std::set<std::int32_t> breaks;
-    for (std::size_t n = 0; n < place.size(); ++n)
-      if (place[n] >= 0) breaks.insert(sets.root(place[n]));
-    if (breaks.size() > 1)
-      throw InputError(series_.path() + ": " + counted(nodes_in_groups(), "coincident node") + " at " +
-                       counted(groups_.size(), "place") +
-                       " lie in no common plane, and those that part are " + std::to_string(breaks.size()) +
-                       " breaks that do not touch each other; a snapshot holds one: say which with --break "
-                       "nx,ny,nz,offset");
-  }
-
-  void pair_where(Break& found, const Distance& distance) const {
-    const std::vector<double> side = sides(distance);
+  void pair_where(Break& found, Distance distance, std::vector<std::string>& notes) const {
+    found.distance = std::move(distance);
+    const std::vector<double> side = sides(mesh_, groups_, found.distance, tolerance_);
     // A surface through places is as near to others of the break as its curvature between them lets it be.
     const double near = found.curved ? 100 * tolerance_ : tolerance_;
-    std::map<NodePair, std::int32_t> first_frame;
     for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
-      first_frame[partings_.pairs[p]] = partings_.first_frame[p];
+      found.parting[partings_.pairs[p]] = partings_.first_frame[p];
     std::size_t elsewhere = 0, one_sided = 0, crowded = 0;
-    for (const auto& group : groups_) {
-      if (std::abs(distance(place_of(group))) > near) {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const auto& group = groups_[g];
+      if (!asked_[g]) continue;
+      if (std::abs(found.distance(place_of(group))) > near) {
         elsewhere += group.size();
         continue;
       }
-      std::vector<std::int32_t> left, right;
-      for (const std::int32_t node : group) {
-        const double s = side[node];
-        if (s != 0) (s < 0 ? left : right).push_back(node);
-      }
-      if (left.empty() || right.empty()) {
+      const NodesBySide nodes(group, side);
+      if (nodes.left.empty() || nodes.right.empty()) {
         one_sided += group.size();
         continue;
       }
       if (group.size() > 2) ++crowded;
-      for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
-        const std::int32_t l = left[std::min(i, left.size() - 1)], r = right[std::min(i, right.size() - 1)];
+      for (const auto& [l, r] : nodes.pairs()) {
         found.pairs.push_back({l, r});
-        found.first_frame.push_back(first_frame.at({std::min(l, r), std::max(l, r)}));
+        found.first_frame.push_back(found.parting.at({std::min(l, r), std::max(l, r)}));
       }
     }
-    if (elsewhere > 0)
-      found.notes.push_back(counted(elsewhere, "coincident node") +
-                            " lie outside the break's plane: left as they are");
+    const bool is_one = std::find(asked_.begin(), asked_.end(), 0) == asked_.end();
+    if (elsewhere > 0 && is_one)
+      notes.push_back(counted(elsewhere, "coincident node") +
+                      " lie outside the break's plane: left as they are");
     if (one_sided > 0)
-      found.notes.push_back(counted(one_sided, "coincident node") +
-                            " in the break's plane have cells on one side only: not paired");
-    if (crowded > 0)
-      found.notes.push_back("more than two nodes at " + counted(crowded, "place") +
-                            " of the break: each left one is paired with a right one");
+      notes.push_back(counted(one_sided, "coincident node") +
+                      " in the break's plane have cells on one side only: not paired");
+    if (crowded > 0 && is_one)
+      notes.push_back("more than two nodes at " + counted(crowded, "place") +
+                      " of the break: each left one is paired with a right one");
     if (found.pairs.empty())
-      found.notes.push_back("no nodes are doubled in the break's plane: the snapshot has no pairs");
+      notes.push_back("no nodes are doubled in the break's plane: the snapshot has no pairs");
   }
 
   template <class Nodes>
@@ -251,39 +299,21 @@ class Search {
                      " away; the plane is that of the points x with n . x = offset");
   }
 
-  /// Of the nodes of groups: the sum of their cells' centroids' distances from the break.
-  std::vector<double> sides(const Distance& distance) const {
-    std::vector<char> asked(mesh_.points.size());
-    for (const auto& group : groups_)
-      for (const std::int32_t node : group) asked[node] = 1;
-    std::vector<double> side(mesh_.points.size());
-    for (std::size_t c = 0; c < mesh_.cell_types.size(); ++c) {
-      const auto* first = mesh_.connectivity.data() + mesh_.cell_offsets[c];
-      const auto* last = mesh_.connectivity.data() + mesh_.cell_offsets[c + 1];
-      if (std::none_of(first, last, [&](std::int64_t i) { return asked[i]; })) continue;
-      double sum = 0;
-      for (const auto* i = first; i != last; ++i) sum += distance(mesh_.points[*i]);
-      const double centroid = sum / static_cast<double>(last - first);
-      if (std::abs(centroid) <= tolerance_) continue;  // an interface element, between the two sides
-      for (const auto* i = first; i != last; ++i) side[*i] += centroid;
-    }
-    return side;
-  }
-
   const Series& series_;
   const SourceMesh& mesh_;
   std::optional<Vec3> flat_;
   double tolerance_;
   Groups groups_;
+  std::vector<char> asked_;  // of each group: whether it is looked at
   Partings partings_;
 };
 
 }  // namespace
 
-Break find_break(Series& series, const std::optional<std::string>& given,
-                 const std::optional<OpenAt>& open_at, const std::optional<Vec3>& flat,
-                 const std::function<void(std::size_t)>& progress) {
-  Break result;
+Breaks find_breaks(Series& series, const std::optional<std::string>& given,
+                   const std::optional<OpenAt>& open_at, const std::optional<Vec3>& flat,
+                   const std::function<void(std::size_t)>& progress) {
+  Breaks result{std::vector<Break>(1), {}};
   const Groups groups = coincident_groups(series.mesh().points, same_place(series.mesh()));
   const bool in_pieces = series.in_pieces();
   if (in_pieces || is_unwelded(series.mesh(), groups)) {
@@ -296,12 +326,49 @@ Break find_break(Series& series, const std::optional<std::string>& given,
   if (given == "none") return result;
   Search search(series, flat);
   search.watch(open_at, result.notes, progress);
-  result.plane = given ? search.given(*given) : search.found(result.notes);
-  if (result.plane)
-    search.pair_in_plane(result);
-  else
-    search.pair_on_surface(result);
+  const auto find = [&](Break& found) {
+    found.plane = given ? search.given(*given) : search.found(result.notes);
+    if (found.plane)
+      search.pair_in_plane(found, result.notes);
+    else
+      search.pair_on_surface(found, result.notes);
+  };
+  const std::vector<BreakComponent> components = given ? std::vector<BreakComponent>() : search.components();
+  if (components.empty()) {
+    find(result.list.front());
+    return result;
+  }
+  result.list.resize(components.size());
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    search.look_at(components[i]);
+    find(result.list[i]);
+    result.list[i].junctions = search.places_of(components[i].junctions);
+  }
+  // The longest one gives the body its axes.
+  std::stable_sort(result.list.begin(), result.list.end(),
+                   [](const Break& a, const Break& b) { return a.pairs.size() > b.pairs.size(); });
   return result;
+}
+
+void pair_among(Break& found, const SourceMesh& mesh, const std::vector<char>& kept) {
+  std::vector<std::int32_t> nodes;
+  for (const auto& [left, right] : found.pairs)
+    for (const std::int32_t node : {left, right})
+      if (kept[node]) nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<Vec3> places;
+  for (const std::int32_t node : nodes) places.push_back(mesh.points[node]);
+  Groups groups = coincident_groups(places, same_place(mesh));
+  for (auto& group : groups)
+    for (std::int32_t& node : group) node = nodes[node];
+  const std::vector<double> side = sides(mesh, groups, found.distance, in_plane(mesh), kept);
+  found.pairs.clear(), found.first_frame.clear();
+  for (const auto& group : groups)
+    for (const auto& [l, r] : NodesBySide(group, side).pairs()) {
+      found.pairs.push_back({l, r});
+      found.first_frame.push_back(found.parting.at({std::min(l, r), std::max(l, r)}));
+    }
 }
 
 }  // namespace cleft

@@ -18,31 +18,70 @@ SourceMesh mesh_of(const std::string& path) {
   return open_series(path)->read(0, {}).mesh;
 }
 
-/// The snapshot's own nodes and cells, at which residuals are kept.
-DecodeMesh mesh_of(const SnapshotReader& reader, const Field& field, const std::string& path) {
-  const Snapshot& s = reader.snapshot();
+void check_times(const Snapshot& s, const Field& field, const std::string& path) {
   if (s.times.back() != field.duration())
     throw InputError(path + ": ends at t = " + shortest(s.times.back()) + ", and the field at t = " +
                      shortest(field.duration()) + "; is it the snapshot that the field was made from?");
-  DecodeMesh result;
-  result.mesh.cell_types = s.cell_types, result.mesh.cell_offsets = s.cell_offsets;
-  result.mesh.connectivity = s.connectivity;
-  std::vector<double> canonical;
-  if (s.coordinates) canonical = reader.point_array(canonical_array, 0);
-  for (std::size_t n = 0; n < s.points.size(); ++n) {
-    const Vec3& p = s.points[n];
-    const Vec3 uvw = s.coordinates ? Vec3{canonical[3 * n], canonical[3 * n + 1], canonical[3 * n + 2]} : p;
-    result.nodes.push_back({uvw, side_of(uvw.y)});
-    if (s.source) {
-      const auto& [u, v, w] = s.source->axes;
-      result.mesh.points.push_back(s.source->origin + p.x * u + p.y * v + p.z * w);
-    } else {
-      result.mesh.points.push_back(p);
-    }
+}
+
+SourceMesh mesh_of(const Snapshot& s) {
+  return {s.points_in_source(), s.cell_types, s.cell_offsets, s.connectivity};
+}
+
+struct Task {
+  std::string file, on, nodes, out;
+};
+
+void decode_pieces(const Task& task, const std::function<void(const std::string&)>& progress) {
+  std::vector<FieldPiece> kept = read_pieces(task.file);
+  SourceMesh mesh;
+  std::vector<NodesOfPiece> nodes;
+  std::size_t frames = 0;
+  if (!task.nodes.empty()) {
+    const SnapshotReader reader(task.nodes);
+    const Snapshot& s = reader.snapshot();
+    check_times(s, kept.front().field, task.nodes);
+    mesh = mesh_of(s), frames = s.frames();
+    for (const SnapshotPiece& piece : s.pieces)
+      nodes.push_back(
+          counting_nodes(piece.nodes, static_cast<std::size_t>(piece.counting), piece.places, piece.pairs));
+  } else {
+    mesh = mesh_of(task.on);
+    nodes = nodes_in_pieces(mesh, read_blended(task.file));
   }
-  for (const auto& [left, right] : s.pairs)
-    result.nodes[left].side = Side::left, result.nodes[right].side = Side::right;
-  return result;
+  const PiecesAtNodes pieces(std::move(kept), std::move(nodes),
+                             places_inside_cells(mesh.points, mesh.cell_offsets, mesh.connectivity), frames);
+  write_decoded(decoded_at(pieces), mesh, task.out, progress);
+}
+
+void decode_field(const Task& task, const std::function<void(const std::string&)>& progress) {
+  const Field field = read_field(task.file);
+  KeptField kept{&field, {}, {}};
+  SourceMesh mesh;
+  std::vector<Place> nodes;
+  if (!task.nodes.empty()) {
+    // The snapshot's own nodes, at which residuals are kept.
+    const SnapshotReader reader(task.nodes);
+    const Snapshot& s = reader.snapshot();
+    check_times(s, field, task.nodes);
+    mesh = mesh_of(s);
+    std::vector<Vec3> at = s.points;
+    if (s.coordinates) {
+      const std::vector<double> canonical = reader.point_array(canonical_array, 0);
+      for (std::size_t i = 0; i < canonical.size(); ++i) at[i / 3][static_cast<int>(i % 3)] = canonical[i];
+    }
+    nodes = places_of(at, s.pairs);
+    kept.residual = read_residual(task.file);
+    for (std::size_t q = 0; q < field.quantities.size(); ++q)
+      kept.of_quantities.push_back(read_quantity_residual(task.file, q));
+    if (kept.residual && static_cast<std::size_t>(kept.residual->nodes) != nodes.size())
+      throw InputError(task.nodes + ": holds " + std::to_string(nodes.size()) +
+                       " nodes, and the field has a residual at " + std::to_string(kept.residual->nodes));
+  } else {
+    mesh = mesh_of(task.on);
+    nodes = nodes_in_field(mesh, field);
+  }
+  write_decoded(decoded_at(kept, nodes), mesh, task.out, progress);
 }
 
 }  // namespace
@@ -51,38 +90,24 @@ int main(int argc, char** argv) {
   CommandLine app(
       "Writes a field as a series of .vtu files, in the axes, names and times of the one it was made from.",
       "cleft decode");
-  std::string file, on, nodes, out;
-  app.add_option("CASE.dffd", file, "field")->required();
+  Task task;
+  app.add_option("CASE.dffd", task.file, "field")->required();
   auto* on_option =
-      app.add_option("--on", on,
+      app.add_option("--on", task.on,
                      "mesh whose nodes get the values, in the space of the source: a .vtu, or the first "
                      "frame of a series; any mesh of the same body");
   app.add_option(
-         "--nodes", nodes,
+         "--nodes", task.nodes,
          "instead of --on: the snapshot the field was made from; its nodes, with what the file keeps of "
          "them beside the spline")
       ->excludes(on_option);
-  app.add_option("--out", out, "series to write: OUT.pvd, and the folder OUT")->required();
+  app.add_option("--out", task.out, "series to write: OUT.pvd, and the folder OUT")->required();
   return run_command(app, argc, argv, [&] {
-    if (on.empty() && nodes.empty())
+    if (task.on.empty() && task.nodes.empty())
       throw InputError("cleft decode needs a mesh: --on MESH.vtu, or --nodes CASE.h5");
-    Progress progress("decoding");
-    progress("reading");
-    const Field field = read_field(file);
-    KeptField kept{&field, {}, {}};
-    DecodeMesh mesh;
-    if (!nodes.empty()) {
-      const SnapshotReader reader(nodes);
-      mesh = mesh_of(reader, field, nodes);
-      kept.residual = read_residual(file);
-      for (std::size_t q = 0; q < field.quantities.size(); ++q)
-        kept.of_quantities.push_back(read_quantity_residual(file, q));
-      if (kept.residual && static_cast<std::size_t>(kept.residual->nodes) != mesh.nodes.size())
-        throw InputError(nodes + ": holds " + std::to_string(mesh.nodes.size()) +
-                         " nodes, and the field has a residual at " + std::to_string(kept.residual->nodes));
-    } else {
-      mesh = mesh_in_source(mesh_of(on), field);
-    }
-    write_decoded(kept, mesh, out, [&](const std::string& state) { progress(state); });
+    Progress bar("decoding");
+    bar("reading");
+    const auto progress = [&](const std::string& state) { bar(state); };
+    (pieces_in(task.file) > 0 ? decode_pieces : decode_field)(task, progress);
   });
 }

@@ -17,7 +17,6 @@
 #include "base/output_file.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
-#include "encoder/import/placement.h"
 
 namespace cleft {
 
@@ -32,14 +31,6 @@ FieldSource source_of(const Field& field) {
   FieldSource source;
   source.axes = {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   return source;
-}
-
-/// From (u, v, w) to the source's space: the transposed axes.
-Placement back(const FieldSource& source) {
-  Placement placement;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) placement.axes[i][k] = source.axes[k][i];
-  return placement;
 }
 
 /// The name in the source of a field that is called `name` here.
@@ -57,45 +48,32 @@ struct Values {
 };
 
 /// All fields at the nodes, at the time of a frame, in the source's axes.
-std::vector<Values> values_at(const KeptField& kept, const FieldSource& source,
-                              const std::vector<Place>& nodes, std::size_t frame, double t) {
-  const Field& field = *kept.field;
+std::vector<Values> values_at(const DecodedNodes& decoded, const FieldSource& source, std::size_t frame,
+                              double t) {
+  const Field& field = *decoded.first;
   std::vector<Values> all;
   Values start;
   for (std::size_t q = 0; q < field.quantities.size(); ++q) {
-    const Quantity& quantity = field.quantities[q];
-    const std::size_t components = static_cast<std::size_t>(quantity.components);
-    Values values{quantity.name, quantity.components, std::vector<double>(components * nodes.size())};
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const std::span<double> at(&values.numbers[components * n], components);
-      field.quantity(q, nodes[n].uvw, nodes[n].side, t, at);
-      if (q < kept.of_quantities.size() && kept.of_quantities[q])
-        for (std::size_t c = 0; c < components; ++c)
-          at[c] += kept.of_quantities[q]->at(n, static_cast<int>(c), frame);
-    }
+    Values values{field.quantities[q].name, field.quantities[q].components, decoded.quantity(q, t, frame)};
     if (values.name == at_start)
       start = std::move(values);
     else
       all.push_back(std::move(values));
   }
   if (field.report.largest_displacement > 0 || !start.numbers.empty() || all.empty()) {
-    Values displacement{"displacement", 3, std::vector<double>(3 * nodes.size())};
-    std::vector<Place> places = nodes;
-    for (Place& place : places) place.t = t;
-    std::vector<Vec3> d(places.size());
-    field.displacements(places, d);
-    for (std::size_t n = 0; n < d.size(); ++n) {
-      if (kept.residual) d[n] += kept.residual->at(n, frame);
+    Values displacement{"displacement", 3, {}};
+    const std::vector<Vec3> d = decoded.displacement(t, frame);
+    displacement.numbers.reserve(3 * d.size());
+    for (std::size_t n = 0; n < d.size(); ++n)
       for (int c = 0; c < 3; ++c) {
         const std::size_t i = 3 * n + static_cast<std::size_t>(c);
-        displacement.numbers[i] = d[n][c] + (start.numbers.empty() ? 0 : start.numbers[i]);
+        displacement.numbers.push_back(d[n][c] + (start.numbers.empty() ? 0 : start.numbers[i]));
       }
-    }
     all.insert(all.begin(), std::move(displacement));
   }
-  const Placement to_source = back(source);
+  const AxesInSpace to_source = axes_between(source.axes, same_axes);
   for (Values& values : all) {
-    to_source.turn(values.numbers, values.components);
+    turn(values.numbers, values.components, to_source);
     values.name = name_there(source, values.name);
   }
   return all;
@@ -134,6 +112,11 @@ void write_frame(vtkUnstructuredGrid* grid, const std::vector<Values>& all, cons
     throw FileError(path, "cannot be written: " + writing.reason());
 }
 
+double clamped(const Field& field, int axis, double value) {
+  const auto [front, back] = field.domain(axis);
+  return value < front ? front : value > back ? back : value;
+}
+
 double inside(const Field& field, int axis, double value, std::size_t node, double slack) {
   const auto [front, back] = field.domain(axis);
   if (value < front - slack || value > back + slack)
@@ -141,21 +124,16 @@ double inside(const Field& field, int axis, double value, std::size_t node, doub
         "node " + std::to_string(node) + " is at " + "uvw"[axis] + " = " + shortest(value) +
         " of the field, which reaches from " + shortest(front) + " to " + shortest(back) +
         "; the mesh must lie in the space of the series that the field was made from, within its body");
-  return value < front ? front : value > back ? back : value;
+  return clamped(field, axis, value);
 }
 
 }  // namespace
 
-DecodeMesh mesh_in_source(SourceMesh mesh, const Field& field) {
+std::vector<Place> nodes_in_field(const SourceMesh& m, const Field& field, const std::vector<char>* asked) {
   constexpr double at_break = 1e-3;  // of the extent of a node's cells across the break
   const FieldSource source = source_of(field);
-  const Placement placement{source.origin, source.axes};
-  DecodeMesh result{std::move(mesh), {}};
-  for (const Vec3& p : result.mesh.points) {
-    const Vec3 placed = placement.placed(p);
-    result.nodes.push_back({source.map ? source.map->canonical(placed) : placed});
-  }
-  const SourceMesh& m = result.mesh;
+  std::vector<Place> nodes;
+  for (const Vec3& p : m.points) nodes.push_back({source.canonical(p)});
   std::vector<double> extent(m.points.size(), 0);
   std::vector<std::array<bool, 2>> sides(m.points.size(), {false, false});
   for (std::size_t c = 0; c < m.cell_types.size(); ++c) {
@@ -163,7 +141,7 @@ DecodeMesh mesh_in_source(SourceMesh mesh, const Field& field) {
                             m.connectivity.begin() + m.cell_offsets[c + 1]);
     double sum = 0, farthest = 0;
     for (const std::int64_t n : corners) {
-      const double v = result.nodes[n].uvw.y;
+      const double v = nodes[n].uvw.y;
       sum += v, farthest = std::max(farthest, std::abs(v));
     }
     if (sum == 0) continue;
@@ -173,8 +151,8 @@ DecodeMesh mesh_in_source(SourceMesh mesh, const Field& field) {
     }
   }
   const double slack = same_place(m) * 100;
-  for (std::size_t n = 0; n < result.nodes.size(); ++n) {
-    Place& place = result.nodes[n];
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    Place& place = nodes[n];
     if (std::abs(place.uvw.y) <= at_break * extent[n]) {
       place.uvw.y = 0;
       const bool left = sides[n][0], right = sides[n][1];
@@ -182,21 +160,71 @@ DecodeMesh mesh_in_source(SourceMesh mesh, const Field& field) {
     } else {
       place.side = side_of(place.uvw.y);
     }
-    for (int axis = 0; axis < 3; ++axis) place.uvw[axis] = inside(field, axis, place.uvw[axis], n, slack);
+    const bool strict = !asked || (*asked)[n];
+    for (int axis = 0; axis < 3; ++axis)
+      place.uvw[axis] =
+          strict ? inside(field, axis, place.uvw[axis], n, slack) : clamped(field, axis, place.uvw[axis]);
   }
-  return result;
+  return nodes;
 }
 
-void write_decoded(const KeptField& kept, const DecodeMesh& mesh, const std::string& out,
+std::vector<NodesOfPiece> nodes_in_pieces(const SourceMesh& mesh, const BlendedField& field) {
+  const std::vector<Vec3> inside_cells =
+      places_inside_cells(mesh.points, mesh.cell_offsets, mesh.connectivity);
+  std::vector<std::vector<double>> weights(mesh.points.size(), std::vector<double>(field.pieces().size()));
+  for (std::size_t n = 0; n < weights.size(); ++n) field.weights(inside_cells[n], weights[n]);
+  std::vector<NodesOfPiece> pieces;
+  for (std::size_t p = 0; p < field.pieces().size(); ++p) {
+    std::vector<char> mostly(weights.size());
+    for (std::size_t n = 0; n < weights.size(); ++n) mostly[n] = weights[n][p] >= 0.5;
+    const std::vector<Place> places = nodes_in_field(mesh, field.pieces()[p], &mostly);
+    auto& piece = pieces.emplace_back();
+    for (std::size_t n = 0; n < weights.size(); ++n)
+      if (weights[n][p] > 0)
+        piece.nodes.push_back(static_cast<std::int32_t>(n)), piece.places.push_back(places[n]);
+  }
+  return pieces;
+}
+
+DecodedNodes decoded_at(const KeptField& kept, const std::vector<Place>& nodes) {
+  const auto displacement = [&](double t, std::size_t frame) {
+    std::vector<Place> places = nodes;
+    for (Place& place : places) place.t = t;
+    std::vector<Vec3> d(places.size());
+    kept.field->displacements(places, d);
+    for (std::size_t n = 0; kept.residual && n < d.size(); ++n) d[n] += kept.residual->at(n, frame);
+    return d;
+  };
+  const auto quantity = [&](std::size_t q, double t, std::size_t frame) {
+    const std::size_t components = static_cast<std::size_t>(kept.field->quantities[q].components);
+    std::vector<double> numbers(components * nodes.size());
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const std::span<double> at(&numbers[components * n], components);
+      kept.field->quantity(q, nodes[n].uvw, nodes[n].side, t, at);
+      if (q < kept.of_quantities.size() && kept.of_quantities[q])
+        for (std::size_t c = 0; c < components; ++c)
+          at[c] += kept.of_quantities[q]->at(n, static_cast<int>(c), frame);
+    }
+    return numbers;
+  };
+  return {kept.field, displacement, quantity};
+}
+
+DecodedNodes decoded_at(const PiecesAtNodes& pieces) {
+  return {&pieces.field().first(), [&](double t, std::size_t frame) { return pieces.displacement(t, frame); },
+          [&](std::size_t q, double t, std::size_t frame) { return pieces.quantity(q, t, frame); }};
+}
+
+void write_decoded(const DecodedNodes& decoded, const SourceMesh& mesh, const std::string& out,
                    const std::function<void(const std::string&)>& progress) {
   const fs::path pvd = fs::path(out).replace_extension(".pvd"), folder = fs::path(out).replace_extension("");
   for (const fs::path& path : {pvd, folder})
     if (fs::exists(path)) throw InputError(path.string() + " exists: remove it, or give another name");
-  const FieldSource source = source_of(*kept.field);
+  const FieldSource source = source_of(*decoded.first);
   std::vector<double> times = source.times;
   if (times.empty()) {
-    const auto frames = static_cast<int>(std::max(2., kept.field->report.frames));
-    for (int j = 0; j < frames; ++j) times.push_back(kept.field->duration() * j / (frames - 1));
+    const auto frames = static_cast<int>(std::max(2., decoded.first->report.frames));
+    for (int j = 0; j < frames; ++j) times.push_back(decoded.first->duration() * j / (frames - 1));
   }
   const fs::path temporary = folder.string() + ".incomplete";
   fs::remove_all(temporary);
@@ -204,13 +232,12 @@ void write_decoded(const KeptField& kept, const DecodeMesh& mesh, const std::str
   std::ostringstream list;
   list << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
           "byte_order=\"LittleEndian\">\n<Collection>\n";
-  const auto grid = grid_of(mesh.mesh);
+  const auto grid = grid_of(mesh);
   for (std::size_t j = 0; j < times.size(); ++j) {
     progress("writing frame " + std::to_string(j + 1) + " of " + std::to_string(times.size()));
     std::ostringstream name;
     name << "frame_" << std::setw(4) << std::setfill('0') << j << ".vtu";
-    write_frame(grid, values_at(kept, source, mesh.nodes, j, times[j] - times.front()),
-                temporary / name.str());
+    write_frame(grid, values_at(decoded, source, j, times[j] - times.front()), temporary / name.str());
     list << "<DataSet timestep=\"" << shortest(times[j]) << "\" part=\"0\" file=\""
          << (folder.filename() / name.str()).string() << "\"/>\n";
   }

@@ -6,20 +6,26 @@
 #include <vector>
 
 #include "encoder/field/field.h"
+#include "encoder/field/file/pieces_at_nodes.h"
 #include "encoder/field/node_residual.h"
 #include "encoder/import/source_mesh.h"
 
 namespace cleft {
 
-/// A mesh on which a field is decoded: where its nodes are in the field, and in the source's space.
-struct DecodeMesh {
-  SourceMesh mesh;           ///< in the source's space
-  std::vector<Place> nodes;  ///< in the field; t is not used
-};
+/// The place of every node of a mesh, in the source's space, in a field: nodes at the break belong to the
+/// side on which their cells are. Throws InputError if a node is outside of the field's domain; where `asked`
+/// is given, if one of those is, and others are put on its border.
+std::vector<Place> nodes_in_field(const SourceMesh& mesh, const Field& field,
+                                  const std::vector<char>* asked = nullptr);
+/// The same in a field of several pieces.
+std::vector<NodesOfPiece> nodes_in_pieces(const SourceMesh& mesh, const BlendedField& field);
 
-/// Any mesh in the source's space: nodes at the break belong to the side on which their cells are. Throws
-/// InputError if a node is outside of the field's domain.
-DecodeMesh mesh_in_source(SourceMesh mesh, const Field& field);
+/// What is decoded at the nodes of a mesh. Vectors and tensors are along the axes of the first field.
+struct DecodedNodes {
+  const Field* first = nullptr;  ///< the field, or the first of its pieces
+  std::function<std::vector<Vec3>(double t, std::size_t frame)> displacement;
+  std::function<std::vector<double>(std::size_t quantity, double t, std::size_t frame)> quantity;
+};
 
 /// A field as kept: the spline, and what a file keeps beside it at the nodes of its own snapshot.
 struct KeptField {
@@ -27,10 +33,13 @@ struct KeptField {
   std::optional<NodeResidual> residual;  ///< of the displacement; only for the snapshot's nodes
   std::vector<std::optional<NodeResidual>> of_quantities;  ///< likewise
 };
+/// Refers to both.
+DecodedNodes decoded_at(const KeptField& kept, const std::vector<Place>& nodes);
+DecodedNodes decoded_at(const PiecesAtNodes& pieces);
 
 /// Writes OUT.pvd and OUT/frame_0000.vtu, ...: the displacement with what it was in frame 0, and all
 /// quantities, in the source's axes, names and times. Throws InputError if one of them exists.
-void write_decoded(const KeptField& kept, const DecodeMesh& mesh, const std::string& out,
+void write_decoded(const DecodedNodes& decoded, const SourceMesh& mesh, const std::string& out,
                    const std::function<void(const std::string&)>& progress);
 
 }  // namespace cleft

@@ -26,6 +26,7 @@ Json figures_of(const ImportReport& report) {
                   {"fields", fields},
                   {"pairs", s.pairs.size()},
                   {"released", s.released.back()},
+                  {"breaks", s.pieces.empty() ? (s.pairs.empty() ? 0 : 1) : s.pieces.size()},
                   {"cut", {{"start", s.cut_start}, {"length", s.cut_length}, {"depth", s.cut_depth}}},
                   {"break", s.source->break_plane},
                   {"origin", list_of(s.source->origin)}};

@@ -11,26 +11,13 @@
 #include "base/output_file.h"
 #include "base/text.h"
 #include "encoder/import/break_surface.h"
-#include "encoder/import/release.h"
-#include "solver/snapshot/break_front.h"
+#include "encoder/import/coincident.h"
+#include "encoder/import/pieces.h"
+#include "encoder/import/placed.h"
 
 namespace cleft {
 
 namespace {
-
-/// Places (u, v, w). Those on the break's plane, or in the plane of a flat mesh, are put there exactly.
-std::vector<Vec3> placed_points(const SourceMesh& mesh, const Placement& placement, bool has_break,
-                                bool is_flat) {
-  const double tolerance = in_plane(mesh);
-  std::vector<Vec3> points;
-  for (const Vec3& p : mesh.points) {
-    Vec3 x = placement.placed(p);
-    if (has_break && std::abs(x.y) <= tolerance) x.y = 0;
-    if (is_flat) x.z = 0;
-    points.push_back(x);
-  }
-  return points;
-}
 
 RecordedParameters parse_parameters(const std::vector<std::string>& list) {
   RecordedParameters parameters;
@@ -44,77 +31,6 @@ RecordedParameters parse_parameters(const std::vector<std::string>& list) {
     parameters.set(name, value);
   }
   return parameters;
-}
-
-/// The map of a break that is curved, has a round front, or has parts of the body above it. `at_front`: nodes
-/// there.
-std::optional<BreakMap> map_of(const Snapshot& s, const Break& found, const std::vector<bool>& at_front,
-                               double rounding, bool is_flat) {
-  BreakPlaces places{{}, {}, range_of(s.points, 0), range_of(s.points, 2), rounding};
-  for (std::size_t p = 0; p < found.pairs.size(); ++p)
-    if (found.first_frame[p] < static_cast<std::int32_t>(s.frames()))
-      places.pairs.push_back(s.points[found.pairs[p][0]]);
-  for (std::size_t n = 0; n < at_front.size(); ++n)
-    if (at_front[n]) places.front.push_back(s.points[n]);
-  if (places.pairs.empty()) return {};
-  const auto round = is_flat ? std::nullopt : round_front(places);
-  const double top = is_flat ? 0 : places.w.back;
-  if (!found.curved && !round && top <= rounding) return {};
-  double farthest = 0;
-  return (found.curved ? surface_through(places, farthest) : BreakMap()).with(top, round);
-}
-
-/// Canonical coordinates of the nodes; those of the break are exactly on v = 0.
-std::vector<Vec3> canonical_points(const Snapshot& s, const BreakMap& map, const Break& found,
-                                   const std::vector<bool>& at_front) {
-  std::vector<Vec3> places;
-  for (const Vec3& p : s.points) places.push_back(map.canonical(p));
-  for (const NodePair& pair : found.pairs)
-    for (const std::int32_t node : pair) places[node].y = 0;
-  for (std::size_t n = 0; n < places.size(); ++n)
-    if (at_front[n]) places[n].y = 0;
-  return places;
-}
-
-/// A snapshot, and the canonical coordinates of its nodes where they are not their places.
-struct Placed {
-  Snapshot snapshot;
-  std::vector<Vec3> canonical;
-};
-
-Placed snapshot_of(const Series& series, const Break& found, const Placement& placement, bool is_flat) {
-  const SourceMesh& mesh = series.mesh();
-  Placed result;
-  Snapshot& s = result.snapshot;
-  s.points = placed_points(mesh, placement, found.plane.has_value() && !found.curved, is_flat);
-  s.cell_types = mesh.cell_types, s.cell_offsets = mesh.cell_offsets, s.connectivity = mesh.connectivity;
-  for (const double t : series.times()) s.times.push_back(t - series.times().front());
-  for (std::size_t j = 1; j < s.times.size(); ++j)
-    if (!(s.times[j - 1] < s.times[j]))
-      throw InputError(series.path() + ": times " + shortest(series.times()[j - 1]) + " and " +
-                       shortest(series.times()[j]) +
-                       " are the same, counted from the first; give more digits");
-  s.source =
-      SnapshotSource{std::filesystem::path(series.path()).filename().string(), placement.origin,
-                     placement.axes, series.times().front(), found.plane ? text_of(*found.plane) : "none"};
-  for (const SeriesField& field : series.fields())
-    s.source->fields.push_back(field.source + ":" + field.name);
-  std::vector<std::int8_t> sides(s.points.size(), 0);
-  for (std::size_t p = 0; p < found.pairs.size(); ++p)
-    if (found.first_frame[p] < static_cast<std::int32_t>(s.frames()))
-      sides[found.pairs[p][0]] = -1, sides[found.pairs[p][1]] = 1;
-  const std::vector<bool> at_front = nodes_at_front(s.cell_offsets, s.connectivity, found.pairs, sides);
-  if (const auto map = map_of(s, found, at_front, in_plane(mesh), is_flat)) {
-    s.source->break_map = map->numbers();
-    s.coordinates = true;
-    result.canonical = canonical_points(s, *map, found, at_front);
-    std::swap(s.points, result.canonical);
-    fill_cut(s, found);
-    std::swap(s.points, result.canonical);
-  } else {
-    fill_cut(s, found);
-  }
-  return result;
 }
 
 /// Least opening along v over the released pairs; 0 where there are none.
@@ -160,7 +76,7 @@ void write_frames(const Series& series, const Placement& placement, const std::s
     auto array = report.arrays.begin();
     for (std::size_t f = 0; f < values.size(); ++f) {
       const SeriesField& field = series.fields()[f];
-      placement.turn(values[f], field.components);
+      turn(values[f], field.components, placement.axes);
       if (field.name == "displacement") {
         writer.write_frames(j, as_vectors(values[f]));
         s.smallest_gap[j] = smallest_gap(s, j, values[f]);
@@ -170,6 +86,29 @@ void write_frames(const Series& series, const Placement& placement, const std::s
     }
   }
   writer.finish(s);
+}
+
+}  // namespace
+
+namespace {
+
+/// The snapshot of a body with several breaks: the pairs of all, and the piece around each.
+Placed whole_of(const Series& series, std::vector<Break>& breaks, const Placement& placement,
+                const std::optional<Vec3>& flat) {
+  Break all = breaks.front();
+  Sets joined(series.mesh().points.size());
+  all.pairs.clear(), all.first_frame.clear();
+  for (const Break& one : breaks)
+    for (std::size_t p = 0; p < one.pairs.size(); ++p) {
+      const auto [left, right] = one.pairs[p];
+      if (joined.root(left) == joined.root(right)) continue;  // where breaks meet
+      joined.join(left, right);
+      all.pairs.push_back(one.pairs[p]), all.first_frame.push_back(one.first_frame[p]);
+    }
+  const Placed plain;
+  Placed whole = snapshot_of(series, series.mesh(), all, placement, flat.has_value(), &plain);
+  whole.snapshot.pieces = pieces_of(series, breaks, flat);
+  return whole;
 }
 
 }  // namespace
@@ -186,14 +125,17 @@ ImportReport import_series(const ImportOptions& o, const std::function<void(cons
 
   const std::optional<Vec3> flat = flatness(series.mesh());
   const std::string frames = std::to_string(series.frames());
-  Break found = find_break(series, o.break_plane, open_at, flat, [&](std::size_t j) {
+  Breaks found = find_breaks(series, o.break_plane, open_at, flat, [&](std::size_t j) {
     progress("looking at frame " + std::to_string(j + 1) + " of " + frames);
   });
+  Break& first = found.list.front();
   const Placement placement =
-      found.plane ? placement_on(found, series.mesh(), flat) : placement_in_box(series.mesh(), o.box, flat);
+      first.plane ? placement_on(first, series.mesh(), flat) : placement_in_box(series.mesh(), o.box, flat);
 
   ImportReport report;
-  Placed placed = snapshot_of(series, found, placement, flat.has_value());
+  Placed placed = found.list.size() == 1
+                      ? snapshot_of(series, series.mesh(), first, placement, flat.has_value())
+                      : whole_of(series, found.list, placement, flat);
   report.snapshot = std::move(placed.snapshot);
   report.snapshot.parameters = std::move(parameters);
   for (const SeriesField& field : series.fields())
@@ -203,6 +145,9 @@ ImportReport import_series(const ImportOptions& o, const std::function<void(cons
       report.arrays.push_back({field.name, static_cast<std::size_t>(field.components), true});
   write_frames(series, placement, o.out, placed.canonical, report, progress);
   report.notes = std::move(found.notes);
+  if (found.list.size() > 1)
+    report.notes.push_back(std::to_string(found.list.size()) +
+                           " breaks, or arms of such: the body around each gets a field of its own");
   if (series.loose_nodes() > 0)
     report.notes.push_back(std::to_string(series.loose_nodes()) +
                            " nodes belong to no cell, and were left out");

@@ -96,27 +96,6 @@ double volume(const std::vector<Vec3>& points, const std::array<Vec3, 3>& axes, 
 
 }  // namespace
 
-void Placement::turn(std::vector<double>& values, int components) const {
-  if (components == 3) {
-    for (std::size_t i = 0; i < values.size(); i += 3) {
-      const Vec3 turned_one = turned({values[i], values[i + 1], values[i + 2]});
-      for (int c = 0; c < 3; ++c) values[i + static_cast<std::size_t>(c)] = turned_one[c];
-    }
-  } else if (components == 6) {
-    static constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
-    for (std::size_t i = 0; i < values.size(); i += 6) {
-      const double xx = values[i], yy = values[i + 1], zz = values[i + 2], xy = values[i + 3],
-                   yz = values[i + 4], xz = values[i + 5];
-      const Vec3 tensor[3] = {{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
-      for (int c = 0; c < 6; ++c) {
-        const Vec3 &a = axes[row[c]], &b = axes[column[c]];
-        values[i + static_cast<std::size_t>(c)] =
-            dot(a, {dot(tensor[0], b), dot(tensor[1], b), dot(tensor[2], b)});
-      }
-    }
-  }
-}
-
 std::optional<Vec3> flatness(const SourceMesh& mesh) {
   const auto plane = common_plane(mesh.points, in_plane(mesh));
   if (!plane) return {};
@@ -154,6 +133,7 @@ Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional
     u = -u;
     plane = {-plane.normal, -plane.offset};
     for (NodePair& pair : found.pairs) std::swap(pair[0], pair[1]);
+    found.distance = [before = found.distance](const Vec3& p) { return -before(p); };
   }
   for (Vec3* axis : {&u, &plane.normal, &w}) *axis += Vec3{};  // no -0
   const double middle = range_along(places, u).middle();

@@ -1,26 +1,19 @@
 // The rigid map from the source's space into (u, v, w).
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
+#include "base/turned.h"
 #include "encoder/import/break_plane.h"
 
 namespace cleft {
 
 struct Placement {
-  Vec3 origin;  ///< of (u, v, w), in the source's space
-  std::array<Vec3, 3> axes{
-      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< unit vectors of u, v, w in that space, right-handed
+  Vec3 origin;                   ///< of (u, v, w), in the source's space
+  AxesInSpace axes = same_axes;  ///< unit vectors of u, v, w in that space, right-handed
 
-  Vec3 turned(const Vec3& vector) const {
-    return {dot(axes[0], vector), dot(axes[1], vector), dot(axes[2], vector)};
-  }
-  Vec3 placed(const Vec3& point) const { return turned(point - origin); }
-  /// Rotates the values of a field: scalars are unchanged, vectors and symmetric tensors (XX YY ZZ XY YZ XZ)
-  /// are rotated.
-  void turn(std::vector<double>& values, int components) const;
+  Vec3 placed(const Vec3& point) const { return turned(point - origin, axes); }
 };
 
 /// The normal of the plane of a plane mesh.

@@ -11,8 +11,12 @@ namespace {
 
 class Opening {
  public:
-  Opening(const Snapshot& s, const Break& found)
-      : s_(s), found_(found), never_(static_cast<int>(s.frames())), rounding_(2e-5 * diagonal(s.points)) {
+  Opening(const Snapshot& s, const Break& found, const BeyondArm& beyond)
+      : s_(s),
+        found_(found),
+        beyond_(beyond),
+        never_(static_cast<int>(s.frames())),
+        rounding_(2e-5 * diagonal(s.points)) {
     for (std::size_t p = 0; p < found.pairs.size(); ++p) {
       const Vec3& x = place(p);
       low_ = {std::min(low_.x, x.x), 0, std::min(low_.z, x.z)};
@@ -48,19 +52,26 @@ class Opening {
   std::vector<double> position() const {
     if (found_.pairs.empty()) return std::vector<double>(s_.frames());
     if (opens_at_once()) return std::vector<double>(s_.frames(), high_.x);
-    const std::vector<double> whole = undivided_ahead();
+    const std::vector<double> whole = beyond_.ends_at_others ? std::vector<double>() : undivided_ahead();
+    double end = high_.x;
+    if (beyond_.ends_at_others)
+      for (const Vec3& at : s_.points) end = std::max(end, at.x);
     std::vector<double> position;
     for (int j = 0; j < never_; ++j) {
       double front = -std::numeric_limits<double>::infinity(), next = std::numeric_limits<double>::infinity();
       for (std::size_t p = 0; p < found_.pairs.size(); ++p)
         if (j > 0 && found_.first_frame[p] <= j) front = std::max(front, place(p).x);
+      for (std::size_t p = 0; p < beyond_.u.size(); ++p)
+        if (j > 0 && beyond_.first_frame[p] <= j) front = std::max(front, beyond_.u[p]);
       const auto see = [&](double u) {
         if (u > front + rounding_) next = std::min(next, u);
       };
       for (std::size_t p = 0; p < found_.pairs.size(); ++p)
         if (j == 0 || found_.first_frame[p] > j) see(place(p).x);
+      for (std::size_t p = 0; p < beyond_.u.size(); ++p)
+        if (j == 0 || beyond_.first_frame[p] > j) see(beyond_.u[p]);
       if (front > -std::numeric_limits<double>::infinity()) std::for_each(whole.begin(), whole.end(), see);
-      position.push_back(std::isfinite(next) ? next : high_.x);
+      position.push_back(std::isfinite(next) ? next : end);
     }
     return position;
   }
@@ -98,6 +109,7 @@ class Opening {
 
   const Snapshot& s_;
   const Break& found_;
+  const BeyondArm& beyond_;
   int never_;
   double rounding_;
   Vec3 low_{std::numeric_limits<double>::infinity(), 0, std::numeric_limits<double>::infinity()},
@@ -106,8 +118,8 @@ class Opening {
 
 }  // namespace
 
-void fill_cut(Snapshot& s, const Break& found) {
-  const Opening opening(s, found);
+void fill_cut(Snapshot& s, const Break& found, const BeyondArm& beyond) {
+  const Opening opening(s, found, beyond);
   s.released = opening.released();
   s.position = opening.position();
   for (const std::size_t p : opening.order()) s.pairs.push_back(found.pairs[p]);

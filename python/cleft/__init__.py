@@ -11,7 +11,7 @@ Lengths in mm, stresses in MPa. (u, v, w): along the cut, across it (left < 0 < 
 Wrong input raises InputError, a ValueError, with the texts of the commands; a file that cannot be read FileError.
 """
 
-from ._cleft import Field, FileError, InputError, OpenedMesh, PatchSurface, Snapshot, __version__
+from ._cleft import BlendedField, Field, FileError, InputError, OpenedMesh, PatchSurface, Snapshot, __version__
 from ._cut import cut
 from ._encode import encode
 from ._others import field_to_meshio, field_to_vtk, field_to_xarray, opened_to_meshio, opened_to_vtk
@@ -23,5 +23,5 @@ Field.to_meshio = field_to_meshio
 OpenedMesh.to_vtk = opened_to_vtk
 OpenedMesh.to_meshio = opened_to_meshio
 
-__all__ = ["Field", "FileError", "InputError", "OpenedMesh", "PatchSurface", "Snapshot", "Study", "cut", "encode",
-           "find", "interpolate", "open"]
+__all__ = ["BlendedField", "Field", "FileError", "InputError", "OpenedMesh", "PatchSurface", "Snapshot", "Study", "cut",
+           "encode", "find", "interpolate", "open"]

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _cleft
 from ._arrays import table_of
-from ._cleft import Field, InputError, Snapshot
+from ._cleft import BlendedField, Field, InputError, Snapshot
 
 
 class Study:
@@ -143,12 +143,13 @@ class Study:
         return os.path.join(self.path, "study.dffd") if os.path.isdir(self.path) else self.path
 
 
-def open(path: Union[str, os.PathLike]) -> Union[Study, Field, Snapshot]:
-    """A Study for a study folder or a study.dffd, a Field for a case.dffd, a Snapshot for a case.h5."""
+def open(path: Union[str, os.PathLike]) -> Union[Study, Field, BlendedField, Snapshot]:
+    """A Study for a study folder or a study.dffd, a Field for a case.dffd (a BlendedField for one with several breaks), a
+    Snapshot for a case.h5."""
     path = os.fspath(path)
     kind = _cleft.format_of(path)
     if kind == "cleft-field":
-        return _cleft.read_field(path)
+        return _cleft.read_blended(path) if _cleft.pieces_in(path) > 0 else _cleft.read_field(path)
     return Snapshot(path) if kind == "cleft-snapshot" else Study(path)
 
 

@@ -46,6 +46,7 @@ class SnapshotCheck {
     check_pairs();
     check_cut();
     if (s_.source) check_source(*s_.source);
+    for (std::size_t p = 0; p < s_.pieces.size(); ++p) check_piece(piece_group(p), s_.pieces[p]);
   }
 
  private:
@@ -126,13 +127,36 @@ class SnapshotCheck {
   }
 
   void check_source(const SnapshotSource& source) const {
-    const auto& [u, v, w] = source.axes;
+    check_axes("/import", source.origin, source.axes);
+    require(std::isfinite(source.time_start), "/import: origin or time_start is not finite");
+  }
+
+  void check_axes(const std::string& where, const Vec3& origin, const AxesInSpace& axes) const {
+    const auto& [u, v, w] = axes;
     double error = norm(cross(u, v) - w);  // 0 for unit vectors that are right-handed, with the next three
     for (const double product : {dot(u, v), squared_norm(u) - 1, squared_norm(v) - 1})
       error = std::max(error, std::abs(product));
-    require(error < 1e-9, "/import: axes are not a right-handed frame of unit vectors");
-    require(std::isfinite(squared_norm(source.origin)) && std::isfinite(source.time_start),
-            "/import: origin or time_start is not finite");
+    require(error < 1e-9, where + ": axes are not a right-handed frame of unit vectors");
+    require(std::isfinite(squared_norm(origin)), where + ": origin or time_start is not finite");
+  }
+
+  /// What its reader needs to take it out; the snapshot of it is checked as others are.
+  void check_piece(const std::string& where, const SnapshotPiece& piece) const {
+    require(s_.source.has_value(), where + " is a piece of no imported data");
+    check_axes(where, piece.origin, piece.axes);
+    require(!piece.nodes.empty() && piece.places.size() == piece.nodes.size(),
+            where + " must have a place a node");
+    const auto points = static_cast<std::int64_t>(s_.points.size());
+    require(piece.counting > 0 && static_cast<std::size_t>(piece.counting) <= piece.nodes.size(),
+            where + ": attribute counting is no number of its nodes");
+    std::vector<std::int32_t> sorted = piece.nodes;
+    std::sort(sorted.begin(), sorted.end());
+    require(sorted.front() >= 0 && sorted.back() < points &&
+                std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end(),
+            where + "/nodes are not different points of the snapshot");
+    require(std::all_of(piece.places.begin(), piece.places.end(),
+                        [](const Vec3& p) { return std::isfinite(squared_norm(p)); }),
+            where + ": a place is not finite");
   }
 
   const std::string& path_;
@@ -158,6 +182,26 @@ std::optional<SnapshotSource> read_source(const h5::File& file) {
       file.has("/import/break_map") ? file.read<double>("/import/break_map", {0}) : std::vector<double>(),
       file.has_attribute("/import", "fields") ? lines_of(file.read_text("/import", "fields"))
                                               : std::vector<std::string>()};
+}
+
+SnapshotPiece read_piece(const h5::File& file, const std::string& group) {
+  SnapshotPiece piece;
+  piece.nodes = file.read<std::int32_t>(group + "/nodes", {0});
+  piece.counting = static_cast<std::int32_t>(file.read_number(group, "counting"));
+  piece.places = as_vectors(file.read<double>(group + "/places", {0, 3}));
+  piece.pairs = read_table<2>(file, group + "/pairs");
+  piece.released = file.read<std::int32_t>(group + "/released", {0});
+  piece.position = file.read<double>(group + "/position", {0});
+  piece.cut_start = file.read_number(group, "start");
+  piece.cut_length = file.read_number(group, "length");
+  piece.cut_depth = file.read_number(group, "depth");
+  piece.origin = as_vectors(file.read_numbers(group, "origin", 3)).front();
+  const std::vector<Vec3> axes = as_vectors(file.read_numbers(group, "axes", 9));
+  piece.axes = {axes[0], axes[1], axes[2]};
+  piece.break_plane = file.read_text(group, "break");
+  if (file.has(group + "/break_map")) piece.break_map = file.read<double>(group + "/break_map", {0});
+  piece.break_extent = file.read<double>(group + "/break_extent", {0});
+  return piece;
 }
 
 Snapshot read_all_but_displacements(const h5::File& file) {
@@ -196,6 +240,8 @@ Snapshot read_all_but_displacements(const h5::File& file) {
       s.parameters.set(name, file.read_text("/parameters", name));
     }
   }
+  while (file.has(piece_group(s.pieces.size())))
+    s.pieces.push_back(read_piece(file, piece_group(s.pieces.size())));
   const h5::Shape shape = file.shape(displacements);
   if (shape != h5::Shape{s.frames() * s.points.size(), 3})
     throw FileError(file.path(), displacements + " must have a row a frame and point");
@@ -216,8 +262,78 @@ std::vector<std::array<int, 3>> Snapshot::skin() const {
   return triangles;
 }
 
+std::vector<Vec3> Snapshot::points_in_source() const {
+  std::vector<Vec3> list = points;
+  if (!source) return list;
+  const auto& [u, v, w] = source->axes;
+  for (Vec3& p : list) p = source->origin + p.x * u + p.y * v + p.z * w;
+  return list;
+}
+
 SnapshotReader::SnapshotReader(const std::string& path)
-    : file_(h5::File::open(path)), snapshot_(read_all_but_displacements(file_)) {}
+    : file_(h5::File::open(path)),
+      snapshot_(read_all_but_displacements(file_)),
+      stored_points_(snapshot_.points.size()) {}
+
+SnapshotReader::SnapshotReader(const std::string& path, std::size_t number) : SnapshotReader(path) {
+  Snapshot whole = std::move(snapshot_);
+  CLEFT_CHECK(number, <, whole.pieces.size());
+  SnapshotPiece piece = std::move(whole.pieces[number]);
+  taken_ = Taken{std::move(piece.nodes), {}, axes_between(whole.source->axes, piece.axes)};
+  const std::string file_name = whole.source->file;
+  Snapshot& s = snapshot_ = Snapshot();
+  std::vector<std::int64_t> local(whole.points.size(), -1);
+  for (std::size_t i = 0; i < taken_->nodes.size(); ++i)
+    local[taken_->nodes[i]] = static_cast<std::int64_t>(i);
+  s.cell_offsets = {0};
+  for (std::size_t c = 0; c < whole.cell_types.size(); ++c) {
+    const auto first = whole.connectivity.begin() + whole.cell_offsets[c],
+               last = whole.connectivity.begin() + whole.cell_offsets[c + 1];
+    if (std::any_of(first, last, [&](std::int64_t n) { return local[n] < 0; })) continue;
+    std::transform(first, last, std::back_inserter(s.connectivity), [&](std::int64_t n) { return local[n]; });
+    s.cell_types.push_back(whole.cell_types[c]);
+    s.cell_offsets.push_back(static_cast<std::int64_t>(s.connectivity.size()));
+  }
+  s.counting = static_cast<std::size_t>(piece.counting);
+  s.coordinates = !piece.break_map.empty();
+  if (s.coordinates) {
+    for (const Vec3& p : piece.places) taken_->canonical.insert(taken_->canonical.end(), {p.x, p.y, p.z});
+    const std::vector<Vec3> in_source = whole.points_in_source();
+    for (const std::int32_t n : taken_->nodes)
+      s.points.push_back(turned(in_source[n] - piece.origin, piece.axes));
+  } else {
+    s.points = std::move(piece.places);
+  }
+  s.pairs = std::move(piece.pairs), s.released = std::move(piece.released);
+  s.position = std::move(piece.position);
+  s.cut_start = piece.cut_start, s.cut_length = piece.cut_length, s.cut_depth = piece.cut_depth;
+  s.times = std::move(whole.times), s.smallest_gap = std::move(whole.smallest_gap);
+  s.parameters = std::move(whole.parameters), s.case_hash = std::move(whole.case_hash);
+  s.source = SnapshotSource{file_name,
+                            piece.origin,
+                            piece.axes,
+                            whole.source->time_start,
+                            std::move(piece.break_plane),
+                            std::move(piece.break_map),
+                            std::move(whole.source->fields)};
+  s.source->break_extent = std::move(piece.break_extent);
+  SnapshotCheck(file_.path(), s).run();
+}
+
+std::vector<double> SnapshotReader::rows(const std::string& dataset, std::size_t row,
+                                         std::size_t components) const {
+  std::vector<double> all(components * stored_points_);
+  file_.read_rows<double>(dataset, row, stored_points_, all);
+  if (!taken_) return all;
+  std::vector<double> some;
+  some.reserve(components * taken_->nodes.size());
+  for (const std::int32_t n : taken_->nodes) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(components) * n;
+    some.insert(some.end(), first, first + static_cast<std::ptrdiff_t>(components));
+  }
+  turn(some, static_cast<int>(components), taken_->axes);
+  return some;
+}
 
 std::vector<Vec3> SnapshotReader::displacement(std::size_t frame) const {
   return displacement(frame, 0, snapshot_.points.size());
@@ -226,9 +342,16 @@ std::vector<Vec3> SnapshotReader::displacement(std::size_t frame) const {
 std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t first,
                                                std::size_t count) const {
   CLEFT_CHECK(frame, <, snapshot_.frames());
-  std::vector<double> numbers(3 * count);
-  file_.read_rows<double>(displacements, frame * snapshot_.points.size() + first, count, numbers);
-  std::vector<Vec3> vectors = as_vectors(numbers);
+  std::vector<Vec3> vectors;
+  if (taken_) {
+    vectors = as_vectors(rows(displacements, frame * stored_points_, 3));
+    vectors = {vectors.begin() + static_cast<std::ptrdiff_t>(first),
+               vectors.begin() + static_cast<std::ptrdiff_t>(first + count)};
+  } else {
+    std::vector<double> numbers(3 * count);
+    file_.read_rows<double>(displacements, frame * stored_points_ + first, count, numbers);
+    vectors = as_vectors(numbers);
+  }
   for (std::size_t n = 0; n < count; ++n)
     if (!std::isfinite(squared_norm(vectors[n])))
       throw FileError(file_.path(), "frame " + std::to_string(frame) + ", node " + std::to_string(first + n) +
@@ -237,7 +360,7 @@ std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t fi
 }
 
 std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
-  const hsize_t points = snapshot_.points.size(), frames = snapshot_.frames();
+  const hsize_t points = stored_points_, frames = snapshot_.frames();
   std::vector<SnapshotArray> arrays;
   for (const std::string& name : file_.members(point_data)) {
     if (name == "displacement") continue;
@@ -257,10 +380,14 @@ std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
 
 std::vector<double> SnapshotReader::point_array(const SnapshotArray& array, std::size_t frame) const {
   CLEFT_CHECK(frame, <, snapshot_.frames());
-  const std::size_t points = snapshot_.points.size();
-  std::vector<double> numbers(array.components * points);
-  file_.read_rows<double>(point_data + "/" + array.name, array.varies ? frame * points : 0, points, numbers);
-  return numbers;
+  if (taken_ && !taken_->canonical.empty() && array.name == canonical_array.name) return taken_->canonical;
+  if (taken_ && !taken_->canonical.empty() && array.name == frame_array.name) {
+    std::vector<double> numbers;
+    for (std::size_t n = 0; n < taken_->nodes.size(); ++n)
+      numbers.insert(numbers.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
+    return numbers;
+  }
+  return rows(point_data + "/" + array.name, array.varies ? frame * stored_points_ : 0, array.components);
 }
 
 void check_snapshot(const std::string& path) {
@@ -268,6 +395,7 @@ void check_snapshot(const std::string& path) {
   const SnapshotReader reader(path);
   for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) reader.displacement(j);
   reader.point_arrays();
+  for (std::size_t p = 0; p < reader.snapshot().pieces.size(); ++p) SnapshotReader(path, p);
 }
 
 }  // namespace cleft

@@ -12,24 +12,44 @@
 
 #include "base/h5/h5.h"
 #include "base/output_file.h"
-#include "base/vec3.h"
+#include "base/turned.h"
 #include "params/parameters/recorded.h"
 
 namespace cleft {
 
-inline constexpr FileFormat snapshot_format{"cleft-snapshot", 1, "snapshot", "cleft solve"};
+/// Version 2: with several breaks.
+inline constexpr FileFormat snapshot_format{"cleft-snapshot", 1, "snapshot", "cleft solve", 2};
 
 /// The placement of imported data: (u, v, w) = axes (x - origin) for a point x in the space of the source.
 struct SnapshotSource {
-  std::string file;          ///< the series' name, without folders
-  Vec3 origin;               ///< of (u, v, w), in the space of the source
-  std::array<Vec3, 3> axes;  ///< unit vectors of u, v, w in that space, right-handed
-  double time_start = 0;     ///< time of the first frame in the source
-  std::string break_plane;   ///< nx,ny,nz,offset in that space: points x with n . x = offset; or "none"
+  std::string file;         ///< the series' name, without folders
+  Vec3 origin;              ///< of (u, v, w), in the space of the source
+  AxesInSpace axes;         ///< unit vectors of u, v, w in that space, right-handed
+  double time_start = 0;    ///< time of the first frame in the source
+  std::string break_plane;  ///< nx,ny,nz,offset in that space: points x with n . x = offset; or "none"
   /// Of a break that is no plane, or has a round front: its map to canonical coordinates (encoder/field/
   /// break_map.h), from (u, v, w) as they are placed here. `coordinates` are then its values at the nodes.
   std::vector<double> break_map = {};
-  std::vector<std::string> fields = {};  ///< SOURCE:NAME: names of fields there and here; none: not recorded
+  std::vector<std::string> fields = {};   ///< SOURCE:NAME: names of fields there and here; none: not recorded
+  std::vector<double> break_extent = {};  ///< of a piece: SnapshotPiece::break_extent
+};
+
+/// A piece of a body with several breaks: the nodes around one of them, over its own (u, v, w).
+struct SnapshotPiece {
+  std::vector<std::int32_t> nodes;  ///< n of the N points
+  /// Of them, the first ones, ascending: those at which the piece counts. The others, ascending, are nodes of
+  /// the same cells.
+  std::int32_t counting = 0;
+  std::vector<Vec3> places;                        ///< n, in the coordinates of the break
+  std::vector<std::array<std::int32_t, 2>> pairs;  ///< of `nodes`, by their place there
+  std::vector<std::int32_t> released;              ///< F
+  std::vector<double> position;                    ///< F
+  double cut_start = 0, cut_length = 0, cut_depth = 0;
+  Vec3 origin;                            ///< of (u, v, w), in the space of the source
+  AxesInSpace axes = same_axes;           ///< unit vectors of u, v, w in that space
+  std::string break_plane;                ///< as SnapshotSource::break_plane
+  std::vector<double> break_map = {};     ///< as SnapshotSource::break_map
+  std::vector<double> break_extent = {};  ///< encoder/field/field_source.h
 };
 
 /// The contents without the displacements. N points, C cells, P pairs, F frames. Lengths in mm.
@@ -63,8 +83,12 @@ struct Snapshot {
   std::vector<Vec3> tension;  ///< of a body or a shaped patch, by triangle of skin: direction of prestress_u
   std::vector<std::uint8_t> support;     ///< by foundation triangle: 0 springs, 1 bone; empty: all springs
   std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs and have no residuals
+  std::optional<std::size_t> counting;   ///< of a piece: SnapshotPiece::counting
+  std::vector<SnapshotPiece> pieces;     ///< of imported data with several breaks: one for each
 
   std::size_t frames() const { return times.size(); }
+  /// The points in the space of the source; of a simulation, as they are.
+  std::vector<Vec3> points_in_source() const;
   /// The skin: all triangles, as indices into points.
   std::vector<std::array<int, 3>> skin() const;
 };
@@ -78,6 +102,9 @@ struct SnapshotArray {
 
 /// Where `coordinates` is set, or of a body: every node's coordinates of the cut, and their unit vectors.
 inline const SnapshotArray canonical_array{"canonical", 3, false}, frame_array{"frame", 9, false};
+
+/// The group of a piece in the file.
+inline std::string piece_group(std::size_t piece) { return "/pieces/" + std::to_string(piece); }
 
 /// Writes a snapshot completely or not at all: displacement frame by frame, further arrays, then finish().
 class SnapshotWriter {
@@ -107,6 +134,9 @@ class SnapshotReader {
  public:
   /// Throws FileError if the file is not a snapshot, is damaged, or is inconsistent.
   explicit SnapshotReader(const std::string& path);
+  /// One of its pieces (Snapshot::pieces), as if it had been imported alone: a snapshot of its nodes and of
+  /// the cells that have no others, in its own (u, v, w).
+  SnapshotReader(const std::string& path, std::size_t piece);
 
   const Snapshot& snapshot() const { return snapshot_; }
   /// Displacements from `points` in a frame, N of them.
@@ -121,8 +151,17 @@ class SnapshotReader {
   std::vector<double> point_array(const SnapshotArray& array, std::size_t frame) const;
 
  private:
+  struct Taken {
+    std::vector<std::int32_t> nodes;
+    std::vector<double> canonical;  // empty: those are the points
+    AxesInSpace axes;               // of the piece, along those of the whole
+  };
+  std::vector<double> rows(const std::string& dataset, std::size_t first, std::size_t components) const;
+
   h5::File file_;
   Snapshot snapshot_;
+  std::size_t stored_points_;
+  std::optional<Taken> taken_;  // of a piece
 };
 
 /// Reads every byte of a snapshot and throws FileError at the first fault.

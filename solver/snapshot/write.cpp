@@ -104,12 +104,31 @@ void write_source(h5::File& file, const SnapshotSource& source) {
   if (!source.break_map.empty()) write_list(file, "/import/break_map", source.break_map);
 }
 
+void write_piece(h5::File& file, const std::string& group, const SnapshotPiece& piece) {
+  write_list(file, group + "/nodes", piece.nodes);
+  file.write_number(group, "counting", piece.counting);
+  file.write<double>(group + "/places", as_numbers(piece.places), {piece.places.size(), 3});
+  write_table(file, group + "/pairs", piece.pairs);
+  write_list(file, group + "/released", piece.released);
+  write_list(file, group + "/position", piece.position);
+  file.write_number(group, "start", piece.cut_start);
+  file.write_number(group, "length", piece.cut_length);
+  file.write_number(group, "depth", piece.cut_depth);
+  file.write_numbers(group, "origin", as_numbers({&piece.origin, 1}));
+  file.write_numbers(group, "axes", as_numbers(piece.axes));
+  file.write_text(group, "break", piece.break_plane);
+  if (!piece.break_map.empty()) write_list(file, group + "/break_map", piece.break_map);
+  write_list(file, group + "/break_extent", piece.break_extent);
+}
+
 }  // namespace
 
 SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
                                const std::vector<SnapshotArray>& arrays)
     : out_(path), file_(h5::File::create(out_.path())), points_(s.points.size()) {
-  write_format(file_, snapshot_format);
+  FileFormat format = snapshot_format;
+  if (!s.pieces.empty()) format.version = snapshot_format.further;
+  write_format(file_, format);
   file_.write_text("/", "units", "mm N MPa");
   file_.write_text("/", "case", s.case_hash);
   file_.write_text("/", "producer", producer());
@@ -125,6 +144,7 @@ SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
   write_cut(file_, s);
   write_parameters(file_, s);
   if (s.source) write_source(file_, *s.source);
+  for (std::size_t p = 0; p < s.pieces.size(); ++p) write_piece(file_, piece_group(p), s.pieces[p]);
 }
 
 void SnapshotWriter::write_frames(std::size_t first, std::span<const Vec3> displacements) {

@@ -1,6 +1,7 @@
 #include "tests/import/cracked_bodies.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -102,20 +103,24 @@ CrackedBody::Mesh CrackedBody::mesh() const {
   Mesh mesh;
   std::map<std::tuple<std::size_t, std::size_t, std::size_t, int>, std::int64_t> numbers;
   const bool flat = c.size() == 1;
-  const auto node = [&](std::size_t i, std::size_t j, std::size_t k, double b_of_cell) {
-    const Vec3 abc{a[i], b[j], c[k]};
+  const auto side_at = [&](const Vec3& abc, const Vec3& middle) {
+    if (side) return side(abc, middle);
     const bool on_crack = std::find(cracks.begin(), cracks.end(), abc.y) != cracks.end() && doubled(abc);
-    const int side = !on_crack ? 0 : b_of_cell < abc.y ? -1 : 1;
+    return !on_crack ? 0 : middle.y < abc.y ? -1 : 1;
+  };
+  const auto node = [&](std::size_t i, std::size_t j, std::size_t k, const Vec3& middle) {
+    const Vec3 abc{a[i], b[j], c[k]};
+    const int at_side = side_at(abc, middle);
     const auto [at, is_new] =
-        numbers.try_emplace({i, j, k, side}, static_cast<std::int64_t>(mesh.nodes.size()));
-    if (is_new) mesh.nodes.push_back({abc, side}), mesh.series.add_point(place(abc));
+        numbers.try_emplace({i, j, k, at_side}, static_cast<std::int64_t>(mesh.nodes.size()));
+    if (is_new) mesh.nodes.push_back({abc, at_side}), mesh.series.add_point(place(abc));
     return at->second;
   };
   for (std::size_t i = 0; i + 1 < a.size(); ++i)
     for (std::size_t j = 0; j + 1 < b.size(); ++j)
       for (std::size_t k = 0; k + 1 < c.size() + (flat ? 1 : 0); ++k) {
-        const double middle = (b[j] + b[j + 1]) / 2;
-        if (!solid({(a[i] + a[i + 1]) / 2, middle, c[k]})) continue;
+        const Vec3 middle{(a[i] + a[i + 1]) / 2, (b[j] + b[j + 1]) / 2, c[k]};
+        if (!solid(middle)) continue;
         std::vector<std::int64_t> corners;
         for (const std::size_t level : {k, k + 1}) {
           if (flat && level > k) continue;
@@ -245,6 +250,100 @@ std::vector<CrackedBody> cracked_bodies() {
                              return Vec3{x.x, x.y + 2 * std::sin(0.12 * x.x) + 0.05 * x.z * x.z, x.z};
                            })),
             "curved both ways, turned", Pose::random(5)));
+  return rows;
+}
+
+namespace {
+
+/// Two edge cracks at the heights b = `heights`, of which the second grows at `slower` times the speed.
+CrackedBody two_edge_cracks(const std::string& name, std::array<double, 2> heights, double slower) {
+  CrackedBody body = named(edge_crack(), name);
+  body.cracks = {heights[0], heights[1]};
+  body.doubled = [=](const Vec3& x) { return x.x < (x.y == heights[1] ? slower : 1) * 24; };
+  body.displacement = [=](const Vec3& x, int side, double t) {
+    const auto of = [&](double height, double tip) {
+      return 0.01 * t * beside_front(x.x - tip, x.y - height, x.y == height ? side : 0);
+    };
+    return of(heights[0], 2 * t) + of(heights[1], 2 * slower * t);
+  };
+  return body;
+}
+
+/// Displacement beside a crack along b at a = `at`, whose tip is at b = `tip`. `side`: -1 where a < at.
+Vec3 beside_upright(const Vec3& x, double at, double tip, int side) {
+  const Vec3 d = beside_front(x.y - tip, at - x.x, -side);
+  return {-d.y, d.x, 0};
+}
+
+/// A crack along b = 0 to a = 32, from whose middle another grows along a = 20 when it has come to its end.
+/// Sides: -1 below the first one, 1 above it and left of the second, 2 right of it.
+CrackedBody branch() {
+  CrackedBody body = named(edge_crack(), "T: a crack from the middle of another");
+  body.a = planes(0, 40, 40), body.b = planes(-12, 18, 30);
+  body.times = planes(0, 22, 22);
+  body.side = [](const Vec3& x, const Vec3& middle) {
+    if (x.y == 0 && x.x < 32 && middle.y < 0) return -1;
+    const bool on_second = x.x == 20 && x.y >= 0 && x.y < 9;
+    return on_second ? (middle.x < 20 ? 1 : 2) : x.y == 0 && x.x < 32 ? 1 : 0;
+  };
+  body.displacement = [](const Vec3& x, int side, double t) {
+    const Vec3 first =
+        0.01 * t * beside_front(x.x - std::min(32., 2 * t), x.y, x.y == 0 ? std::min(side, 1) : 0);
+    if (t <= 16 || side < 0 || x.y < 0) return first;
+    // Only above the first crack, and where that is open.
+    const double off = (x.x - 20) / 12, part = std::max(0., 1 - off * off);
+    const int of_second = x.x == 20 && x.y >= 0 ? (side == 1 ? -1 : side == 2 ? 1 : 0) : 0;
+    return first + 0.02 * (t - 16) * part * part * part * beside_upright(x, 20, 1.5 * (t - 16), of_second);
+  };
+  return body;
+}
+
+}  // namespace
+
+std::vector<CrackedBody> bodies_of_several_cracks() {
+  std::vector<CrackedBody> rows = {two_edge_cracks("two parallel cracks, 8 elements apart", {-4, 4}, 0.5)};
+  rows.push_back(two_edge_cracks("two parallel cracks, 4 elements apart", {-2, 2}, 0.5));
+
+  CrackedBody behind = named(edge_crack(), "in one plane, one behind the other");
+  behind.a = planes(0, 48, 48);
+  behind.doubled = [](const Vec3& x) { return x.x < 14 || std::abs(x.x - 28) < 6; };
+  behind.times = planes(0, 7, 14);
+  behind.displacement = [](const Vec3& x, int side, double t) {
+    const int of_slit = x.x > 20 ? side : 0, of_edge = x.x > 20 ? 0 : side;
+    return 0.01 * t * beside_front(x.x - 2 * t, x.y, of_edge) +
+           Vec3{0, 0.02 * t * around_slit(x.x - 28, x.y, 6, of_slit), 0};
+  };
+  rows.push_back(behind);
+
+  CrackedBody apart = named(edge_crack(), "far apart, at a right angle, turned");
+  apart.a = planes(0, 60, 60), apart.b = planes(-20, 20, 40), apart.c = planes(-3, 0, 2);
+  apart.side = [](const Vec3& x, const Vec3& middle) {
+    if (x.y == 0 && x.x < 20) return middle.y < 0 ? -1 : 1;
+    if (x.x == 45 && x.y < -5) return middle.x < 45 ? -1 : 1;
+    return 0;
+  };
+  apart.times = planes(0, 10, 10);
+  apart.displacement = [](const Vec3& x, int side, double t) {
+    return 0.01 * t * beside_front(x.x - 2 * t, x.y, x.x < 30 ? side : 0) +
+           0.01 * t * beside_upright(x, 45, -20 + 1.5 * t, x.x > 30 ? side : 0);
+  };
+  rows.push_back(posed(apart, apart.name, Pose::random(7)));
+
+  CrackedBody curved = two_edge_cracks("two parallel cracks, curved, radius 60", {-4, 4}, 0.5);
+  curved.place = [](const Vec3& x) {
+    const double turn = x.x / 60;
+    return Vec3{(60 - x.y) * std::sin(turn), 60 - (60 - x.y) * std::cos(turn), x.z};
+  };
+  rows.push_back(with_body(curved));
+
+  CrackedBody flat = two_edge_cracks("2D, two parallel cracks", {-4, 4}, 0.5);
+  flat.c = {0};
+  rows.push_back(flat);
+
+  rows.push_back(branch());
+  CrackedBody flat_branch = named(branch(), "2D, T");
+  flat_branch.c = {0};
+  rows.push_back(flat_branch);
   return rows;
 }
 

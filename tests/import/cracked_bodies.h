@@ -18,6 +18,9 @@ struct CrackedBody {
   std::vector<double> cracks = {0};  ///< planes b = const with a crack
   /// Of a node in such a plane: whether it is doubled.
   std::function<bool(const Vec3& abc)> doubled;
+  /// The side that the node of a cell is on, by the cell's middle; nodes at one place on other sides are
+  /// others. By default that of `cracks`: -1 or 1 where the node is doubled, else 0.
+  std::function<int(const Vec3& abc, const Vec3& middle)> side = {};
   /// Of the middle of a cell: whether it is there.
   std::function<bool(const Vec3& abc)> solid = [](const Vec3&) { return true; };
   std::function<Vec3(const Vec3& abc)> place = [](const Vec3& abc) { return abc; };  ///< in space
@@ -26,7 +29,7 @@ struct CrackedBody {
 
   struct Node {
     Vec3 abc;
-    int side;  ///< of the crack that it is on: -1, 1; else 0
+    int side;  ///< of the crack that it is on: -1, 1 (or others of several cracks); else 0
   };
   std::vector<Node> nodes() const { return mesh().nodes; }
   /// The displacement, as the field `displacement`.
@@ -53,5 +56,8 @@ CrackedBody edge_crack();
 
 /// The rows of the table: edge_crack() and how it is changed.
 std::vector<CrackedBody> cracked_bodies();
+
+/// The same for bodies with several cracks, which may meet.
+std::vector<CrackedBody> bodies_of_several_cracks();
 
 }  // namespace cleft

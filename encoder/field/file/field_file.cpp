@@ -14,12 +14,25 @@ namespace cleft {
 namespace {
 
 const FileFormat field_format{"cleft-field", field_version, "field file", "cleft encode"};
+const FileFormat pieces_format{"cleft-field", field_version_of_pieces, "field file", "cleft encode"};
+
+/// A file of one field, open.
+h5::File open_field(const std::string& path) {
+  h5::File file = h5::File::open(path);
+  if (file.has_attribute("/", "pieces"))
+    throw FileError(path,
+                    "is the field of a body with several breaks, which cleft eval, decode, check and info "
+                    "read, and cleft.open in Python; this command needs a field with one");
+  require_format(file, field_format);
+  return file;
+}
 
 Json read_header(const std::string& path) {
-  const h5::File file = h5::File::open(path);
-  require_format(file, field_format);
-  return header_from(file.read<std::uint8_t>("/header", {0}));
+  return header_from(open_field(path).read<std::uint8_t>("/header", {0}));
 }
+
+/// Names within a piece's group.
+std::string piece_folder(std::size_t piece) { return "/piece_" + std::to_string(piece); }
 
 std::string residual_of_quantity(std::size_t index) {
   return "/residual_of_quantity_" + std::to_string(index);
@@ -62,33 +75,108 @@ std::optional<NodeResidual> residual_in(const h5::File& file, const std::string&
 
 }  // namespace
 
+namespace {
+
+/// `group`: "" for a file of one field.
+void write_into(h5::File& file, const std::string& group, const Field& field, const NodeResidual* residual,
+                std::span<const std::int32_t> residual_order,
+                std::span<const std::optional<NodeResidual>> of_quantities) {
+  const FieldRecord record = record_of(field);
+  const auto write = [&](const char* name, const std::vector<std::uint8_t>& bytes) {
+    file.write<std::uint8_t>(group + name, bytes, {bytes.size()}, h5::Packing::deflate);
+  };
+  write("/header", header_bytes(record.header));
+  write("/coefficients", record.coefficients);
+  if (residual) write_residual(file, group + "/residual", *residual, residual_order);
+  for (std::size_t q = 0; q < of_quantities.size(); ++q)
+    if (of_quantities[q])
+      write_residual(file, group + residual_of_quantity(q), *of_quantities[q], residual_order);
+}
+
+FieldRecord record_in(const h5::File& file, const std::string& group) {
+  return {header_from(file.read<std::uint8_t>(group + "/header", {0})),
+          file.read<std::uint8_t>(group + "/coefficients", {0})};
+}
+
+std::optional<NodeResidual> quantity_residual_in(const h5::File& file, const std::string& group,
+                                                 const Json& header, std::size_t index,
+                                                 std::span<const std::int32_t> order) {
+  const std::string name = group + residual_of_quantity(index);
+  if (!file.has(name)) return std::nullopt;
+  const Json list = header.value("quantities", Json::array());
+  if (index >= list.size() || !list[index].contains("components"))
+    throw FileError(file.path(), name + " is of no quantity");
+  NodeResidual kind;
+  kind.components = std::clamp(count_from(list[index]["components"]), 1, 100), kind.first_frame = 0;
+  return residual_in(file, name, kind, order);
+}
+
+}  // namespace
+
 void write_field(const std::string& path, const Field& field, const NodeResidual* residual,
                  std::span<const std::int32_t> residual_order,
                  std::span<const std::optional<NodeResidual>> of_quantities) {
-  const FieldRecord record = record_of(field);
   OutputFile out(path);
   h5::File file = h5::File::create(out.path(), h5::Growth::none);
   write_format(file, field_format);
   file.write_text("/", "units", "mm N MPa");
-  const auto write = [&](const char* name, const std::vector<std::uint8_t>& bytes) {
-    file.write<std::uint8_t>(name, bytes, {bytes.size()}, h5::Packing::deflate);
-  };
-  write("/header", header_bytes(record.header));
-  write("/coefficients", record.coefficients);
-  if (residual) write_residual(file, "/residual", *residual, residual_order);
-  for (std::size_t q = 0; q < of_quantities.size(); ++q)
-    if (of_quantities[q]) write_residual(file, residual_of_quantity(q), *of_quantities[q], residual_order);
+  write_into(file, "", field, residual, residual_order, of_quantities);
   file.close();
   out.commit();
 }
 
-FieldRecord read_field_record(const std::string& path) {
+void write_pieces(const std::string& path, const std::vector<FieldPiece>& pieces, std::size_t nodes) {
+  OutputFile out(path);
+  h5::File file = h5::File::create(out.path(), h5::Growth::none);
+  write_format(file, pieces_format);
+  file.write_text("/", "units", "mm N MPa");
+  file.write_number("/", "pieces", static_cast<double>(pieces.size()));
+  file.write_number("/", "nodes", static_cast<double>(nodes));
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    write_into(file, piece_folder(p), pieces[p].field, pieces[p].residual ? &*pieces[p].residual : nullptr,
+               {}, pieces[p].of_quantities);
+  file.close();
+  out.commit();
+}
+
+std::size_t pieces_in(const std::string& path) {
+  return told_of_file(path, [&]() -> std::size_t {
+    const h5::File file = h5::File::open(path);
+    if (!file.has_attribute("/", "pieces")) return 0;
+    require_format(file, pieces_format);
+    const double count = file.read_number("/", "pieces");
+    if (!(count >= 1 && count <= 1000 && count == std::floor(count)))
+      throw FileError(path, "attribute pieces is no count from 1 to 1000");
+    return static_cast<std::size_t>(count);
+  });
+}
+
+std::size_t nodes_in(const std::string& path) {
+  const double nodes = h5::File::open(path).read_number("/", "nodes");
+  if (!(nodes >= 1 && nodes < 1e10)) throw FileError(path, "attribute nodes is no count");
+  return static_cast<std::size_t>(nodes);
+}
+
+std::vector<FieldPiece> read_pieces(const std::string& path) {
+  const std::size_t count = pieces_in(path);
   return told_of_file(path, [&] {
     const h5::File file = h5::File::open(path);
-    require_format(file, field_format);
-    return FieldRecord{header_from(file.read<std::uint8_t>("/header", {0})),
-                       file.read<std::uint8_t>("/coefficients", {0})};
+    std::vector<FieldPiece> pieces;
+    for (std::size_t p = 0; p < count; ++p) {
+      const std::string group = piece_folder(p);
+      const FieldRecord record = record_in(file, group);
+      FieldPiece piece{field_of(record)};
+      piece.residual = residual_in(file, group + "/residual", {}, {});
+      for (std::size_t q = 0; q < piece.field.quantities.size(); ++q)
+        piece.of_quantities.push_back(quantity_residual_in(file, group, record.header, q, {}));
+      pieces.push_back(std::move(piece));
+    }
+    return pieces;
   });
+}
+
+FieldRecord read_field_record(const std::string& path) {
+  return told_of_file(path, [&] { return record_in(open_field(path), ""); });
 }
 
 Field read_field(const std::string& path) {
@@ -111,26 +199,16 @@ FitReport read_field_report(const std::string& path) {
 
 std::optional<NodeResidual> read_residual(const std::string& path,
                                           std::span<const std::int32_t> residual_order) {
-  return told_of_file(path, [&]() -> std::optional<NodeResidual> {
-    const h5::File file = h5::File::open(path);
-    require_format(file, field_format);
-    return residual_in(file, "/residual", {}, residual_order);
-  });
+  return told_of_file(path, [&] { return residual_in(open_field(path), "/residual", {}, residual_order); });
 }
 
 std::optional<NodeResidual> read_quantity_residual(const std::string& path, std::size_t index,
                                                    std::span<const std::int32_t> residual_order) {
   return told_of_file(path, [&]() -> std::optional<NodeResidual> {
-    const h5::File file = h5::File::open(path);
-    require_format(file, field_format);
-    const std::string name = residual_of_quantity(index);
-    if (!file.has(name)) return std::nullopt;
-    const Json list = header_from(file.read<std::uint8_t>("/header", {0})).value("quantities", Json::array());
-    if (index >= list.size() || !list[index].contains("components"))
-      throw FileError(path, name + " is of no quantity");
-    NodeResidual kind;
-    kind.components = std::clamp(count_from(list[index]["components"]), 1, 100), kind.first_frame = 0;
-    return residual_in(file, name, kind, residual_order);
+    const h5::File file = open_field(path);
+    if (!file.has(residual_of_quantity(index))) return std::nullopt;
+    return quantity_residual_in(file, "", header_from(file.read<std::uint8_t>("/header", {0})), index,
+                                residual_order);
   });
 }
 

@@ -16,8 +16,24 @@ void write_field(const std::string& path, const Field& field, const NodeResidual
                  std::span<const std::int32_t> residual_order = {},
                  std::span<const std::optional<NodeResidual>> of_quantities = {});
 
-/// Reads and checks a field file; throws FileError naming what is missing, damaged or out of range.
+/// Reads and checks a field file; throws FileError naming what is missing, damaged or out of range, or
+/// InputError if it has several pieces.
 Field read_field(const std::string& path);
+
+/// The field of a piece of a body with several breaks, and what the file keeps of it at its nodes.
+struct FieldPiece {
+  Field field;
+  std::optional<NodeResidual> residual = {};
+  std::vector<std::optional<NodeResidual>> of_quantities = {};
+};
+/// The number of pieces of a field of several; 0 of any other. Throws FileError if it is no field.
+std::size_t pieces_in(const std::string& path);
+/// Writes a field of several pieces. `nodes`: of the whole body.
+void write_pieces(const std::string& path, const std::vector<FieldPiece>& pieces, std::size_t nodes);
+/// All pieces. Throws FileError as read_field() does.
+std::vector<FieldPiece> read_pieces(const std::string& path);
+/// The nodes of the whole body of a field of several pieces.
+std::size_t nodes_in(const std::string& path);
 
 /// Whether it has a format of an earlier version of this program that this version does not read. Throws
 /// FileError if it is not an HDF5 file.

@@ -89,6 +89,7 @@ void put_source(Json& header, const FieldSource& source) {
   for (const Vec3& axis : source.axes) entry["axes"].push_back(numbers_of(axis));
   entry["times"] = source.times, entry["fields"] = source.fields;
   if (source.map) entry["map"] = source.map->numbers();
+  if (source.extent) entry["extent"] = source.extent->numbers();
 }
 
 Vec3 vector_of(const Json& list) {
@@ -108,6 +109,8 @@ std::optional<FieldSource> source_of(const Json& header) {
   source.times = entry.at("times").get<std::vector<double>>();
   source.fields = entry.at("fields").get<std::vector<std::string>>();
   if (entry.contains("map")) source.map = BreakMap::from(entry.at("map").get<std::vector<double>>());
+  if (entry.contains("extent"))
+    source.extent = BreakExtent::from(entry.at("extent").get<std::vector<double>>());
   return source;
 }
 
