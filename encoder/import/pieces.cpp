@@ -61,16 +61,21 @@ OwnPlace own_place(const Series& series, Break& found, const std::optional<Vec3>
 /// The nodes of a piece: those that count, and the others of their cells, where no break of another piece
 /// would have two sides in it.
 std::vector<char> nodes_of_piece(const SourceMesh& mesh, const std::vector<char>& counts,
-                                 const std::vector<Break>& breaks, std::size_t piece,
+                                 const std::vector<Break>& breaks, std::size_t piece, std::size_t frames,
                                  const std::string& series) {
   constexpr int layers = 2;  // of cells: so many nodes that bases of three functions more are determined
   std::vector<char> refused(mesh.points.size());
   std::vector<char> own(mesh.points.size());
+  std::vector<std::vector<NodePair>> parting(breaks.size());
+  for (std::size_t b = 0; b < breaks.size(); ++b)
+    for (std::size_t p = 0; p < breaks[b].pairs.size(); ++p)
+      if (breaks[b].first_frame[p] < static_cast<std::int32_t>(frames))
+        parting[b].push_back(breaks[b].pairs[p]);
   for (const auto& [left, right] : breaks[piece].pairs) own[left] = own[right] = 1;
   const auto refuse_beyond = [&](const std::vector<char>& known) {
     for (std::size_t b = 0; b < breaks.size(); ++b) {
       if (b == piece) continue;
-      for (const auto& [left, right] : breaks[b].pairs) {
+      for (const auto& [left, right] : parting[b]) {
         if (own[left] && own[right]) continue;
         if (known[left]) refused[right] = 1;
         if (known[right]) refused[left] = 1;
@@ -79,7 +84,7 @@ std::vector<char> nodes_of_piece(const SourceMesh& mesh, const std::vector<char>
   };
   for (std::size_t b = 0; b < breaks.size(); ++b) {
     if (b == piece) continue;
-    for (const auto& [left, right] : breaks[b].pairs) {
+    for (const auto& [left, right] : parting[b]) {
       if (own[left] && own[right]) continue;
       if (counts[left] && counts[right]) {
         const Vec3& at = mesh.points[left];
@@ -193,14 +198,20 @@ SnapshotPiece piece_of(const Series& series, const std::vector<Break>& breaks, s
 }
 
 /// Between the pairs of two breaks; 0 where they meet.
-double gap_between(const SourceMesh& mesh, const Break& a, const Break& b) {
+double gap_between(const SourceMesh& mesh, const Break& a, const Break& b, std::int32_t frames) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& x : a.junctions)
     for (const Vec3& y : b.junctions)
       if (norm(x - y) <= same_place(mesh)) return 0;
-  for (const auto& [left, right] : a.pairs)
-    for (const auto& [other_left, other_right] : b.pairs)
-      least = std::min(least, squared_norm(mesh.points[left] - mesh.points[other_left]));
+  const auto places = [&](const Break& one) {
+    std::vector<Vec3> list;
+    for (std::size_t p = 0; p < one.pairs.size(); ++p)
+      if (one.first_frame[p] < frames) list.push_back(mesh.points[one.pairs[p][0]]);
+    return list;
+  };
+  const std::vector<Vec3> of_b = places(b);
+  for (const Vec3& x : places(a))
+    for (const Vec3& y : of_b) least = std::min(least, squared_norm(x - y));
   return std::sqrt(least);
 }
 
@@ -211,11 +222,12 @@ std::vector<SnapshotPiece> pieces_of(const Series& series, std::vector<Break>& b
   const SourceMesh& mesh = series.mesh();
   std::vector<OwnPlace> own;
   for (Break& found : breaks) own.push_back(own_place(series, found, flat));
+  const auto frames = static_cast<std::int32_t>(series.frames());
   for (std::size_t p = 0; p < breaks.size(); ++p)
     for (std::size_t q = 0; q < breaks.size(); ++q)
       own[p].source.extent->gaps.push_back(p == q  ? 0
                                            : p > q ? own[q].source.extent->gaps[p]
-                                                   : gap_between(mesh, breaks[p], breaks[q]));
+                                                   : gap_between(mesh, breaks[p], breaks[q], frames));
   std::vector<const FieldSource*> sources;
   for (const OwnPlace& one : own) sources.push_back(&one.source);
   std::vector<std::vector<char>> counts(breaks.size(), std::vector<char>(mesh.points.size()));
@@ -233,8 +245,8 @@ std::vector<SnapshotPiece> pieces_of(const Series& series, std::vector<Break>& b
   std::vector<SnapshotPiece> pieces;
   for (std::size_t p = 0; p < breaks.size(); ++p)
     pieces.push_back(piece_of(series, breaks, p, own[p], counts[p],
-                              nodes_of_piece(mesh, counts[p], breaks, p, series.path()), on_lips,
-                              flat.has_value()));
+                              nodes_of_piece(mesh, counts[p], breaks, p, series.frames(), series.path()),
+                              on_lips, flat.has_value()));
   return pieces;
 }
 

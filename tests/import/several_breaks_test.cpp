@@ -163,10 +163,10 @@ TEST_F(SeveralBreaks, AreRefusedWhereTheirFilesAreDamaged) {
   };
   read_snapshot(snapshot);
   const std::string of_snapshot = found;
-  EXPECT_EQ(unnoticed_damages(snapshot, 60, read_snapshot, [&] { return found == of_snapshot; }), 0);
+  EXPECT_EQ(unnoticed_damages(snapshot, 20, read_snapshot, [&] { return found == of_snapshot; }), 0);
   read_both(file);
   const std::string of_field = found;
-  EXPECT_EQ(unnoticed_damages(file, 60, read_both, [&] { return found == of_field; }), 0);
+  EXPECT_EQ(unnoticed_damages(file, 20, read_both, [&] { return found == of_field; }), 0);
 }
 
 }  // namespace cleft
