@@ -218,6 +218,7 @@ void write_encoded(const std::string& out, const std::vector<Encoded>& all, std:
     return write_field(out, first.field, first.residual ? &*first.residual : nullptr, {},
                        first.of_quantities);
   std::vector<FieldPiece> pieces;
+  pieces.reserve(all.size());
   for (const Encoded& one : all) pieces.push_back({one.field, one.residual, one.of_quantities});
   write_pieces(out, pieces, nodes);
 }
@@ -232,6 +233,7 @@ Json encode_file(const Task& task, const std::function<void(const std::string&)>
   const std::vector<SnapshotReader> readers = readers_of(task.snapshot);
   progress("reading");
   std::vector<Series> series;
+  series.reserve(readers.size());
   for (const SnapshotReader& reader : readers) series.emplace_back(reader);
   check_names(task.options, series.front());
   if (series.size() > 1) share_scales(series);
@@ -254,6 +256,7 @@ Json encode_file(const Task& task, const std::function<void(const std::string&)>
   write_encoded(task.out, all, nodes);
   verify_written(task.out, all);
   std::vector<Field> fields;
+  fields.reserve(all.size());
   for (Encoded& one : all) fields.push_back(std::move(one.field));
   Json figures = figures_of(fields, series.size() > 1 ? nodes : series.front().nodes, task.out);
   if (!warnings.empty()) figures["warnings"] = warnings;

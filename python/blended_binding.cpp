@@ -27,8 +27,8 @@ void for_each_place(const BroadcastPlaces& all, const BlendedField& field, const
   }
 }
 
-py::array_t<double> displacement(const SharedBlend& self, const Numbers& u, const Numbers& v,
-                                 const Numbers& w, const Numbers& t, const Numbers& side) {
+py::array_t<double> blended_displacement(const SharedBlend& self, const Numbers& u, const Numbers& v,
+                                         const Numbers& w, const Numbers& t, const Numbers& side) {
   const BroadcastPlaces places(u, v, w, t, side, BroadcastPlaces::Sides::any);
   py::array_t<double> result = new_array(places.shape(), 3);
   const std::span<Vec3> out = as_vectors(result);
@@ -38,8 +38,9 @@ py::array_t<double> displacement(const SharedBlend& self, const Numbers& u, cons
   return result;
 }
 
-py::array_t<double> quantity(const SharedBlend& self, const std::string& name, const Numbers& u,
-                             const Numbers& v, const Numbers& w, const Numbers& t, const Numbers& side) {
+py::array_t<double> blended_quantity(const SharedBlend& self, const std::string& name, const Numbers& u,
+                                     const Numbers& v, const Numbers& w, const Numbers& t,
+                                     const Numbers& side) {
   const auto& all = self.field->first().quantities;
   const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.name == name; });
   if (found == all.end()) throw InputError("quantity '" + name + "': the field has none of this name");
@@ -62,12 +63,12 @@ void bind_blended(py::module_& module) {
   py::class_<SharedBlend>(module, "BlendedField",
                           "The displacement of a body with several breaks: a field for the piece of the body "
                           "around each, blended.")
-      .def("__call__", &displacement, arg("u"), arg("v"), arg("w"), arg("t"), arg("side") = 0.,
+      .def("__call__", &blended_displacement, arg("u"), arg("v"), arg("w"), arg("t"), arg("side") = 0.,
            "Displacement from frame 0, mm, over arrays that numpy broadcasts. u, v, w: places of the body "
            "along "
            "the axes of the first piece, mm; side: on a break, -1 left or 1 right of that break.")
-      .def("quantity", &quantity, arg("name"), arg("u"), arg("v"), arg("w"), arg("t"), arg("side") = 0.,
-           "A further quantity, in the source's units, likewise.")
+      .def("quantity", &blended_quantity, arg("name"), arg("u"), arg("v"), arg("w"), arg("t"),
+           arg("side") = 0., "A further quantity, in the source's units, likewise.")
       .def_property_readonly(
           "pieces",
           [](const SharedBlend& self) {

@@ -58,6 +58,7 @@ BreakExtent BreakExtent::from(const std::vector<double>& numbers) {
 void piece_weights(std::span<const FieldSource* const> sources, const Vec3& x, std::span<double> out) {
   CLEFT_CHECK(out.size(), ==, sources.size());
   std::vector<double> distance;
+  distance.reserve(sources.size());
   for (const FieldSource* source : sources) distance.push_back(distance_from(*source, x));
   const auto gap = [&](std::size_t i, std::size_t j) {
     const auto& extent = sources[i]->extent;

@@ -98,6 +98,7 @@ class Search {
   }
   std::vector<Vec3> places_of(const std::vector<std::size_t>& groups) const {
     std::vector<Vec3> places;
+    places.reserve(groups.size());
     for (const std::size_t g : groups) places.push_back(place_of(groups_[g]));
     return places;
   }
@@ -358,6 +359,7 @@ void pair_among(Break& found, const SourceMesh& mesh, const std::vector<char>& k
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<Vec3> places;
+  places.reserve(nodes.size());
   for (const std::int32_t node : nodes) places.push_back(mesh.points[node]);
   Groups groups = coincident_groups(places, same_place(mesh));
   for (auto& group : groups)

@@ -133,6 +133,7 @@ std::vector<Place> nodes_in_field(const SourceMesh& m, const Field& field, const
   constexpr double at_break = 1e-3;  // of the extent of a node's cells across the break
   const FieldSource source = source_of(field);
   std::vector<Place> nodes;
+  nodes.reserve(m.points.size());
   for (const Vec3& p : m.points) nodes.push_back({source.canonical(p)});
   std::vector<double> extent(m.points.size(), 0);
   std::vector<std::array<bool, 2>> sides(m.points.size(), {false, false});

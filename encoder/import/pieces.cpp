@@ -221,6 +221,7 @@ std::vector<SnapshotPiece> pieces_of(const Series& series, std::vector<Break>& b
                                      const std::optional<Vec3>& flat) {
   const SourceMesh& mesh = series.mesh();
   std::vector<OwnPlace> own;
+  own.reserve(breaks.size());
   for (Break& found : breaks) own.push_back(own_place(series, found, flat));
   const auto frames = static_cast<std::int32_t>(series.frames());
   for (std::size_t p = 0; p < breaks.size(); ++p)
@@ -229,6 +230,7 @@ std::vector<SnapshotPiece> pieces_of(const Series& series, std::vector<Break>& b
                                            : p > q ? own[q].source.extent->gaps[p]
                                                    : gap_between(mesh, breaks[p], breaks[q], frames));
   std::vector<const FieldSource*> sources;
+  sources.reserve(own.size());
   for (const OwnPlace& one : own) sources.push_back(&one.source);
   std::vector<std::vector<char>> counts(breaks.size(), std::vector<char>(mesh.points.size()));
   std::vector<double> weights(breaks.size());

@@ -23,6 +23,7 @@ NodesOfPiece counting_nodes(const std::vector<std::int32_t>& nodes, std::size_t 
 
 BlendedField PiecesAtNodes::fields_of(std::vector<FieldPiece>& pieces) {
   std::vector<Field> fields;
+  fields.reserve(pieces.size());
   for (FieldPiece& piece : pieces) fields.push_back(std::move(piece.field));
   return BlendedField(std::move(fields));
 }
