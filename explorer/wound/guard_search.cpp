@@ -31,6 +31,7 @@ constexpr double most_strain = 0.25;
 Guard GuardSearch::find() {
   number_vertices();
   find_neighbors();
+  if (harmless_.empty()) measure_triangles();
   check_all();
   if (offending_.empty() || field_is_to_blame()) return {};
   spread_means();
@@ -39,6 +40,8 @@ Guard GuardSearch::find() {
 }
 
 void GuardSearch::number_vertices() {
+  vertex_.clear(), mean_.clear(), in_group_.clear(), tie_.clear(), around_.clear(), next_.clear();
+  offending_.clear();
   number_.assign(mesh_.vertices().size(), -1);
   for (const auto& moved : moved_)
     for (const auto& [v, d] : moved)
@@ -78,25 +81,56 @@ void GuardSearch::find_neighbors() {
       if (number_[v] >= 0) around_[number_[v]].push_back(-1 - static_cast<int>(i));
 }
 
-bool GuardSearch::is_kept(int t, std::size_t time) {
-  const auto& corner = mesh_.triangle(t).vertex;
-  Vec3 rest[3], now[3];
-  for (int i = 0; i < 3; ++i) {
-    rest[i] = now[i] = mesh_.position(corner[i]);
-    if (const int n = number_[corner[i]]; n >= 0) now[i] += with(n, time);
+/// With the edges a and b from the first corner, and corners that move against it by x at most, the cross
+/// product of the edges changes by (|a| + |b|) x + x^2 at most. Where that is half of it, the triangle turns
+/// by less than a right angle and keeps more than a quarter of its area, and no edge stretches by more than
+/// half.
+void GuardSearch::measure_triangles() {
+  harmless_.resize(mesh_.triangles().size());
+  for (std::size_t t = 0; t < harmless_.size(); ++t) {
+    const auto& corner = mesh_.triangle(static_cast<int>(t)).vertex;
+    const Vec3 a = mesh_.position(corner[1]) - mesh_.position(corner[0]),
+               b = mesh_.position(corner[2]) - mesh_.position(corner[0]);
+    const double sides = norm(a) + norm(b),
+                 x = (std::sqrt(sides * sides + 2 * norm(cross(a, b))) - sides) / 2;
+    harmless_[t] = x * x;
   }
-  const Vec3 before = cross(rest[1] - rest[0], rest[2] - rest[0]),
-             after = cross(now[1] - now[0], now[2] - now[0]);
+}
+
+std::array<Vec3, 3> GuardSearch::moved(int t, std::size_t time) const {
+  std::array<Vec3, 3> result;
+  for (int i = 0; i < 3; ++i)
+    if (const int n = number_[mesh_.triangle(t).vertex[i]]; n >= 0) result[i] = with(n, time);
+  return result;
+}
+
+bool GuardSearch::hardly_moves(int t, const std::array<Vec3, 3>& moved) const {
+  return std::max(squared_norm(moved[1] - moved[0]), squared_norm(moved[2] - moved[0])) < harmless_[t];
+}
+
+bool GuardSearch::is_kept(int t, const std::array<Vec3, 3>& moved) const {
+  const auto& corner = mesh_.triangle(t).vertex;
+  const Vec3 a = mesh_.position(corner[1]) - mesh_.position(corner[0]),
+             b = mesh_.position(corner[2]) - mesh_.position(corner[0]);
+  const Vec3 before = cross(a, b), after = cross(a + (moved[1] - moved[0]), b + (moved[2] - moved[0]));
   const double area = norm(before), area_now = norm(after);
   return area == 0 || (area_now >= least_area * area && dot(before, after) >= least_cosine * area * area_now);
 }
 
-bool GuardSearch::is_torn(int t, std::size_t time) {
+double GuardSearch::left_of(int t, const std::array<Vec3, 3>& moved) const {
   const auto& corner = mesh_.triangle(t).vertex;
-  const auto moved = [&](int v) { return number_[v] < 0 ? Vec3{} : with(number_[v], time); };
+  const Vec3 a = mesh_.position(corner[1]) - mesh_.position(corner[0]),
+             b = mesh_.position(corner[2]) - mesh_.position(corner[0]);
+  const Vec3 before = cross(a, b);
+  const double area = squared_norm(before);
+  return area > 0 ? dot(before, cross(a + (moved[1] - moved[0]), b + (moved[2] - moved[0]))) / area : 1;
+}
+
+bool GuardSearch::is_torn(int t, const std::array<Vec3, 3>& moved) const {
+  const auto& corner = mesh_.triangle(t).vertex;
   for (int i = 0; i < 3; ++i) {
     const int a = corner[i], b = corner[(i + 1) % 3];
-    const double jump = norm(moved(b) - moved(a));
+    const double jump = norm(moved[(i + 1) % 3] - moved[i]);
     if (jump > least_jump_ && jump > most_stretch * norm(mesh_.position(b) - mesh_.position(a)) &&
         !field_.stretches(a, b, jump / most_stretch))
       return true;
@@ -104,8 +138,12 @@ bool GuardSearch::is_torn(int t, std::size_t time) {
   return false;
 }
 
+bool GuardSearch::is_sound(int t, const std::array<Vec3, 3>& moved, std::size_t time) const {
+  return hardly_moves(t, moved) || (!is_torn(t, moved) && (is_kept(t, moved) || field_.turns(t, time)));
+}
+
 /// Whether the lips pass each other.
-bool GuardSearch::is_passed(const Pair& pair, std::size_t time) {
+bool GuardSearch::is_passed(const Pair& pair, std::size_t time) const {
   const auto moved = [&](int v) { return number_[v] < 0 ? Vec3{} : with(number_[v], time); };
   const auto [left, right] = pair.vertex;
   return dot(moved(right) - moved(left), pair.across) < -part_passed * least_jump_ &&
@@ -116,14 +154,14 @@ std::span<const int> GuardSearch::corners(int one) const {
   return one < 0 ? std::span<const int>(pairs_[-1 - one].vertex) : mesh_.triangle(one).vertex;
 }
 
-bool GuardSearch::offends(int t) {
+bool GuardSearch::offends(int t) const {
   if (t < 0) {
     for (std::size_t k = 0; k < times(); ++k)
       if (is_passed(pairs_[-1 - t], k)) return true;
     return false;
   }
   for (std::size_t k = 0; k < times(); ++k)
-    if (is_torn(t, k) || (!is_kept(t, k) && !field_.turns(t, k))) return true;
+    if (!is_sound(t, moved(t, k), k)) return true;
   return false;
 }
 
@@ -146,7 +184,10 @@ bool GuardSearch::field_is_to_blame() {
   std::size_t turned = 0;
   for (const int t : moving) {
     bool by_field = false;
-    for (std::size_t k = 0; k < times() && !by_field; ++k) by_field = !is_kept(t, k) && field_.turns(t, k);
+    for (std::size_t k = 0; k < times() && !by_field; ++k) {
+      const std::array<Vec3, 3> now = moved(t, k);
+      by_field = !hardly_moves(t, now) && !is_kept(t, now) && field_.turns(t, k);
+    }
     turned += by_field;
   }
   return static_cast<double>(turned) > most_turned * static_cast<double>(moving.size());
@@ -171,7 +212,7 @@ void GuardSearch::renew(const std::vector<int>& numbers) {
 
 /// Displacements are reduced where triangles offend, until none does.
 void GuardSearch::reduce() {
-  largest_.resize(vertex_.size());
+  largest_.assign(vertex_.size(), 0);
   for (std::size_t n = 0; n < vertex_.size(); ++n)
     for (std::size_t k = 0; k < times(); ++k)
       largest_[n] = std::max(largest_[n], norm(with(static_cast<int>(n), k)));

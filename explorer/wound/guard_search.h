@@ -39,8 +39,14 @@ class GuardSearch {
   /// pass each other by more than `least_jump`.
   void add_pair(int left, int right, const Vec3& across) { pairs_.push_back({{left, right}, across}); }
   /// The guard with which all triangles of the skin are sound at all these times; none where the field turns
-  /// much of its own patch over.
+  /// much of its own patch over. May be called again after further calls of add().
   Guard find();
+  std::size_t times() const { return moved_.size(); }
+  /// Whether a triangle of the skin is sound with these displacements of its corners, at any time for which
+  /// ByField has an answer.
+  bool is_sound(int triangle, const std::array<Vec3, 3>& moved, std::size_t time) const;
+  /// Its area then, seen along its normal at rest, over that at rest; 1 where that is 0.
+  double left_of(int triangle, const std::array<Vec3, 3>& moved) const;
 
  private:
   struct Part {
@@ -54,18 +60,23 @@ class GuardSearch {
 
   void number_vertices();
   void find_neighbors();
+  void measure_triangles();
   Vec3& with(int number, std::size_t time) {
+    return with_[static_cast<std::size_t>(number) * times() + time];
+  }
+  const Vec3& with(int number, std::size_t time) const {
     return with_[static_cast<std::size_t>(number) * times() + time];
   }
   const Vec3& own(int number, std::size_t time) const {
     return own_[static_cast<std::size_t>(number) * times() + time];
   }
-  std::size_t times() const { return moved_.size(); }
+  std::array<Vec3, 3> moved(int triangle, std::size_t time) const;
   std::span<const int> corners(int one) const;
-  bool offends(int one);
-  bool is_passed(const Pair& pair, std::size_t time);
-  bool is_kept(int triangle, std::size_t time);
-  bool is_torn(int triangle, std::size_t time);
+  bool offends(int one) const;
+  bool is_passed(const Pair& pair, std::size_t time) const;
+  bool hardly_moves(int triangle, const std::array<Vec3, 3>& moved) const;
+  bool is_kept(int triangle, const std::array<Vec3, 3>& moved) const;
+  bool is_torn(int triangle, const std::array<Vec3, 3>& moved) const;
   void check(const std::vector<int>& numbers);
   std::vector<int> all_numbers() const;
   void check_all();
@@ -95,6 +106,8 @@ class GuardSearch {
   /// [number]: triangles of the skin, and -1 - i for pair i; neighbours, over walls and across them, too.
   std::vector<std::vector<int>> around_, next_;
   std::vector<Pair> pairs_;
+  /// [triangle]: mesh units, squared: corners that move by less against the first leave it sound.
+  std::vector<double> harmless_;
   std::vector<int> offending_;  // sorted: triangles, and -1 - i for pair i
 };
 

@@ -39,6 +39,11 @@ class LiveReplay {
 
   /// The displacements, mesh units, with the blade at s of those that have entered.
   void displacements(double s, std::vector<std::pair<int, Vec3>>& out) const;
+  /// That of one of them; displacements() may round it otherwise.
+  Vec3 displacement(int vertex, double s) const {
+    const Slot& slot = slots_[static_cast<std::size_t>(vertex) + 1];
+    return batches_[slot.batch].pieces.displacement(static_cast<std::size_t>(slot.index), s);
+  }
 
   /// The arc length of a vertex that has entered, mm.
   double station(int vertex) const { return stations_[static_cast<std::size_t>(vertex) + 1]; }

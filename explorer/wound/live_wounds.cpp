@@ -49,15 +49,17 @@ bool LiveWounds::guard_skin() {
     return false;
   guarded_at_ = length;
   std::vector<std::pair<int, Vec3>> moved;
-  find_guard([&](const Blade& blade) {
-    moved.clear();
-    const LiveReplay& replay = replays_[blade.cut];
-    replay.displacements(blade.s, moved);
-    std::vector<Moved> found;
-    found.reserve(moved.size());
-    for (const auto& [v, d] : moved) found.push_back({v, replay.station(v), d});
-    return found;
-  });
+  find_guard(
+      [&](const Blade& blade) {
+        moved.clear();
+        const LiveReplay& replay = replays_[blade.cut];
+        replay.displacements(blade.s, moved);
+        std::vector<Moved> found;
+        found.reserve(moved.size());
+        for (const auto& [v, d] : moved) found.push_back({v, replay.station(v), d});
+        return found;
+      },
+      [&](int vertex, const Blade& blade) { return replays_[blade.cut].displacement(vertex, blade.s); });
   return true;
 }
 

@@ -28,6 +28,9 @@ class Replay {
     pieces_.positions(s, rest_->data(), out.data());
   }
 
+  /// The displacement of active()[i] alone, mesh units; positions() may round it otherwise.
+  Vec3 displacement(std::size_t i, double s) const { return pieces_.displacement(i, s); }
+
   double path_length() const { return path_length_; }  ///< mm
   std::size_t vertex_count() const { return rest_->size(); }
   const std::vector<ActiveVertex>& active() const { return active_; }

@@ -178,6 +178,23 @@ void ReplayPieces::set(std::size_t span, const std::array<Vec3, 4>& control) {
     for (int d = 0; d < 3; ++d) block.control[m][d][next_ % 4] = control[m][d];
 }
 
+Vec3 ReplayPieces::displacement(std::size_t i, double s) const {
+  const double time = std::clamp(s + offsets_[i], times_.front(), times_.back());
+  const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, time);
+  const auto span = static_cast<std::size_t>(after - times_.begin()) - 1;
+  const auto& [exceptions, pieces] = divided_[span];
+  const auto e = std::partition_point(exceptions.begin(), exceptions.end(),
+                                      [i](const Exception& x) { return x.vertex < i; });
+  if (e != exceptions.end() && e->vertex == i) return displacement(*e, pieces, s);
+  const PieceBlock& block = blocks_[span * blocks_a_span_ + i / 4];
+  const double x = (time - times_[span]) / (times_[span + 1] - times_[span]), r = 1 - x;
+  const double weight[4] = {r * r * r, 3 * r * r * x, 3 * r * x * x, x * x * x};
+  Vec3 sum;
+  for (int m = 0; m < 4; ++m)
+    for (int d = 0; d < 3; ++d) sum[d] += weight[m] * block.control[m][d][i % 4];
+  return sum;
+}
+
 Vec3 ReplayPieces::displacement(const Exception& e, const std::vector<Piece>& pieces, double s) const {
   const double time = std::clamp(s + offsets_[e.vertex], times_.front(), times_.back());
   const bool closed = s <= e.closed_until;

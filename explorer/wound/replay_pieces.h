@@ -40,6 +40,9 @@ class ReplayPieces {
   /// numbers i.
   std::pair<std::size_t, std::size_t> positions(double before, double s, const Vec3* rest, Vec3* out) const;
 
+  /// The displacement of vertices[i] alone, with the blade at s. positions() may round it otherwise.
+  Vec3 displacement(std::size_t i, double s) const;
+
   /// The histories of vertices[chosen[k]] only; `chosen` ascends.
   ReplayPieces of(const std::vector<std::size_t>& chosen) const;
 

@@ -32,14 +32,22 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
     set_relief(k + 1, Relief(steps));
   }
   std::vector<Vec3> now(vertex_count());
-  find_guard([&](const Blade& blade) {
-    whole_.replays[blade.cut].active_positions(blade.s, now);
-    std::vector<Moved> found;
-    found.reserve(active(blade.cut).size());
-    for (const ActiveVertex& a : active(blade.cut))
-      found.push_back({a.vertex, a.s, now[a.vertex] - rest()[a.vertex]});
-    return found;
-  });
+  std::vector<std::vector<int>> number(size(), std::vector<int>(vertex_count()));
+  for (std::size_t k = 0; k < size(); ++k)
+    for (std::size_t i = 0; i < active(k).size(); ++i) number[k][active(k)[i].vertex] = static_cast<int>(i);
+  find_guard(
+      [&](const Blade& blade) {
+        whole_.replays[blade.cut].active_positions(blade.s, now);
+        std::vector<Moved> found;
+        found.reserve(active(blade.cut).size());
+        for (const ActiveVertex& a : active(blade.cut))
+          found.push_back({a.vertex, a.s, now[a.vertex] - rest()[a.vertex]});
+        return found;
+      },
+      [&](int vertex, const Blade& blade) {
+        return whole_.replays[blade.cut].displacement(static_cast<std::size_t>(number[blade.cut][vertex]),
+                                                      blade.s);
+      });
   bound_vertices();
 }
 

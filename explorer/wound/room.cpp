@@ -165,6 +165,25 @@ void WoundRoom::follow_path(const Incision& incision) {
         places.push_back(one.position);
     irregular_[right] = NearestPlace(std::move(places));
   }
+  find_ends(incision);
+}
+
+/// Of a path that grows, its start: what is ahead of it changes with each of its steps.
+void WoundRoom::find_ends(const Incision& incision) {
+  const ScalpelPath& path = incision.path();
+  const auto& stations = incision.surroundings().stations();
+  ends_.clear();
+  for (const bool last : {false, true}) {
+    if (last && incision.extended_to() > 0) continue;
+    const double s = last ? path.length() : 0;
+    const PathFrame frame = path.at(s);
+    const double height = stations.empty() ? 0 : (last ? stations.back() : stations.front()).height;
+    End end{frame.position + height * frame.outward, std::numeric_limits<double>::infinity()};
+    for (const bool right : {false, true})
+      end.room =
+          std::min({end.room, bends_[right].at(s), irregular_[right].distance(end.position, end.room)});
+    ends_.push_back(end);
+  }
 }
 
 /// Of the field, mm.
@@ -184,6 +203,7 @@ double WoundRoom::weight(const Place& at) const {
   for (const bool right : {false, true})
     if (at.side == Side::both || (at.side == Side::right) == right)
       room = std::min({room, bend(at, right), irregular_[right].distance(at.position, room)});
+  for (const End& end : ends_) room = std::min(room, end.room + norm(at.position - end.position));
   if (room <= 0) return 0;
   const double x = full_weight * room / enough;
   const double in_room = room >= enough ? 1 : x - x * x * x / (3 * full_weight * full_weight);

@@ -87,9 +87,16 @@ class WoundRoom {
  private:
   double largest(double s, double across) const;
   double bend(const Place& at, bool right) const;
+  void find_ends(const Incision& incision);
 
   std::array<RoomAlong, 2> bends_;  // to the path's own medial axis, left and right
   std::array<NearestPlace, 2> irregular_;
+  /// An end of the path, around which both sides hang together, and the lesser of its rooms.
+  struct End {
+    Vec3 position;
+    double room;
+  };
+  std::vector<End> ends_;
   LargestDisplacement largest_;
   double short_cut_ = 1;
   double scale_, length_;  // mm per mesh unit; of the path as the field was sampled for it, mm

@@ -66,16 +66,20 @@ class Wounds {
     double s;
     Vec3 displacement;
   };
-  /// Finds the guard of all wounds as far as they are cut. `moved` tells the vertices that a cut would move
-  /// alone, each once, with the blade at the given place of it.
-  void find_guard(const std::function<std::vector<Moved>(const Blade&)>& moved);
+  /// The vertices that a cut moves alone, each once, with the blade at the given place of it; and the
+  /// displacement of one of them.
+  using MovedAlone = std::function<std::vector<Moved>(const Blade&)>;
+  using DisplacementAlone = std::function<Vec3(int vertex, const Blade&)>;
+  /// Finds the guard of all wounds as far as they are cut.
+  void find_guard(const MovedAlone& moved, const DisplacementAlone& alone);
   void forget_guard(int vertex) { guard_.forget(vertex); }
 
  private:
+  class GuardLooks;
   Vec3 changed_by_guard(int vertex, const Blade& blade) const;
   Relief relief_while_cut(std::size_t newest, double length) const;
-  bool turned_by_field(int triangle, const Blade& blade) const;
-  bool turned_between_corners(int triangle, const Blade& blade) const;
+  bool turned_by_field(int triangle, const Blade& blade, bool only_well_shaped) const;
+  bool turned_between_corners(int triangle, const Blade& blade, bool only_well_shaped) const;
   bool stretched_by_field(int a, int b, double jump) const;
   bool closed_by_field(int lip, const Blade& blade) const;
 

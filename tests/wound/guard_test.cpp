@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "explorer/wound/guard_passage.h"
 #include "explorer/wound/live_wounds.h"
 #include "explorer/wound/mean_value.h"
 #include "explorer/wound/replayed_wounds.h"
@@ -191,6 +192,40 @@ TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
     for (const std::string& warning : v.warnings)
       told += warning.find("would turn over or tear") != std::string::npos;
   EXPECT_GT(told, 0);
+}
+
+/// Triangles are looked at while the blade passes them, however small they are, and where little is left of
+/// one the least of it is searched for.
+TEST(GuardPassage, FindsWhatIsUnsoundForAMoment) {
+  Opened opened(grid(60, 40, -30, -20, 1));
+  opened.cut(path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3));
+  const Wound wound(*opened.cuts[0], opened.field, 1);
+  std::vector<std::pair<int, double>> vertices;
+  for (const ActiveVertex& a : wound.volume.active()) vertices.emplace_back(a.vertex, a.s);
+  const GuardPassage passage(wound, vertices);
+  const auto& skin = opened.mesh;
+  int near = 0;
+  for (std::size_t t = 0; t < skin.triangles().size(); ++t) {
+    const auto& v = skin.triangle(static_cast<int>(t)).vertex;
+    double first = 100, last = -100, across = 0;
+    for (const int one : v) {
+      first = std::min(first, skin.position(one).x + 15), last = std::max(last, skin.position(one).x + 15);
+      across = std::max(across, std::abs(skin.position(one).y - 0.3));
+    }
+    if (!skin.is_skin(static_cast<int>(t)) || across > 1 || first < 2 || last > 28) continue;
+    ++near;
+    // For a hundredth of the way through the triangle.
+    const double at = first + 0.42 * (last - first), for_a_while = 0.005 * (last - first);
+    const auto left = [&](int triangle, double s) {
+      if (triangle != static_cast<int>(t)) return 1.;
+      const double from = std::abs(s - at);
+      return from < for_a_while ? GuardPassage::unsound : 0.1 + from / (last - first);
+    };
+    const std::vector<double> found = passage.find(left, 10);
+    ASSERT_EQ(found.size(), 1u) << t;
+    EXPECT_NEAR(found[0], at, for_a_while);
+  }
+  EXPECT_GT(near, 100);
 }
 
 TEST(Guard, LeavesOutNothingThatItMoves) {

@@ -70,6 +70,32 @@ TEST(NearestPlace, IsThatOfBruteForce) {
   EXPECT_EQ(NearestPlace().distance({0, 0, 0}, 7), 7);
 }
 
+/// Inside a bend there is little room; outside of it, beside the path, there is plenty. Around the end of the
+/// cut both sides hang together.
+TEST(WoundRoom, OfBothSidesIsTheSameAroundTheEndsOfACut) {
+  const Field field = testing::opening_field({-15, 30, 3}, 60, 40, 8, 40);
+  constexpr double radius = 3;
+  std::vector<Vec3> points;
+  for (int i = 0; i <= 60; ++i) {
+    const double angle = i * 0.04;
+    points.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+  }
+  const Incision cut(testing::grid(60, 60, -30, -30, 1), testing::path_through(points, testing::up, 3));
+  const WoundRoom room(cut, VaryingField(field), 1);
+  for (const double s : {0., cut.path().length()}) {
+    const PathFrame end = cut.path().at(s);
+    const double at_end = room.weight({end.position, s, 0, 0, Side::both});
+    for (const double v : {-0.01, 0.01}) {
+      const Side side = v < 0 ? Side::left : Side::right;
+      EXPECT_NEAR(room.weight({end.position + v * end.across, s, v, v, side}), at_end, 0.02);
+    }
+    EXPECT_LT(at_end, 0.9);
+    const double far = end.across.x * std::cos(s / radius) > 0 ? 20 : -20;
+    EXPECT_EQ(room.weight({end.position + far * end.across, s, far, far, far < 0 ? Side::left : Side::right}),
+              1);
+  }
+}
+
 TEST(RoomAlong, ChangesByNoMoreThanTheWay) {
   RoomAlong room;
   for (int i = 0; i <= 20; ++i) room.push_back(i, i == 7 ? 0.5 : 100);

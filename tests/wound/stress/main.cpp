@@ -3,6 +3,7 @@
 
 #include "base/command/command.h"
 #include "base/error.h"
+#include "base/h5/h5.h"
 #include "tests/wound/stress/opening_stress.h"
 
 namespace {
@@ -23,11 +24,22 @@ void report(const std::string& name, const stress::OpeningTally& t) {
   std::fflush(stdout);
 }
 
-void run(const Options& o) {
+stress::FieldsOfGroup fields_of(const Options& o) {
+  if (o.direction.empty() && format_of(o.field) == "cleft-study" &&
+      Family::describes(PublishedStudy(o.field).varying())) {
+    const auto family = std::make_shared<const Family>(o.field);
+    return [family] { return CutFields(std::make_shared<const FamilyFields>(family), std::nullopt); };
+  }
   const CutFields fields = read_cut_fields(o.field, o.direction, o.prestresses);
-  const stress::FieldLimits limits(fields.shape());
-  std::printf("the field moves by at most %.4g mm, its strain is at most %.3g\n", limits.displacement,
-              limits.strain);
+  return [fields] { return CutFields(fields); };
+}
+
+void run(const Options& o) {
+  const stress::FieldsOfGroup fields = fields_of(o);
+  const stress::FieldLimits limits(fields().shape());
+  if (!fields().following_shape())
+    std::printf("the field moves by at most %.4g mm, its strain is at most %.3g\n", limits.displacement,
+                limits.strain);
   std::vector<stress::Subject> subjects = stress::generated_subjects(true);
   if (!o.meshes.empty())
     for (stress::Subject& subject : stress::subjects_of(o.meshes)) subjects.push_back(std::move(subject));
@@ -55,7 +67,8 @@ int main(int argc, char** argv) {
   CommandLine app("Cuts meshes along random paths, opens the cuts, and counts what that does to the skin.",
                   "cleft-stress-wound");
   Options o;
-  app.add_option("--field", o.field, "field file, or study.dffd of three prestresses")->required();
+  app.add_option("--field", o.field, "field file, or study.dffd of three prestresses or of a family")
+      ->required();
   app.add_option("--tension", o.direction, "direction of the skin's tension, three numbers");
   app.add_option("--prestress", o.prestresses, "the two tensions, MPa");
   app.add_option("--seed", o.plan.seed, "seed of the paths")->capture_default_str();

@@ -17,7 +17,9 @@ constexpr double apart = 1;            // mm
 constexpr double too_far = 1.1;        // of the field's largest displacement
 constexpr double too_much_strain = 3;  // of the field's largest
 constexpr double passed = 0.05;        // mm
+constexpr double as_far = 1.25;        // nearly the same length
 constexpr int samples_along = 120, samples_across = 24;  // of the field
+constexpr int places_along = 48, places_across = 12;     // of a family's fields
 
 /// Whether a triangle keeps its side and a fifth of its area.
 bool kept(const Vec3 (&rest)[3], const Vec3 (&now)[3]) {
@@ -25,6 +27,10 @@ bool kept(const Vec3 (&rest)[3], const Vec3 (&now)[3]) {
              after = cross(now[1] - now[0], now[2] - now[0]);
   return dot(before, after) > 0 && norm(after) >= shrunk * norm(before);
 }
+
+/// The place in the flat patch: by s and not by u, which does not change between the halves of a path longer
+/// than the canonical cut.
+Vec3 in_patch(const ActiveVertex& a) { return {a.s, a.uvw.y, a.uvw.z}; }
 
 class Look {
  public:
@@ -47,6 +53,9 @@ class Look {
       look(t, now);
       all.push_back(now);
     }
+    for (std::size_t k = 0; k < wounds_.size(); ++k)
+      for (const auto& c : wounds_[k].incision->chain())
+        found_.opening += scale_ * norm(now[c.right] - now[c.left]);
     for (int k = count; k >= 1; --k) {
       wounds_.positions(wounds_.duration() * k / count, again);
       found_.unsteady +=
@@ -62,19 +71,25 @@ class Look {
     for (std::size_t v = 0; v < now.size(); ++v) {
       const double d = scale_ * norm(now[v] - wounds_.rest()[v]) / limits_.displacement;
       found_.largest = std::max(found_.largest, d);
-      if (!(d <= too_far * lifted(static_cast<int>(v))) && !spike_[v]) spike_[v] = true, ++found_.spikes;
+      if (!(d <= too_far) && !spike_[v] && !(d <= too_far * lifted(static_cast<int>(v))))
+        spike_[v] = true, ++found_.spikes;
     }
     const ReplayedWounds::Blade blade = wounds_.blade(t);
     for (std::size_t k = 0; k <= blade.cut; ++k)
       for (const auto& c : wounds_[k].incision->chain()) look_at_pair(wounds_[k], c, now);
   }
 
-  /// Under a tilted blade displacements across the cut are lifted, too (ipv.h).
+  /// The largest displacement over the field's, in the directions of a vertex: a tilted blade lifts what
+  /// moves across the cut (ipv.h).
   double lifted(int v) const {
     const auto at = place_.find({v, 0});
-    return wounds_.size() > 1   ? static_cast<double>(wounds_.size())
-           : at == place_.end() ? 1
-                                : std::max(1., norm(at->second->across));
+    if (wounds_.size() > 1) return static_cast<double>(wounds_.size());
+    if (at == place_.end() || norm(at->second->across) < 1 + 1e-6) return 1;
+    ActiveVertex a = *at->second;
+    a.weight = 1;
+    double largest = 0;
+    for (const Vec3& d : limits_.large) largest = std::max(largest, norm(a.in_mesh(d)));
+    return largest / limits_.displacement;
   }
 
   void look_at_triangle(int t, double time, const std::vector<Vec3>& now) {
@@ -97,7 +112,12 @@ class Look {
                  stretched = jump > too_much_strain * limits_.strain * length + passed;
       if ((!torn && !stretched) || edge_[3 * t + i]) continue;
       edge_[3 * t + i] = true;
-      found_.torn += torn, found_.stretched += stretched;
+      if (found_.torn + found_.stretched + found_.torn_by_field + found_.turned == 0)
+        found_.first_is = described(t, rest, moved);
+      if (field_stretches(t, i, jump, time))
+        ++found_.torn_by_field;
+      else
+        found_.torn += torn, found_.stretched += stretched;
     }
   }
 
@@ -138,14 +158,31 @@ class Look {
       const ActiveVertex& a = *at->second;
       const double length = wounds_[0].field.shape().cut().length;
       const Side side = a.on_cut && a.s >= time ? Side::both : a.side;
-      rest[i] = a.uvw;
+      rest[i] = in_patch(a);
       const double own = std::clamp(time + a.time_offset, 0., length);
       const Derivatives d = wounds_[0].field.derivatives(a.uvw, side, own, a.s);
-      now[i] = a.uvw + d.value;
+      now[i] = rest[i] + d.value;
       const Vec3 area = cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v);
       steep = steep || area.z < nearly_shrunk;
     }
     return steep || !kept(rest, now);
+  }
+
+  /// Whether the field moves the ends of an edge apart by nearly as much in its own patch.
+  bool field_stretches(int t, int edge, double jump, double time) const {
+    if (wounds_.size() != 1) return false;
+    const auto& v = mesh_.triangle(t).vertex;
+    Vec3 at[2], moved[2];
+    for (int i = 0; i < 2; ++i) {
+      const auto place = place_.find({v[(edge + i) % 3], 0});
+      if (place == place_.end()) return false;
+      const ActiveVertex& a = *place->second;
+      const Side side = a.on_cut && a.s >= time ? Side::both : a.side;
+      const double own = std::clamp(time + a.time_offset, 0., wounds_[0].field.shape().cut().length);
+      at[i] = in_patch(a), moved[i] = wounds_[0].field.displacement(a.uvw, side, own, a.s);
+    }
+    const double rest = scale_ * norm(mesh_.position(v[(edge + 1) % 3]) - mesh_.position(v[edge]));
+    return norm(at[1] - at[0]) < as_far * rest && norm(moved[1] - moved[0]) * as_far > jump;
   }
 
   void look_at_pair(const Wound& wound, const Incision::ChainVertex& c, const std::vector<Vec3>& now) {
@@ -180,15 +217,43 @@ FieldLimits::FieldLimits(const Field& field) {
                 field.domain(1).back * j * j / (samples_across * samples_across);  // closer near the cut
             const Vec3 place{at(field.domain(0), i), side == Side::left ? -v : v, w};
             const Derivatives d = field.derivatives(place, side, t);
-            displacement = std::max(displacement, norm(d.value));
-            strain = std::max({strain, std::hypot(norm(d.by_u), norm(d.by_v))});
+            take(d);
           }
       }
+  keep_large();
+}
+
+FieldLimits::FieldLimits(const std::vector<Wound>& wounds) {
+  for (const Wound& wound : wounds) {
+    const Field& shape = wound.field.shape();
+    const double length = wound.complete();
+    for (int i = 0; i <= places_along; ++i)
+      for (int j = 0; j <= places_across; ++j)
+        for (int l = 1; l <= 4; ++l)
+          for (const Side side : {Side::left, Side::right}) {
+            const double s = length * i / places_along,
+                         v = shape.domain(1).back * j * j / (places_across * places_across);
+            const Vec3 place{canonical_place(s, length, shape.cut()).u, side == Side::left ? -v : v, 0};
+            take(wound.field.derivatives(place, side, std::min(length, shape.cut().length) * l / 4, s));
+          }
+  }
+  keep_large();
+}
+
+void FieldLimits::take(const Derivatives& d) {
+  displacement = std::max(displacement, norm(d.value));
+  strain = std::max({strain, std::hypot(norm(d.by_u), norm(d.by_v))});
+  large.push_back(d.value);
+}
+
+void FieldLimits::keep_large() {
+  std::erase_if(large, [this](const Vec3& d) { return norm(d) < displacement / 3; });
 }
 
 void Opened::add(const Opened& o) {
   positions += o.positions, turned += o.turned, turned_by_field += o.turned_by_field, torn += o.torn;
   stretched += o.stretched, spikes += o.spikes, crossed += o.crossed, unsteady += o.unsteady;
+  torn_by_field += o.torn_by_field, opening += o.opening;
   largest = std::max(largest, o.largest);
 }
 
@@ -200,10 +265,10 @@ std::string text_of(const Opened& o) {
   char text[400];
   std::snprintf(text, sizeof text,
                 "%ld turned (first at %.6g %.6g %.6g), %ld turned by the field, %ld torn, %ld stretched, %ld "
-                "spikes, %ld lips "
-                "crossed, %ld unsteady, largest %.3g of the field's",
+                "of either by the field, %ld spikes, %ld lips crossed, %ld unsteady, largest %.3g of the "
+                "field's, openings %.6g mm",
                 o.turned, o.first_turned.x, o.first_turned.y, o.first_turned.z, o.turned_by_field, o.torn,
-                o.stretched, o.spikes, o.crossed, o.unsteady, o.largest);
+                o.stretched, o.torn_by_field, o.spikes, o.crossed, o.unsteady, o.largest, o.opening);
   return text + o.first_is;
 }
 

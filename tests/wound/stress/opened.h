@@ -8,11 +8,18 @@
 
 namespace cleft::stress {
 
-/// What a field can do at most, found by evaluating it over its domain; mm.
+/// What fields can do at most, found by evaluating them over their domain; mm.
 struct FieldLimits {
   explicit FieldLimits(const Field& field);
+  /// Of the fields of a family along the paths of wounds.
+  explicit FieldLimits(const std::vector<Wound>& wounds);
   double displacement = 0;  ///< largest
   double strain = 0;        ///< largest norm of the displacement's gradient along and across, mm per mm
+  std::vector<Vec3> large;  ///< displacements of at least a third of the largest
+
+ private:
+  void take(const Derivatives& d);
+  void keep_large();
 };
 
 /// Counts over all positions of the blade that were looked at. A triangle or an edge counts once.
@@ -22,10 +29,12 @@ struct Opened {
   long turned_by_field = 0;  ///< others of them that the field turns in its own flat patch
   long torn = 0;             ///< skin edges below 0.5 mm whose ends move apart by more than 1 mm
   long stretched = 0;        ///< skin edges stretched by more than three times the field's largest strain
+  long torn_by_field = 0;    ///< others of either that the field stretches so in its own flat patch
   long spikes = 0;           ///< vertices that move further than the field's largest displacement and a tenth
   long crossed = 0;          ///< pairs of lips that pass each other by more than 0.05 mm
   long unsteady = 0;         ///< positions that are not the same to the bit when time comes back
   double largest = 0;        ///< displacement over the field's largest
+  double opening = 0;        ///< mm: sum over the pairs of lips of the complete cuts
   Vec3 first_turned;         ///< where, at rest
   std::string first_is;      ///< its corners
 

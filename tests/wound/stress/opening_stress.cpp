@@ -20,7 +20,8 @@ constexpr double slow = 10;  // s
 /// Cuts in one mesh at a time, opened together.
 class Opening {
  public:
-  Opening(const Subject& subject, const CutFields& fields, const FieldLimits& limits, const OpeningPlan& plan)
+  Opening(const Subject& subject, const FieldsOfGroup& fields, const FieldLimits& limits,
+          const OpeningPlan& plan)
       : subject_(subject),
         fields_(fields),
         limits_(limits),
@@ -73,7 +74,7 @@ class Opening {
   std::unique_ptr<Incision> make(CutMesh& mesh, const ScalpelPath& path, double scale, bool refined) {
     IncisionOptions options;
     if (!refined) options.max_edge = 0;
-    options.reach = reach_of(fields_.shape(), scale);
+    options.reach = reach_of(fields_().shape(), scale);
     std::unique_ptr<Incision> cut;
     try {
       cut = std::make_unique<Incision>(mesh, path, options);
@@ -86,9 +87,17 @@ class Opening {
 
   void open(const std::vector<std::unique_ptr<Incision>>& cuts, PathKind kind, double scale,
             const std::string& label, Clock::time_point begin) {
+    const CutFields fields = fields_();
     std::vector<Wound> wounds;
-    for (const auto& cut : cuts) wounds.push_back(fields_.wound(*cut, scale));
-    const Opened opened = look_at_opened(ReplayedWounds(std::move(wounds)), limits_, plan_.positions);
+    try {
+      for (const auto& cut : cuts) wounds.push_back(fields.wound(*cut, scale));
+    } catch (const InputError&) {  // the tension stands upright on the skin
+      tally_.refused += static_cast<long>(cuts.size()), --tally_.groups;
+      --tally_.of[static_cast<std::size_t>(kind)];
+      return;
+    }
+    const FieldLimits limits = fields.following_shape() ? FieldLimits(wounds) : limits_;
+    const Opened opened = look_at_opened(ReplayedWounds(std::move(wounds)), limits, plan_.positions);
     tally_.sum.add(opened);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     tally_.slowest = std::max(tally_.slowest, seconds);
@@ -101,7 +110,7 @@ class Opening {
   }
 
   const Subject& subject_;
-  const CutFields& fields_;
+  const FieldsOfGroup& fields_;
   const FieldLimits& limits_;
   const OpeningPlan& plan_;
   Ground ground_;
@@ -119,7 +128,7 @@ void OpeningTally::add(const OpeningTally& o) {
   for (std::size_t i = 0; i < of.size(); ++i) of[i] += o.of[i], unsound_of[i] += o.unsound_of[i];
 }
 
-OpeningTally open_random_cuts(const Subject& subject, const CutFields& fields, const FieldLimits& limits,
+OpeningTally open_random_cuts(const Subject& subject, const FieldsOfGroup& fields, const FieldLimits& limits,
                               const OpeningPlan& plan) {
   return Opening(subject, fields, limits, plan).run();
 }

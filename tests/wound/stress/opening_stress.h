@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,11 @@ struct OpeningTally {
   void add(const OpeningTally& other);
 };
 
-OpeningTally open_random_cuts(const Subject& subject, const CutFields& fields, const FieldLimits& limits,
+/// The fields of one group of cuts. Those of a family follow a tension along the group's first path.
+using FieldsOfGroup = std::function<CutFields()>;
+
+/// `limits` are those of the fields, but for a family.
+OpeningTally open_random_cuts(const Subject& subject, const FieldsOfGroup& fields, const FieldLimits& limits,
                               const OpeningPlan& plan);
 
 }  // namespace cleft::stress
