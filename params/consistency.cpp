@@ -93,7 +93,7 @@ class ConsistencyCheck {
   /// What is not known of patches whose shape is not a box, and what a bend cannot be.
   void check_shape() const {
     const double half = meshed_.length / 2, rate = std::abs(p_.cut.curvature_rate);
-    // Where the cut bends back, its middle half is turned by less than its ends.
+    // At most: where curvature and rate have different signs on a side, they turn it by less.
     const double half_angle = std::abs(p_.cut.curvature) * half + rate * half * half / 2;
     const double& bend = p_.cut.curvature != 0 ? p_.cut.curvature : p_.cut.curvature_rate;
     need(!is_curved(p_) || p_.cut.radius == 0,

@@ -59,9 +59,9 @@ CutCurve::Place CutCurve::operator()(double u) const {
   return place;
 }
 
-/// How far ahead of a place of the curve another place is, along the curve's direction there.
-double CutCurve::ahead(const Place& at, double x, double y) const {
-  return std::cos(at.direction) * (x - at.x) + std::sin(at.direction) * (y - at.y);
+std::array<double, 2> CutCurve::Place::seen(double of_x, double of_y) const {
+  const double cosine = std::cos(direction), sine = std::sin(direction), dx = of_x - x, dy = of_y - y;
+  return {cosine * dx + sine * dy, cosine * dy - sine * dx};
 }
 
 /// Newton's method within an interval at whose ends a place is ahead and behind: halves of it where it leaves
@@ -69,9 +69,7 @@ double CutCurve::ahead(const Place& at, double x, double y) const {
 double CutCurve::foot_between(double from, double to, bool ahead_at_from, double x, double y) const {
   double u = (from + to) / 2;
   for (int round = 0; round < 100 && to - from > 1e-14 * half_; ++round) {
-    const Place at = (*this)(u);
-    const double off = ahead(at, x, y),
-                 v = std::cos(at.direction) * (y - at.y) - std::sin(at.direction) * (x - at.x);
+    const auto [off, v] = (*this)(u).seen(x, y);
     if (std::abs(off) < 1e-14 * half_) break;
     ((off > 0) == ahead_at_from ? from : to) = u;
     const double next = u - off / ((curvature_ + rate_ * u) * v - 1);
@@ -82,17 +80,14 @@ double CutCurve::foot_between(double from, double to, bool ahead_at_from, double
 
 std::vector<std::array<double, 2>> CutCurve::feet(double x, double y) const {
   std::vector<std::array<double, 2>> feet;
-  const auto add = [&](double u) {
-    const Place at = (*this)(u);
-    feet.push_back({u, std::cos(at.direction) * (y - at.y) - std::sin(at.direction) * (x - at.x)});
-  };
-  const double before_start = -ahead(nodes_.front(), x, y), beyond_end = ahead(nodes_.back(), x, y);
+  const auto add = [&](double u) { feet.push_back({u, (*this)(u).seen(x, y)[1]}); };
+  const double before_start = -nodes_.front().seen(x, y)[0], beyond_end = nodes_.back().seen(x, y)[0];
   if (before_start > 0) add(-half_ - before_start);
   if (beyond_end > 0) add(half_ + beyond_end);
   double last = -before_start;
   if (last == 0) add(-half_);
   for (int i = 1; i <= pieces; ++i) {
-    const double next = ahead(nodes_[static_cast<std::size_t>(i)], x, y);
+    const double next = nodes_[static_cast<std::size_t>(i)].seen(x, y)[0];
     if (next == 0)
       add(i * step_ - half_);
     else if (last * next < 0)

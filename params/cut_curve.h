@@ -18,6 +18,9 @@ class CutCurve {
 
   struct Place {
     double x, y, direction;  ///< mm; radians against the first axis
+
+    /// Another place, along the curve's direction here and to its left, mm.
+    std::array<double, 2> seen(double of_x, double of_y) const;
   };
 
   bool is_straight() const { return curvature_ == 0 && rate_ == 0; }
@@ -31,7 +34,6 @@ class CutCurve {
 
  private:
   Place from(const Place& start, double u, double length) const;
-  double ahead(const Place& at, double x, double y) const;
   double foot_between(double from, double to, bool ahead_at_from, double x, double y) const;
 
   double curvature_, rate_, half_, step_;

@@ -258,10 +258,9 @@ std::array<double, 2> PatchShape::coordinates(double u, double v) const {
   // Behind all of it: the nearer end.
   std::array<double, 2> nearest{0, std::numeric_limits<double>::infinity()};
   for (const double end : {-half, half}) {
-    const CutCurve::Place at = cut_(end);
-    const double x = p.x - at.x, y = p.y - at.y, distance = std::hypot(x, y),
-                 side = std::cos(at.direction) * y - std::sin(at.direction) * x;
-    if (distance < std::abs(nearest[1])) nearest = {end, std::copysign(distance, side)};
+    const auto [ahead, beside] = cut_(end).seen(p.x, p.y);
+    const double distance = std::hypot(ahead, beside);
+    if (distance < std::abs(nearest[1])) nearest = {end, std::copysign(distance, beside)};
   }
   return nearest;
 }

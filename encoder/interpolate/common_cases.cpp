@@ -101,6 +101,12 @@ std::vector<float> floats_of(const std::vector<Vec3>& points) {
   return flat;
 }
 
+void number_bottom(RecordedParameters& p) {
+  const bool bone = p->patch.bottom == PatchBottom::bone;
+  p.erase(p.name_of(p->patch.bottom));
+  p.set(on_bone_name, bone ? 1. : 0.);
+}
+
 std::string both(const std::string& a, const std::string& b) { return "the cases " + a + " and " + b; }
 
 }  // namespace
@@ -202,12 +208,6 @@ std::vector<bool> CommonCases::distinct(const std::vector<Own>& all) {
   return list;
 }
 
-void number_bottom(RecordedParameters& p) {
-  const bool bone = p->patch.bottom == PatchBottom::bone;
-  p.erase(p.name_of(p->patch.bottom));
-  p.set(on_bone_name, bone ? 1. : 0.);
-}
-
 void name_bottom(RecordedParameters& p) {
   const auto number = p.number(on_bone_name);
   if (!number) return;
@@ -225,7 +225,7 @@ CommonCases CommonCases::of_study(const std::string& study, const ReportPart& re
   std::vector<Own> all;
   for_each_member(
       study, [&](const StudyMember& member) { all.push_back(own_of(member)); }, report);
-  return CommonCases(std::move(all));
+  return CommonCases(made_alike(std::move(all)));
 }
 
 CommonCases CommonCases::of_records(const std::vector<const StudyRecord*>& records) {
@@ -234,12 +234,13 @@ CommonCases CommonCases::of_records(const std::vector<const StudyRecord*>& recor
     told_of_file("cases/" + one->name + "/case.dffd", [&] {
       all.push_back(own_of(member_of(one->name, cleft::field_of(one->record), one->choices)));
     });
-  return CommonCases(std::move(all));
+  return CommonCases(made_alike(std::move(all)));
 }
 
-CommonCases::CommonCases(const std::vector<StudyMember>& members) : CommonCases(own_of(members)) {}
+CommonCases::CommonCases(const std::vector<StudyMember>& members)
+    : CommonCases(made_alike(own_of(members))) {}
 
-CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all = made_alike(std::move(all)))) {
+CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all)) {
   parametrization_ = all.front().parametrization;
   const std::vector<bool> is_kept = distinct(all);
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -25,8 +25,7 @@ std::vector<StudyMember> read_members(const std::string& study);
 /// The name of a number, 0 or 1, that stands for patch.bottom = "bone" where a study has cases on bone and on
 /// springs: nothing lies between, but what is added from one to the other can be interpolated.
 inline constexpr const char* on_bone_name = "patch.on_bone";
-/// Of the parameters of a case of such a study: with the number in place of the choice, and back.
-void number_bottom(RecordedParameters& parameters);
+/// Of the parameters of a case of such a study: with the choice in place of the number again.
 void name_bottom(RecordedParameters& parameters);
 
 /// Called repeatedly with the completed part of the work, 0 to 1; an exception from it ends the work.

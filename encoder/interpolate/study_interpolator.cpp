@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/quantiles.h"
@@ -42,6 +43,40 @@ ReportPart share_of(const ReportPart& report, double begin, double end) {
   return [=](double part) { report(begin + part * (end - begin)); };
 }
 
+void join_groups(ParameterGroups& groups) {
+  std::set<int> all(groups.together.cases.begin(), groups.together.cases.end());
+  for (const ParameterGroup& one : groups.alone) all.insert(one.cases.begin(), one.cases.end());
+  groups.together.cases.assign(all.begin(), all.end());
+  groups.alone.clear();
+}
+
+/// Cases from which a model is made, and what some of them are compared by.
+struct SampledCases {
+  std::vector<RecordedParameters> parameters;
+  CaseSamples samples;
+};
+
+/// If there are many cases, some determine the method and its error; and fields between them needs no
+/// derivatives.
+SampledCases sampled(const CommonCases& cases, const std::vector<RecordedParameters>& parameters,
+                     const std::vector<int>& some, const CommonPlaces& places) {
+  constexpr std::size_t most_rows = 512;
+  SampledCases sampled;
+  for (const int i : some) sampled.parameters.push_back(parameters[static_cast<std::size_t>(i)]);
+  CaseSamples& samples = sampled.samples;
+  samples.cases = representative_cases(sampled.parameters, most_compared);
+  std::vector<int> compared;
+  for (const int i : samples.cases) compared.push_back(some[static_cast<std::size_t>(i)]);
+  samples.displacements = sample_cases(cases, places, compared);
+  const std::size_t derivatives = cases.derivatives().size();
+  if (derivatives == 0 || some.size() > most_compared || some.size() + derivatives > most_rows)
+    return sampled;
+  for (const CommonDerivative& one : cases.derivatives())
+    samples.derivative_of.push_back(one.of), samples.parameter.push_back(one.parameter);
+  samples.derivatives = sample_derivatives(cases, places);
+  return sampled;
+}
+
 }  // namespace
 
 StudyInterpolator::StudyInterpolator(const std::string& study, const ReportPart& report)
@@ -60,32 +95,23 @@ StudyInterpolator::StudyInterpolator(CommonCases cases, const ReportPart& report
     }
   }
   if (report) report(0);
-  const std::vector<Loading> loadings = loadings_of(parameters_.front());
+  std::vector<Loading> loadings = loadings_of(parameters_.front());
   groups_ = parameter_groups(parameters_);
   // Where most parameters vary together and some alone, a model of all would have to tell from the latter's
   // few cases how the field changes with everything: what each of them changes is a model of its own.
-  if (!groups_.alone.empty() && loadings.front() == Loading::superposed && cases_.derivatives().empty()) {
-    model_.emplace(model_of(groups_.together));
-    for (const ParameterGroup& one : groups_.alone) alone_.push_back(model_of(one));
-    return;
-  }
-  const CaseSamples samples = this->samples();
+  if (loadings.front() != Loading::superposed || !cases_.derivatives().empty()) join_groups(groups_);
+  if (!groups_.alone.empty()) loadings = {Loading::superposed};
+  const CommonPlaces places = places_in_common(cases_);
+  const SampledCases together = sampled(cases_, parameters_, groups_.together.cases, places);
   for (const Loading loading : loadings) {
     if (report) report(time_to_sample);
-    DisplacementModel model(parameters_, samples, loading);
+    DisplacementModel model(together.parameters, together.samples, loading);
     if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));
   }
-}
-
-DisplacementModel StudyInterpolator::model_of(const ParameterGroup& group) const {
-  std::vector<RecordedParameters> parameters;
-  for (const int i : group.cases) parameters.push_back(parameters_[static_cast<std::size_t>(i)]);
-  CaseSamples samples;
-  samples.cases = representative_cases(parameters, most_compared);
-  std::vector<int> compared;
-  for (const int i : samples.cases) compared.push_back(group.cases[static_cast<std::size_t>(i)]);
-  samples.displacements = sample_cases(cases_, places_in_common(cases_), compared);
-  return {parameters, samples, Loading::superposed};
+  for (const ParameterGroup& one : groups_.alone) {
+    const SampledCases some = sampled(cases_, parameters_, one.cases, places);
+    alone_.emplace_back(some.parameters, some.samples, Loading::superposed);
+  }
 }
 
 RecordedParameters StudyInterpolator::varied_in(const ParameterGroup& group,
@@ -102,22 +128,6 @@ DisplacementModel::Prediction StudyInterpolator::of_all(const std::vector<int>& 
   for (std::size_t k = 0; k < cases.size(); ++k)
     all.weights[cases[k]] = of_some.weights[static_cast<Eigen::Index>(k)];
   return all;
-}
-
-/// If there are many cases, some determine the method and its error; and fields between them needs no
-/// derivatives.
-CaseSamples StudyInterpolator::samples() const {
-  constexpr std::size_t most_rows = 512;
-  const CommonPlaces places = places_in_common(cases_);
-  CaseSamples samples;
-  samples.cases = representative_cases(parameters_, most_compared);
-  samples.displacements = sample_cases(cases_, places, samples.cases);
-  if (cases_.size() > most_compared || parameters_.size() + cases_.derivatives().size() > most_rows)
-    return samples;
-  for (const CommonDerivative& one : cases_.derivatives())
-    samples.derivative_of.push_back(one.of), samples.parameter.push_back(one.parameter);
-  samples.derivatives = sample_derivatives(cases_, places);
-  return samples;
 }
 
 /// Neighbours are fitted alike, and so a field between them is as good as they are; where large weights of

@@ -61,11 +61,9 @@ class StudyInterpolator {
  private:
   RecordedParameters complete(const CaseParameters& given, bool meshable) const;
   CaseParameters with_bottom(CaseParameters values) const;
-  /// Of the sum of the cases' fields, from their own errors, over its largest displacement.
   double outside(const RecordedParameters& parameters) const;
+  /// Of the sum of the cases' fields, from their own errors, over its largest displacement.
   double fit_error(const DisplacementModel::Prediction& prediction, double largest) const;
-  CaseSamples samples() const;
-  DisplacementModel model_of(const ParameterGroup& group) const;
   /// The parameters with base values of all but those of the group.
   RecordedParameters varied_in(const ParameterGroup& group, RecordedParameters parameters) const;
   /// The prediction of a model of some of the cases, for all of them.
@@ -76,9 +74,9 @@ class StudyInterpolator {
   std::vector<RecordedParameters> parameters_;  // of the cases
   std::vector<Range> varying_;
   GeometryModel geometry_;
-  std::optional<DisplacementModel> model_;  // of all cases, or of those in which nothing varies alone
   ParameterGroups groups_;
-  std::vector<DisplacementModel> alone_;  // of each of groups_.alone
+  std::optional<DisplacementModel> model_;  // of groups_.together: all cases, if nothing varies alone
+  std::vector<DisplacementModel> alone_;    // of each of groups_.alone
 };
 
 }  // namespace cleft

@@ -26,7 +26,8 @@ class Family {
 
   /// Whether cases that differ in these parameters are a family: in shapes of the skin and the cut that
   /// change along a path (cut.curvature, cut.curvature_rate, cut.tilt, cut.depth, skin.curvature_u, _v and
-  /// _uv), and in all three components of the skin's prestress, but in nothing else.
+  /// _uv, patch.height with bone below, and patch.bottom), and in all three components of the skin's
+  /// prestress, but in nothing else.
   static bool describes(const std::vector<std::string>& varying);
 
   /// The shapes that differ among the cases, by name.

@@ -26,10 +26,10 @@ struct Neighbourhood {
 /// Sums the squares of what is known to make replays differ from simulations, each by a law whose factor is
 /// that of the bodies in tests/truth/bodies.md, of cuts as long and as deep as the canonical one: bends, in a
 /// tension that does or does not turn with the path; the blade's tilt and depth; the skin's curvatures;
-/// longer paths; other cuts; what is held back. A family knows bends, tilts, depths and curvatures: there it
-/// is how far they are beyond the family, and how far the path's direction is from that which opens it. Bone
-/// and changes of the tissue are not known. `known`: whether the fields follow the
-/// tension, or it pulls alike in all directions.
+/// longer paths; other cuts; what is held back; bone, where its distance is given and the field does not know
+/// it. A family knows bends, tilts, depths and curvatures: there it is how far they are beyond the family,
+/// and how far the path's direction is from that which opens it. Changes of the tissue along the path are not
+/// known. `known`: whether the fields follow the tension, or it pulls alike in all directions.
 OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood& neighbourhood);
 
 }  // namespace cleft

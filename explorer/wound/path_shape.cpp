@@ -25,10 +25,11 @@ constexpr double stations_a_smoothing = 4, nodes_a_smoothing = 2, most_pieces = 
 /// to have them. Places between points count as points where these are further apart, in smoothings.
 constexpr std::size_t least_points = 5;
 constexpr double growth = 1.25, sparse = 1.5;
-/// What draws the path's curvature, and how it changes, towards 0, in units of the smoothing: nothing beside
-/// what points over twice the smoothing tell, and much of it beside a fifth of the smoothing. How the
-/// curvature changes is known from a cubic: beside a hand's tremor of some tenths of a millimetre it is, with
-/// a smoothing above `hand` mm, the better known the longer it is, as the square of its third power.
+/// What draws the path's curvature (`straight`), and the rate at which it changes (`steady`), towards 0, in
+/// units of the smoothing: nothing beside what points over twice the smoothing tell, and much of it beside a
+/// fifth of the smoothing. The rate is the coefficient of a cubic, which a hand's tremor of some tenths of a
+/// millimetre hides over short ways. Over twice the way the cubic is eight times as high, and its square 64
+/// times: with a smoothing above `hand`, in mm, the rate is drawn to 0 less by its sixth power.
 constexpr double straight = 1e-6, steady = 2e-2, hand = 6;
 /// Half the way over which the path's direction is that of a chord, in smoothings.
 constexpr double chord = 1e-2;
@@ -208,12 +209,7 @@ class Shapes {
     double a = 0, b = 0, c = 0, d = 0;
     if (const auto found = fit.solve({0, 0, straight, steadiness()}); found && points.size() >= least_points)
       std::tie(a, b, c, d) = std::tuple((*found)[0], (*found)[1], (*found)[2], (*found)[3]);
-    else if (const auto arc = circle.solve({
-                 0,
-                 0,
-                 straight,
-             });
-             arc && points.size() >= 3)
+    else if (const auto arc = circle.solve({0, 0, straight}); arc && points.size() >= 3)
       a = (*arc)[0], b = (*arc)[1], c = (*arc)[2];
     const double root = 1 - 4 * a * c;
     if (!(root > 0)) return {0, 0, 0};

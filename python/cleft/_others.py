@@ -24,6 +24,25 @@ def field_to_xarray(field, u=None, v=None, w=0.0, t=None, side=0):
                             attrs={"units": "mm", "case": field.case, "estimated_error": field.estimated_error})
 
 
+def add_arrays(attributes, arrays):
+    """To the point or cell data of a vtkDataSet: arrays by name."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    for name, values in arrays.items():
+        array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+        array.SetName(name)
+        attributes.AddArray(array)
+
+
+def add_field_data(data, numbers):
+    """To a vtkDataSet: numbers by name."""
+    from vtkmodules.vtkCommonCore import vtkDoubleArray
+    for name, value in numbers.items():
+        array = vtkDoubleArray()
+        array.SetName(name)
+        array.InsertNextValue(value)
+        data.GetFieldData().AddArray(array)
+
+
 def _poly_data(points, triangles, point_arrays, cell_arrays):
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -34,21 +53,9 @@ def _poly_data(points, triangles, point_arrays, cell_arrays):
     polygons.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int64), deep=True),
                      numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles, dtype=np.int64).ravel(), deep=True))
     data.SetPolys(polygons)
-    for target, arrays in ((data.GetPointData(), point_arrays), (data.GetCellData(), cell_arrays)):
-        for name, values in arrays.items():
-            array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-            array.SetName(name)
-            target.AddArray(array)
+    add_arrays(data.GetPointData(), point_arrays)
+    add_arrays(data.GetCellData(), cell_arrays)
     return data
-
-
-def _add_field_data(data, numbers):
-    from vtkmodules.vtkCommonCore import vtkDoubleArray
-    for name, value in numbers.items():
-        array = vtkDoubleArray()
-        array.SetName(name)
-        array.InsertNextValue(value)
-        data.GetFieldData().AddArray(array)
 
 
 def field_to_vtk(field, t=None):
@@ -57,7 +64,7 @@ def field_to_vtk(field, t=None):
     surface = PatchSurface(field)
     t = surface.duration if t is None else t
     data = _poly_data(surface.points, surface.triangles, {"displacement": surface.displacement(t)}, {"part": surface.parts})
-    _add_field_data(data, {"TimeValue": t, "estimated_error": field.estimated_error})
+    add_field_data(data, {"TimeValue": t, "estimated_error": field.estimated_error})
     return data
 
 

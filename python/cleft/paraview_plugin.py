@@ -13,7 +13,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 from paraview.util.vtkAlgorithm import VTKPythonAlgorithmBase, smdomain, smhint, smproperty, smproxy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkOutputWindow, vtkPoints
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
@@ -23,6 +23,7 @@ except ImportError:  # the plug-in stands in the module's own folder
     sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     import cleft
 from cleft import _cleft
+from cleft._others import add_arrays, add_field_data
 
 NOT_CHOSEN = -1e300  # of a slider
 
@@ -45,21 +46,6 @@ def tell_times(out_info, duration, frames):
     for t in np.linspace(0, duration, frames):
         info.Append(Pipeline.TIME_STEPS(), float(t))
     info.Set(Pipeline.TIME_RANGE(), [0.0, float(duration)], 2)
-
-
-def add_arrays(data, arrays):
-    for name, values in arrays.items():
-        array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-        array.SetName(name)
-        data.AddArray(array)
-
-
-def add_numbers(data, numbers):
-    for name, value in numbers.items():
-        array = vtkDoubleArray()
-        array.SetName(name)
-        array.InsertNextValue(value)
-        data.GetFieldData().AddArray(array)
 
 
 def vtk_points(values):
@@ -254,8 +240,8 @@ class CleftReader(VTKPythonAlgorithmBase):
             grid = self.body(field).grid(field, t, self._deform)
         except (cleft.InputError, OSError) as error:
             return refuse(error)
-        add_numbers(grid, {"TimeValue": t, "estimated_error": field.estimated_error,
-                           **{name: field.parameters[name] for name in self.study().varying}})
+        add_field_data(grid, {"TimeValue": t, "estimated_error": field.estimated_error,
+                              **{name: field.parameters[name] for name in self.study().varying}})
         output = vtkUnstructuredGrid.GetData(out_info, 0)
         output.ShallowCopy(grid)
         output.GetInformation().Set(output.DATA_TIME_STEP(), t)
@@ -343,5 +329,5 @@ class CleftDeform(VTKPythonAlgorithmBase):
         if self._deform:
             made.SetPoints(vtk_points(places + displacement))
         add_arrays(made.GetPointData(), {"displacement": displacement, **quantities})
-        add_numbers(made, {"TimeValue": t, "estimated_error": field.estimated_error})
+        add_field_data(made, {"TimeValue": t, "estimated_error": field.estimated_error})
         return 1
