@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "explorer/body/surface_index.h"
 #include "explorer/incision/local_coordinates.h"
 #include "explorer/incision/mesh_repair.h"
 #include "explorer/wound/cut_fields.h"
@@ -30,13 +31,14 @@ PathTable path_table(const std::string& name, const std::vector<std::string>& co
 struct CutOptions {
   double scale = 1, depth = 0;
   std::optional<double> progress, max_edge;
+  std::optional<SurfaceMesh> bone;  // mesh units
 };
 
 /// A mesh with its cuts, and the fields that open them.
 class OpenedMesh {
  public:
   OpenedMesh(SurfaceMesh mesh, const std::vector<PathTable>& tables, std::shared_ptr<const CutFields> fields,
-             const CutOptions& options)
+             CutOptions options)
       : fields_(std::move(fields)), scale_(options.scale) {
     std::vector<ScalpelPath> paths;
     for (const auto& [name, table] : tables)
@@ -45,6 +47,11 @@ class OpenedMesh {
     mesh = repaired(mesh, report);
     cuts_ = std::make_unique<MeshCuts>(mesh, local_origin(mesh, paths.front()), paths, &fields_->shape(),
                                        MeshCutsOptions{options.scale, options.progress, options.max_edge});
+    if (options.bone) {
+      for (Vec3& x : options.bone->points) x = scale_ * (x - cuts_->origin());
+      fields_ = std::make_shared<const CutFields>(
+          fields_->above_bone(distance_to(std::make_shared<const SurfaceIndex>(std::move(*options.bone)))));
+    }
     std::vector<Wound> wounds;
     for (std::size_t k = 0; k < paths.size(); ++k)
       told_of_file(tables[k].first, [&] {
@@ -82,10 +89,23 @@ class OpenedMesh {
   std::vector<int> parts_;
 };
 
+/// The name stands for it in messages.
+SurfaceMesh surface_of(const Dense<double>& points, const Dense<int>& triangles, const std::string& name) {
+  SurfaceMesh mesh{rows_of<Vec3>(points, name + "points"),
+                   rows_of<std::array<int, 3>>(triangles, name + "triangles")};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int corner : mesh.triangles[t])
+      if (corner < 0 || static_cast<std::size_t>(corner) >= mesh.points.size())
+        throw InputError(name + "triangles: row " + std::to_string(t) + " names point " +
+                         std::to_string(corner) + ", and there are " + std::to_string(mesh.points.size()));
+  return mesh;
+}
+
 std::unique_ptr<OpenedMesh> cut(const Dense<double>& points, const Dense<int>& triangles,
                                 const std::vector<PathTable>& paths, std::shared_ptr<CutFields> fields,
                                 double scale, double depth, std::optional<double> progress,
-                                std::optional<double> max_edge) {
+                                std::optional<double> max_edge,
+                                const std::optional<std::pair<Dense<double>, Dense<int>>>& bone) {
   const auto need = [](bool good, const char* name, double value, const char* what) {
     if (!good) throw InputError(std::string(name) + " = " + shortest(value) + ": must be " + what);
   };
@@ -94,15 +114,14 @@ std::unique_ptr<OpenedMesh> cut(const Dense<double>& points, const Dense<int>& t
   if (progress) need(*progress >= 0, "progress", *progress, "at least 0");
   if (max_edge) need(*max_edge >= 0, "max_edge", *max_edge, "at least 0");
   if (paths.empty()) throw InputError("path: at least one is needed");
-  SurfaceMesh mesh{rows_of<Vec3>(points, "points"), rows_of<std::array<int, 3>>(triangles, "triangles")};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const int corner : mesh.triangles[t])
-      if (corner < 0 || static_cast<std::size_t>(corner) >= mesh.points.size())
-        throw InputError("triangles: row " + std::to_string(t) + " names point " + std::to_string(corner) +
-                         ", and there are " + std::to_string(mesh.points.size()));
+  SurfaceMesh mesh = surface_of(points, triangles, "");
+  CutOptions options{scale, depth, progress, max_edge, {}};
+  if (bone) {
+    options.bone = surface_of(bone->first, bone->second, "bone: ");
+    if (options.bone->triangles.empty()) throw InputError("bone: it has no triangles");
+  }
   const py::gil_scoped_release unlocked;
-  return std::make_unique<OpenedMesh>(std::move(mesh), paths, std::move(fields),
-                                      CutOptions{scale, depth, progress, max_edge});
+  return std::make_unique<OpenedMesh>(std::move(mesh), paths, std::move(fields), std::move(options));
 }
 
 py::dict dict_of(const Validity& v) {
@@ -184,7 +203,7 @@ void bind_cut(py::module_& module) {
           arg("t") = py::none(),
           "(N, 3): the points when t mm of all paths are cut; None: as far as it is cut.");
   module.def("cut", &cut, arg("points"), arg("triangles"), arg("paths"), arg("fields"), arg("scale"),
-             arg("depth"), arg("progress"), arg("max_edge"));
+             arg("depth"), arg("progress"), arg("max_edge"), arg("bone"));
 }
 
 }  // namespace cleft::python

@@ -8,6 +8,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
+#include <vtkPlotArea.h>
 #include <vtkPlotPoints.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
@@ -23,6 +24,42 @@ namespace {
 /// Okabe and Ito's colours, which colour-blind people can distinguish.
 constexpr unsigned char colors[][3] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}};
 constexpr int milliseconds_a_plot = 150;
+
+double widest_of(const std::vector<WoundScene::Opening>& openings) {
+  double widest = 0;
+  for (const auto& opening : openings)
+    for (const double value : opening.values) widest = std::max(widest, value);
+  return widest;
+}
+
+/// The widest opening of all cuts in a mesh over the length cut.
+Curve gape_of(const WoundScene& scene) {
+  constexpr int times = 24;
+  Curve gape;
+  for (int i = 0; i <= times; ++i) {
+    const double t = scene.duration() * i / times;
+    gape.x.push_back(t), gape.y.push_back(widest_of(scene.openings(t)));
+  }
+  return gape;
+}
+
+/// mm, at each place of a cut: the expected error is one over the largest opening. What is not cut is closed.
+std::vector<double> error_of(const WoundScene::Opening& opening, const OpeningError& expected) {
+  const double widest = widest_of({opening});
+  std::vector<double> error;
+  for (std::size_t i = 0; i < opening.places.size(); ++i)
+    error.push_back(opening.values[i] > 0 ? widest * expected.value_at(opening.places[i]) : 0);
+  return error;
+}
+
+/// mm, of the widest opening of all cuts.
+std::vector<double> error_of(const Curve& gape, const std::vector<Validity>& cuts) {
+  double largest = 0;
+  for (const Validity& cut : cuts) largest = std::max(largest, cut.expected_error.largest);
+  std::vector<double> error = gape.y;
+  for (double& value : error) value *= largest;
+  return error;
+}
 }  // namespace
 
 Plots::Plots(Session& session) : session_(session) {
@@ -111,6 +148,28 @@ void Plots::add_curve(vtkChartXY* chart, const Curve& curve, const std::string& 
   if (dashed) line->GetPen()->SetLineType(vtkPen::DASH_LINE), line->SetLegendVisibility(false);
 }
 
+void Plots::add_band(vtkChartXY* chart, const Curve& curve, const std::vector<double>& error, int color) {
+  vtkNew<vtkTable> table;
+  for (const char* name : {"x", "least", "most"}) {
+    vtkNew<vtkFloatArray> column;
+    column->SetName(name);
+    table->AddColumn(column);
+  }
+  table->SetNumberOfRows(static_cast<vtkIdType>(curve.x.size()));
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const auto row = static_cast<vtkIdType>(i);
+    table->SetValue(row, 0, curve.x[i]);
+    table->SetValue(row, 1, std::max(0., curve.y[i] - error[i]));
+    table->SetValue(row, 2, curve.y[i] + error[i]);
+  }
+  auto* band = static_cast<vtkPlotArea*>(chart->AddPlot(vtkChart::AREA));
+  band->SetInputData(table);
+  band->SetInputArray(0, "x"), band->SetInputArray(1, "least"), band->SetInputArray(2, "most");
+  constexpr unsigned char faint = 60;
+  band->SetColor(colors[color][0], colors[color][1], colors[color][2], faint);
+  band->SetLegendVisibility(false);
+}
+
 void Plots::draw() {
   if (pages_->currentIndex() == 0) draw_opening();
   if (pages_->currentIndex() == 1) draw_probe();
@@ -149,37 +208,94 @@ void Plots::draw_opening() {
   over_time_.chart->ClearPlots();
   along_cut_.chart->ClearPlots();
   dress(over_time_), dress(along_cut_);
-  std::map<const Field*, Curve> gapes;
-  if (session_.study()) {
-    const std::vector<int> views = session_.views();
-    double highest = 0;
-    for (std::size_t k = 0; k < views.size(); ++k) {
-      const auto field = session_.field_of(views[k]);
-      const auto known = gapes_.find(field.get());
-      const Curve& gape = gapes[field.get()] = known != gapes_.end() ? known->second : gape_over_time(*field);
-      const std::string name = "case " + std::to_string(views[k] + 1);
-      add_curve(over_time_.chart, gape, name, static_cast<int>(k), Style::line);
-      const Curve profile = opening_profile(*field, std::min(session_.state().time, field->duration()));
-      if (k == 0) profile_ = profile;
-      add_curve(along_cut_.chart, profile, name, static_cast<int>(k), Style::line);
-      highest = std::max(highest, *std::max_element(gape.y.begin(), gape.y.end()));
-    }
-    const double t = std::min(session_.state().time, session_.field()->duration());
-    add_curve(over_time_.chart, {{t, t}, {0, highest}}, "now", 1, Style::dashed);
-    const bool several = views.size() > 1;
-    for (const auto& [plot, room] : {std::pair{&over_time_, several ? 1.6 : 1.05}, {&along_cut_, 1.05}}) {
-      vtkAxis* axis = plot->chart->GetAxis(vtkAxis::LEFT);
-      axis->SetBehavior(vtkAxis::FIXED);
-      axis->SetRange(0, (highest > 0 ? highest : 1) * room);
-    }
-    over_time_.chart->SetShowLegend(several);                                     // for both
-    over_time_.chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);  // where wounds begin
-  }
-  gapes_.swap(gapes);
+  profile_ = {}, profile_error_.clear();
+  if (session_.mesh())
+    draw_mesh_openings();
+  else if (session_.study())
+    draw_patch_openings();
   for (Plot* plot : {&over_time_, &along_cut_}) {
     plot->chart->RecalculateBounds();
     plot->widget->renderWindow()->Render();
   }
+}
+
+void Plots::draw_now(double t, double highest) {
+  add_curve(over_time_.chart, {{t, t}, {0, highest}}, "now", 1, Style::dashed);
+  const bool several = session_.views().size() > 1;
+  for (const auto& [plot, room] : {std::pair{&over_time_, several ? 1.6 : 1.05}, {&along_cut_, 1.05}}) {
+    vtkAxis* axis = plot->chart->GetAxis(vtkAxis::LEFT);
+    axis->SetBehavior(vtkAxis::FIXED);
+    axis->SetRange(0, (highest > 0 ? highest : 1) * room);
+  }
+  over_time_.chart->SetShowLegend(several);                                     // for both
+  over_time_.chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);  // where wounds begin
+}
+
+/// Of the fields, with the error of an opening that their fits or interpolations state.
+void Plots::draw_patch_openings() {
+  std::map<const Field*, Curve> gapes;
+  const std::vector<int> views = session_.views();
+  double highest = 0;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const auto field = session_.field_of(views[k]);
+    const auto known = gapes_.find(field.get());
+    const Curve& gape = gapes[field.get()] = known != gapes_.end() ? known->second : gape_over_time(*field);
+    const Curve profile = opening_profile(*field, std::min(session_.state().time, field->duration()));
+    const std::string name = "case " + std::to_string(views[k] + 1);
+    const int color = static_cast<int>(k);
+    const std::optional<double> error = error_of_gape(*field);
+    for (const auto& [plot, curve] : {std::pair{&over_time_, &gape}, {&along_cut_, &profile}}) {
+      if (error) add_band(plot->chart, *curve, std::vector<double>(curve->x.size(), *error), color);
+      add_curve(plot->chart, *curve, name, color, Style::line);
+    }
+    if (k == 0) profile_ = profile;
+    if (k == 0 && error) profile_error_.assign(profile.x.size(), *error);
+    highest = std::max(highest, *std::max_element(gape.y.begin(), gape.y.end()) + error.value_or(0));
+  }
+  draw_now(std::min(session_.state().time, session_.field()->duration()), highest);
+  gapes_.swap(gapes);
+}
+
+/// Of the wounds on the screen, those of one cut after another: places count from the start of the first.
+void Plots::draw_mesh_openings() {
+  std::map<const WoundScene*, Curve> gapes;
+  const std::vector<int> views = session_.views();
+  double highest = 0;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const auto scene = session_.scene_of(views[k]);
+    const auto known = mesh_gapes_.find(scene.get());
+    const Curve& gape = gapes[scene.get()] = known != mesh_gapes_.end() ? known->second : gape_of(*scene);
+    const std::string name = "case " + std::to_string(views[k] + 1);
+    const int color = static_cast<int>(k);
+    const bool judged = views[k] == session_.state().shown && !session_.validity().empty();
+    double most = *std::max_element(gape.y.begin(), gape.y.end());
+    if (judged) {
+      const std::vector<double> error = error_of(gape, session_.validity());
+      add_band(over_time_.chart, gape, error, color);
+      most += *std::max_element(error.begin(), error.end());
+    }
+    add_curve(over_time_.chart, gape, name, color, Style::line);
+    highest = std::max(highest, most);
+    double begin = 0;
+    const auto openings = scene->openings(std::min(session_.state().time, scene->duration()));
+    const auto paths = session_.cut_paths();
+    for (std::size_t cut = 0; cut < openings.size(); ++cut) {
+      Curve profile{openings[cut].places, openings[cut].values};
+      for (double& place : profile.x) place += begin;
+      begin += paths[cut].length();
+      if (judged) {
+        const std::vector<double> error = error_of(openings[cut], session_.validity()[cut].expected_error);
+        add_band(along_cut_.chart, profile, error, color);
+        profile_error_.insert(profile_error_.end(), error.begin(), error.end());
+      }
+      add_curve(along_cut_.chart, profile, name, color, Style::line);
+      if (k > 0) continue;
+      profile_.x.insert(profile_.x.end(), profile.x.begin(), profile.x.end());
+      profile_.y.insert(profile_.y.end(), profile.y.begin(), profile.y.end());
+    }
+  }
+  draw_now(session_.state().time, highest);
+  mesh_gapes_.swap(gapes);
 }
 
 void Plots::showEvent(QShowEvent* event) {

@@ -152,7 +152,7 @@ class Maker {
   void extrude_all() {
     for (;;) {
       set_blades();
-      e_ = extrude(s_, layers_, blade_, r_.bone);
+      e_ = extrude(s_, layers_, blade_, r_.bone.get());
       if (e_.turned.empty()) return;
       std::vector<bool> out(s_.mesh.triangles.size(), false), at_out(s_.mesh.points.size(), false);
       for (const int t : e_.turned)

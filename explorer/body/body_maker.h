@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,9 @@ namespace cleft {
 
 /// What a body is made of. Lengths in mm.
 struct BodyRequest {
-  SurfaceMesh skin;                    ///< counter-clockwise from outside
-  std::vector<ScalpelPath> paths;      ///< in the order in which they are cut, each with its depth
-  const SurfaceIndex* bone = nullptr;  ///< what lies below; null: nothing
+  SurfaceMesh skin;                ///< counter-clockwise from outside
+  std::vector<ScalpelPath> paths;  ///< in the order in which they are cut, each with its depth
+  std::shared_ptr<const SurfaceIndex> bone = nullptr;  ///< what lies below; null: nothing
   Parameters parameters;      ///< mesh.element_size, grading and front; patch.height: thickness of tissue
   double reach = 40;          ///< of the body around the paths, over the skin
   std::vector<Vec3> tension;  ///< one direction of skin.prestress_u; none: from the first path's start to

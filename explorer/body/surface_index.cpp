@@ -118,10 +118,10 @@ std::optional<double> SurfaceIndex::meets(const Vec3& from, const Vec3& way) con
   return first;
 }
 
-std::function<double(const Vec3&, const Vec3&)> distance_to(const SurfaceIndex& surface) {
-  return [&surface](const Vec3& place, const Vec3& direction) {
+std::function<double(const Vec3&, const Vec3&)> distance_to(std::shared_ptr<const SurfaceIndex> surface) {
+  return [surface = std::move(surface)](const Vec3& place, const Vec3& direction) {
     constexpr double farthest = 100;
-    const auto part = surface.meets(place, farthest * direction);
+    const auto part = surface->meets(place, farthest * direction);
     return part ? *part * farthest : std::numeric_limits<double>::infinity();
   };
 }

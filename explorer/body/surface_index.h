@@ -39,8 +39,8 @@ class SurfaceIndex {
   std::unique_ptr<Tree> tree_;
 };
 
-/// Tells how far from a place, in a unit direction, the surface is; infinite beyond 100. The surface must
-/// outlive it.
-std::function<double(const Vec3& place, const Vec3& direction)> distance_to(const SurfaceIndex& surface);
+/// Tells how far from a place, in a unit direction, the surface is; infinite beyond 100. Keeps the surface.
+std::function<double(const Vec3& place, const Vec3& direction)> distance_to(
+    std::shared_ptr<const SurfaceIndex> surface);
 
 }  // namespace cleft

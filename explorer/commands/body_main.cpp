@@ -32,8 +32,7 @@ void make(const Options& options) {
   BodyRequest request = options.body.request();
   MeshReport mesh;
   request.skin = scaled(read_mesh(options.mesh, &mesh), options.scale);
-  const std::optional<SurfaceIndex> bone = options.body.read_bone(options.scale, {});
-  if (bone) request.bone = &*bone;
+  request.bone = options.body.read_bone(options.scale, {});
   for (const std::string& file : options.paths) {
     const bool own = read_csv(file).column("depth") >= 0;
     const double depth = options.depth > 0 || own ? options.depth : request.parameters.cut.depth;

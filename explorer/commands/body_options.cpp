@@ -77,9 +77,12 @@ BodyRequest BodyOptions::request() const {
   return request;
 }
 
-std::optional<SurfaceIndex> BodyOptions::read_bone(double scale, const Vec3& origin) const {
-  if (bone.empty()) return {};
-  return SurfaceIndex(scaled(moved(read_mesh(bone), -origin), scale));
+std::shared_ptr<const SurfaceIndex> BodyOptions::read_bone(double scale, const Vec3& origin) const {
+  return bone.empty() ? nullptr : bone_below(bone, scale, origin);
+}
+
+std::shared_ptr<const SurfaceIndex> bone_below(const std::string& file, double scale, const Vec3& origin) {
+  return std::make_shared<const SurfaceIndex>(scaled(moved(read_mesh(file), -origin), scale));
 }
 
 SurfaceMesh scaled(SurfaceMesh mesh, double scale) {

@@ -1,7 +1,7 @@
 // The options of a body below a surface, and its figures: of cleft body and cleft cut --simulate.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,8 +23,8 @@ struct BodyOptions {
 
   /// Without skin, paths and bone.
   BodyRequest request() const;
-  /// In mm, relative to `origin`, mesh units; none if it was not given.
-  std::optional<SurfaceIndex> read_bone(double scale, const Vec3& origin) const;
+  /// As bone_below(); null if none was given.
+  std::shared_ptr<const SurfaceIndex> read_bone(double scale, const Vec3& origin) const;
 
  private:
   CommandLine* app_ = nullptr;
@@ -32,6 +32,9 @@ struct BodyOptions {
 
 /// In mm.
 SurfaceMesh scaled(SurfaceMesh mesh, double scale);
+
+/// The surface of a mesh file, in mm, relative to `origin`, mesh units.
+std::shared_ptr<const SurfaceIndex> bone_below(const std::string& file, double scale, const Vec3& origin);
 
 Json figures_of(const BodyReport& report);
 /// Prints the report's warnings on stderr as those of `command`.

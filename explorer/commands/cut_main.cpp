@@ -133,12 +133,13 @@ void move(const ReplayedWounds& wounds, const CutFields& fields, const Options& 
 
 /// Moves the mesh as a simulation of these very cuts says, and tells how far replays, if `positions` holds
 /// them, are from it.
-void move_as_simulated(const Options& options, const MeshCuts& cuts, const std::optional<SurfaceIndex>& bone,
-                       bool replayed, std::vector<Vec3>& positions, Json& figures) {
+void move_as_simulated(const Options& options, const MeshCuts& cuts,
+                       const std::shared_ptr<const SurfaceIndex>& bone, bool replayed,
+                       std::vector<Vec3>& positions, Json& figures) {
   BodyRequest request = options.body.request();
   request.skin = scaled(cuts.uncut(), options.scale);
   for (const Incision* one : cuts.cuts()) request.paths.push_back(one->path().scaled(options.scale));
-  if (bone) request.bone = &*bone;
+  request.bone = bone;
   Progress progress("simulating");
   static StopCount stop = 0;
   const SignalHandler handler({SIGINT, SIGTERM}, [](int) { stop = stop + 1; });
@@ -172,9 +173,9 @@ void cut(const Options& options) {
   figures["us_per_step"] = 1e6 * cuts.stepping_seconds() / figures["steps"].get<double>();
   for (const Incision* one : cuts.cuts()) figures["cuts"].push_back(figures_of(*one, options.scale));
   std::unique_ptr<ReplayedWounds> wounds;
-  const std::optional<SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin());
+  const std::shared_ptr<const SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin());
   if (fields) {
-    if (bone) fields = fields->above_bone(distance_to(*bone));
+    if (bone) fields = fields->above_bone(distance_to(bone));
     wounds = open(options, *fields, cuts);
     move(*wounds, *fields, options, cuts.progress(), result.points, figures);
   }

@@ -15,7 +15,7 @@ using namespace cleft;
 namespace {
 
 struct Options {
-  std::string study, mesh, path, screenshot, script, state;
+  std::string study, mesh, path, bone, screenshot, script, state;
   double scale = 1;  ///< mm in a unit of the mesh and the path
   int shown_case = 1;
   double time = -1;  ///< the end, where none is given
@@ -34,6 +34,9 @@ void add_options(CommandLine& app, Options& o) {
       ->needs(mesh)
       ->check(above(0))
       ->capture_default_str();
+  app.add_option("--bone", o.bone,
+                 "The surface of the bone below the mesh, in its units: of families of fields")
+      ->needs(mesh);
   app.add_option("--script", o.script, "Do the commands of this file and open no window");
   app.add_option("--state", o.state, "Begin with a saved session: .json, or a .png written here");
   app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
@@ -63,6 +66,7 @@ void begin(Session& session, const CommandLine& app, const Options& o) {
   if (!o.study.empty()) session.say("open " + quoted(o.study));
   if (app.count("--case")) session.say("case " + std::to_string(o.shown_case));
   if (!o.mesh.empty()) session.say("mesh " + quoted(o.mesh) + " " + shortest(o.scale));
+  if (!o.bone.empty()) session.say("bone " + quoted(o.bone));
   if (!o.path.empty()) session.say("cut-file " + quoted(o.path));
   if (o.time >= 0) session.say("time " + shortest(o.time));
   if (app.count("--view") + app.count("--zoom") > 0)

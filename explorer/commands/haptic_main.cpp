@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "explorer/commands/body_options.h"
 #include "explorer/commands/cut_figures.h"
 #include "explorer/commands/tension_options.h"
 #include "explorer/io/formats/mesh_formats.h"
@@ -30,7 +31,7 @@ namespace {
 using namespace cleft;
 
 struct Options {
-  std::string mesh, path, field, snapshot, device = default_device(), trajectory, record;
+  std::string mesh, path, field, bone, snapshot, device = default_device(), trajectory, record;
   double scale = 1, rate = 1000, speed = 30;
   double depth = 0, seconds = 0, stiffness = 0;  // 0: not given
   double delay = 0;                              // ms
@@ -118,11 +119,12 @@ DeviceKind device_of(const Options& o) {
 
 void haptic(const Options& o) {
   const DeviceKind kind = device_of(o);
-  refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.snapshot, o.trajectory});
+  refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.bone, o.snapshot, o.trajectory});
   std::optional<OutputFile> probe;
   if (!o.record.empty()) probe.emplace(o.record);  // reports a bad name before the work
   std::optional<CutFields> fields;
   if (!o.field.empty()) fields = read_cut_fields(o.field, o.tension.direction, o.tension.prestresses);
+  if (fields && !o.bone.empty()) fields = fields->above_bone(distance_to(bone_below(o.bone, o.scale, {})));
   const Field* field = fields ? &fields->shape() : nullptr;
   const SurfaceMesh mesh = read_mesh(o.mesh);
   std::optional<ScalpelPath> path;
@@ -191,6 +193,7 @@ int main(int argc, char** argv) {
       "--field", o.field,
       "field file case.dffd that opens the cut; or study.dffd of three cases of other prestress, or of a "
       "family");
+  app.add_option("--bone", o.bone, "surface of the bone below the mesh: of a family's fields");
   o.tension.add_to(app);
   app.add_option("--depth", o.depth,
                  "depth of the cut, mm [the path's column, else the field's; without a path the scalpel's]")
@@ -213,5 +216,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--real-time", o.real_time, "ask for SCHED_FIFO and locked memory");
   app.add_flag("--json", o.json, "figures as JSON");
-  return run_command(app, argc, argv, [&] { haptic(o); });
+  return run_command(app, argc, argv, [&] {
+    if (!o.bone.empty() && o.field.empty())
+      throw InputError("--bone " + o.bone + ": is for the fields that open the cut; give --field");
+    haptic(o);
+  });
 }

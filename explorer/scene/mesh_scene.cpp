@@ -77,11 +77,23 @@ std::optional<LeftOut> MeshScene::left_out() const {
   return LeftOut{level().left_out(), level().left_out() + level().active(), level().error};
 }
 
-std::vector<std::string> MeshScene::warnings() const {
-  std::vector<std::string> all;
-  if (wounds_ && !simulated_)
-    for (const Validity& v : wounds_->validity(fields_->turning()))
-      all.insert(all.end(), v.warnings.begin(), v.warnings.end());
+std::vector<Validity> MeshScene::validity() const {
+  if (!wounds_ || simulated_) return {};
+  return wounds_->validity(fields_->turning());
+}
+
+std::vector<WoundScene::Opening> MeshScene::openings(double t) const {
+  std::vector<Vec3> moved;
+  positions(t, moved);
+  std::vector<Opening> all;
+  for (const auto& cut : cut_->cuts()) {
+    Opening& opening = all.emplace_back();
+    for (const auto& place : cut->chain()) {
+      opening.places.push_back(place.s);
+      opening.values.push_back(
+          norm(moved[static_cast<std::size_t>(place.right)] - moved[static_cast<std::size_t>(place.left)]));
+    }
+  }
   return all;
 }
 

@@ -31,7 +31,8 @@ class MeshScene : public WoundScene {
   std::shared_ptr<const WoundScene> with_detail(double mm) const override;
   std::optional<LeftOut> left_out() const override;
   void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
-  std::vector<std::string> warnings() const override;
+  std::vector<Validity> validity() const override;
+  std::vector<Opening> openings(double t) const override;
 
  private:
   MeshScene(const MeshScene&) = default;

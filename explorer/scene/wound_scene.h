@@ -8,6 +8,7 @@
 
 #include "explorer/scene/coloring.h"
 #include "explorer/wound/detail.h"
+#include "explorer/wound/validity.h"
 #include "explorer/wound/wound_surface.h"
 
 namespace cleft {
@@ -34,8 +35,15 @@ class WoundScene {
   virtual void values(Coloring coloring, const Field* reference, double t,
                       std::vector<double>& out) const = 0;
 
-  /// Warnings where the error of a cut's opening may exceed a tenth: one sentence each.
-  virtual std::vector<std::string> warnings() const { return {}; }
+  /// Of each cut that is replayed, what is known of its opening's error; empty where none is.
+  virtual std::vector<Validity> validity() const { return {}; }
+
+  /// The distance from lip to lip along a cut, mm, at the places of its path, mm.
+  struct Opening {
+    std::vector<double> places, values;
+  };
+  /// Of each cut in a mesh at t.
+  virtual std::vector<Opening> openings(double) const { return {}; }
 };
 
 }  // namespace cleft

@@ -28,13 +28,16 @@ void finish_preparing(Session& session);
 void find_cases(Session& session, const std::string& condition);  ///< empty: no condition
 
 // The mesh, its cuts and the tension of its skin.
-std::shared_ptr<const SurfaceMesh> read_mesh_in_mm(const Session& session, const SessionState& state);
+void read_surfaces(const Session& session,
+                   Opened& opened);  ///< of the mesh and the bone that its state names
 void load_mesh(Session& session, const std::string& file, double scale);
 void show_patch(Session& session);
 void add_cut(Session& session, const CutState& cut);
 void replace_last_cut(Session& session, const CutState& cut);
 /// The skin's tension, against which cuts turn; none: that of the shown case for all directions of a cut.
 void set_tension(Session& session, const std::optional<SkinTension>& tension);
+/// The surface of the bone below the mesh, in its units; empty: none is known.
+void put_bone(Session& session, const std::string& file);
 /// Whether the cuts are simulated as they are, in this very mesh, each time that they change.
 void simulate_cuts(Session& session, bool on);
 /// Begins the simulation of the present cuts and parameters, where the session asks for one and it is not

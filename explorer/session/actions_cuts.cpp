@@ -38,10 +38,15 @@ bool swap_tension(Session& session, std::vector<TensionChange>& from, std::vecto
 
 }  // namespace
 
-std::shared_ptr<const SurfaceMesh> read_mesh_in_mm(const Session& session, const SessionState& state) {
-  SurfaceMesh mesh = session.services().read_mesh(state.mesh);
-  for (Vec3& x : mesh.points) x *= state.scale;
-  return std::make_shared<const SurfaceMesh>(std::move(mesh));
+void read_surfaces(const Session& session, Opened& opened) {
+  const SessionState& state = opened.state;
+  const auto in_mm = [&](const std::string& file) {
+    SurfaceMesh mesh = session.services().read_mesh(file);
+    for (Vec3& x : mesh.points) x *= state.scale;
+    return mesh;
+  };
+  opened.mesh = state.mesh.empty() ? nullptr : std::make_shared<const SurfaceMesh>(in_mm(state.mesh));
+  opened.bone = state.bone.empty() ? nullptr : std::make_shared<const SurfaceIndex>(in_mm(state.bone));
 }
 
 void load_mesh(Session& session, const std::string& file, double scale) {
@@ -49,7 +54,8 @@ void load_mesh(Session& session, const std::string& file, double scale) {
   state.mesh = absolute_path(file);
   state.scale = scale;
   forget_cuts(state);
-  session.opened().mesh = read_mesh_in_mm(session, state);
+  state.bone.clear();
+  read_surfaces(session, session.opened());
   state.coloring = Coloring::tissue;
   state.zoom.reset(), state.figure.clear();
   state.camera = {};
@@ -60,9 +66,9 @@ void load_mesh(Session& session, const std::string& file, double scale) {
 void show_patch(Session& session) {
   session.open_study();
   SessionState& state = session.edit();
-  state.mesh.clear();
+  state.mesh.clear(), state.bone.clear();
   forget_cuts(state);
-  session.opened().mesh.reset();
+  read_surfaces(session, session.opened());
   follow_parameters(session);  // no tension keeps it from what lies between cases
   state.coloring = Coloring::displacement;
   state.figure.clear();
@@ -95,6 +101,13 @@ void set_tension(Session& session, const std::optional<SkinTension>& tension) {
   state.undone.clear(), state.tensions_undone.clear();
   state.tension = tension;
   tension_changed(session);
+}
+
+void put_bone(Session& session, const std::string& file) {
+  if (!session.mesh()) throw InputError("there is no mesh that the bone is below (say: mesh FILE)");
+  session.edit().bone = file.empty() ? "" : absolute_path(file);
+  read_surfaces(session, session.opened());
+  cuts_changed(session);
 }
 
 void undo_last(Session& session) {

@@ -31,6 +31,7 @@ BodyRequest request_of(Session& session) {
   request.paths = session.cut_paths();
   request.parameters = parameters_of_shown(session);
   if (const auto& tension = session.state().tension) request.tension = {tension->direction};
+  request.bone = session.opened().bone;
   return request;
 }
 
@@ -76,7 +77,7 @@ void follow_cuts(Session& session) {
     return;
   }
   BodyRequest request = request_of(session);
-  const std::string key = key_of(request, session.state().mesh);
+  const std::string key = key_of(request, session.state().mesh + ";" + session.state().bone);
   if (key == simulated.of) return;
   simulated = {key, std::make_shared<BodyRun>(std::move(request)), nullptr, "simulating; this is the replay"};
   session.opened().drawn.scenes.erase(session.state().shown);

@@ -69,7 +69,7 @@ void restore(Session& session, const SessionState& state) {
     next.state.study = absolute_path(state.study);
   }
   check_cases(state, next.cases ? next.cases->study().size() : 1);
-  if (!state.mesh.empty()) next.mesh = read_mesh_in_mm(session, state);
+  read_surfaces(session, next);
   session.opened() = std::move(next);
   follow_parameters(session);
   if (session.has_scene()) set_time(session, state.time);

@@ -17,6 +17,11 @@ void mesh(Session& session, CommandWords& words) {
   load_mesh(session, file, words.empty() ? 1 : words.number_in("mm per unit", 1e-6, 1e6));
 }
 
+void bone(Session& session, CommandWords& words) {
+  const std::string file = words.text("a mesh file, or none");
+  put_bone(session, file == "none" ? "" : file);
+}
+
 void patch(Session& session, CommandWords&) { show_patch(session); }
 
 /// Points in mm; `depth N` at the end is for all that have none of their own.
@@ -102,6 +107,9 @@ std::span<const Command> cut_commands() {
   static const std::vector<Command> commands{
       {"mesh", "FILE [MM_PER_UNIT]",
        "a surface mesh to cut: " + mesh_endings(MeshKind::surface, MeshUse::read), mesh},
+      {"bone", "FILE | none",
+       "the surface of the bone below the mesh, in the mesh's units: families of fields open cuts by it",
+       bone},
       {"patch", "", "back to the patch that was simulated", patch},
       {"cut", "X,Y,Z,NX,NY,NZ[,DEPTH] ... [depth MM]", "cut along places with outward normals, mm", cut},
       {"recut", "X,Y,Z,NX,NY,NZ[,DEPTH] ... [depth MM]", "the last cut goes there instead", recut,

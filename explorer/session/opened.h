@@ -12,6 +12,7 @@
 
 #include "explorer/body/body_run.h"
 #include "explorer/body/simulated_wounds.h"
+#include "explorer/body/surface_index.h"
 #include "explorer/incision/cut_surface.h"
 #include "explorer/incision/surface_mesh.h"
 #include "explorer/scene/wound_scene.h"
@@ -51,13 +52,14 @@ struct Simulated {
 
 struct Opened {
   SessionState state;
-  std::shared_ptr<KnownCases> cases;        ///< null: no study is open
-  std::shared_ptr<const SurfaceMesh> mesh;  ///< to be cut, mm; null: the canonical patch is shown
+  std::shared_ptr<KnownCases> cases;         ///< null: no study is open
+  std::shared_ptr<const SurfaceMesh> mesh;   ///< to be cut, mm; null: the canonical patch is shown
+  std::shared_ptr<const SurfaceIndex> bone;  ///< below its skin, mm; null: none is known
   Between between;
   Simulated simulated;
   Drawn drawn;
-  std::vector<std::string> warnings;  ///< cuts of the shown case outside their validity (validity.h)
-  std::optional<DetailSeen> seen;     ///< in the last picture; none if anything has changed since
+  std::vector<Validity> validity;  ///< of each cut of the shown case in a mesh, where fields open it
+  std::optional<DetailSeen> seen;  ///< in the last picture; none if anything has changed since
 };
 
 }  // namespace cleft

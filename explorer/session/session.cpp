@@ -32,7 +32,7 @@ void Session::say(const std::string& line) {
     said_.push_back(line);
     opened_.seen.reset();
   }
-  warn(before.warnings);
+  judge_cuts();
   notify();
 }
 
@@ -55,10 +55,17 @@ void Session::notify() {
   for (const Listener& listener : listeners_) listener(changes);
 }
 
-void Session::warn(const std::vector<std::string>& before) {
+std::vector<std::string> Session::warnings() const {
+  std::vector<std::string> all;
+  for (const Validity& cut : validity()) all.insert(all.end(), cut.warnings.begin(), cut.warnings.end());
+  return all;
+}
+
+void Session::judge_cuts() {
   if (!changes_.cuts && !changes_.shown && !changes_.study) return;
-  opened_.warnings = has_scene() ? scene()->warnings() : std::vector<std::string>{};
-  for (const std::string& warning : opened_.warnings)
+  const std::vector<std::string> before = warnings();
+  opened_.validity = has_scene() ? scene()->validity() : std::vector<Validity>{};
+  for (const std::string& warning : warnings())
     if (std::find(before.begin(), before.end(), warning) == before.end()) answer("warning: " + warning);
 }
 

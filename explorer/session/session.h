@@ -62,9 +62,11 @@ class Session {
   /// A note on the view of case i: the estimated error of an interpolation, or that no error is known.
   /// Usually empty.
   std::string note_of(int i) const;
-  /// Cuts of the shown case whose openings may be wrong, and by how much. A line that causes a new warning is
-  /// answered with it.
-  const std::vector<std::string>& warnings() const { return opened_.warnings; }
+  /// Of each cut of the shown case in a mesh what is known of its opening's error; empty where no field opens
+  /// them.
+  const std::vector<Validity>& validity() const { return opened_.validity; }
+  /// Their warnings. A line that causes a new one is answered with it.
+  std::vector<std::string> warnings() const;
   /// Views report the vertices that their pictures leave out.
   void see(const std::optional<DetailSeen>& detail) { opened_.seen = detail; }
   const std::optional<DetailSeen>& seen() const { return opened_.seen; }
@@ -118,7 +120,7 @@ class Session {
   void progress(const std::string& what, double part) const;
 
  private:
-  void warn(const std::vector<std::string>& before);
+  void judge_cuts();
   void notify();
   std::vector<ScalpelPath> cut_paths(double depth) const;
 
@@ -138,5 +140,8 @@ const std::vector<std::string>& overlay_figures();
 
 /// Of an interpolated field, in words: "estimated error 2.1 %".
 std::string error_of_interpolation(const Field& field);
+/// Of at least one cut in a mesh, likewise: of the one that is expected to be off most, over its largest
+/// opening.
+std::string error_of_openings(const std::vector<Validity>& cuts);
 
 }  // namespace cleft

@@ -25,6 +25,14 @@ std::string error_of_interpolation(const Field& field) {
          (made.outside > 0 ? ", a guess outside the cases" : "");
 }
 
+std::string error_of_openings(const std::vector<Validity>& cuts) {
+  const auto largest = std::max_element(cuts.begin(), cuts.end(), [](const Validity& a, const Validity& b) {
+    return a.expected_error.largest < b.expected_error.largest;
+  });
+  return "expected error of the opening " + shortest_of(100 * largest->expected_error.largest, 2) + " %" +
+         (cuts.size() > 1 ? ", of cut " + std::to_string(largest - cuts.begin() + 1) : "");
+}
+
 std::vector<int> Session::views() const {
   return state().compared.empty() ? std::vector<int>{state().shown} : state().compared;
 }
@@ -89,9 +97,12 @@ std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {
 
 std::optional<CutFields> Session::cut_fields(int i) {
   if (!study()) return std::nullopt;
-  if (const auto family = opened_.cases->family()) return CutFields(family, state().tension);
-  if (!state().tension) return CutFields(field_of(i));
-  return CutFields(std::make_shared<const PrestressFields>(*study(), i), state().tension);
+  const auto fields = [&]() -> CutFields {
+    if (const auto family = opened_.cases->family()) return {family, state().tension};
+    if (!state().tension) return CutFields(field_of(i));
+    return {std::make_shared<const PrestressFields>(*study(), i), state().tension};
+  }();
+  return opened_.bone ? fields.above_bone(distance_to(opened_.bone)) : fields;
 }
 
 std::string Session::title_of(int i) const {
@@ -109,6 +120,8 @@ std::string Session::note_of(int i) const {
   if (between() && i == state().shown) note = "interpolated, " + error_of_interpolation(*between());
   if (i == state().shown && !simulation_note().empty())
     note += (note.empty() ? "" : "; ") + simulation_note();
+  if (i == state().shown && !validity().empty())
+    note += (note.empty() ? "" : "; ") + error_of_openings(validity());
   if (state().coloring == Coloring::error && !mesh() && !why_no_raw(i).empty())
     note += (note.empty() ? "" : "; ") + std::string("without raw frames: no error is known");
   return note;

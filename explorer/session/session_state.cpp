@@ -95,6 +95,7 @@ SessionState to_state(const Json& j) {
   s.between = j.value("between", false);  // sessions saved before there was one show the nearest case
   s.mesh = j.at("mesh");
   s.scale = j.at("scale");
+  s.bone = j.value("bone", "");  // younger than other entries
   s.cuts = to_cuts(j.at("cuts"));
   s.undone = to_cuts(j.at("undone"));
   // Sessions saved before there were tensions have none.
@@ -161,6 +162,7 @@ std::string state_to_json(const SessionState& s) {
          {"compared", compared},
          {"camera", to_json(s.camera)},
          {"dark", s.dark}};
+  if (!s.bone.empty()) j["bone"] = s.bone;
   if (s.tension) j["tension"] = to_json(s.tension);
   if (!s.tensions.empty()) j["tensions"] = to_json(s.tensions);
   if (!s.tensions_undone.empty()) j["tensions_undone"] = to_json(s.tensions_undone);

@@ -57,6 +57,7 @@ struct SessionState {
 
   std::string mesh;  ///< file of the surface mesh to cut; empty: the canonical patch
   double scale = 1;  ///< mm in a unit of the mesh
+  std::string bone;  ///< file of the surface of the bone below it, in the same unit; empty: none is known
   std::vector<CutState> cuts, undone;
   std::optional<SkinTension> tension;  ///< of the mesh; none: that of the shown case, along every cut
   std::vector<TensionChange> tensions, tensions_undone;  ///< oldest first; last undone last

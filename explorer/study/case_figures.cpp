@@ -1,6 +1,7 @@
 #include "explorer/study/case_figures.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cleft {
 
@@ -18,6 +19,14 @@ Curve opening_profile(const Field& field, double t) {
     curve.y.push_back(gape(field, curve.x.back(), t));
   }
   return curve;
+}
+
+std::optional<double> error_of_gape(const Field& field) {
+  const FitReport& report = field.report;
+  constexpr double lips = 2;
+  if (field.interpolation) return lips * field.interpolation->estimated_error * report.largest_displacement;
+  if (!std::isfinite(report.gape_error)) return {};
+  return report.gape_error * report.largest_displacement;
 }
 
 double widest_gape(const Field& field, double t) {

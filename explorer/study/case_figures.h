@@ -1,6 +1,7 @@
 // Figures and curves of the cases of a study.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ CaseFigures case_figures(const Field& field);
 
 /// Opening of the lips at u when the length t is cut, mm.
 double gape(const Field& field, double u, double t);
+
+/// The largest error of an opening of the lips, mm: of the field's fit, or as interpolation estimates it of
+/// either lip; none if it is not known.
+std::optional<double> error_of_gape(const Field& field);
 
 /// Widest opening of the lips when t is cut.
 double widest_gape(const Field& field, double t);

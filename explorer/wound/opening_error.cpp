@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/text.h"
 #include "explorer/wound/path_shape.h"
+#include "explorer/wound/stations.h"
 
 namespace cleft {
 
@@ -21,7 +23,9 @@ constexpr double of_shallow = 0.27, of_deep = 0.16;  // times the logarithm of d
 constexpr double of_skin_across = 5, of_skin_along = 1.7, of_twist = 3;  // mm: times the skin's curvatures
 constexpr double of_length = 0.1;  // times the part of the path beyond the canonical cut
 constexpr double of_neighbour = 0.25, neighbour_reach = 20;  // falls by e over so many mm
-constexpr double of_junction = 0.6;
+/// Where the cut that it meets is pulled alike along and across, or the tension does not turn; up to a third
+/// as hard along as across none.
+constexpr double of_junction = 0.6, pulled_enough = 1. / 3;
 constexpr double of_winding = 2;      // mm: times the curvature's difference from that which opens it
 constexpr double of_direction = 0.3;  // a radian: between the path and the direction that opens it
 constexpr double of_outside = 0.1;    // half a range beyond the family
@@ -34,8 +38,16 @@ constexpr double smoothing_of_path = 8, smoothing_of_skin = 8. / 3;
 
 struct Part {
   double error;
-  const char* cause;
+  const char* cause;  // # stands for the figure
+  double figure = 0;
 };
+
+std::string told(const Part& part) {
+  std::string text = part.cause;
+  if (const std::size_t at = text.find('#'); at != std::string::npos)
+    text.replace(at, 1, shortest(std::round(10 * part.figure) / 10));
+  return text;
+}
 
 double square(double x) { return x * x; }
 
@@ -52,53 +64,84 @@ double astray(const Wound& cut, double s) {
   return std::acos(std::clamp(dot(own, opened), -1., 1.));
 }
 
+using Parts = std::vector<Part>;
+
+Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, const Neighbourhood& n) {
+  const double beyond = std::max(0., 1 - canonical.length / length);
+  Parts parts = {{of_fit, "that is the error of the field's fit"},
+                 {std::min(1., std::max(of_length, n.length_defect)) * beyond,
+                  "the path of # mm is longer than the field's cut", length},
+                 {of_neighbour * std::exp(-n.nearest_cut / neighbour_reach), "another cut is # mm beside it",
+                  n.nearest_cut},
+                 {n.held_back, "the skin would turn over or pass through itself, and is held back"}};
+  if (n.junction_tension > 0 && !known)
+    parts.push_back({of_junction, "it meets another cut, and the tension does not turn with it"});
+  else if (n.junction_tension > pulled_enough)
+    parts.push_back({of_junction * std::min(1., (n.junction_tension - pulled_enough) / (1 - pulled_enough)),
+                     "it meets another cut, along which the skin is pulled # times as hard as across it",
+                     n.junction_tension});
+  return parts;
+}
+
+/// `whole` is the shape over half the family's cut, which opens the path.
+void add_of_family(Parts& parts, const Wound& cut, double s, const LocalShape& local,
+                   const LocalShape& whole) {
+  parts.push_back(
+      {of_tilt_family * square(local.tilt / degrees_45), "the blade is tilted by # degrees", local.tilt});
+  parts.push_back({of_winding * std::abs(local.curvature - whole.curvature) + of_direction * astray(cut, s),
+                   "the path winds"});
+  parts.push_back({of_outside * cut.field.outside(s), "its shape is beyond those of the family"});
+}
+
+void add_of_one_shape(Parts& parts, const CanonicalCut& canonical, bool known, const LocalShape& local) {
+  const double in_cuts = canonical.length / 30, radius = 1 / std::abs(local.curvature);
+  if (known)
+    parts.push_back(
+        {of_bend_turned * square(local.curvature * in_cuts), "the path bends with a radius of # mm", radius});
+  else
+    parts.push_back({of_bend * std::abs(local.curvature) * in_cuts,
+                     "the path bends with a radius of # mm, and the tension does not turn with it", radius});
+  parts.push_back(
+      {of_tilt * square(local.tilt / degrees_45), "the blade is tilted by # degrees", local.tilt});
+  const double deeper = std::log(std::max(local.depth, 1e-3) / canonical.depth);
+  parts.push_back({std::max(-of_shallow * deeper, of_deep * deeper),
+                   "its depth of # mm is not that of the field's cut", local.depth});
+  const double along_and_across = of_skin_across * local.skin_v + of_skin_along * local.skin_u;
+  parts.push_back(
+      {(std::abs(along_and_across) + of_twist * std::abs(local.skin_uv)) * in_cuts, "the skin is curved"});
+}
+
 }  // namespace
+
+double OpeningError::value_at(double s) const {
+  const auto [a, b, part] = between(stations, s);
+  return (1 - part) * values[a] + part * values[b];
+}
 
 OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood& neighbourhood) {
   const Field& field = cut.field.shape();
   const CanonicalCut& canonical = field.cut();
   const bool family = cut.field.follows_shape();
-  const PathShape shape =
-      shape_along(*cut.incision, cut.scale(), {smoothing_of_path, smoothing_of_skin * canonical.depth});
-  const PathShape whole = family ? shape_along(*cut.incision, cut.scale(),
-                                               {canonical.length / 2, smoothing_of_skin * canonical.depth})
-                                 : PathShape{};
-  const double length = cut.incision->path().length() * cut.scale();
+  const double skin_smoothing = smoothing_of_skin * canonical.depth;
+  const PathShape shape = shape_along(*cut.incision, cut.scale(), {smoothing_of_path, skin_smoothing});
+  const PathShape whole =
+      family ? shape_along(*cut.incision, cut.scale(), {canonical.length / 2, skin_smoothing}) : PathShape{};
+  const Parts of_whole = parts_of_whole(shape.stations.back(), canonical, known, neighbourhood);
   OpeningError result;
   for (std::size_t i = 0; i < shape.stations.size(); ++i) {
     const LocalShape& local = shape.values[i];
-    const double s = shape.stations[i], in_cuts = canonical.length / 30;
-    std::vector<Part> parts = {
-        {of_fit, "that is the error of the field's fit"},
-        {length > canonical.length ? of_length * (1 - canonical.length / length) : 0,
-         "the path is longer than the field's cut"},
-        {of_neighbour * std::exp(-neighbourhood.nearest_cut / neighbour_reach), "another cut is next to it"},
-        {neighbourhood.held_back, "the skin would turn over"},
-        {neighbourhood.unknown_junction ? of_junction : 0,
-         "it meets another cut in a tension that does not turn with it"}};
-    if (family) {
-      parts.push_back({of_tilt_family * square(local.tilt / degrees_45), "the blade is tilted"});
-      const double apart = std::abs(local.curvature - whole.at(s).curvature);
-      parts.push_back({of_winding * apart + of_direction * astray(cut, s), "the path winds"});
-      parts.push_back({of_outside * cut.field.outside(s), "its shape is beyond those of the family"});
-    } else {
-      parts.push_back({known ? of_bend_turned * square(local.curvature) * in_cuts * in_cuts
-                             : of_bend * std::abs(local.curvature) * in_cuts,
-                       known ? "the path bends" : "the path bends, and the tension does not turn with it"});
-      parts.push_back({of_tilt * square(local.tilt / degrees_45), "the blade is tilted"});
-      const double deeper = std::log(std::max(local.depth, 1e-3) / canonical.depth);
-      parts.push_back({std::max(-of_shallow * deeper, of_deep * deeper), "its depth is not the field's"});
-      parts.push_back({(std::abs(of_skin_across * local.skin_v + of_skin_along * local.skin_u) +
-                        of_twist * std::abs(local.skin_uv)) *
-                           in_cuts,
-                       "the skin is curved"});
-    }
+    const double s = shape.stations[i];
+    Parts parts = of_whole;
+    if (family)
+      add_of_family(parts, cut, s, local, whole.at(s));
+    else
+      add_of_one_shape(parts, canonical, known, local);
     if (cut.tissue && !cut.follows_bone) {
       const Vec3 place = cut.scale() * cut.incision->path().at(s / cut.scale()).position;
-      const double whole = field.parameters.value_or(field.parameters->patch.height, far_bone);
+      const double most = field.parameters.value_or(field.parameters->patch.height, far_bone);
+      const double tissue = mean_tissue(cut.tissue, place, local, skin_smoothing, most);
       parts.push_back(
-          {error_over_bone(mean_tissue(cut.tissue, place, local, smoothing_of_skin * canonical.depth, whole)),
-           "there is bone below, which the field does not know"});
+          {error_over_bone(tissue), "there is bone # mm below, which the field does not know", tissue});
     }
     double sum = 0;
     const Part* greatest = &parts.front();
@@ -108,7 +151,7 @@ OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood&
     }
     const double error = std::sqrt(sum);
     result.stations.push_back(s), result.values.push_back(error);
-    if (error > result.largest) result.largest = error, result.at = s, result.cause = greatest->cause;
+    if (error > result.largest) result.largest = error, result.at = s, result.cause = told(*greatest);
   }
   return result;
 }

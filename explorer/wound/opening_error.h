@@ -1,6 +1,7 @@
 // The expected error of a replayed opening against a simulation of the very body that is cut.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,19 @@ struct OpeningError {
   std::vector<double> stations;  ///< mm along the path
   std::vector<double> values;
   double largest = 0, at = 0;  ///< of these, and where, mm
-  std::string cause;           ///< of the largest one: its greatest part, a clause
+  std::string cause;           ///< of the largest one: its greatest part, a clause with its figure
+
+  /// At mm of the path: linear between stations.
+  double value_at(double s) const;
 };
 
-/// What the surroundings of a cut add to its error.
+/// What the surroundings of a cut, and what is known of it as a whole, add to its error.
 struct Neighbourhood {
-  double nearest_cut = 0;         ///< mm: beside it; infinite if there is none
-  bool unknown_junction = false;  ///< it meets another cut, and its field does not turn with the tension
+  double nearest_cut = std::numeric_limits<double>::infinity();  ///< mm: beside it; infinite: there is none
+  /// Where it meets another cut: the ratio of the tension along that cut to the tension across it, above 0;
+  /// 0 if it meets none.
+  double junction_tension = 0;
+  double length_defect = 0;  ///< excess of an endless cut's opening over the field's, relative to it
   double held_back = 0;  ///< of its lips or other vertices, by bends or the guard, over its largest opening
 };
 

@@ -13,23 +13,13 @@ namespace cleft {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// In lengths of the canonical cut, of the figures in tests/truth/README.md.
-constexpr double least_radius = 2. / 3, least_radius_not_turned = 2.7, least_spacing = 0.4;
-/// Of the opening at its widest: lips that are held back by no more are within the error of openings.
-constexpr double greatest_held_back = 0.1;
 /// Of the largest opening: an expected error that is warned of.
 constexpr double greatest_expected = 0.1;
-constexpr double greatest_tilt = 45, greatest_defect = 0.1;
 /// Prestresses along, across and in shear differ by no more than this part of them where a cut opens alike
 /// whichever way it goes.
 constexpr double greatest_difference = 0.05;
-/// A path is longer than the canonical cut only by more than rounding.
-constexpr double rounding = 1e-9;
 constexpr int path_samples = 128, opening_samples = 16;  ///< of bends and tilts, and of the widest opening
-// A branch was compared at a right angle, pulled 1 : 3 and alike along the cut that it leaves and across it.
-constexpr double greatest_junction_tension = 1.01 / 3, least_junction_sine = 0.87;
-
-std::string rounded(double x) { return shortest(std::round(10 * x) / 10); }
+constexpr double least_junction_sine = 0.87;             // branches were compared at a right angle
 
 double smallest_radius(const ScalpelPath& path) {
   double least = infinity;
@@ -177,45 +167,15 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     }
     for (const Junction& x : junctions[i])
       v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
-    const std::string which = cuts.size() > 1 ? "cut " + std::to_string(i + 1) + ": " : "";
-    const auto warn = [&](const std::string& what) {
-      v.warnings.push_back(which + what + ": its opening may be off by more than a tenth");
-    };
-    const bool known = turned || pulled_alike(field), family = cuts[i]->field.follows_shape();
+    const bool known = turned || pulled_alike(field);
     const double widest = opening(cuts[i]->field, std::min(length, canonical));
     v.expected_error = opening_error_of(*cuts[i], known,
-                                        {nearest_beside, !known && !junctions[i].empty(),
+                                        {nearest_beside, v.junction_tension.value_or(0), v.length_defect,
                                          widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
-    const double radius = canonical * (known ? least_radius : least_radius_not_turned);
-    if (!family && v.smallest_radius < radius)
-      warn("the path bends with a radius of " + rounded(v.smallest_radius) + " mm, below " + rounded(radius) +
-           (known ? "" : " where the tension does not turn with it (give --tension)"));
-    if (v.held_back > greatest_held_back * widest)
-      warn("near " + rounded(v.held_back_at) + " mm of the path its lips are held back by up to " +
-           shortest(std::round(100 * v.held_back) / 100) +
-           " mm, so that they do not pass through each other where the path bends or comes back");
-    if (v.guarded > greatest_held_back * widest)
-      warn("near " + rounded(v.guarded_at) + " mm of the path the skin would turn over or tear: " +
-           std::to_string(v.guarded_vertices) + " of its vertices move otherwise, by up to " +
-           shortest(std::round(100 * v.guarded) / 100) + " mm");
-    if (!family && v.largest_tilt > greatest_tilt)
-      warn("the blade is tilted by " + rounded(v.largest_tilt) + " degrees, above " + rounded(greatest_tilt));
-    if (length > canonical * (1 + rounding) && v.length_defect > greatest_defect)
-      warn("the path is " + rounded(length) + " mm long, and the field's cut of " + rounded(canonical) +
-           " mm is too short for its opening to have come to its width");
-    if (nearest_beside < least_spacing * canonical)
-      warn("another cut comes as near as " + rounded(nearest_beside) + " mm, below " +
-           rounded(least_spacing * canonical));
-    if (const auto pulled = v.junction_tension; pulled && (!known || *pulled > greatest_junction_tension))
-      warn("it meets another cut where the skin is pulled " + shortest(std::round(100 * *pulled) / 100) +
-           " times as hard along that one as across it" +
-           (*pulled > greatest_junction_tension
-                ? ", above 0.33"
-                : ", and the tension does not turn with it (give --tension)"));
-    const OpeningError& expected = v.expected_error;
-    if (v.warnings.empty() && expected.largest > greatest_expected)
-      v.warnings.push_back(which + "its opening may be off by " +
-                           shortest(std::round(100 * expected.largest) / 100) + ": " + expected.cause);
+    if (v.expected_error.largest > greatest_expected)
+      v.warnings.push_back(
+          (cuts.size() > 1 ? "cut " + std::to_string(i + 1) + ": " : "") + "its opening may be off by " +
+          shortest(std::round(100 * v.expected_error.largest) / 100) + ": " + v.expected_error.cause);
   }
   return result;
 }

@@ -1,5 +1,4 @@
-// Whether a cut is in the range in which replays were compared with simulations (tests/truth): there the
-// error of openings was within a tenth.
+// What is known of a cut that its field may not know, and the error of its opening that follows from it.
 #pragma once
 
 #include <optional>
@@ -32,7 +31,7 @@ struct Validity {
   /// The expected error of the opening against a simulation of the body, over the largest opening: along the
   /// path, and its largest.
   OpeningError expected_error;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  ///< one sentence where that is above a tenth
 };
 
 /// The validity of every cut. `turned`: whether their fields follow the tension.

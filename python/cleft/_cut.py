@@ -39,7 +39,7 @@ def _fields_of(field: Any, direction: Sequence[float], prestress: Sequence[float
 
 def cut(mesh: Any, path: Any, field: Union[Field, Study, str, os.PathLike], *,
         tension: Optional[tuple] = None, scale: float = 1.0, depth: float = 0.0, progress: Optional[float] = None,
-        max_edge: Optional[float] = None) -> OpenedMesh:
+        max_edge: Optional[float] = None, bone: Any = None) -> OpenedMesh:
     """Cuts a surface mesh along one path or several, one after the other, and opens the cuts, as `cleft cut` does.
 
     mesh: (points (N, 3), triangles (T, 3)), a meshio mesh or a vtkPolyData.
@@ -50,6 +50,7 @@ def cut(mesh: Any, path: Any, field: Union[Field, Study, str, os.PathLike], *,
     tension: ((x, y, z), (larger, smaller)): direction of the skin's larger tension in space, principal prestresses in MPa.
     scale: mm per unit of the mesh. depth: of the cut, mm; 0: the path's, else the field's. progress: how far the blade of the
         last cut has come, mm; None: the whole path. max_edge: edges near the path that are longer are split, mm; 0: none.
+    bone: the surface of the bone below, as mesh; a family with cases on bone opens the cut by it.
 
     Raises InputError; where a path cannot be cut the message says at which place, and why.
     """
@@ -60,4 +61,5 @@ def cut(mesh: Any, path: Any, field: Union[Field, Study, str, os.PathLike], *,
     if tension is not None and (len(direction) != 3 or len(prestress) != 2):
         raise InputError("tension: expected ((x, y, z), (larger, smaller))")
     points, triangles = mesh_arrays(mesh)
-    return _cleft.cut(points, triangles, paths, _fields_of(field, direction, prestress), scale, depth, progress, max_edge)
+    return _cleft.cut(points, triangles, paths, _fields_of(field, direction, prestress), scale, depth, progress, max_edge,
+                      None if bone is None else mesh_arrays(bone))

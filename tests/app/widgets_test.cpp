@@ -21,6 +21,7 @@
 #include <fstream>
 
 #include "base/text.h"
+#include "explorer/app/plots.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/session/command_table.h"
 #include "haptic/devices/list.h"
@@ -230,6 +231,29 @@ TEST_F(WindowTest, CutsAreSimulatedWhileTheWindowGoesOn) {
   widget<QAction>("simulate").trigger();
   EXPECT_FALSE(now().simulate);
   EXPECT_EQ(real_.simulation_note(), "");
+}
+
+TEST_F(WindowTest, CurvesAreThoseOfTheWoundWithItsExpectedError) {
+  tell("open " + study());
+  tell("mesh " + mesh());
+  tell("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  const Plots* plots = nullptr;
+  for (QWidget* one : window_.findChildren<QWidget*>())
+    if (!plots) plots = dynamic_cast<const Plots*>(one);
+  ASSERT_TRUE(plots);
+  const Curve& curve = plots->profile();
+  for (int tries = 0; tries < 100 && curve.x.empty(); ++tries) settle(20);  // it is drawn soon after
+  const std::vector<double>& error = plots->profile_error();
+  ASSERT_GT(curve.x.size(), 10u);
+  ASSERT_EQ(error.size(), curve.x.size());
+  EXPECT_NEAR(curve.x.back(), 30, 1e-6);
+  const auto openings = real_.scene()->openings(now().time);
+  EXPECT_EQ(curve.y, openings.front().values);
+  const double widest = *std::max_element(curve.y.begin(), curve.y.end());
+  EXPECT_GT(widest, 1);
+  const double largest = real_.validity().front().expected_error.largest;
+  EXPECT_NEAR(*std::max_element(error.begin(), error.end()), largest * widest, 0.02 * largest * widest);
+  EXPECT_EQ(error.back(), 0) << "the end is closed";
 }
 
 TEST_F(WindowTest, WithoutTheScalpelDraggingTurnsThePicture) {

@@ -120,7 +120,7 @@ TEST_F(HapticCommand, WithoutAPathItCutsWhereTheBladeGoes) {
 TEST_F(HapticCommand, CutsWithoutAPathAreWarnedOfWhereTheyLieTooNear) {
   const auto cut = figures({"--device", "recorded", "--trajectory", two_cuts(5), "--field", field()});
   ASSERT_TRUE(cut.is_object());
-  EXPECT_EQ(told(cut, "another cut comes as near as"), 2);
+  EXPECT_EQ(told(cut, "another cut is"), 2);
 }
 
 TEST_F(HapticCommand, AlongAPathItWarnsAsCutDoes) {
@@ -137,7 +137,8 @@ TEST_F(HapticCommand, AlongAPathItWarnsAsCutDoes) {
   const Outcome made = expect_success(run_cleft(
       "cut", {"--mesh", mesh, "--path", curved, "--field", field(), "--out", out / "cut.vtp", "--json"}));
   const auto cut = figures_in(made)["warnings"];
-  ASSERT_EQ(cut.size(), 3);  // the bend, the lips that it holds back, and the tilt
+  ASSERT_EQ(cut.size(), 1);
+  EXPECT_NE(cut[0].get<std::string>().find("its opening may be off by"), std::string::npos) << cut;
   EXPECT_EQ(figures({"--path", curved, "--field", field()})["warnings"], cut);
 }
 

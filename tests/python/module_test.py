@@ -367,6 +367,18 @@ print(u.tolist(), sum("libhdf5" in line and "r-xp" in line for line in open("/pr
             np.testing.assert_allclose(np.sort(mine, axis=0), np.sort(theirs, axis=0), atol=1e-3)
 
         points, triangles = cleft._cut.mesh_arrays(mesh)
+        bone = np.asarray(points) * 0.95
+        skull = os.path.join(self.folder, "skull.obj")
+        with open(skull, "w") as file:
+            file.writelines("v {:.17g} {:.17g} {:.17g}\n".format(*x) for x in bone)
+            file.writelines("f {} {} {}\n".format(*(t + 1)) for t in np.asarray(triangles))
+        figures = json.loads(command("cleft", "cut", "--mesh", head, "--path", path, "--field", field, "--progress", 40,
+                                     "--bone", skull, "--out", out, "--json"))
+        over = cleft.cut(mesh, path, cleft.open(field), progress=40, bone=(bone, triangles))
+        self.assertAlmostEqual(over.cuts[0]["expected_opening_error"], figures["cuts"][0]["expected_opening_error"], 4)
+        self.assertGreater(over.cuts[0]["expected_opening_error"], opened.cuts[0]["expected_opening_error"] + 1e-4)
+        self.refuses("bone: triangles: row 0 names point 9", lambda: cleft.cut(
+            mesh, path, cleft.open(field), bone=(bone[:9], [[0, 1, 9]])))
         with_field = lambda **options: cleft.cut((points, triangles), rows, cleft.open(field), **options)
         self.refuses("tension: is for a study", lambda: with_field(tension=((1, 0, 0), (0.03, 0.01))))
         self.refuses("scale = 0", lambda: with_field(scale=0))

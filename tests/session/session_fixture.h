@@ -74,7 +74,10 @@ class SessionTest : public testing::Test {
   SurfaceMesh exported_;
   Session session_{{[](const std::string& file) {
                       if (!file.ends_with("plate.stl")) throw FileError(file, "no such file");
-                      return flat_plate();
+                      SurfaceMesh plate = flat_plate();
+                      if (file.ends_with("bone_plate.stl"))
+                        for (Vec3& x : plate.points) x.z -= 6;
+                      return plate;
                     },
                     [this](const std::string&, const SurfaceMesh& mesh) { exported_ = mesh; },
                     [this](Session& s, const std::string& file, int width, int height, bool) {

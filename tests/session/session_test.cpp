@@ -217,14 +217,62 @@ TEST_F(SessionTest, WhereOpeningsMayBeOffIsSaid) {
   }
   say(arc);
   ASSERT_EQ(session_.warnings().size(), 1u);
-  EXPECT_NE(answers_.find("warning: the path bends with a radius of"), std::string::npos) << answers_;
+  EXPECT_NE(answers_.find("warning: its opening may be off by"), std::string::npos) << answers_;
   answers_.clear();
   say("set tissue.young_modulus 0.04");
   EXPECT_EQ(answers_, "") << "said already";
   say("info");
-  EXPECT_NE(answers_.find("warning: the path bends"), std::string::npos);
+  EXPECT_NE(answers_.find("warning: its opening may be off by"), std::string::npos);
   say("undo");
   EXPECT_TRUE(session_.warnings().empty());
+}
+
+TEST_F(SessionTest, OpeningsHaveTheirExpectedErrorBesideThem) {
+  EXPECT_EQ(session_.validity().size(), 0u);
+  cut_plate();
+  ASSERT_EQ(session_.validity().size(), 1u);
+  const std::string note = "expected error of the opening ";
+  EXPECT_NE(session_.note_of(0).find(note), std::string::npos) << session_.note_of(0);
+  say("cut -15,8,0,0,0,1 0,8,0,0,0,1 15,8,0,0,0,1");
+  ASSERT_EQ(session_.validity().size(), 2u);
+  const double largest = session_.validity()[0].expected_error.largest;
+  EXPECT_GT(largest, 0.1) << "they are 7 mm apart";
+  EXPECT_NE(session_.note_of(0).find(note + shortest(std::round(100 * largest))), std::string::npos)
+      << session_.note_of(0);
+  // The lips of the first cut part as the field says in its middle; the second one is made after it.
+  const auto openings = session_.scene()->openings(30);
+  ASSERT_EQ(openings.size(), 2u);
+  const auto& places = openings[0].places;
+  const auto middle =
+      std::min_element(places.begin(), places.end(),
+                       [](double a, double b) { return std::abs(a - 15) < std::abs(b - 15); }) -
+      places.begin();
+  const Field& field = *session_.field();
+  const Vec3 uvw{places[static_cast<std::size_t>(middle)] - 15, 0, 0};
+  const double gape =
+      norm(field.displacement(uvw, Side::right, 30) - field.displacement(uvw, Side::left, 30));
+  EXPECT_GT(gape, 1);
+  EXPECT_NEAR(openings[0].values[static_cast<std::size_t>(middle)], gape, 0.02 * gape);
+  for (const double value : openings[1].values) EXPECT_LT(value, 1e-6);
+}
+
+TEST_F(SessionTest, BoneBelowAMeshCounts) {
+  EXPECT_NE(refused("bone bone_plate.stl").find("there is no mesh"), std::string::npos);
+  cut_plate();
+  const double without = session_.validity()[0].expected_error.largest;
+  say("bone bone_plate.stl");
+  const OpeningError over = session_.validity()[0].expected_error;
+  EXPECT_GT(over.largest, without + 0.05) << "a field of one case does not know it";
+  EXPECT_EQ(over.cause, "there is bone 6 mm below, which the field does not know");
+  const std::vector<Vec3> before = points();
+  restore(session_, state_from_json(state_to_json(state())));
+  EXPECT_EQ(points(), before);
+  say("recut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  EXPECT_EQ(session_.validity()[0].expected_error.largest, over.largest);
+  EXPECT_NE(refused("bone skull.stl").find("skull.stl"), std::string::npos);
+  EXPECT_TRUE(state().bone.ends_with("bone_plate.stl"));
+  say("bone none");
+  EXPECT_EQ(session_.validity()[0].expected_error.largest, without);
 }
 
 TEST_F(SessionTest, ATensionNeedsThreeCasesOfOtherPrestress) {

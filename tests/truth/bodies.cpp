@@ -194,16 +194,16 @@ void run(const Options& options) {
       const testing::Subject subject = make();
       BodyRequest request = common;
       request.skin = subject.skin, request.paths = subject.paths;
-      std::optional<SurfaceIndex> bone;
-      if (subject.bone) bone.emplace(*subject.bone), request.bone = &*bone;
+      if (subject.bone) request.bone = std::make_shared<const SurfaceIndex>(*subject.bone);
       const SkinTension tension = tension_of(request);
       const BodySimulation simulation = simulate(request);
       std::vector<Off> offs;
       offs.reserve(sources.size());
-      for (const Source& source : sources)
-        offs.push_back(compare(
-            request, bone ? source.fields(tension).above_bone(distance_to(*bone)) : source.fields(tension),
-            simulation));
+      for (const Source& source : sources) {
+        CutFields fields = source.fields(tension);
+        if (request.bone) fields = fields.above_bone(distance_to(request.bone));
+        offs.push_back(compare(request, fields, simulation));
+      }
       table.add(name, simulation, offs);
     } catch (const InputError& e) {
       std::fprintf(stderr, "cleft-truth-bodies: %s: %s\n", name.c_str(), e.what());
