@@ -107,6 +107,8 @@ std::optional<CutFields> Session::cut_fields(int i) {
 
 std::string Session::title_of(int i) const {
   if (!study()) return "";
+  if (mesh() && opened_.cases->family())
+    return "family of " + std::to_string(study()->size()) + " cases: each place opens by its own shape";
   if (!between() || i != state().shown) return "case " + std::to_string(i + 1) + ": " + study()->name(i);
   std::string title = "between cases:";
   for (const std::string& name : study()->varying())
@@ -117,7 +119,7 @@ std::string Session::title_of(int i) const {
 
 std::string Session::note_of(int i) const {
   std::string note;
-  if (between() && i == state().shown) note = "interpolated, " + error_of_interpolation(*between());
+  if (between() && i == state().shown && !(mesh() && opened_.cases->family())) note = "interpolated, " + error_of_interpolation(*between());
   if (i == state().shown && !simulation_note().empty())
     note += (note.empty() ? "" : "; ") + simulation_note();
   if (i == state().shown && !validity().empty())
