@@ -228,18 +228,19 @@ PackedStudy with_common_modes(const PackedStudy& own, double error) {
   if (records.size() < 2 && own.cases.size() >= 2) return own;
   const ScaledCases cases(records);
   const Eigen::MatrixXd vectors = singular_vectors(cases.samples());
-  const Eigen::Index most = cases.size() / 2, fewest = fewest_modes(vectors, cases.samples(), most, error);
+  const Eigen::Index most = std::max(1, cases.size() - 1),
+                     fewest = fewest_modes(vectors, cases.samples(), most, error);
   PackedStudy best = own;
-  std::size_t fewest_bytes = coefficient_bytes(own);
+  std::size_t fewest_bytes = std::numeric_limits<std::size_t>::max();
   for (Eigen::Index count = std::max<Eigen::Index>(fewest, 1), worse = 0;
-       fewest > 0 && count <= most && worse < 4; ++count) {
+       fewest > 0 && count <= most && worse < 4; count += std::max<Eigen::Index>(1, count / 16)) {
     const Coded coded = code(cases, vectors.leftCols(count), error);
     PackedStudy packed{sums_of(coded, cases, error, own.cases), coded.modes};
     const std::size_t bytes = coefficient_bytes(packed);
     worse = bytes < fewest_bytes ? 0 : worse + 1;
     if (bytes < fewest_bytes) best = std::move(packed), fewest_bytes = bytes;
   }
-  return 2 * fewest_bytes < coefficient_bytes(own) ? best : own;
+  return fewest_bytes < coefficient_bytes(own) ? best : own;
 }
 
 }  // namespace cleft

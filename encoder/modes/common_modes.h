@@ -14,11 +14,12 @@ struct PackedStudy {
 };
 std::size_t coefficient_bytes(const PackedStudy& study);  ///< approximate size of its file
 
-/// The same cases as sums of modes, if that needs less than half of the bytes; else unchanged. The modes are
+/// The same cases as sums of modes, if that needs fewer bytes; else unchanged. The modes are
 /// the leading left singular vectors of the cases on common knots, each divided by its largest displacement,
 /// compared at nodes. A case becomes a sum of modes if it then differs nowhere at nodes by more than `error`
-/// times its largest displacement. The number of modes minimises the bytes. Cases with further quantities or
-/// derivatives, and cases with equal parameters, are unchanged. Throws InputError as CommonCases does.
+/// times its largest displacement. The number of modes minimises the bytes, to a sixteenth. Cases with
+/// further quantities or derivatives, and cases with equal parameters, are unchanged. Throws InputError as
+/// CommonCases does.
 PackedStudy with_common_modes(const PackedStudy& own, double error);
 
 }  // namespace cleft

@@ -20,10 +20,9 @@ int main(int argc, char** argv) {
   double error = 0;
   bool json = false;
   app.add_option("DIR", folder, "study folder")->required();
-  app.add_option(
-      "--modes", error,
-      "make the cases of modes that they have in common, if that costs less than half the bytes: no "
-      "point of a case moves by more than this times its largest displacement (0.0001 to 0.1)");
+  app.add_option("--modes", error,
+                 "make the cases of modes that they have in common, if that costs fewer bytes: no "
+                 "point of a case moves by more than this times its largest displacement (0.0001 to 0.1)");
   app.add_flag("--json", json, "print the figures as JSON");
   return run_command(app, argc, argv, [&] {
     if (app.count("--modes") && !(error >= 1e-4 && error <= 0.1))
