@@ -26,7 +26,7 @@ Wound CutFields::wound(const Incision& cut, double scale, const std::optional<Pa
                        double known) const {
   Wound wound = opened(cut, scale, own, known);
   wound.tissue = tissue_;
-  wound.follows_bone = family_ && family_->family().knows_bone();
+  if (family_) wound.followed = family_->followed();
   return wound;
 }
 

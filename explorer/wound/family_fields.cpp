@@ -132,6 +132,13 @@ SkinTension default_tension(const ScalpelPath& path, bool grows) {
   return {along_start ? path.at(0).along : chord, own.uu, own.vv};
 }
 
+Followed FamilyFields::followed() const {
+  const auto varies = [&](const char* name) { return family_->shapes().contains(name); };
+  return {varies("cut.curvature"),     varies("cut.tilt"),
+          varies("cut.depth"),         varies("skin.curvature_u") && varies("skin.curvature_v"),
+          varies("skin.curvature_uv"), family_->knows_bone()};
+}
+
 Smoothing FamilyFields::smoothing() const {
   return {smoothing_in_lengths * shape().cut().length, smoothing_in_depths * shape().cut().depth};
 }

@@ -9,6 +9,7 @@
 #include "explorer/wound/path_shape.h"
 #include "explorer/wound/prestress_fields.h"
 #include "explorer/wound/varying_field.h"
+#include "explorer/wound/wound.h"
 
 namespace cleft {
 
@@ -26,6 +27,7 @@ class FamilyFields {
   const Field& shape() const { return family_->middle(); }
   const Family& family() const { return *family_; }
   std::shared_ptr<const Family> shared_family() const { return family_; }
+  Followed followed() const;
 
   /// The fields at stations of the path, between which its shape changes linearly and by at most a tenth of
   /// the family's ranges. A case of the family has one curvature all along its cut, in skin of one tension

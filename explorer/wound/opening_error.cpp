@@ -83,32 +83,33 @@ Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, c
   return parts;
 }
 
-/// `whole` is the shape over half the family's cut, which opens the path.
-void add_of_family(Parts& parts, const Wound& cut, double s, const LocalShape& local,
-                   const LocalShape& whole) {
-  parts.push_back(
-      {of_tilt_family * square(local.tilt / degrees_45), "the blade is tilted by # degrees", local.tilt});
-  parts.push_back({of_winding * std::abs(local.curvature - whole.curvature) + of_direction * astray(cut, s),
-                   "the path winds"});
-  parts.push_back({of_outside * cut.field.outside(s), "its shape is beyond those of the family"});
-}
-
-void add_of_one_shape(Parts& parts, const CanonicalCut& canonical, bool known, const LocalShape& local) {
+/// `whole` is the shape over half the canonical cut.
+Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, const Wound& cut, bool known) {
+  const CanonicalCut& canonical = cut.field.shape().cut();
   const double in_cuts = canonical.length / 30, radius = 1 / std::abs(local.curvature);
-  if (known)
+  Parts parts;
+  if (cut.followed.bend)
+    parts.push_back({of_winding * std::abs(local.curvature - whole.curvature) + of_direction * astray(cut, s),
+                     "the path winds"});
+  else if (known)
     parts.push_back(
         {of_bend_turned * square(local.curvature * in_cuts), "the path bends with a radius of # mm", radius});
   else
     parts.push_back({of_bend * std::abs(local.curvature) * in_cuts,
                      "the path bends with a radius of # mm, and the tension does not turn with it", radius});
-  parts.push_back(
-      {of_tilt * square(local.tilt / degrees_45), "the blade is tilted by # degrees", local.tilt});
-  const double deeper = std::log(std::max(local.depth, 1e-3) / canonical.depth);
-  parts.push_back({std::max(-of_shallow * deeper, of_deep * deeper),
-                   "its depth of # mm is not that of the field's cut", local.depth});
-  const double along_and_across = of_skin_across * local.skin_v + of_skin_along * local.skin_u;
-  parts.push_back(
-      {(std::abs(along_and_across) + of_twist * std::abs(local.skin_uv)) * in_cuts, "the skin is curved"});
+  parts.push_back({(cut.followed.tilt ? of_tilt_family : of_tilt) * square(local.tilt / degrees_45),
+                   "the blade is tilted by # degrees", local.tilt});
+  if (!cut.followed.depth) {
+    const double deeper = std::log(std::max(local.depth, 1e-3) / canonical.depth);
+    parts.push_back({std::max(-of_shallow * deeper, of_deep * deeper),
+                     "its depth of # mm is not that of the field's cut", local.depth});
+  }
+  const double along_and_across =
+                   cut.followed.skin ? 0 : of_skin_across * local.skin_v + of_skin_along * local.skin_u,
+               twist = cut.followed.twist ? 0 : of_twist * local.skin_uv;
+  parts.push_back({(std::abs(along_and_across) + std::abs(twist)) * in_cuts, "the skin is curved"});
+  parts.push_back({of_outside * cut.field.outside(s), "its shape is beyond those of the family"});
+  return parts;
 }
 
 }  // namespace
@@ -121,22 +122,19 @@ double OpeningError::value_at(double s) const {
 OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood& neighbourhood) {
   const Field& field = cut.field.shape();
   const CanonicalCut& canonical = field.cut();
-  const bool family = cut.field.follows_shape();
   const double skin_smoothing = smoothing_of_skin * canonical.depth;
   const PathShape shape = shape_along(*cut.incision, cut.scale(), {smoothing_of_path, skin_smoothing});
   const PathShape whole =
-      family ? shape_along(*cut.incision, cut.scale(), {canonical.length / 2, skin_smoothing}) : PathShape{};
+      cut.followed.bend ? shape_along(*cut.incision, cut.scale(), {canonical.length / 2, skin_smoothing})
+                        : shape;
   const Parts of_whole = parts_of_whole(shape.stations.back(), canonical, known, neighbourhood);
   OpeningError result;
   for (std::size_t i = 0; i < shape.stations.size(); ++i) {
     const LocalShape& local = shape.values[i];
     const double s = shape.stations[i];
-    Parts parts = of_whole;
-    if (family)
-      add_of_family(parts, cut, s, local, whole.at(s));
-    else
-      add_of_one_shape(parts, canonical, known, local);
-    if (cut.tissue && !cut.follows_bone) {
+    Parts parts = parts_at(s, local, whole.at(s), cut, known);
+    parts.insert(parts.begin(), of_whole.begin(), of_whole.end());
+    if (cut.tissue && !cut.followed.bone) {
       const Vec3 place = cut.scale() * cut.incision->path().at(s / cut.scale()).position;
       const double most = field.parameters.value_or(field.parameters->patch.height, far_bone);
       const double tissue = mean_tissue(cut.tissue, place, local, skin_smoothing, most);

@@ -8,6 +8,11 @@
 
 namespace cleft {
 
+/// Which parts of the shape at each place of a path a field is for.
+struct Followed {
+  bool bend = false, tilt = false, depth = false, skin = false, twist = false, bone = false;
+};
+
 struct Wound {
   /// Builds the volume, once for all that reads it: of the mesh as it is now. After further cuts in the mesh
   /// either LiveReplay keeps it up, or the wound is to be made anew. The incision and the field's own fields
@@ -38,7 +43,7 @@ struct Wound {
   VaryingField field;
   IncisionVolume volume;
   TissueAboveBone tissue = {};  ///< if there is bone below
-  bool follows_bone = false;    ///< the field is for the bone, where there is any
+  Followed followed;            ///< by the field
 };
 
 }  // namespace cleft

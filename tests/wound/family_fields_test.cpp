@@ -209,7 +209,7 @@ TEST(Family, KnowsTheBoneBelowWhereThereIsAny) {
     return place.x < 15 ? 8 + 0.15 * place.x : std::numeric_limits<double>::infinity();
   };
   const Wound wound = fields.above_bone(tissue).wound(cut.incision, 1), none = fields.wound(cut.incision, 1);
-  EXPECT_TRUE(wound.follows_bone);
+  EXPECT_TRUE(wound.followed.bone);
   const Prestress even{0.02, 0.02, 0};
   // Displacements as deep below the skin as the bone is in both; of linearly changing depth.
   for (const double s : {8., 12., 15.}) {
@@ -281,6 +281,21 @@ TEST(Family, ExpectsTheErrorOfWhatItDoesNotKnow) {
   const OpeningError held = opening_error_of(wound, true, {.held_back = 0.2});
   EXPECT_NEAR(held.largest, 0.2, 0.01);
   EXPECT_NE(held.cause.find("the skin would turn over"), std::string::npos) << held.cause;
+}
+
+TEST(Family, WhatItDoesNotFollowIsJudgedAsOfOneField) {
+  const CutFields knows_depths = read_cut_fields(family_file().file(), {0, 1, 0}, {0.02, 0.02}),
+                  knows_bone = read_cut_fields(file_of_rates_and_bones().file(), {0, 1, 0}, {0.02, 0.02});
+  const Cut deep(arc(1e-6, 20), 4);
+  const Wound known = knows_depths.wound(deep.incision, 1), unknown = knows_bone.wound(deep.incision, 1);
+  EXPECT_TRUE(known.followed.depth && known.followed.bend && known.followed.twist);
+  EXPECT_FALSE(known.followed.tilt || known.followed.skin || known.followed.bone);
+  EXPECT_TRUE(unknown.followed.bend && unknown.followed.bone);
+  EXPECT_FALSE(unknown.followed.depth);
+  EXPECT_LT(opening_error_of(known, true, {}).largest, 0.03);
+  const OpeningError error = opening_error_of(unknown, true, {});
+  EXPECT_GT(error.largest, 0.04);
+  EXPECT_EQ(error.cause, "its depth of 4 mm is not that of the field's cut");
 }
 
 TEST(Family, AStudyThatIsNoneIsRefusedWithTheReason) {
