@@ -119,7 +119,8 @@ std::string Session::title_of(int i) const {
 
 std::string Session::note_of(int i) const {
   std::string note;
-  if (between() && i == state().shown && !(mesh() && opened_.cases->family())) note = "interpolated, " + error_of_interpolation(*between());
+  if (between() && i == state().shown && !(mesh() && opened_.cases->family()))
+    note = "interpolated, " + error_of_interpolation(*between());
   if (i == state().shown && !simulation_note().empty())
     note += (note.empty() ? "" : "; ") + simulation_note();
   if (i == state().shown && !validity().empty())

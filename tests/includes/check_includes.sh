@@ -44,7 +44,7 @@ tradeoff/replays:base|encoder/field|solver/snapshot|explorer/incision|explorer/w
 tradeoff:base|base/command|params|params/parameters|params/run|solver/snapshot|encoder|encoder/field|encoder/field/file|haptic|haptic/devices|explorer/incision|explorer/study|explorer/wound|explorer/scalpel|tradeoff/rivals|tradeoff/replays
 cli:base|base/command|base/h5|params|params/parameters|params/run|solver/snapshot|encoder/field|encoder/field/file
 examples/head:base|base/command
-python:base|base/h5|params|params/parameters|solver/snapshot|encoder|encoder/field|encoder/field/file|encoder/interpolate|explorer/incision|explorer/study|explorer/wound|explorer/scene
+python:base|base/h5|params|params/parameters|solver/snapshot|encoder|encoder/field|encoder/field/file|encoder/interpolate|explorer/incision|explorer/body|explorer/study|explorer/wound|explorer/scene
 PARTS
 )
 variants='kernels|parametrization|sampling|material'  # folders of one library that hold a file for each variant
