@@ -13,6 +13,7 @@
 #include "explorer/session/command_table.h"
 #include "explorer/view/cinema.h"
 #include "explorer/view/picture.h"
+#include "explorer/web/page.h"
 #include "params/run/study_folder.h"
 
 using namespace cleft;
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string input, color = "displacement";
-  std::optional<std::string> paraview, cinema;  // one of them
+  std::optional<std::string> paraview, cinema, web;  // one of them
   bool decoded = false, json = false;
   int frames = 61;
   CinemaGrid grid;
@@ -170,18 +171,35 @@ void export_paraview(const Options& o, Progress& progress, Json& figures) {
   (folder ? export_study : export_case)(o, progress, figures);
 }
 
+void export_web(const Options& o, Progress& progress, Json& figures) {
+  const fs::path out(*o.web);
+  if (out.extension() != ".html")
+    throw InputError("--web " + *o.web + ": a page for browsers is a file that ends in .html");
+  if (fs::is_directory(out)) throw InputError("--web " + *o.web + ": is a folder; give another name");
+  check_output_folder(out.has_parent_path() ? out.parent_path().string() : ".", *o.web);
+  if (!fs::is_directory(o.input) && format_of(o.input) == snapshot_format.name)
+    throw InputError(
+        o.input + " is a simulation: --web takes a field (case.dffd) or a study; cleft encode makes a field");
+  const PageFigures done =
+      write_page(PublishedStudy(o.input), *o.web, [&](const std::string& state) { progress(state); });
+  figures = {{"cases", done.cases}, {"bytes", done.bytes}};
+}
+
 void export_files(const Options& o) {
-  if (o.paraview.has_value() == o.cinema.has_value())
-    throw InputError("give either --paraview OUT or --cinema OUT.cdb");
-  const std::string& out = o.paraview ? *o.paraview : *o.cinema;
+  if (o.paraview.has_value() + o.cinema.has_value() + o.web.has_value() != 1)
+    throw InputError("give one of --paraview OUT, --cinema OUT.cdb and --web OUT.html");
+  const std::string& out = o.paraview ? *o.paraview : o.cinema ? *o.cinema : *o.web;
   std::error_code absent;
   if (fs::equivalent(out, o.input, absent))
-    throw InputError((o.paraview ? "--paraview " : "--cinema ") + out + ": is the input; give another name");
+    throw InputError((o.paraview ? "--paraview "
+                      : o.cinema ? "--cinema "
+                                 : "--web ") +
+                     out + ": is the input; give another name");
   if (!fs::exists(o.input)) throw InputError(o.input + ": no such file or folder");
   Json figures;
   {
     Progress progress("exporting");
-    (o.paraview ? export_paraview : export_cinema)(o, progress, figures);
+    (o.paraview ? export_paraview : o.cinema ? export_cinema : export_web)(o, progress, figures);
   }
   print_figures(figures, o.json);
 }
@@ -203,6 +221,10 @@ int main(int argc, char** argv) {
   app.add_option(
       "--cinema", o.cinema,
       "OUT.cdb, a Cinema database (Spec D): a picture for every case, length cut and of two cameras");
+  app.add_option(
+      "--web", o.web,
+      "OUT.html, one page for any browser, without server and network: the wound, the parameters and "
+      "the time of a field or a study");
   app.add_option("--times", o.grid.times, "lengths cut in a Cinema database")
       ->check(in_range(2, 1000))
       ->capture_default_str();

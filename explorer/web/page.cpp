@@ -1,0 +1,142 @@
+#include "explorer/web/page.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/crc.hpp>
+#include <filesystem>
+#include <span>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "encoder/field/file/columns.h"
+#include "encoder/interpolate/compact.h"
+#include "explorer/study/case_figures.h"
+#include "explorer/web/page_parts.h"
+#include "params/hash.h"
+#include "params/parameters/table.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr int page_version = 1;
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+/// JSON within HTML: no text of a study can end the element that holds it.
+std::string within_html(const Json& json) {
+  std::string text;
+  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace))
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  return text;
+}
+
+/// As Content-Security-Policy names an element: by its text.
+std::string hash_source(const std::string& text) {
+  const std::string hex = sha256(text);
+  std::array<std::uint8_t, 32> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    bytes[i] = static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16));
+  return "'sha256-" + base64(bytes) + "'";
+}
+
+/// What the page needs of a field's header.
+Json shortened(const Json& header) {
+  Json kept;
+  for (const char* name :
+       {"case", "parametrization", "quantum", "slices", "bases", "domain", "cut", "tip", "parameters"})
+    kept[name] = header.at(name);
+  for (const char* name : {"node_error", "largest_displacement"})
+    kept["report"][name] = header.at("report").at(name);
+  return kept;
+}
+
+/// Modes are not in the page: a field that is a sum of them gets steps of its own, far below its error.
+FieldRecord record_for_page(Field field) {
+  constexpr double step = 1e-6;  // of the largest displacement
+  field.quantities.clear(), field.by_parameter.clear();
+  if (field.quantum == 0 && field.report.largest_displacement > 0)
+    field = compact(field, step * field.report.largest_displacement);
+  return record_of(field);
+}
+
+/// The element "study"; appends to the text of "coefficients".
+Json cases_data(const PublishedStudy& study, const ReportState& report, std::string& coefficients) {
+  std::vector<Json> headers;
+  Json cases = Json::array();
+  for (int i = 0; i < study.size(); ++i) {
+    if (report) report("case " + std::to_string(i + 1) + " of " + std::to_string(study.size()));
+    const Field field = study.read(i);
+    const CaseFigures figures = case_figures(field);
+    const FieldRecord record = record_for_page(field);
+    headers.push_back(shortened(record.header));
+    coefficients += base64(record.coefficients);
+    cases.push_back({{"name", study.name(i)},
+                     {"hash", study.hash(i)},
+                     {"bytes", record.coefficients.size()},
+                     {"gape", figures.gape},
+                     {"displacement", figures.largest_displacement},
+                     {"error", figures.node_error}});
+  }
+  Json parameters = Json::array();
+  for (const std::string& name : study.varying()) {
+    const Parameter* row = find_parameter(name);
+    parameters.push_back({{"name", name}, {"unit", row ? row->unit : ""}, {"help", row ? row->help : ""}});
+  }
+  std::filesystem::path path(study.path());
+  if (path.filename().empty()) path = path.parent_path();
+  return {{"format", "cleft-page"},   {"version", page_version}, {"title", path.filename().string()},
+          {"parameters", parameters}, {"cases", cases},          {"columns", columns_of(headers)}};
+}
+
+std::uint32_t crc_of(const std::string& text) {
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return crc.checksum();
+}
+
+std::string element(const std::string& id, const std::string& text) {
+  return "<script type=\"application/json\" id=\"" + id + "\" data-bytes=\"" + std::to_string(text.size()) +
+         "\" data-crc=\"" + std::to_string(crc_of(text)) + "\">" + text + "</script>\n";
+}
+
+std::string replaced(std::string text, const std::string& mark, const std::string& by) {
+  const std::size_t at = text.find(mark);
+  CLEFT_CHECK(at, !=, std::string::npos);
+  return text.replace(at, mark.size(), by);
+}
+
+}  // namespace
+
+PageFigures write_page(const PublishedStudy& study, const std::string& path, const ReportState& report) {
+  std::string coefficients;
+  const Json cases = cases_data(study, report, coefficients);
+
+  const std::string script = page_parts::script, style = page_parts::style;
+  std::string page = page_parts::document;
+  page = replaced(page, "{{policy}}",
+                  "default-src 'none'; script-src " + hash_source(script) + "; style-src " +
+                      hash_source(style) + "; base-uri 'none'; form-action 'none'");
+  page = replaced(page, "{{style}}", style);
+  page = replaced(page, "{{script}}", script);
+  page = replaced(page, "{{data}}",
+                  element("study", within_html(cases)) + element("coefficients", coefficients));
+  write_text_file(path, page);
+  return {study.size(), page.size()};
+}
+
+}  // namespace cleft
