@@ -15,6 +15,9 @@ namespace {
 constexpr int looks = 48;
 /// How often positions are added at which triangles next to the blade are not sound while it passes them.
 constexpr int passage_rounds = 4;
+/// Of the largest opening: a triangle that is not sound for a moment is not worth lips that are held back by
+/// more for good.
+constexpr double worth_a_moment = 0.02;
 /// Of its own flat patch a field that keeps less turns it over.
 constexpr double least_area = 0.3;
 /// Likewise of a triangle as it lies in the patch, as much as is called turned over on a mesh.
@@ -51,7 +54,10 @@ class Wounds::GuardLooks {
     for (std::size_t k = 0; k < wounds.size(); ++k) {
       const Wound& wound = wounds[k];
       for (const Incision::ChainVertex& c : wound.incision->chain())
-        if (c.left != c.right) search_.add_pair(c.left, c.right, wound.incision->path().at(c.s).across);
+        if (c.left != c.right) {
+          search_.add_pair(c.left, c.right, wound.incision->path().at(c.s).across);
+          lips_.push_back({c.left, c.right});
+        }
       relief_.push_back(wounds.relief_while_cut(k, wound.reached()));
       complete_.push_back(moved({k, wound.reached()}));
       number_.emplace_back(mesh_.vertices().size(), -1);
@@ -75,7 +81,9 @@ class Wounds::GuardLooks {
       const std::vector<Blade> further = unsound_passages(guard);
       if (further.empty()) break;
       for (const Blade& blade : further) look(blade);
-      guard = search_.find();
+      Guard next = search_.find();
+      if (held_back(next) > held_back(guard) + worth_a_moment) break;
+      guard = std::move(next);
     }
     return guard;
   }
@@ -115,19 +123,37 @@ class Wounds::GuardLooks {
     return found;
   }
 
+  /// The displacement of a vertex without the guard.
+  Vec3 own(int v, const Blade& blade, const Relief::At& now) const {
+    Vec3 sum;
+    for (std::size_t k = 0; k <= blade.cut; ++k) {
+      const int i = number_[k][v];
+      if (i < 0) continue;
+      const Moved& moved = complete_[k][i];
+      sum += now.amplitude(k, moved.s) * (k == blade.cut ? alone_(v, blade) : moved.displacement);
+    }
+    return sum;
+  }
+
+  /// Of the largest opening of the complete cuts, how much a guard takes of any.
+  double held_back(const Guard& guard) const {
+    if (guard.empty()) return 0;
+    const Blade end{wounds_.size() - 1, wounds_[wounds_.size() - 1].reached()};
+    const Relief::At now = relief_at(end);
+    const auto own = [&](int v) { return this->own(v, end, now); };
+    double largest = 0, taken = 0;
+    for (const auto& [left, right] : lips_) {
+      const Vec3 open = own(right) - own(left);
+      largest = std::max(largest, norm(open));
+      taken = std::max(taken, norm(guard.displacement(right, own) - guard.displacement(left, own) - open));
+    }
+    return largest > 0 ? taken / largest : 0;
+  }
+
   /// GuardPassage::Left.
   double left(int triangle, const Blade& blade, const Guard& guard) {
     const Relief::At now = relief_at(blade);
-    const auto own = [&](int v) {
-      Vec3 sum;
-      for (std::size_t k = 0; k <= blade.cut; ++k) {
-        const int i = number_[k][v];
-        if (i < 0) continue;
-        const Moved& moved = complete_[k][i];
-        sum += now.amplitude(k, moved.s) * (k == blade.cut ? alone_(v, blade) : moved.displacement);
-      }
-      return sum;
-    };
+    const auto own = [&](int v) { return this->own(v, blade, now); };
     std::array<Vec3, 3> displacements;
     for (int i = 0; i < 3; ++i) {
       const int v = mesh_.triangle(triangle).vertex[i];
@@ -150,6 +176,7 @@ class Wounds::GuardLooks {
   std::vector<std::vector<Moved>> complete_;  // by each cut
   std::vector<std::vector<int>> number_;      // of a vertex in that
   std::vector<GuardPassage> passages_;
+  std::vector<std::array<int, 2>> lips_;   // left and right, of all cuts
   std::vector<std::pair<int, Vec3>> sum_;  // of all cuts, at one look
   std::vector<int> place_;                 // of a vertex in that
 };
