@@ -15,7 +15,7 @@ namespace {
 
 SourceMesh mesh_of(const std::string& path) {
   if (std::filesystem::path(path).extension() == ".vtu") return read_vtu_mesh(path);
-  return open_series(path)->read(0, {}).mesh;
+  return open_series({path})->read(0, {}).mesh;
 }
 
 void check_times(const Snapshot& s, const Field& field, const std::string& path) {

@@ -43,12 +43,17 @@ int main(int argc, char** argv) {
   ImportOptions o;
   std::string plane, open_at, box = "smaller";
   bool json = false;
-  app.add_option("SERIES", o.series,
-                 "a .pvd that lists .vtu, .pvtu or .vtp files with their times, or a temporal .vtkhdf")
+  std::vector<std::string> series;
+  app.add_option("SERIES", series,
+                 "a .pvd, or a .series in JSON, that lists .vtu, .pvtu, .vtp, .vtm or .vtk files with their "
+                 "times; a temporal .vtkhdf; .xdmf; Exodus (.e .exo .ex2); EnSight (.case); .cgns; or "
+                 "CalculiX's .frd. Several: further fields of the same mesh at the same times, whose "
+                 "names, where they are in several, are SERIES/NAME")
       ->required();
-  app.add_option("--field", o.fields,
-                 "SOURCE[:NAME],...: arrays of the points to take, and their names here; one "
-                 "named displacement is what fields are fitted to")
+  app.add_option(
+         "--field", o.fields,
+         "SOURCE[:NAME],...: arrays of the points, or of the cells, whose mean a node gets, and their "
+         "names here; one named displacement is what fields are fitted to")
       ->required()
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -77,6 +82,8 @@ int main(int argc, char** argv) {
     if (app.count("--break") > 0) o.break_plane = plane;
     if (app.count("--open-at") > 0) o.open_at = open_at;
     o.box = boxes.at(box);
+    o.series = series.front();
+    o.more_series.assign(series.begin() + 1, series.end());
     ImportReport report;
     {
       Progress progress("importing");

@@ -119,7 +119,9 @@ ImportReport import_series(const ImportOptions& o, const std::function<void(cons
   std::optional<OpenAt> open_at;
   if (o.open_at) open_at = parse_open_at(*o.open_at);
   auto parameters = parse_parameters(o.parameters);
-  Series series(o.series, parse_fields(o.fields));
+  std::vector<std::string> all_series = o.more_series;
+  all_series.insert(all_series.begin(), o.series);
+  Series series(all_series, parse_fields(o.fields));
   refuse_to_overwrite(o.out, series.files());
   { const OutputFile probe(o.out); }
 

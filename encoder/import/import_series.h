@@ -18,7 +18,8 @@ struct ImportOptions {
   Box box = Box::smaller;
   std::vector<std::string> parameters =
       {};  ///< NAME=VALUE: parameters of skin, tissue and load, which the series does not hold
-  std::optional<std::string> open_at = {};  ///< jump above which a pair is open; nothing: found
+  std::optional<std::string> open_at = {};    ///< jump above which a pair is open; nothing: found
+  std::vector<std::string> more_series = {};  ///< with further fields of the same mesh at the same times
 };
 
 struct ImportReport {

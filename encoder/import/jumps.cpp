@@ -138,15 +138,20 @@ std::vector<double> rounding_of(const Series& series) {
     for (std::size_t f = 0; f < sizes.size(); ++f) sizes[f].see(values[f], series.fields()[f].components);
   }
   std::vector<double> rounding;
-  for (std::size_t f = 0; f < sizes.size(); ++f) rounding.push_back(sizes[f].rounding(series.fields()[f]));
+  for (std::size_t f = 0; f < sizes.size(); ++f)
+    rounding.push_back(series.fields()[f].of_cells ? std::numeric_limits<double>::infinity()
+                                                   : sizes[f].rounding(series.fields()[f]));
   return rounding;
 }
 
 std::size_t telling_field(const Series& series) {
   const auto& fields = series.fields();
-  const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [](const SeriesField& field) { return field.name == "displacement"; });
-  return found == fields.end() ? 0 : static_cast<std::size_t>(found - fields.begin());
+  const auto first_that = [&](const auto& is_it) {
+    return static_cast<std::size_t>(std::find_if(fields.begin(), fields.end(), is_it) - fields.begin());
+  };
+  std::size_t found = first_that([](const SeriesField& field) { return field.name == "displacement"; });
+  if (found == fields.size()) found = first_that([](const SeriesField& field) { return !field.of_cells; });
+  return found == fields.size() ? 0 : found;
 }
 
 OpenAt parse_open_at(const std::string& text) {
@@ -176,7 +181,8 @@ Partings partings(const Series& series, const Groups& groups, const std::optiona
     size.see(values, series.fields()[field].components);
     jumps.see(values);
   }
-  const double rounding = size.rounding(series.fields()[field]);
+  const double rounding = series.fields()[field].of_cells ? std::numeric_limits<double>::infinity()
+                                                          : size.rounding(series.fields()[field]);
   result.open_at = rounding, result.largest_jump = jumps.largest();
   if (given) {
     result.open_at = std::max(rounding, given->is_share ? given->value * jumps.largest() : given->value);

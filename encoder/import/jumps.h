@@ -18,10 +18,11 @@ using NodePair = std::array<std::int32_t, 2>;
 double jump_of(const std::vector<double>& values, int components, std::int32_t a, std::int32_t b);
 
 /// For each field the difference below which values count as equal: 1e-9 of its largest value (a vector's or
-/// tensor's norm) or, of a scalar, of its range; of fields in single precision, their rounding.
+/// tensor's norm) or, of a scalar, of its range; of fields in single precision, their rounding. Means of
+/// cells tell nothing, since they differ at coincident nodes that are closed: infinite.
 std::vector<double> rounding_of(const Series& series);
 
-/// The field that decides whether a pair is open: the displacement, or the first field.
+/// The field that decides whether a pair is open: the displacement, or the first field of the points.
 std::size_t telling_field(const Series& series);
 
 /// The jump above which a pair is open: in units of the field, or a share of its largest jump.

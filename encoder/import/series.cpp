@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -52,6 +53,10 @@ void check_cells(const std::string& where, const SourceMesh& mesh) {
       refuse("the place of node " + std::to_string(i) + " is not finite");
 }
 
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 template <class T>
 std::string listed(const std::vector<T>& names) {
   std::string text;
@@ -67,17 +72,6 @@ double diagonal(const std::vector<Vec3>& points) {
   for (const Vec3& p : points)
     for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
   return norm(high - low);
-}
-
-std::unique_ptr<FrameFiles> open_series(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".pvd") return open_pvd(path);
-  if (ending == ".vtkhdf" || ending == ".hdf" || ending == ".h5" || ending == ".hdf5")
-    return open_vtkhdf(path);
-  if (ending == ".vtu")
-    throw InputError(path +
-                     ": is one frame, and a series needs 2; list the .vtu files with their times in a .pvd");
-  throw InputError(path + ": unknown ending '" + ending + "' of a series; known are .pvd .vtkhdf");
 }
 
 std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts) {
@@ -98,13 +92,14 @@ std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts) {
   return fields;
 }
 
-Series::Series(const std::string& path, const std::vector<SeriesField>& fields)
-    : path_(path), files_(open_series(path)), fields_(fields) {
-  check_times(path, times());
-  const SourceFrame first = files_->read(0, sources_there(0));
+Series::Series(const std::vector<std::string>& paths, const std::vector<SeriesField>& fields)
+    : path_(paths.front()), files_(open_series(paths)), fields_(fields) {
+  check_times(path_, times());
+  find_fields();
+  SourceFrame first = files_->read(0, sources_there(0));
   check_cells(where(0), first.mesh);
   describe_fields(first);
-  mesh_ = mesh_as_read_ = first.mesh;
+  mesh_ = mesh_as_read_ = std::move(first.mesh);
   leave_loose_nodes();
 }
 
@@ -112,33 +107,47 @@ std::string Series::where(std::size_t frame) const {
   return files_->file(frame) + " (frame " + std::to_string(frame) + ")";
 }
 
-std::vector<std::string> Series::sources_there(std::size_t frame) const {
-  const std::vector<std::string> there = files_->point_arrays(frame);
-  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  std::vector<std::string> sources;
-  for (const SeriesField& field : fields_) {
-    if (!among(there, field.source))
-      throw InputError("--field " + field.source + ": " + where(frame) +
-                       " holds no such array of the points" +
-                       (among(files_->cell_arrays(frame), field.source)
-                            ? ", but one of the cells; turn it into one of the points first"
-                            : did_you_mean(field.source, there)) +
-                       "; there are: " + listed(there));
-    sources.push_back(field.source);
-  }
-  return sources;
+/// Among the arrays of the points of frame 0, or else among those of its cells.
+void Series::find_fields() {
+  const std::vector<std::string> points = files_->point_arrays(0), cells = files_->cell_arrays(0);
+  for (SeriesField& field : fields_)
+    field.of_cells = !among(points, field.source) && among(cells, field.source);
 }
 
-void Series::describe_fields(const SourceFrame& first) {
+WantedArrays Series::sources_there(std::size_t frame) const {
+  const std::vector<std::string> points = files_->point_arrays(frame), cells = files_->cell_arrays(frame);
+  WantedArrays wanted;
+  for (const SeriesField& field : fields_) {
+    if (!among(field.of_cells ? cells : points, field.source)) {
+      std::vector<std::string> all = points;
+      all.insert(all.end(), cells.begin(), cells.end());
+      throw InputError("--field " + field.source + ": " + where(frame) + " holds no such array" +
+                       did_you_mean(field.source, all) + "; there are: " + listed(points) +
+                       (cells.empty() ? "" : "; and of cells: " + listed(cells)));
+    }
+    (field.of_cells ? wanted.cells : wanted.points).push_back(field.source);
+  }
+  return wanted;
+}
+
+SourceArray& Series::array_of(SourceFrame& frame, std::size_t field) const {
+  std::size_t before = 0;
+  for (std::size_t f = 0; f < field; ++f) before += fields_[f].of_cells == fields_[field].of_cells;
+  return (fields_[field].of_cells ? frame.cell_arrays : frame.arrays).at(before);
+}
+
+void Series::describe_fields(SourceFrame& first) {
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     SeriesField& field = fields_[f];
-    field.components = first.arrays[f].components, field.single = first.arrays[f].single;
+    const SourceArray& array = array_of(first, f);
+    field.components = array.components, field.single = array.single;
     const std::string has = "--field " + field.source + ": has " + std::to_string(field.components) +
                             " components in " + where(0);
+    field.all_nine = field.components == 9;
+    if (field.all_nine) field.components = 6;
     if (field.components != 1 && field.components != 3 && field.components != 6)
-      throw InputError(has + "; only scalars (1), vectors (3) and symmetric tensors (6) can be imported");
+      throw InputError(has +
+                       "; only scalars (1), vectors (3) and symmetric tensors (6, or 9) can be imported");
     if (field.name == "displacement" && field.components != 3)
       throw InputError(has + "; a displacement has 3");
   }
@@ -154,30 +163,84 @@ void Series::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
   if (!same_cells(mesh, mesh_as_read_)) refuse("has other cells than frame 0");
 }
 
-void Series::check_values(std::size_t frame, const SourceFrame& found) const {
+void Series::check_values(std::size_t frame, SourceFrame& found) const {
   for (std::size_t f = 0; f < fields_.size(); ++f) {
-    const SourceArray& array = found.arrays[f];
-    const std::size_t components = fields_[f].components;
-    if (array.components != fields_[f].components ||
-        array.values.size() != components * found.mesh.points.size())
-      throw InputError(where(frame) + ": field '" + fields_[f].source +
-                       "' has another shape than in frame 0");
-    const auto is_bad = [](double value) { return !std::isfinite(value); };
-    auto bad = array.values.end();
-    if (kept_.empty()) bad = std::find_if(array.values.begin(), array.values.end(), is_bad);
-    for (const std::int32_t node : kept_) {
-      const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(components) * node,
-                 last = first + static_cast<std::ptrdiff_t>(components);
-      if (const auto found_bad = std::find_if(first, last, is_bad);
-          found_bad != last && bad == array.values.end())
-        bad = found_bad;
-    }
-    if (bad != array.values.end())
-      throw InputError(where(frame) + ": field '" + fields_[f].source + "' is " +
-                       (std::isnan(*bad) ? "not a number" : "infinite") + " at node " +
-                       std::to_string(static_cast<std::size_t>(bad - array.values.begin()) / components) +
-                       " (counted from 0)");
+    const SeriesField& field = fields_[f];
+    const SourceArray& array = array_of(found, f);
+    const auto components = static_cast<std::size_t>(field.all_nine ? 9 : field.components);
+    const std::size_t count = field.of_cells ? found.mesh.cell_types.size() : found.mesh.points.size();
+    if (static_cast<std::size_t>(array.components) != components || array.values.size() != components * count)
+      throw InputError(where(frame) + ": field '" + field.source + "' has another shape than in frame 0");
+    const auto refuse = [&](std::size_t at, const std::string& what) {
+      throw InputError(where(frame) + ": field '" + field.source + "' is " + what + " at " +
+                       (field.of_cells ? "cell " : "node ") + std::to_string(at) + " (counted from 0)");
+    };
+    const auto check = [&](std::size_t at) {
+      for (std::size_t c = 0; c < components; ++c)
+        if (const double value = array.values[components * at + c]; !std::isfinite(value))
+          refuse(at, std::isnan(value) ? "not a number" : "infinite");
+    };
+    if (field.of_cells || kept_.empty())
+      for (std::size_t i = 0; i < count; ++i) check(i);
+    else
+      for (const std::int32_t node : kept_) check(static_cast<std::size_t>(node));
   }
+}
+
+std::vector<double> Series::mean_of_cells(const std::vector<double>& values, std::size_t components) const {
+  std::vector<double> sums(mesh_.points.size() * components, 0);
+  std::vector<int> cells(mesh_.points.size(), 0);
+  for (std::size_t c = 0; c < mesh_.cell_types.size(); ++c)
+    for (std::int64_t i = mesh_.cell_offsets[c]; i < mesh_.cell_offsets[c + 1]; ++i) {
+      const auto node = static_cast<std::size_t>(mesh_.connectivity[static_cast<std::size_t>(i)]);
+      for (std::size_t k = 0; k < components; ++k) sums[components * node + k] += values[components * c + k];
+      ++cells[node];
+    }
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= std::max(1, cells[i / components]);
+  return sums;
+}
+
+namespace {
+
+/// XX YY ZZ XY YZ XZ of nine components, row by row. Gives the first place that is not symmetric, if any.
+std::optional<std::size_t> to_symmetric(std::vector<double>& values) {
+  constexpr double rounding = 1e-5;  // of the largest component: a stress in single precision, summed up
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  std::vector<double> six;
+  for (std::size_t i = 0; i + 8 < values.size(); i += 9) {
+    const double* t = &values[i];
+    for (const auto [a, b] : {std::pair{1, 3}, {2, 6}, {5, 7}})
+      if (std::abs(t[a] - t[b]) > rounding * largest) return i / 9;
+    six.insert(six.end(), {t[0], t[4], t[8], (t[1] + t[3]) / 2, (t[5] + t[7]) / 2, (t[2] + t[6]) / 2});
+  }
+  values = std::move(six);
+  return {};
+}
+
+}  // namespace
+
+std::vector<double> Series::at_nodes(std::size_t frame, std::size_t f, std::vector<double> values) const {
+  const SeriesField& field = fields_[f];
+  const auto components = static_cast<std::size_t>(field.all_nine ? 9 : field.components);
+  if (field.of_cells) {
+    values = mean_of_cells(values, components);
+  } else if (!kept_.empty()) {
+    std::vector<double> some;
+    some.reserve(kept_.size() * components);
+    for (const std::int32_t node : kept_) {
+      const auto first = values.begin() + static_cast<std::ptrdiff_t>(components) * node;
+      some.insert(some.end(), first, first + static_cast<std::ptrdiff_t>(components));
+    }
+    values = std::move(some);
+  }
+  if (field.all_nine)
+    if (const auto at = to_symmetric(values))
+      throw InputError(
+          where(frame) + ": tensor '" + field.source + "' is not symmetric at node " +
+          std::to_string(kept_.empty() || field.of_cells ? *at : static_cast<std::size_t>(kept_[*at])) +
+          " (counted from 0); write its rows as three vectors, and import these");
+  return values;
 }
 
 FieldValues Series::frame(std::size_t frame) const {
@@ -187,18 +250,8 @@ FieldValues Series::frame(std::size_t frame) const {
   for (std::size_t i = 0; i < found.mesh.points.size(); ++i)
     farthest_moved_ = std::max(farthest_moved_, norm(found.mesh.points[i] - mesh_as_read_.points[i]));
   FieldValues values;
-  for (SourceArray& array : found.arrays) {
-    if (kept_.empty()) {
-      values.push_back(std::move(array.values));
-      continue;
-    }
-    auto& some = values.emplace_back();
-    for (const std::int32_t node : kept_)
-      for (int c = 0; c < array.components; ++c)
-        some.push_back(
-            array.values[static_cast<std::size_t>(node) * static_cast<std::size_t>(array.components) +
-                         static_cast<std::size_t>(c)]);
-  }
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    values.push_back(at_nodes(frame, f, std::move(array_of(found, f).values)));
   return values;
 }
 

@@ -9,11 +9,13 @@
 
 namespace cleft {
 
-/// A field of the points and its name in the snapshot.
+/// A field and its name in the snapshot.
 struct SeriesField {
   std::string source, name;  ///< in the files, in the snapshot
   int components = 1;        ///< 1, 3 (a vector) or 6 (a symmetric tensor: XX YY ZZ XY YZ XZ)
   bool single = false;       ///< stored in single precision
+  bool of_cells = false;     ///< values of cells; a node gets the mean of its cells
+  bool all_nine = false;     ///< stored as the nine components of a tensor, row by row
 };
 
 /// "stress" or "U:displacement": SOURCE[:NAME]. Throws InputError if a name is invalid or repeated.
@@ -24,9 +26,11 @@ using FieldValues = std::vector<std::vector<double>>;
 
 class Series {
  public:
-  /// A .pvd or temporal .vtkhdf. Throws InputError if it has fewer than 2 frames, times that do not increase,
-  /// no such fields, or fields of other than 1, 3 or 6 components.
-  Series(const std::string& path, const std::vector<SeriesField>& fields);
+  /// One file that open_series reads, or several of one mesh. Throws InputError if it has fewer than 2
+  /// frames, times that do not increase, no such fields, or fields of other than 1, 3, 6 or 9 components.
+  Series(const std::vector<std::string>& paths, const std::vector<SeriesField>& fields);
+  Series(const std::string& path, const std::vector<SeriesField>& fields)
+      : Series(std::vector<std::string>{path}, fields) {}
 
   const std::string& path() const { return path_; }
   std::vector<std::string> files() const { return files_->files(); }
@@ -37,7 +41,7 @@ class Series {
   const SourceMesh& mesh() const { return mesh_; }
 
   /// Throws FileError if the frame has other nodes or cells than the first, lacks a field, or holds a value
-  /// that is not finite: with the file, frame, node and field.
+  /// that is not finite, or a tensor that is not symmetric: with the file, frame, node and field.
   FieldValues frame(std::size_t frame) const;
   /// The largest distance of a node from its place in the first frame, over the frames read so far.
   double farthest_moved() const { return farthest_moved_; }
@@ -52,11 +56,15 @@ class Series {
 
  private:
   std::string where(std::size_t frame) const;
-  std::vector<std::string> sources_there(std::size_t frame) const;
-  void describe_fields(const SourceFrame& first);
+  void find_fields();
+  WantedArrays sources_there(std::size_t frame) const;
+  SourceArray& array_of(SourceFrame& frame, std::size_t field) const;
+  void describe_fields(SourceFrame& first);
   void leave_loose_nodes();
   void check_mesh(std::size_t frame, const SourceMesh& mesh) const;
-  void check_values(std::size_t frame, const SourceFrame& values) const;
+  void check_values(std::size_t frame, SourceFrame& values) const;
+  std::vector<double> at_nodes(std::size_t frame, std::size_t field, std::vector<double> values) const;
+  std::vector<double> mean_of_cells(const std::vector<double>& values, std::size_t components) const;
 
   std::string path_;
   std::unique_ptr<FrameFiles> files_;

@@ -8,7 +8,7 @@ namespace cleft {
 
 namespace {
 
-/// Where a step's rows begin in each dataset.
+/// Where the rows of a part of a step begin in each dataset.
 struct StepRows {
   hsize_t points, cells, offsets, corners;  ///< the first of each
   hsize_t point_count, cell_count, corner_count;
@@ -34,21 +34,31 @@ class VtkHdfFile : public FrameFiles {
     return file_.members("/VTKHDF/CellData");
   }
 
-  SourceFrame read(std::size_t frame, const std::vector<std::string>& arrays) const override {
-    const StepRows rows = rows_of(frame);
+  bool in_pieces() const override { return file_.has("/VTKHDF/Steps/NumberOfParts") && parts_of(0) > 1; }
+
+  SourceFrame read(std::size_t frame, const WantedArrays& wanted) const override {
+    const hsize_t parts = parts_of(frame), first_part = step("PartOffsets", frame, 0);
+    StepRows rows{step("PointOffsets", frame, 0),
+                  step("CellOffsets", frame, 0),
+                  0,
+                  step("ConnectivityIdOffsets", frame, 0),
+                  0,
+                  0,
+                  0};
+    rows.offsets = rows.cells + first_part;  // a part of C cells has C + 1 offsets
+    const StepRows first = rows;
     SourceFrame result;
-    SourceMesh& mesh = result.mesh;
-    const SourceArray points = array_of("/VTKHDF/Points", rows.points, rows.point_count);
-    if (points.components != 3) throw FileError(file_.path(), "/VTKHDF/Points must have 3 columns");
-    for (std::size_t i = 0; i < points.values.size(); i += 3)
-      mesh.points.push_back({points.values[i], points.values[i + 1], points.values[i + 2]});
-    mesh.cell_types = list<std::uint8_t>("/VTKHDF/Types", rows.cells, rows.cell_count);
-    mesh.cell_offsets = list<std::int64_t>("/VTKHDF/Offsets", rows.offsets, rows.cell_count + 1);
-    mesh.connectivity = list<std::int64_t>("/VTKHDF/Connectivity", rows.corners, rows.corner_count);
-    for (const std::string& name : arrays)
-      result.arrays.push_back(array_of("/VTKHDF/PointData/" + name,
-                                       step("PointDataOffsets/" + name, frame, rows.points),
-                                       rows.point_count));
+    for (hsize_t part = first_part; part < first_part + parts; ++part) {
+      rows.point_count = count("NumberOfPoints", part), rows.cell_count = count("NumberOfCells", part);
+      rows.corner_count = count("NumberOfConnectivityIds", part);
+      SourceFrame piece = part_at(frame, rows, first, wanted);
+      if (part == first_part)
+        result = std::move(piece);
+      else
+        append(result, piece, file_.path());
+      rows.points += rows.point_count, rows.cells += rows.cell_count;
+      rows.offsets += rows.cell_count + 1, rows.corners += rows.corner_count;
+    }
     return result;
   }
 
@@ -71,21 +81,37 @@ class VtkHdfFile : public FrameFiles {
     return static_cast<hsize_t>(numbers[part]);
   }
 
-  StepRows rows_of(std::size_t frame) const {
-    const hsize_t part = step("PartOffsets", frame, 0);
-    const hsize_t parts =
-        step("NumberOfParts", frame, file_.read<std::int64_t>("/VTKHDF/NumberOfPoints", {0}).size());
-    if (parts != 1)
+  hsize_t parts_of(std::size_t frame) const {
+    const hsize_t all = file_.read<std::int64_t>("/VTKHDF/NumberOfPoints", {0}).size();
+    const hsize_t parts = step("NumberOfParts", frame, all);
+    if (parts == 0 || parts > all)
       throw FileError(file_.path(), "frame " + std::to_string(frame) + " is of " + std::to_string(parts) +
-                                        " parts; write each frame as one");
-    const hsize_t cells = step("CellOffsets", frame, 0);
-    return {step("PointOffsets", frame, 0),
-            cells,
-            cells + part,  // a part of C cells has C + 1 offsets
-            step("ConnectivityIdOffsets", frame, 0),
-            count("NumberOfPoints", part),
-            count("NumberOfCells", part),
-            count("NumberOfConnectivityIds", part)};
+                                        " parts, where the file has " + std::to_string(all));
+    return parts;
+  }
+
+  /// `first`: rows of the first part of the frame.
+  SourceFrame part_at(std::size_t frame, const StepRows& rows, const StepRows& first,
+                      const WantedArrays& wanted) const {
+    SourceFrame result;
+    SourceMesh& mesh = result.mesh;
+    const SourceArray points = array_of("/VTKHDF/Points", rows.points, rows.point_count);
+    if (points.components != 3) throw FileError(file_.path(), "/VTKHDF/Points must have 3 columns");
+    for (std::size_t i = 0; i < points.values.size(); i += 3)
+      mesh.points.push_back({points.values[i], points.values[i + 1], points.values[i + 2]});
+    mesh.cell_types = list<std::uint8_t>("/VTKHDF/Types", rows.cells, rows.cell_count);
+    mesh.cell_offsets = list<std::int64_t>("/VTKHDF/Offsets", rows.offsets, rows.cell_count + 1);
+    mesh.connectivity = list<std::int64_t>("/VTKHDF/Connectivity", rows.corners, rows.corner_count);
+    for (const std::string& name : wanted.points)
+      result.arrays.push_back(
+          array_of("/VTKHDF/PointData/" + name,
+                   step("PointDataOffsets/" + name, frame, first.points) + (rows.points - first.points),
+                   rows.point_count));
+    for (const std::string& name : wanted.cells)
+      result.cell_arrays.push_back(array_of(
+          "/VTKHDF/CellData/" + name,
+          step("CellDataOffsets/" + name, frame, first.cells) + (rows.cells - first.cells), rows.cell_count));
+    return result;
   }
 
   void refuse_short(const std::string& name, hsize_t first, hsize_t count_of_rows) const {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "encoder/import/frame_files.h"
 #include "explorer/incision/incision.h"
 #include "explorer/io/mesh_file.h"
 
@@ -69,6 +70,17 @@ void read_and_cut_mesh(const std::uint8_t* data, std::size_t size) {
   try {
     const SurfaceMesh mesh = read_mesh(file.path());
     if (mesh.triangles.size() < 10000) cut_once(mesh);
+  } catch (const InputError&) {
+  }
+}
+
+void read_series(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return;
+  const InputFile file(data[0] % 2 == 0 ? ".frd" : ".xmf", data + 1, size - 1);
+  try {
+    const auto series = open_series({file.path()});
+    for (std::size_t j = 0; j < series->times().size(); ++j)
+      series->read(j, {series->point_arrays(j), series->cell_arrays(j)});
   } catch (const InputError&) {
   }
 }

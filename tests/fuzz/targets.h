@@ -12,4 +12,7 @@ void read_path(const std::uint8_t* data, std::size_t size);
 /// The first byte chooses .obj, .stl, .ply or .vtp, the others are the file; what can be read is cut once.
 void read_and_cut_mesh(const std::uint8_t* data, std::size_t size);
 
+/// The first byte chooses .frd or .xmf, the others are the file; what can be opened is read, frame by frame.
+void read_series(const std::uint8_t* data, std::size_t size);
+
 }  // namespace cleft::fuzz

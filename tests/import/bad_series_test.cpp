@@ -88,7 +88,9 @@ TEST_F(BadSeries, FieldsThatAreNotThere) {
                       }()) +
          "</DataArray></CellData>" + text.substr(end + 12);
   in.write("series_0.vtu", text);
-  expect_refused({series, "--field", "energy"}, {"but one of the cells", "there are: none"});
+  expect_refused({series, "--field", "enrgy"}, {"there are: none; and of cells: energy", "mean 'energy'"});
+  expect_refused({series, "--field", "energy"},  // in the first frame only
+                 {"series_1.vtu (frame 1)", "holds no such array", "there are: displacement"});
 }
 
 TEST_F(BadSeries, FramesOfDifferentMeshes) {
@@ -165,10 +167,59 @@ TEST_F(BadSeries, ListsThatAreNone) {
   expect_refused({in.write("list.pvd", "no XML"), "--field", "a"}, {"list.pvd", "is no .pvd file"});
   expect_refused({in / "absent.pvd", "--field", "a"}, {"absent.pvd", "does it exist"});
   expect_refused({in / "series_0.vtu", "--field", "a"}, {"is one frame, and a series needs 2", ".pvd"});
-  expect_refused({in.write("a.vtk", ""), "--field", "a"}, {"unknown ending '.vtk'", ".vtkhdf"});
+  expect_refused({in.write("a.vtk", ""), "--field", "a"}, {"is one frame, and a series needs 2", ".series"});
+  expect_refused({in.write("a.rst", ""), "--field", "a"},
+                 {"unknown ending '.rst'", ".vtkhdf", "pvpython -c"});
+  expect_refused({in.write("a.foam", ""), "--field", "a"}, {"foamToVTK", ".vtm.series"});
   expect_refused({in.write("a.vtkhdf", "nothing"), "--field", "a"}, {"a.vtkhdf", "is not an HDF5 file"});
   h5::File::create(in / "b.vtkhdf").close();
   expect_refused({in / "b.vtkhdf", "--field", "a"}, {"is no VTKHDF file"});
+}
+
+TEST_F(BadSeries, ListsInJsonThatAreNone) {
+  good.write(in);
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    std::vector<std::string> all = parts;
+    all.push_back("list.vtu.series");
+    expect_refused({in.write("list.vtu.series", text), "--field", "displacement"}, all);
+  };
+  const std::string first = R"({"files": [{"name": "series_0.vtu", "time": 0}, )";
+  refused("no JSON", {"is no list of files"});
+  refused("[]", {"is no list of files"});
+  refused(R"({"files": [{"name": "series_0.vtu"}]})", {"is no list of files"});
+  refused(first + R"({"name": 3, "time": 1}]})", {"is no list of files"});
+  refused(first + R"({"name": "absent.vtu", "time": 1}]})", {"entry 2", "absent.vtu"});
+  refused(first + R"({"name": "a.png", "time": 1}]})", {"entry 2", "is no .vtu file"});
+  expect_refused({in / "absent.vtk.series", "--field", "a"}, {"absent.vtk.series", "does it exist"});
+}
+
+TEST_F(BadSeries, SeveralThatDoNotBelongTogether) {
+  const std::string first = good.write(in, "first");
+  SourceSeries later = good;
+  later.times.back() += 1;
+  expect_refused({first, later.write(in, "later"), "--field", "first/displacement:d"},
+                 {"later.pvd: frame 4 is at 9", "first.pvd at 8"});
+  SourceSeries fewer = good;
+  fewer.times.pop_back();
+  expect_refused({first, fewer.write(in, "fewer"), "--field", "first/displacement:d"},
+                 {"has 4 frames", "has 5"});
+  SourceSeries moved = good;
+  moved.mesh.points[3].x += 1;
+  expect_refused({first, moved.write(in, "moved"), "--field", "first/displacement:d,moved/stress:s"},
+                 {"moved_0.vtu (frame 0)", "has another mesh than", "first_0.vtu"});
+  expect_refused({first, good.write(in, "same"), "--field", "displacement"},
+                 {"holds no such array", "first/displacement"});
+}
+
+TEST_F(BadSeries, TensorsThatAreNotSymmetric) {
+  SourceSeries series = good;
+  SourceSeries::Field gradient{"gradient", 9, {}};
+  for (std::size_t j = 0; j < series.times.size(); ++j)
+    gradient.frames.emplace_back(9 * series.mesh.points.size(), 1.0);
+  gradient.frames[2][9 * 11 + 3] = 1.5;
+  series.fields.push_back(gradient);
+  expect_refused({series.write(in), "--field", "displacement,gradient"},
+                 {"series_2.vtu (frame 2)", "'gradient' is not symmetric at node 11", "three vectors"});
 }
 
 TEST_F(BadSeries, PlanesAndPolyhedra) {

@@ -101,10 +101,12 @@ def solve(folder, plate, axes, origin):
         (folder / "deck.inp").write_text(plate.deck(plate.local @ axes + origin, axes[1], length))
         run("ccx", "-i", "deck", cwd=folder)
         results.append(Frd(folder / "deck.frd"))
+        (folder / "deck.frd").rename(folder / f"plate_{frame}.frd")
         (folder / f"plate_{frame}.vtu").write_text(results[-1].vtu())
         entries.append(f'<DataSet timestep="{10 + length}" file="plate_{frame}.vtu"/>')
-    (folder / "plate.pvd").write_text('<VTKFile type="Collection"><Collection>' + "".join(entries)
-                                      + "</Collection></VTKFile>")
+    for name, ending in (("plate.pvd", "vtu"), ("results.pvd", "frd")):
+        listed = "".join(entries).replace("vtu", ending)
+        (folder / name).write_text(f'<VTKFile type="Collection"><Collection>{listed}</Collection></VTKFile>')
     return results
 
 
@@ -206,6 +208,9 @@ def main():
         run(cleft, "import", str(folder / "plate.pvd"), "--field", "U:displacement,S:stress", "--out", case)
         run(cleft, "check", case)
         wrong = check(case, plate, axes, results)
+        own = str(folder / "own.h5")  # CalculiX's files as they are
+        run(cleft, "import", str(folder / "results.pvd"), "--field", "DISP:displacement,STRESS:stress", "--out", own)
+        wrong += check(own, plate, axes, results)
         wrong += check_field(cleft, case, folder)
     print("\n".join(wrong) or "as CalculiX has it")
     return 1 if wrong else 0
