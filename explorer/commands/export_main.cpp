@@ -8,9 +8,11 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"
+#include "encoder/field/file/field_file.h"
 #include "explorer/io/paraview_file.h"
 #include "explorer/scene/patch_scene.h"
 #include "explorer/session/command_table.h"
+#include "explorer/study/field_on_mesh.h"
 #include "explorer/view/cinema.h"
 #include "explorer/view/picture.h"
 #include "explorer/web/page.h"
@@ -25,6 +27,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string input, color = "displacement";
   std::optional<std::string> paraview, cinema, web;  // one of them
+  std::string nodes;
   bool decoded = false, json = false;
   int frames = 61;
   CinemaGrid grid;
@@ -116,10 +119,50 @@ SurfaceSeries series_of(const std::shared_ptr<const Field>& field, int frames) {
   return series;
 }
 
+/// The imported snapshot of a field: as given, or of its name beside it. Empty where there is none.
+std::string snapshot_of(const Options& o) {
+  if (!o.nodes.empty()) return o.nodes;
+  const std::string beside = fs::path(o.input).replace_extension(".h5").string();
+  if (!fs::exists(beside) || format_of(beside) != snapshot_format.name) return "";
+  return SnapshotReader(beside).snapshot().source ? beside : "";
+}
+
+/// A field of imported data on its own mesh, with all quantities.
+ExportFigures export_on_mesh(const Options& o, const std::string& snapshot, Progress& progress,
+                             const std::string& folder, const std::string& name) {
+  const FieldOnMesh field(o.input, snapshot);
+  MeshSeries series{&field.mesh(),
+                    {},
+                    [&](double t) { return field.displacement(t); },
+                    field.quantities(),
+                    [&](std::size_t a, double t) { return field.quantity(a, t); }};
+  for (int j = 0; j < o.frames; ++j) series.times.push_back(field.duration() * j / std::max(1, o.frames - 1));
+  return write_paraview_series(series, folder, name, [&](std::size_t j) {
+    progress("frame " + std::to_string(j + 1) + " of " + std::to_string(o.frames));
+  });
+}
+
 /// Of one field a .pvd with its folder, of a study a folder with those of all cases.
 void export_decoded(const Options& o, Progress& progress, Json& figures) {
-  PublishedStudy study(o.input);
   const bool single = !fs::is_directory(o.input) && format_of(o.input) == "cleft-field";
+  if (single) {
+    const std::string snapshot = snapshot_of(o);
+    if (!snapshot.empty()) {
+      const Place place = place_of(*o.paraview, true);
+      refuse_to_replace_series(place.folder, place.name);
+      OutputFolder out(place.folder, place.name);
+      const ExportFigures done = export_on_mesh(o, snapshot, progress, out.path(), place.name);
+      out.commit({place.name, place.name + ".pvd"});
+      figures = {{"frames", done.frames}, {"files", done.files}, {"bytes", done.bytes}, {"mesh", snapshot}};
+      return;
+    }
+    if (pieces_in(o.input) > 0)
+      throw InputError(
+          o.input +
+          ": is the field of a body with several breaks, which is exported on its mesh: give its "
+          "snapshot with --nodes CASE.h5, or any mesh of the body to cleft decode --on");
+  }
+  PublishedStudy study(o.input);
   const Place place = single ? place_of(*o.paraview, true) : place_of_study(o);
   OutputFolder out(place.folder, place.name);
   ExportFigures done;
@@ -217,6 +260,9 @@ int main(int argc, char** argv) {
       "for ParaView and VTK: OUT.pvd, and a .vtu file a frame in OUT/; of a study, OUT/<case>.pvd");
   app.add_flag("--decoded", o.decoded,
                "of a study, the fields rather than the simulations: skin and walls of the wound");
+  app.add_option("--nodes", o.nodes,
+                 "of a field of imported data: its snapshot, on whose mesh all its quantities are written "
+                 "(default: CASE.h5 beside CASE.dffd, where there is one)");
   app.add_option("--frames", o.frames, "of a field")->check(in_range(2, 100000))->capture_default_str();
   app.add_option(
       "--cinema", o.cinema,

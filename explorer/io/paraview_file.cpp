@@ -211,6 +211,20 @@ ExportFigures write_paraview_series(const SurfaceSeries& series, const std::stri
   });
 }
 
+ExportFigures write_paraview_series(const MeshSeries& series, const std::string& folder,
+                                    const std::string& name,
+                                    const std::function<void(std::size_t)>& progress) {
+  const vtkNew<vtkUnstructuredGrid> grid = mesh_of(*series.mesh);
+  return write_frames(grid, series.times, folder, name, [&](std::size_t j) {
+    if (progress) progress(j);
+    const double t = series.times[j];
+    grid->GetPointData()->AddArray(numbers("displacement", 3, flat(series.displacement(t))));
+    for (std::size_t a = 0; a < series.arrays.size(); ++a)
+      grid->GetPointData()->AddArray(
+          numbers(series.arrays[a].name, static_cast<int>(series.arrays[a].components), series.values(a, t)));
+  });
+}
+
 void refuse_to_replace_series(const std::string& folder, const std::string& name) {
   const fs::path frames = fs::path(folder) / name, pvd = frames.string() + ".pvd";
   const bool exported = fs::exists(fs::symlink_status(pvd));

@@ -41,6 +41,20 @@ struct SurfaceSeries {
 ExportFigures write_paraview_series(const SurfaceSeries& series, const std::string& folder,
                                     const std::string& name);
 
+/// Values on the mesh of a snapshot at any times, without its own frames.
+struct MeshSeries {
+  const Snapshot* mesh = nullptr;
+  std::vector<double> times;                                ///< F
+  std::function<std::vector<Vec3>(double t)> displacement;  ///< N
+  std::vector<SnapshotArray> arrays;
+  std::function<std::vector<double>(std::size_t array, double t)> values;  ///< N times its components
+};
+
+/// The same files, with all arrays.
+ExportFigures write_paraview_series(const MeshSeries& series, const std::string& folder,
+                                    const std::string& name,
+                                    const std::function<void(std::size_t)>& progress = {});
+
 /// Throws InputError if folder/NAME.pvd or folder/NAME exists and was not written by write_paraview_series.
 void refuse_to_replace_series(const std::string& folder, const std::string& name);
 

@@ -128,13 +128,48 @@ TEST_F(SeveralBreaks, AreReadByEveryCommandThatReadsFieldsOfImportedData) {
   EXPECT_NE(outside.output.find("outside of the body"), std::string::npos) << outside.output;
 }
 
+/// On the mesh, with all quantities, of one break and of several.
+TEST_F(SeveralBreaks, AndOneAreExportedOnTheirMesh) {
+  for (const CrackedBody& body : {edge_crack(), body_named("2D, two parallel cracks")}) {
+    std::filesystem::remove(snapshot), std::filesystem::remove(file);
+    SourceSeries source = body.series();
+    SourceSeries::Field heat{"T", 1, {}};
+    for (const auto& frame : source.fields[0].frames) {
+      auto& values = heat.frames.emplace_back();
+      for (std::size_t i = 0; i < frame.size(); i += 3) values.push_back(300 + frame[i + 1]);
+    }
+    source.fields.push_back(heat);
+    make(source, "displacement,T");
+    const std::string frames = std::to_string(source.times.size());
+    expect_success(run_cleft(
+        "export", {file, "--paraview", folder / ("out_" + body.name.substr(0, 2)), "--frames", frames}));
+    const Series exported(folder / ("out_" + body.name.substr(0, 2) + ".pvd"),
+                          parse_fields({"displacement", "T"}));
+    const SnapshotReader reader(snapshot);
+    ASSERT_EQ(exported.mesh().points.size(), reader.snapshot().points.size());
+    double largest = 0;
+    for (const double value : source.fields[0].frames.back()) largest = std::max(largest, std::abs(value));
+    for (std::size_t j = 0; j < source.times.size(); ++j) {
+      const FieldValues values = exported.frame(j);
+      const std::vector<Vec3> data = reader.displacement(j);
+      for (std::size_t n = 0; n < data.size(); ++n) {
+        for (int c = 0; c < 3; ++c)
+          ASSERT_NEAR(values[0][3 * n + static_cast<std::size_t>(c)], data[n][c], 0.03 * largest);
+        ASSERT_NEAR(values[1][n], source.fields[1].frames[j][n], 0.06 * largest);
+      }
+    }
+  }
+}
+
 TEST_F(SeveralBreaks, AreRefusedWhereOneIsNeeded) {
   make(body_named("2D, two parallel cracks").series());
+  std::filesystem::rename(snapshot, folder / "elsewhere.h5");
   const Outcome outcome = run_cleft("export", {file, "--paraview", folder / "out.pvd"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.output.find("with several breaks"), std::string::npos) << outcome.output;
+  expect_success(
+      run_cleft("export", {file, "--nodes", folder / "elsewhere.h5", "--paraview", folder / "out.pvd"}));
   // One of them by its plane, as before.
-  std::filesystem::remove(snapshot);
   expect_success(
       run_cleft("import", {series, "--field", "displacement", "--break", "0,1,0,4", "--out", snapshot}));
   EXPECT_TRUE(SnapshotReader(snapshot).snapshot().pieces.empty());

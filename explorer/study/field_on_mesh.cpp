@@ -1,0 +1,99 @@
+#include "explorer/study/field_on_mesh.h"
+
+#include <optional>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "encoder/field/file/field_file.h"
+#include "encoder/field/file/pieces_at_nodes.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr const char* at_start = "displacement_at_start";  // what encode calls the displacement of frame 0
+
+}  // namespace
+
+struct FieldOnMesh::Values {
+  std::optional<Field> field;  // of one break, with the places of the nodes in it
+  std::vector<Place> places;
+  std::optional<PiecesAtNodes> pieces;
+  std::optional<std::size_t> start;
+
+  const Field& first() const { return pieces ? pieces->field().first() : *field; }
+
+  std::vector<double> quantity(std::size_t index, double t) const {
+    if (pieces) return pieces->quantity(index, t, 0);
+    const auto components = static_cast<std::size_t>(field->quantities[index].components);
+    std::vector<double> all(components * places.size());
+    for (std::size_t n = 0; n < places.size(); ++n)
+      field->quantity(index, places[n].uvw, places[n].side, t, {&all[components * n], components});
+    return all;
+  }
+};
+
+FieldOnMesh::~FieldOnMesh() = default;
+
+FieldOnMesh::FieldOnMesh(const std::string& field, const std::string& snapshot) {
+  const SnapshotReader reader(snapshot);
+  mesh_ = reader.snapshot();
+  if (!mesh_.source) throw InputError(snapshot + ": is no imported snapshot");
+  auto values = std::make_unique<Values>();
+  if (pieces_in(field) > 0) {
+    std::vector<NodesOfPiece> nodes;
+    for (const SnapshotPiece& piece : mesh_.pieces)
+      nodes.push_back(
+          counting_nodes(piece.nodes, static_cast<std::size_t>(piece.counting), piece.places, piece.pairs));
+    values->pieces.emplace(
+        read_pieces(field), std::move(nodes),
+        places_inside_cells(mesh_.points_in_source(), mesh_.cell_offsets, mesh_.connectivity), 0);
+  } else {
+    values->field.emplace(read_field(field));
+    std::vector<Vec3> at = mesh_.points;
+    if (mesh_.coordinates) {
+      const std::vector<double> canonical = reader.point_array(canonical_array, 0);
+      for (std::size_t i = 0; i < canonical.size(); ++i) at[i / 3][static_cast<int>(i % 3)] = canonical[i];
+    }
+    values->places = places_of(at, mesh_.pairs);
+  }
+  const Field& first = values->first();
+  if (first.duration() != mesh_.times.back() || !first.source || first.source->file != mesh_.source->file)
+    throw InputError(snapshot + ": is not the snapshot that " + field + " was made from");
+  for (std::size_t q = 0; q < first.quantities.size(); ++q) {
+    const Quantity& quantity = first.quantities[q];
+    if (quantity.name == at_start) {
+      values->start = q;
+      continue;
+    }
+    quantities_.push_back({quantity.name, static_cast<std::size_t>(quantity.components), true});
+    numbers_.push_back(q);
+  }
+  values_ = std::move(values);
+}
+
+double FieldOnMesh::duration() const { return values_->first().duration(); }
+
+std::vector<Vec3> FieldOnMesh::displacement(double t) const {
+  std::vector<Vec3> moved;
+  if (values_->pieces) {
+    moved = values_->pieces->displacement(t, 0);
+  } else {
+    std::vector<Place> places = values_->places;
+    for (Place& place : places) place.t = t;
+    moved.resize(places.size());
+    values_->field->displacements(places, moved);
+  }
+  if (values_->start) {
+    const std::vector<double> start = values_->quantity(*values_->start, t);
+    for (std::size_t n = 0; n < moved.size(); ++n)
+      moved[n] += Vec3{start[3 * n], start[3 * n + 1], start[3 * n + 2]};
+  }
+  return moved;
+}
+
+std::vector<double> FieldOnMesh::quantity(std::size_t index, double t) const {
+  return values_->quantity(numbers_.at(index), t);
+}
+
+}  // namespace cleft
