@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "encoder/interpolate/study_interpolator.h"
@@ -15,6 +16,10 @@ class CaseModes {
   CaseModes(const StudyInterpolator& study, double error);
 
   int count() const { return static_cast<int>(modes_.size()); }
+  /// Control points of a mode on the bases of the cases, as CommonCases::control_points().
+  std::span<const float> mode(int k) const { return modes_[k]; }
+  /// modes x (cases, then derivatives): of the modes in each of them.
+  const Eigen::MatrixXd& shares() const { return shares_; }
   /// StudyInterpolator::at(), also of what could not be meshed, within the error of the modes, ten to a
   /// hundred times as fast. The largest displacement of its report is that of the lips when all is cut.
   Field at(const CaseParameters& values) const;
@@ -22,7 +27,7 @@ class CaseModes {
  private:
   const StudyInterpolator& study_;
   std::vector<std::vector<float>> modes_;
-  Eigen::MatrixXd shares_;  // modes x (cases and derivatives): weights of modes in a case
+  Eigen::MatrixXd shares_;
 };
 
 }  // namespace cleft

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,7 @@ class DisplacementModel {
     double error;     ///< mm: estimate of the largest error at any place
   };
   Prediction at(const RecordedParameters& parameters) const;
+  nlohmann::ordered_json data() const;  ///< see Features
 
   /// Distance of parameters from the cases: that of the features from their convex hull, where the spread of
   /// each is 1, and that of the load's direction from the span of the cases' directions.

@@ -43,6 +43,12 @@ bool is_in(const List& members, const void* member) {
   return std::find(members.begin(), members.end(), member) != members.end();
 }
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text.append(text.empty() ? "" : " ").append(name);
+  return text;
+}
+
 /// The member of a name; null where the name is none of the table's.
 const void* member_of(const RecordedParameters& p, const std::string& name) {
   const Parameter* row = find_parameter(name);
@@ -71,36 +77,48 @@ std::vector<std::string> varying_parameters(const std::vector<RecordedParameters
   return names;
 }
 
-std::vector<Features::Raw> Features::raw(const RecordedParameters& p) const {
-  std::vector<Raw> list;
+std::vector<Features::Ratio> Features::ratios_of(const RecordedParameters& p) const {
+  std::vector<Ratio> list;
   if (ours_) {
-    const double E = p->tissue.young_modulus, L = p->cut.length, t = p->skin.thickness;
-    const std::string tissue = p.name_of(p->tissue.young_modulus), cut = p.name_of(p->cut.length),
-                      skin = p.name_of(p->skin.thickness), over = " / (" + tissue + " " + cut + ")";
-    list.push_back(
-        {p.name_of(p->skin.young_modulus) + " " + skin + over, p->skin.young_modulus * t / (E * L), true});
+    const std::string &tissue = p.name_of(p->tissue.young_modulus), &cut = p.name_of(p->cut.length),
+                      &skin = p.name_of(p->skin.thickness);
+    const auto add = [&](const std::vector<std::string>& over, const std::vector<std::string>& under,
+                         bool logarithm) {
+      std::string name = joined(over);
+      if (!under.empty()) name += " / " + (under.size() > 1 ? "(" + joined(under) + ")" : under.front());
+      list.push_back({name, over, under, logarithm});
+    };
+    add({p.name_of(p->skin.young_modulus), skin}, {tissue, cut}, true);
     for (const double* k : {&p->foundation.stiffness, &p->foundation.side_stiffness})
-      list.push_back({p.name_of(*k) + " " + cut + " / " + tissue, *k * L / E, true});
+      add({p.name_of(*k), cut}, {tissue}, true);
     for (const double* length : lengths(*p))
-      if (p.has(*length)) list.push_back({p.name_of(*length) + " / " + cut, *length / L, true});
+      if (p.has(*length)) add({p.name_of(*length)}, {cut}, true);
     for (const double* curvature : curvatures(*p))
-      if (p.has(*curvature)) list.push_back({p.name_of(*curvature) + " " + cut, *curvature * L, false});
-    if (const double& rate = p->cut.curvature_rate; p.has(rate))
-      list.push_back({p.name_of(rate) + " " + cut + "^2", rate * L * L, false});
+      if (p.has(*curvature)) add({p.name_of(*curvature), cut}, {}, false);
+    if (const double& rate = p->cut.curvature_rate; p.has(rate)) add({p.name_of(rate), cut, cut}, {}, false);
     if (loading_ == Loading::general)
-      for (const auto component : prestress) {
-        const double& sigma = p->skin.prestress.*component;
-        list.push_back({p.name_of(sigma) + " " + skin + over, sigma * t / (E * L), true});
-      }
+      for (const auto component : prestress)
+        add({p.name_of(p->skin.prestress.*component), skin}, {tissue, cut}, true);
     for (const std::string& name : varying_)
       if (const void* member = member_of(p, name);
           !is_in(needed(*p), member) && !is_in(lengths(*p), member) && !is_in(curvatures(*p), member) &&
           member != &p->cut.curvature_rate)
-        list.push_back({name, p.number(name).value(), false});
+        list.push_back({name, {name}, {}, false});
   } else {
-    for (const std::string& name : varying_) list.push_back({name, p.number(name).value(), true});
+    for (const std::string& name : varying_) list.push_back({name, {name}, {}, true});
   }
   return list;
+}
+
+std::vector<double> Features::raw(const RecordedParameters& p) const {
+  const auto product = [&](const std::vector<std::string>& names) {
+    double value = 1;
+    for (const std::string& name : names) value *= p.number(name).value();
+    return value;
+  };
+  std::vector<double> values;
+  for (const Ratio& ratio : ratios_) values.push_back(product(ratio.over) / product(ratio.under));
+  return values;
 }
 
 Features::Features(const std::vector<RecordedParameters>& cases, Loading loading)
@@ -115,13 +133,13 @@ Features::Features(const std::vector<RecordedParameters>& cases, Loading loading
                       [&](const RecordedParameters& one) { return one->skin.prestress.*component != 0; }))
         components_.push_back(component);
 
-  const auto first = raw(cases.front());
-  const auto count = static_cast<Eigen::Index>(first.size()), n = static_cast<Eigen::Index>(cases.size());
-  positive_.assign(first.size(), true);
+  ratios_ = ratios_of(cases.front());
+  const auto count = static_cast<Eigen::Index>(ratios_.size()), n = static_cast<Eigen::Index>(cases.size());
+  positive_.assign(ratios_.size(), true);
   for (const RecordedParameters& one : cases) {
     const auto values = raw(one);
     for (std::size_t f = 0; f < values.size(); ++f)
-      positive_[f] = positive_[f] && values[f].logarithm && values[f].value > 0;
+      positive_[f] = positive_[f] && ratios_[f].logarithm && values[f] > 0;
   }
   middle_.setZero(count), half_.setOnes(count);
   Eigen::MatrixXd table(n, count);
@@ -141,7 +159,7 @@ Features::Features(const std::vector<RecordedParameters>& cases, Loading loading
     const Eigen::VectorXd column = (table.col(f).array() - middle_[f]) / half_[f];
     const Eigen::VectorXd combination = least_squares(kept, column).solution;
     if (!constant(f) && (kept * combination - column).cwiseAbs().maxCoeff() > 1e-6) {
-      chosen_.push_back(static_cast<int>(f)), names_.push_back(first[f].name);
+      chosen_.push_back(static_cast<int>(f)), names_.push_back(ratios_[f].name);
       kept.conservativeResize(Eigen::NoChange, kept.cols() + 1);
       kept.rightCols(1) = column;
     } else {
@@ -158,7 +176,7 @@ Eigen::VectorXd Features::normalised(const RecordedParameters& parameters) const
   Eigen::VectorXd result(static_cast<Eigen::Index>(values.size()));
   for (std::size_t f = 0; f < values.size(); ++f) {
     const auto i = static_cast<Eigen::Index>(f);
-    const double value = positive_[f] ? std::log(std::max(values[f].value, 1e-300)) : values[f].value;
+    const double value = positive_[f] ? std::log(std::max(values[f], 1e-300)) : values[f];
     result[i] = (value - middle_[i]) / half_[i];
   }
   return result;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -51,13 +52,18 @@ class Features {
   /// mm: q / E, or 1 for imported data.
   double scale(const RecordedParameters& parameters) const;
 
+  /// What at(), load() and scale() are computed from (docs/formats.md, "Page for browsers").
+  nlohmann::ordered_json data() const;
+
  private:
-  struct Raw {
+  /// A product of parameters over another.
+  struct Ratio {
     std::string name;
-    double value;
+    std::vector<std::string> over, under;  ///< names of parameters
     bool logarithm;
   };
-  std::vector<Raw> raw(const RecordedParameters& parameters) const;
+  std::vector<Ratio> ratios_of(const RecordedParameters& parameters) const;
+  std::vector<double> raw(const RecordedParameters& parameters) const;
   /// All of raw() from -1 to 1.
   Eigen::VectorXd normalised(const RecordedParameters& parameters) const;
 
@@ -65,6 +71,7 @@ class Features {
   bool ours_ = false;                            // parameters of the solver
   std::vector<std::string> varying_;             // parameters
   std::vector<double Prestress::*> components_;  // of the prestress
+  std::vector<Ratio> ratios_;                    // of raw()
   std::vector<bool> positive_;                   // of raw(), in all cases: a logarithm exists
   Eigen::VectorXd middle_, half_;
   std::vector<int> chosen_, left_out_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ class GeometryModel {
   GeometryModel(const std::vector<RecordedParameters>& parameters,
                 const std::vector<FieldGeometry>& geometries);
   FieldGeometry at(const RecordedParameters& parameters) const;
+  nlohmann::ordered_json data() const;  ///< see Features
 
  private:
   Eigen::VectorXd place_of(const RecordedParameters& parameters) const;

@@ -11,6 +11,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,7 @@ class KernelRegression {
   Eigen::VectorXd weights(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
   /// Standard deviation of that prediction, in the unit of left_out_deviation().
   double deviation(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
+  nlohmann::ordered_json data() const;  ///< see Features
 
  private:
   Eigen::VectorXd against(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;

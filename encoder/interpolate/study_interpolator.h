@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +58,8 @@ class StudyInterpolator {
   Recipe recipe(const CaseParameters& values, bool meshable = true) const;
   /// Sets parameters, report and interpolation of a field that was made by a recipe.
   void tell(Field& field, const Recipe& recipe, double largest_displacement) const;
+  /// What recipe() and the error in tell() are computed from (docs/formats.md, "Page for browsers").
+  nlohmann::ordered_json data() const;
 
  private:
   RecordedParameters complete(const CaseParameters& given, bool meshable) const;

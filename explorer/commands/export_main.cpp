@@ -226,6 +226,8 @@ void export_web(const Options& o, Progress& progress, Json& figures) {
   const PageFigures done =
       write_page(PublishedStudy(o.input), *o.web, [&](const std::string& state) { progress(state); });
   figures = {{"cases", done.cases}, {"bytes", done.bytes}};
+  if (done.modes > 0) figures["modes"] = done.modes, figures["modes_error"] = done.modes_error;
+  if (!done.not_between.empty()) figures["not_between"] = done.not_between;
 }
 
 void export_files(const Options& o) {

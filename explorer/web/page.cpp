@@ -11,6 +11,7 @@
 #include "encoder/field/file/columns.h"
 #include "encoder/interpolate/compact.h"
 #include "explorer/study/case_figures.h"
+#include "explorer/web/between_cases_data.h"
 #include "explorer/web/page_parts.h"
 #include "params/hash.h"
 #include "params/parameters/table.h"
@@ -124,7 +125,13 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
 
 PageFigures write_page(const PublishedStudy& study, const std::string& path, const ReportState& report) {
   std::string coefficients;
-  const Json cases = cases_data(study, report, coefficients);
+  Json cases = cases_data(study, report, coefficients);
+  if (report && study.size() > 1) report("fields between the cases");
+  const BetweenCasesData between = study.size() > 1 ? between_cases_data(study) : BetweenCasesData{};
+  std::string modes;
+  for (const auto& piece : between.pieces) modes += base64(piece);
+  cases["between"] = between.model.empty() ? Json() : Json::parse(between.model);
+  cases["not_between"] = between.reason;
 
   const std::string script = page_parts::script, style = page_parts::style;
   std::string page = page_parts::document;
@@ -133,10 +140,11 @@ PageFigures write_page(const PublishedStudy& study, const std::string& path, con
                       hash_source(style) + "; base-uri 'none'; form-action 'none'");
   page = replaced(page, "{{style}}", style);
   page = replaced(page, "{{script}}", script);
-  page = replaced(page, "{{data}}",
-                  element("study", within_html(cases)) + element("coefficients", coefficients));
+  page = replaced(
+      page, "{{data}}",
+      element("study", within_html(cases)) + element("coefficients", coefficients) + element("modes", modes));
   write_text_file(path, page);
-  return {study.size(), page.size()};
+  return {study.size(), page.size(), between.modes, between.error, between.reason};
 }
 
 }  // namespace cleft

@@ -12,6 +12,9 @@ namespace cleft {
 struct PageFigures {
   int cases = 0;
   std::size_t bytes = 0;
+  int modes = 0;            ///< of which fields between the cases are sums; 0: there are none
+  double modes_error = 0;   ///< what the modes leave of a case, at most, over its largest displacement
+  std::string not_between;  ///< why there are no fields between the cases; empty if there are
 };
 
 /// Called with what is being done, as a Progress.

@@ -15,8 +15,13 @@ import h5py
 import matplotlib.image
 import numpy as np
 from browser import Browser, chromium
-from small_study import command, make_study
+from small_study import FAMILY, FOUR_CASES, PATCH, THREE_PRESTRESSES, command, make_study
 
+CUTS = PATCH.format(length=20, width=8).replace("cut.length = 8\n", "") + """
+[vary]
+"cut.length" = [6, 7, 9, 10]
+"tissue.young_modulus" = [0.01, 0.02, 0.03]
+"""
 SCRATCH = tempfile.TemporaryDirectory()
 STUDY = PAGE = BROWSER = None
 
@@ -41,14 +46,20 @@ def evaluated(field, places):
     return np.array([[float(row[name]) for name in ("du", "dv", "dw")] for row in rows])
 
 
-def random_places(random_number, count):
+def random_places(random_number, count, duration=8):
     """Places of the small patch and times of its cut; every third is on the plane of the cut, on either side."""
     places = []
     for n in range(count):
         v = 0.0 if n % 3 == 0 else random_number.uniform(-4, 4)
         places.append([random_number.uniform(-7, 7), v, random_number.uniform(-4, 0), random_number.choice([-1, 0, 1]) if v == 0 else 0,
-                       random_number.uniform(0, 8)])
+                       random_number.uniform(0, duration)])
     return places
+
+
+def domain_of(field):
+    with h5py.File(field) as file:
+        header = json.loads(bytes(file["header"][:]))
+    return [header["domain"][axis] for axis in "uvwt"]
 
 
 def shown(field, places):
@@ -82,6 +93,51 @@ class Page(unittest.TestCase):
             places = random_places(random.Random(7), 300)
             expected = evaluated(field, places)
             self.assertLess(np.abs(shown("cleft.fieldOf(0)", places) - expected).max(), 1e-5 * np.abs(expected).max())
+
+    def test_fields_between_the_cases_are_those_of_interpolate(self):
+        for name, text in (("four", FOUR_CASES), ("cuts", CUTS), ("prestresses", THREE_PRESTRESSES), ("family", FAMILY)):
+            study = STUDY if text == FOUR_CASES else make_study(SCRATCH.name, text, name)
+            page, field = os.path.join(SCRATCH.name, name + ".html"), os.path.join(SCRATCH.name, "between.dffd")
+            modes = json.loads(command("cleft", "export", study, "--web", page, "--json"))
+            self.assertLess(modes["modes_error"], 0.02)
+            opened(page)
+            names, ranges = BROWSER.run("[cleft.names, cleft.ranges]")
+            random_number = random.Random(5)
+            for part in (0.3, 0.8):
+                # Shear, the third of the prestresses, is small beside the others: no skin can push.
+                values = [least + part * (greatest - least) * (0.2 if "uv" in one else 1) for one, (least, greatest) in zip(names, ranges)]
+                settings = ",".join(f"{one}={value!r}" for one, value in zip(names, values))
+                told = json.loads(command("cleft", "interpolate", study, "--set", settings, "--out", field, "--json"))
+                BROWSER.run(f"cleft.choose({json.dumps(values)}), cleft.refresh()")
+                self.assertEqual(BROWSER.run("cleft.state.values"), values)
+                domain = BROWSER.run("cleft.field.domain")
+                self.assertLess(np.abs(np.array(domain) - np.array(domain_of(field))).max(), 1e-9)
+                places = random_places(random_number, 200, domain[3][1])
+                expected = evaluated(field, places)
+                # The page's modes leave so much of a case; between the cases weights of either sign add up to more.
+                apart = np.abs(shown("cleft.field", places) - expected).max() / told["largest_displacement_mm"]
+                self.assertLess(apart, 3 * modes["modes_error"], name)
+                # Where the error is a distance of two models, the page has a hundred points of it: those that move most.
+                expected_error = np.hypot(told["estimated_error"], modes["modes_error"])
+                error = BROWSER.run(f"""cleft.between.at(Object.fromEntries(cleft.names.map((name, c) => [name, cleft.state.values[c]])))
+                    .errorOf({told["largest_displacement_mm"]})""")
+                self.assertAlmostEqual(error / expected_error, 1, delta=0.03, msg=name)
+                self.assertIn("estimated error", BROWSER.run("document.getElementById('error').textContent"))
+        self.assertEqual(BROWSER.mistakes(), [])
+
+    def test_where_nothing_lies_between_the_page_says_why(self):
+        text = PATCH.format(length=14, width=8) + """
+[vary]
+"tissue.young_modulus" = [0.01, 0.03]
+"cut.contact" = [false, true]
+"""
+        study, page = make_study(SCRATCH.name, text, "choices"), os.path.join(SCRATCH.name, "choices.html")
+        self.assertIn("cut.contact", json.loads(command("cleft", "export", study, "--web", page, "--json"))["not_between"])
+        opened(page)
+        BROWSER.run("cleft.choose([0.021]), cleft.refresh()")
+        self.assertEqual(BROWSER.run("cleft.rows[cleft.state.case][0]"), 0.03)
+        self.assertIn("cut.contact", BROWSER.run("document.getElementById('error').textContent"))
+        self.assertEqual(BROWSER.mistakes(), [])
 
     def test_the_picture_is_the_explorers(self):
         picture = os.path.join(SCRATCH.name, "explorer.png")
@@ -193,9 +249,11 @@ class Page(unittest.TestCase):
     def test_a_damaged_page_is_refused_with_a_sentence(self):
         with open(PAGE) as source:
             text = source.read()
-        middle = text.index('id="coefficients"') + 200
-        other = "B" if text[middle] == "A" else "A"
-        damaged = {"cut": text[:middle], "changed": text[:middle] + other + text[middle + 1:],
+        def changed(part):
+            middle = text.index(f'id="{part}"') + 200
+            return text[:middle] + ("B" if text[middle] == "A" else "A") + text[middle + 1:]
+
+        damaged = {"cut": text[:text.index('id="coefficients"') + 200], "changed": changed("coefficients"), "changed mode": changed("modes"),
                    "without an end": text[:text.index('<i id="end">')],
                    "other numbers": text.replace('"cases":[', '"cases":[ ', 1)}
         for name, broken in damaged.items():

@@ -42,6 +42,7 @@ class Page {
     this.data = JSON.parse(dataOf("study"));
     if (this.data.format !== "cleft-page" || this.data.version !== 1) throw new Damaged("it has another format");
     this.coded = dataOf("coefficients");
+    this.between = this.data.between ? new BetweenCases(this.data.between, dataOf("modes")) : null;
     let at = 0;
     this.starts = this.data.cases.map(one => {
       const start = at;
@@ -62,14 +63,23 @@ class Page {
       {name: "error", title: "error, %", short: "error"}];
     this.state = {case: 0, values: null, t: this.duration(0), color: "displacement", dark: matchMedia("(prefers-color-scheme: dark)").matches, where: ""};
     this.view = new View(document.getElementById("view"));
-    this.marks = [];
     this.build();
     this.readAddress();
     this.refresh();
+    this.filter();
+    this.prepare();
     window.addEventListener("resize", () => this.refresh());
     window.addEventListener("hashchange", () => {
-      if (location.hash.slice(1) !== this.address()) this.readAddress(), this.refresh();
+      if (location.hash.slice(1) !== this.address()) this.readAddress(), this.refresh(), this.filter();
     });
+  }
+  /// Fields between the cases are prepared bit by bit, while nothing else is to be done.
+  prepare() {
+    if (!this.between) return;
+    const step = () => {
+      if (!this.between.prepare()) setTimeout(step, 10);
+    };
+    setTimeout(step, 300);
   }
   duration(i) { return this.headers[i].domain.t[1]; }
 
@@ -108,11 +118,11 @@ class Page {
       option.textContent = `${i + 1}  ${one.name}`;
       get("case").append(option);
     });
-    this.between = document.createElement("option");
-    this.between.value = "-1";
-    this.between.textContent = "between the cases";
-    this.between.hidden = true;
-    get("case").append(this.between);
+    this.noCase = document.createElement("option");
+    this.noCase.value = "-1";
+    this.noCase.textContent = "between the cases";
+    this.noCase.hidden = true;
+    get("case").append(this.noCase);
     this.ranges = this.names.map((name, c) => [Math.min(...this.rows.map(row => row[c])), Math.max(...this.rows.map(row => row[c]))]);
     this.sliders = this.data.parameters.map(({name, unit, help}, c) => {
       const row = document.createElement("div"), label = document.createElement("label"),
@@ -141,7 +151,10 @@ class Page {
     get("dark").addEventListener("click", () => this.set({dark: !this.state.dark}));
     get("play").addEventListener("click", () => this.play());
     get("reset").addEventListener("click", () => this.turn(0, 0, 1));
-    get("where").addEventListener("input", event => this.set({where: event.target.value}));
+    get("where").addEventListener("input", event => {
+      this.set({where: event.target.value});
+      this.filter();
+    });
     this.buildTable();
     this.parallel = new ParallelCoordinates(get("parallel"), this.columns, this.rows, () => this.filter());
     this.parallel.passes = i => this.chosen[i];
@@ -203,7 +216,9 @@ class Page {
       this.turn(this.view.azimuth, this.view.elevation, this.view.zoom * Math.exp(-0.001 * clamp(event.deltaY, -300, 300)));
     }, {passive: false});
     document.addEventListener("keydown", event => {
-      if (event.ctrlKey || event.altKey || event.metaKey || /^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName)) return;
+      const {tagName, type} = event.target, slider = tagName === "INPUT" && type === "range";
+      if (event.ctrlKey || event.altKey || event.metaKey || tagName === "SELECT" || (tagName === "INPUT" && !slider)) return;
+      if ((slider && event.key.startsWith("Arrow")) || (tagName === "BUTTON" && event.key === " ")) return;
       const {azimuth, elevation, zoom} = this.view, step = 5, {t} = this.state, length = this.duration(this.state.case);
       const keys = {
         ArrowLeft: () => this.turn(azimuth - step, elevation, zoom), ArrowRight: () => this.turn(azimuth + step, elevation, zoom),
@@ -228,7 +243,7 @@ class Page {
   choose(values) {
     const exact = this.caseOf(values);
     if (exact >= 0) this.set({case: exact, values: null});
-    else if (this.data.between) this.set({case: this.nearestCase(values), values});
+    else if (this.between) this.set({case: this.nearestCase(values), values});
     else this.set({case: this.nearestCase(values), values: null});
   }
   turn(azimuth, elevation, zoom) {
@@ -274,13 +289,14 @@ class Page {
     this.range = [0, largest];
     this.view.draw(values, this.range, state.dark);
     get("case").value = state.values ? "-1" : String(state.case);
-    this.between.hidden = !state.values;
+    this.noCase.hidden = !state.values;
     this.sliders.forEach((slider, c) => slider.tell(this.values()[c]));
     get("time").max = String(this.field.duration);
     get("time").value = String(state.t);
     get("time-value").textContent = shownNumber(state.t) + " mm";
     get("color").value = state.color;
     get("error").textContent = this.errorText();
+    get("dark").setAttribute("aria-pressed", String(state.dark));
     if (get("where").value !== state.where) get("where").value = state.where;
     this.drawLegend();
     clearTimeout(this.slow);
@@ -289,8 +305,8 @@ class Page {
   takeField() {
     const {case: i, values} = this.state, key = values ? values.join() : String(i);
     if (key === this.key) return;
-    this.field = values ? this.interpolated(values) : this.fieldOf(i);
-    if (!values) this.error = this.data.cases[i].error;
+    const between = values && this.between.at(Object.fromEntries(this.names.map((name, c) => [name, values[c]])));
+    this.field = values ? between.field : this.fieldOf(i);
     if (this.scene && this.scene.shape === PatchScene.shapeOf(this.field)) {
       this.scene.take(this.field);
     } else {
@@ -300,9 +316,9 @@ class Page {
     }
     this.key = key;
     this.largest = {};
+    this.error = values ? between.errorOf(this.largestValue("displacement")) : this.data.cases[i].error;
   }
-  largestValue() {
-    const {color} = this.state;
+  largestValue(color = this.state.color) {
     if (color === "tissue") return 1;
     this.largest[color] ??= this.scene.largestValue(color, this.numbers.slice());
     return this.largest[color];
@@ -311,7 +327,7 @@ class Page {
     const percent = shownNumber(100 * this.error) + " %";
     if (this.state.values) return `Between the cases: estimated error ${percent} of the largest displacement.`;
     return `Case ${this.state.case + 1} of ${this.rows.length}: no node is off by more than ${percent} of the largest displacement` +
-           (this.data.between || this.rows.length < 2 ? "." : ". Sliders choose the nearest case.");
+           (this.between || this.rows.length < 2 ? "." : ". Sliders choose the nearest case, for nothing is known between them: " + this.data.not_between);
   }
   drawLegend() {
     const {get} = this, shown = this.state.color !== "tissue";
@@ -335,7 +351,7 @@ class Page {
       drawCurve(get("gape-curve"), this.curve, state.t, "length cut, mm", "widest opening, mm");
       drawCurve(get("profile-curve"), openingProfile(field, state.t), null, "u, mm", "opening along the cut, mm");
     }
-    this.filter();
+    this.markShown();
     history.replaceState(null, "", "#" + this.address());  // not in each picture: browsers limit how often
   }
   /// Which cases the condition and the brushes choose.
@@ -351,8 +367,15 @@ class Page {
     const count = this.chosen.filter(Boolean).length;
     get("found").textContent = mistake || `${count} of ${this.rows.length} cases`;
     this.body.replaceChildren(...this.order.filter(i => this.chosen[i]).map(i => this.lines[i]));
-    this.lines.forEach((line, i) => line.classList.toggle("shown", !state.values && i === state.case));
-    this.parallel.shown = state.values ? -1 : state.case;
+    this.markShown();
+  }
+  markShown() {
+    const {state} = this, shown = state.values ? -1 : state.case;
+    if (this.marked) this.marked.classList.remove("shown");
+    this.marked = this.lines[shown];
+    if (this.marked) this.marked.classList.add("shown");
+    this.parallel.shown = shown;
+    this.parallel.values = state.values;
     this.parallel.draw();
   }
 
@@ -374,7 +397,7 @@ class Page {
       state.case = Math.round(value) - 1, state.values = null, state.t = this.duration(state.case);
     });
     const values = (parts.get("values") || "").split(",").map(Number);
-    if (this.data.between && parts.has("values") && values.length === this.names.length && values.every(Number.isFinite))
+    if (this.between && parts.has("values") && values.length === this.names.length && values.every(Number.isFinite))
       this.choose(values.map((value, c) => clamp(value, ...this.ranges[c])));
     number("t", 0, Infinity, value => state.t = value);
     number("az", -180, 180, value => view.azimuth = value);

@@ -105,7 +105,7 @@ class ParallelCoordinates {
     const line = (row, style, thick) => {
       g.strokeStyle = style, g.lineWidth = thick;
       g.beginPath();
-      columns.forEach((column, c) => c ? g.lineTo(px(c), py(c, row[c])) : g.moveTo(px(c), py(c, row[c])));
+      row.forEach((x, c) => c ? g.lineTo(px(c), py(c, x)) : g.moveTo(px(c), py(c, x)));
       g.stroke();
     };
     const lines = rows.map((row, n) => ({row, chosen: this.passes(n)}));
@@ -115,6 +115,7 @@ class ParallelCoordinates {
     for (const one of lines) if (one.chosen) line(one.row, accent, 1);
     g.globalAlpha = 1;
     if (this.shown >= 0) line(rows[this.shown], ink, 2.5);
+    if (this.values) line(this.values, ink, 2.5);
     g.fillStyle = ink;
     columns.forEach(({name, short}, c) => {
       g.textAlign = c === 0 ? "left" : c === columns.length - 1 ? "right" : "center";

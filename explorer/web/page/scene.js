@@ -30,6 +30,7 @@ class PatchScene {
       return this.u.length - 1;
     };
     const skin = [], walls = [];
+    this.wallEnds = [];  // of each column: u, and how many numbers of corners there are up to it
     const quad = (to, a, b, c, d) => {
       for (const t of [[a, b, c], [a, c, d]])
         if (t[0] !== t[1] && t[1] !== t[2] && t[2] !== t[0]) to.push(...t);
@@ -66,6 +67,7 @@ class PatchScene {
           quad(walls, before[1][k + 1], r[k + 1], r[k], before[1][k]);
         }
         before = [l, r];
+        this.wallEnds.push([u, walls.length]);
       });
     }
     const n = this.u.length;
@@ -101,6 +103,9 @@ class PatchScene {
   /// Displacements of all points, or of some, when t is cut; uncut tissue is closed, whatever the fit is.
   at(t, some) {
     const {field, us, vs} = this, tip = field.cut.start + t;
+    // Closed walls are hidden; only their edges would shine through the skin.
+    this.openWalls = 0;
+    for (const [n, [, count]] of this.wallEnds.entries()) if (n > 0 && this.wallEnds[n - 1][0] < tip) this.openWalls = count;
     for (let p = 0; p < this.count; ++p)
       this.now[p] = us[this.u[p]] >= tip ? Math.sign(vs[this.v[p]]) : this.sides[p];
     field.displacements(this.lines, this.u, this.v, this.w, this.now, t, this.displacement, null, some);

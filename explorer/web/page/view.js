@@ -174,9 +174,10 @@ class View {
     const {right, up, back} = this.axes(), middle = scene.middle, angle = 24 * Math.PI / 180, aspect = width / height;
     const high = Math.tan(angle / 2), wide = aspect * high, dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let distance = 0, nearest = Infinity, farthest = -Infinity;
-    for (let p = 0; p < 3 * scene.count; p += 3) {
-      const from = [scene.rest[p] - middle[0], scene.rest[p + 1] - middle[1], scene.rest[p + 2] - middle[2]];
-      const needed = Math.max(Math.abs(dot(from, up)) / high, Math.abs(dot(from, right)) / wide), depth = dot(from, back);
+    for (let p = 0, {rest} = scene; p < 3 * scene.count; p += 3) {
+      const x = rest[p] - middle[0], y = rest[p + 1] - middle[1], z = rest[p + 2] - middle[2];
+      const upward = x * up[0] + y * up[1] + z * up[2], aside = x * right[0] + y * right[1] + z * right[2];
+      const needed = Math.max(Math.abs(upward) / high, Math.abs(aside) / wide), depth = x * back[0] + y * back[1] + z * back[2];
       distance = Math.max(distance, 1.35 * needed + depth);
       nearest = Math.min(nearest, depth), farthest = Math.max(farthest, depth);
     }
@@ -199,7 +200,7 @@ class View {
       gl.uniform4fv(this.places.plain, plain);
       gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 4 * from);
     };
-    const skin = scene.skin.length, walls = scene.walls.length;
+    const skin = scene.skin.length, walls = scene.openWalls;
     if (values) part(0, skin, this.skinNormals, values, this.scale, range, [0.35, 0.62, 0.12, 18], [0, 0, 0, 0]);
     else part(0, skin, this.skinNormals, scene.depth, this.tissue, [0, 1], [0.12, 0.9, 0.12, 18], [0.91, 0.70, 0.60, 1]);
     if (walls) part(skin, walls, this.wallNormals, scene.depth, this.tissue, [0, 1], [0.12, 0.9, 0.3, 40], [0, 0, 0, 0]);
