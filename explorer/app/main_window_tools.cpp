@@ -196,10 +196,6 @@ void MainWindow::make_tools() {
   bar->addWidget(new QLabel(" Colour by "));
   coloring_ = new QComboBox;
   coloring_->setObjectName("coloring");
-  for (const ColoringText& c : colorings()) {
-    coloring_->addItem(QString::fromStdString(c.name));
-    coloring_->setItemData(coloring_->count() - 1, QString::fromStdString(c.help), Qt::ToolTipRole);
-  }
   coloring_->setToolTip("What the surface is coloured by");
   bar->addWidget(coloring_);
   connect(coloring_, QOverload<int>::of(&QComboBox::activated), this,
@@ -241,7 +237,17 @@ void MainWindow::make_tools() {
 void MainWindow::follow_tools() {
   const SessionState& s = session_.state();
   const QSignalBlocker quiet(coloring_);
-  coloring_->setCurrentIndex(static_cast<int>(s.coloring));
+  std::vector<ColoringText> all = colorings();
+  for (const std::string& name : session_.quantities()) {
+    all.push_back(text_of(Coloring(name)));
+    all.back().name = name;
+  }
+  coloring_->clear();
+  for (const ColoringText& c : all) {
+    coloring_->addItem(QString::fromStdString(c.name));
+    coloring_->setItemData(coloring_->count() - 1, QString::fromStdString(c.help), Qt::ToolTipRole);
+    if (c.coloring == s.coloring) coloring_->setCurrentIndex(coloring_->count() - 1);
+  }
   coloring_->setEnabled(session_.has_scene());
   const bool can_cut = session_.mesh() != nullptr;
   if (!can_cut && scalpel_->isChecked()) scalpel_->setChecked(false), scene_->set_cutting(false);

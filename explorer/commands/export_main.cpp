@@ -119,18 +119,9 @@ SurfaceSeries series_of(const std::shared_ptr<const Field>& field, int frames) {
   return series;
 }
 
-/// The imported snapshot of a field: as given, or of its name beside it. Empty where there is none.
-std::string snapshot_of(const Options& o) {
-  if (!o.nodes.empty()) return o.nodes;
-  const std::string beside = fs::path(o.input).replace_extension(".h5").string();
-  if (!fs::exists(beside) || format_of(beside) != snapshot_format.name) return "";
-  return SnapshotReader(beside).snapshot().source ? beside : "";
-}
-
 /// A field of imported data on its own mesh, with all quantities.
-ExportFigures export_on_mesh(const Options& o, const std::string& snapshot, Progress& progress,
+ExportFigures export_on_mesh(const Options& o, const FieldOnMesh& field, Progress& progress,
                              const std::string& folder, const std::string& name) {
-  const FieldOnMesh field(o.input, snapshot);
   MeshSeries series{&field.mesh(),
                     {},
                     [&](double t) { return field.displacement(t); },
@@ -146,14 +137,18 @@ ExportFigures export_on_mesh(const Options& o, const std::string& snapshot, Prog
 void export_decoded(const Options& o, Progress& progress, Json& figures) {
   const bool single = !fs::is_directory(o.input) && format_of(o.input) == "cleft-field";
   if (single) {
-    const std::string snapshot = snapshot_of(o);
-    if (!snapshot.empty()) {
+    const auto field =
+        o.nodes.empty() ? field_on_own_mesh(o.input) : std::make_shared<const FieldOnMesh>(o.input, o.nodes);
+    if (field) {
       const Place place = place_of(*o.paraview, true);
       refuse_to_replace_series(place.folder, place.name);
       OutputFolder out(place.folder, place.name);
-      const ExportFigures done = export_on_mesh(o, snapshot, progress, out.path(), place.name);
+      const ExportFigures done = export_on_mesh(o, *field, progress, out.path(), place.name);
       out.commit({place.name, place.name + ".pvd"});
-      figures = {{"frames", done.frames}, {"files", done.files}, {"bytes", done.bytes}, {"mesh", snapshot}};
+      figures = {{"frames", done.frames},
+                 {"files", done.files},
+                 {"bytes", done.bytes},
+                 {"nodes", field->mesh().points.size()}};
       return;
     }
     if (pieces_in(o.input) > 0)

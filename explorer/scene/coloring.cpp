@@ -2,10 +2,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/study/field_on_mesh.h"
 
 namespace cleft {
 
@@ -23,13 +26,28 @@ const std::vector<ColoringText>& colorings() {
   return all;
 }
 
-const ColoringText& text_of(Coloring coloring) { return colorings().at(static_cast<std::size_t>(coloring)); }
+namespace {
 
-Coloring coloring_of(const std::string& name) {
+const std::string of_quantity = "quantity:";
+
+}  // namespace
+
+ColoringText text_of(const Coloring& coloring) {
+  if (coloring.kind == Coloring::quantity)
+    return {coloring, of_quantity + coloring.name, coloring.name, "a quantity of the imported data"};
+  return colorings().at(static_cast<std::size_t>(coloring.kind));
+}
+
+Coloring coloring_of(const std::string& name, const std::vector<std::string>& quantities) {
+  if (name.rfind(of_quantity, 0) == 0) return Coloring(name.substr(of_quantity.size()));
   std::vector<std::string> names;
   for (const ColoringText& c : colorings()) {
     if (c.name == name) return c.coloring;
     names.push_back(c.name);
+  }
+  for (const std::string& quantity : quantities) {
+    if (quantity == name) return Coloring(quantity);
+    names.push_back(quantity);
   }
   std::string list;
   for (const std::string& n : names) list += (list.empty() ? "" : ", ") + n;
@@ -57,11 +75,22 @@ double largest_strain(const VaryingField& field, const Place& place, double s) {
   return solver.eigenvalues()(2);
 }
 
+double quantity_value(const std::string& name, const Field& field, const Place& place) {
+  const auto found = std::find_if(field.quantities.begin(), field.quantities.end(),
+                                  [&](const Quantity& q) { return q.name == name; });
+  if (found == field.quantities.end()) return std::nan("");
+  std::array<double, 6> values{};
+  const std::span<double> some(values.data(), static_cast<std::size_t>(found->components));
+  field.quantity(static_cast<std::size_t>(found - field.quantities.begin()), place.uvw, place.side, place.t,
+                 some);
+  return magnitude_of(some);
+}
+
 }  // namespace
 
-double color_value(Coloring coloring, const VaryingField& field, const Field* reference, const Place& place,
-                   double s) {
-  switch (coloring) {
+double color_value(const Coloring& coloring, const VaryingField& field, const Field* reference,
+                   const Place& place, double s) {
+  switch (coloring.kind) {
     case Coloring::displacement:
       return norm(field.displacement(place.uvw, place.side, place.t, s));
     case Coloring::gape:
@@ -74,6 +103,8 @@ double color_value(Coloring coloring, const VaryingField& field, const Field* re
                        : 0;
     case Coloring::error:
       return std::nan("");
+    case Coloring::quantity:
+      return quantity_value(coloring.name, field.shape(), place);
     case Coloring::tissue:
       break;
   }

@@ -8,7 +8,16 @@
 
 namespace cleft {
 
-enum class Coloring { tissue, displacement, gape, strain, difference, error };
+/// What a surface is coloured by; compares and converts as its kind does.
+struct Coloring {
+  enum Kind { tissue, displacement, gape, strain, difference, error, quantity };
+  Coloring(Kind of = displacement) : kind(of) {}  // NOLINT: a kind is a colouring
+  explicit Coloring(std::string of_quantity) : kind(quantity), name(std::move(of_quantity)) {}
+  friend bool operator==(const Coloring&, const Coloring&) = default;
+
+  Kind kind;
+  std::string name = {};  ///< of a further quantity of imported data
+};
 
 struct ColoringText {
   Coloring coloring;
@@ -16,16 +25,20 @@ struct ColoringText {
   std::string title;  ///< with its unit, as in legends
   std::string help;
 };
+/// Of all but quantities.
 const std::vector<ColoringText>& colorings();
-const ColoringText& text_of(Coloring coloring);
-/// Throws InputError for an unknown name, with the nearest one.
-Coloring coloring_of(const std::string& name);
+/// A quantity has the name quantity:NAME, and its own as title: it is in the units of its source.
+ColoringText text_of(const Coloring& coloring);
+/// By the name of a colouring, of one of the `quantities`, or quantity:NAME. Throws InputError for an unknown
+/// name, with the nearest one.
+Coloring coloring_of(const std::string& name, const std::vector<std::string>& quantities = {});
 
 /// The value at a point: displacement and difference (from `reference`) in mm, gape (the opening between a
 /// point and its mirror image across the cut) in mm, strain (the largest principal Green-Lagrange strain) as
-/// a number; `tissue` is 0, and `error` is NaN, because it needs the simulation. `field` is evaluated at s mm
-/// of the path.
-double color_value(Coloring coloring, const VaryingField& field, const Field* reference, const Place& place,
-                   double s = 0);
+/// a number; a quantity in its own unit, of vectors and tensors their magnitude (NaN where the field has none
+/// of that name); `tissue` is 0, and `error` is NaN, because it needs the simulation. `field` is evaluated at
+/// s mm of the path.
+double color_value(const Coloring& coloring, const VaryingField& field, const Field* reference,
+                   const Place& place, double s = 0);
 
 }  // namespace cleft

@@ -18,7 +18,7 @@ void LiveScene::positions(double, std::vector<Vec3>& out) const {
       x += dent_->at(std::sqrt(square)) * dent_by_;
 }
 
-void LiveScene::values(Coloring, const Field*, double, std::vector<double>& out) const {
+void LiveScene::values(const Coloring&, const Field*, double, std::vector<double>& out) const {
   out.assign(surface_.points.size(), 0);
 }
 

@@ -20,7 +20,8 @@ class LiveScene : public WoundScene {
   double duration() const override { return moment_->cut_length; }
   /// The current points, whatever t is.
   void positions(double t, std::vector<Vec3>& out) const override;
-  void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
+  void values(const Coloring& coloring, const Field* reference, double t,
+              std::vector<double>& out) const override;
 
   /// Whether the current state can be drawn without a new scene.
   bool has_surface_of(const CuttingMoment& moment) const { return moment.surface == moment_->surface; }

@@ -98,7 +98,7 @@ std::vector<WoundScene::Opening> MeshScene::openings(double t) const {
 }
 
 /// The displacement, or how far the replay is from it. What needs derivatives of a field is not known.
-void MeshScene::simulated_values(Coloring coloring, double t, std::vector<double>& out) const {
+void MeshScene::simulated_values(const Coloring& coloring, double t, std::vector<double>& out) const {
   std::vector<Vec3> moved(out.size()), replayed = surface_->points;
   simulated_->positions(t, moved);
   if (coloring == Coloring::error && wounds_) wounds_->positions(t, replayed);
@@ -106,7 +106,8 @@ void MeshScene::simulated_values(Coloring coloring, double t, std::vector<double
   for (std::size_t v = 0; v < out.size(); ++v) out[v] = norm(moved[v] - replayed[v]);
 }
 
-void MeshScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
+void MeshScene::values(const Coloring& coloring, const Field* reference, double t,
+                       std::vector<double>& out) const {
   out.assign(surface_->points.size(), 0);
   if (coloring == Coloring::tissue) return;
   if (simulated_) return simulated_values(coloring, t, out);

@@ -30,14 +30,15 @@ class MeshScene : public WoundScene {
   std::vector<bool> moving() const override;
   std::shared_ptr<const WoundScene> with_detail(double mm) const override;
   std::optional<LeftOut> left_out() const override;
-  void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
+  void values(const Coloring& coloring, const Field* reference, double t,
+              std::vector<double>& out) const override;
   std::vector<Validity> validity() const override;
   std::vector<Opening> openings(double t) const override;
 
  private:
   MeshScene(const MeshScene&) = default;
   const ReplayedWounds::Level& level() const { return level_ ? *level_ : wounds_->whole(); }
-  void simulated_values(Coloring coloring, double t, std::vector<double>& out) const;
+  void simulated_values(const Coloring& coloring, double t, std::vector<double>& out) const;
   void aim_at_cuts(WoundSurface& surface) const;
 
   std::shared_ptr<const CutSurface> cut_;

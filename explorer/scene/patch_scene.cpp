@@ -122,7 +122,8 @@ void PatchScene::displacements(double t, std::vector<Vec3>& out) const {
   field_.displacements(places, out);
 }
 
-void PatchScene::values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const {
+void PatchScene::values(const Coloring& coloring, const Field* reference, double t,
+                        std::vector<double>& out) const {
   out.resize(surface_.points.size());
   if (coloring == Coloring::displacement) {  // by far the quickest of all at once
     std::vector<Vec3> displacement;

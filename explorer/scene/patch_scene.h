@@ -19,7 +19,8 @@ class PatchScene : public WoundScene {
   const WoundSurface& surface() const override { return surface_; }
   double duration() const override { return field_.duration(); }
   void positions(double t, std::vector<Vec3>& out) const override;
-  void values(Coloring coloring, const Field* reference, double t, std::vector<double>& out) const override;
+  void values(const Coloring& coloring, const Field* reference, double t,
+              std::vector<double>& out) const override;
 
  private:
   void add_skin(const std::vector<double>& us, const std::vector<double>& vs);

@@ -32,7 +32,7 @@ class WoundScene {
   virtual std::optional<LeftOut> left_out() const { return {}; }  ///< likewise
 
   /// The value of every point at t by which it is coloured; of `difference`, against `reference`.
-  virtual void values(Coloring coloring, const Field* reference, double t,
+  virtual void values(const Coloring& coloring, const Field* reference, double t,
                       std::vector<double>& out) const = 0;
 
   /// Of each cut that is replayed, what is known of its opening's error; empty where none is.

@@ -50,7 +50,7 @@ void redo_last(Session& session);
 // Time and colours.
 void set_time(Session& session, double t);
 void advance_time(Session& session, double seconds);  ///< as playing does
-void color_by(Session& session, Coloring coloring);
+void color_by(Session& session, const Coloring& coloring);
 
 /// Of a file or folder, as a saved session holds it.
 std::string absolute_path(const std::string& path);

@@ -101,13 +101,13 @@ void find_cases(Session& session, const std::string& condition) {
   session.changes().brushes = true;
 }
 
-void color_by(Session& session, Coloring coloring) {
+void color_by(Session& session, const Coloring& coloring) {
   if (coloring == Coloring::error) {
     if (session.mesh() && !session.opened().simulated.wounds)
       throw InputError(
           "errors are those of the patch that was simulated (say: patch), or of a replay against the "
           "simulation of its cuts (say: simulate on)");
-    if (!session.mesh()) session.raw_of(session.state().shown);
+    if (!session.mesh() && !session.own_mesh(session.state().shown)) session.raw_of(session.state().shown);
     session.opened().drawn.scenes.clear();  // made anew with what they are compared with
   }
   session.edit().coloring = coloring;

@@ -7,7 +7,7 @@ namespace cleft {
 namespace {
 
 void color(Session& session, CommandWords& words) {
-  const Coloring coloring = coloring_of(words.text("a colouring"));
+  const Coloring coloring = coloring_of(words.text("a colouring"), session.quantities());
   if (coloring == Coloring::difference && session.state().reference < 0)
     words.wrong("from which case is not known (say: difference N)");
   color_by(session, coloring);
@@ -77,7 +77,7 @@ std::span<const Command> view_commands() {
     return list;
   }();
   static const std::vector<Command> commands{
-      {"color", names, "what the surface is coloured by", color},
+      {"color", names, "what the surface is coloured by; of imported data also QUANTITY, by its name", color},
       {"range", "LOW HIGH | auto", "of the colours; auto: from 0 to the largest of all times", range},
       {"camera", "AZIMUTH ELEVATION [ZOOM]", "degrees from the cut's normal; at zoom 1 all is seen", camera,
        Command::latest},

@@ -19,6 +19,7 @@
 #include "explorer/session/known_cases.h"
 #include "explorer/session/session_state.h"
 #include "explorer/study/between_cases.h"
+#include "explorer/study/field_on_mesh.h"
 
 namespace cleft {
 
@@ -34,6 +35,7 @@ struct Between {
 struct Drawn {
   std::map<double, std::shared_ptr<const CutSurface>> cut_surfaces;  ///< by depth of cuts that state none, mm
   std::map<int, std::shared_ptr<const WoundScene>> scenes;           ///< of the cases in the views
+  std::map<int, std::shared_ptr<const FieldOnMesh>> own_meshes;      ///< of cases; null: not there
 };
 
 /// The vertices that a picture leaves out of the shown case's wounds.

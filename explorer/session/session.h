@@ -46,7 +46,11 @@ class Session {
   std::shared_ptr<const WoundScene> scene() { return scene_of(state().shown); }
   /// Of case i. Throws InputError if nothing is open.
   std::shared_ptr<const WoundScene> scene_of(int i);
-  std::shared_ptr<const Field> field();  ///< of the shown case; null without a study
+  /// Of case i and its own mesh, where its data were imported and their snapshot lies beside the field; else
+  /// null.
+  std::shared_ptr<const FieldOnMesh> own_mesh(int i);
+  std::vector<std::string> quantities();  ///< of the shown case, besides the displacement
+  std::shared_ptr<const Field> field();   ///< of the shown case; null without a study
   /// The field of case i, or the interpolated one if that is shown instead.
   std::shared_ptr<const Field> field_of(int i);
   std::shared_ptr<const Field> reference();  ///< of colours by difference; null where none is chosen

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "explorer/scene/body_scene.h"
 #include "explorer/scene/mesh_scene.h"
 #include "explorer/scene/patch_scene.h"
 #include "explorer/session/session.h"
@@ -37,6 +38,23 @@ std::vector<int> Session::views() const {
   return state().compared.empty() ? std::vector<int>{state().shown} : state().compared;
 }
 
+std::shared_ptr<const FieldOnMesh> Session::own_mesh(int i) {
+  if (!study() || between() || study()->file(i).empty()) return nullptr;
+  auto& known = opened_.drawn.own_meshes;
+  const auto found = known.find(i);
+  return (found != known.end() ? found : known.emplace(i, field_on_own_mesh(study()->file(i))).first)->second;
+}
+
+std::vector<std::string> Session::quantities() {
+  std::vector<std::string> names;
+  if (const auto own = mesh() ? nullptr : own_mesh(state().shown)) {
+    for (const SnapshotArray& quantity : own->quantities()) names.push_back(quantity.name);
+  } else if (const auto shown = field()) {
+    for (const Quantity& quantity : shown->quantities) names.push_back(quantity.name);
+  }
+  return names;
+}
+
 std::shared_ptr<const Field> Session::field() { return study() ? field_of(state().shown) : nullptr; }
 
 std::shared_ptr<const Field> Session::field_of(int i) {
@@ -58,6 +76,11 @@ std::shared_ptr<const WoundScene> Session::scene_of(int i) {
   if (mesh())
     found = std::make_shared<MeshScene>(cut_surface(depth_of_case(i)), cut_fields(i),
                                         i == state().shown ? opened_.simulated.wounds : nullptr);
+  else if (const auto own = own_mesh(i))
+    found = std::make_shared<BodyScene>(own);
+  else if (study()->has_several_breaks(i))
+    throw InputError(study()->file(i) + ": has several breaks, and is shown on its mesh; put its snapshot " +
+                     "beside it, with the same name and the ending .h5");
   else
     found = std::make_shared<PatchScene>(
         field_of(i), state().coloring == Coloring::error && why_no_raw(i).empty() ? raw_of(i) : nullptr);
@@ -97,6 +120,10 @@ std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {
 
 std::optional<CutFields> Session::cut_fields(int i) {
   if (!study()) return std::nullopt;
+  if (study()->has_several_breaks(i))
+    throw InputError(study()->file(i) +
+                     ": has several breaks, and cuts of meshes open by one; import one of them (cleft import "
+                     "--break)");
   const auto fields = [&]() -> CutFields {
     if (const auto family = opened_.cases->family()) return {family, state().tension};
     if (!state().tension) return CutFields(field_of(i));
@@ -125,7 +152,9 @@ std::string Session::note_of(int i) const {
     note += (note.empty() ? "" : "; ") + simulation_note();
   if (i == state().shown && !validity().empty())
     note += (note.empty() ? "" : "; ") + error_of_openings(validity());
-  if (state().coloring == Coloring::error && !mesh() && !why_no_raw(i).empty())
+  const auto own = opened_.drawn.own_meshes.find(i);
+  const bool is_own = own != opened_.drawn.own_meshes.end() && own->second;
+  if (state().coloring == Coloring::error && !mesh() && !is_own && !why_no_raw(i).empty())
     note += (note.empty() ? "" : "; ") + std::string("without raw frames: no error is known");
   return note;
 }

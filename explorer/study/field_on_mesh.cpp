@@ -1,5 +1,7 @@
 #include "explorer/study/field_on_mesh.h"
 
+#include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "base/error.h"
@@ -16,6 +18,9 @@ constexpr const char* at_start = "displacement_at_start";  // what encode calls 
 }  // namespace
 
 struct FieldOnMesh::Values {
+  explicit Values(const std::string& snapshot) : reader(snapshot) {}
+
+  SnapshotReader reader;
   std::optional<Field> field;  // of one break, with the places of the nodes in it
   std::vector<Place> places;
   std::optional<PiecesAtNodes> pieces;
@@ -36,10 +41,10 @@ struct FieldOnMesh::Values {
 FieldOnMesh::~FieldOnMesh() = default;
 
 FieldOnMesh::FieldOnMesh(const std::string& field, const std::string& snapshot) {
-  const SnapshotReader reader(snapshot);
+  auto values = std::make_unique<Values>(snapshot);
+  const SnapshotReader& reader = values->reader;
   mesh_ = reader.snapshot();
   if (!mesh_.source) throw InputError(snapshot + ": is no imported snapshot");
-  auto values = std::make_unique<Values>();
   if (pieces_in(field) > 0) {
     std::vector<NodesOfPiece> nodes;
     for (const SnapshotPiece& piece : mesh_.pieces)
@@ -94,6 +99,30 @@ std::vector<Vec3> FieldOnMesh::displacement(double t) const {
 
 std::vector<double> FieldOnMesh::quantity(std::size_t index, double t) const {
   return values_->quantity(numbers_.at(index), t);
+}
+
+const Field* FieldOnMesh::field() const { return values_->pieces ? nullptr : &*values_->field; }
+const std::vector<Place>& FieldOnMesh::places() const { return values_->places; }
+std::vector<Vec3> FieldOnMesh::data(std::size_t frame) const { return values_->reader.displacement(frame); }
+
+double magnitude_of(std::span<const double> components) {
+  if (components.size() == 1) return components.front();
+  double square = 0;
+  for (std::size_t c = 0; c < components.size(); ++c)
+    square += (components.size() == 6 && c >= 3 ? 2 : 1) * components[c] * components[c];
+  return std::sqrt(square);
+}
+
+std::shared_ptr<const FieldOnMesh> field_on_own_mesh(const std::string& field) {
+  namespace fs = std::filesystem;
+  const std::string beside = fs::path(field).replace_extension(".h5").string();
+  try {
+    if (fs::exists(beside) && format_of(beside) == snapshot_format.name &&
+        SnapshotReader(beside).snapshot().source)
+      return std::make_shared<const FieldOnMesh>(field, beside);
+  } catch (const InputError&) {  // another's, or damaged: the field is shown without it
+  }
+  return nullptr;
 }
 
 }  // namespace cleft

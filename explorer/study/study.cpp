@@ -29,8 +29,10 @@ PublishedStudy::PublishedStudy(const std::string& path) : path_(path) {
                                    : "";
   for (const StudyCase& one :
        folder_ ? published_study_cases(path, &older_) : std::vector<StudyCase>{{of_study, path}}) {
-    Case& added =
-        cases_.emplace_back(Case{one.field_file, "", one.name, read_field_parameters(one.field_file), -1});
+    const bool several = pieces_in(one.field_file) > 0;
+    Case& added = cases_.emplace_back(
+        Case{one.field_file, "", one.name,
+             several ? RecordedParameters{} : read_field_parameters(one.field_file), -1, several});
     for (const auto& [name, value] : one.choices.texts()) added.parameters.set(name, value);
   }
   name_and_sort();
@@ -67,11 +69,13 @@ std::string PublishedStudy::snapshot(int i) const {
 
 FitReport PublishedStudy::report(int i) const {
   const Case& wanted = cases_.at(i);
+  if (wanted.several) return read_pieces(wanted.file).front().field.report;
   return packed_ ? packed_->report(wanted.packed) : read_field_report(wanted.file);
 }
 
 Field PublishedStudy::read(int i) const {
   const Case& wanted = cases_.at(i);
+  if (wanted.several) return std::move(read_pieces(wanted.file).front().field);
   return packed_ ? packed_->field(wanted.packed) : read_field(wanted.file);
 }
 
@@ -81,9 +85,7 @@ std::shared_ptr<const Field> PublishedStudy::field(int i) {
   if (found != recent_.end()) {
     recent_.splice(recent_.begin(), recent_, found);
   } else {
-    const Case& wanted = cases_.at(i);
-    recent_.emplace_front(
-        i, std::make_shared<const Field>(packed_ ? packed_->field(wanted.packed) : read_field(wanted.file)));
+    recent_.emplace_front(i, std::make_shared<const Field>(read(i)));
     if (recent_.size() > kept) recent_.pop_back();
   }
   return recent_.front().second;

@@ -36,6 +36,8 @@ class PublishedStudy {
   const std::string& file(int i) const { return cases_.at(i).file; }
   /// The path of its simulation, if that was kept.
   std::string snapshot(int i) const;
+  /// Whether it is of a body with several breaks; its field is then that of the first.
+  bool has_several_breaks(int i) const { return cases_.at(i).several; }
   /// Cases that were left out because their fields have an older format.
   const std::vector<std::string>& older() const { return older_; }
   bool is_folder() const { return folder_; }
@@ -54,6 +56,7 @@ class PublishedStudy {
     std::string file, name, hash;
     RecordedParameters parameters;
     int packed = -1;  // its number in the study file
+    bool several = false;
   };
   void name_and_sort();
 

@@ -9,7 +9,7 @@ vtkSmartPointer<vtkScalarBarActor> make_legend(vtkLookupTable* colors, const std
   legend->SetLookupTable(colors);
   legend->SetTitle(title.c_str());
   legend->SetNumberOfLabels(2);  // the ends: the middle is the title's
-  legend->SetLabelFormat("%.2g");
+  legend->SetLabelFormat("%.3g");
   legend->SetOrientationToHorizontal();
   legend->SetPosition(0.33, low);
   legend->SetWidth(0.34);

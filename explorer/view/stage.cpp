@@ -185,9 +185,12 @@ void Stage::color(Session& session, bool fresh) {
     if (!fresh && !other && *s.range == shown_.range) return;
     shown_.range = *s.range;
   } else {
-    double largest = 0;
-    for (View& v : views_) largest = std::max(largest, v.view->largest_value(s.coloring, reference.get()));
-    const std::pair range{0., largest > 0 ? largest : 1.};
+    std::pair<double, double> range{HUGE_VAL, -HUGE_VAL};
+    for (View& v : views_) {
+      const auto [least, greatest] = v.view->range_of(s.coloring, reference.get());
+      range = {std::min(range.first, least), std::max(range.second, greatest)};
+    }
+    if (!(range.second > range.first)) range.second = range.first + 1;
     if (!fresh && !other && range == shown_.range) return;
     shown_.range = range;
   }

@@ -68,7 +68,7 @@ void WoundView::add_lights() {
 
 void WoundView::show(std::shared_ptr<const WoundScene> scene, std::optional<double> t) {
   const bool first = !scene_;
-  if (first || &scene->surface() != &scene_->surface()) largest_.reset();
+  if (first || &scene->surface() != &scene_->surface()) known_range_.reset();
   scene_ = std::move(scene);
   const WoundSurface& surface = scene_->surface();
   CLEFT_CHECK(surface.regions.size(), ==, surface.triangles.size());
@@ -81,7 +81,7 @@ void WoundView::show(std::shared_ptr<const WoundScene> scene, std::optional<doub
   if (first) aim({});
 }
 
-void WoundView::color_by(Coloring coloring, std::shared_ptr<const Field> reference,
+void WoundView::color_by(const Coloring& coloring, std::shared_ptr<const Field> reference,
                          std::optional<std::pair<double, double>> range) {
   coloring_ = coloring, reference_ = std::move(reference), range_ = range;
   if (!scene_) return;
@@ -89,14 +89,15 @@ void WoundView::color_by(Coloring coloring, std::shared_ptr<const Field> referen
   set_time(time_);
 }
 
-double WoundView::largest_value(Coloring coloring, const Field* reference) {
-  if (coloring == Coloring::tissue) return 0;
-  if (largest_ && std::get<0>(*largest_) == coloring && std::get<1>(*largest_) == reference)
-    return std::get<2>(*largest_);
+std::pair<double, double> WoundView::range_of(const Coloring& coloring, const Field* reference) {
+  if (coloring == Coloring::tissue) return {0, 0};
+  if (known_range_ && std::get<0>(*known_range_) == coloring && std::get<1>(*known_range_) == reference)
+    return std::get<2>(*known_range_);
   constexpr int samples = 8;
+  const bool from_zero = coloring.kind != Coloring::quantity;
   std::vector<double> values;
-  double largest = 0;
-  for (int i = 1; i <= samples; ++i) {
+  double least = from_zero ? 0 : HUGE_VAL, greatest = from_zero ? 0 : -HUGE_VAL;
+  for (int i = from_zero ? 1 : 0; i <= samples; ++i) {
     scene_->values(coloring, reference, scene_->duration() * i / samples, values);
     std::erase_if(values, [](double v) { return !std::isfinite(v); });  // unknown errors
     if (values.empty()) continue;
@@ -106,10 +107,12 @@ double WoundView::largest_value(Coloring coloring, const Field* reference) {
     const auto at =
         values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
-    largest = std::max(largest, *at);
+    greatest = std::max(greatest, *at);
+    if (!from_zero) least = std::min(least, *std::min_element(values.begin(), values.end()));
   }
-  largest_ = {coloring, reference, largest};
-  return largest;
+  if (least > greatest) least = greatest = 0;
+  known_range_ = {coloring, reference, {least, greatest}};
+  return {least, greatest};
 }
 
 void WoundView::add_actors() {
@@ -118,7 +121,7 @@ void WoundView::add_actors() {
   legend_ = nullptr;
   vtkSmartPointer<vtkLookupTable> skin;
   if (coloring_ != Coloring::tissue) {
-    const auto [least, greatest] = range_.value_or(std::pair{0., largest_value(coloring_, reference_.get())});
+    const auto [least, greatest] = range_ ? *range_ : range_of(coloring_, reference_.get());
     skin = value_colors(least, greatest > least ? greatest : least + 1);
     legend_ = make_legend(skin, text_of(coloring_).title);
     legend_->SetVisibility(has_legend_);

@@ -34,7 +34,7 @@ class WoundView {
 
   /// Sets the colouring; `reference` is the field that `difference` is relative to. Without a range: from 0
   /// to the largest value of all times.
-  void color_by(Coloring coloring, std::shared_ptr<const Field> reference = nullptr,
+  void color_by(const Coloring& coloring, std::shared_ptr<const Field> reference = nullptr,
                 std::optional<std::pair<double, double>> range = std::nullopt);
 
   /// Opacity of the skin, 0 to 1, so that an overlay is visible through it.
@@ -46,9 +46,9 @@ class WoundView {
   void set_smooth(bool smooth) { renderer_->SetUseFXAA(smooth); }
   /// Whether the legend is shown: in one of several views with the same colours.
   void set_legend(bool visible) { has_legend_ = visible; }
-  /// The upper end of the colours without a range: the largest value of all times, for strain the 99th
-  /// percentile.
-  double largest_value(Coloring coloring, const Field* reference);
+  /// The ends of the colours where no range is given: from 0 to the largest value of all times, for strain
+  /// the 99th percentile; of a quantity from the least value to the greatest.
+  std::pair<double, double> range_of(const Coloring& coloring, const Field* reference);
 
   /// A place of the skin at rest.
   struct Place {
@@ -77,7 +77,8 @@ class WoundView {
   Coloring coloring_ = Coloring::tissue;
   std::shared_ptr<const Field> reference_;
   std::optional<std::pair<double, double>> range_;
-  std::optional<std::tuple<Coloring, const Field*, double>> largest_;  // as last asked for
+  std::optional<std::tuple<Coloring, const Field*, std::pair<double, double>>>
+      known_range_;  // as last asked for
   vtkSmartPointer<vtkScalarBarActor> legend_;
   bool dark_ = false, has_legend_ = true;
   double opacity_ = 1;

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "encoder/field/file/pieces_at_nodes.h"
+#include "explorer/session/session.h"
 #include "tests/import/cracked_bodies.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/damage.h"
@@ -158,6 +161,84 @@ TEST_F(SeveralBreaks, AndOneAreExportedOnTheirMesh) {
         ASSERT_NEAR(values[1][n], source.fields[1].frames[j][n], 0.06 * largest);
       }
     }
+  }
+}
+
+/// The explorer draws the body's own mesh, coloured by each quantity.
+TEST_F(SeveralBreaks, AndOneAreExploredOnTheirMesh) {
+  for (const CrackedBody& body : {edge_crack(), body_named("far apart, at a right angle, turned")}) {
+    std::filesystem::remove(snapshot), std::filesystem::remove(file);
+    SourceSeries source = body.series();
+    SourceSeries::Field heat{"T", 1, {}}, stress{"S", 6, {}};
+    for (const auto& frame : source.fields[0].frames) {
+      auto &values = heat.frames.emplace_back(), &tensors = stress.frames.emplace_back();
+      for (std::size_t i = 0; i < frame.size(); i += 3) {
+        values.push_back(300 + frame[i + 1]);
+        tensors.insert(tensors.end(), {frame[i], 0, 0, frame[i + 1], 0, frame[i + 2]});
+      }
+    }
+    source.fields.insert(source.fields.end(), {heat, stress});
+    make(source, "displacement,T,S");
+    Session session{SessionServices{}};
+    session.say("open " + file);
+    EXPECT_EQ(session.quantities(), (std::vector<std::string>{"S", "T"}));
+    const auto scene = session.scene();
+    const SnapshotReader reader(snapshot);
+    const Snapshot& mesh = reader.snapshot();
+    // Its points are nodes: each is found by its place, of doubled ones any.
+    const auto key = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
+    std::multimap<std::array<double, 3>, std::size_t> at_place;
+    for (std::size_t n = 0; n < mesh.points.size(); ++n) at_place.emplace(key(mesh.points[n]), n);
+    const std::vector<Vec3>& rest = scene->surface().points;
+    ASSERT_GT(rest.size(), mesh.points.size() / 3);
+    double largest = 0, volume = 0, expected = 0;
+    for (const double value : source.fields[0].frames.back()) largest = std::max(largest, std::abs(value));
+    for (const auto& [a, b, c] : scene->surface().triangles)
+      volume += dot(rest[a], cross(rest[b], rest[c])) / 6;
+    for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {  // bodies of boxes, in any direction
+      const auto corner = [&](int i) {
+        return mesh.points[static_cast<std::size_t>(
+            mesh.connectivity[static_cast<std::size_t>(mesh.cell_offsets[c] + i)])];
+      };
+      expected += std::abs(dot(corner(1) - corner(0), cross(corner(3) - corner(0), corner(4) - corner(0))));
+    }
+    EXPECT_NEAR(volume, expected, 1e-6 * expected) << body.name;
+    const std::size_t last = mesh.frames() - 1;
+    const double t = mesh.times[last];
+    std::vector<Vec3> moved;
+    scene->positions(t, moved);
+    std::vector<double> colors;
+    const std::vector<Vec3> data = reader.displacement(last);
+    const auto off_by = [&](const auto& distance) {
+      double most = 0;
+      for (std::size_t i = 0; i < rest.size(); ++i) {
+        double least = HUGE_VAL;
+        const auto [from, to] = at_place.equal_range(key(rest[i]));
+        for (auto n = from; n != to; ++n) least = std::min(least, distance(i, n->second));
+        most = std::max(most, least);
+      }
+      return most;
+    };
+    EXPECT_LT(off_by([&](std::size_t i, std::size_t n) { return norm(moved[i] - rest[i] - data[n]); }),
+              0.03 * largest);
+    session.say("color T");
+    EXPECT_EQ(text_of(session.state().coloring).title, "T");
+    scene->values(session.state().coloring, nullptr, t, colors);
+    const std::vector<double>& heats = source.fields[1].frames[last];
+    EXPECT_LT(off_by([&](std::size_t i, std::size_t n) { return std::abs(colors[i] - heats[n]); }),
+              0.06 * largest);
+    session.say("color S");  // its norm, with each shear twice
+    scene->values(session.state().coloring, nullptr, t, colors);
+    const auto norm_at = [&](std::size_t n) {
+      const double* s = &source.fields[0].frames[last][3 * n];
+      return std::sqrt(s[0] * s[0] + 2 * s[1] * s[1] + 2 * s[2] * s[2]);
+    };
+    EXPECT_LT(off_by([&](std::size_t i, std::size_t n) { return std::abs(colors[i] - norm_at(n)); }),
+              0.06 * largest);
+    EXPECT_THROW(session.say("color U"), InputError);
+    session.say("color error");
+    scene->values(session.state().coloring, nullptr, t, colors);
+    EXPECT_LT(*std::max_element(colors.begin(), colors.end()), 0.03 * largest);
   }
 }
 
