@@ -75,6 +75,7 @@ function(cleft_command name source)
   target_link_libraries(${name} PRIVATE ${ARGN} cleft_command cleft_warnings)
   cleft_use_headers(${name} json)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT commands)
+  set_property(GLOBAL APPEND PROPERTY cleft_commands ${name})
 endfunction()
 
 # cleft_needs(TARGET COMMAND...): TARGET runs the commands, so they are built before it.

@@ -16,10 +16,12 @@ endif()
 find_program(CLEFT_PYTHON python3 HINTS /usr/bin)
 if(CLEFT_PYTHON)
   set(pages ${CLEFT_PYTHON} ${PROJECT_SOURCE_DIR}/docs/generate/help_pages.py)
-  add_custom_target(man COMMAND ${pages} man ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_BINARY_DIR}/man
+  add_custom_target(man COMMAND ${CMAKE_COMMAND} -E rm -rf ${PROJECT_BINARY_DIR}/man  # else gzip takes those of before again
+    COMMAND ${pages} man ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_BINARY_DIR}/man
     COMMAND gzip -9nrf ${PROJECT_BINARY_DIR}/man VERBATIM)
   add_custom_target(completion
     COMMAND ${pages} completion ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_BINARY_DIR}/completion/cleft VERBATIM)
+  get_property(cleft_commands GLOBAL PROPERTY cleft_commands)
   foreach(target man completion)
     cleft_needs(${target} ${cleft_commands})
   endforeach()

@@ -1,5 +1,5 @@
-# cpack: Debian packages of the commands, of the library with its headers, and of the Python module with the plug-in for
-# ParaView. The preset `package` has the folders of a system; `cmake --build --preset package` makes the packages too.
+# cpack: Debian packages of the commands, of the library with its headers, of the Python module, and of the plug-in
+# for ParaView. The preset `package` has the folders of a system; `cmake --build --preset package` makes the packages too.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_PACKAGE_NAME cleft)
@@ -11,7 +11,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL commands development)
 if(TARGET cleft_python)
-  list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND CPACK_COMPONENTS_ALL python paraview)
 endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -53,14 +53,19 @@ cleft_package(development libcleft-dev libdevel "fields and snapshots of Cleft f
   "The library that reads and evaluates the fields of Cleft, and the reader of
 its snapshots: headers, static libraries, and a package for CMake."
   DEPENDS "libhdf5-dev, nlohmann-json3-dev")
-cleft_package(python python3-cleft python "fields and studies of Cleft in Python and ParaView"
+cleft_package(python python3-cleft python "fields and studies of Cleft in Python"
   "The Python module cleft: studies as tables, fields as functions of numpy's
-arrays, cuts in meshes. With it comes a plug-in that makes ParaView read
-fields and studies."
+arrays, cuts in meshes."
   DEPENDS "python3 (>= 3.${CLEFT_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy"
-  SUGGESTS "python3-pandas, python3-xarray, python3-vtk9, paraview")
+  SUGGESTS "python3-pandas, python3-xarray, python3-vtk9, paraview-cleft")
+cleft_package(paraview paraview-cleft science "fields and studies of Cleft in ParaView"
+  "A plug-in that makes ParaView read the fields and studies of Cleft, with a
+slider for each parameter, and move any mesh by a field. ParaView loads it
+from the folder of the Python module cleft."
+  ARCHITECTURE all DEPENDS "python3, python3-cleft (>= ${PROJECT_VERSION}), paraview")
 include(CPack)
 
 add_custom_target(packages COMMAND ${CMAKE_CPACK_COMMAND} --config ${PROJECT_BINARY_DIR}/CPackConfig.cmake
   WORKING_DIRECTORY ${PROJECT_BINARY_DIR} VERBATIM)
+get_property(cleft_commands GLOBAL PROPERTY cleft_commands)
 cleft_needs(packages man completion cleft_python cleft_snapshot cleft_field_file ${cleft_commands})

@@ -90,7 +90,7 @@ double largest_of_lips(const Field& field) {
 
 }  // namespace
 
-CaseModes::CaseModes(const StudyInterpolator& study, double error) : study_(study) {
+CaseModes::CaseModes(const StudyInterpolator& study, double error, double enough, int many) : study_(study) {
   const CaseColumns columns(study.cases());
   const Eigen::MatrixXd gram = gram_of(columns);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
@@ -101,7 +101,8 @@ CaseModes::CaseModes(const StudyInterpolator& study, double error) : study_(stud
   // V_ik^2. The square is 1, or 0 of a load that moves nothing.
   Eigen::VectorXd left = gram.diagonal();
   Eigen::Index kept = 0;
-  while (kept < columns.count() && left.maxCoeff() > error * error) {
+  const auto allowed = [&] { return std::pow(kept < many ? error : enough, 2); };
+  while (kept < columns.count() && left.maxCoeff() > allowed()) {
     left -= values[kept] * vectors.col(kept).cwiseAbs2();
     ++kept;
   }

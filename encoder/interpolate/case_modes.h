@@ -13,7 +13,9 @@ class CaseModes {
  public:
   /// The leading left singular vectors of the cases' control points, each case over its largest displacement:
   /// as many as leave of each case at most `error` of its root mean square. The study must outlive this.
-  CaseModes(const StudyInterpolator& study, double error);
+  CaseModes(const StudyInterpolator& study, double error) : CaseModes(study, error, error, 0) {}
+  /// The same, but from `many` modes on they may leave `enough`.
+  CaseModes(const StudyInterpolator& study, double error, double enough, int many);
 
   int count() const { return static_cast<int>(modes_.size()); }
   /// Control points of a mode on the bases of the cases, as CommonCases::control_points().

@@ -160,12 +160,15 @@ Json StudyInterpolator::data() const {
   for (std::size_t k = 0; k < alone_.size(); ++k) add(groups_.alone[k], alone_[k]);
   std::vector<double> fits, errors;  // mm
   std::vector<double> relative;
+  std::vector<std::string> names;
   for (const CommonCase& one : cases_.cases()) {
+    names.push_back(one.name);
     relative.push_back(std::isfinite(one.report.spline_error) ? one.report.spline_error : 0);
     fits.push_back(relative.back() * one.report.largest_displacement);
   }
   for (const CommonDerivative& one : cases_.derivatives()) errors.push_back(one.error);
-  return {{"parameters", parameters_.front().numbers()},
+  return {{"cases", names},
+          {"parameters", parameters_.front().numbers()},
           {"varying", ranges},
           {"base", groups_.base},
           {"groups", groups},

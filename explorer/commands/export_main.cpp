@@ -8,7 +8,10 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"
+#include "base/text.h"
 #include "encoder/field/file/field_file.h"
+#include "explorer/commands/tension_options.h"
+#include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/paraview_file.h"
 #include "explorer/scene/patch_scene.h"
 #include "explorer/session/command_table.h"
@@ -32,6 +35,10 @@ struct Options {
   int frames = 61;
   CinemaGrid grid;
   std::vector<int> size{640, 360};
+  std::string mesh, bone;  // of a page
+  std::vector<std::string> paths;
+  double scale = 1;
+  TensionOptions tension;
 };
 
 /// The path of the output: `out`, `out/` and, for a series, `out.pvd` are equivalent.
@@ -209,6 +216,51 @@ void export_paraview(const Options& o, Progress& progress, Json& figures) {
   (folder ? export_study : export_case)(o, progress, figures);
 }
 
+/// The session in which the cases open the cuts of a mesh.
+std::unique_ptr<Session> session_of_mesh(const Options& o) {
+  auto session = std::make_unique<Session>(
+      session_services([](const std::string& text) { std::cerr << "cleft export: " << text << '\n'; }));
+  const auto list = [](const std::vector<double>& numbers) {
+    std::string text;
+    for (const double number : numbers) text += (text.empty() ? "" : ",") + shortest(number);
+    return text;
+  };
+  session->say("open " + quoted(o.input));
+  session->say("mesh " + quoted(o.mesh) + " " + shortest(o.scale));
+  if (!o.bone.empty()) session->say("bone " + quoted(o.bone));
+  if (!o.tension.direction.empty())
+    session->say("tension " + list(o.tension.direction) + " " + list(o.tension.prestresses));
+  for (const std::string& path : o.paths) session->say("cut-file " + quoted(path));
+  return session;
+}
+
+MeshMotion motion_of(Session& session) {
+  MeshMotion motion;
+  const std::shared_ptr<const WoundScene> first = session.scene_of(0);
+  const bool turning = session.cut_fields(0)->turning();
+  motion.surface = first->surface(), motion.duration = first->duration();
+  motion.cases = turning ? 1 : session.study()->size();
+  if (turning) motion.note = "All of the study: " + session.title_of(0) + ". ";
+  if (!session.validity().empty())
+    motion.note +=
+        "In this mesh: " + error_of_openings(session.validity()) + (motion.cases > 1 ? " (case 1)." : ".");
+  for (const auto& cut : session.shown_cut_surface()->cuts()) {
+    MeshMotion::Cut& added = motion.cuts.emplace_back();
+    for (const auto& [left, right, place] : cut->chain())
+      added.left.push_back(left), added.right.push_back(right), added.places.push_back(place);
+  }
+  double begin = 0;
+  for (std::size_t k = 0; k < motion.cuts.size(); begin += session.cut_paths()[k].length(), ++k)
+    motion.cuts[k].begin = begin;
+  motion.positions = [&session, shown = -1, scene = first](int i, double t, std::vector<Vec3>& out) mutable {
+    if (i != shown) scene = session.scene_of(i), shown = i;
+    if (scene->surface().points.size() != session.scene_of(0)->surface().points.size())
+      throw InputError("the cases cut the mesh to different depths: give a column depth in the path");
+    scene->positions(t, out);
+  };
+  return motion;
+}
+
 void export_web(const Options& o, Progress& progress, Json& figures) {
   const fs::path out(*o.web);
   if (out.extension() != ".html")
@@ -218,8 +270,15 @@ void export_web(const Options& o, Progress& progress, Json& figures) {
   if (!fs::is_directory(o.input) && format_of(o.input) == snapshot_format.name)
     throw InputError(
         o.input + " is a simulation: --web takes a field (case.dffd) or a study; cleft encode makes a field");
-  const PageFigures done =
-      write_page(PublishedStudy(o.input), *o.web, [&](const std::string& state) { progress(state); });
+  const ReportState report = [&](const std::string& state) { progress(state); };
+  PageFigures done;
+  if (o.mesh.empty()) {
+    done = write_page(PublishedStudy(o.input), *o.web, report);
+  } else {
+    const auto session = session_of_mesh(o);
+    const MeshMotion motion = motion_of(*session);
+    done = write_page(*session->study(), *o.web, report, &motion);
+  }
   figures = {{"cases", done.cases}, {"bytes", done.bytes}};
   if (done.modes > 0) figures["modes"] = done.modes, figures["modes_error"] = done.modes_error;
   if (!done.not_between.empty()) figures["not_between"] = done.not_between;
@@ -268,6 +327,20 @@ int main(int argc, char** argv) {
       "--web", o.web,
       "OUT.html, one page for any browser, without server and network: the wound, the parameters and "
       "the time of a field or a study");
+  auto* mesh = app.add_option("--mesh", o.mesh,
+                              "of a page: a surface that the cases cut, in place of their patch: " +
+                                  mesh_endings(MeshKind::surface, MeshUse::read));
+  auto* path =
+      app.add_option("--path", o.paths, "its cut, CSV: x,y,z,nx,ny,nz[,depth]; again for further cuts");
+  mesh->needs(path), path->needs(mesh);
+  app.add_option("--scale", o.scale, "mm in a unit of mesh and path")
+      ->needs(mesh)
+      ->check(above(0))
+      ->capture_default_str();
+  app.add_option("--bone", o.bone,
+                 "the surface of the bone below the mesh, in its units: of families of fields")
+      ->needs(mesh);
+  o.tension.add_to(app);
   app.add_option("--times", o.grid.times, "lengths cut in a Cinema database")
       ->check(in_range(2, 1000))
       ->capture_default_str();

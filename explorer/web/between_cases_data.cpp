@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -11,12 +10,15 @@
 #include "encoder/field/unknowns.h"
 #include "encoder/interpolate/case_modes.h"
 #include "encoder/interpolate/field_samples.h"
+#include "explorer/web/little_endian.h"
 
 namespace cleft {
 
 namespace {
 
-constexpr double share_of_fit = 0.2;    // error of modes over that of the fits
+// Errors of modes over that of the fits: of few modes, and of many.
+constexpr double share_of_few = 0.05, share_of_many = 0.2;
+constexpr int many_modes = 32;
 constexpr double share_of_steps = 0.5;  // of their rounding in it
 constexpr int most_compared = 64;
 
@@ -39,11 +41,6 @@ Eigen::VectorXd sizes_of(const CommonCases& cases, const Eigen::MatrixXd& shares
   return sizes;
 }
 
-void append(std::vector<std::uint8_t>& bytes, float number) {
-  const auto bits = std::bit_cast<std::uint32_t>(number);
-  for (int byte = 0; byte < 4; ++byte) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * byte)));
-}
-
 /// The largest distance of sums of coded modes from the cases, at places, over their largest displacement.
 double largest_error(const CommonCases& cases, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& shares,
                      const CommonPlaces& places) {
@@ -61,8 +58,8 @@ double largest_error(const CommonCases& cases, const Eigen::MatrixXd& modes, con
 
 void add_modes(const StudyInterpolator& interpolator, Json& model, BetweenCasesData& data) {
   const CommonCases& cases = interpolator.cases();
-  const double allowed = std::max(1e-4, share_of_fit * model.at("fit_error").get<double>());
-  const CaseModes modes(interpolator, allowed);
+  const double fit = std::max(2e-3, model.at("fit_error").get<double>()), allowed = share_of_few * fit;
+  const CaseModes modes(interpolator, allowed, share_of_many * fit, many_modes);
   const Eigen::VectorXd sizes = sizes_of(cases, modes.shares(), interpolator.varying());
   const double quantum = share_of_steps * allowed * std::sqrt(12. / std::max(1, modes.count()));
   const ControlTies ties = ties_of(cases.parametrization(), cases.bases());
@@ -91,7 +88,7 @@ void add_modes(const StudyInterpolator& interpolator, Json& model, BetweenCasesD
 
 }  // namespace
 
-BetweenCasesData between_cases_data(const PublishedStudy& study) {
+BetweenCasesData between_cases_data(const PublishedStudy& study, bool modes) {
   BetweenCasesData data;
   try {
     const StudyInterpolator interpolator(study.path());
@@ -100,7 +97,10 @@ BetweenCasesData between_cases_data(const PublishedStudy& study) {
           std::find(study.varying().begin(), study.varying().end(), name) == study.varying().end())
         throw InputError(name + " was asked to be the same in all cases, and is not");
     Json model = interpolator.data();
-    add_modes(interpolator, model, data);
+    if (!modes && !interpolator.cases().derivatives().empty())
+      throw InputError(
+          "its cases have derivatives by parameters, which are known of fields and not of a mesh");
+    if (modes) add_modes(interpolator, model, data);
     data.model = model.dump();
   } catch (const FileError&) {
     throw;

@@ -18,6 +18,8 @@ struct BetweenCasesData {
 };
 
 /// Throws FileError if a field is damaged.
-BetweenCasesData between_cases_data(const PublishedStudy& study);
+/// `modes`: else the weights of the cases are all that is needed, which derivatives by parameters are not
+/// part of.
+BetweenCasesData between_cases_data(const PublishedStudy& study, bool modes = true);
 
 }  // namespace cleft

@@ -75,33 +75,65 @@ FieldRecord record_for_page(Field field) {
   return record_of(field);
 }
 
-/// The element "study"; appends to the text of "coefficients".
-Json cases_data(const PublishedStudy& study, const ReportState& report, std::string& coefficients) {
+/// What the page shows of cases, and the text of "coefficients".
+struct Cases {
   std::vector<Json> headers;
-  Json cases = Json::array();
+  Json list = Json::array();
+  std::string coefficients;
+};
+
+Cases cases_of(const PublishedStudy& study, const ReportState& report) {
+  Cases cases;
   for (int i = 0; i < study.size(); ++i) {
     if (report) report("case " + std::to_string(i + 1) + " of " + std::to_string(study.size()));
     const Field field = study.read(i);
     const CaseFigures figures = case_figures(field);
     const FieldRecord record = record_for_page(field);
-    headers.push_back(shortened(record.header));
-    coefficients += base64(record.coefficients);
-    cases.push_back({{"name", study.name(i)},
-                     {"hash", study.hash(i)},
-                     {"bytes", record.coefficients.size()},
-                     {"gape", figures.gape},
-                     {"displacement", figures.largest_displacement},
-                     {"error", figures.node_error}});
+    cases.headers.push_back(shortened(record.header));
+    cases.coefficients += base64(record.coefficients);
+    cases.list.push_back({{"name", study.name(i)},
+                          {"hash", study.hash(i)},
+                          {"bytes", record.coefficients.size()},
+                          {"gape", figures.gape},
+                          {"displacement", figures.largest_displacement},
+                          {"error", figures.node_error}});
   }
+  return cases;
+}
+
+/// The same of a mesh: fields move it, and are not in the page themselves.
+Cases cases_of(const PublishedStudy& study, const MeshMotion& mesh, const MeshMotionData& motion) {
+  Cases cases;
+  for (int i = 0; i < mesh.cases; ++i) {
+    cases.headers.push_back({{"parameters", study.parameters(i).numbers()}});
+    const auto at = static_cast<std::size_t>(i);
+    cases.list.push_back({{"name", study.name(i)},
+                          {"hash", study.hash(i)},
+                          {"bytes", 0},
+                          {"gape", motion.gapes[at]},
+                          {"displacement", motion.largest[at]},
+                          {"error", study.report(i).node_error}});
+  }
+  return cases;
+}
+
+/// The element "study".
+Json study_data(const PublishedStudy& study, const Cases& cases) {
   Json parameters = Json::array();
-  for (const std::string& name : study.varying()) {
+  for (const std::string& name : cases.headers.size() > 1 ? study.varying() : std::vector<std::string>{}) {
     const Parameter* row = find_parameter(name);
     parameters.push_back({{"name", name}, {"unit", row ? row->unit : ""}, {"help", row ? row->help : ""}});
   }
   std::filesystem::path path(study.path());
   if (path.filename().empty()) path = path.parent_path();
   return {{"format", "cleft-page"},   {"version", page_version}, {"title", path.filename().string()},
-          {"parameters", parameters}, {"cases", cases},          {"columns", columns_of(headers)}};
+          {"parameters", parameters}, {"cases", cases.list},     {"columns", columns_of(cases.headers)}};
+}
+
+std::string base64(const std::vector<std::vector<std::uint8_t>>& pieces) {
+  std::string text;
+  for (const auto& piece : pieces) text += base64(piece);
+  return text;
 }
 
 std::uint32_t crc_of(const std::string& text) {
@@ -123,15 +155,23 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
 
 }  // namespace
 
-PageFigures write_page(const PublishedStudy& study, const std::string& path, const ReportState& report) {
-  std::string coefficients;
-  Json cases = cases_data(study, report, coefficients);
-  if (report && study.size() > 1) report("fields between the cases");
-  const BetweenCasesData between = study.size() > 1 ? between_cases_data(study) : BetweenCasesData{};
-  std::string modes;
-  for (const auto& piece : between.pieces) modes += base64(piece);
-  cases["between"] = between.model.empty() ? Json() : Json::parse(between.model);
-  cases["not_between"] = between.reason;
+PageFigures write_page(const PublishedStudy& study, const std::string& path, const ReportState& report,
+                       const MeshMotion* mesh) {
+  MeshMotionData motion;
+  if (mesh)
+    motion = mesh_motion_data(*mesh, [&](int i) {
+      if (report) report("case " + std::to_string(i + 1) + " of " + std::to_string(mesh->cases));
+    });
+  const Cases cases = mesh ? cases_of(study, *mesh, motion) : cases_of(study, report);
+  Json data = study_data(study, cases);
+  BetweenCasesData between;
+  if (cases.list.size() > 1) {
+    if (report) report("fields between the cases");
+    between = between_cases_data(study, !mesh);
+  }
+  data["between"] = between.model.empty() ? Json() : Json::parse(between.model);
+  data["not_between"] = between.reason;
+  data["mesh"] = mesh ? Json::parse(motion.json) : Json();
 
   const std::string script = page_parts::script, style = page_parts::style;
   std::string page = page_parts::document;
@@ -140,11 +180,12 @@ PageFigures write_page(const PublishedStudy& study, const std::string& path, con
                       hash_source(style) + "; base-uri 'none'; form-action 'none'");
   page = replaced(page, "{{style}}", style);
   page = replaced(page, "{{script}}", script);
-  page = replaced(
-      page, "{{data}}",
-      element("study", within_html(cases)) + element("coefficients", coefficients) + element("modes", modes));
+  page = replaced(page, "{{data}}",
+                  element("study", within_html(data)) + element("coefficients", cases.coefficients) +
+                      element("modes", base64(mesh ? motion.pieces : between.pieces)));
   write_text_file(path, page);
-  return {study.size(), page.size(), between.modes, between.error, between.reason};
+  return {static_cast<int>(cases.list.size()), page.size(), mesh ? motion.modes : between.modes,
+          mesh ? motion.error : between.error, between.reason};
 }
 
 }  // namespace cleft

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "explorer/study/study.h"
+#include "explorer/web/mesh_motion.h"
 
 namespace cleft {
 
@@ -20,7 +21,9 @@ struct PageFigures {
 /// Called with what is being done, as a Progress.
 using ReportState = std::function<void(const std::string& state)>;
 
-/// Writes the page, completely or not at all. Throws the errors of PublishedStudy::read().
-PageFigures write_page(const PublishedStudy& study, const std::string& path, const ReportState& report = {});
+/// Writes the page, completely or not at all; of a mesh that the cases open, if one is given. Throws the
+/// errors of PublishedStudy::read() and of mesh_motion_data().
+PageFigures write_page(const PublishedStudy& study, const std::string& path, const ReportState& report = {},
+                       const MeshMotion* mesh = nullptr);
 
 }  // namespace cleft

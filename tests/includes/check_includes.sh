@@ -29,7 +29,7 @@ haptic:base|encoder/field|params/parameters
 haptic/devices:base|haptic
 explorer/incision:base|encoder/field
 explorer/study:base|base/h5|params|params/parameters|solver/snapshot|encoder/field|encoder/field/file|encoder/interpolate
-explorer/web:base|params|params/parameters|encoder/field|encoder/field/file|encoder/interpolate|explorer/study
+explorer/web:base|params|params/parameters|encoder/field|encoder/field/file|encoder/interpolate|explorer/incision|explorer/study|explorer/wound
 explorer/body:base|params|params/parameters|solver/body|solver/snapshot|haptic|explorer/incision
 explorer/wound:base|base/h5|params/material|encoder/field|encoder/field/file|explorer/incision|explorer/study|params/parameters
 explorer/scalpel:base|encoder/field|haptic|haptic/devices|explorer/incision|explorer/wound

@@ -206,20 +206,22 @@ class BetweenCases {
   constructor(data, coded) {
     this.data = data;
     this.coded = coded;
+    this.modes = [];
+    if (!data.modes) return;
     const {bytes} = data.modes;
     this.starts = [0];
     for (const count of bytes) this.starts.push(this.starts[this.starts.length - 1] + base64Size(count));
     if (this.starts[bytes.length] !== coded.length) throw new Damaged("modes are missing");
     this.columns = data.fit_errors.length + data.derivative_errors.length;
     if (bytes[0] !== 4 * this.columns * (bytes.length - 1)) throw new Damaged("the shares of the modes do not fit");
-    this.modes = [];
   }
   piece(k) { return bytesOf(this.coded.slice(this.starts[k], this.starts[k + 1])); }
   /// Does a part of what takes long, some 30 ms; returns whether nothing is left to do.
   prepare() {
-    const {data, modes} = this, count = data.modes.bytes.length - 1;
+    const {data, modes} = this, count = data.modes ? data.modes.bytes.length - 1 : 0;
     if (!this.groups) {
       this.groups = data.groups.map(group => ({...group, model: new DisplacementModel(group.model)}));
+      if (count === 0) return true;
       const shares = new DataView(this.piece(0).buffer);
       this.shares = Float32Array.from({length: count * this.columns}, (_, n) => shares.getFloat32(4 * n, true));
     } else if (modes.length < count) {
@@ -259,12 +261,20 @@ class BetweenCases {
     }
     return {...sum, error: Math.sqrt(squares)};
   }
-  /// The field at the values of the parameters that vary, and errorOf(largest displacement): the estimated error
-  /// over that.
-  at(values) {
+  /// At the values of the parameters that vary: weights of cases and derivatives, and errorOf(largest displacement),
+  /// the estimated error over that.
+  predictionAt(values) {
     while (!this.prepare());
-    const {data, modes, shares, columns} = this, parameters = this.complete(values);
-    const prediction = this.prediction(parameters), weights = [...prediction.cases, ...prediction.derivatives];
+    const {data} = this, prediction = this.prediction(this.complete(values));
+    const weights = [...prediction.cases, ...prediction.derivatives], errors = [...data.fit_errors, ...data.derivative_errors];
+    const ofFits = Math.sqrt(weights.reduce((sum, weight, i) => sum + (weight * errors[i]) ** 2, 0));
+    const errorOf = largest => largest > 0
+      ? Math.hypot(prediction.error / largest, Math.max(data.fit_error, ofFits / largest), data.modes ? data.modes.error : 0) : 0;
+    return {cases: prediction.cases, weights, errorOf};
+  }
+  /// The field at these values, and errorOf().
+  at(values) {
+    const {weights, errorOf} = this.predictionAt(values), {data, modes, shares, columns} = this, parameters = this.complete(values);
     const points = new Float64Array(modes.length ? modes[0].length : 0);
     modes.forEach((mode, k) => {
       let size = 0;
@@ -273,10 +283,6 @@ class BetweenCases {
     });
     const geometry = geometryAt(data.geometry, parameters);
     const field = new Field({parametrization: data.parametrization, bases: basesIn(data.bases, data.parametrization, geometry), ...geometry}, points);
-    const errors = [...data.fit_errors, ...data.derivative_errors];
-    const ofFits = Math.sqrt(weights.reduce((sum, weight, i) => sum + (weight * errors[i]) ** 2, 0));
-    const errorOf = largest => largest > 0
-      ? Math.hypot(prediction.error / largest, Math.max(data.fit_error, ofFits / largest), data.modes.error) : 0;
     return {field, errorOf};
   }
 }

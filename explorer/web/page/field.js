@@ -224,6 +224,7 @@ class Field {
     this.breaks = this.cut.length > 0;
     this.time = NaN;
   }
+  profiles(t) { return this.breaks ? [openingProfile(this, t)] : []; }
   /// Sums over the basis in time: afterwards a place needs 64 terms.
   collapse(t) {
     if (t === this.time) return;

@@ -42,7 +42,9 @@ class Page {
     this.data = JSON.parse(dataOf("study"));
     if (this.data.format !== "cleft-page" || this.data.version !== 1) throw new Damaged("it has another format");
     this.coded = dataOf("coefficients");
-    this.between = this.data.between ? new BetweenCases(this.data.between, dataOf("modes")) : null;
+    const modes = dataOf("modes");
+    this.mesh = this.data.mesh ? new MeshMotion(this.data.mesh, modes) : null;
+    this.between = this.data.between ? new BetweenCases(this.data.between, this.mesh ? null : modes) : null;
     let at = 0;
     this.starts = this.data.cases.map(one => {
       const start = at;
@@ -81,14 +83,14 @@ class Page {
     };
     setTimeout(step, 300);
   }
-  duration(i) { return this.headers[i].domain.t[1]; }
+  duration(i) { return this.mesh ? this.mesh.duration : this.headers[i].domain.t[1]; }
 
   /// The field of a case, decoded when it is first shown; the last sixteen are kept.
   fieldOf(i) {
     let field = this.fields.get(i);
     if (field) return field;
-    const {bytes} = this.data.cases[i], start = this.starts[i];
-    field = new Field(this.headers[i], controlPoints(this.headers[i], bytesOf(this.coded.slice(start, start + base64Size(bytes)))));
+    const {bytes} = this.data.cases[i], start = this.starts[i], coded = () => bytesOf(this.coded.slice(start, start + base64Size(bytes)));
+    field = this.mesh ? this.mesh.caseOf(i) : new Field(this.headers[i], controlPoints(this.headers[i], coded()));
     this.fields.set(i, field);
     if (this.fields.size > 16) this.fields.delete(this.fields.keys().next().value);
     return field;
@@ -155,6 +157,9 @@ class Page {
       this.set({where: event.target.value});
       this.filter();
     });
+    if (this.mesh)
+      for (const option of [...get("color").options])
+        if (!["displacement", "tissue"].includes(option.value)) option.remove();
     this.buildTable();
     this.parallel = new ParallelCoordinates(get("parallel"), this.columns, this.rows, () => this.filter());
     this.parallel.passes = i => this.chosen[i];
@@ -224,7 +229,7 @@ class Page {
         ArrowLeft: () => this.turn(azimuth - step, elevation, zoom), ArrowRight: () => this.turn(azimuth + step, elevation, zoom),
         ArrowUp: () => this.turn(azimuth, elevation + step, zoom), ArrowDown: () => this.turn(azimuth, elevation - step, zoom),
         "+": () => this.turn(azimuth, elevation, zoom * 1.1), "-": () => this.turn(azimuth, elevation, zoom / 1.1),
-        "[": () => this.set({t: Math.max(0, t - length / 60)}), "]": () => this.set({t: Math.min(length, t + length / 60)}),
+        "[": () => this.set({t: t - length / 60}), "]": () => this.set({t: t + length / 60}),
         n: () => this.show((this.state.case + 1) % this.rows.length),
         p: () => this.show((this.state.case + this.rows.length - 1) % this.rows.length),
         r: () => this.turn(0, 0, 1), d: () => this.set({dark: !this.state.dark}), " ": () => this.play()};
@@ -282,6 +287,7 @@ class Page {
     document.documentElement.classList.toggle("dark", state.dark);
     this.takeField();
     state.t = clamp(state.t, 0, this.field.duration);
+    if (this.mesh) state.t = Math.round(state.t / this.mesh.duration * this.mesh.slices) * this.mesh.duration / this.mesh.slices;
     const largest = this.largestValue();
     this.scene.at(state.t);
     const values = state.color === "tissue" ? null : this.scene.values(state.color, state.t, this.numbers);
@@ -305,12 +311,12 @@ class Page {
   takeField() {
     const {case: i, values} = this.state, key = values ? values.join() : String(i);
     if (key === this.key) return;
-    const between = values && this.between.at(Object.fromEntries(this.names.map((name, c) => [name, values[c]])));
+    const between = values && this.betweenAt(Object.fromEntries(this.names.map((name, c) => [name, values[c]])));
     this.field = values ? between.field : this.fieldOf(i);
     if (this.scene && this.scene.shape === PatchScene.shapeOf(this.field)) {
       this.scene.take(this.field);
     } else {
-      this.scene = new PatchScene(this.field);
+      this.scene = this.mesh ? new MeshScene(this.field) : new PatchScene(this.field);
       this.numbers = new Float32Array(this.scene.count);
       this.view.take(this.scene);
     }
@@ -318,13 +324,22 @@ class Page {
     this.largest = {};
     this.error = values ? between.errorOf(this.largestValue("displacement")) : this.data.cases[i].error;
   }
+  betweenAt(values) {
+    if (!this.mesh) return this.between.at(values);
+    const {cases, errorOf} = this.between.predictionAt(values);
+    return {field: this.mesh.sum(this.data.cases.map(({hash}) => cases[this.between.data.cases.indexOf(hash)] ?? 0)), errorOf};
+  }
   largestValue(color = this.state.color) {
     if (color === "tissue") return 1;
     this.largest[color] ??= this.scene.largestValue(color, this.numbers.slice());
     return this.largest[color];
   }
   errorText() {
+    return this.errorOfField() + (this.mesh && this.mesh.cases > 1 ? " " + this.data.mesh.note : "");
+  }
+  errorOfField() {
     const percent = shownNumber(100 * this.error) + " %";
+    if (this.mesh && this.mesh.cases < 2) return this.data.mesh.note;
     if (this.state.values) return `Between the cases: estimated error ${percent} of the largest displacement.`;
     return `Case ${this.state.case + 1} of ${this.rows.length}: no node is off by more than ${percent} of the largest displacement` +
            (this.between || this.rows.length < 2 ? "." : ". Sliders choose the nearest case, for nothing is known between them: " + this.data.not_between);
@@ -342,14 +357,15 @@ class Page {
   }
   refreshSlow() {
     const {field, get, state} = this;
-    if (field.cut.length > 0 && this.curveOf !== this.key) {
+    const profiles = field.profiles(state.t);
+    if (profiles.length && this.curveOf !== this.key) {
       this.curveOf = this.key;
       this.curve = [];
       for (let i = 0; i <= 60; ++i) this.curve.push([field.duration * i / 60, widestGape(field, field.duration * i / 60)]);
     }
-    if (field.cut.length > 0) {
-      drawCurve(get("gape-curve"), this.curve, state.t, "length cut, mm", "widest opening, mm");
-      drawCurve(get("profile-curve"), openingProfile(field, state.t), null, "u, mm", "opening along the cut, mm");
+    if (profiles.length) {
+      drawCurve(get("gape-curve"), [this.curve], state.t, "length cut, mm", "widest opening, mm");
+      drawCurve(get("profile-curve"), profiles, null, this.mesh ? "place along the cuts, mm" : "u, mm", "opening along the cut, mm");
     }
     this.markShown();
     history.replaceState(null, "", "#" + this.address());  // not in each picture: browsers limit how often
@@ -404,7 +420,7 @@ class Page {
     number("el", -89, 89, value => view.elevation = value);
     number("zoom", 0.2, 40, value => view.zoom = value);
     number("dark", 0, 1, value => state.dark = value === 1);
-    if (["displacement", "gape", "strain", "tissue"].includes(parts.get("color"))) state.color = parts.get("color");
+    if ([...this.get("color").options].some(option => option.value === parts.get("color"))) state.color = parts.get("color");
     if (parts.has("where")) state.where = parts.get("where");
   }
 }

@@ -22,8 +22,9 @@ function niceTicks(least, greatest, count) {
   return ticks;
 }
 
-/// A curve of [x, y] from 0 on, with a mark at x = `at`.
-function drawCurve(canvas, points, at, xTitle, yTitle) {
+/// Curves of [x, y], y from 0 on, one after another along x, with a mark at x = `at`.
+function drawCurve(canvas, curves, at, xTitle, yTitle) {
+  const points = curves.flat();
   const {g, width, height, ink, accent, faint} = freshCanvas(canvas);
   const left = 46, right = width - 10, top = 22, bottom = height - 34;
   const least = points[0][0], greatest = points[points.length - 1][0];
@@ -48,7 +49,7 @@ function drawCurve(canvas, points, at, xTitle, yTitle) {
   g.strokeStyle = accent;
   g.lineWidth = 2;
   g.beginPath();
-  points.forEach(([x, y], n) => n ? g.lineTo(px(x), py(y)) : g.moveTo(px(x), py(y)));
+  for (const curve of curves) curve.forEach(([x, y], n) => n ? g.lineTo(px(x), py(y)) : g.moveTo(px(x), py(y)));
   g.stroke();
   if (at !== null) {
     g.strokeStyle = ink;

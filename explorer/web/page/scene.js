@@ -95,7 +95,7 @@ class PatchScene {
     this.take(field);
   }
   /// What the points depend on; fields that agree in it can be taken by the same scene.
-  static shapeOf(field) { return JSON.stringify([field.domain.slice(0, 3), field.cut]); }
+  static shapeOf(field) { return field instanceof MovingMesh ? "mesh" : JSON.stringify([field.domain.slice(0, 3), field.cut]); }
   take(field) {
     this.field = field;
     this.lines = new PlaceLines(field, this.us, this.vs, this.ws);
@@ -171,4 +171,4 @@ function openingProfile(field, t, pieces = 150) {
   });
 }
 
-const widestGape = (field, t) => Math.max(...openingProfile(field, t).map(([, gape]) => gape));
+const widestGape = (shown, t) => Math.max(0, ...shown.profiles(t).flat().map(([, gape]) => gape));
