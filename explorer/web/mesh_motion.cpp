@@ -17,26 +17,29 @@ namespace cleft {
 
 namespace {
 
-constexpr int slices = 120;              // sampled lengths, besides the closed mesh
 constexpr double error_of_modes = 1e-3;  // over the largest displacement
 constexpr double steps_in_error = 0.5;
 constexpr double still = 1e-6;  // of the largest displacement: such points are at rest
 constexpr double most_bytes = 2e9;
 
-/// Displacements of the points that move: a column for each case, numbered (component * slices + slice) *
-/// points + point.
+/// Displacements of the points that move, at equal steps of the length cut: a column for each case.
 struct Samples {
   std::vector<int> active;
+  int slices = 0;
   Eigen::MatrixXf columns;
+
+  Eigen::Index points() const { return std::ssize(active); }
+  Eigen::Index row(int component, int slice, Eigen::Index point = 0) const {
+    return (static_cast<Eigen::Index>(component) * slices + slice) * points() + point;
+  }
 };
 
-Eigen::Index number(int component, int slice, Eigen::Index point, Eigen::Index points) {
-  return (static_cast<Eigen::Index>(component) * slices + slice) * points + point;
+/// One for each mm.
+int slices_of(const MeshMotion& motion) {
+  return std::clamp(static_cast<int>(std::ceil(motion.duration)), 30, 120);
 }
 
-double time_of(const MeshMotion& motion, int slice) { return motion.duration * (slice + 1) / slices; }
-
-/// Those that any case moves when all is cut, or half of it.
+/// Those that any case moves when a quarter, a half, three quarters or all is cut.
 std::vector<int> active_points(const MeshMotion& motion) {
   const std::vector<Vec3>& rest = motion.surface.points;
   std::vector<double> farthest(rest.size(), 0);
@@ -55,24 +58,22 @@ std::vector<int> active_points(const MeshMotion& motion) {
 }
 
 Samples samples_of(const MeshMotion& motion, const std::function<void(int)>& report) {
-  Samples samples{active_points(motion), {}};
-  const auto points = static_cast<Eigen::Index>(samples.active.size());
-  const double bytes = 4. * 3 * slices * static_cast<double>(points) * motion.cases;
+  Samples samples{active_points(motion), slices_of(motion), {}};
+  const double bytes = 4. * 3 * samples.slices * static_cast<double>(samples.points()) * motion.cases;
   if (bytes > most_bytes)
     throw InputError("a page of this mesh and " + std::to_string(motion.cases) + " cases would need " +
                      std::to_string(static_cast<int>(bytes / 1e9)) +
                      " GB of memory to make: give a coarser mesh, or a study of fewer cases");
-  samples.columns.resize(3 * slices * points, motion.cases);
+  samples.columns.resize(3 * samples.slices * samples.points(), motion.cases);
   std::vector<Vec3> moved;
   for (int i = 0; i < motion.cases; ++i) {
     report(i);
-    for (int slice = 0; slice < slices; ++slice) {
-      motion.positions(i, time_of(motion, slice), moved);
-      for (Eigen::Index a = 0; a < points; ++a) {
+    for (int slice = 0; slice < samples.slices; ++slice) {
+      motion.positions(i, motion.duration * (slice + 1) / samples.slices, moved);
+      for (Eigen::Index a = 0; a < samples.points(); ++a) {
         const auto p = static_cast<std::size_t>(samples.active[static_cast<std::size_t>(a)]);
         const Vec3 d = moved[p] - motion.surface.points[p];
-        for (int c = 0; c < 3; ++c)
-          samples.columns(number(c, slice, a, points), i) = static_cast<float>(d[c]);
+        for (int c = 0; c < 3; ++c) samples.columns(samples.row(c, slice, a), i) = static_cast<float>(d[c]);
       }
     }
   }
@@ -132,7 +133,8 @@ void add_body(const MeshMotion& motion, const std::array<Vec3, 3>& axes, MeshMot
 }
 
 void add_modes(const Samples& samples, MeshMotionData& data, Json& json) {
-  const Eigen::Index cases = samples.columns.cols(), points = std::ssize(samples.active);
+  const Eigen::Index cases = samples.columns.cols();
+  const int points = static_cast<int>(samples.points());
   Eigen::VectorXd sizes(cases);
   for (Eigen::Index i = 0; i < cases; ++i) {
     data.largest.push_back(largest_of(samples.columns.col(i)));
@@ -153,7 +155,7 @@ void add_modes(const Samples& samples, MeshMotionData& data, Json& json) {
 
   const double quantum =
       steps_in_error * error_of_modes * std::sqrt(12. / static_cast<double>(std::max<Eigen::Index>(1, kept)));
-  CoefficientGrid grid{static_cast<int>(points), 1, 1, {}, static_cast<int>(points)};
+  CoefficientGrid grid{points, 1, 1, {}, points};
   grid.unknown.resize(static_cast<std::size_t>(points));
   std::iota(grid.unknown.begin(), grid.unknown.end(), 0);
   std::vector<std::uint8_t> shares;
@@ -164,7 +166,7 @@ void add_modes(const Samples& samples, MeshMotionData& data, Json& json) {
     const Eigen::VectorXf mode = samples.columns * (size * vectors.col(k).cwiseQuotient(sizes)).cast<float>();
     std::vector<std::int64_t> integers;
     for (const float value : mode) integers.push_back(std::llround(static_cast<double>(value) / quantum));
-    data.pieces.push_back(encode_coefficients(grid, slices, integers));
+    data.pieces.push_back(encode_coefficients(grid, samples.slices, integers));
     const Eigen::VectorXd share = vectors.col(k).cwiseProduct(sizes) / size;
     for (const double one : share) append(shares, static_cast<float>(one));
     const Eigen::Map<const Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>> coded(integers.data(),
@@ -194,16 +196,17 @@ double widest(const MeshMotion& motion, int i) {
 MeshMotionData mesh_motion_data(const MeshMotion& motion, const std::function<void(int)>& report) {
   MeshMotionData data;
   Samples samples = samples_of(motion, report);
-  Json json{{"duration", motion.duration}, {"slices", slices}, {"note", motion.note}};
+  Json json{{"duration", motion.duration}, {"slices", samples.slices}, {"note", motion.note}};
   const std::array<Vec3, 3> axes = axes_of(motion.surface);
   add_body(motion, axes, data, json);
   std::vector<std::uint8_t> active;
   for (const int p : samples.active) append(active, static_cast<std::uint32_t>(p));
   data.pieces.push_back(std::move(active));
   json["active"] = samples.active.size();
-  const auto points = static_cast<Eigen::Index>(samples.active.size());
-  for (int slice = 0; slice < slices; ++slice) {  // into the camera's axes
-    const auto block = [&](int c) { return samples.columns.middleRows(number(c, slice, 0, points), points); };
+  for (int slice = 0; slice < samples.slices; ++slice) {  // into the camera's axes
+    const auto block = [&](int c) {
+      return samples.columns.middleRows(samples.row(c, slice), samples.points());
+    };
     const Eigen::MatrixXf x = block(0), y = block(1), z = block(2);
     for (int c = 0; c < 3; ++c)
       block(c) = static_cast<float>(axes[c].x) * x + static_cast<float>(axes[c].y) * y +

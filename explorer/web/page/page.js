@@ -77,11 +77,13 @@ class Page {
   }
   /// Fields between the cases are prepared bit by bit, while nothing else is to be done.
   prepare() {
-    if (!this.between) return;
     const step = () => {
-      if (!this.between.prepare()) setTimeout(step, 10);
+      if (this.between && !this.between.prepare()) setTimeout(step, 10);
     };
-    setTimeout(step, 300);
+    setTimeout(() => {
+      this.view.measure();
+      step();
+    }, 300);
   }
   duration(i) { return this.mesh ? this.mesh.duration : this.headers[i].domain.t[1]; }
 
@@ -278,11 +280,12 @@ class Page {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
-      this.refresh();
+      this.refresh(true);
     });
   }
-  /// Draws what the state says; what takes longer follows when nothing has changed for a moment.
-  refresh() {
+  /// Draws what the state says; what takes longer follows when nothing has changed for a moment. `moving`: with fewer
+  /// pixels, where drawing is slow.
+  refresh(moving = false) {
     const {state, get} = this;
     document.documentElement.classList.toggle("dark", state.dark);
     this.takeField();
@@ -293,7 +296,7 @@ class Page {
     const values = state.color === "tissue" ? null : this.scene.values(state.color, state.t, this.numbers);
     this.view.move(this.scene.displacement);
     this.range = [0, largest];
-    this.view.draw(values, this.range, state.dark);
+    this.view.draw(values, this.range, state.dark, moving);
     get("case").value = state.values ? "-1" : String(state.case);
     this.noCase.hidden = !state.values;
     this.sliders.forEach((slider, c) => slider.tell(this.values()[c]));
@@ -357,6 +360,7 @@ class Page {
   }
   refreshSlow() {
     const {field, get, state} = this;
+    this.view.refine();
     const profiles = field.profiles(state.t);
     if (profiles.length && this.curveOf !== this.key) {
       this.curveOf = this.key;

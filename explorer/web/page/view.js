@@ -114,7 +114,7 @@ class View {
     });
     this.indices = gl.createBuffer();
     gl.enable(gl.DEPTH_TEST);
-    this.azimuth = 0, this.elevation = 0, this.zoom = 1;
+    this.azimuth = 0, this.elevation = 0, this.zoom = 1, this.coarse = 1;
   }
   /// Another surface: triangles of skin, then of walls, points at rest, and the part of the depth of each.
   take(scene) {
@@ -162,9 +162,22 @@ class View {
                 back[0] * right[1] - back[1] * right[0]];
     return {right, up, back};
   }
-  draw(values, range, dark) {
+  /// How many pixels a moving picture may have: fewer where software draws.
+  measure() {
+    if (!this.drawn) return;
+    const pixel = new Uint8Array(4), {gl} = this, begin = performance.now();
+    this.draw(...this.drawn);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    this.coarse = clamp(Math.sqrt((performance.now() - begin) / 15), 1, 3);
+  }
+  /// Draws again with all pixels.
+  refine() {
+    if (this.rough) this.draw(...this.drawn);
+  }
+  draw(values, range, dark, moving = false) {
     const {gl, canvas, scene} = this;
-    const ratio = Math.min(2, window.devicePixelRatio || 1);
+    this.drawn = [values, range, dark], this.rough = moving && this.coarse > 1;
+    const ratio = Math.min(2, window.devicePixelRatio || 1) / (this.rough ? this.coarse : 1);
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio)), height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width || canvas.height !== height) canvas.width = width, canvas.height = height;
     gl.viewport(0, 0, width, height);
