@@ -82,11 +82,16 @@ int main(int argc, char** argv) {
     const OutputFile probe(out);  // reports a bad name before the work
     const ChartedCase charted = charted_case(StudyFolder(study), wanted);
     Progress progress("charting");
-    options.progress = [&](const std::string& state) { progress(state); };
+    std::size_t begun = 0;  // links, of those that are asked for
+    options.progress = [&](const std::string& state) {
+      progress(state,
+               static_cast<double>(std::max<std::size_t>(begun, 1) - 1) / static_cast<double>(only.size()));
+    };
     const OutputFolder work(path.has_parent_path() ? path.parent_path().string() : ".", "chart");
     std::vector<Chart> charts;
     const auto add = [&](const std::string& link, const std::function<std::vector<Chart>()>& measure) {
       if (std::find(only.begin(), only.end(), link) == only.end()) return;
+      ++begun;
       for (Chart& chart : measure()) charts.push_back(std::move(chart));
     };
     add("encoder", [&] { return encoder_charts(charted, options); });

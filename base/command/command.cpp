@@ -76,15 +76,21 @@ Progress::~Progress() {
   if (written_) std::cerr << "\r\033[K" << std::flush;
 }
 
-void Progress::operator()(const std::string& state) {
+void Progress::operator()(const std::string& state) { write(state, with_time_left(state)); }
+
+void Progress::operator()(const std::string& state, double part) {
+  const std::chrono::duration<double> elapsed = Clock::now() - begun_;
+  write(state, state + ", " + part_and_time_left(1, 1 + part, 1, elapsed.count()));
+}
+
+void Progress::write(const std::string& state, const std::string& line) {
   if (!file_.empty()) std::ofstream(file_) << state << "\n";  // nothing depends on it
   if (silent_) return;
   if (terminal_) {
-    std::cerr << "\r\033[K" << task_ << ": " << with_time_left(state) << std::flush;
+    std::cerr << "\r\033[K" << task_ << ": " << line << std::flush;
     written_ = true;
     return;
   }
-  const std::string line = with_time_left(state);  // keeps the pace
   if (!file_.empty() || Clock::now() - last_line_ < std::chrono::minutes(1)) return;
   std::cerr << task_ + ": " + line + "\n";
   last_line_ = Clock::now();

@@ -33,14 +33,17 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void operator()(const std::string& state);
+  /// The same where the part of the whole work that is done, 0 to 1, is known.
+  void operator()(const std::string& state, double part);
 
  private:
   using Clock = std::chrono::steady_clock;
   std::string with_time_left(const std::string& state);
+  void write(const std::string& state, const std::string& line);
 
   std::string task_, file_;
   bool terminal_, silent_, written_ = false;
-  Clock::time_point last_line_ = Clock::now();
+  Clock::time_point begun_ = Clock::now(), last_line_ = begun_;
   std::string step_;              // the state before its "N of M"
   Clock::time_point step_began_;  // with this N:
   double first_ = 0;

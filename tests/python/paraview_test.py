@@ -12,10 +12,11 @@ import numpy as np
 import paraview.simple as pv
 from paraview import servermanager
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 
 import cleft
-from small_study import make_study
+from small_study import command, make_study
 
 loaded = {line.split()[-1] for line in open("/proc/self/maps") if "libhdf5" in line}
 pv.LoadPlugin(sys.argv[1], remote=False, ns=globals())
@@ -37,6 +38,32 @@ def at(source, t):
     source.UpdatePipeline(t)
     return servermanager.Fetch(source)
 
+
+def image(path):
+    """Rows from the top of red, green, blue and opacity, 0 to 1."""
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    data = reader.GetOutput()
+    width, height, _ = data.GetDimensions()
+    return vtk_to_numpy(data.GetPointData().GetScalars()).reshape(height, width, 4)[::-1] / 255
+
+
+def covered(source, view, path):
+    """Where ParaView draws a source."""
+    pv.Show(source, view)
+    pv.SaveScreenshot(path, view, ImageResolution=PIXELS, TransparentBackground=1)
+    pv.Hide(source, view)
+    return image(path)[..., 3] > 0.5
+
+
+def in_common(a, b):
+    """The part of either that both cover."""
+    return np.count_nonzero(a & b) / np.count_nonzero(a | b)
+
+
+PIXELS = [640, 360]
+SEEN = np.s_[50:330, 150:490]  # the body without captions, axes and scale
 
 with tempfile.TemporaryDirectory() as folder:
     path = make_study(folder)
@@ -61,6 +88,34 @@ with tempfile.TemporaryDirectory() as folder:
             assert number_of(data, "estimated_error") == field.estimated_error
             assert abs(number_of(data, "TimeValue") - t) < 1e-9
             assert number_of(data, "skin.prestress_v") == values["skin.prestress_v"]
+    # The picture is the explorer's: the body, and the wound in it. A pixel of their outlines may be either's.
+    reader.TissueYoungModulus, reader.SkinPrestressV = 0.01, 0.04
+    script, picture = os.path.join(folder, "explorer.txt"), os.path.join(folder, "explorer.png")
+    with open(script, "w") as out:
+        wanted = (np.asarray(study.cases["tissue.young_modulus"]) == 0.01) & (np.asarray(study.cases["skin.prestress_v"]) == 0.04)
+        number = np.flatnonzero(wanted)[0] + 1
+        out.write(f"open '{path}'\ncase {number}\ncolor tissue\ncamera 0 0 0.6\nscreenshot '{picture}' {PIXELS[0]} {PIXELS[1]} transparent\n")
+    command("cleft", "explore", "--script", script)
+    explorer = image(picture)
+    red, green, blue = (np.maximum(explorer[..., c], 1e-3) for c in range(3))
+    body = explorer[..., 3] > 0.5
+    wound = body & ((np.abs(green / red - 0.77) > 0.09) | (np.abs(blue / green - 0.86) > 0.09))  # not of the skin's colour
+    view = pv.CreateView("RenderView")
+    view.ViewSize, view.OrientationAxesVisibility = PIXELS, 0
+    middle, high = np.array([0.0, 0.0, 0.0]), np.tan(np.radians(12))
+    away = np.abs(surface.points - middle)
+    distance = (1.35 * np.maximum(away[:, 1] / high, away[:, 0] / (high * PIXELS[0] / PIXELS[1])) + surface.points[:, 2]).max()
+    view.CameraFocalPoint, view.CameraViewUp, view.CameraViewAngle = list(middle), [0, 1, 0], 24 / 0.6
+    view.CameraPosition = [0, 0, distance]
+    view.ViewTime = 8.0
+    reader.UpdatePipeline(8.0)
+    skin = pv.Threshold(Input=reader, Scalars=["CELLS", "part"])
+    skin.UpdatePipeline(8.0)
+    skin.LowerThreshold, skin.UpperThreshold = -0.5, 0.5
+    whole, of_skin = (covered(source, view, picture)[SEEN] for source in (reader, skin))
+    assert in_common(whole, body[SEEN]) > 0.98, in_common(whole, body[SEEN])
+    assert in_common(whole & ~of_skin, wound[SEEN]) > 0.95, in_common(whole & ~of_skin, wound[SEEN])
+
     reader.Deform = 0
     np.testing.assert_array_equal(points_of(at(reader, 8.0)), surface.points)
 
