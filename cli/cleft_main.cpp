@@ -23,7 +23,8 @@ const std::vector<Command> commands = {
     {"advise", "settings for an error"},          {"chart", "speed against accuracy"},
     {"export", "write files for ParaView"},       {"import", "take another program's series"},
     {"decode", "a field as its source's series"}, {"pack", "a study's fields in one file"},
-    {"interpolate", "a case never simulated"},
+    {"interpolate", "a case never simulated"},    {"analyze", "what a figure depends on"},
+    {"fit", "parameters that explain measurements"},
 };
 
 std::string usage() {

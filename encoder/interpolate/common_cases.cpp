@@ -44,17 +44,6 @@ void for_each_member(const std::string& study, const std::function<void(StudyMem
   }
 }
 
-/// The cut ends at nodes: where the mesh was made for another one, not where it was asked to.
-RecordedParameters parameters_as_solved(const Field& field) {
-  RecordedParameters p = field.parameters;
-  const auto put = [&](const double& of_mesh, const double& of_cut, double solved) {
-    if (of_mesh > 0 && p.has(of_cut)) p.set(of_cut, solved);
-  };
-  put(p->mesh.cut_length, p->cut.length, field.cut().length);
-  put(p->mesh.cut_depth, p->cut.depth, field.cut().depth);
-  return p;
-}
-
 /// A map of an axis onto one that is the same in all cases: linear, on each side of the cut across it.
 struct Scale {
   double front, middle, back;  ///< go to -1, 0, 1; to 0 and 1 where there is no middle
@@ -110,6 +99,16 @@ void number_bottom(RecordedParameters& p) {
 std::string both(const std::string& a, const std::string& b) { return "the cases " + a + " and " + b; }
 
 }  // namespace
+
+RecordedParameters parameters_as_solved(const Field& field) {
+  RecordedParameters p = field.parameters;
+  const auto put = [&](const double& of_mesh, const double& of_cut, double solved) {
+    if (of_mesh > 0 && p.has(of_cut)) p.set(of_cut, solved);
+  };
+  put(p->mesh.cut_length, p->cut.length, field.cut().length);
+  put(p->mesh.cut_depth, p->cut.depth, field.cut().depth);
+  return p;
+}
 
 struct CommonCases::Own {
   CommonCase kept;

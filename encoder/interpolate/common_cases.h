@@ -31,6 +31,10 @@ void name_bottom(RecordedParameters& parameters);
 /// Called repeatedly with the completed part of the work, 0 to 1; an exception from it ends the work.
 using ReportPart = std::function<void(double part)>;
 
+/// The parameters of a field's case. The cut ends at nodes: where the mesh was made for another cut, not
+/// where it was asked to.
+RecordedParameters parameters_as_solved(const Field& field);
+
 /// Data of a case besides its control points.
 struct CommonCase {
   std::string name;

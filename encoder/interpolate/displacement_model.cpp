@@ -9,6 +9,7 @@
 #include "encoder/interpolate/convex_hull.h"
 #include "encoder/interpolate/field_samples.h"
 #include "encoder/interpolate/least_squares.h"
+#include "params/consistency.h"
 
 namespace cleft {
 
@@ -65,6 +66,12 @@ std::vector<int> representative_cases(const std::vector<RecordedParameters>& cas
   return list;
 }
 
+std::vector<Loading> loadings_of(const RecordedParameters& p) {
+  if (!is_linear_in_prestress(*p)) return {Loading::general};
+  if (!p.texts().empty()) return {Loading::superposed};
+  return {Loading::superposed, Loading::general};
+}
+
 DisplacementModel::DisplacementModel(const std::vector<RecordedParameters>& cases, const CaseSamples& samples,
                                      Loading loading)
     : features_(cases, loading), derivatives_(samples.derivatives.cols()) {
@@ -84,7 +91,8 @@ DisplacementModel::DisplacementModel(const std::vector<RecordedParameters>& case
                               1,  1e-9, Eigen::VectorXd::Ones(features_.size())};
     TrainingCases plain = training(samples.cases, false);
     plain.gram = normal().transpose() * normal();
-    plain_.emplace(Plain{scales_(samples.cases), {plain, straight}, few_of(samples.displacements), {}, {}});
+    plain_.emplace(Plain{
+        samples.cases, scales_(samples.cases), {plain, straight}, few_of(samples.displacements), {}, {}});
   }
   const Eigen::VectorXd norms = samples.displacements.colwise().norm().transpose();
   exponents_ = exponents_of(places_(samples.cases, Eigen::all), norms.cwiseQuotient(scales_(samples.cases)));
@@ -147,7 +155,8 @@ void DisplacementModel::choose(const std::vector<int>& cases, const Eigen::Matri
     for (KernelRegression& method : all_methods(some)) methods.push_back(std::move(method));
   }
   for (KernelRegression& regression : methods) {
-    const Eigen::MatrixXd residuals = normal.leftCols(regression.left_out().rows()) * regression.left_out();
+    const KernelRegression::LeftOut left_out = regression.left_out();
+    const Eigen::MatrixXd residuals = normal.leftCols(regression.rows()) * left_out.weights;
     Eigen::VectorXd errors(n), sizes(n);
     for (Eigen::Index i = 0; i < n; ++i) sizes[i] = largest_point(normal.col(i));
     const double least =
@@ -156,7 +165,7 @@ void DisplacementModel::choose(const std::vector<int>& cases, const Eigen::Matri
     for (Eigen::Index i = 0; i < n; ++i) {
       const double residual = largest_point(residuals.col(i));
       errors[i] = residual / std::max(sizes[i], least);
-      ratios.push_back(residual / regression.left_out_deviation()[i]);
+      ratios.push_back(residual / left_out.deviations[i]);
     }
     const double error = std::sqrt(errors.squaredNorm() / static_cast<double>(n));
     if (regression_ && error >= left_out_error_) continue;
@@ -190,24 +199,62 @@ bool DisplacementModel::sees_curvature() const {
   return true;
 }
 
-DisplacementModel::Prediction DisplacementModel::at(const RecordedParameters& parameters) const {
-  const Eigen::VectorXd place = features_.at(parameters), load = features_.load(parameters);
-  const double scale = features_.scale(parameters) * std::exp(exponents_.dot(place));
-  const Eigen::VectorXd weights = scale * regression_->weights(place, load);
-  const Eigen::Index n = places_.rows();
-  Prediction prediction{weights.head(n).cwiseQuotient(scales_), Eigen::VectorXd::Zero(derivatives_),
-                        scale * error_of_deviation_ * regression_->deviation(place, load)};
-  for (Eigen::Index w = 0; w < weights.size() - n; ++w) {
-    const Way& way = ways_[w];
-    const double weight = weights[n + w] / (scales_[way.of] * way.size);
-    prediction.derivatives[way.derivative] += weight;
-    prediction.weights[way.of] -= weight * way.log_scale;
+DisplacementModel::Predictions DisplacementModel::at(const std::vector<RecordedParameters>& list) const {
+  const auto count = static_cast<Eigen::Index>(list.size()), n = places_.rows();
+  Eigen::MatrixXd places(count, places_.cols()), loads(count, loads_.cols());
+  Eigen::VectorXd plain_scales(count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const RecordedParameters& one = list[static_cast<std::size_t>(j)];
+    places.row(j) = features_.at(one).transpose(), loads.row(j) = features_.load(one).transpose();
+    plain_scales[j] = features_.scale(one);
   }
+  const Eigen::VectorXd scales = plain_scales.array() * (places * exponents_).array().exp();
+  const KernelRegression::Weights found = regression_->weights(places, loads);
+  const Eigen::MatrixXd weights = found.of_rows * scales.asDiagonal();
+  Predictions all{scales_.cwiseInverse().asDiagonal() * weights.topRows(n),
+                  Eigen::MatrixXd::Zero(derivatives_, count),
+                  scales.cwiseProduct(found.deviations),
+                  {}};
+  for (Eigen::Index w = 0; w < weights.rows() - n; ++w) {  // d / scale moves by that of d, and of the scale
+    const Way& way = ways_[static_cast<std::size_t>(w)];
+    const Eigen::RowVectorXd weight = weights.row(n + w) / (scales_[way.of] * way.size);
+    all.derivatives.row(way.derivative) += weight;
+    all.weights.row(way.of) -= weight * way.log_scale;
+  }
+  if (plain_) {
+    all.others.setZero(n, count);
+    all.others(plain_->of, Eigen::all) = plain_->scales.cwiseInverse().asDiagonal() *
+                                         plain_->regression.weights(places, loads).of_rows *
+                                         plain_scales.asDiagonal();
+  }
+  return all;
+}
+
+DisplacementModel::Predictions DisplacementModel::left_out() const {
+  const Eigen::Index n = places_.rows();
+  const KernelRegression::LeftOut residuals = regression_->left_out();
+  Predictions all{{}, Eigen::MatrixXd::Zero(derivatives_, n), scales_.cwiseProduct(residuals.deviations), {}};
+  all.weights = -(scales_.cwiseInverse().asDiagonal() * residuals.weights.topRows(n) * scales_.asDiagonal());
+  all.weights.diagonal().array() += 1;
+  for (Eigen::Index w = 0; w < residuals.weights.rows() - n; ++w) {
+    const Way& way = ways_[static_cast<std::size_t>(w)];
+    const Eigen::RowVectorXd weight =
+        residuals.weights.row(n + w) * scales_.asDiagonal() / (scales_[way.of] * way.size);
+    all.derivatives.row(way.derivative) -= weight;
+    all.weights.row(way.of) += weight * way.log_scale;
+  }
+  return all;
+}
+
+DisplacementModel::Prediction DisplacementModel::at(const RecordedParameters& parameters) const {
+  const Predictions one = at(std::vector{parameters});
+  Prediction prediction{one.weights.col(0), one.derivatives.col(0), error_of_deviation_ * one.deviations[0]};
   if (plain_) {  // then how far two models are apart says more
-    const Eigen::VectorXd other =
-        features_.scale(parameters) * plain_->regression.weights(place, load).cwiseQuotient(plain_->scales);
-    const Eigen::VectorXd apart =
-        scale * plain_->data * plain_->chosen->weights(place, load) - plain_->samples * other;
+    const Eigen::MatrixXd place = features_.at(parameters).transpose(),
+                          load = features_.load(parameters).transpose();
+    const double scale = features_.scale(parameters) * std::exp(exponents_.dot(place.row(0)));
+    const Eigen::VectorXd apart = scale * plain_->data * plain_->chosen->weights(place, load).of_rows.col(0) -
+                                  plain_->samples * one.others.col(0)(plain_->of);
     prediction.error = std::hypot(prediction.error, largest_point(apart));
   }
   return prediction;

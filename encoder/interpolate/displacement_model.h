@@ -27,6 +27,10 @@ struct CaseSamples {
 /// At most `most` cases that are farthest from one another; in order.
 std::vector<int> representative_cases(const std::vector<RecordedParameters>& cases, int most);
 
+/// How the prestress of a study may enter. By default it superposes where the model is linear in it: only a
+/// much better prediction of cases left out speaks against it.
+std::vector<Loading> loadings_of(const RecordedParameters& of_a_case);
+
 /// The regression is for displacements divided by the scale of their load (Features) and by a power law of
 /// the features that is fitted to their norms. The method is the one with the least leave-one-out error at
 /// the worst points, with the derivatives by parameters or without.
@@ -45,6 +49,17 @@ class DisplacementModel {
   Prediction at(const RecordedParameters& parameters) const;
   nlohmann::ordered_json data() const;  ///< see Features
 
+  /// Many predictions at once, a column for each.
+  struct Predictions {
+    Eigen::MatrixXd weights, derivatives;  ///< as in Prediction
+    Eigen::VectorXd deviations;            ///< mm: to be calibrated by those of cases left out
+    /// Weights of the cases by another model, where the cases tell too little of which is right; else empty.
+    Eigen::MatrixXd others;
+  };
+  Predictions at(const std::vector<RecordedParameters>& list) const;
+  /// The predictions of each of all cases from those of all others.
+  Predictions left_out() const;
+
   /// Distance of parameters from the cases: that of the features from their convex hull, where the spread of
   /// each is 1, and that of the load's direction from the span of the cases' directions.
   double outside(const RecordedParameters& parameters) const;
@@ -60,6 +75,7 @@ class DisplacementModel {
  private:
   /// A case's loads and features alone, without the power law, by a polynomial of the first degree.
   struct Plain {
+    std::vector<int> of;  ///< cases
     Eigen::VectorXd scales;
     KernelRegression regression;
     Eigen::MatrixXd samples;                 ///< a few

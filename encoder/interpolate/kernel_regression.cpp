@@ -142,53 +142,62 @@ KernelRegression::KernelRegression(const TrainingCases& cases, Covariance covari
   nuggets_.head(n).setConstant(nugget_);
   factor_.compute(matrix_ + Eigen::MatrixXd(nuggets_.asDiagonal()));
   if (cases.gram.size() == 0) return;
-  const Eigen::MatrixXd inverse = factor_.solve(Eigen::MatrixXd::Identity(m, m));
-  const auto blocks = blocks_of(cases);
-  left_out_.resize(m, n), left_out_deviation_.resize(n);
+  const LeftOut left_out = this->left_out();
   const Eigen::VectorXd squares = cases.gram.diagonal().head(n);
   const double least = std::max(squares.mean() * least_size * least_size, 1e-300);
   double sum = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    sum += std::max(0., left_out.weights.col(i).dot(cases.gram * left_out.weights.col(i))) /
+           std::max(squares[i], least);
+  left_out_error_ = std::sqrt(sum / static_cast<double>(n));
+  if (!std::isfinite(left_out_error_)) left_out_error_ = 1e300;
+}
+
+KernelRegression::LeftOut KernelRegression::left_out() const {
+  const Eigen::Index n = cases_.features.rows(), m = rows();
+  const Eigen::MatrixXd inverse = factor_.solve(Eigen::MatrixXd::Identity(m, m));
+  const auto blocks = blocks_of(cases_);
+  LeftOut left_out{Eigen::MatrixXd(m, n), Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& block = blocks[i];
     if (block.size() == 1) {
       const double diagonal = std::max(inverse(i, i), 1e-300);
-      left_out_.col(i) = inverse.col(i) / diagonal;
-      left_out_deviation_[i] = 1 / std::sqrt(diagonal);
+      left_out.weights.col(i) = inverse.col(i) / diagonal;
+      left_out.deviations[i] = 1 / std::sqrt(diagonal);
     } else {
       const Eigen::MatrixXd own_block = inverse(block, block);
       Eigen::VectorXd first = Eigen::VectorXd::Zero(own_block.rows());
       first[0] = 1;
       const Eigen::VectorXd shares = own_block.ldlt().solve(first);
-      left_out_.col(i) = inverse(Eigen::all, block) * shares;
-      left_out_deviation_[i] = std::sqrt(std::max(shares[0], 1e-300));
+      left_out.weights.col(i) = inverse(Eigen::all, block) * shares;
+      left_out.deviations[i] = std::sqrt(std::max(shares[0], 1e-300));
     }
-    const double whole = std::max(squares[i], least);
-    sum += std::max(0., left_out_.col(i).dot(cases.gram * left_out_.col(i))) / whole;
   }
-  left_out_error_ = std::sqrt(sum / static_cast<double>(n));
-  if (!std::isfinite(left_out_error_)) left_out_error_ = 1e300;
+  return left_out;
 }
 
-Eigen::VectorXd KernelRegression::against(const Eigen::VectorXd& features,
-                                          const Eigen::VectorXd& load) const {
-  const Row wanted{features, load, {}, {}, false};
-  Eigen::VectorXd k(matrix_.rows());
-  for (Eigen::Index i = 0; i < k.size(); ++i) k[i] = covariance_of(row_of(cases_, i), wanted, covariance_);
-  return k;
-}
-
-Eigen::VectorXd KernelRegression::weights(const Eigen::VectorXd& features,
-                                          const Eigen::VectorXd& load) const {
-  return factor_.solve(against(features, load));
-}
-
-double KernelRegression::deviation(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const {
-  const Eigen::VectorXd k = against(features, load);
-  const Eigen::VectorXd w = factor_.solve(k);
-  const double own = load.squaredNorm() * covariance_(features, features);
-  // Of the prediction w as it was rounded: own - k . K^-1 k would only add up the errors of w.
-  const double variance = own - 2 * k.dot(w) + w.dot(matrix_ * w) + w.dot(nuggets_.cwiseProduct(w));
-  return std::sqrt(std::max(variance, 0.) + nugget_);
+KernelRegression::Weights KernelRegression::weights(const Eigen::MatrixXd& features,
+                                                    const Eigen::MatrixXd& loads) const {
+  const Eigen::Index count = features.rows();
+  Eigen::MatrixXd against(rows(), count);
+  Eigen::VectorXd own(count);
+  std::vector<Row> wanted;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    wanted.push_back({features.row(j).transpose(), loads.row(j).transpose(), {}, {}, false});
+    own[j] = loads.row(j).squaredNorm() * covariance_(wanted.back().x, wanted.back().x);
+  }
+  for (Eigen::Index i = 0; i < rows(); ++i) {
+    const Row row = row_of(cases_, i);
+    for (Eigen::Index j = 0; j < count; ++j)
+      against(i, j) = covariance_of(row, wanted[static_cast<std::size_t>(j)], covariance_);
+  }
+  Weights weights{factor_.solve(against), {}};
+  // Of the predictions w as they were rounded: own - k . K^-1 k would only add up the errors of w.
+  const Eigen::MatrixXd& w = weights.of_rows;
+  const Eigen::MatrixXd spread = matrix_ * w + nuggets_.asDiagonal() * w - 2 * against;
+  weights.deviations =
+      ((own + w.cwiseProduct(spread).colwise().sum().transpose()).cwiseMax(0.).array() + nugget_).sqrt();
+  return weights;
 }
 
 std::vector<KernelRegression> all_methods(const TrainingCases& cases) {

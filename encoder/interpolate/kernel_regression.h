@@ -60,29 +60,28 @@ class KernelRegression {
 
   const Covariance& covariance() const { return covariance_; }
   Eigen::Index rows() const { return matrix_.rows(); }  ///< cases and slopes
-  /// Column i: weights of all cases (and slopes behind them) whose sum of data is r_i.
-  const Eigen::MatrixXd& left_out() const { return left_out_; }
-  /// Standard deviation of r_i.
-  const Eigen::VectorXd& left_out_deviation() const { return left_out_deviation_; }
+  struct LeftOut {
+    Eigen::MatrixXd weights;     ///< column i: of all cases (and slopes behind them) whose sum of data is r_i
+    Eigen::VectorXd deviations;  ///< standard deviation of r_i
+  };
+  LeftOut left_out() const;
   /// sqrt of the mean of |r_i|^2 / |y_i|^2 (least_size).
   double left_out_error() const { return left_out_error_; }
 
-  /// Weights of the cases, followed by the slopes, for the prediction at these features under this load.
-  Eigen::VectorXd weights(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
-  /// Standard deviation of that prediction, in the unit of left_out_deviation().
-  double deviation(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
+  /// Predictions at features under loads, m x d and m x k.
+  struct Weights {
+    Eigen::MatrixXd of_rows;     ///< a column for each: weights of the cases, followed by the slopes
+    Eigen::VectorXd deviations;  ///< standard deviations, in the unit of LeftOut::deviations
+  };
+  Weights weights(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads) const;
   nlohmann::ordered_json data() const;  ///< see Features
 
- private:
-  Eigen::VectorXd against(const Eigen::VectorXd& features, const Eigen::VectorXd& load) const;
-
-  TrainingCases cases_;                // without the gram matrix
-  Eigen::MatrixXd matrix_, left_out_;  // matrix_: without the nugget
+  TrainingCases cases_;     // without the gram matrix
+  Eigen::MatrixXd matrix_;  // without the nugget
   Covariance covariance_;
   double nugget_;
   Eigen::VectorXd nuggets_;
   Eigen::LDLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd left_out_deviation_;
   double left_out_error_ = 0;
 };
 

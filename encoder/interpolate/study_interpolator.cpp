@@ -27,14 +27,6 @@ std::vector<FieldGeometry> geometries_of(const CommonCases& cases) {
   return list;
 }
 
-/// What is known of the prestress: it superposes, it does not, or the data must say. By default it does: only
-/// a much better prediction of cases left out speaks against it.
-std::vector<Loading> loadings_of(const RecordedParameters& p) {
-  if (!is_linear_in_prestress(*p)) return {Loading::general};
-  if (!p.texts().empty()) return {Loading::superposed};
-  return {Loading::superposed, Loading::general};
-}
-
 constexpr int most_compared = 128;
 constexpr double time_to_read = 0.4, time_to_sample = 0.3;  // of the whole, and of the rest
 

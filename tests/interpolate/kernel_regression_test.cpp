@@ -56,13 +56,16 @@ TEST(KernelRegression, ClosedFormsAreThoseOfCasesReallyLeftOut) {
     for (Eigen::Index i = 0; i < n; ++i) {
       const KernelRegression rest(without(p.cases, i), covariance);
       const Eigen::VectorXd x = p.cases.features.row(i).transpose(), load = p.cases.loads.row(i).transpose();
-      const Eigen::VectorXd weights = rest.weights(x, load);
+      const Eigen::VectorXd weights = rest.weights(x.transpose(), load.transpose()).of_rows.col(0);
       Eigen::VectorXd residual = p.data.col(i);
       for (Eigen::Index k = 0, column = 0; k < n; ++k)
         if (k != i) residual -= weights[column++] * p.data.col(k);
       // Both invert matrices of condition 1e5 or so.
-      EXPECT_LT((p.data * all.left_out().col(i) - residual).norm(), 1e-9 * p.data.norm()) << covariance.name;
-      EXPECT_NEAR(all.left_out_deviation()[i] / rest.deviation(x, load), 1, 1e-9) << covariance.name;
+      EXPECT_LT((p.data * all.left_out().weights.col(i) - residual).norm(), 1e-9 * p.data.norm())
+          << covariance.name;
+      EXPECT_NEAR(all.left_out().deviations[i] / rest.weights(x.transpose(), load.transpose()).deviations[0],
+                  1, 1e-9)
+          << covariance.name;
       sum += residual.squaredNorm() / p.data.col(i).squaredNorm();
     }
     EXPECT_NEAR(all.left_out_error(), std::sqrt(sum / n), 1e-9 * std::sqrt(sum / n));
@@ -111,9 +114,15 @@ TEST(KernelRegression, ACaseLeftOutTakesItsSlopesWithIt) {
       rest.gram = p.cases.gram(columns, columns);
       const KernelRegression others(rest, covariance);
       const Eigen::VectorXd x = p.cases.features.row(i).transpose(), load = p.cases.loads.row(i).transpose();
-      const Eigen::VectorXd residual = data.col(i) - data(Eigen::all, columns) * others.weights(x, load);
-      EXPECT_LT((data * all.left_out().col(i) - residual).norm(), 1e-8 * data.norm()) << covariance.name;
-      EXPECT_NEAR(all.left_out_deviation()[i] / others.deviation(x, load), 1, 1e-8) << covariance.name;
+      const Eigen::VectorXd residual =
+          data.col(i) -
+          data(Eigen::all, columns) * others.weights(x.transpose(), load.transpose()).of_rows.col(0);
+      EXPECT_LT((data * all.left_out().weights.col(i) - residual).norm(), 1e-8 * data.norm())
+          << covariance.name;
+      EXPECT_NEAR(
+          all.left_out().deviations[i] / others.weights(x.transpose(), load.transpose()).deviations[0], 1,
+          1e-8)
+          << covariance.name;
     }
   }
 }
@@ -142,8 +151,10 @@ TEST(KernelRegression, WithSlopesFewCasesDoForMany) {
     double worst = 0;
     for (double x = -1; x <= 1; x += 0.05) {
       const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, x);
-      worst =
-          std::max(worst, std::abs((p.data * smooth.weights(at, Eigen::VectorXd::Ones(1)))(0) - std::exp(x)));
+      worst = std::max(
+          worst,
+          std::abs((p.data * smooth.weights(at.transpose(), Eigen::MatrixXd::Ones(1, 1)).of_rows.col(0))(0) -
+                   std::exp(x)));
     }
     return worst;
   };
@@ -167,7 +178,8 @@ TEST(KernelRegression, PolynomialsAreReproduced) {
   const Eigen::Vector3d x(0.3, -0.9, 0.8);
   const Eigen::Vector2d q(0.5, -0.7);
   // The nugget of 1e-9 over the least eigenvalue of the features' products, above 1e-2 here.
-  EXPECT_LT((p.data * quadratic.weights(x, q) - truth(x, q)).norm(), 1e-6);
+  EXPECT_LT((p.data * quadratic.weights(x.transpose(), q.transpose()).of_rows.col(0) - truth(x, q)).norm(),
+            1e-6);
   EXPECT_LT(quadratic.left_out_error(), 1e-6);
   const KernelRegression linear(p.cases, {"", 1, Correlation::none, 1, 1e-9, Eigen::VectorXd::Ones(3)});
   EXPECT_GT(linear.left_out_error(), 0.05);
@@ -181,10 +193,13 @@ TEST(KernelRegression, RadialFunctionsPassThroughTheCases) {
   const double nugget = covariance.nugget * 101;
   for (Eigen::Index i = 0; i < 15; ++i) {
     const Eigen::VectorXd x = p.cases.features.row(i).transpose(), load = p.cases.loads.row(i).transpose();
-    const double variance = std::pow(regression.left_out_deviation()[i], 2);
-    const Eigen::VectorXd rest = nugget / variance * (p.data * regression.left_out().col(i));
-    EXPECT_LT((p.data.col(i) - p.data * regression.weights(x, load) - rest).norm(), 1e-9);
-    EXPECT_LT(regression.deviation(x, load), 1e-3);
+    const double variance = std::pow(regression.left_out().deviations[i], 2);
+    const Eigen::VectorXd rest = nugget / variance * (p.data * regression.left_out().weights.col(i));
+    EXPECT_LT(
+        (p.data.col(i) - p.data * regression.weights(x.transpose(), load.transpose()).of_rows.col(0) - rest)
+            .norm(),
+        1e-9);
+    EXPECT_LT(regression.weights(x.transpose(), load.transpose()).deviations[0], 1e-3);
   }
 }
 

@@ -1,0 +1,206 @@
+#include "explorer/analysis/figure_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/quantiles.h"
+#include "explorer/study/case_figures.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr int most_compared = 128;            // cases that choose the method
+constexpr Eigen::Index points_at_once = 256;  // their weights stay in the cache
+
+Eigen::VectorXd displacements_of(const Field& field, const std::vector<Figure>& figures) {
+  std::vector<Place> places;
+  for (const Figure& figure : figures)
+    for (const Place& place : figure.places(field.parametrization().geometry())) places.push_back(place);
+  std::vector<Vec3> found(places.size());
+  field.displacements(places, found);
+  Eigen::VectorXd flat(static_cast<Eigen::Index>(3 * places.size()));
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (int c = 0; c < 3; ++c) flat[static_cast<Eigen::Index>(3 * k) + c] = found[k][c];
+  return flat;
+}
+
+/// Of equal parameters the case that was read last.
+FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Figure>& figures,
+                              const ReportPart& report) {
+  std::map<std::map<std::string, double>, int> of_numbers;
+  FigureModel::Cases cases;
+  std::vector<Eigen::VectorXd> columns, errors;
+  for (int i = 0; i < study.size(); ++i) {
+    if (report) report(1. * i / study.size());
+    const Field field = study.read(i);
+    RecordedParameters parameters = parameters_as_solved(field);
+    for (const auto& [name, value] : study.parameters(i).texts()) parameters.set(name, value);
+    if (!of_numbers.emplace(parameters.numbers(), i).second) continue;
+    if (!cases.parameters.empty() && parameters.texts() != cases.parameters.front().texts())
+      for (const auto& [name, value] : parameters.texts())
+        if (cases.parameters.front().texts()[name] != value)
+          throw InputError("the cases differ in " + name + " (\"" + cases.parameters.front().texts()[name] +
+                           "\" and \"" + value + "\"), between which nothing lies; make a study of each");
+    cases.parameters.push_back(parameters);
+    columns.push_back(displacements_of(field, figures));
+    errors.emplace_back(Eigen::VectorXd::Constant(static_cast<Eigen::Index>(figures.size()),
+                                                  error_of_gape(field).value_or(std::nan(""))));
+  }
+  if (columns.size() < 3)
+    throw InputError(study.path() + ": holds " + std::to_string(columns.size()) +
+                     (columns.size() == 1 ? " case" : " cases of different parameters") +
+                     "; at least three are needed");
+  cases.displacements.resize(columns.front().size(), std::ssize(columns));
+  cases.fit_errors.resize(errors.front().size(), std::ssize(errors));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    cases.displacements.col(static_cast<Eigen::Index>(i)) = columns[i],
+    cases.fit_errors.col(static_cast<Eigen::Index>(i)) = errors[i];
+  return cases;
+}
+
+/// What a new value of the same kind keeps with a probability of `share`. Of many values it is one of them;
+/// few have no such quantile: theirs is taken from a normal distribution of their mean square.
+double kept(std::vector<double> values, double share) {
+  const auto n = static_cast<double>(values.size());
+  const double rank = std::ceil((n + 1) * share);
+  if (rank <= n) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  }
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return (1.96 + 2.37 / n + 2.82 / (n * n)) * std::sqrt(squares / n);  // of Student's distribution, expanded
+}
+
+}  // namespace
+
+FigureModel::FigureModel(const PublishedStudy& study, std::vector<Figure> figures, const ReportPart& report)
+    : FigureModel(read_cases(study, figures, report), figures) {}
+
+FigureModel::FigureModel(Cases cases, std::vector<Figure> figures)
+    : cases_(std::move(cases)), figures_(std::move(figures)) {
+  const std::vector<RecordedParameters>& parameters = cases_.parameters;
+  const Eigen::Index n = std::ssize(parameters);
+  for (const std::string& name : varying_parameters(parameters)) {
+    Varied& one = varying_.emplace_back(Varied{name, HUGE_VAL, -HUGE_VAL});
+    places_.conservativeResize(std::ssize(varying_), n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double value = parameters[static_cast<std::size_t>(i)].number(name).value();
+      places_(places_.rows() - 1, i) = value;
+      one.least = std::min(one.least, value), one.greatest = std::max(one.greatest, value);
+    }
+  }
+  if (varying_.empty()) throw InputError("no parameter varies in this study: there is nothing to ask");
+  rows_ = {0};
+  for (const Figure& figure : figures_)
+    rows_.push_back(rows_.back() + 3 * std::ssize(figure.places(FieldGeometry{})));
+
+  CaseSamples samples;
+  samples.cases = representative_cases(parameters, most_compared);
+  samples.displacements = cases_.displacements(Eigen::all, samples.cases);
+  for (const Loading loading : loadings_of(parameters.front())) {
+    auto model = std::make_shared<const DisplacementModel>(parameters, samples, loading);
+    if (!model_ || model->left_out_error() < 0.5 * model_->left_out_error()) model_ = std::move(model);
+  }
+
+  own_ = figures_from(cases_.displacements);
+  const DisplacementModel::Predictions others = model_->left_out();
+  inverse_ = -others.weights;
+  inverse_.diagonal().array() += 1;
+  inverse_ = inverse_ * others.deviations.cwiseAbs2().cwiseInverse().asDiagonal();
+  left_out_ = figures_from(cases_.displacements * others.weights);
+  residuals_ = cases_.displacements - cases_.displacements * others.weights;
+  ratios_ = (left_out_ - own_).cwiseAbs() * others.deviations.cwiseInverse().asDiagonal();
+}
+
+Eigen::MatrixXd FigureModel::figures_from(const Eigen::MatrixXd& displacements) const {
+  Eigen::MatrixXd values(std::ssize(figures_), displacements.cols());
+  for (Eigen::Index j = 0; j < values.cols(); ++j)
+    for (Eigen::Index f = 0; f < values.rows(); ++f)
+      values(f, j) = figures_[static_cast<std::size_t>(f)].of(displacements.col(j).segment(
+          rows_[static_cast<std::size_t>(f)],
+          rows_[static_cast<std::size_t>(f) + 1] - rows_[static_cast<std::size_t>(f)]));
+  return values;
+}
+
+std::vector<RecordedParameters> FigureModel::parameters_at(const Eigen::MatrixXd& points) const {
+  std::vector<RecordedParameters> list(static_cast<std::size_t>(points.cols()), cases_.parameters.front());
+  for (Eigen::Index j = 0; j < points.cols(); ++j)
+    for (Eigen::Index k = 0; k < points.rows(); ++k)
+      list[static_cast<std::size_t>(j)].set(varying_[static_cast<std::size_t>(k)].name, points(k, j));
+  return list;
+}
+
+FigureModel::Answers FigureModel::at(const Eigen::MatrixXd& points) const {
+  Answers answers{Eigen::MatrixXd(std::ssize(figures_), points.cols()),
+                  Eigen::MatrixXd(std::ssize(figures_), points.cols())};
+  parallel_for(static_cast<int>((points.cols() + points_at_once - 1) / points_at_once), [&](int piece) {
+    const Eigen::Index first = piece * points_at_once,
+                       count = std::min(points_at_once, points.cols() - first);
+    const auto found = model_->at(parameters_at(points.middleCols(first, count)));
+    const Eigen::MatrixXd displacements = cases_.displacements * found.weights;
+    const Eigen::MatrixXd values = figures_from(displacements);
+    Eigen::MatrixXd errors(values.rows(), count);
+    estimate_errors(found, displacements, values, errors);
+    answers.values.middleCols(first, count) = values, answers.errors.middleCols(first, count) = errors;
+  });
+  return answers;
+}
+
+/// Without case i the prediction is d - r_i w_i, where w_i is its weight and r_i its residual.
+void FigureModel::estimate_errors(const DisplacementModel::Predictions& found,
+                                  const Eigen::MatrixXd& displacements, const Eigen::MatrixXd& values,
+                                  Eigen::Ref<Eigen::MatrixXd> errors) const {
+  Eigen::MatrixXd apart;  // of two models, where the cases cannot tell which is right
+  if (found.others.size() > 0) apart = figures_from(cases_.displacements * found.others) - values;
+  for (Eigen::Index j = 0; j < values.cols(); ++j) {
+    Eigen::MatrixXd changes = -(residuals_ * found.weights.col(j).asDiagonal());
+    changes.colwise() += displacements.col(j);
+    const Eigen::MatrixXd without = figures_from(changes);
+    for (Eigen::Index f = 0; f < values.rows(); ++f) {
+      std::vector<double> above, below;  // where the figure may be, from the prediction on
+      for (Eigen::Index i = 0; i < cases(); ++i) {
+        const double change = without(f, i) - values(f, j), residual = ratios_(f, i) * found.deviations[j];
+        above.push_back(residual + change), below.push_back(residual - change);
+      }
+      errors(f, j) = std::max(kept(std::move(above), share), kept(std::move(below), share));
+      if (apart.size() > 0) errors(f, j) = std::hypot(errors(f, j), apart(f, j));
+    }
+  }
+}
+
+/// A weight that is held at zero changes the others by the column of the inverse that undoes it.
+Eigen::MatrixXd FigureModel::without(int part, int of, const Eigen::MatrixXd& points) const {
+  std::vector<int> left;
+  for (int i = part; i < cases(); i += of) left.push_back(i);
+  const Eigen::MatrixXd undo =
+      inverse_(Eigen::all, left) *
+      inverse_(left, left).ldlt().solve(Eigen::MatrixXd::Identity(std::ssize(left), std::ssize(left)));
+  Eigen::MatrixXd values(std::ssize(figures_), points.cols());
+  parallel_for(static_cast<int>((points.cols() + points_at_once - 1) / points_at_once), [&](int piece) {
+    const Eigen::Index first = piece * points_at_once,
+                       count = std::min(points_at_once, points.cols() - first);
+    Eigen::MatrixXd weights = model_->at(parameters_at(points.middleCols(first, count))).weights;
+    weights -= undo * Eigen::MatrixXd(weights(left, Eigen::all));
+    values.middleCols(first, count) = figures_from(cases_.displacements * weights);
+  });
+  return values;
+}
+
+double FigureModel::fit_error(int figure) const {
+  std::vector<double> known;
+  for (const double error : cases_.fit_errors.row(figure))
+    if (std::isfinite(error)) known.push_back(error);
+  return known.empty() ? std::nan("") : median(known);
+}
+
+double FigureModel::outside(const Eigen::VectorXd& point) const {
+  return model_->outside(parameters_at(point).front());
+}
+
+}  // namespace cleft

@@ -1,0 +1,84 @@
+// Figures of a study as functions of its parameters, between the cases, with their errors.
+//
+// The displacements that make a figure are linear in the fields, and are interpolated like these
+// (encoder/interpolate); the figure is made of what was interpolated. Its error is found by leaving out
+// cases, one after another: by how much the prediction changes without the case, and by how much that case
+// differs from what all others predict of it, over the standard deviation of the model there. The sum that
+// all but a twentieth of the cases keep is the error (the jackknife+ of Barber, Candes, Ramdas and
+// Tibshirani, Predictive inference with the jackknife+, 2021, with residuals over deviations: Lei et al.
+// 2018).
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "encoder/interpolate/common_cases.h"
+#include "encoder/interpolate/displacement_model.h"
+#include "explorer/analysis/figure.h"
+#include "explorer/study/study.h"
+
+namespace cleft {
+
+class FigureModel {
+ public:
+  /// A parameter that differs among the cases.
+  struct Varied {
+    std::string name;
+    double least, greatest;
+  };
+  /// What is known of each case.
+  struct Cases {
+    std::vector<RecordedParameters> parameters;
+    Eigen::MatrixXd displacements;  ///< a column for each: of the places of all figures, one after another
+    Eigen::MatrixXd fit_errors;     ///< figures x cases, mm: of the fields; NaN where it is not known
+  };
+  static constexpr double share = 0.95;  ///< of new cases within the errors
+
+  /// Reads every case once. Throws InputError if fewer than three differ, or if they differ in a choice.
+  FigureModel(const PublishedStudy& study, std::vector<Figure> figures, const ReportPart& report = {});
+  FigureModel(Cases cases, std::vector<Figure> figures);
+
+  const std::vector<Figure>& figures() const { return figures_; }
+  const std::vector<Varied>& varying() const { return varying_; }
+  int cases() const { return static_cast<int>(cases_.parameters.size()); }
+  /// Of a case, in the order of varying(); and its own figures.
+  Eigen::VectorXd place_of(int i) const { return places_.col(i); }
+  Eigen::VectorXd figures_of(int i) const { return own_.col(i); }
+  const std::string& method() const { return model_->regression().covariance().name; }
+
+  /// Figures x points; points: the values of varying(), a column for each.
+  struct Answers {
+    Eigen::MatrixXd values;
+    Eigen::MatrixXd errors;  ///< of the interpolation, of the figure's field; 95 % of new cases are within
+  };
+  Answers at(const Eigen::MatrixXd& points) const;
+  /// The values alone, by all cases but every `of`-th from the `part`-th on: what these tell (jackknife).
+  Eigen::MatrixXd without(int part, int of, const Eigen::MatrixXd& points) const;
+  /// What each case's figures would be by all other cases.
+  const Eigen::MatrixXd& left_out() const { return left_out_; }
+  /// The error of the fields of the cases themselves, mm: the median of the largest of each.
+  double fit_error(int figure) const;
+  /// Distance of a point from the study, over its spread; 0 between the cases.
+  double outside(const Eigen::VectorXd& point) const;
+
+ private:
+  std::vector<RecordedParameters> parameters_at(const Eigen::MatrixXd& points) const;
+  Eigen::MatrixXd figures_from(const Eigen::MatrixXd& displacements) const;
+  void estimate_errors(const DisplacementModel::Predictions& found, const Eigen::MatrixXd& displacements,
+                       const Eigen::MatrixXd& values, Eigen::Ref<Eigen::MatrixXd> errors) const;
+
+  Cases cases_;
+  std::vector<Figure> figures_;
+  std::vector<Eigen::Index> rows_;  // where the displacements of each figure begin, and the end
+  std::vector<Varied> varying_;
+  Eigen::MatrixXd places_, own_;
+  std::shared_ptr<const DisplacementModel> model_;
+  Eigen::MatrixXd inverse_;    // of the covariance of the cases' displacements
+  Eigen::MatrixXd residuals_;  // displacements of each case less what the others predict
+  Eigen::MatrixXd ratios_;     // figures x cases: residuals over deviations
+  Eigen::MatrixXd left_out_;
+};
+
+}  // namespace cleft

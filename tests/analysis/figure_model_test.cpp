@@ -1,0 +1,71 @@
+#include "explorer/analysis/figure_model.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/analysis/made_cases.h"
+
+namespace cleft {
+
+namespace {
+
+const std::vector<Figure> figures = {Figure("gape"), Figure("gape(3, 18)"), Figure("v(2, -5, 0)")};
+
+}  // namespace
+
+TEST(FigureModel, PredictsCasesThatItDoesNotHoldWithinItsErrors) {
+  const FigureModel model(cases_with(drawn(24, 1), figures), figures);
+  ASSERT_EQ(model.varying().size(), 3u);
+  const auto others = drawn(60, 2);
+  Eigen::MatrixXd points(3, std::ssize(others));
+  for (std::size_t j = 0; j < others.size(); ++j)
+    for (Eigen::Index k = 0; k < 3; ++k)
+      points(k, static_cast<Eigen::Index>(j)) =
+          others[j].at(model.varying()[static_cast<std::size_t>(k)].name);
+  const FigureModel::Answers answers = model.at(points);
+  int within = 0, between = 0;
+  for (std::size_t j = 0; j < others.size(); ++j)
+    for (std::size_t f = 0; f < figures.size(); ++f) {
+      const auto row = static_cast<Eigen::Index>(f), column = static_cast<Eigen::Index>(j);
+      const double truth = figures[f].of(made_field(others[j]));
+      EXPECT_NEAR(answers.values(row, column), truth, 0.002 * std::abs(truth)) << j;
+      if (model.outside(points.col(column)) > 0) continue;
+      ++between;
+      within += std::abs(answers.values(row, column) - truth) <= answers.errors(row, column);
+    }
+  EXPECT_GT(between, 90);
+  EXPECT_GT(within, 0.88 * between);  // 95 % are expected
+  for (Eigen::Index f = 0; f < 3; ++f)
+    EXPECT_LT(answers.errors.row(f).maxCoeff(), 0.003 * answers.values.row(f).cwiseAbs().maxCoeff());
+}
+
+TEST(FigureModel, LeavesOutCasesAsIfTheyHadNotBeenThere) {
+  // One at a time by the closed form, and a third of them, against what the others' weights must keep: a case
+  // left out has none, and what is predicted of it is what is predicted without it.
+  const FigureModel model(cases_with(drawn(24, 3), figures), figures);
+  Eigen::MatrixXd places(3, 24);
+  for (int i = 0; i < 24; ++i) places.col(i) = model.place_of(i);
+  for (int i = 0; i < 24; ++i) {
+    const Eigen::VectorXd without = model.without(i, 24, places.col(i)).col(0);
+    EXPECT_LT((without - model.left_out().col(i)).norm(), 1e-6 * model.figures_of(i).norm()) << i;
+  }
+  const Eigen::MatrixXd third = model.without(0, 3, places);
+  double of_left_out = 0, of_others = 0;
+  for (int i = 0; i < 24; ++i)
+    (i % 3 == 0 ? of_left_out : of_others) += (third.col(i) - model.figures_of(i)).norm();
+  EXPECT_GT(of_left_out, 10 * of_others);
+}
+
+TEST(FigureModel, TellsHowFarOutsideAPointIs) {
+  const FigureModel model(cases_with(drawn(24, 1), figures), figures);
+  EXPECT_EQ(model.outside(model.place_of(3)), 0);
+  Eigen::VectorXd far = model.place_of(3);
+  far[0] *= 5;
+  EXPECT_GT(model.outside(far), 0.5);
+}
+
+TEST(FigureModel, RefusesAStudyInWhichNothingVaries) {
+  EXPECT_THROW(FigureModel(cases_with({{}, {}, {}}, figures), figures), InputError);
+}
+
+}  // namespace cleft
