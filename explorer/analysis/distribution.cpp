@@ -76,8 +76,9 @@ double InputDistribution::quantile(double part) const { return law_->computeScal
 
 std::vector<InputDistribution> distributions_of(const std::vector<RangeOfName>& ranges,
                                                 const std::vector<std::string>& given) {
-  std::vector<std::string> names;
-  for (const RangeOfName& range : ranges) names.push_back(range.name);
+  std::vector<std::string> names(ranges.size());
+  std::transform(ranges.begin(), ranges.end(), names.begin(),
+                 [](const RangeOfName& one) { return one.name; });
   std::vector<InputDistribution> read;
   Mistakes mistakes;
   for (const std::string& text : given)

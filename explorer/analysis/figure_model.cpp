@@ -28,6 +28,18 @@ Eigen::VectorXd displacements_of(const Field& field, const std::vector<Figure>& 
   return flat;
 }
 
+void check_choices(const RecordedParameters& a, const RecordedParameters& b) {
+  const auto texts = a.texts(), others = b.texts();
+  const auto found = std::find_if(others.begin(), others.end(), [&](const auto& other) {
+    const auto own = texts.find(other.first);
+    return own != texts.end() && own->second != other.second;
+  });
+  if (found == others.end()) return;
+  const auto& [name, value] = *found;
+  throw InputError("the cases differ in " + name + " (\"" + texts.at(name) + "\" and \"" + value +
+                   "\"), between which nothing lies; make a study of each");
+}
+
 /// Of equal parameters the case that was read last.
 FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Figure>& figures,
                               const ReportPart& report) {
@@ -40,11 +52,7 @@ FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Fig
     RecordedParameters parameters = parameters_as_solved(field);
     for (const auto& [name, value] : study.parameters(i).texts()) parameters.set(name, value);
     if (!of_numbers.emplace(parameters.numbers(), i).second) continue;
-    if (!cases.parameters.empty() && parameters.texts() != cases.parameters.front().texts())
-      for (const auto& [name, value] : parameters.texts())
-        if (cases.parameters.front().texts()[name] != value)
-          throw InputError("the cases differ in " + name + " (\"" + cases.parameters.front().texts()[name] +
-                           "\" and \"" + value + "\"), between which nothing lies; make a study of each");
+    if (!cases.parameters.empty()) check_choices(cases.parameters.front(), parameters);
     cases.parameters.push_back(parameters);
     columns.push_back(displacements_of(field, figures));
     errors.emplace_back(Eigen::VectorXd::Constant(static_cast<Eigen::Index>(figures.size()),
@@ -62,15 +70,15 @@ FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Fig
   return cases;
 }
 
-/// What a new value of the same kind keeps with a probability of `share`. Of many values it is one of them;
-/// few have no such quantile: theirs is taken from a normal distribution of their mean square.
+/// What a new value of the same kind keeps with a probability of `share`: between two of many values. Few
+/// have no such quantile: theirs is taken from a normal distribution of their mean square.
 double kept(std::vector<double> values, double share) {
   const auto n = static_cast<double>(values.size());
-  const double rank = std::ceil((n + 1) * share);
-  if (rank <= n) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+  const double rank = (n + 1) * share - 1;
+  if (rank < n - 1) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(values.begin(), at, values.end());
-    return *at;
+    return *at + (rank - std::floor(rank)) * (*std::min_element(at + 1, values.end()) - *at);
   }
   double squares = 0;
   for (const double value : values) squares += value * value;
@@ -79,7 +87,8 @@ double kept(std::vector<double> values, double share) {
 
 }  // namespace
 
-FigureModel::FigureModel(const PublishedStudy& study, std::vector<Figure> figures, const ReportPart& report)
+FigureModel::FigureModel(const PublishedStudy& study, const std::vector<Figure>& figures,
+                         const ReportPart& report)
     : FigureModel(read_cases(study, figures, report), figures) {}
 
 FigureModel::FigureModel(Cases cases, std::vector<Figure> figures)

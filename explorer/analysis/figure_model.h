@@ -37,7 +37,7 @@ class FigureModel {
   static constexpr double share = 0.95;  ///< of new cases within the errors
 
   /// Reads every case once. Throws InputError if fewer than three differ, or if they differ in a choice.
-  FigureModel(const PublishedStudy& study, std::vector<Figure> figures, const ReportPart& report = {});
+  FigureModel(const PublishedStudy& study, const std::vector<Figure>& figures, const ReportPart& report = {});
   FigureModel(Cases cases, std::vector<Figure> figures);
 
   const std::vector<Figure>& figures() const { return figures_; }

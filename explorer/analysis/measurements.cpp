@@ -1,5 +1,6 @@
 #include "explorer/analysis/measurements.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -24,13 +25,14 @@ constexpr std::array<Column, 5> measured = {{{"gape", "gape", false},
 
 Measurements read_measurements(const std::string& file, double deviation) {
   const NumberTable table = read_csv(file);
-  for (const std::string& name : table.columns) {
-    static const std::vector<std::string> known = {"u",  "v",  "w",  "t",        "gape", "displacement",
-                                                   "du", "dv", "dw", "deviation"};
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(file + ": unknown column '" + name + "'" + did_you_mean(name, known) +
-                       "; expected u, v, w, t, deviation and gape, displacement, du, dv or dw");
-  }
+  static const std::vector<std::string> known = {"u",  "v",  "w",  "t",        "gape", "displacement",
+                                                 "du", "dv", "dw", "deviation"};
+  const auto unknown = std::find_if(table.columns.begin(), table.columns.end(), [](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) == known.end();
+  });
+  if (unknown != table.columns.end())
+    throw InputError(file + ": unknown column '" + *unknown + "'" + did_you_mean(*unknown, known) +
+                     "; expected u, v, w, t, deviation and gape, displacement, du, dv or dw");
   Measurements all;
   std::vector<double> values, deviations;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {

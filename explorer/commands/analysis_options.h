@@ -1,6 +1,8 @@
 // What the commands that ask a study have in common.
 #pragma once
 
+#include <array>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,10 @@ inline std::vector<InputDistribution> distributions_of(const FigureModel& model,
 }
 
 /// With four digits.
-std::string rounded(double value);
+inline std::string rounded(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
 
 }  // namespace cleft

@@ -59,6 +59,7 @@ Json analyze(const Options& o) {
   };
   std::vector<FigureFunction> alternatives;
   const int parts = std::min(parts_left_out, model.cases());
+  alternatives.reserve(static_cast<std::size_t>(parts));
   for (int part = 0; part < parts; ++part)
     alternatives.emplace_back([&model, part, parts](const Eigen::MatrixXd& points) {
       return Eigen::VectorXd(model.without(part, parts, points).row(0).transpose());
