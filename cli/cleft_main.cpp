@@ -35,6 +35,7 @@ const std::vector<Command> commands = {
     {"interpolate", "a case never simulated"},
     {"analyze", "what a figure depends on"},
     {"fit", "parameters that explain measurements"},
+    {"propose", "the next cases of a study"},
 };
 
 std::string usage() {

@@ -68,6 +68,12 @@ struct SamplingSettings {
   /// Each case three times, in skin whose tension is a unit along the cut, across it, or both with shear:
   /// every other tension is a sum of these.
   bool unit_tensions = false;
+  /// Of adaptive sampling: the first cases are `count`; further ones are chosen a batch at a time, until the
+  /// estimated error of the figure `of`, over its largest value, is below `error` everywhere in the ranges,
+  /// or there are `most` cases.
+  double error = 0;
+  std::size_t most = 0, batch = 8;
+  std::string of = "field";
 };
 
 /// The name under which the folder of a study keeps the body of its cases.

@@ -199,16 +199,31 @@ bool DisplacementModel::sees_curvature() const {
   return true;
 }
 
-DisplacementModel::Predictions DisplacementModel::at(const std::vector<RecordedParameters>& list) const {
-  const auto count = static_cast<Eigen::Index>(list.size()), n = places_.rows();
-  Eigen::MatrixXd places(count, places_.cols()), loads(count, loads_.cols());
-  Eigen::VectorXd plain_scales(count);
+DisplacementModel::Points DisplacementModel::points_of(const std::vector<RecordedParameters>& list) const {
+  const auto count = static_cast<Eigen::Index>(list.size());
+  Points points{Eigen::MatrixXd(count, places_.cols()),
+                Eigen::MatrixXd(count, loads_.cols()),
+                Eigen::VectorXd(count),
+                {}};
   for (Eigen::Index j = 0; j < count; ++j) {
     const RecordedParameters& one = list[static_cast<std::size_t>(j)];
-    places.row(j) = features_.at(one).transpose(), loads.row(j) = features_.load(one).transpose();
-    plain_scales[j] = features_.scale(one);
+    points.places.row(j) = features_.at(one).transpose(),
+    points.loads.row(j) = features_.load(one).transpose();
+    points.plain_scales[j] = features_.scale(one);
   }
-  const Eigen::VectorXd scales = plain_scales.array() * (places * exponents_).array().exp();
+  points.scales = points.plain_scales.array() * (points.places * exponents_).array().exp();
+  return points;
+}
+
+Eigen::MatrixXd DisplacementModel::covariance(const std::vector<RecordedParameters>& list) const {
+  const Points points = points_of(list);
+  return points.scales.asDiagonal() * regression_->covariance_between(points.places, points.loads) *
+         points.scales.asDiagonal();
+}
+
+DisplacementModel::Predictions DisplacementModel::at(const std::vector<RecordedParameters>& list) const {
+  const auto count = static_cast<Eigen::Index>(list.size()), n = places_.rows();
+  const auto& [places, loads, plain_scales, scales] = points_of(list);
   const KernelRegression::Weights found = regression_->weights(places, loads);
   const Eigen::MatrixXd weights = found.of_rows * scales.asDiagonal();
   Predictions all{scales_.cwiseInverse().asDiagonal() * weights.topRows(n),

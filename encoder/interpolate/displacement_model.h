@@ -57,6 +57,9 @@ class DisplacementModel {
     Eigen::MatrixXd others;
   };
   Predictions at(const std::vector<RecordedParameters>& list) const;
+  /// Covariances of the predictions' errors, in the square of the unit of the deviations; columns are changed
+  /// by a case at a place as by Kriging.
+  Eigen::MatrixXd covariance(const std::vector<RecordedParameters>& list) const;
   /// The predictions of each of all cases from those of all others.
   Predictions left_out() const;
 
@@ -88,6 +91,12 @@ class DisplacementModel {
     Features::Slope slope;
     double log_scale, size;  ///< of scales_; of the slope
   };
+  /// Where predictions are wanted.
+  struct Points {
+    Eigen::MatrixXd places, loads;
+    Eigen::VectorXd plain_scales, scales;  // without the power law, and with it
+  };
+  Points points_of(const std::vector<RecordedParameters>& list) const;
   void add_ways(const std::vector<RecordedParameters>& cases, const CaseSamples& samples);
   TrainingCases training(const std::vector<int>& cases, bool with_ways) const;
   void choose(const std::vector<int>& cases, const Eigen::MatrixXd& normal);

@@ -176,28 +176,47 @@ KernelRegression::LeftOut KernelRegression::left_out() const {
   return left_out;
 }
 
-KernelRegression::Weights KernelRegression::weights(const Eigen::MatrixXd& features,
-                                                    const Eigen::MatrixXd& loads) const {
-  const Eigen::Index count = features.rows();
-  Eigen::MatrixXd against(rows(), count);
-  Eigen::VectorXd own(count);
+Eigen::MatrixXd KernelRegression::against(const Eigen::MatrixXd& features,
+                                          const Eigen::MatrixXd& loads) const {
   std::vector<Row> wanted;
-  for (Eigen::Index j = 0; j < count; ++j) {
+  for (Eigen::Index j = 0; j < features.rows(); ++j)
     wanted.push_back({features.row(j).transpose(), loads.row(j).transpose(), {}, {}, false});
-    own[j] = loads.row(j).squaredNorm() * covariance_(wanted.back().x, wanted.back().x);
-  }
+  Eigen::MatrixXd against(rows(), features.rows());
   for (Eigen::Index i = 0; i < rows(); ++i) {
     const Row row = row_of(cases_, i);
-    for (Eigen::Index j = 0; j < count; ++j)
+    for (Eigen::Index j = 0; j < against.cols(); ++j)
       against(i, j) = covariance_of(row, wanted[static_cast<std::size_t>(j)], covariance_);
   }
-  Weights weights{factor_.solve(against), {}};
+  return against;
+}
+
+KernelRegression::Weights KernelRegression::weights(const Eigen::MatrixXd& features,
+                                                    const Eigen::MatrixXd& loads) const {
+  const Eigen::MatrixXd k = against(features, loads);
+  Eigen::VectorXd own(features.rows());
+  for (Eigen::Index j = 0; j < own.size(); ++j) {
+    const Eigen::VectorXd x = features.row(j).transpose();
+    own[j] = loads.row(j).squaredNorm() * covariance_(x, x);
+  }
+  Weights weights{factor_.solve(k), {}};
   // Of the predictions w as they were rounded: own - k . K^-1 k would only add up the errors of w.
   const Eigen::MatrixXd& w = weights.of_rows;
-  const Eigen::MatrixXd spread = matrix_ * w + nuggets_.asDiagonal() * w - 2 * against;
+  const Eigen::MatrixXd spread = matrix_ * w + nuggets_.asDiagonal() * w - 2 * k;
   weights.deviations =
       ((own + w.cwiseProduct(spread).colwise().sum().transpose()).cwiseMax(0.).array() + nugget_).sqrt();
   return weights;
+}
+
+Eigen::MatrixXd KernelRegression::covariance_between(const Eigen::MatrixXd& features,
+                                                     const Eigen::MatrixXd& loads) const {
+  const Eigen::MatrixXd k = against(features, loads);
+  Eigen::MatrixXd between = -(k.transpose() * factor_.solve(k));
+  for (Eigen::Index a = 0; a < between.rows(); ++a)
+    for (Eigen::Index b = 0; b < between.cols(); ++b)
+      between(a, b) += loads.row(a).dot(loads.row(b)) *
+                       covariance_(Eigen::VectorXd(features.row(a)), Eigen::VectorXd(features.row(b)));
+  between.diagonal() = between.diagonal().cwiseMax(0.).array() + nugget_;
+  return between;
 }
 
 std::vector<KernelRegression> all_methods(const TrainingCases& cases) {

@@ -74,7 +74,12 @@ class KernelRegression {
     Eigen::VectorXd deviations;  ///< standard deviations, in the unit of LeftOut::deviations
   };
   Weights weights(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads) const;
+  /// Covariances of the errors of predictions, m x m, in the square of that unit.
+  Eigen::MatrixXd covariance_between(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads) const;
   nlohmann::ordered_json data() const;  ///< see Features
+
+ private:
+  Eigen::MatrixXd against(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads) const;
 
   TrainingCases cases_;     // without the gram matrix
   Eigen::MatrixXd matrix_;  // without the nugget

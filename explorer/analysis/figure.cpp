@@ -20,6 +20,18 @@ void add_lips(std::vector<Place>& places, double u, double t) {
   for (const Side side : {Side::left, Side::right}) places.push_back({{u, 0, 0}, side, t});
 }
 
+/// A part of the skin around the cut, finer next to it.
+void add_skin(std::vector<Place>& places, const FieldGeometry& g, double t) {
+  for (int i = 0; i <= along_skin; ++i)
+    for (int j = 0; j < across_skin; ++j)
+      for (const Side side : {Side::left, Side::right}) {
+        const double edge = side == Side::left ? g.domain[1].front : g.domain[1].back,
+                     part = 1. * j / across_skin;
+        places.push_back(
+            {{g.cut.start + g.cut.length * (i / (along_skin / 2.) - 0.5), edge * part * part, 0}, side, t});
+      }
+}
+
 double opening(const Eigen::Ref<const Eigen::VectorXd>& displacements, Eigen::Index k) {
   return (point(displacements, 2 * k + 1) - point(displacements, 2 * k)).norm();
 }
@@ -30,7 +42,7 @@ Figure::Figure(const std::string& text) : text_(text) {
   const auto fail = [&](const std::string& why) {
     throw InputError(
         "figure '" + text + "': " + why +
-        "; expected gape, gape(u), gape(u, t), displacement, displacement(u, v, w), or u, v or w in "
+        "; expected gape, gape(u), gape(u, t), field, displacement, displacement(u, v, w), or u, v or w in "
         "place of displacement for a component");
   };
   const CallText call = parse_call(text, "figure '" + text + "'");
@@ -45,6 +57,9 @@ Figure::Figure(const std::string& text) : text_(text) {
     if (!(given == 3 || given == 4 || (whole && given == 0))) fail("a point has three coordinates u, v, w");
     kind_ = !whole ? Kind::component : given == 0 ? Kind::largest : Kind::distance;
     component_ = name == "u" ? 0 : name == "v" ? 1 : 2;
+  } else if (name == "field") {
+    if (given > 0) fail("the field has no place");
+    kind_ = Kind::field;
   } else {
     fail("there is no figure '" + name + "'");
   }
@@ -62,14 +77,11 @@ std::vector<Place> Figure::places(const FieldGeometry& g) const {
       add_lips(places, at_[0], at_.size() > 1 ? at_[1] : all);
       break;
     case Kind::largest:
-      for (int i = 0; i <= along_skin; ++i)
-        for (int j = 0; j < across_skin; ++j)
-          for (const Side side : {Side::left, Side::right}) {
-            const double edge = side == Side::left ? g.domain[1].front : g.domain[1].back,
-                         part = 1. * j / across_skin;
-            places.push_back(
-                {{cut.start + cut.length * (i / (along_skin / 2.) - 0.5), edge * part * part, 0}, side, all});
-          }
+      add_skin(places, g, all);
+      break;
+    case Kind::field:
+      for (const double part : {0.5, 1.})
+        add_skin(places, g, g.domain[3].front + part * (all - g.domain[3].front));
       break;
     default:
       places.push_back(
@@ -96,6 +108,13 @@ double Figure::of(const Eigen::Ref<const Eigen::VectorXd>& displacements) const 
       for (Eigen::Index k = 0; k < count; ++k) most = std::max(most, point(displacements, k).norm());
       return most;
   }
+}
+
+double Figure::distance(const Eigen::Ref<const Eigen::VectorXd>& a,
+                        const Eigen::Ref<const Eigen::VectorXd>& b) {
+  double most = 0;
+  for (Eigen::Index k = 0; k < a.size() / 3; ++k) most = std::max(most, (point(a, k) - point(b, k)).norm());
+  return most;
 }
 
 double Figure::of(const Field& field) const {

@@ -13,6 +13,8 @@ namespace cleft {
 /// length t is cut. displacement: the largest of the skin, mm; displacement(u, v, w), displacement(u, v, w,
 /// t) that of a point, u(...), v(...), w(...) its components likewise. Where no t is given all is cut. A
 /// point with v = 0 is of the right lip.
+/// field: all of the skin, when half and all is cut; its number is the largest displacement, and it differs
+/// from another by the largest distance of any of its points.
 class Figure {
  public:
   /// Throws InputError with the names that there are.
@@ -26,9 +28,14 @@ class Figure {
   /// The figure of their displacements, x, y, z of one after another.
   double of(const Eigen::Ref<const Eigen::VectorXd>& displacements) const;
   double of(const Field& field) const;
+  /// Whether it is the field, of which distance() counts.
+  bool is_field() const { return kind_ == Kind::field; }
+  /// The largest distance between displacements of the same places.
+  static double distance(const Eigen::Ref<const Eigen::VectorXd>& a,
+                         const Eigen::Ref<const Eigen::VectorXd>& b);
 
  private:
-  enum class Kind { widest, opening, largest, distance, component };
+  enum class Kind { widest, opening, largest, distance, component, field };
   std::string text_, unit_ = "mm";
   Kind kind_ = Kind::widest;
   int component_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -13,6 +14,7 @@ namespace cleft {
 
 namespace {
 
+constexpr int most_chosen_again = 64, parts_left_out = 8;
 constexpr int most_compared = 128;            // cases that choose the method
 constexpr Eigen::Index points_at_once = 256;  // their weights stay in the cache
 
@@ -85,6 +87,20 @@ double kept(std::vector<double> values, double share) {
   return (1.96 + 2.37 / n + 2.82 / (n * n)) * std::sqrt(squares / n);  // of Student's distribution, expanded
 }
 
+/// Of many cases some choose the method.
+DisplacementModel best_model(const std::vector<RecordedParameters>& parameters,
+                             const Eigen::MatrixXd& displacements) {
+  CaseSamples samples;
+  samples.cases = representative_cases(parameters, most_compared);
+  samples.displacements = displacements(Eigen::all, samples.cases);
+  std::optional<DisplacementModel> best;
+  for (const Loading loading : loadings_of(parameters.front())) {
+    DisplacementModel model(parameters, samples, loading);
+    if (!best || model.left_out_error() < 0.5 * best->left_out_error()) best.emplace(std::move(model));
+  }
+  return std::move(*best);
+}
+
 }  // namespace
 
 FigureModel::FigureModel(const PublishedStudy& study, const std::vector<Figure>& figures,
@@ -109,31 +125,58 @@ FigureModel::FigureModel(Cases cases, std::vector<Figure> figures)
   for (const Figure& figure : figures_)
     rows_.push_back(rows_.back() + 3 * std::ssize(figure.places(FieldGeometry{})));
 
-  CaseSamples samples;
-  samples.cases = representative_cases(parameters, most_compared);
-  samples.displacements = cases_.displacements(Eigen::all, samples.cases);
-  for (const Loading loading : loadings_of(parameters.front())) {
-    auto model = std::make_shared<const DisplacementModel>(parameters, samples, loading);
-    if (!model_ || model->left_out_error() < 0.5 * model_->left_out_error()) model_ = std::move(model);
-  }
-
+  model_ = std::make_shared<const DisplacementModel>(best_model(parameters, cases_.displacements));
   own_ = figures_from(cases_.displacements);
   const DisplacementModel::Predictions others = model_->left_out();
   inverse_ = -others.weights;
   inverse_.diagonal().array() += 1;
   inverse_ = inverse_ * others.deviations.cwiseAbs2().cwiseInverse().asDiagonal();
   left_out_ = figures_from(cases_.displacements * others.weights);
-  residuals_ = cases_.displacements - cases_.displacements * others.weights;
-  ratios_ = (left_out_ - own_).cwiseAbs() * others.deviations.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd predicted = cases_.displacements * others.weights;
+  residuals_ = cases_.displacements - predicted;
+  ratios_ =
+      differences(n > most_chosen_again ? predicted : predicted_by_parts(), cases_.displacements).cwiseAbs() *
+      others.deviations.cwiseInverse().asDiagonal();
+}
+
+/// The method and its lengths are those that predict the cases left out best, which few cases may do by
+/// chance: then each part of them is predicted by a method that was chosen without it.
+Eigen::MatrixXd FigureModel::predicted_by_parts() const {
+  const int parts = std::min(parts_left_out, cases());
+  Eigen::MatrixXd predicted(cases_.displacements.rows(), cases());
+  parallel_for(parts, [&](int part) {
+    std::vector<int> left, rest;
+    std::vector<RecordedParameters> of_left, of_rest;
+    for (int i = 0; i < cases(); ++i) {
+      (i % parts == part ? left : rest).push_back(i);
+      (i % parts == part ? of_left : of_rest).push_back(cases_.parameters[static_cast<std::size_t>(i)]);
+    }
+    const Eigen::MatrixXd displacements = cases_.displacements(Eigen::all, rest);
+    predicted(Eigen::all, left) = displacements * best_model(of_rest, displacements).at(of_left).weights;
+  });
+  return predicted;
 }
 
 Eigen::MatrixXd FigureModel::figures_from(const Eigen::MatrixXd& displacements) const {
   Eigen::MatrixXd values(std::ssize(figures_), displacements.cols());
   for (Eigen::Index j = 0; j < values.cols(); ++j)
-    for (Eigen::Index f = 0; f < values.rows(); ++f)
-      values(f, j) = figures_[static_cast<std::size_t>(f)].of(displacements.col(j).segment(
-          rows_[static_cast<std::size_t>(f)],
-          rows_[static_cast<std::size_t>(f) + 1] - rows_[static_cast<std::size_t>(f)]));
+    for (std::size_t f = 0; f < figures_.size(); ++f)
+      values(static_cast<Eigen::Index>(f), j) =
+          figures_[f].of(displacements.col(j).segment(rows_[f], rows_[f + 1] - rows_[f]));
+  return values;
+}
+
+/// Of the figures of each column from those of another; how far fields are apart has no sign.
+Eigen::MatrixXd FigureModel::differences(const Eigen::MatrixXd& columns,
+                                         const Eigen::MatrixXd& others) const {
+  Eigen::MatrixXd values(std::ssize(figures_), columns.cols());
+  for (Eigen::Index j = 0; j < values.cols(); ++j)
+    for (std::size_t f = 0; f < figures_.size(); ++f) {
+      const auto one = columns.col(j).segment(rows_[f], rows_[f + 1] - rows_[f]),
+                 other = others.col(others.cols() == 1 ? 0 : j).segment(rows_[f], rows_[f + 1] - rows_[f]);
+      values(static_cast<Eigen::Index>(f), j) =
+          figures_[f].is_field() ? Figure::distance(one, other) : figures_[f].of(one) - figures_[f].of(other);
+    }
   return values;
 }
 
@@ -155,7 +198,7 @@ FigureModel::Answers FigureModel::at(const Eigen::MatrixXd& points) const {
     const Eigen::MatrixXd displacements = cases_.displacements * found.weights;
     const Eigen::MatrixXd values = figures_from(displacements);
     Eigen::MatrixXd errors(values.rows(), count);
-    estimate_errors(found, displacements, values, errors);
+    estimate_errors(found, displacements, errors);
     answers.values.middleCols(first, count) = values, answers.errors.middleCols(first, count) = errors;
   });
   return answers;
@@ -163,18 +206,18 @@ FigureModel::Answers FigureModel::at(const Eigen::MatrixXd& points) const {
 
 /// Without case i the prediction is d - r_i w_i, where w_i is its weight and r_i its residual.
 void FigureModel::estimate_errors(const DisplacementModel::Predictions& found,
-                                  const Eigen::MatrixXd& displacements, const Eigen::MatrixXd& values,
+                                  const Eigen::MatrixXd& displacements,
                                   Eigen::Ref<Eigen::MatrixXd> errors) const {
   Eigen::MatrixXd apart;  // of two models, where the cases cannot tell which is right
-  if (found.others.size() > 0) apart = figures_from(cases_.displacements * found.others) - values;
-  for (Eigen::Index j = 0; j < values.cols(); ++j) {
-    Eigen::MatrixXd changes = -(residuals_ * found.weights.col(j).asDiagonal());
-    changes.colwise() += displacements.col(j);
-    const Eigen::MatrixXd without = figures_from(changes);
-    for (Eigen::Index f = 0; f < values.rows(); ++f) {
+  if (found.others.size() > 0) apart = differences(cases_.displacements * found.others, displacements);
+  for (Eigen::Index j = 0; j < errors.cols(); ++j) {
+    Eigen::MatrixXd without = -(residuals_ * found.weights.col(j).asDiagonal());
+    without.colwise() += displacements.col(j);
+    const Eigen::MatrixXd changes = differences(without, displacements.col(j));
+    for (Eigen::Index f = 0; f < errors.rows(); ++f) {
       std::vector<double> above, below;  // where the figure may be, from the prediction on
       for (Eigen::Index i = 0; i < cases(); ++i) {
-        const double change = without(f, i) - values(f, j), residual = ratios_(f, i) * found.deviations[j];
+        const double change = changes(f, i), residual = ratios_(f, i) * found.deviations[j];
         above.push_back(residual + change), below.push_back(residual - change);
       }
       errors(f, j) = std::max(kept(std::move(above), share), kept(std::move(below), share));
@@ -206,6 +249,10 @@ double FigureModel::fit_error(int figure) const {
   for (const double error : cases_.fit_errors.row(figure))
     if (std::isfinite(error)) known.push_back(error);
   return known.empty() ? std::nan("") : median(known);
+}
+
+Eigen::MatrixXd FigureModel::covariance(const Eigen::MatrixXd& points) const {
+  return model_->covariance(parameters_at(points));
 }
 
 double FigureModel::outside(const Eigen::VectorXd& point) const {

@@ -60,14 +60,18 @@ class FigureModel {
   const Eigen::MatrixXd& left_out() const { return left_out_; }
   /// The error of the fields of the cases themselves, mm: the median of the largest of each.
   double fit_error(int figure) const;
+  /// What the model does not know of the displacements at points: covariances, in one unit.
+  Eigen::MatrixXd covariance(const Eigen::MatrixXd& points) const;
   /// Distance of a point from the study, over its spread; 0 between the cases.
   double outside(const Eigen::VectorXd& point) const;
 
  private:
   std::vector<RecordedParameters> parameters_at(const Eigen::MatrixXd& points) const;
   Eigen::MatrixXd figures_from(const Eigen::MatrixXd& displacements) const;
+  Eigen::MatrixXd differences(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) const;
+  Eigen::MatrixXd predicted_by_parts() const;
   void estimate_errors(const DisplacementModel::Predictions& found, const Eigen::MatrixXd& displacements,
-                       const Eigen::MatrixXd& values, Eigen::Ref<Eigen::MatrixXd> errors) const;
+                       Eigen::Ref<Eigen::MatrixXd> errors) const;
 
   Cases cases_;
   std::vector<Figure> figures_;

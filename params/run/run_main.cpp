@@ -7,12 +7,15 @@
 #include "base/command/command.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "params/run/case_list.h"
+#include "params/run/chosen_cases.h"
 #include "params/run/estimates.h"
 #include "params/run/local.h"
 #include "params/run/packing.h"
 #include "params/run/run_table.h"
 #include "params/run/slurm.h"
+#include "params/sampling/sampling.h"
 #include "params/study.h"
 
 using namespace cleft;
@@ -54,6 +57,35 @@ void list_cases(const Study& study, const std::vector<Case>& cases, const std::s
               << std::ceil(bytes / 1e5) / 10 << " MB on disk, as measured so far\n";
   else
     std::cout << "no case of the study has been measured: what they will take is not known yet\n";
+}
+
+std::vector<Case> known_cases(const Study& study, const std::string& out) {
+  return std::filesystem::exists(out + "/study.toml") ? cases_of(study, StudyFolder(out)) : cases_of(study);
+}
+
+/// After a run of all cases so far, of which those before the last batch had been published or had failed.
+RunReport with_batch(const RunReport& before, const RunReport& last) {
+  RunReport sum = last;
+  sum.already_published = before.already_published;
+  sum.published = before.published + last.published, sum.superseded = before.superseded + last.superseded;
+  return sum;
+}
+
+void tell(const Decision& decision, const Study& study, int cases) {
+  const std::string error = shortest(std::round(1e4 * decision.error) / 1e4),
+                    what = study.sampling.of + ": estimated error " + error + " by " + std::to_string(cases) +
+                           " cases";
+  if (decision.choice == Choice::added) std::cerr << what << "; choosing more\n";
+  if (decision.choice == Choice::reached)
+    std::cerr << what << ", within " << shortest(study.sampling.error) << " everywhere in the ranges\n";
+  if (decision.choice == Choice::most)
+    std::cerr << "cleft run: warning: " << what << ", the most that the study may have; "
+              << shortest(study.sampling.error) << " is not reached\n";
+  if (decision.choice == Choice::exhausted)
+    std::cerr << "cleft run: warning: " << what
+              << "; no place is left at which a further case would tell more\n";
+  if (decision.choice == Choice::failed)
+    std::cerr << "cleft run: warning: every case of the last batch failed; no more are chosen\n";
 }
 
 Json figures_of(const RunReport& r) {
@@ -119,20 +151,31 @@ int main(int argc, char** argv) {
 
   return run_command(app, argc, argv, [&] {
     const Study study = read_study(file);
-    const std::vector<Case> cases = cases_of(study);
     if (options.jobs == 0)
       options.jobs = std::max(
           1, static_cast<int>(std::thread::hardware_concurrency()) / (options.ranks * options.threads));
-    if (dry_run) return list_cases(study, cases, out, options.jobs, json);
+    if (dry_run) return list_cases(study, known_cases(study, out), out, options.jobs, json);
+    cases_of(study);  // mistakes are told before a folder is made
     options.memory = memory > 0 ? 1e9 * memory : 0.9 * available_memory();
     const StudyFolder folder = task.empty() ? StudyFolder::create(out, study) : StudyFolder(out);
-    const RunReport report = !task.empty() ? run_slurm_task(folder, study, cases, options, task)
-                             : launcher == "slurm"
-                                 ? run_slurm(folder, study, cases, options, over(study.slurm, slurm))
-                                 : run_local(folder, study, cases, options);
-    if (task.empty() && report.interrupted == 0 &&
-        report.already_published + report.published + report.superseded > 0)
-      pack_study(out);
+    const auto run = [&](const std::vector<Case>& cases) {
+      return !task.empty()         ? run_slurm_task(folder, study, cases, options, task)
+             : launcher == "slurm" ? run_slurm(folder, study, cases, options, over(study.slurm, slurm))
+                                   : run_local(folder, study, cases, options);
+    };
+    const bool adapts = task.empty() && find_sampling(study.sampling.method, study.name).adapts;
+    RunReport report;
+    Decision decision{Choice::added, std::nan("")};
+    do {
+      const RunReport last = run(cases_of(study, folder));
+      report = report.cases == 0 ? last : with_batch(report, last);
+      if (task.empty() && report.interrupted == 0 &&
+          report.already_published + report.published + report.superseded > 0)
+        pack_study(out);
+      if (!adapts || report.interrupted > 0) break;
+      decision = choose_more(folder, study);
+      tell(decision, study, report.cases);
+    } while (decision.choice == Choice::added);
     print_figures(figures_of(report), json);
     if (report.failed > 0)
       throw std::runtime_error(std::to_string(report.failed) + " of " + std::to_string(report.cases) +

@@ -1,5 +1,6 @@
 // cleft status: what of a study is done.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iostream>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "base/command/command.h"
 #include "params/run/case_list.h"
+#include "params/run/chosen_cases.h"
 
 using namespace cleft;
 
@@ -22,11 +24,22 @@ void add_figures(Json& entry, const IndexedCase& known) {
   entry["raw_data"] = known.snapshot ? "kept" : "dropped";
 }
 
+/// Of adaptive sampling: the estimated error by the number of cases, and how many more would be enough.
+void add_errors(Json& status, const Study& study, const ChosenCases& chosen) {
+  if (chosen.batches.empty()) return;
+  Json& sampling = status["sampling"] = {{"figure", chosen.figure}, {"error_wanted", study.sampling.error}};
+  for (const ChosenBatch& one : chosen.batches)
+    sampling["errors"].push_back({{"cases", one.cases}, {"error", one.error}});
+  for (const double error : {study.sampling.error, study.sampling.error / 2})
+    if (const auto cases = cases_for(chosen, error))
+      sampling["cases_expected"].push_back({{"error", error}, {"cases", *cases}});
+}
+
 Json status_of(const StudyFolder& folder, bool with_figures) {
   const Study study = read_study(folder.study_file());
   Json result = {{"study", study.name}, {"published", 0}, {"running", 0},
                  {"failed", 0},         {"missing", 0},   {"cases", Json::array()}};
-  const std::vector<Case> cases = cases_of(study);
+  const std::vector<Case> cases = cases_of(study, folder);
   const auto index = folder.index();
   const std::vector<CaseStatus> states = folder.status(cases, index);
   for (std::size_t c = 0; c < cases.size(); ++c) {
@@ -39,6 +52,7 @@ Json status_of(const StudyFolder& folder, bool with_figures) {
   const auto dropped = [](const auto& published) { return !published.second.snapshot; };
   if (const auto count = std::count_if(index.begin(), index.end(), dropped))
     result["without_snapshot"] = count;
+  add_errors(result, study, chosen_cases(folder, study));
   return result;
 }
 
@@ -66,10 +80,24 @@ void print_csv(const Json& cases) {
   }
 }
 
+void print_errors(const Json& sampling) {
+  std::cout << "estimated error of " << sampling["figure"].get<std::string>() << ", "
+            << sampling["error_wanted"] << " wanted:";
+  const auto print = [](const Json& list) {
+    for (const Json& one : list)
+      std::cout << (one == list[0] ? " " : ", ") << std::round(1e4 * one["error"].get<double>()) / 1e4
+                << " by " << one["cases"] << " cases";
+  };
+  print(sampling["errors"]);
+  if (sampling.contains("cases_expected")) std::cout << "; expected:", print(sampling["cases_expected"]);
+  std::cout << "\n";
+}
+
 void print_table(const Json& status) {
   print_cases(status["cases"]);
   for (const char* state : {"published", "running", "failed", "missing"})
     std::cout << state << ": " << status[state] << "\n";
+  if (status.contains("sampling")) print_errors(status["sampling"]);
   if (status.contains("without_snapshot"))
     std::cout << "raw data are gone (keep_snapshots = \"none\"): " << status["without_snapshot"] << "\n";
 }

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::int64_t most_values = 100'000;  // of one parameter
 constexpr std::int64_t most_level = 12;
+constexpr std::size_t first_cases = 16;  // of adaptive sampling, if the file does not say
+constexpr std::int64_t most_adaptive = 10'000;
 
 class SamplingReader {
  public:
@@ -38,16 +40,85 @@ class SamplingReader {
   bool takes_values() const { return method_ && !method_->draws; }
 
   void read_settings(const toml::table& table) {
-    check_keys(table, {"method", "count", "seed", "level", "unit_tensions"}, "sampling.", "");
+    check_keys(table,
+               {"method", "count", "seed", "level", "unit_tensions", "start", "most", "error", "batch", "of"},
+               "sampling.", "");
     mistakes_.collect([&] { read_method(table); });
+    if (adapts()) read_adaptive(table);
+    mistakes_.collect([&] { check_adaptive_keys(table); });
     mistakes_.collect([&] { read_number(table, "count", 1, most_cases, study_.sampling.count); });
     mistakes_.collect([&] { read_number(table, "seed", 0, INT64_MAX, study_.sampling.seed); });
     mistakes_.collect([&] { read_number(table, "level", 1, most_level, study_.sampling.level); });
     mistakes_.collect([&] { read_unit_tensions(table); });
-    if (draws() && !table.contains(number_of_cases()))
+    if (draws() && !adapts() && !table.contains(number_of_cases()))
       mistakes_.add(where(table) + ": sampling method '" + method_->name + "' needs " +
                     (method_->levels ? "level = n: 1 takes the middle and the ends of each range, 2 pairs too"
                                      : "count = n, the number of cases"));
+  }
+
+  bool adapts() const { return method_ && method_->adapts; }
+
+  void read_adaptive(const toml::table& table) {
+    SamplingSettings& s = study_.sampling;
+    s.count = first_cases;
+    mistakes_.collect([&] { read_count(table, "start", 3, s.count); });
+    mistakes_.collect([&] { read_count(table, "batch", 1, s.batch); });
+    mistakes_.collect([&] {
+      if (!table.contains("most"))
+        throw InputError(where(table) +
+                         ": sampling method 'adaptive' needs most = n, the most cases it may take");
+      read_count(table, "most", 3, s.most);
+      if (s.most < s.count)
+        throw InputError(where(*table.get("most")) + ": sampling.most = " + std::to_string(s.most) +
+                         ": must be at least start, " + std::to_string(s.count));
+    });
+    mistakes_.collect([&] {
+      const toml::node* node = table.get("error");
+      const auto given = node ? node->value<double>() : std::nullopt;
+      if (!given || !(*given > 0 && *given < 1))
+        throw InputError(
+            where(node ? *node : table) +
+            ": sampling.error: the error at which no more cases are wanted, over the figure's largest "
+            "value; must be a number above 0 and below 1");
+      s.error = *given;
+    });
+    mistakes_.collect([&] {
+      const toml::node* node = table.get("of");
+      if (!node) return;
+      const auto text = node->value<std::string>();
+      if (!text || text->empty())
+        throw InputError(
+            where(*node) +
+            ": sampling.of: the figure that the error is of, in quotes: \"field\", \"gape\", or another of "
+            "cleft analyze");
+      s.of = *text;
+    });
+    if (s.unit_tensions)
+      mistakes_.add(where(table) +
+                    ": sampling.unit_tensions: is not for method 'adaptive'; vary the prestress, which "
+                    "superposes between the cases anyway");
+  }
+
+  void check_adaptive_keys(const toml::table& table) const {
+    if (adapts() && table.contains("count"))
+      throw InputError(where(*table.get("count")) +
+                       ": sampling.count: method 'adaptive' takes start and most; remove count");
+    if (!method_ || adapts()) return;
+    for (const char* key : {"start", "most", "error", "batch", "of"})
+      if (const toml::node* node = table.get(key))
+        throw InputError(where(*node) + ": sampling." + key + ": is for method \"adaptive\"; remove it");
+  }
+
+  void read_count(const toml::table& table, const std::string& key, std::int64_t least,
+                  std::size_t& number) const {
+    const toml::node* node = table.get(key);
+    if (!node) return;
+    const auto given = node->value<std::int64_t>();
+    if (!given || *given < least || *given > most_adaptive)
+      throw InputError(where(*node) + ": sampling." + key + (given ? " = " + std::to_string(*given) : "") +
+                       ": must be a whole number between " + std::to_string(least) + " and " +
+                       std::to_string(most_adaptive));
+    number = static_cast<std::size_t>(*given);
   }
 
   /// The key that says how many cases are drawn.
@@ -101,7 +172,7 @@ class SamplingReader {
   void read_number(const toml::table& table, const std::string& key, std::int64_t least, std::int64_t most,
                    Whole& number) const {
     const toml::node* node = table.get(key);
-    if (!node) return;
+    if (!node || (adapts() && key == "count")) return;
     if (takes_values())
       throw InputError(where(*node) + ": sampling." + key + ": method '" + method_->name +
                        "' takes the values under [vary]; remove " + key +

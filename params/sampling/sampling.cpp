@@ -18,7 +18,8 @@ const SamplingMethod methods[] = {{"grid", sample_grid, false},
                                   {"list", sample_list, false},
                                   {"latin-hypercube", sample_latin_hypercube, true},
                                   {"sobol", sample_sobol, true},
-                                  {"sparse-grid", sample_sparse_grid, true, true}};
+                                  {"sparse-grid", sample_sparse_grid, true, true},
+                                  {"adaptive", sample_sobol, true, false, true}};
 
 }  // namespace
 

@@ -17,6 +17,8 @@ struct SamplingMethod {
   bool draws;  ///< cases from ranges; otherwise variations give values
   /// Of a method that draws: sampling.level says how many; otherwise sampling.count and sampling.seed.
   bool levels = false;
+  /// Cases are added by what those before them tell; the method draws the first ones.
+  bool adapts = false;
 };
 
 /// Finds a method by name; throws InputError "<where>: unknown sampling method ...".

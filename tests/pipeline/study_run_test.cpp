@@ -413,4 +413,30 @@ TEST(StudyRun, AKilledRunIsFinishedByTheNext) {
   expect_success(run_cleft("check", {folder}));
 }
 
+TEST(AdaptiveStudy, AddsCasesUntilItsErrorIsBelowTheOneWanted) {
+  const TemporaryFolder folder;
+  const std::string text = std::string(study).substr(0, std::string(study).find("[vary]")) +
+                           "[vary]\n'tissue.young_modulus' = { from = 0.01, to = 0.03, scale = 'log' }\n"
+                           "'cut.depth' = { from = 1.5, to = 3 }\n"
+                           "[sampling]\nmethod = 'adaptive'\nstart = 4\nbatch = 2\nmost = 12\nof = 'gape'\n";
+  const std::string file = folder.write("study.toml", text + "error = 0.1\n"), out = folder / "out";
+  expect_success(run_cleft("run", {file, "--out", out}));
+  nlohmann::json now = status(out);
+  const auto cases = now.at("cases").size();
+  EXPECT_EQ(now.at("published"), cases);
+  EXPECT_LT(now.at("sampling").at("errors").back().at("error").get<double>(), 0.1);
+  expect_success(run_cleft("run", {file, "--out", out}));  // nothing is missing
+  EXPECT_EQ(status(out).at("cases").size(), cases);
+
+  // A smaller error goes on from there, to the most there may be.
+  const std::string smaller = folder.write("smaller.toml", text + "error = 1e-9\n");
+  const Outcome outcome = expect_success(run_cleft("run", {smaller, "--out", out}));
+  EXPECT_NE(outcome.output.find("the most that the study may have"), std::string::npos) << outcome.output;
+  now = status(out);
+  EXPECT_EQ(now.at("published"), 12);
+  EXPECT_GE(now.at("sampling").at("errors").size(), 3u);
+  EXPECT_LT(now.at("sampling").at("errors").back().at("error").get<double>(),
+            now.at("sampling").at("errors").at(0).at("error").get<double>());
+}
+
 }  // namespace cleft
