@@ -71,6 +71,7 @@ struct SamplingSettings {
   /// Of adaptive sampling: the first cases are `count`; further ones are chosen a batch at a time, until the
   /// estimated error of the figure `of`, over its largest value, is below `error` everywhere in the ranges,
   /// or there are `most` cases.
+  bool adapts = false;
   double error = 0;
   std::size_t most = 0, batch = 8;
   std::string of = "field";

@@ -11,7 +11,6 @@
 #include "explorer/commands/analysis_options.h"
 #include "params/consistency.h"
 #include "params/run/chosen_cases.h"
-#include "params/sampling/sampling.h"
 
 using namespace cleft;
 
@@ -45,6 +44,8 @@ Ranges ranges_of(const Study& study, const FigureModel& model) {
   }
   return ranges;
 }
+
+double unit_fraction(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
 double rounded_value(double value, const Range& range) {
   const double unit = std::pow(10., std::floor(std::log10(std::max(std::abs(value), 1e-300)))) * digits;

@@ -12,7 +12,6 @@
 #include "base/process.h"
 #include "base/sealed_json.h"
 #include "base/text.h"
-#include "params/sampling/sampling.h"
 
 namespace cleft {
 
@@ -24,11 +23,15 @@ namespace {
 constexpr const char* record = "/chosen.json";
 constexpr int record_version = 2;  // sealed
 
-bool adapts(const Study& study) { return find_sampling(study.sampling.method, study.name).adapts; }
+std::vector<Variation> sorted_ranges(const Study& study) {
+  std::vector<Variation> ranges = study.vary;
+  std::sort(ranges.begin(), ranges.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return ranges;
+}
 
 std::vector<std::string> names_of(const Study& study) {
   std::vector<std::string> names;
-  for (const Variation& one : ranges_by_name(study)) names.push_back(one.name);
+  for (const Variation& one : sorted_ranges(study)) names.push_back(one.name);
   return names;
 }
 
@@ -70,7 +73,7 @@ Json proposal(const StudyFolder& folder, std::size_t count) {
 }  // namespace
 
 ChosenCases chosen_cases(const StudyFolder& folder, const Study& study) {
-  if (!adapts(study)) return {};
+  if (!study.sampling.adapts) return {};
   ChosenCases chosen{study.sampling.of, names_of(study), {}};
   const std::string file = folder.path() + record;
   if (!fs::exists(file)) return chosen;
@@ -89,7 +92,7 @@ std::vector<Case> cases_of(const Study& study, const StudyFolder& folder) {
   std::vector<Case> cases = cases_of(study);
   const ChosenCases chosen = chosen_cases(folder, study);
   if (chosen.batches.empty()) return cases;
-  const std::vector<Variation> ranges = ranges_by_name(study);
+  const std::vector<Variation> ranges = sorted_ranges(study);
   std::set<std::string> known;
   for (const Case& one : cases) known.insert(one.hash());
   for (const ChosenBatch& batch : chosen.batches)

@@ -15,7 +15,6 @@
 #include "params/run/packing.h"
 #include "params/run/run_table.h"
 #include "params/run/slurm.h"
-#include "params/sampling/sampling.h"
 #include "params/study.h"
 
 using namespace cleft;
@@ -163,7 +162,7 @@ int main(int argc, char** argv) {
              : launcher == "slurm" ? run_slurm(folder, study, cases, options, over(study.slurm, slurm))
                                    : run_local(folder, study, cases, options);
     };
-    const bool adapts = task.empty() && find_sampling(study.sampling.method, study.name).adapts;
+    const bool adapts = task.empty() && study.sampling.adapts;
     RunReport report;
     Decision decision{Choice::added, std::nan("")};
     do {

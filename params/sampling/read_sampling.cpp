@@ -60,7 +60,7 @@ class SamplingReader {
 
   void read_adaptive(const toml::table& table) {
     SamplingSettings& s = study_.sampling;
-    s.count = first_cases;
+    s.adapts = true, s.count = first_cases;
     mistakes_.collect([&] { read_count(table, "start", 3, s.count); });
     mistakes_.collect([&] { read_count(table, "batch", 1, s.batch); });
     mistakes_.collect([&] {
