@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t most_values = 100'000;  // of one parameter
 constexpr std::int64_t most_level = 12;
-constexpr std::size_t first_cases = 16;  // of adaptive sampling, if the file does not say
+constexpr std::size_t first_cases = 16, cases_of_range = 4;  // of adaptive sampling, if the file does not say
 constexpr std::int64_t most_adaptive = 10'000;
 
 class SamplingReader {
@@ -28,6 +28,9 @@ class SamplingReader {
     else
       method_ = &find_sampling(study_.sampling.method, path_);
     if (vary) read_variations(*vary, ""), check_shares(*vary);
+    // Where the first cases are too few, what they tell is worse than an even sequence.
+    if (SamplingSettings& s = study_.sampling; s.adapts && !sampling->contains("start"))
+      s.count = std::min(s.most, std::max(s.count, cases_of_range * study_.vary.size()));
     if (study_.sampling.unit_tensions) check_tensions(*sampling);
     if (draws() && (!vary || vary->empty()))
       mistakes_.add(where(*sampling) + ": sampling method '" + method_->name +
@@ -68,7 +71,7 @@ class SamplingReader {
         throw InputError(where(table) +
                          ": sampling method 'adaptive' needs most = n, the most cases it may take");
       read_count(table, "most", 3, s.most);
-      if (s.most < s.count)
+      if (s.most < s.count && table.contains("start"))
         throw InputError(where(*table.get("most")) + ": sampling.most = " + std::to_string(s.most) +
                          ": must be at least start, " + std::to_string(s.count));
     });

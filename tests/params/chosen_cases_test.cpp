@@ -92,6 +92,13 @@ TEST(AdaptiveSampling, RefusesWhatItCannotUse) {
   const auto expect = [](const std::string& text, const std::string& part) {
     EXPECT_NE(refusal_of(text).find(part), std::string::npos) << refusal_of(text);
   };
+  const TemporaryFolder folder;
+  const auto first = [&](const std::string& text) {
+    return read_study(folder.write("s.toml", text)).sampling.count;
+  };
+  const std::string settings = "[sampling]\nmethod = 'adaptive'\nerror = 0.1\nmost = ";
+  EXPECT_EQ(first("[vary]\n" + one_range + settings + "40\n"), 16u);
+  EXPECT_EQ(first("[vary]\n" + one_range + settings + "8\n"), 8u);
   expect(adaptive(""), "draws from ranges");
   expect(adaptive(one_range, "count = 7\n"), "takes start and most; remove count");
   expect(adaptive(one_range, "batch = 0\n"), "sampling.batch = 0");
