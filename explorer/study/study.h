@@ -48,6 +48,9 @@ class PublishedStudy {
 
   /// The same without keeping it, for loops over all cases.
   Field read(int i) const;
+  /// Of a study.dffd whose cases are sums of modes: the file, and the number of a case in it. Else null.
+  const StudyFile* sums() const { return packed_ && packed_->modes() > 0 ? &*packed_ : nullptr; }
+  int number_in_file(int i) const { return cases_.at(i).packed; }
 
   const std::string& path() const { return path_; }  ///< as given
 

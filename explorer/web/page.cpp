@@ -66,7 +66,7 @@ Json shortened(const Json& header) {
   return kept;
 }
 
-/// Modes are not in the page: a field that is a sum of them gets steps of its own, far below its error.
+/// What is not coded in steps gets some, far below its error.
 FieldRecord record_for_page(Field field) {
   constexpr double step = 1e-6;  // of the largest displacement
   field.quantities.clear(), field.by_parameter.clear();
@@ -79,17 +79,30 @@ FieldRecord record_for_page(Field field) {
 struct Cases {
   std::vector<Json> headers;
   Json list = Json::array();
+  Json modes;  // that cases are sums of; null: none are
   std::string coefficients;
 };
 
+/// Those that cases of the study are sums of.
+Json coded_modes(const CodedModes& modes, std::string& coefficients) {
+  Json bytes = Json::array();
+  for (const auto& mode : modes.coefficients) coefficients += base64(mode), bytes.push_back(mode.size());
+  return {{"quanta", modes.quanta}, {"bytes", bytes}};
+}
+
 Cases cases_of(const PublishedStudy& study, const ReportState& report) {
   Cases cases;
+  if (study.sums()) cases.modes = coded_modes(study.sums()->coded_modes(), cases.coefficients);
   for (int i = 0; i < study.size(); ++i) {
     if (report) report("case " + std::to_string(i + 1) + " of " + std::to_string(study.size()));
     const Field field = study.read(i);
     const CaseFigures figures = case_figures(field);
-    const FieldRecord record = record_for_page(field);
+    FieldRecord record;
+    if (study.sums()) record = study.sums()->record(study.number_in_file(i));
+    const bool sum = record.header.contains("modes");
+    if (!sum) record = record_for_page(field);
     cases.headers.push_back(shortened(record.header));
+    if (sum) cases.headers.back()["modes"] = {{"weights", record.header["modes"].at("weights")}};
     cases.coefficients += base64(record.coefficients);
     cases.list.push_back({{"name", study.name(i)},
                           {"hash", study.hash(i)},
@@ -127,7 +140,8 @@ Json study_data(const PublishedStudy& study, const Cases& cases) {
   std::filesystem::path path(study.path());
   if (path.filename().empty()) path = path.parent_path();
   return {{"format", "cleft-page"},   {"version", page_version}, {"title", path.filename().string()},
-          {"parameters", parameters}, {"cases", cases.list},     {"columns", columns_of(cases.headers)}};
+          {"parameters", parameters}, {"cases", cases.list},     {"columns", columns_of(cases.headers)},
+          {"modes", cases.modes}};
 }
 
 std::string base64(const std::vector<std::vector<std::uint8_t>>& pieces) {

@@ -7,6 +7,7 @@ import io
 import json
 import os
 import random
+import shutil
 import sys
 import tempfile
 import unittest
@@ -16,6 +17,7 @@ import matplotlib.image
 import numpy as np
 import vtk
 from browser import Browser, chromium
+import cleft
 from small_study import FAMILY, FOUR_CASES, PATCH, THREE_PRESTRESSES, command, make_study
 from vtk.util.numpy_support import vtk_to_numpy
 
@@ -114,6 +116,23 @@ class Page(unittest.TestCase):
             largest = BROWSER.run(f"cleft.headers[{i}].report.largest_displacement")
             self.assertGreater(np.abs(expected).max(), 0.1 * largest)
             self.assertLess(np.abs(shown(f"cleft.fieldOf({i})", places) - expected).max(), 1e-5 * largest)
+
+    def test_values_of_sums_of_modes_are_those_of_eval(self):
+        study, page = os.path.join(SCRATCH.name, "modes"), os.path.join(SCRATCH.name, "modes.html")
+        shutil.copytree(STUDY, study)
+        self.assertGreater(json.loads(command("cleft", "pack", study, "--modes", "0.02", "--json"))["modes"], 0)
+        packed = os.path.join(study, "study.dffd")
+        command("cleft", "export", packed, "--web", page)
+        opened(page)
+        self.assertEqual(BROWSER.run("cleft.headers.some(header => header.modes)"), True)
+        data = cleft.open(packed)
+        for i in range(4):
+            places = random_places(random.Random(i), 300)
+            side = np.array([place[3] for place in places])
+            u, v, w, _, t = np.array(places).T
+            expected = data[i](u, v, w, t, side=side)
+            self.assertEqual(BROWSER.run(f"cleft.data.cases[{i}].hash"), data.cases["hash"][i])
+            self.assertLess(np.abs(shown(f"cleft.fieldOf({i})", places) - expected).max(), 1e-5 * np.abs(expected).max())
 
     def test_values_of_one_field_are_those_of_eval(self):
         for parametrization in ("fixed", "tip"):

@@ -161,14 +161,21 @@ std::size_t StudyFile::coefficient_bytes(int i) const {
   return parts_->begins.at(n + 1) - parts_->begins.at(n);
 }
 
-Field StudyFile::field(int i) const {
+const CodedModes& StudyFile::coded_modes() const { return parts_->coded; }
+
+FieldRecord StudyFile::record(int i) const {
   const std::size_t n = i;
   FieldRecord record{{}, std::vector<std::uint8_t>(coefficient_bytes(i))};
   if (!record.coefficients.empty())
     parts_->file.read_rows<std::uint8_t>("/coefficients", parts_->begins[n], record.coefficients.size(),
                                          record.coefficients);
+  told_of_file(parts_->file.path() + ", case " + name(i), [&] { record.header = parts_->columns.header(n); });
+  return record;
+}
+
+Field StudyFile::field(int i) const {
+  const FieldRecord record = this->record(i);
   return told_of_file(parts_->file.path() + ", case " + name(i), [&] {
-    record.header = parts_->columns.header(n);
     Field field = record.header.contains("modes") ? field_of(record, parts_->sum_of_modes(record.header))
                                                   : field_of(record);
     field.report = report(i);

@@ -11,6 +11,12 @@
 
 namespace cleft {
 
+/// Modes that cases are sums of: unknowns in multiples of a quantum, mm, coded by encode_coefficients().
+struct CodedModes {
+  std::vector<double> quanta;
+  std::vector<std::vector<std::uint8_t>> coefficients;
+};
+
 class StudyFile {
  public:
   /// Reads the data of all cases without coefficients. Throws FileError if the file is damaged or has another
@@ -29,6 +35,10 @@ class StudyFile {
   /// Reads and decodes this case only, and the modes when they are first needed; throws FileError if it is
   /// damaged. Not thread-safe.
   Field field(int i) const;
+  /// The case as it is stored: if it is a sum of modes, a header with their weights, and no bytes. Throws
+  /// FileError if it is damaged.
+  FieldRecord record(int i) const;
+  const CodedModes& coded_modes() const;
   int modes() const;  ///< number of modes that cases are sums of; 0: none
   /// For a case that is a sum of modes: the largest distance from the case's own field at nodes, relative to
   /// its largest displacement; else 0.
@@ -54,12 +64,6 @@ std::vector<StudyCase> published_study_cases(const std::string& study,
 
 /// The remedy for cases of an older format, for messages.
 std::string note_of_older(const std::string& study, std::vector<std::string> older);
-
-/// Modes that cases are sums of: unknowns in multiples of a quantum, mm, coded by encode_coefficients().
-struct CodedModes {
-  std::vector<double> quanta;
-  std::vector<std::vector<std::uint8_t>> coefficients;
-};
 
 /// The data of a case in a study file. If it is a sum of modes, its record is a header without bytes.
 struct StudyRecord {

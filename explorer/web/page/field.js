@@ -181,40 +181,66 @@ function controlTies(name, bases) {
 
 /// Control points [(((i V + j) W + k) T + l) 3 + c], mm, of the bytes of a case.
 function controlPoints(header, bytes) {
-  const bases = ["along", "across", "height", "time"].map(axis => checkedBasis(header.bases[axis]));
-  const T = basisSize(bases[3]), count = bases.reduce((product, basis) => product * basisSize(basis), 1);
+  if (header.quantum) return new CodedPoints(header, bytes).controlPoints(header.quantum);
+  const numbers = 3 * pointsOf(basesOf(header));
+  if (bytes.length !== 4 * numbers) throw new Damaged("the coefficients do not fit to the bases");
+  const plain = new Uint8Array(bytes.length);
+  for (let n = 0; n < numbers; ++n)
+    for (let byte = 0; byte < 4; ++byte) plain[4 * n + byte] = bytes[byte * numbers + n];
+  const view = new DataView(plain.buffer);
+  return Float64Array.from({length: numbers}, (_, n) => view.getFloat32(4 * n, true));
+}
+
+const basesOf = header => ["along", "across", "height", "time"].map(axis => checkedBasis(header.bases[axis]));
+function pointsOf(bases) {
+  const count = bases.reduce((product, basis) => product * basisSize(basis), 1);
   if (!(count < 5e6)) throw new Damaged("more control points than a field may have");
-  const points = new Float64Array(3 * count);
-  if (!header.quantum) {
-    if (bytes.length !== 12 * count) throw new Damaged("the coefficients do not fit to the bases");
-    const plain = new Uint8Array(bytes.length), numbers = 3 * count;
-    for (let n = 0; n < numbers; ++n)
-      for (let byte = 0; byte < 4; ++byte) plain[4 * n + byte] = bytes[byte * numbers + n];
-    const view = new DataView(plain.buffer);
-    for (let n = 0; n < numbers; ++n) points[n] = view.getFloat32(4 * n, true);
+  return count;
+}
+
+/// The unknowns of control points, as multiples of a step.
+class CodedPoints {
+  constructor(header, bytes, values) {
+    this.bases = basesOf(header);
+    this.slices = header.slices;
+    this.count = pointsOf(this.bases);
+    const T = basisSize(this.bases[3]), {slices} = this;
+    if (slices !== T && slices !== T - 1) throw new Damaged("the slices do not fit to the basis in time");
+    Object.assign(this, controlTies(header.parametrization, this.bases));
+    this.values = values || decodeCoefficients(this.grid, slices, bytes);
+    if (this.values.length !== 3 * slices * this.grid.unknowns) throw new Damaged("the modes do not fit to a case");
+  }
+  controlPoints(quantum) {
+    const {rows, grid, slices, values, bases} = this, T = basisSize(bases[3]), N = grid.unknowns, skipped = T - slices;
+    const points = new Float64Array(3 * this.count);
+    let at = 0;
+    for (const row of rows)
+      for (const control of row.controls) {
+        for (let term = 0; term < control.length; term += 2) {
+          const number = row.first + control[term], weight = control[term + 1] * quantum;
+          for (let c = 0; c < 3; ++c)
+            for (let l = 0; l < slices; ++l) points[at + 3 * (l + skipped) + c] += weight * values[(c * slices + l) * N + number];
+        }
+        at += 3 * T;
+      }
     return points;
   }
-  const slices = header.slices;
-  if (slices !== T && slices !== T - 1) throw new Damaged("the slices do not fit to the basis in time");
-  const {rows, grid} = controlTies(header.parametrization, bases);
-  const values = decodeCoefficients(grid, slices, bytes), N = grid.unknowns, skipped = T - slices;
-  let at = 0;
-  for (const row of rows)
-    for (const control of row.controls) {
-      for (let term = 0; term < control.length; term += 2) {
-        const number = row.first + control[term], weight = control[term + 1] * header.quantum;
-        for (let c = 0; c < 3; ++c)
-          for (let l = 0; l < slices; ++l)
-            points[at + 3 * (l + skipped) + c] += weight * values[(c * slices + l) * N + number];
-      }
-      at += 3 * T;
-    }
-  return points;
+}
+
+/// Control points of a case that is a sum of modes; the unknowns of these, mm, over the largest displacement.
+function sumOfModes(header, modes) {
+  const {weights} = header.modes, largest = header.report.largest_displacement;
+  if (!Array.isArray(weights) || weights.length !== modes.length) throw new Damaged("a case has not as many weights as there are modes");
+  const sum = new Float64Array(modes.length ? modes[0].length : 0);
+  modes.forEach((mode, k) => {
+    for (let n = 0; n < sum.length; ++n) sum[n] += weights[k] * largest * mode[n];
+  });
+  return new CodedPoints(header, null, sum).controlPoints(1);
 }
 
 class Field {
   constructor(header, points) {
-    this.bases = ["along", "across", "height", "time"].map(axis => checkedBasis(header.bases[axis]));
+    this.bases = basesOf(header);
     this.sizes = this.bases.map(basisSize);
     this.parametrization = new Parametrization(header.parametrization, header);
     this.cut = header.cut;

@@ -46,11 +46,13 @@ class Page {
     this.mesh = this.data.mesh ? new MeshMotion(this.data.mesh, modes) : null;
     this.between = this.data.between ? new BetweenCases(this.data.between, this.mesh ? null : modes) : null;
     let at = 0;
-    this.starts = this.data.cases.map(one => {
+    const starts = list => list.map(bytes => {
       const start = at;
-      at += base64Size(one.bytes);
+      at += base64Size(bytes);
       return start;
     });
+    this.modeStarts = starts(this.data.modes ? this.data.modes.bytes : []);
+    this.starts = starts(this.data.cases.map(one => one.bytes));
     if (at !== this.coded.length) throw new Damaged("coefficients are missing");
     this.fields = new Map();
     this.names = this.data.parameters.map(parameter => parameter.name);
@@ -91,8 +93,16 @@ class Page {
   fieldOf(i) {
     let field = this.fields.get(i);
     if (field) return field;
-    const {bytes} = this.data.cases[i], start = this.starts[i], coded = () => bytesOf(this.coded.slice(start, start + base64Size(bytes)));
-    field = this.mesh ? this.mesh.caseOf(i) : new Field(this.headers[i], controlPoints(this.headers[i], coded()));
+    const header = this.headers[i], coded = (start, bytes) => bytesOf(this.coded.slice(start, start + base64Size(bytes)));
+    if (this.mesh) {
+      field = this.mesh.caseOf(i);
+    } else if (header.modes) {
+      const {bytes, quanta} = this.data.modes;
+      this.modes ??= bytes.map((count, k) => new CodedPoints(header, coded(this.modeStarts[k], count)).values.map(value => value * quanta[k]));
+      field = new Field(header, sumOfModes(header, this.modes));
+    } else {
+      field = new Field(header, controlPoints(header, coded(this.starts[i], this.data.cases[i].bytes)));
+    }
     this.fields.set(i, field);
     if (this.fields.size > 16) this.fields.delete(this.fields.keys().next().value);
     return field;
