@@ -116,6 +116,8 @@ class StudyReader {
           slurm.cases_per_task = static_cast<int>(count);
         } else if (key == "options") {
           slurm.options = texts(node, name);
+          for (const std::string& option : slurm.options)
+            check_sbatch_option(option, where(node) + ": " + name);
         } else {
           throw InputError(where(node) + ": unknown key '" + name + "'" +
                            did_you_mean(std::string(key.str()), known));
@@ -239,6 +241,14 @@ std::string Case::hash() const {
   std::string text = snapshot_hash() + " field " + std::to_string(field_version);
   for (const std::string& argument : encode.arguments()) text += " " + argument;
   return sha256(text).substr(0, 16);
+}
+
+void check_sbatch_option(const std::string& option, const std::string& where) {
+  if (option.size() < 3 || !option.starts_with("--") || option[2] == '=' || option[2] == '-')
+    throw InputError(where + ": \"" + option +
+                     "\" is not a long option of sbatch; give each as \"--name\" or \"--name=value\"");
+  if (option == "--wrap" || option.starts_with("--wrap="))
+    throw InputError(where + ": \"" + option + "\" would run another script in place of the study's");
 }
 
 Study read_study(const std::string& path) {

@@ -87,6 +87,10 @@ struct SlurmSettings {
   int cases_per_task = 0;                ///< solved one after another in a task of the array
 };
 
+/// Throws InputError "<where>: ..." unless the text is one long option, with its value behind "=": anything
+/// else sbatch may take for the script that it is to run.
+void check_sbatch_option(const std::string& option, const std::string& where);
+
 struct Study {
   std::string name = "study";
   bool keep_snapshots = true;  ///< keep_snapshots = "all"; "none" drops each once its field is published

@@ -99,6 +99,7 @@ SlurmSettings over(SlurmSettings settings, const SlurmSettings& said) {
   if (!said.account.empty()) settings.account = said.account;
   if (!said.time.empty()) settings.time = said.time;
   if (said.cases_per_task > 0) settings.cases_per_task = said.cases_per_task;
+  for (const std::string& option : said.options) check_sbatch_option(option, "--sbatch");
   settings.options.insert(settings.options.end(), said.options.begin(), said.options.end());
   return settings;
 }
@@ -157,6 +158,10 @@ int main(int argc, char** argv) {
     cases_of(study);  // mistakes are told before a folder is made
     options.memory = memory > 0 ? 1e9 * memory : 0.9 * available_memory();
     const StudyFolder folder = task.empty() ? StudyFolder::create(out, study) : StudyFolder(out);
+    if (task.empty())
+      for (const auto& [hash, why, aside] : folder.set_damaged_aside())
+        std::cerr << "cleft run: warning: case " << hash << ": " << why
+                  << "; it is made again, and what is left of it is in " << aside << "\n";
     const auto run = [&](const std::vector<Case>& cases) {
       return !task.empty()         ? run_slurm_task(folder, study, cases, options, task)
              : launcher == "slurm" ? run_slurm(folder, study, cases, options, over(study.slurm, slurm))

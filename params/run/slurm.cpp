@@ -57,6 +57,13 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+/// sbatch replaces %j and the like in the names of logs; %% stands for the character itself.
+std::string without_patterns(const std::string& path) {
+  std::string text;
+  for (const char c : path) text += c == '%' ? std::string("%%") : std::string(1, c);
+  return text;
+}
+
 /// Tasks of whole groups of one stiffness, with as many cases in each as requested, or slightly fewer.
 SlurmTasks tasks_of(const std::vector<Case>& cases, int cases_per_task) {
   SlurmTasks tasks;
@@ -213,7 +220,7 @@ class SlurmRun {
                                      "--array=0-" + std::to_string(tasks.size() - 1),
                                      "--ntasks=" + std::to_string(options_.ranks),
                                      "--cpus-per-task=" + std::to_string(options_.threads),
-                                     "--output=" + record + "/%a.log",
+                                     "--output=" + without_patterns(record) + "/%a.log",
                                      "--open-mode=append",
                                      "--requeue",
                                      "--signal=B:USR1@" + std::to_string(seconds_before_limit)};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -37,11 +38,17 @@ void add_errors(Json& status, const Study& study, const ChosenCases& chosen) {
 
 Json status_of(const StudyFolder& folder, bool with_figures) {
   const Study study = read_study(folder.study_file());
-  Json result = {{"study", study.name}, {"published", 0}, {"running", 0},
-                 {"failed", 0},         {"missing", 0},   {"cases", Json::array()}};
+  Json result = {{"study", study.name}, {"published", 0}, {"running", 0},          {"failed", 0},
+                 {"missing", 0},        {"damaged", 0},   {"cases", Json::array()}};
   const std::vector<Case> cases = cases_of(study, folder);
   const auto index = folder.index();
-  const std::vector<CaseStatus> states = folder.status(cases, index);
+  std::vector<CaseStatus> states = folder.status(cases, index);
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    const std::string hash = cases[c].hash();
+    if (const auto why =
+            std::filesystem::exists(folder.published(hash)) ? folder.damage(hash, true) : std::nullopt)
+      states[c] = {CaseState::damaged, *why + "; cleft run makes the case again"};
+  }
   for (std::size_t c = 0; c < cases.size(); ++c) {
     result["cases"].push_back(case_entry(study, cases[c], states[c]));
     if (const auto known = index.find(cases[c].hash()); with_figures && known != index.end())
@@ -97,6 +104,7 @@ void print_table(const Json& status) {
   print_cases(status["cases"]);
   for (const char* state : {"published", "running", "failed", "missing"})
     std::cout << state << ": " << status[state] << "\n";
+  if (status["damaged"] > 0) std::cout << "damaged: " << status["damaged"] << "\n";
   if (status.contains("sampling")) print_errors(status["sampling"]);
   if (status.contains("without_snapshot"))
     std::cout << "raw data are gone (keep_snapshots = \"none\"): " << status["without_snapshot"] << "\n";

@@ -37,7 +37,7 @@ std::vector<std::string> folders_in(const std::string& path) {
 
 std::string shared_memory_of(const std::string& token) { return "/dev/shm/cleft-" + token; }
 
-constexpr const char *failed_file = "/failed.txt", *again_file = "/again.txt";
+constexpr const char *failed_file = "/failed.txt", *again_file = "/again.txt", *field_file = "/case.dffd";
 
 /// Removes what killed and failed runs left, never what another process works in; the folder too when it is
 /// empty. In a Moment of the study.
@@ -96,6 +96,8 @@ std::string to_text(CaseState state) {
       return "running";
     case CaseState::failed:
       return "failed";
+    case CaseState::damaged:
+      return "damaged";
     default:
       return "missing";
   }
@@ -253,6 +255,43 @@ void StudyFolder::verify(const std::string& hash) const {
           file,
           "differs from its manifest (size or SHA-256); delete the case's folder and run the study again");
   }
+}
+
+std::optional<std::string> StudyFolder::damage(const std::string& hash, bool at_a_glance) const {
+  const std::string folder = published(hash);
+  if (!fs::exists(folder + "/manifest.json")) return "manifest.json is missing";
+  if (at_a_glance)
+    return fs::exists(folder + field_file) ? std::nullopt : std::optional("case.dffd is missing");
+  Json listed;
+  try {
+    listed = manifest(hash);
+  } catch (const FileError&) {
+    return "manifest.json is damaged";
+  }
+  const Json entry = listed.value("files", Json::object()).value(field_file + 1, Json());
+  if (entry.is_null()) return {};
+  std::error_code none;
+  const auto bytes = fs::file_size(folder + field_file, none);
+  if (none) return "case.dffd is missing";
+  if (bytes != entry.value("bytes", std::uintmax_t{0}) ||
+      sha256_of_file(folder + field_file) != entry.value("sha256", ""))
+    return "case.dffd differs from its manifest (size or SHA-256)";
+  return {};
+}
+
+std::vector<StudyFolder::SetAside> StudyFolder::set_damaged_aside() const {
+  std::vector<SetAside> list;
+  for (const std::string& hash : published_cases()) {
+    if (!damage(hash)) continue;
+    const Moment moment(path_);
+    const auto why = damage(hash);  // another run may have been quicker
+    if (!why || !fs::exists(published(hash))) continue;
+    const std::string folder = path_ + "/damaged/" + hash + "." + new_token();
+    fs::create_directories(path_ + "/damaged");
+    fs::rename(published(hash), folder);
+    list.push_back({hash, *why, folder});
+  }
+  return list;
 }
 
 }  // namespace cleft

@@ -13,7 +13,7 @@
 
 namespace cleft {
 
-enum class CaseState { published, running, failed, missing };
+enum class CaseState { published, running, failed, missing, damaged };
 std::string to_text(CaseState state);
 
 struct CaseStatus {
@@ -75,6 +75,15 @@ class StudyFolder {
 
   /// Recomputes sizes and checksums of a published case; throws FileError at the first that differs.
   void verify(const std::string& hash) const;
+
+  /// Whether the manifest or the field of a published case is gone or damaged: why, else nothing. With
+  /// `at_a_glance` nothing is read. (Raw data may be deleted by hand; verify() looks at them too.)
+  std::optional<std::string> damage(const std::string& hash, bool at_a_glance = false) const;
+  /// Moves every such case to DIR/damaged/, so that a run makes it again.
+  struct SetAside {
+    std::string hash, why, folder;
+  };
+  std::vector<SetAside> set_damaged_aside() const;
 
  private:
   std::string path_;

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <thread>
 
@@ -121,6 +122,30 @@ TEST(StudyFolder, OtherPeoplesFoldersAreLeftAlone) {
   fs::create_directories(place / "begun/.probe.1");
   EXPECT_NO_THROW(StudyFolder::create(place / "begun", small_study()));
   EXPECT_THROW(StudyFolder{place / "absent"}, InputError);
+}
+
+TEST(StudyFolder, DamagedCasesAreSetAside) {
+  const TemporaryFolder place;
+  const StudyFolder folder = StudyFolder::create(place / "study", small_study());
+  for (const char* name : {"whole", "gone", "changed", "untold"}) {
+    const Attempt attempt = folder.begin(name);
+    std::ofstream(attempt.folder + "/case.dffd") << "a field";
+    EXPECT_TRUE(folder.publish(attempt, name, {{"case", name}}, {"case.dffd"}));
+  }
+  EXPECT_TRUE(folder.set_damaged_aside().empty());
+  fs::remove(folder.published("gone") + "/case.dffd");
+  std::ofstream(folder.published("changed") + "/case.dffd") << "a fielD";
+  fs::remove(folder.published("untold") + "/manifest.json");
+  EXPECT_EQ(folder.damage("gone", true), "case.dffd is missing");
+  const auto aside = folder.set_damaged_aside();
+  ASSERT_EQ(aside.size(), 3u);
+  for (const auto& one : aside) {
+    EXPECT_NE(one.hash, "whole");
+    EXPECT_TRUE(fs::exists(one.folder)) << one.folder;
+    EXPECT_EQ(folder.status(one.hash).state, CaseState::missing);
+  }
+  EXPECT_EQ(aside[0].why, "case.dffd differs from its manifest (size or SHA-256)");
+  EXPECT_EQ(folder.status("whole").state, CaseState::published);
 }
 
 }  // namespace cleft

@@ -24,6 +24,16 @@ std::string message_of(const std::string& text) {
 
 }  // namespace
 
+TEST(StudyFile, OptionsOfSbatchAreLongOptions) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& list) {
+    return read_study(folder.write("s.toml", "[slurm]\noptions = [" + list + "]\n")).slurm.options.size();
+  };
+  EXPECT_EQ(read("'--mem=4G', '--exclusive'"), 2u);
+  for (const char* wrong : {"'/path/evil.sh'", "'-n4'", "'--'", "'--mem', '4G'", "'--wrap=evil'", "''"})
+    EXPECT_THROW(read(wrong), InputError) << wrong;
+}
+
 TEST(Study, GridTakesEveryCombination) {
   const TemporaryFolder folder;
   const Study study = read_study(folder.write("s.toml", R"(

@@ -198,6 +198,17 @@ TEST(StudyRun, IsTheSameHoweverItsCasesAreGrouped) {
   EXPECT_EQ(plan["published"], 4);
   EXPECT_EQ(plan["to_run"], 2);
   EXPECT_GT(plan["estimated_bytes"], 1e5);
+
+  // A field that is gone is missed, made again, and the same.
+  const std::string lost = folder.published_cases().front();
+  fs::remove(folder.published(lost) + "/case.dffd");
+  EXPECT_EQ(status(folder.path())["damaged"], 1);
+  EXPECT_EQ(status(folder.path())["published"], 3);
+  const Outcome again = expect_success(run_cleft("run", {file, "--out", folder.path(), "--jobs", "1"}));
+  EXPECT_NE(again.output.find("case " + lost + ": case.dffd is missing; it is made again"), std::string::npos)
+      << again.output;
+  EXPECT_EQ(status(folder.path())["published"], 4);
+  EXPECT_TRUE(together == study_bytes(folder.path()));
 }
 
 TEST(StudyRun, OnTwoRanksIsTheSameEveryTime) {
