@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <iomanip>
@@ -20,6 +21,7 @@
 #include "encoder/field/blended_field.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/field_record.h"
+#include "encoder/memory_need.h"
 #include "params/encode_limits.h"
 
 using namespace cleft;
@@ -171,20 +173,43 @@ Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   return rung;
 }
 
-/// The report is that of the file's content; otherwise no file is written.
-void verify_written(const std::string& out, const std::vector<Encoded>& all) {
-  const auto same = [](const std::optional<NodeResidual>& kept, const std::optional<NodeResidual>& residual) {
-    return kept.has_value() == residual.has_value() &&
-           (!kept || (kept->quantum == residual->quantum && kept->values == residual->values));
-  };
-  const auto as_written = [&](const FieldPiece& kept, const Encoded& encoded) {
+/// Tells whether values are the same without keeping them: two sums that depend on every value and its place.
+struct Fingerprint {
+  double quantum = 0;
+  std::size_t count = 0;
+  std::uint64_t first = 14695981039346656037u, second = 0;
+
+  explicit Fingerprint(const std::optional<NodeResidual>& residual) {
+    if (!residual) return;
+    quantum = residual->quantum, count = residual->values.size();
+    for (const std::int32_t value : residual->values) {
+      first = (first ^ static_cast<std::uint32_t>(value)) * 1099511628211u;
+      second = (second + static_cast<std::uint32_t>(value) + 1) * 0x9E3779B97F4A7C15u;
+      second ^= second >> 29;
+    }
+  }
+  friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
+};
+
+/// The report is that of the file's content; otherwise no file is written. Residuals in memory end here.
+void verify_written(const std::string& out, std::vector<Encoded>& all) {
+  std::vector<std::vector<Fingerprint>> residuals;
+  for (Encoded& one : all) {
+    auto& of_one = residuals.emplace_back();
+    of_one.emplace_back(one.residual);
+    for (const auto& residual : one.of_quantities) of_one.emplace_back(residual);
+    one.residual.reset(), one.of_quantities.clear();
+  }
+  const auto as_written = [&](const FieldPiece& kept, const Encoded& encoded,
+                              const std::vector<Fingerprint>& left) {
     const Field& field = encoded.field;
-    bool good = kept.field.coefficients() == field.coefficients() && same(kept.residual, encoded.residual) &&
+    bool good = kept.field.coefficients() == field.coefficients() && Fingerprint(kept.residual) == left[0] &&
                 kept.field.quantities.size() == field.quantities.size() &&
-                kept.field.by_parameter.size() == field.by_parameter.size();
+                kept.field.by_parameter.size() == field.by_parameter.size() &&
+                kept.of_quantities.size() + 1 == left.size();
     for (std::size_t q = 0; good && q < field.quantities.size(); ++q)
       good = kept.field.quantities[q].coefficients == field.quantities[q].coefficients &&
-             same(kept.of_quantities[q], encoded.of_quantities[q]);
+             Fingerprint(kept.of_quantities[q]) == left[q + 1];
     for (std::size_t d = 0; good && d < field.by_parameter.size(); ++d)
       good = kept.field.by_parameter[d].control_points == field.by_parameter[d].control_points;
     return good;
@@ -198,7 +223,7 @@ void verify_written(const std::string& out, const std::vector<Encoded>& all) {
       kept.front().of_quantities.push_back(read_quantity_residual(out, q));
   }
   bool good = kept.size() == all.size();
-  for (std::size_t p = 0; good && p < all.size(); ++p) good = as_written(kept[p], all[p]);
+  for (std::size_t p = 0; good && p < all.size(); ++p) good = as_written(kept[p], all[p], residuals[p]);
   if (good) return;
   std::filesystem::remove(out);
   throw std::runtime_error(out + ": reads back as something else than was written, and was removed");
@@ -228,6 +253,7 @@ void write_encoded(const std::string& out, const std::vector<Encoded>& all, std:
 struct Task {
   std::string snapshot, out;
   EncodeOptions options;
+  double memory = 0;  ///< bytes that may be used
 };
 
 /// Tells how far the encoder is, which names its steps.
@@ -265,13 +291,26 @@ class EncoderProgress {
   double part_ = 0;
 };
 
+/// Where values that do not fit into memory are kept.
+std::string spill_folder(const std::string& out) {
+  if (const char* folder = std::getenv("TMPDIR"); folder && *folder) return folder;
+  const std::filesystem::path parent = std::filesystem::path(out).parent_path();
+  return parent.empty() ? "." : parent.string();
+}
+
 /// The figures of what was written, with warnings.
 Json encode_file(const Task& task, EncoderProgress& progress) {
   const std::vector<SnapshotReader> readers = readers_of(task.snapshot);
-  progress("reading");
+  const std::string folder = spill_folder(task.out);
+  MemoryNeed need;
+  for (const SnapshotReader& reader : readers) need = need + memory_need(reader);
+  need.fit_into(task.memory, folder, task.snapshot);
+  progress("reading: up to " + gigabytes(need.in_memory()) + " of memory are needed" +
+           (need.spilled ? ", and " + gigabytes(need.values) + " of disk" : ""));
   std::vector<Series> series;
   series.reserve(readers.size());
-  for (const SnapshotReader& reader : readers) series.emplace_back(reader);
+  for (const SnapshotReader& reader : readers)
+    series.emplace_back(reader, need.spilled ? std::make_shared<SpillFile>(folder) : nullptr);
   check_names(task.options, series.front());
   if (series.size() > 1) share_scales(series);
   progress.expect(series.size(), series.front().quantities.size());
@@ -291,13 +330,18 @@ Json encode_file(const Task& task, EncoderProgress& progress) {
   }
   progress("writing");
   const std::size_t nodes = series.size() > 1 ? SnapshotReader(task.snapshot).snapshot().points.size()
-                                              : readers.front().snapshot().points.size();
+                                              : readers.front().snapshot().points.size(),
+                    measured = series.size() > 1 ? nodes : series.front().nodes;
+  series.clear();
   write_encoded(task.out, all, nodes);
   verify_written(task.out, all);
   std::vector<Field> fields;
   fields.reserve(all.size());
   for (Encoded& one : all) fields.push_back(std::move(one.field));
-  Json figures = figures_of(fields, series.size() > 1 ? nodes : series.front().nodes, task.out);
+  Json figures = figures_of(fields, measured, task.out);
+  figures["memory_mb"] = {{"expected", std::round(need.in_memory() / 1e6)},
+                          {"disk", need.spilled ? std::round(need.values / 1e6) : 0},
+                          {"peak", std::round(peak_memory() / 1e6)}};
   if (!warnings.empty()) figures["warnings"] = warnings;
   return figures;
 }
@@ -333,6 +377,11 @@ int main(int argc, char** argv) {
          "they stay (the paper's)")
       ->check(one_of(parametrization_names()))
       ->capture_default_str();
+  double memory = 0;
+  app.add_option("--memory", memory,
+                 "GB that may be used (default: nine tenths of what is free); the values of larger snapshots "
+                 "are kept in a temporary file, in TMPDIR or beside the field")
+      ->check(at_least(0.001));
   app.add_flag("--json", json, "print the figures as JSON");
 
   return run_command(app, argc, argv, [&] {
@@ -341,10 +390,11 @@ int main(int argc, char** argv) {
     refuse_to_overwrite(out, {snapshot});
     const OutputFile probe(out);  // reports a bad name before the work
     Json figures;
+    const double allowed = memory > 0 ? 1e9 * memory : 0.9 * available_memory();
     {
       Progress bar("encoding");
       EncoderProgress progress(bar);
-      figures = encode_file({snapshot, out, options}, progress);
+      figures = encode_file({snapshot, out, options, allowed}, progress);
     }
     for (const Json& warning : figures.value("warnings", Json::array()))
       std::cerr << "cleft encode: warning: " << warning.get<std::string>() << "\n";

@@ -89,7 +89,7 @@ namespace {
 /// The violated bounds at released pairs and frames.
 std::vector<Bound> bounds_of(const Field& field, const Jumps& jumps, const Series& series, double margin) {
   std::vector<Bound> bounds;
-  for (std::size_t j = 1; j < series.times.size(); ++j)
+  for (std::size_t j = 1; j < series.times.size(); ++j) {
     for (int p = 0; p < series.released[j]; ++p) {
       const auto [left, right] = series.pairs[p];
       const Vec3& uvw = series.samples[left].uvw;
@@ -103,6 +103,8 @@ std::vector<Bound> bounds_of(const Field& field, const Jumps& jumps, const Serie
       bound.missing = missing;
       if (bound.squares > 0) bounds.push_back(std::move(bound));
     }
+    series.frames.forget(j);
+  }
   return bounds;
 }
 
@@ -127,7 +129,7 @@ std::vector<double> nearest(std::vector<Bound> bounds, std::size_t jumps, double
 /// Largest error at released pairs, mm: a shift of the lips is nowhere larger.
 double error_at_lips(const Field& field, const Series& series) {
   double largest = 0;
-  for (std::size_t j = 1; j < series.times.size(); ++j)
+  for (std::size_t j = 1; j < series.times.size(); ++j) {
     for (int p = 0; p < series.released[j]; ++p) {
       const auto [left, right] = series.pairs[p];
       for (const auto& [node, side] : {std::pair{left, Side::left}, {right, Side::right}}) {
@@ -136,6 +138,8 @@ double error_at_lips(const Field& field, const Series& series) {
         largest = std::max(largest, squared_norm(d - Vec3{data[0], data[1], data[2]}));
       }
     }
+    series.frames.forget(j);
+  }
   return std::sqrt(largest);
 }
 

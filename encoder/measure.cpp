@@ -86,6 +86,7 @@ Frame measure_frame(const Field& field, const Series& series, std::size_t j) {
     if (open) f.overlap = std::max(f.overlap, std::max(0., -gap) - std::max(0., -of_data));
   }
   if (j % 4 == 0 || j + 1 == series.times.size()) add_shape(f, field, series, j);
+  series.frames.forget(j);
   return f;
 }
 
@@ -139,6 +140,7 @@ NodeResidual residual_of(Field& field, const Series& series, double bound) {
         residual.value(n, axis, j) = static_cast<std::int32_t>(std::lround(left[axis] / residual.quantum));
       largest[j] = std::max(largest[j], norm(residual.at(n, j) - left));
     }
+    series.frames.forget(j);
   });
   field.report.node_error = *std::max_element(largest.begin(), largest.end()) / series.largest_displacement;
   return residual;

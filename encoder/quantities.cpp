@@ -45,6 +45,7 @@ class Spline {
     parallel_for(static_cast<int>(errors.size()), [&](int j) {
       const std::size_t frame = j;
       errors[frame] = norms_of(left(frame)).maxCoeff();
+      data_.frames.forget(frame);
     });
     return *std::max_element(errors.begin(), errors.end());
   }
@@ -126,16 +127,18 @@ NodeResidual residual_of(const Spline& spline, const Series& series, double boun
 
 Series series_of(const Series& series, const SeriesQuantity& quantity, int component) {
   Series result = series;
-  result.quantities.clear(), result.derivatives.clear();
+  result.quantities.clear(), result.derivatives.clear(), result.frames = series.frames.like_these();
   result.centres = {};  // displacements alone are linear in a cell
   result.largest_displacement = quantity.scale;
   for (std::size_t j = 0; j < series.frames.size(); ++j) {
-    const Eigen::MatrixXd& all = quantity.frames[j];
+    const auto all = quantity.frames[j];
     const Eigen::Index columns = std::min<Eigen::Index>(3, all.cols() - component);
-    result.frames[j].setZero();
-    result.frames[j].leftCols(columns) =
+    Eigen::MatrixX3d part = Eigen::MatrixX3d::Zero(all.rows(), 3);
+    part.leftCols(columns) =
         all.middleCols(component, columns).rowwise() - quantity.middle.segment(component, columns);
-    result.largest[j] = result.frames[j].rowwise().norm().maxCoeff();
+    result.largest[j] = part.rowwise().norm().maxCoeff();
+    result.frames.push_back(part);
+    quantity.frames.forget(j);
   }
   return result;
 }

@@ -21,12 +21,15 @@ namespace cleft {
 namespace {
 
 /// Whether each pair parts in some frame.
-std::vector<bool> parted(const Snapshot& s, const std::vector<Eigen::MatrixX3d>& frames, double largest) {
+std::vector<bool> parted(const Snapshot& s, const StoredFrames<3>& frames, double largest) {
   // Where nothing moves, another field has told which ones were released.
   std::vector<bool> parts(s.pairs.size(), largest == 0);
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    for (const Eigen::MatrixX3d& d : frames)
+  for (std::size_t j = 0; j < frames.size(); ++j) {
+    const auto d = frames[j];
+    for (std::size_t p = 0; p < parts.size(); ++p)
       parts[p] = parts[p] || (d.row(s.pairs[p][1]) - d.row(s.pairs[p][0])).norm() > 1e-6 * largest;
+    frames.forget(j);
+  }
   return parts;
 }
 
@@ -97,33 +100,6 @@ void check_cut(const Snapshot& s) {
   }
 }
 
-std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader) {
-  std::vector<SeriesQuantity> quantities;
-  if (!reader.snapshot().source) return quantities;  // a simulation's own arrays are about its solver
-  const auto nodes = static_cast<Eigen::Index>(reader.snapshot().points.size());
-  for (const SnapshotArray& array : reader.point_arrays()) {
-    if (reader.snapshot().coordinates &&
-        (array.name == canonical_array.name || array.name == frame_array.name))
-      continue;
-    const auto components = static_cast<Eigen::Index>(array.components);
-    SeriesQuantity quantity{array.name, {}, 0, 0, {}};
-    for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) {
-      const std::vector<double> numbers = reader.point_array(array, j);
-      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      quantity.frames.emplace_back(Eigen::Map<const RowMajor>(numbers.data(), nodes, components));
-      const Eigen::VectorXd sizes = norms_of(quantity.frames.back());
-      for (Eigen::Index n = 0; n < nodes; ++n)
-        if (!std::isfinite(sizes(n)))
-          throw InputError("frame " + std::to_string(j) + ", node " + std::to_string(n) + ": " + array.name +
-                           " is not finite; a field can only stand for finite numbers");
-      quantity.largest = std::max(quantity.largest, sizes.maxCoeff());
-    }
-    set_scale(quantity);
-    quantities.push_back(std::move(quantity));
-  }
-  return quantities;
-}
-
 /// Of a cut that curves; none where its snapshot does not say that it does.
 std::optional<CutCurve> curve_of(const RecordedParameters& recorded) {
   Parameters parameters = *recorded;
@@ -131,19 +107,6 @@ std::optional<CutCurve> curve_of(const RecordedParameters& recorded) {
     if (std::isnan(*member)) *member = 0;  // not recorded
   if (!is_curved(parameters)) return std::nullopt;
   return CutCurve(parameters);
-}
-
-/// What the displacements from frame 0 leave out. Its error is as large as theirs may be.
-void add_start(std::vector<SeriesQuantity>& quantities, const std::vector<Vec3>& closed, std::size_t frames,
-               double largest_displacement) {
-  Eigen::MatrixXd start(static_cast<Eigen::Index>(closed.size()), 3);
-  for (Eigen::Index n = 0; n < start.rows(); ++n) start.row(n) << closed[n].x, closed[n].y, closed[n].z;
-  const double largest = start.rowwise().norm().maxCoeff();
-  if (largest == 0) return;
-  SeriesQuantity quantity{Series::at_start, std::vector(frames, start), largest, 0, {}};
-  set_scale(quantity);
-  if (largest_displacement > 0) quantity.scale = largest_displacement;
-  quantities.push_back(std::move(quantity));
 }
 
 /// The nodes of a body or a shaped patch in the coordinates of its cut, and the directions of these there. A
@@ -275,6 +238,51 @@ struct OwnCoordinates {
   }
 };
 
+std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader,
+                                          const std::optional<OwnCoordinates>& own,
+                                          const std::shared_ptr<SpillFile>& file) {
+  std::vector<SeriesQuantity> quantities;
+  if (!reader.snapshot().source) return quantities;  // a simulation's own arrays are about its solver
+  const auto nodes = static_cast<Eigen::Index>(reader.snapshot().points.size());
+  for (const SnapshotArray& array : reader.point_arrays()) {
+    if (reader.snapshot().coordinates &&
+        (array.name == canonical_array.name || array.name == frame_array.name))
+      continue;
+    const auto components = static_cast<Eigen::Index>(array.components);
+    SeriesQuantity quantity{array.name, StoredFrames<Eigen::Dynamic>(file), 0, 0, {}};
+    for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) {
+      const std::vector<double> numbers = reader.point_array(array, j);
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      const Eigen::MatrixXd frame = Eigen::Map<const RowMajor>(numbers.data(), nodes, components);
+      const Eigen::VectorXd sizes = norms_of(frame);
+      for (Eigen::Index n = 0; n < nodes; ++n)
+        if (!std::isfinite(sizes(n)))
+          throw InputError("frame " + std::to_string(j) + ", node " + std::to_string(n) + ": " + array.name +
+                           " is not finite; a field can only stand for finite numbers");
+      quantity.largest = std::max(quantity.largest, sizes.maxCoeff());
+      quantity.frames.push_back(own ? own->at_places(frame)
+                                    : frame);  // the places of a node all have its values
+    }
+    set_scale(quantity);
+    quantities.push_back(std::move(quantity));
+  }
+  return quantities;
+}
+
+/// What the displacements from frame 0 leave out. Its error is as large as theirs may be.
+void add_start(std::vector<SeriesQuantity>& quantities, const std::vector<Vec3>& closed, std::size_t frames,
+               double largest_displacement, const std::optional<OwnCoordinates>& own) {
+  Eigen::MatrixXd start(static_cast<Eigen::Index>(closed.size()), 3);
+  for (Eigen::Index n = 0; n < start.rows(); ++n) start.row(n) << closed[n].x, closed[n].y, closed[n].z;
+  const double largest = start.rowwise().norm().maxCoeff();
+  if (largest == 0) return;
+  SeriesQuantity quantity{Series::at_start, StoredFrames<Eigen::Dynamic>(), largest, 0, {}};
+  quantity.frames.assign(frames, own ? own->at_places(start) : start);
+  set_scale(quantity);
+  if (largest_displacement > 0) quantity.scale = largest_displacement;
+  quantities.push_back(std::move(quantity));
+}
+
 /// The solver's, which imported data do not know.
 std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader,
                                              const std::optional<OwnCoordinates>& own) {
@@ -320,15 +328,15 @@ void set_scale(SeriesQuantity& quantity) {
   Eigen::RowVectorXd middle = Eigen::RowVectorXd::Zero(components);
   if (components == 1) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Eigen::MatrixXd& frame : quantity.frames)
+    for (const auto frame : quantity.frames)
       low = std::min(low, frame.minCoeff()), high = std::max(high, frame.maxCoeff());
     middle(0) = (low + high) / 2;
   } else {
-    for (const Eigen::MatrixXd& frame : quantity.frames)
+    for (const auto frame : quantity.frames)
       middle += frame.colwise().mean() / static_cast<double>(quantity.frames.size());
   }
   double farthest = 0;
-  for (const Eigen::MatrixXd& frame : quantity.frames)
+  for (const auto frame : quantity.frames)
     farthest = std::max(farthest, norms_of(frame.rowwise() - middle).maxCoeff());
   const bool about_middle = 2 * farthest < quantity.largest;
   quantity.middle = about_middle ? middle : Eigen::RowVectorXd::Zero(components);
@@ -341,7 +349,7 @@ Eigen::VectorXd norms_of(const Eigen::MatrixXd& rows) {
       .cwiseSqrt();
 }
 
-Series::Series(const SnapshotReader& reader) {
+Series::Series(const SnapshotReader& reader, const std::shared_ptr<SpillFile>& file) : frames(file) {
   std::optional<OwnCoordinates> own;
   std::optional<Snapshot> moved;
   if (!reader.snapshot().body.empty() || reader.snapshot().coordinates) {
@@ -361,7 +369,7 @@ Series::Series(const SnapshotReader& reader) {
   const std::vector<Vec3> closed = reader.displacement(0);
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);
-    Eigen::MatrixX3d& frame = frames.emplace_back(static_cast<Eigen::Index>(s.points.size()), 3);
+    Eigen::MatrixX3d frame(static_cast<Eigen::Index>(s.points.size()), 3);
     for (Eigen::Index i = 0; i < frame.rows(); ++i) {
       const std::size_t n = own ? own->node[own->kept[i]] : static_cast<std::size_t>(i);
       const Vec3 moved_by = d[n] - closed[n],
@@ -369,17 +377,15 @@ Series::Series(const SnapshotReader& reader) {
       frame.row(i) << change.x, change.y, change.z;
     }
     largest.push_back(frame.rowwise().norm().maxCoeff());
+    frames.push_back(frame);
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
   centres = cell_centres(s, samples);
   if (s.source && s.source->break_extent.size() >= 8)
     arm = std::any_of(s.source->break_extent.begin() + 4, s.source->break_extent.begin() + 8,
                       [](double joined) { return joined != 0; });
-  quantities = quantities_of(reader);
-  if (s.source) add_start(quantities, closed, s.frames(), largest_displacement);
-  if (own)  // the places of a node all have its values
-    for (SeriesQuantity& quantity : quantities)
-      for (Eigen::MatrixXd& frame : quantity.frames) frame = own->at_places(frame);
+  quantities = quantities_of(reader, own, file);
+  if (s.source) add_start(quantities, closed, s.frames(), largest_displacement, own);
   derivatives = derivatives_of(reader, own);
   geometry = geometry_of(s, parted(s, frames, largest_displacement));
 }
@@ -396,15 +402,17 @@ void share_scales(std::vector<Series>& pieces) {
       if (!has_start(piece)) {
         const Eigen::MatrixXd none =
             Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(piece.samples.size()), 3);
-        piece.quantities.push_back(
-            {Series::at_start, std::vector(piece.times.size(), none), 0, 0, Eigen::RowVectorXd::Zero(3)});
+        SeriesQuantity quantity{Series::at_start, StoredFrames<Eigen::Dynamic>(), 0, 0,
+                                Eigen::RowVectorXd::Zero(3)};
+        quantity.frames.assign(piece.times.size(), none);
+        piece.quantities.push_back(std::move(quantity));
       }
   for (std::size_t q = 0; q < pieces.front().quantities.size(); ++q) {
     double most = 0, scale = 0, low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Series& piece : pieces) {
       const SeriesQuantity& quantity = piece.quantities[q];
       most = std::max(most, quantity.largest), scale = std::max(scale, quantity.scale);
-      for (const Eigen::MatrixXd& frame : quantity.frames)
+      for (const auto frame : quantity.frames)
         if (frame.cols() == 1) low = std::min(low, frame.minCoeff()), high = std::max(high, frame.maxCoeff());
     }
     if (low < high) scale = std::min(most, high - low);

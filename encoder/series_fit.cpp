@@ -54,6 +54,7 @@ double space_misfit(const Series& series, const Parametrization& parametrization
     const std::size_t frame = frames[i];
     const auto factor = fit.space().factorize(fit.normal(frame, of_search));
     sum += misfit_of(fit.misfit(factor.solve(fit.project(frame)), frame), series, limit).beyond;
+    series.frames.forget(frame);
   });
   return sum;
 }
@@ -100,6 +101,7 @@ void SeriesFit::choose_strength() {
       do ++strength;
       while (strength + 1 < static_cast<int>(std::size(strengths)) && cost(strengths[strength]) > most);
     chosen[i] = strength;
+    series_.frames.forget(j);
   });
   strength_ = strengths[*std::max_element(chosen, chosen + 3)];
   reached_ = *std::max_element(reached, reached + 3);
@@ -112,6 +114,7 @@ void SeriesFit::solve() {
   parallel_for(frames, [&](int j) {
     const std::size_t frame = j + first_;
     projected[j] = fit_.project(frame);
+    series_.frames.forget(frame);
     if (static_cast<std::size_t>(j) < normals.size()) normals[j] = fit_.normal(frame, strength_);
   });
   system_.emplace(fit_.space(), in_time_, first_ > 0, std::move(normals));
@@ -149,13 +152,18 @@ void SeriesFit::refine() {
   const SpaceFit& space = fit_.space();
   std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(frames));
   double data = 0;
-  for (int j = 0; j < frames; ++j) data += series_.frames[j + first_].squaredNorm();
+  for (int j = 0; j < frames; ++j) {
+    const std::size_t frame = static_cast<std::size_t>(j) + static_cast<std::size_t>(first_);
+    data += series_.frames[frame].squaredNorm();
+    series_.frames.forget(frame);
+  }
   const auto project_misfit = [&] {
     Eigen::VectorXd squares(frames);
     parallel_for(frames, [&](int j) {
       const Eigen::MatrixX3d left = errors(j);
       squares(j) = left.squaredNorm();
       projected[j] = space.project(-left, series_.times[j + first_]);
+      series_.frames.forget(static_cast<std::size_t>(j) + static_cast<std::size_t>(first_));
     });
     return std::sqrt(squares.sum() / std::max(data, 1e-300));
   };
@@ -188,6 +196,7 @@ Misfit SeriesFit::misfit(double limit) const {
     const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
     const std::size_t frame = j + first_;
     misfits[j] = misfit_of(fit_.misfit(x.reshaped(ties().size(), 3), frame), series_, limit);
+    series_.frames.forget(frame);
   });
   Misfit all;
   for (const Misfit& one : misfits) {

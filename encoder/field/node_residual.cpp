@@ -111,14 +111,14 @@ class Model {
   std::array<Mixer<3>, 16 * 14> mixers_;
 };
 
-template <class Coder>
-void code_nodes(Coder& coder, int nodes, int components, int frames, std::int32_t* values,
-                std::span<const std::int32_t> order) {
+/// `code`(model, first number of a node), node by node in their order.
+template <class Coder, class Code>
+void for_each_node(Coder& coder, int nodes, int components, int frames, std::span<const std::int32_t> order,
+                   const Code& code) {
   Model<Coder> model(coder, components, frames);
   for (int n = 0; n < nodes; ++n) {
     const std::size_t node = static_cast<std::size_t>(order.empty() ? n : order[n]);
-    model.code_node(values + node * static_cast<std::size_t>(components) * static_cast<std::size_t>(frames),
-                    frames);
+    code(model, node * static_cast<std::size_t>(components) * static_cast<std::size_t>(frames));
   }
 }
 
@@ -129,9 +129,14 @@ std::vector<std::uint8_t> encode_residual(const NodeResidual& residual, std::spa
               static_cast<std::size_t>(residual.components) * residual.nodes *
                   static_cast<std::size_t>(residual.frames));
   code::Encoder coder;
-  // The model returns its input.
-  std::vector<std::int32_t> values = residual.values;
-  code_nodes(coder, residual.nodes, residual.components, residual.frames, values.data(), order);
+  std::vector<std::int32_t> of_node(static_cast<std::size_t>(residual.components) *
+                                    static_cast<std::size_t>(residual.frames));
+  for_each_node(coder, residual.nodes, residual.components, residual.frames, order,
+                [&](Model<code::Encoder>& model, std::size_t first) {
+                  std::copy_n(residual.values.begin() + static_cast<std::ptrdiff_t>(first), of_node.size(),
+                              of_node.begin());
+                  model.code_node(of_node.data(), residual.frames);  // returns its input
+                });
   return coder.finish();
 }
 
@@ -140,7 +145,9 @@ std::vector<std::int32_t> decode_residual(int nodes, int frames, std::span<const
   std::vector<std::int32_t> values(static_cast<std::size_t>(components) * nodes *
                                    static_cast<std::size_t>(frames));
   code::Decoder coder(bytes);
-  code_nodes(coder, nodes, components, frames, values.data(), order);
+  for_each_node(coder, nodes, components, frames, order, [&](Model<code::Decoder>& model, std::size_t first) {
+    model.code_node(values.data() + first, frames);
+  });
   coder.finish();
   return values;
 }
