@@ -175,6 +175,9 @@ class Page(unittest.TestCase):
                     .errorOf({told["largest_displacement_mm"]})""")
                 self.assertAlmostEqual(error / expected_error, 1, delta=0.03, msg=name)
                 self.assertIn("estimated error", BROWSER.run("document.getElementById('error').textContent"))
+            if name == "prestresses":  # u, uv, v
+                BROWSER.run("cleft.choose([0.002, 0.004, 0.003]), cleft.refresh()")
+                self.assertIn("compressed", BROWSER.run("document.getElementById('error').textContent"))
         self.assertEqual(BROWSER.mistakes(), [])
 
     def test_where_nothing_lies_between_the_page_says_why(self):
@@ -329,6 +332,39 @@ class Page(unittest.TestCase):
             opened(page)
             self.assertIn("This page is damaged", BROWSER.run("document.getElementById('message').textContent"), name)
             self.assertTrue(BROWSER.run("document.getElementById('main').hidden"), name)
+
+    def test_fingers_mouse_and_keys_turn_the_picture(self):
+        opened()
+        pose = "(cleft.refresh(), [cleft.view.azimuth, cleft.view.elevation, cleft.view.zoom])"
+        x, y = BROWSER.run("(() => { const r = document.getElementById('view').getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()")
+
+        def touch(kind, *points):
+            BROWSER.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x + dx, "y": y + dy, "id": n} for n, (dx, dy) in enumerate(points)])
+
+        BROWSER.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        try:
+            touch("touchStart", (0, 0)), touch("touchMove", (60, 30)), touch("touchEnd")
+            azimuth, elevation, zoom = BROWSER.run(pose)
+            self.assertTrue(azimuth < -5 and elevation > 2 and zoom == 1, (azimuth, elevation, zoom))
+            touch("touchStart", (-30, 0), (30, 0)), touch("touchMove", (-60, 0), (60, 0)), touch("touchEnd")
+            self.assertAlmostEqual(BROWSER.run(pose)[2], 2, delta=0.1)
+        finally:
+            BROWSER.call("Emulation.setTouchEmulationEnabled", enabled=False)
+        BROWSER.run("cleft.turn(0, 0, 1)")
+        for kind, dx in (("mousePressed", 0), ("mouseMoved", 60), ("mouseReleased", 60)):
+            BROWSER.call("Input.dispatchMouseEvent", type=kind, x=x + dx, y=y, button="left", buttons=1, clickCount=1)
+        self.assertLess(BROWSER.run(pose)[0], -5)
+        BROWSER.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=-200)
+        BROWSER.run("new Promise(done => setTimeout(done, 200))")
+        self.assertGreater(BROWSER.run(pose)[2], 1.1)
+        for key in ("r", "ArrowRight", "n", "d", "["):
+            BROWSER.call("Input.dispatchKeyEvent", type="keyDown", key=key)
+            BROWSER.call("Input.dispatchKeyEvent", type="keyUp", key=key)
+        self.assertEqual(BROWSER.run(pose), [5, 0, 1])
+        self.assertEqual(BROWSER.run("cleft.state.case"), 1)
+        self.assertLess(BROWSER.run("cleft.state.t"), BROWSER.run("cleft.field.duration"))
+        self.assertEqual(BROWSER.run("document.documentElement.classList.contains('dark')"), BROWSER.run("cleft.state.dark"))
+        self.assertEqual(BROWSER.mistakes(), [])
 
     def test_it_fits_a_telephone(self):
         BROWSER.call("Emulation.setDeviceMetricsOverride", width=390, height=800, deviceScaleFactor=2, mobile=True)

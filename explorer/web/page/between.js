@@ -244,6 +244,13 @@ class BetweenCases {
     for (const [name, value] of Object.entries(this.data.base)) if (!names.includes(name)) varied[name] = value;
     return varied;
   }
+  /// Whether skin under these prestresses would be compressed in some direction, which a membrane does not carry.
+  compressed(values) {
+    const {scale} = this.data.groups[0].model.features, all = this.complete(values);
+    if (!scale) return false;
+    const [u, v, uv] = scale.prestress.map(name => all[name]);
+    return u < 0 || v < 0 || u * v < uv * uv;
+  }
   prediction(parameters) {
     const derivatives = this.data.derivative_errors.length, [together, ...alone] = this.groups;
     if (!alone.length) return together.model.at(parameters, derivatives);

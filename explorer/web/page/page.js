@@ -324,7 +324,7 @@ class Page {
   takeField() {
     const {case: i, values} = this.state, key = values ? values.join() : String(i);
     if (key === this.key) return;
-    const between = values && this.betweenAt(Object.fromEntries(this.names.map((name, c) => [name, values[c]])));
+    const between = values && this.betweenAt(this.named(values));
     this.field = values ? between.field : this.fieldOf(i);
     if (this.scene && this.scene.shape === PatchScene.shapeOf(this.field)) {
       this.scene.take(this.field);
@@ -337,6 +337,7 @@ class Page {
     this.largest = {};
     this.error = values ? between.errorOf(this.largestValue("displacement")) : this.data.cases[i].error;
   }
+  named(values) { return Object.fromEntries(this.names.map((name, c) => [name, values[c]])); }
   betweenAt(values) {
     if (!this.mesh) return this.between.at(values);
     const {cases, errorOf} = this.between.predictionAt(values);
@@ -353,6 +354,8 @@ class Page {
   errorOfField() {
     const percent = shownNumber(100 * this.error) + " %";
     if (this.mesh && this.mesh.cases < 2) return this.data.mesh.note;
+    if (this.state.values && this.between.compressed(this.named(this.state.values)))
+      return "There is no such case: the skin would be compressed in some direction.";
     if (this.state.values) return `Between the cases: estimated error ${percent} of the largest displacement.`;
     return `Case ${this.state.case + 1} of ${this.rows.length}: no node is off by more than ${percent} of the largest displacement` +
            (this.between || this.rows.length < 2 ? "." : ". Sliders choose the nearest case, for nothing is known between them: " + this.data.not_between);
