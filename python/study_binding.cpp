@@ -96,6 +96,7 @@ void bind_study(py::module_& module) {
       .def("__len__", [](const Study& self) { return self.study().size(); })
       .def_property_readonly("path", [](const Study& self) { return self.study().path(); })
       .def_property_readonly("varying", [](const Study& self) { return self.study().varying(); })
+      .def_property_readonly("damaged", [](const Study& self) { return self.study().damaged(); })
       .def_property_readonly("older", [](const Study& self) { return self.study().older(); })
       .def(
           "name", [](const Study& self, int i) { return self.check(i), self.study().name(i); }, arg("i"))

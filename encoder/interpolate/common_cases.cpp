@@ -29,7 +29,8 @@ void for_each_member(const std::string& study, const std::function<void(StudyMem
     if (report) report(static_cast<double>(i) / static_cast<double>(count));
   };
   if (fs::is_directory(study)) {
-    const std::vector<StudyCase> cases = published_study_cases(study);
+    std::vector<std::string> damaged;  // published_study_cases() tells them
+    const std::vector<StudyCase> cases = published_study_cases(study, nullptr, &damaged);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       begin(i, cases.size());
       take(member_of(cases[i].name, read_field(cases[i].field_file), cases[i].choices));

@@ -7,6 +7,7 @@
 #include "base/output_file.h"
 #include "base/text.h"
 #include "encoder/field/file/field_file.h"
+#include "encoder/field/file/study_file.h"
 #include "encoder/interpolate/compact.h"
 #include "encoder/interpolate/study_interpolator.h"
 
@@ -69,6 +70,11 @@ int main(int argc, char** argv) {
     const CaseParameters values = values_of(assignments);
     Progress progress("interpolating");
     progress("reading the study");
+    if (std::vector<std::string> damaged; std::filesystem::is_directory(study)) {
+      published_study_cases(study, nullptr, &damaged);
+      if (!damaged.empty())
+        std::cerr << "cleft interpolate: warning: " << note_of_damaged(study, damaged) << "\n";
+    }
     const StudyInterpolator interpolator(study);
     const Field field = interpolator.at(values);
     write_field(

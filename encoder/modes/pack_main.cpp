@@ -27,8 +27,9 @@ int main(int argc, char** argv) {
   return run_command(app, argc, argv, [&] {
     if (app.count("--modes") && !(error >= 1e-4 && error <= 0.1))
       throw InputError("--modes " + shortest(error) + ": must be from 0.0001 to 0.1");
-    std::vector<std::string> older;
-    const std::vector<StudyCase> cases = published_study_cases(folder, &older);
+    std::vector<std::string> older, damaged;
+    const std::vector<StudyCase> cases = published_study_cases(folder, &older, &damaged);
+    if (!damaged.empty()) std::cerr << "cleft pack: warning: " << note_of_damaged(folder, damaged) << "\n";
     if (!older.empty()) std::cerr << "cleft pack: " << note_of_older(folder, older) << "\n";
     Progress progress("packing");
     PackedStudy study;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,12 @@ inline std::vector<InputDistribution> distributions_of(const FigureModel& model,
   for (const FigureModel::Varied& one : model.varying())
     ranges.push_back({one.name, one.least, one.greatest});
   return distributions_of(ranges, given);
+}
+
+/// Of cases that the study has and that cannot be read.
+inline void warn_of_left_out(const PublishedStudy& study, const std::string& command) {
+  for (const std::string& sentence : study.left_out())
+    std::cerr << "cleft " << command << ": warning: " << sentence << "\n";
 }
 
 /// With four digits.

@@ -44,6 +44,7 @@ double share_outside(const FigureModel& model, const Eigen::MatrixXd& points) {
 
 Json analyze(const Options& o) {
   const PublishedStudy study(o.study);
+  warn_of_left_out(study, "analyze");
   Progress progress("analyzing");
   const FigureModel model(study, {Figure(o.figure)}, [&](double part) {
     progress("case " + std::to_string(1 + static_cast<int>(part * study.size())) + " of " +

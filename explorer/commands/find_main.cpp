@@ -41,6 +41,8 @@ std::string to_text(const PublishedStudy& study, int i, const Finding& f) {
 void find(const Options& o) {
   const Condition condition(o.where);
   const PublishedStudy study(o.study);
+  for (const std::string& sentence : study.left_out())
+    std::cerr << "cleft find: warning: " << sentence << "\n";
   Json cases = Json::array();
   std::string lines;
   {

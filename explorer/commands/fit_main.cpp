@@ -127,6 +127,7 @@ int main(int argc, char** argv) {
     const Measurements measured = read_measurements(o.measured, o.deviation);
     if (!o.out.empty()) refuse_to_overwrite(o.out, {o.study, o.measured});
     const PublishedStudy study(o.study);
+    warn_of_left_out(study, "fit");
     Json found;
     {
       Progress progress("fitting");

@@ -81,9 +81,7 @@ std::shared_ptr<const FamilyFields> KnownCases::family() {
 }
 
 std::vector<std::string> KnownCases::notices() const {
-  std::vector<std::string> notices;
-  if (!study_.older().empty())
-    notices.push_back(study_.path() + ": " + note_of_older(study_.path(), study_.older()));
+  std::vector<std::string> notices = study_.left_out();
   int gone = 0;
   if (study_.is_folder())
     for (const auto& [hash, one] : study_index(study_.path())) gone += !one.snapshot;

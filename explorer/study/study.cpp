@@ -28,7 +28,7 @@ PublishedStudy::PublishedStudy(const std::string& path) : path_(path) {
                                    ? fs::absolute(path).parent_path().filename().string()
                                    : "";
   for (const StudyCase& one :
-       folder_ ? published_study_cases(path, &older_) : std::vector<StudyCase>{{of_study, path}}) {
+       folder_ ? published_study_cases(path, &older_, &damaged_) : std::vector<StudyCase>{{of_study, path}}) {
     const bool several = pieces_in(one.field_file) > 0;
     Case& added = cases_.emplace_back(
         Case{one.field_file, "", one.name,
@@ -60,6 +60,13 @@ void PublishedStudy::name_and_sort() {
     if (c.name.empty())
       c.name = (cases_.size() > 1 && !packed_ ? file.parent_path() : file).filename().string();
   }
+}
+
+std::vector<std::string> PublishedStudy::left_out() const {
+  std::vector<std::string> sentences;
+  if (!older_.empty()) sentences.push_back(path_ + ": " + note_of_older(path_, older_));
+  if (!damaged_.empty()) sentences.push_back(path_ + ": " + note_of_damaged(path_, damaged_));
+  return sentences;
 }
 
 std::string PublishedStudy::snapshot(int i) const {

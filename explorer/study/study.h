@@ -40,6 +40,10 @@ class PublishedStudy {
   bool has_several_breaks(int i) const { return cases_.at(i).several; }
   /// Cases that were left out because their fields have an older format.
   const std::vector<std::string>& older() const { return older_; }
+  /// Cases that were left out because a file of theirs is gone or damaged.
+  const std::vector<std::string>& damaged() const { return damaged_; }
+  /// What was left out, and the remedy, a sentence each.
+  std::vector<std::string> left_out() const;
   bool is_folder() const { return folder_; }
 
   /// The field of a case, read from its file when requested; the last ones are kept.
@@ -65,7 +69,7 @@ class PublishedStudy {
 
   std::string path_;
   std::vector<Case> cases_;
-  std::vector<std::string> varying_, older_;
+  std::vector<std::string> varying_, older_, damaged_;
   bool folder_ = false;
   std::list<std::pair<int, std::shared_ptr<const Field>>> recent_;  // the last one first
   std::optional<StudyFile> packed_;

@@ -56,6 +56,11 @@ class Study:
         return self._study.older
 
     @property
+    def damaged(self) -> list:
+        """Cases that were left out because their field or manifest is gone or damaged."""
+        return self._study.damaged
+
+    @property
     def _values(self) -> np.ndarray:
         """(cases, varying)"""
         if self._known is None:

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/text.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/study_file.h"
 #include "tests/support/recorded.h"
@@ -130,4 +131,21 @@ TEST_F(StudyTest, ADamagedFieldIsNamed) {
 }
 
 }  // namespace
+TEST_F(StudyTest, DamagedCasesAreLeftOutAndNamed) {
+  const std::string gone = add_case("a", {{"cut.depth", 1}}), flipped = add_case("b", {{"cut.depth", 2}});
+  add_case("c", {{"cut.depth", 3}});
+  fs::remove(gone);
+  std::string bytes = read_text_file(flipped);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  write_text_file(flipped, bytes);
+  PublishedStudy study(folder_.string());
+  EXPECT_EQ(study.size(), 1);
+  EXPECT_EQ(study.damaged().size(), 2u);
+  ASSERT_EQ(study.left_out().size(), 1u);
+  EXPECT_NE(study.left_out()[0].find("gone or damaged: cases a, b; cleft run STUDY.toml --out"),
+            std::string::npos)
+      << study.left_out()[0];
+  EXPECT_NO_THROW(study.read(0));
+}
+
 }  // namespace cleft

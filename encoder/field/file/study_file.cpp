@@ -183,22 +183,36 @@ Field StudyFile::field(int i) const {
   });
 }
 
-std::vector<StudyCase> published_study_cases(const std::string& study, std::vector<std::string>* older) {
+std::vector<StudyCase> published_study_cases(const std::string& study, std::vector<std::string>* older,
+                                             std::vector<std::string>* damaged) {
   if (!fs::is_directory(study)) throw InputError(study + ": no such folder (give a study folder)");
   std::vector<StudyCase> cases;
-  std::vector<std::string> left_out;
+  std::vector<std::string> of_older, of_damaged;
   std::error_code absent;
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(study) / "cases", absent)) {
     const std::string name = entry.path().filename().string(), field = (entry.path() / "case.dffd").string(),
                       manifest = (entry.path() / "manifest.json").string();
-    if (!fs::exists(manifest) || !fs::exists(field)) continue;
-    if (is_older_field(field))
-      left_out.push_back(name);
-    else
+    if (!fs::exists(manifest) || !fs::exists(field)) {
+      if (fs::exists(manifest)) of_damaged.push_back(name);
+      continue;
+    }
+    try {
+      if (is_older_field(field)) {
+        of_older.push_back(name);
+        continue;
+      }
+      if (damaged) read_field_record(field);
       cases.push_back({name, field, choices_of_manifest(manifest)});
+    } catch (const FileError&) {
+      if (!damaged) throw;
+      of_damaged.push_back(name);
+    }
   }
-  if (older) older->insert(older->end(), left_out.begin(), left_out.end());
-  if (cases.empty() && !left_out.empty()) throw InputError(study + ": " + note_of_older(study, left_out));
+  if (older) older->insert(older->end(), of_older.begin(), of_older.end());
+  if (damaged) damaged->insert(damaged->end(), of_damaged.begin(), of_damaged.end());
+  if (cases.empty() && !of_older.empty()) throw InputError(study + ": " + note_of_older(study, of_older));
+  if (cases.empty() && damaged && !of_damaged.empty())
+    throw InputError(study + ": " + note_of_damaged(study, of_damaged));
   if (cases.empty())
     throw InputError(study +
                      ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
@@ -209,18 +223,35 @@ std::vector<StudyCase> published_study_cases(const std::string& study, std::vect
   return cases;
 }
 
-std::string note_of_older(const std::string& study, std::vector<std::string> older) {
-  std::sort(older.begin(), older.end());
+namespace {
+
+/// "case a", "cases a, b and 3 more".
+std::string named(std::vector<std::string>& names) {
+  std::sort(names.begin(), names.end());
   constexpr std::size_t most_named = 10;
-  std::string names;
-  for (std::size_t i = 0; i < std::min(older.size(), most_named); ++i)
-    names += (i > 0 ? ", " : "") + older[i];
-  if (older.size() > most_named) names += " and " + std::to_string(older.size() - most_named) + " more";
+  std::string text = names.size() == 1 ? "case " : "cases ";
+  for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) text += (i > 0 ? ", " : "") + names[i];
+  if (names.size() > most_named) text += " and " + std::to_string(names.size() - most_named) + " more";
+  return text;
+}
+
+}  // namespace
+
+std::string note_of_older(const std::string& study, std::vector<std::string> older) {
+  const std::string names = named(older);
   const bool one = older.size() == 1;
   return (one ? "left out, since its field is" : "left out, since their fields are") +
-         std::string(" of an older format: ") + (one ? "case " : "cases ") + names +
-         "; cleft run STUDY.toml --out " + study + " encodes anew what the study asks for, then " + study +
-         "/cases/" + (one ? older.front() : "NAME of each") + " can be deleted";
+         std::string(" of an older format: ") + names + "; cleft run STUDY.toml --out " + study +
+         " encodes anew what the study asks for, then " + study + "/cases/" +
+         (one ? older.front() : "NAME of each") + " can be deleted";
+}
+
+std::string note_of_damaged(const std::string& study, std::vector<std::string> damaged) {
+  const std::string names = named(damaged);
+  return (damaged.size() == 1 ? "left out, since its field or manifest is"
+                              : "left out, since their fields or manifests are") +
+         std::string(" gone or damaged: ") + names + "; cleft run STUDY.toml --out " + study +
+         (damaged.size() == 1 ? " makes it again" : " makes them again");
 }
 
 std::vector<StudyRecord> study_records(const std::vector<StudyCase>& cases) {

@@ -57,13 +57,16 @@ struct StudyCase {
 };
 
 /// The published cases of a study folder, by name, without those whose fields are of an older format: their
-/// names are added to `older`. Throws InputError if there is none, FileError if a manifest or a field is
-/// damaged.
+/// names are added to `older`; and, where `damaged` is given, without those whose field or manifest is gone
+/// or damaged: every field is then read once. Throws InputError if none is left, FileError if a manifest or a
+/// field is damaged and `damaged` is not given.
 std::vector<StudyCase> published_study_cases(const std::string& study,
-                                             std::vector<std::string>* older = nullptr);
+                                             std::vector<std::string>* older = nullptr,
+                                             std::vector<std::string>* damaged = nullptr);
 
-/// The remedy for cases of an older format, for messages.
+/// The remedy for cases of an older format, and for damaged ones, for messages.
 std::string note_of_older(const std::string& study, std::vector<std::string> older);
+std::string note_of_damaged(const std::string& study, std::vector<std::string> damaged);
 
 /// The data of a case in a study file. If it is a sum of modes, its record is a header without bytes.
 struct StudyRecord {
