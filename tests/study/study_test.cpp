@@ -130,7 +130,6 @@ TEST_F(StudyTest, ADamagedFieldIsNamed) {
   EXPECT_NE(message_of(folder_.string()).find(file), std::string::npos);
 }
 
-}  // namespace
 TEST_F(StudyTest, DamagedCasesAreLeftOutAndNamed) {
   const std::string gone = add_case("a", {{"cut.depth", 1}}), flipped = add_case("b", {{"cut.depth", 2}});
   add_case("c", {{"cut.depth", 3}});
@@ -147,5 +146,7 @@ TEST_F(StudyTest, DamagedCasesAreLeftOutAndNamed) {
       << study.left_out()[0];
   EXPECT_NO_THROW(study.read(0));
 }
+
+}  // namespace
 
 }  // namespace cleft

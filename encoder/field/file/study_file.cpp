@@ -212,7 +212,8 @@ std::vector<StudyCase> published_study_cases(const std::string& study, std::vect
   if (damaged) damaged->insert(damaged->end(), of_damaged.begin(), of_damaged.end());
   if (cases.empty() && !of_older.empty()) throw InputError(study + ": " + note_of_older(study, of_older));
   if (cases.empty() && damaged && !of_damaged.empty())
-    throw InputError(study + ": " + note_of_damaged(study, of_damaged));
+    throw InputError(study + ": no case is left (" + study + "/cases/" + of_damaged.front() +
+                     "/case.dffd, for example): " + note_of_damaged(study, of_damaged));
   if (cases.empty())
     throw InputError(study +
                      ": no published case (looked for cases/*/case.dffd with manifest.json); run `cleft run "
