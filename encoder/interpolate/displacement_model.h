@@ -56,7 +56,8 @@ class DisplacementModel {
     /// Weights of the cases by another model, where the cases tell too little of which is right; else empty.
     Eigen::MatrixXd others;
   };
-  Predictions at(const std::vector<RecordedParameters>& list) const;
+  /// Without errors there are no deviations and no other weights, at half the cost.
+  Predictions at(const std::vector<RecordedParameters>& list, bool with_errors = true) const;
   /// Covariances of the predictions' errors, in the square of the unit of the deviations; columns are changed
   /// by a case at a place as by Kriging.
   Eigen::MatrixXd covariance(const std::vector<RecordedParameters>& list) const;

@@ -191,8 +191,10 @@ Eigen::MatrixXd KernelRegression::against(const Eigen::MatrixXd& features,
 }
 
 KernelRegression::Weights KernelRegression::weights(const Eigen::MatrixXd& features,
-                                                    const Eigen::MatrixXd& loads) const {
+                                                    const Eigen::MatrixXd& loads,
+                                                    bool with_deviations) const {
   const Eigen::MatrixXd k = against(features, loads);
+  if (!with_deviations) return {factor_.solve(k), {}};
   Eigen::VectorXd own(features.rows());
   for (Eigen::Index j = 0; j < own.size(); ++j) {
     const Eigen::VectorXd x = features.row(j).transpose();

@@ -73,7 +73,9 @@ class KernelRegression {
     Eigen::MatrixXd of_rows;     ///< a column for each: weights of the cases, followed by the slopes
     Eigen::VectorXd deviations;  ///< standard deviations, in the unit of LeftOut::deviations
   };
-  Weights weights(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads) const;
+  /// The deviations cost as much again as the weights; they are empty where they are not wanted.
+  Weights weights(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads,
+                  bool with_deviations = true) const;
   /// Covariances of the errors of predictions, m x m, in the square of that unit.
   Eigen::MatrixXd covariance_between(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads) const;
   nlohmann::ordered_json data() const;  ///< see Features

@@ -188,20 +188,35 @@ std::vector<RecordedParameters> FigureModel::parameters_at(const Eigen::MatrixXd
   return list;
 }
 
+void FigureModel::for_pieces(Eigen::Index points,
+                             const std::function<void(Eigen::Index first, Eigen::Index count)>& work) {
+  parallel_for(static_cast<int>((points + points_at_once - 1) / points_at_once), [&](int piece) {
+    const Eigen::Index first = piece * points_at_once;
+    work(first, std::min(points_at_once, points - first));
+  });
+}
+
 FigureModel::Answers FigureModel::at(const Eigen::MatrixXd& points) const {
   Answers answers{Eigen::MatrixXd(std::ssize(figures_), points.cols()),
                   Eigen::MatrixXd(std::ssize(figures_), points.cols())};
-  parallel_for(static_cast<int>((points.cols() + points_at_once - 1) / points_at_once), [&](int piece) {
-    const Eigen::Index first = piece * points_at_once,
-                       count = std::min(points_at_once, points.cols() - first);
+  for_pieces(points.cols(), [&](Eigen::Index first, Eigen::Index count) {
     const auto found = model_->at(parameters_at(points.middleCols(first, count)));
     const Eigen::MatrixXd displacements = cases_.displacements * found.weights;
-    const Eigen::MatrixXd values = figures_from(displacements);
-    Eigen::MatrixXd errors(values.rows(), count);
+    Eigen::MatrixXd errors(std::ssize(figures_), count);
     estimate_errors(found, displacements, errors);
-    answers.values.middleCols(first, count) = values, answers.errors.middleCols(first, count) = errors;
+    answers.values.middleCols(first, count) = figures_from(displacements);
+    answers.errors.middleCols(first, count) = errors;
   });
   return answers;
+}
+
+Eigen::MatrixXd FigureModel::values_at(const Eigen::MatrixXd& points) const {
+  Eigen::MatrixXd values(std::ssize(figures_), points.cols());
+  for_pieces(points.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    values.middleCols(first, count) = figures_from(
+        cases_.displacements * model_->at(parameters_at(points.middleCols(first, count)), false).weights);
+  });
+  return values;
 }
 
 /// Without case i the prediction is d - r_i w_i, where w_i is its weight and r_i its residual.
@@ -227,19 +242,26 @@ void FigureModel::estimate_errors(const DisplacementModel::Predictions& found,
 }
 
 /// A weight that is held at zero changes the others by the column of the inverse that undoes it.
-Eigen::MatrixXd FigureModel::without(int part, int of, const Eigen::MatrixXd& points) const {
-  std::vector<int> left;
-  for (int i = part; i < cases(); i += of) left.push_back(i);
-  const Eigen::MatrixXd undo =
-      inverse_(Eigen::all, left) *
-      inverse_(left, left).ldlt().solve(Eigen::MatrixXd::Identity(std::ssize(left), std::ssize(left)));
-  Eigen::MatrixXd values(std::ssize(figures_), points.cols());
-  parallel_for(static_cast<int>((points.cols() + points_at_once - 1) / points_at_once), [&](int piece) {
-    const Eigen::Index first = piece * points_at_once,
-                       count = std::min(points_at_once, points.cols() - first);
-    Eigen::MatrixXd weights = model_->at(parameters_at(points.middleCols(first, count))).weights;
-    weights -= undo * Eigen::MatrixXd(weights(left, Eigen::all));
-    values.middleCols(first, count) = figures_from(cases_.displacements * weights);
+Eigen::MatrixXd FigureModel::without_parts(int parts, int figure, const Eigen::MatrixXd& points) const {
+  const auto f = static_cast<std::size_t>(figure);
+  const Eigen::MatrixXd displacements = cases_.displacements.middleRows(rows_[f], rows_[f + 1] - rows_[f]);
+  std::vector<std::vector<int>> left(static_cast<std::size_t>(parts));
+  for (int i = 0; i < cases(); ++i) left[static_cast<std::size_t>(i % parts)].push_back(i);
+  std::vector<Eigen::MatrixXd> undo;  // what a weight of these cases contributes to the displacements
+  for (const std::vector<int>& some : left) {
+    const Eigen::MatrixXd own = inverse_(some, some);
+    undo.emplace_back(
+        own.transpose().ldlt().solve((displacements * inverse_(Eigen::all, some)).transpose()).transpose());
+  }
+  Eigen::MatrixXd values(parts, points.cols());
+  for_pieces(points.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    const Eigen::MatrixXd weights = model_->at(parameters_at(points.middleCols(first, count)), false).weights,
+                          all = displacements * weights;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const Eigen::MatrixXd rest = all - undo[k] * weights(left[k], Eigen::all);
+      for (Eigen::Index j = 0; j < count; ++j)
+        values(static_cast<Eigen::Index>(k), first + j) = figures_[f].of(rest.col(j));
+    }
   });
   return values;
 }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,8 +55,11 @@ class FigureModel {
     Eigen::MatrixXd errors;  ///< of the interpolation, of the figure's field; 95 % of new cases are within
   };
   Answers at(const Eigen::MatrixXd& points) const;
-  /// The values alone, by all cases but every `of`-th from the `part`-th on: what these tell (jackknife).
-  Eigen::MatrixXd without(int part, int of, const Eigen::MatrixXd& points) const;
+  /// The values alone, at a part of the cost.
+  Eigen::MatrixXd values_at(const Eigen::MatrixXd& points) const;
+  /// A figure as other data tell it: row k is that of all cases but every `parts`-th from the k-th on
+  /// (jackknife).
+  Eigen::MatrixXd without_parts(int parts, int figure, const Eigen::MatrixXd& points) const;
   /// What each case's figures would be by all other cases.
   const Eigen::MatrixXd& left_out() const { return left_out_; }
   /// The error of the fields of the cases themselves, mm: the median of the largest of each.
@@ -67,6 +71,9 @@ class FigureModel {
 
  private:
   std::vector<RecordedParameters> parameters_at(const Eigen::MatrixXd& points) const;
+  /// Calls work(first, count) for pieces of so many points.
+  static void for_pieces(Eigen::Index points,
+                         const std::function<void(Eigen::Index first, Eigen::Index count)>& work);
   Eigen::MatrixXd figures_from(const Eigen::MatrixXd& displacements) const;
   Eigen::MatrixXd differences(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) const;
   Eigen::MatrixXd predicted_by_parts() const;

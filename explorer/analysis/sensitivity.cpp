@@ -75,7 +75,7 @@ std::vector<double> main_effect(const FigureFunction& figure, const Eigen::Matri
 }  // namespace
 
 Sensitivities sensitivities_of(const std::vector<InputDistribution>& distributions,
-                               const FigureFunction& figure, const std::vector<FigureFunction>& alternatives,
+                               const FigureFunction& figure, const AlternativeFigures& alternatives,
                                int size) {
   OT::ResourceMap::SetAsString("SobolIndicesExperiment-SamplingMethod", "QMC");
   const OT::Sample sample =
@@ -97,9 +97,10 @@ Sensitivities sensitivities_of(const std::vector<InputDistribution>& distributio
   }
 
   const Indices indices = indices_of(sample, values, size);
-  Eigen::MatrixXd others(2 * dimension, std::ssize(alternatives));
+  const Eigen::MatrixXd figures = alternatives ? alternatives(points) : Eigen::MatrixXd(0, points.cols());
+  Eigen::MatrixXd others(2 * dimension, figures.rows());
   for (Eigen::Index a = 0; a < others.cols(); ++a)
-    others.col(a) = indices_of(sample, alternatives[static_cast<std::size_t>(a)](points), size).values;
+    others.col(a) = indices_of(sample, figures.row(a).transpose(), size).values;
   Eigen::VectorXd of_data = Eigen::VectorXd::Zero(2 * dimension);
   if (others.cols() > 1)
     of_data = of_deviation * ((others.colwise() - others.rowwise().mean()).rowwise().squaredNorm() *

@@ -11,6 +11,8 @@ namespace cleft {
 
 /// Values of a figure at points, a column for each.
 using FigureFunction = std::function<Eigen::VectorXd(const Eigen::MatrixXd& points)>;
+/// The same as several sets of data tell it: a row for each.
+using AlternativeFigures = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& points)>;
 
 /// A number, and half the width of its 95 % interval.
 struct Estimate {
@@ -35,11 +37,11 @@ struct Sensitivities {
 };
 
 /// By Jansen's estimators (1999) on a sequence of low discrepancy, `size` times two more than there are
-/// parameters. `alternatives`: the figure as other data tell it, by leaving parts of the cases out
+/// parameters. `alternatives`, if given: the figure as other data tell it, by leaving parts of the cases out
 /// (jackknife); what the indices differ by is in their intervals, with what the finite sample leaves open.
 /// Throws InputError if the figure does not change.
 Sensitivities sensitivities_of(const std::vector<InputDistribution>& distributions,
-                               const FigureFunction& figure, const std::vector<FigureFunction>& alternatives,
+                               const FigureFunction& figure, const AlternativeFigures& alternatives,
                                int size);
 
 }  // namespace cleft

@@ -16,12 +16,13 @@ using namespace cleft;
 namespace {
 
 constexpr int parts_left_out = 8;
-constexpr double much_outside = 0.01;  // of the draws
+constexpr Eigen::Index errors_estimated = 512;  // points
+constexpr double much_outside = 0.01;           // of the draws
 
 struct Options {
   std::string study, figure = "gape";
   std::vector<std::string> given;
-  int samples = 4096;
+  int samples = 2048;
   bool json = false;
 };
 
@@ -56,18 +57,17 @@ Json analyze(const Options& o) {
   const std::vector<InputDistribution> distributions = distributions_of(ranges, o.given);
 
   const FigureFunction figure = [&](const Eigen::MatrixXd& points) {
-    return Eigen::VectorXd(model.at(points).values.row(0).transpose());
+    return Eigen::VectorXd(model.values_at(points).row(0).transpose());
   };
-  std::vector<FigureFunction> alternatives;
-  const int parts = std::min(parts_left_out, model.cases());
-  alternatives.reserve(static_cast<std::size_t>(parts));
-  for (int part = 0; part < parts; ++part)
-    alternatives.emplace_back([&model, part, parts](const Eigen::MatrixXd& points) {
-      return Eigen::VectorXd(model.without(part, parts, points).row(0).transpose());
-    });
+  const AlternativeFigures alternatives = [&](const Eigen::MatrixXd& points) {
+    return model.without_parts(std::min(parts_left_out, model.cases()), 0, points);
+  };
   progress("drawing values of the parameters");
   const Sensitivities found = sensitivities_of(distributions, figure, alternatives, o.samples);
-  const Eigen::VectorXd errors = model.at(found.points).errors.row(0).transpose();
+  const Eigen::VectorXd errors =
+      model.at(found.points.leftCols(std::min<Eigen::Index>(errors_estimated, found.points.cols())))
+          .errors.row(0)
+          .transpose();
   const double fit = model.fit_error(0);
 
   Json json = {{"figure", o.figure},     {"unit", model.figures()[0].unit()},
