@@ -9,6 +9,9 @@ double available_memory();
 /// Largest number of bytes that this process has held.
 double peak_memory();
 
+/// Bytes that this process holds now.
+double held_memory();
+
 /// From now on blocks of many MB are returned to the system when they are freed. SuperLU_DIST, a dependency
 /// of Trilinos, disables this when it is loaded, which fragments the memory.
 void return_large_blocks();

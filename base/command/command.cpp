@@ -1,5 +1,6 @@
 #include "base/command/command.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -8,7 +9,7 @@
 #include <iostream>
 #include <regex>
 
-#include "base/error.h"
+#include "base/message.h"
 #include "base/text.h"
 
 namespace cleft {
@@ -20,6 +21,17 @@ void complain(const CommandLine& line, const char* kind, const std::string& what
   std::cerr << line.name() + ": " + kind + ": " + what + '\n';
 }
 
+/// Cut to what one row of the terminal holds: a row alone can be cleared.
+std::string fitted(const std::string& text) {
+  winsize terminal{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &terminal) != 0 || terminal.ws_col == 0) return text;
+  std::size_t most = terminal.ws_col - 1U;
+  if (text.size() <= most) return text;
+  constexpr unsigned char mask = 0xc0, continued = 0x80;  // no character of UTF-8 is cut in two
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & mask) == continued) --most;
+  return text.substr(0, most);
+}
+
 }  // namespace
 
 int run_command(CommandLine& line, int argc, char** argv, const std::function<void()>& body) {
@@ -28,12 +40,10 @@ int run_command(CommandLine& line, int argc, char** argv, const std::function<vo
     body();
     if (!std::cout.flush()) throw std::runtime_error("standard output could not be written");
     return 0;
-  } catch (const InputError& e) {
-    complain(line, "error", e.what());
-    return 2;
   } catch (const std::exception& e) {
-    complain(line, "failed", e.what());
-    return 1;
+    const bool mistake = is_users_mistake(e);
+    complain(line, mistake ? "error" : "failed", message_of(e));
+    return mistake ? 2 : 1;
   } catch (...) {  // Trilinos throws numbers
     complain(line, "failed", "an error without a message");
     return 1;
@@ -87,7 +97,7 @@ void Progress::write(const std::string& state, const std::string& line) {
   if (!file_.empty()) std::ofstream(file_) << state << "\n";  // nothing depends on it
   if (silent_) return;
   if (terminal_) {
-    std::cerr << "\r\033[K" << task_ << ": " << line << std::flush;
+    std::cerr << "\r\033[K" << fitted(printable(task_ + ": " + line)) << std::flush;
     written_ = true;
     return;
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/message.h"
 #include "base/text.h"
 
 namespace cleft {
@@ -128,6 +129,20 @@ std::string CommandLine::name() const { return app_->get_name(); }
 
 bool CommandLine::quiet() { return asked_for_quiet; }
 
+namespace {
+
+/// An option that the command does not have is more worth telling than one that is missing: it may be that
+/// one, misspelt. Empty where there is none.
+std::string unknown_option(const CLI::ParseError& error, const std::vector<std::string>& remaining) {
+  if (!dynamic_cast<const CLI::RequiredError*>(&error)) return "";
+  for (const std::string& word : remaining)
+    if (word.starts_with("-") && word.size() > 1)
+      return "The following argument was not expected: " + word + "; besides, " + error.what();
+  return "";
+}
+
+}  // namespace
+
 int CommandLine::parse(int argc, char** argv, const std::string& version) {
   app_->set_version_flag("--version", version);
   app_->add_flag("--quiet", asked_for_quiet, "tell nothing of the progress");
@@ -137,7 +152,9 @@ int CommandLine::parse(int argc, char** argv, const std::string& version) {
     return -1;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app_->exit(e);  // --help and --version
-    std::cerr << name() + ": error: " + e.what() + " (see " + name() + " --help)\n";
+    const std::string unknown = unknown_option(e, app_->remaining());
+    std::cerr << name() + ": error: " + printable(unknown.empty() ? e.what() : unknown) + " (see " + name() +
+                     " --help)\n";
     return 2;
   }
 }
