@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <random>
 
 #include "base/memory.h"
 #include "base/quantiles.h"
 #include "base/stopwatch.h"
+#include "solver/algebraic_solver.h"
 #include "solver/direct_solver.h"
-#include "solver/iterative_solver.h"
+#include "solver/grid_solver.h"
 #include "solver/mpi_session.h"
 #include "solver/solve.h"
 
@@ -121,39 +123,74 @@ void sharing(Parameters p) {
   std::printf("a further cut of 0.7 length %8.1f %% of the first case\n", 100 * median(cut));
 }
 
-void iterations() {
-  for (const double size : {0.9, 0.51})
-    for (const double nu : {0.3, 0.45, 0.49}) {
-      Parameters p;
-      p.mesh.element_size = size;
-      p.tissue.poisson_ratio = nu;
-      const PatchMesh mesh = make_patch_mesh(p);
-      const Release release = make_release(mesh, p);
-      const PatchSystem system(mesh, p, MPI_COMM_WORLD);
-      IterativeSolver solver(mesh, system);
-      solver.set_release(release);
-      const auto columns = columns_of(release);
-      Stopwatch watch;
-      for (const std::size_t c : {std::size_t{0}, columns.size() / 2, columns.size() - 1}) {
-        solver.set_loads(system.load(p.skin));  // every frame from zero
-        solver.solve({columns[c]});
-      }
-      std::string counts;
-      for (const int n : solver.iterations()) counts += " " + std::to_string(n);
-      if (system.rank() == 0)
-        std::printf(
-            "%7d unknowns, nu %.2f: iterations to 1e-10 in the first, middle and last frame%s; %.1f s\n",
-            system.size(), nu, counts.c_str(), watch.lap());
-      std::fflush(stdout);
-    }
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Frames by conjugate gradients with the multigrid of the grid, and with an algebraic one.
+void iterations(const Parameters& p, std::size_t most_frames, bool algebraic_too) {
+  const PatchMesh mesh = make_patch_mesh(p);
+  const Release release = make_release(mesh, p);
+  const double begin = processor_seconds();
+  const PatchSystem system(mesh, p, MPI_COMM_WORLD);
+  const bool root = system.rank() == 0;
+  const std::vector<FrameSolver::Column> all = columns_of(release);
+  std::vector<FrameSolver::Column> columns;
+  for (std::size_t i = 1; i <= std::min(most_frames, all.size() - 1); ++i)
+    columns.push_back(all[i * (all.size() - 1) / std::min(most_frames, all.size() - 1)]);
+  if (root)
+    std::printf("%d unknowns, nu %.2f, grading %.1f, %zu frames; assembly %.2f s, peak %.2f GB\n",
+                system.size(), p.tissue.poisson_ratio, p.mesh.grading, columns.size(),
+                processor_seconds() - begin, peak_memory() / 1e9);
+  Block reference;
+  for (const bool algebraic : {false, true}) {
+    if (algebraic && !algebraic_too) break;
+    double before = processor_seconds();
+    const auto lap = [&] {
+      const double now = processor_seconds();
+      return now - std::exchange(before, now);
+    };
+    std::unique_ptr<FrameSolver> solver;
+    if (algebraic)
+      solver = std::make_unique<AlgebraicSolver>(mesh, system);
+    else
+      solver = std::make_unique<GridSolver>(mesh, system);
+    solver->set_release(release);
+    solver->set_loads(system.load(p.skin));
+    const double set_up = lap();
+    solver->solve({columns.back()});
+    const double alone = lap();
+    solver->set_loads(system.load(p.skin));
+    const Block frames = solver->solve(columns);
+    const double all_frames = lap();
+    std::vector<int> counts = solver->iterations();
+    const int first = counts.front();
+    counts.erase(counts.begin());
+    std::sort(counts.begin(), counts.end());
+    if (root)
+      std::printf(
+          "  %s: set-up %.2f s, a frame alone %.2f s (%d iterations), frames %.3f s each (%d to %d); peak "
+          "%.2f GB\n",
+          algebraic ? "algebraic" : "grid", set_up, alone, first,
+          all_frames / static_cast<double>(columns.size()), counts.front(), counts.back(),
+          peak_memory() / 1e9);
+    if (reference.size() == 0)
+      reference = frames;
+    else
+      std::printf("  largest difference %.1e of the largest displacement\n",
+                  (frames - reference).cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff());
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const MpiSession mpi(argc, argv);
-  if (argc > 1 && std::strcmp(argv[1], "--iterations") == 0) {
-    iterations();
+  if (argc > 4 && std::strcmp(argv[1], "--iterations") == 0) {
+    Parameters p;
+    p.mesh.element_size = std::atof(argv[2]), p.mesh.grading = std::atof(argv[3]);
+    p.tissue.poisson_ratio = std::atof(argv[4]);
+    if (p.tissue.poisson_ratio > .48) p.tissue.formulation = TissueFormulation::mean_dilatation;
+    iterations(p, argc > 5 ? std::atoi(argv[5]) : 20, argc > 6);
     return 0;
   }
   Parameters p;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
+#include "solver/multigrid/lanes.h"
 
 namespace cleft {
 
@@ -39,11 +40,13 @@ CaseBatch::CaseBatch(SharedStiffness& shared, const Release& release, const std:
 void CaseBatch::solve() {
   const int frames = static_cast<int>(release_.released.size());
   // By the mesh alone: rounding depends on how many frames are solved together, and a case must not depend
-  // on the others. (Iterations go column by column.)
+  // on the others. (Iterations take as many frames of a load at a time as they have lanes.)
   const auto width =
       loads_.by_units ? most_units : std::max(most_units, static_cast<int>(loads_.loads.cols()));
   const double frame_bytes = 8. * std::max(1, system_.size()) * width;
-  const int at_once = std::clamp(static_cast<int>(block_bytes / frame_bytes), 1, most_frames);
+  const bool by_iterations = shared_.chosen().method == Method::iterative;
+  const int at_once =
+      std::clamp(static_cast<int>(block_bytes / frame_bytes), by_iterations ? most_lanes : 1, most_frames);
   solver_.set_loads(loads_.loads, FrameSolver::Together::each);
   const Stopwatch watch;
   for (int first = 0; first < frames; first += at_once) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -70,7 +71,10 @@ double gape_of(const Parameters& parameters, MPI_Comm communicator) {
   const PatchMesh mesh = make_patch_mesh(parameters);
   const PatchSystem system(mesh, parameters, communicator);
   const Release release = make_release(mesh, parameters);
-  const ChosenSolver chosen = make_frame_solver(mesh, system, Method::automatic, [](const std::string&) {});
+  const ChosenSolver chosen =
+      make_frame_solver(mesh, system, Method::automatic,
+                        parameters.cut.contact ? std::numeric_limits<double>::infinity() : many_operations,
+                        [](const std::string&) {});
   const Block load = system.load(parameters.skin);
   const std::vector<FrameSolver::Column> columns = {
       {0, release.released.back(), parameters.cut.contact, 1e-6}};

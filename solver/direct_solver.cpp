@@ -106,7 +106,7 @@ PatchSystem::Entries DirectSolver::stiffness_with_jumps(PatchSystem::Entries ent
 double DirectSolver::bytes_needed() const {
   const double jumps = static_cast<double>(jump_unknowns_.size());
   const double dense = system_.rank() == 0 ? 4 * jumps * jumps : 0;
-  constexpr double blocks = 4 * 64;  // of frames: displacements, residuals and what they are made of
+  constexpr double blocks = 4 * 40;  // of frames: displacements, residuals and what they are made of
   return factor_.bytes_needed() + 8 * (dense + blocks * system_.owned());
 }
 

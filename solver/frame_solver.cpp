@@ -27,9 +27,9 @@ struct Memory {
   std::string text() const { return gigabytes(needed) + " of " + gigabytes(available) + " free"; }
 };
 
-Memory memory_on_machines(const PatchSystem& system, double needed_here) {
+Memory memory_on_machines(MPI_Comm communicator, double needed_here) {
   MPI_Comm machine = MPI_COMM_NULL;
-  MPI_Comm_split_type(system.communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   Memory here;
   MPI_Allreduce(&needed_here, &here.needed, 1, MPI_DOUBLE, MPI_SUM, machine);
   const double available = available_memory();
@@ -38,10 +38,25 @@ Memory memory_on_machines(const PatchSystem& system, double needed_here) {
   struct {
     double share;
     int rank;
-  } tightest{here.needed / here.available, system.rank()};
-  MPI_Allreduce(MPI_IN_PLACE, &tightest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, system.communicator());
-  MPI_Bcast(&here, sizeof here, MPI_BYTE, tightest.rank, system.communicator());
+  } tightest{here.needed / here.available, 0};
+  MPI_Comm_rank(communicator, &tightest.rank);
+  MPI_Allreduce(MPI_IN_PLACE, &tightest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, communicator);
+  MPI_Bcast(&here, sizeof here, MPI_BYTE, tightest.rank, communicator);
   return here;
+}
+
+/// Of all ranks together, where each needs so much more than it holds now.
+double expected_peak(const PatchSystem& system, double needed_here) {
+  double bytes[] = {held_memory() + needed_here, peak_memory()};
+  MPI_Allreduce(MPI_IN_PLACE, bytes, 2, MPI_DOUBLE, MPI_SUM, system.communicator());
+  return std::max(bytes[0], bytes[1]);
+}
+
+std::string operations_of(double count) {
+  std::ostringstream text;
+  text.precision(1);
+  text << std::scientific << count << " operations";
+  return text.str();
 }
 
 }  // namespace
@@ -83,30 +98,50 @@ void check_rounding(const PatchSystem& system, const ChosenSolver& chosen) {
       "skin and tissue, the springs and the sides of the elements nearer to each other");
 }
 
+void check_assembly_fits(std::size_t unknowns, MPI_Comm communicator) {
+  int ranks = 1;
+  MPI_Comm_size(communicator, &ranks);
+  // Measured: elements of deal.II, which are freed then, and K; and on every rank what tells of the whole
+  // mesh.
+  constexpr double divided = 1500, on_every_rank = 100;
+  const Memory memory =
+      memory_on_machines(communicator, (divided / ranks + on_every_rank) * static_cast<double>(unknowns));
+  if (memory.fits()) return;
+  throw InputError("the elements and the stiffness of " + std::to_string(unknowns) + " unknowns need " +
+                   memory.text() + ": raise mesh.element_size or mesh.grading, or use more machines");
+}
+
 ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system, Method method,
+                               double most_operations,
                                const std::function<void(const std::string&)>& progress) {
+  const std::string unknowns = std::to_string(system.size()) + " unknowns";
   std::string reason = "forced";
   if (method != Method::iterative) {
-    progress("analysing " + std::to_string(system.size()) + " unknowns");
+    progress("analysing " + unknowns);
     auto direct = std::make_unique<DirectSolver>(mesh, system);
-    const Memory memory = memory_on_machines(system, direct->bytes_needed());
-    if (memory.fits()) {
-      progress("factorising " + std::to_string(system.size()) + " unknowns, " + gigabytes(memory.needed));
+    const Memory memory = memory_on_machines(system.communicator(), direct->bytes_needed());
+    const bool quick = direct->operations() < most_operations || mesh.is_body();
+    if (memory.fits() && (quick || method == Method::direct)) {
+      const double peak = expected_peak(system, direct->bytes_needed());
+      progress("factorising " + unknowns + ", " + gigabytes(peak));
       direct->factorize();
       return {std::move(direct), Method::direct,
-              method == Method::direct ? "forced" : "its factor fits: " + memory.text()};
+              method == Method::direct ? "forced" : "its factor fits: " + memory.text(), peak};
     }
     if (method == Method::direct)
-      throw InputError("the factor of " + std::to_string(system.size()) + " unknowns needs " + memory.text() +
+      throw InputError("the factor of " + unknowns + " needs " + memory.text() +
                        ": raise mesh.element_size or mesh.grading, use more machines, or --method iterative");
-    reason = "a factor does not fit: " + memory.text();
+    reason = memory.fits() ? "a factor would take longer: " + operations_of(direct->operations())
+                           : "a factor does not fit: " + memory.text();
   }
-  progress("setting up iterations for " + std::to_string(system.size()) + " unknowns");
-  const Memory memory = memory_on_machines(system, IterativeSolver::bytes_needed(system));
+  const double needed = iterative_bytes_needed(mesh, system);
+  const double peak = expected_peak(system, needed);
+  progress("setting up iterations for " + unknowns + ", " + gigabytes(peak));
+  const Memory memory = memory_on_machines(system.communicator(), needed);
   if (!memory.fits())
-    throw InputError("the iterations for " + std::to_string(system.size()) + " unknowns need " +
-                     memory.text() + ": raise mesh.element_size or mesh.grading, or use more machines");
-  return {std::make_unique<IterativeSolver>(mesh, system), Method::iterative, reason};
+    throw InputError("the iterations for " + unknowns + " need " + memory.text() +
+                     ": raise mesh.element_size or mesh.grading, or use more machines");
+  return {make_iterative_solver(mesh, system), Method::iterative, reason, peak};
 }
 
 }  // namespace cleft

@@ -73,6 +73,7 @@ struct ChosenSolver {
   std::unique_ptr<FrameSolver> solver;
   Method method;
   std::string reason;
+  double expected_peak = 0;  ///< bytes that all ranks together will have held at most
 };
 
 /// Largest rounding_error for which results are accepted.
@@ -82,9 +83,17 @@ inline constexpr double largest_rounding = 1e-6;
 /// balances the forces even if it has lost the displacement. (Iterations do not converge then.)
 void check_rounding(const PatchSystem& system, const ChosenSolver& chosen);
 
-/// Chooses the direct solver if its factor fits into memory, unless a method is given. Throws InputError if
-/// the method does not fit either. `progress` is called with the current step.
+/// Throws InputError if K of so many unknowns cannot be assembled in the memory of the machines. Collective.
+void check_assembly_fits(std::size_t unknowns, MPI_Comm communicator);
+
+/// Operations of a factorisation, a minute or two of a core, from which on iterations take less time.
+inline constexpr double many_operations = 3e12;
+
+/// Chooses the direct solver if its factor fits into memory and takes fewer operations than
+/// `most_operations`, unless a method is given; of a body, if it fits. Throws InputError if the method does
+/// not fit either. `progress` is called with the current step.
 ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system, Method method,
+                               double most_operations,
                                const std::function<void(const std::string&)>& progress);
 
 }  // namespace cleft

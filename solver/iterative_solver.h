@@ -7,25 +7,11 @@
 
 namespace cleft {
 
-/// Conjugate gradients on the displacements that keep closed pairs together, preconditioned by smoothed
-/// aggregation (Trilinos ML) with the six rigid-body modes. The projection P replaces tied copies by their
-/// mean; P K P is solved with the preconditioner P M P, where M is a multigrid hierarchy for the patch as far
-/// open as the frame or a few pairs further. A column starts from the previous one of its load.
-class IterativeSolver : public FrameSolver {
- public:
-  IterativeSolver(const PatchMesh& mesh, const PatchSystem& system);
-  ~IterativeSolver() override;
+/// Of a patch, by the multigrid of its grid (solver/grid_solver.h); of a body, which has no grid, by an
+/// algebraic one (solver/algebraic_solver.h).
+std::unique_ptr<FrameSolver> make_iterative_solver(const PatchMesh& mesh, const PatchSystem& system);
 
-  static double bytes_needed(const PatchSystem& system);  ///< on this rank
-
-  void set_release(const Release& release) override;
-  void set_loads(Block loads, Together together = Together::all) override;
-  Block solve(const std::vector<Column>& columns) override;
-  std::vector<int> iterations() const override;
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-};
+/// What it needs on this rank.
+double iterative_bytes_needed(const PatchMesh& mesh, const PatchSystem& system);
 
 }  // namespace cleft

@@ -1,6 +1,7 @@
 #include "solver/shared_stiffness.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "solver/body_mesh.h"
 #include "solver/case_batch.h"
@@ -24,10 +25,17 @@ SharedStiffness::SharedStiffness(SolveJob& job, const std::vector<std::size_t>& 
   const Parameters parameters = of_tangent(job.cases[members.front()].parameters);
   job.progress("meshing and assembling");
   mesh_ = job.options.body ? mesh_of(*job.options.body) : make_patch_mesh(parameters);
+  check_assembly_fits(3 * mesh_.points.size(), job.communicator);
   system_.emplace(mesh_, parameters, job.communicator, job.options.discretization);
   residual_.emplace(mesh_, *system_);
   phases_.end("assemble");
-  chosen_ = make_frame_solver(mesh_, *system_, job.options.method, job.progress);
+  const bool needs_factor = std::any_of(members.begin(), members.end(), [&](std::size_t c) {
+    const Parameters& p = job.cases[c].parameters;
+    return p.cut.contact || p.model == Model::finite;
+  });
+  chosen_ = make_frame_solver(mesh_, *system_, job.options.method,
+                              needs_factor ? std::numeric_limits<double>::infinity() : many_operations,
+                              job.progress);
   phases_.end(chosen_.method == Method::direct ? "factor" : "set up");
   for (const std::size_t c : members) {
     SolveReport& report = job.reports[c];
@@ -36,6 +44,7 @@ SharedStiffness::SharedStiffness(SolveJob& job, const std::vector<std::size_t>& 
     report.unknowns = system_->size();
     report.method = chosen_.method == Method::direct ? "direct" : "iterative";
     report.reason = chosen_.reason;
+    report.expected_peak = chosen_.expected_peak;
     report.cases_sharing = static_cast<int>(members.size());
   }
   job.reports[members.front()].first_of_sharing = true;

@@ -53,6 +53,7 @@ struct SolveReport {
   bool written = false;
   int ranks = 1, nodes = 0, unknowns = 0, constraints = 0, pairs = 0, frames = 0;
   std::string method, reason;
+  double expected_peak = 0;       ///< bytes of all ranks, as told before the factorisation or the iterations
   int cases_sharing = 1;          ///< that use the same factorisation, this one included
   bool first_of_sharing = false;  ///< whose phases hold the shared work
   std::vector<Phase> phases;

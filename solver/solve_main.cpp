@@ -106,6 +106,7 @@ Json figures_of(const SolveReport& r) {
   figures["versions"] = versions();
   if (!r.iterations.empty()) figures["iterations"] = r.iterations;
   if (!r.newton.empty()) figures["newton"] = newton_of(r.newton);
+  figures["expected_peak_memory_mb"] = std::round(r.expected_peak / 1e6);
   if (!r.phases.empty()) figures["seconds"] = seconds, figures["peak_memory_mb"] = memory;
   return figures;
 }
@@ -176,7 +177,7 @@ int main(int argc, char** argv) {
   app.add_option(
          "--method", method,
          "direct: one factorisation for all frames; iterative: conjugate gradients, for what does not fit "
-         "into memory; auto: direct where it fits")
+         "into memory or takes minutes; auto: direct where it fits and takes less")
       ->check(one_of({"auto", "direct", "iterative"}))
       ->capture_default_str();
   app.add_option("--partitioner", partitioner, "who divides the elements among ranks")

@@ -18,7 +18,8 @@ params/material:base
 params/run:base|base/command|params|params/parameters
 solver/snapshot:base|base/h5|params/parameters
 solver/body:base|base/h5|params
-solver:base|base/command|base/h5|params|params/parameters|params/material|solver/snapshot|solver/body
+solver/multigrid:base
+solver:base|base/command|base/h5|params|params/parameters|params/material|solver/snapshot|solver/body|solver/multigrid
 encoder/field:base|params/parameters
 encoder/field/file:base|base/h5|encoder/field|params/parameters
 encoder:base|base/command|base/h5|params|params/parameters|encoder/field|encoder/field/file|solver/snapshot

@@ -1,11 +1,13 @@
-// Every frame of both solvers against the saddle-point system with its multipliers written out, in one dense
+// Every frame of all solvers against the saddle-point system with its multipliers written out, in one dense
 // matrix. CMakeLists.txt runs these tests on several ranks too.
 #include "solver/frame_solver.h"
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
+#include "solver/algebraic_solver.h"
 #include "solver/direct_solver.h"
-#include "solver/iterative_solver.h"
+#include "solver/grid_solver.h"
 #include "tests/solver/dense_patch.h"
 #include "tests/support/even_piece.h"
 
@@ -25,19 +27,23 @@ Eigen::MatrixXd two_loads(const DensePatch& patch) {
   return loads;
 }
 
-/// Both solvers of a patch.
+/// The solvers of a patch.
 struct Solvers {
   explicit Solvers(const DensePatch& patch)
-      : direct(patch.mesh, patch.system), iterative(patch.mesh, patch.system) {
+      : direct(patch.mesh, patch.system),
+        grid(patch.mesh, patch.system),
+        algebraic(patch.mesh, patch.system) {
     direct.factorize();
   }
   template <class Visit>
   void each(const Visit& visit) {
     visit("direct", direct, direct_tolerance);
-    visit("iterative", iterative, iterative_tolerance);
+    visit("grid", grid, iterative_tolerance);
+    visit("algebraic", algebraic, iterative_tolerance);
   }
   DirectSolver direct;
-  IterativeSolver iterative;
+  GridSolver grid;
+  AlgebraicSolver algebraic;
 };
 
 void expect_all_frames(const DensePatch& patch, const Release& release, Solvers& solvers) {
@@ -72,7 +78,8 @@ TEST(FrameSolver, FramesAreThoseWithMultipliers) {
     const DensePatch patch(c.parameters);
     Solvers solvers(patch);
     expect_all_frames(patch, patch.release, solvers);
-    EXPECT_EQ(solvers.iterative.iterations().size(), 2 * patch.release.released.size());
+    EXPECT_EQ(solvers.grid.iterations().size(), 2 * patch.release.released.size());
+    EXPECT_EQ(solvers.algebraic.iterations().size(), 2 * patch.release.released.size());
     EXPECT_TRUE(solvers.direct.iterations().empty());
   }
 }
@@ -104,7 +111,7 @@ TEST(FrameSolver, ColumnsComeInAnyOrder) {
   });
 }
 
-/// The closed patch is the reference state: nothing moves, to the last bit, by either solver, whatever the
+/// The closed patch is the reference state: nothing moves, to the last bit, by any solver, whatever the
 /// cut.
 TEST(FrameSolver, FramesBeginAtZeroWhereTheSkinIsHeld) {
   for (DenseCase one : dense_cases()) {
@@ -137,19 +144,24 @@ TEST(FrameSolver, IterationsAgreeWithTheFactorOnALargerPatch) {
   const Release release = make_release(mesh, p);
   DirectSolver direct(mesh, system);
   direct.factorize();
-  IterativeSolver iterative(mesh, system);
+  GridSolver grid(mesh, system);
+  AlgebraicSolver algebraic(mesh, system);
   std::vector<FrameSolver::Column> columns;
   for (const int open : release.released) columns.push_back({0, open, false, 1e-12});
-  for (FrameSolver* solver : std::initializer_list<FrameSolver*>{&direct, &iterative}) {
+  for (FrameSolver* solver : std::initializer_list<FrameSolver*>{&direct, &grid, &algebraic}) {
     solver->set_release(release);
     solver->set_loads(system.load(p.skin));
   }
-  const Block expected = direct.solve(columns), frames = iterative.solve(columns);
-  double largest[] = {(frames - expected).cwiseAbs().maxCoeff(), expected.cwiseAbs().maxCoeff()};
-  MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-  EXPECT_LT(largest[0], iterative_tolerance * largest[1]);
-  for (const int n : iterative.iterations())
+  const Block expected = direct.solve(columns);
+  for (FrameSolver* solver : std::initializer_list<FrameSolver*>{&grid, &algebraic}) {
+    const Block frames = solver->solve(columns);
+    double largest[] = {(frames - expected).cwiseAbs().maxCoeff(), expected.cwiseAbs().maxCoeff()};
+    MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    EXPECT_LT(largest[0], iterative_tolerance * largest[1]);
+  }
+  for (const int n : algebraic.iterations())
     EXPECT_LT(n, 22) << "18 were seen, and 23 with a wrong rigid mode";
+  for (const int n : grid.iterations()) EXPECT_LT(n, 13);
 }
 
 TEST(FrameSolver, LipsBesideTheTipMoveSmoothlyFromFrameToFrame) {
@@ -186,7 +198,9 @@ TEST(FrameSolver, LipsBesideTheTipMoveSmoothlyFromFrameToFrame) {
 TEST(FrameSolver, MethodIsDirectWhereItFitsUnlessForced) {
   const DensePatch patch(dense_patch_case());
   const auto silent = [](const std::string&) {};
-  const auto chosen = [&](Method m) { return make_frame_solver(patch.mesh, patch.system, m, silent); };
+  const auto chosen = [&](Method m) {
+    return make_frame_solver(patch.mesh, patch.system, m, many_operations, silent);
+  };
   const ChosenSolver automatic = chosen(Method::automatic);
   EXPECT_EQ(automatic.method, Method::direct);
   EXPECT_NE(automatic.reason.find("its factor fits: "), std::string::npos) << automatic.reason;
@@ -194,6 +208,21 @@ TEST(FrameSolver, MethodIsDirectWhereItFitsUnlessForced) {
   const ChosenSolver iterative = chosen(Method::iterative);
   EXPECT_EQ(iterative.method, Method::iterative);
   EXPECT_EQ(iterative.reason, "forced");
+  const ChosenSolver quicker = make_frame_solver(patch.mesh, patch.system, Method::automatic, 1, silent);
+  EXPECT_EQ(quicker.method, Method::iterative);
+  EXPECT_NE(quicker.reason.find("a factor would take longer: "), std::string::npos) << quicker.reason;
+  EXPECT_EQ(make_frame_solver(patch.mesh, patch.system, Method::direct, 1, silent).method, Method::direct);
+}
+
+TEST(FrameSolver, WhatCannotBeAssembledIsRefusedBefore) {
+  check_assembly_fits(100000, MPI_COMM_WORLD);
+  try {
+    check_assembly_fits(2000000000, MPI_COMM_WORLD);
+    FAIL() << "3 TB were free";
+  } catch (const InputError& e) {
+    for (const char* part : {"2000000000 unknowns need ", " GB free", "mesh.element_size"})
+      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
+  }
 }
 
 }  // namespace cleft

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <fstream>
-
 #include "solver/direct_solver.h"
 #include "tests/solver/small_patch.h"
 #include "tests/support/even_piece.h"
@@ -16,13 +14,6 @@ namespace {
 
 double total_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-}
-
-/// What this process holds now.
-double held_memory() {
-  double all = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> all >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
 }  // namespace

@@ -90,6 +90,23 @@ TEST_F(SolveCommand, RanksAndPartitionersGiveTheSameSnapshot) {
   EXPECT_LT(difference(array_of(by_iterations, "compliance"), array_of(reference, "compliance")), 1e-3);
 }
 
+/// Within a fifth, by both methods, of what the operating system counts.
+TEST_F(SolveCommand, ThePeakOfMemoryIsToldBefore) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer's own memory would be counted too";
+#endif
+  const std::string file =
+      folder.write("case.toml", "case.mesh.element_size = 0.8\ncase.cut.frames = \"column\"\n");
+  for (const char* method : {"direct", "iterative"}) {
+    const Outcome outcome = expect_success(run_cleft(
+        "solve", {file, "--out", folder / "peak.h5", "--json", "--no-estimate", "--method", method}));
+    const auto figures = nlohmann::json::parse(outcome.output.substr(outcome.output.find("{\n")));
+    double peak = 0;
+    for (const double megabytes : figures["peak_memory_mb"]) peak = std::max(peak, megabytes);
+    EXPECT_NEAR(figures["expected_peak_memory_mb"].get<double>(), peak, 0.2 * peak) << method;
+  }
+}
+
 TEST_F(SolveCommand, ContactIsTheSameOnSeveralRanks) {
   const std::vector<std::string> contact = {"--set", "cut.contact=true"};
   const std::string reference = solve({1, "direct", "metis"}, contact);

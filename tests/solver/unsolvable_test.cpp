@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/direct_solver.h"
-#include "solver/iterative_solver.h"
+#include "solver/grid_solver.h"
 #include "tests/solver/small_patch.h"
 
 namespace cleft {
@@ -47,7 +47,7 @@ TEST(Unsolvable, ABucklingPatchFailsOnEveryRank) {
       }));
       if (compression < 0.01) continue;  // iterations need not meet a mode that the load hardly excites
       expect_not_positive_definite(failure_of([&] {
-        IterativeSolver iterative(mesh, system);
+        GridSolver iterative(mesh, system);
         iterative.set_release(make_release(mesh, p));
         iterative.set_loads(system.load(p.skin));
         iterative.solve({{0, 0}});
@@ -60,7 +60,7 @@ TEST(Unsolvable, IterationsRefuseContact) {
   const Parameters p = small_patch();
   const PatchMesh mesh = make_patch_mesh(p);
   const PatchSystem system(mesh, p, MPI_COMM_WORLD);
-  IterativeSolver iterative(mesh, system);
+  GridSolver iterative(mesh, system);
   iterative.set_release(make_release(mesh, p));
   iterative.set_loads(system.load(p.skin));
   const std::string failure = failure_of([&] { iterative.solve({{0, 2, true}}); });
