@@ -114,6 +114,10 @@ Case read_case(const std::string& path, const std::vector<std::string>& assignme
 /// case's mistake.
 std::vector<Case> cases_of(const Study& study);
 
+/// The ranges of a study that draws from them, sorted by name: the spelling of a name in the file (dotted or
+/// quoted) changes their order in the study and must not change the drawn values.
+std::vector<Variation> ranges_by_name(const Study& study);
+
 /// Text of a case file that read_case resolves to the same case: every parameter, with its unit.
 std::string case_file_text(const Case& a_case);
 

@@ -194,6 +194,11 @@ void CaseWork::solve_together(const std::vector<CaseOnItsWay*>& cases) const {
   if (was_killed(result)) throw failure_of("solve", result, log);
   Json list = figures_in(first.file("solve.json"));
   if (list.is_object()) list = Json::array({list});
+  if (list.empty() && cases.size() > 1 && !result.success()) {  // whose fault was it?
+    fs::remove_all(group);
+    for (CaseOnItsWay* one : cases) solve({one});
+    return;
+  }
   for (CaseOnItsWay* one : cases) {
     const std::string out = group + "/" + one->hash + ".h5";
     for (const Json& figures : list)

@@ -20,18 +20,12 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr const char* record = "/chosen.json";
+constexpr const char* chosen_file = "/chosen.json";
 constexpr int record_version = 2;  // sealed
-
-std::vector<Variation> sorted_ranges(const Study& study) {
-  std::vector<Variation> ranges = study.vary;
-  std::sort(ranges.begin(), ranges.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-  return ranges;
-}
 
 std::vector<std::string> names_of(const Study& study) {
   std::vector<std::string> names;
-  for (const Variation& one : sorted_ranges(study)) names.push_back(one.name);
+  for (const Variation& one : ranges_by_name(study)) names.push_back(one.name);
   return names;
 }
 
@@ -75,7 +69,7 @@ Json proposal(const StudyFolder& folder, std::size_t count) {
 ChosenCases chosen_cases(const StudyFolder& folder, const Study& study) {
   if (!study.sampling.adapts) return {};
   ChosenCases chosen{study.sampling.of, names_of(study), {}};
-  const std::string file = folder.path() + record;
+  const std::string file = folder.path() + chosen_file;
   if (!fs::exists(file)) return chosen;
   const Json json = read_sealed(file);
   try {
@@ -92,7 +86,7 @@ std::vector<Case> cases_of(const Study& study, const StudyFolder& folder) {
   std::vector<Case> cases = cases_of(study);
   const ChosenCases chosen = chosen_cases(folder, study);
   if (chosen.batches.empty()) return cases;
-  const std::vector<Variation> ranges = sorted_ranges(study);
+  const std::vector<Variation> ranges = ranges_by_name(study);
   std::set<std::string> known;
   for (const Case& one : cases) known.insert(one.hash());
   for (const ChosenBatch& batch : chosen.batches)
@@ -130,7 +124,7 @@ Decision choose_more(const StudyFolder& folder, const Study& study) {
     if (now.batches.size() != before.batches.size()) return {Choice::added, batch.error};  // by another run
     if (!now.batches.empty() && now.batches.back().values.empty()) now.batches.pop_back();
     now.batches.push_back(batch);
-    write(folder.path() + record, now);
+    write(folder.path() + chosen_file, now);
   }
   if (reached) return {Choice::reached, batch.error};
   if (wanted == 0) return {Choice::most, batch.error};

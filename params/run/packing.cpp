@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double least_gap = 2;           // seconds between packings, and before the first
-constexpr double share = 0.05;            // of the time, at most
-constexpr const char* record = "/.pack";  // locked while one packs; holds the seconds that it took
+constexpr double least_gap = 2;              // seconds between packings, and before the first
+constexpr double share = 0.05;               // of the time, at most
+constexpr const char* pack_lock = "/.pack";  // locked while one packs; holds the seconds that it took
 constexpr auto stale = std::chrono::hours(1);
 
 /// What killed runs left of study.dffd and study.toml.
@@ -41,7 +41,7 @@ bool pack(const std::string& study, const std::string& log, const StopCount* sto
   remove_parts(study);
   const bool done =
       run_process({executable_folder() + "/cleft-pack", study}, log, {}, stop, "/dev/null").success();
-  if (done) std::ofstream(study + record) << watch.seconds() << "\n";
+  if (done) std::ofstream(study + pack_lock) << watch.seconds() << "\n";
   return done;
 }
 
@@ -50,7 +50,7 @@ std::string log_of(const std::string& study) { return study + "/.pack." + std::t
 }  // namespace
 
 void pack_study(const std::string& study) {
-  const Moment moment(study, record);
+  const Moment moment(study, pack_lock);
   const std::string log = study + "/pack.log";
   if (!pack(study, log, nullptr))
     throw std::runtime_error("the study's fields could not be packed into " + study + "/study.dffd; " + log +
@@ -87,7 +87,7 @@ bool Packing::is_due() const {
   const auto written = fs::last_write_time(study_ + "/study.dffd", none);
   if (none) return watch_.seconds() > least_gap;
   double took = 0;
-  std::ifstream(study_ + record) >> took;
+  std::ifstream(study_ + pack_lock) >> took;
   const std::chrono::duration<double> ago = fs::file_time_type::clock::now() - written;
   return std::min(watch_.seconds(), std::abs(ago.count())) > least_gap &&
          std::abs(ago.count()) > took / share;
@@ -101,7 +101,7 @@ void Packing::keep_up() {
     guard.unlock();
     bool done = false;
     try {
-      const Lock lock(study_ + record);
+      const Lock lock(study_ + pack_lock);
       done = pack(study_, log_of(study_), &stop_);
     } catch (const std::exception&) {  // another process packs, or nothing can be written: reported at the
                                        // end of the run

@@ -4,9 +4,38 @@
 #include <string>
 #include <unordered_map>
 
+#include "params/consistency.h"
 #include "params/stiffness.h"
 
 namespace cleft {
+
+namespace {
+
+using Groups = std::vector<std::vector<std::size_t>>;
+
+bool is_small(const Case& one) {
+  return one.body.empty() && one.parameters.model == Model::small &&
+         estimated_nodes(one.parameters) <= most_small_nodes;
+}
+
+/// Joins groups of small cases, to at most so many cases.
+Groups joined(Groups groups, const std::vector<Case>& cases, std::size_t workers, std::size_t most) {
+  constexpr std::size_t groups_a_worker = 4;
+  const auto end_of_small = std::stable_partition(
+      groups.begin(), groups.end(), [&](const auto& group) { return is_small(cases[group.front()]); });
+  std::size_t small = 0;
+  for (auto group = groups.begin(); group != end_of_small; ++group) small += group->size();
+  most = std::min(most, small / (groups_a_worker * workers));
+  Groups result;
+  for (auto group = groups.begin(); group != groups.end(); ++group)
+    if (group > groups.begin() && group < end_of_small && result.back().size() + group->size() <= most)
+      result.back().insert(result.back().end(), group->begin(), group->end());
+    else
+      result.push_back(std::move(*group));
+  return result;
+}
+
+}  // namespace
 
 std::vector<std::vector<std::size_t>> solve_groups(const std::vector<Case>& cases, int workers,
                                                    std::size_t most) {
@@ -29,7 +58,7 @@ std::vector<std::vector<std::size_t>> solve_groups(const std::vector<Case>& case
       groups.emplace_back(members.begin() + static_cast<std::ptrdiff_t>(part * members.size() / count),
                           members.begin() + static_cast<std::ptrdiff_t>((part + 1) * members.size() / count));
   }
-  return groups;
+  return joined(std::move(groups), cases, idle, most);
 }
 
 }  // namespace cleft

@@ -27,10 +27,6 @@ const SamplingMethod& find_sampling(const std::string& name, const std::string& 
 /// Names of the methods that draw, in quotes: "a" or "b".
 std::string drawing_methods();
 
-/// The variations of a study with a random method, sorted by name: the spelling of a name in the file (dotted
-/// or quoted) changes their order in the study and must not change the drawn values.
-std::vector<Variation> ranges_by_name(const Study& study);
-
 /// A uniform number in [0, 1) from 64 random bits; equal on all platforms, unlike the standard's
 /// distributions.
 double unit_fraction(std::uint64_t bits);

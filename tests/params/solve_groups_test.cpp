@@ -48,6 +48,32 @@ TEST(SolveGroups, HoldEveryCaseOnceWithOthersOfItsStiffness) {
   EXPECT_TRUE(solve_groups({}, 3).empty());
 }
 
+/// Of 90 small cases of 30 stiffness matrices: each once, in few groups, but enough for every worker; those
+/// of one matrix are still together.
+TEST(SolveGroups, SmallCasesOfSeveralStiffnessesAreTogether) {
+  std::vector<Case> cases = cases_of(30, 3);
+  for (Case& one : cases) {
+    one.parameters.patch.length = 30, one.parameters.patch.width = 24, one.parameters.patch.height = 8;
+    one.parameters.cut.length = 12, one.parameters.cut.depth = 4;
+    one.parameters.mesh.element_size = 2;
+  }
+  cases.back().parameters.model = Model::finite;
+  for (const int workers : {1, 2, 7}) {
+    const auto groups = solve_groups(cases, workers);
+    EXPECT_LE(groups.size(), workers == 7 ? 31U : 18U);
+    EXPECT_GE(groups.size(), 4U * workers);
+    std::vector<int> seen(cases.size(), 0);
+    for (const auto& group : groups) {
+      EXPECT_LE(group.size(), most_solved_together);
+      for (const std::size_t c : group) {
+        ++seen[c];
+        EXPECT_TRUE(cases[c].parameters.model == Model::small || group.size() == 1);
+      }
+    }
+    EXPECT_EQ(seen, std::vector<int>(cases.size(), 1));
+  }
+}
+
 /// Two measured cases in which everything is in proportion to the work say the same of a third.
 TEST(Estimates, AreThoseOfMeasuredCases) {
   Estimates estimates;

@@ -20,7 +20,9 @@ TEST(ParameterTable, EveryRowWritesTheMemberItReads) {
       set_parameter(p, row.name, value, "here");
       EXPECT_EQ(get_parameter(p, row), value);
       for (const Parameter& other : parameter_table())
-        if (&other != &row) EXPECT_EQ(get_parameter(p, other), get_parameter(defaults, other)) << other.name;
+        if (&other != &row) {
+          EXPECT_EQ(get_parameter(p, other), get_parameter(defaults, other)) << other.name;
+        }
       EXPECT_EQ(&row_at(p, row.address(p)), &row);
     }
     EXPECT_EQ(get_parameter(defaults, row), old);
