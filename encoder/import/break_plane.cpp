@@ -69,7 +69,7 @@ struct NodesBySide {
 
 class Search {
  public:
-  Search(const Series& series, const std::optional<Vec3>& flat)
+  Search(const ImportedSeries& series, const std::optional<Vec3>& flat)
       : series_(series), mesh_(series.mesh()), flat_(flat), tolerance_(in_plane(mesh_)) {
     groups_ = coincident_groups(mesh_.points, same_place(mesh_));
     asked_.assign(groups_.size(), 1);
@@ -300,7 +300,7 @@ class Search {
                      " away; the plane is that of the points x with n . x = offset");
   }
 
-  const Series& series_;
+  const ImportedSeries& series_;
   const SourceMesh& mesh_;
   std::optional<Vec3> flat_;
   double tolerance_;
@@ -311,7 +311,7 @@ class Search {
 
 }  // namespace
 
-Breaks find_breaks(Series& series, const std::optional<std::string>& given,
+Breaks find_breaks(ImportedSeries& series, const std::optional<std::string>& given,
                    const std::optional<OpenAt>& open_at, const std::optional<Vec3>& flat,
                    const std::function<void(std::size_t)>& progress) {
   Breaks result{std::vector<Break>(1), {}};

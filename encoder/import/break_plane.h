@@ -33,7 +33,7 @@ struct Breaks {
 /// normal of a plane mesh. Breaks that do not touch, and arms of those that branch, are found one by one.
 /// Throws InputError if the coincident nodes of one are in no surface over their best plane, or the given
 /// plane does not divide the mesh.
-Breaks find_breaks(Series& series, const std::optional<std::string>& given,
+Breaks find_breaks(ImportedSeries& series, const std::optional<std::string>& given,
                    const std::optional<OpenAt>& open_at, const std::optional<Vec3>& flat,
                    const std::function<void(std::size_t)>& progress);
 

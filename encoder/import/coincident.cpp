@@ -58,7 +58,7 @@ bool is_unwelded(const SourceMesh& mesh, const Groups& groups) {
   return static_cast<double>(in_company) > 0.6 * static_cast<double>(mesh.points.size());
 }
 
-std::size_t weld(Series& series, const Groups& groups) {
+std::size_t weld(ImportedSeries& series, const Groups& groups) {
   const std::vector<double> tolerance = rounding_of(series);
   const std::size_t points = series.mesh().points.size();
   std::vector<std::int32_t> stands_for(points);  // the first node that agreed so far

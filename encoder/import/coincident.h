@@ -43,6 +43,6 @@ bool is_unwelded(const SourceMesh& mesh, const Groups& groups);
 
 /// Merges coincident nodes whose values agree in all fields and frames, up to rounding. Returns the number of
 /// nodes that were removed.
-std::size_t weld(Series& series, const Groups& groups);
+std::size_t weld(ImportedSeries& series, const Groups& groups);
 
 }  // namespace cleft

@@ -61,7 +61,7 @@ void write_coordinates(SnapshotWriter& writer, const std::vector<Vec3>& canonica
   writer.write_array(frame_array, 0, frames);
 }
 
-void write_frames(const Series& series, const Placement& placement, const std::string& out,
+void write_frames(const ImportedSeries& series, const Placement& placement, const std::string& out,
                   const std::vector<Vec3>& canonical, ImportReport& report,
                   const std::function<void(const std::string&)>& progress) {
   Snapshot& s = report.snapshot;
@@ -93,7 +93,7 @@ void write_frames(const Series& series, const Placement& placement, const std::s
 namespace {
 
 /// The snapshot of a body with several breaks: the pairs of all, and the piece around each.
-Placed whole_of(const Series& series, std::vector<Break>& breaks, const Placement& placement,
+Placed whole_of(const ImportedSeries& series, std::vector<Break>& breaks, const Placement& placement,
                 const std::optional<Vec3>& flat) {
   Break all = breaks.front();
   Sets joined(series.mesh().points.size());
@@ -121,7 +121,7 @@ ImportReport import_series(const ImportOptions& o, const std::function<void(cons
   auto parameters = parse_parameters(o.parameters);
   std::vector<std::string> all_series = o.more_series;
   all_series.insert(all_series.begin(), o.series);
-  Series series(all_series, parse_fields(o.fields));
+  ImportedSeries series(all_series, parse_fields(o.fields));
   refuse_to_overwrite(o.out, series.files());
   { const OutputFile probe(o.out); }
 

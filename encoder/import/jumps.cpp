@@ -131,7 +131,7 @@ double jump_of(const std::vector<double>& values, int components, std::int32_t a
   return std::sqrt(square);
 }
 
-std::vector<double> rounding_of(const Series& series) {
+std::vector<double> rounding_of(const ImportedSeries& series) {
   std::vector<Size> sizes(series.fields().size());
   for (std::size_t j = 0; j < series.frames(); ++j) {
     const FieldValues values = series.frame(j);
@@ -144,7 +144,7 @@ std::vector<double> rounding_of(const Series& series) {
   return rounding;
 }
 
-std::size_t telling_field(const Series& series) {
+std::size_t telling_field(const ImportedSeries& series) {
   const auto& fields = series.fields();
   const auto first_that = [&](const auto& is_it) {
     return static_cast<std::size_t>(std::find_if(fields.begin(), fields.end(), is_it) - fields.begin());
@@ -164,7 +164,7 @@ OpenAt parse_open_at(const std::string& text) {
   return {share ? number / 100 : number, share};
 }
 
-Partings partings(const Series& series, const Groups& groups, const std::optional<OpenAt>& given,
+Partings partings(const ImportedSeries& series, const Groups& groups, const std::optional<OpenAt>& given,
                   const std::function<void(std::size_t)>& progress) {
   Partings result;
   for (const auto& group : groups)

@@ -20,10 +20,10 @@ double jump_of(const std::vector<double>& values, int components, std::int32_t a
 /// For each field the difference below which values count as equal: 1e-9 of its largest value (a vector's or
 /// tensor's norm) or, of a scalar, of its range; of fields in single precision, their rounding. Means of
 /// cells tell nothing, since they differ at coincident nodes that are closed: infinite.
-std::vector<double> rounding_of(const Series& series);
+std::vector<double> rounding_of(const ImportedSeries& series);
 
 /// The field that decides whether a pair is open: the displacement, or the first field of the points.
-std::size_t telling_field(const Series& series);
+std::size_t telling_field(const ImportedSeries& series);
 
 /// The jump above which a pair is open: in units of the field, or a share of its largest jump.
 struct OpenAt {
@@ -47,7 +47,7 @@ struct Partings {
 /// frame 0: what they jump there is noise. So are jumps that turn around from frame to frame as often as not.
 /// Where no pair is ever closed and many are nearly closed, as with cohesive elements, it is 0.5 % of the
 /// largest jump.
-Partings partings(const Series& series, const Groups& groups, const std::optional<OpenAt>& given = {},
+Partings partings(const ImportedSeries& series, const Groups& groups, const std::optional<OpenAt>& given = {},
                   const std::function<void(std::size_t)>& progress = {});
 
 }  // namespace cleft

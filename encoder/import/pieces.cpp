@@ -42,7 +42,7 @@ void mark_joined(FieldSource& source, const std::vector<Vec3>& junctions) {
   }
 }
 
-OwnPlace own_place(const Series& series, Break& found, const std::optional<Vec3>& flat) {
+OwnPlace own_place(const ImportedSeries& series, Break& found, const std::optional<Vec3>& flat) {
   OwnPlace own;
   own.placement = placement_on(found, series.mesh(), flat);
   own.placed = snapshot_of(series, series.mesh(), found, own.placement, flat.has_value());
@@ -162,7 +162,7 @@ BeyondArm beyond(const SourceMesh& mesh, const std::vector<Break>& breaks, std::
   return result;
 }
 
-SnapshotPiece piece_of(const Series& series, const std::vector<Break>& breaks, std::size_t arm,
+SnapshotPiece piece_of(const ImportedSeries& series, const std::vector<Break>& breaks, std::size_t arm,
                        const OwnPlace& own, const std::vector<char>& counts, const std::vector<char>& kept,
                        const std::vector<char>& on_lips, bool is_flat) {
   const SourceMesh& mesh = series.mesh();
@@ -217,7 +217,7 @@ double gap_between(const SourceMesh& mesh, const Break& a, const Break& b, std::
 
 }  // namespace
 
-std::vector<SnapshotPiece> pieces_of(const Series& series, std::vector<Break>& breaks,
+std::vector<SnapshotPiece> pieces_of(const ImportedSeries& series, std::vector<Break>& breaks,
                                      const std::optional<Vec3>& flat) {
   const SourceMesh& mesh = series.mesh();
   std::vector<OwnPlace> own;

@@ -66,7 +66,7 @@ std::vector<bool> front_of(const Snapshot& s, const Break& found) {
 
 }  // namespace
 
-Placed snapshot_of(const Series& series, const SourceMesh& mesh, const Break& found,
+Placed snapshot_of(const ImportedSeries& series, const SourceMesh& mesh, const Break& found,
                    const Placement& placement, bool is_flat, const Placed* given, const BeyondArm& beyond) {
   Placed result;
   Snapshot& s = result.snapshot;

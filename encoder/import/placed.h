@@ -19,7 +19,7 @@ struct Placed {
 
 /// `mesh`: that of the series, or a part of it, whose nodes the pairs are of. `given`: has the map, where it
 /// is known. Throws InputError if the times of frames are the same when counted from the first.
-Placed snapshot_of(const Series& series, const SourceMesh& mesh, const Break& found,
+Placed snapshot_of(const ImportedSeries& series, const SourceMesh& mesh, const Break& found,
                    const Placement& placement, bool is_flat, const Placed* given = nullptr,
                    const BeyondArm& beyond = {});
 

@@ -92,7 +92,7 @@ std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts) {
   return fields;
 }
 
-Series::Series(const std::vector<std::string>& paths, const std::vector<SeriesField>& fields)
+ImportedSeries::ImportedSeries(const std::vector<std::string>& paths, const std::vector<SeriesField>& fields)
     : path_(paths.front()), files_(open_series(paths)), fields_(fields) {
   check_times(path_, times());
   find_fields();
@@ -103,18 +103,18 @@ Series::Series(const std::vector<std::string>& paths, const std::vector<SeriesFi
   leave_loose_nodes();
 }
 
-std::string Series::where(std::size_t frame) const {
+std::string ImportedSeries::where(std::size_t frame) const {
   return files_->file(frame) + " (frame " + std::to_string(frame) + ")";
 }
 
 /// Among the arrays of the points of frame 0, or else among those of its cells.
-void Series::find_fields() {
+void ImportedSeries::find_fields() {
   const std::vector<std::string> points = files_->point_arrays(0), cells = files_->cell_arrays(0);
   for (SeriesField& field : fields_)
     field.of_cells = !among(points, field.source) && among(cells, field.source);
 }
 
-WantedArrays Series::sources_there(std::size_t frame) const {
+WantedArrays ImportedSeries::sources_there(std::size_t frame) const {
   const std::vector<std::string> points = files_->point_arrays(frame), cells = files_->cell_arrays(frame);
   WantedArrays wanted;
   for (const SeriesField& field : fields_) {
@@ -130,13 +130,13 @@ WantedArrays Series::sources_there(std::size_t frame) const {
   return wanted;
 }
 
-SourceArray& Series::array_of(SourceFrame& frame, std::size_t field) const {
+SourceArray& ImportedSeries::array_of(SourceFrame& frame, std::size_t field) const {
   std::size_t before = 0;
   for (std::size_t f = 0; f < field; ++f) before += fields_[f].of_cells == fields_[field].of_cells;
   return (fields_[field].of_cells ? frame.cell_arrays : frame.arrays).at(before);
 }
 
-void Series::describe_fields(SourceFrame& first) {
+void ImportedSeries::describe_fields(SourceFrame& first) {
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     SeriesField& field = fields_[f];
     const SourceArray& array = array_of(first, f);
@@ -153,7 +153,7 @@ void Series::describe_fields(SourceFrame& first) {
   }
 }
 
-void Series::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
+void ImportedSeries::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
   const auto refuse = [&](const std::string& what) {
     throw InputError(where(frame) + ": " + what + "; all frames must have the mesh of the first");
   };
@@ -163,7 +163,7 @@ void Series::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
   if (!same_cells(mesh, mesh_as_read_)) refuse("has other cells than frame 0");
 }
 
-void Series::check_values(std::size_t frame, SourceFrame& found) const {
+void ImportedSeries::check_values(std::size_t frame, SourceFrame& found) const {
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     const SeriesField& field = fields_[f];
     const SourceArray& array = array_of(found, f);
@@ -187,7 +187,8 @@ void Series::check_values(std::size_t frame, SourceFrame& found) const {
   }
 }
 
-std::vector<double> Series::mean_of_cells(const std::vector<double>& values, std::size_t components) const {
+std::vector<double> ImportedSeries::mean_of_cells(const std::vector<double>& values,
+                                                  std::size_t components) const {
   std::vector<double> sums(mesh_.points.size() * components, 0);
   std::vector<int> cells(mesh_.points.size(), 0);
   for (std::size_t c = 0; c < mesh_.cell_types.size(); ++c)
@@ -210,7 +211,7 @@ std::optional<std::size_t> to_symmetric(std::vector<double>& values) {
   std::vector<double> six;
   for (std::size_t i = 0; i + 8 < values.size(); i += 9) {
     const double* t = &values[i];
-    for (const auto [a, b] : {std::pair{1, 3}, {2, 6}, {5, 7}})
+    for (const auto& [a, b] : {std::pair{1, 3}, {2, 6}, {5, 7}})
       if (std::abs(t[a] - t[b]) > rounding * largest) return i / 9;
     six.insert(six.end(), {t[0], t[4], t[8], (t[1] + t[3]) / 2, (t[5] + t[7]) / 2, (t[2] + t[6]) / 2});
   }
@@ -220,7 +221,8 @@ std::optional<std::size_t> to_symmetric(std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<double> Series::at_nodes(std::size_t frame, std::size_t f, std::vector<double> values) const {
+std::vector<double> ImportedSeries::at_nodes(std::size_t frame, std::size_t f,
+                                             std::vector<double> values) const {
   const SeriesField& field = fields_[f];
   const auto components = static_cast<std::size_t>(field.all_nine ? 9 : field.components);
   if (field.of_cells) {
@@ -243,7 +245,7 @@ std::vector<double> Series::at_nodes(std::size_t frame, std::size_t f, std::vect
   return values;
 }
 
-FieldValues Series::frame(std::size_t frame) const {
+FieldValues ImportedSeries::frame(std::size_t frame) const {
   SourceFrame found = files_->read(frame, sources_there(frame));
   check_mesh(frame, found.mesh);
   check_values(frame, found);
@@ -255,7 +257,7 @@ FieldValues Series::frame(std::size_t frame) const {
   return values;
 }
 
-void Series::leave_loose_nodes() {
+void ImportedSeries::leave_loose_nodes() {
   std::vector<std::int32_t> number(mesh_.points.size(), -1);
   for (const std::int64_t corner : mesh_.connectivity) number[corner] = 0;
   loose_ = static_cast<std::size_t>(std::count(number.begin(), number.end(), -1));
@@ -273,7 +275,7 @@ void Series::leave_loose_nodes() {
   for (std::size_t i = 0; i < kept_.size(); ++i) mesh_.points[i] = mesh_as_read_.points[kept_[i]];
 }
 
-void Series::weld(const std::vector<std::int32_t>& number) {
+void ImportedSeries::weld(const std::vector<std::int32_t>& number) {
   CLEFT_CHECK(number.size(), ==, mesh_.points.size());
   std::vector<std::int32_t> kept(
       static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1, -1);

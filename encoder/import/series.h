@@ -24,13 +24,13 @@ std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts);
 /// Values of each field in a frame: N times its components, point by point.
 using FieldValues = std::vector<std::vector<double>>;
 
-class Series {
+class ImportedSeries {
  public:
   /// One file that open_series reads, or several of one mesh. Throws InputError if it has fewer than 2
   /// frames, times that do not increase, no such fields, or fields of other than 1, 3, 6 or 9 components.
-  Series(const std::vector<std::string>& paths, const std::vector<SeriesField>& fields);
-  Series(const std::string& path, const std::vector<SeriesField>& fields)
-      : Series(std::vector<std::string>{path}, fields) {}
+  ImportedSeries(const std::vector<std::string>& paths, const std::vector<SeriesField>& fields);
+  ImportedSeries(const std::string& path, const std::vector<SeriesField>& fields)
+      : ImportedSeries(std::vector<std::string>{path}, fields) {}
 
   const std::string& path() const { return path_; }
   std::vector<std::string> files() const { return files_->files(); }

@@ -210,12 +210,12 @@ class XdmfFile : public FrameFiles {
 
   /// Finds the HDF5 files, which must exist.
   void find_heavy_files() {
-    std::vector<Element> todo{root_};
-    while (!todo.empty()) {
-      const Element element = todo.back();
-      todo.pop_back();
+    std::vector<Element> waiting{root_};
+    while (!waiting.empty()) {
+      const Element element = waiting.back();
+      waiting.pop_back();
       for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
-        todo.push_back(element->GetNestedElement(i));
+        waiting.push_back(element->GetNestedElement(i));
       if (!is(element, "DataItem") || lower(attribute(element, "ItemType", "Uniform")) != "uniform") continue;
       if (const auto at = heavy(element);
           at && std::find(heavy_.begin(), heavy_.end(), at->first) == heavy_.end()) {

@@ -291,4 +291,14 @@ double DisplacementModel::outside(const RecordedParameters& parameters) const {
   return std::hypot(distance, unknown > 1e-6 ? unknown : 0);
 }
 
+DisplacementModel best_model(const std::vector<RecordedParameters>& cases, const CaseSamples& samples,
+                             const std::vector<Loading>& loadings) {
+  std::optional<DisplacementModel> best;
+  for (const Loading loading : loadings) {
+    DisplacementModel model(cases, samples, loading);
+    if (!best || model.left_out_error() < 0.5 * best->left_out_error()) best.emplace(std::move(model));
+  }
+  return std::move(best).value();
+}
+
 }  // namespace cleft

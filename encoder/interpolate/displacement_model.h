@@ -27,8 +27,8 @@ struct CaseSamples {
 /// At most `most` cases that are farthest from one another; in order.
 std::vector<int> representative_cases(const std::vector<RecordedParameters>& cases, int most);
 
-/// How the prestress of a study may enter. By default it superposes where the model is linear in it: only a
-/// much better prediction of cases left out speaks against it.
+/// How the prestress of a study may enter, the likeliest first: it superposes where the model is linear in
+/// it.
 std::vector<Loading> loadings_of(const RecordedParameters& of_a_case);
 
 /// The regression is for displacements divided by the scale of their load (Features) and by a power law of
@@ -116,5 +116,9 @@ class DisplacementModel {
   double error_of_deviation_ = 0;  // residual, at its worst point, for a deviation of 1
   std::optional<Plain> plain_;     // where the cases cannot tell curvature
 };
+
+/// The model of the first loading, unless one of a later loading predicts the cases left out much better.
+DisplacementModel best_model(const std::vector<RecordedParameters>& cases, const CaseSamples& samples,
+                             const std::vector<Loading>& loadings);
 
 }  // namespace cleft

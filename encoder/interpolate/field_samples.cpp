@@ -8,7 +8,7 @@ namespace cleft {
 
 namespace {
 
-constexpr int times = 12, along = 30, most_heights = 4;
+constexpr int sampled_times = 12, along = 30, most_heights = 4;
 constexpr int around[] = {-3, -2, -1, 0, 1, 2, 3};  // nodes from the tip and the start
 constexpr int across[] = {0, 1, 2, 4, 8, 16};       // from the cut
 
@@ -55,12 +55,12 @@ std::vector<Place> sample_places(const FieldGeometry& g, double spacing) {
   const double first = g.tip.positions.front(), last = g.tip.positions.back();
   const Columns columns{g.cut.start, spacing, g.domain[0]};
   std::vector<Place> places;
-  for (int j = 1; j <= times; ++j) {
-    double t = begin + (end - begin) * j / times;
+  for (int j = 1; j <= sampled_times; ++j) {
+    double t = begin + (end - begin) * j / sampled_times;
     // The tip at a column of nodes. The first that opens has one behind it and one ahead.
     if (last > first)
-      t = g.tip.passes(
-          std::min(columns.near(std::max(first + 2 * spacing, first + (last - first) * j / times)), last));
+      t = g.tip.passes(std::min(
+          columns.near(std::max(first + 2 * spacing, first + (last - first) * j / sampled_times)), last));
     if (!places.empty() && t <= places.back().t) continue;
     for (const double u : along_at(columns, g.tip.at(t)))
       for (const double w : heights_of(g, spacing))

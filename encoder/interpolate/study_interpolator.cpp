@@ -95,11 +95,8 @@ StudyInterpolator::StudyInterpolator(CommonCases cases, const ReportPart& report
   if (!groups_.alone.empty()) loadings = {Loading::superposed};
   const CommonPlaces places = places_in_common(cases_);
   const SampledCases together = sampled(cases_, parameters_, groups_.together.cases, places);
-  for (const Loading loading : loadings) {
-    if (report) report(time_to_sample);
-    DisplacementModel model(together.parameters, together.samples, loading);
-    if (!model_ || model.left_out_error() < 0.5 * model_->left_out_error()) model_.emplace(std::move(model));
-  }
+  if (report) report(time_to_sample);
+  model_.emplace(best_model(together.parameters, together.samples, loadings));
   for (const ParameterGroup& one : groups_.alone) {
     const SampledCases some = sampled(cases_, parameters_, one.cases, places);
     alone_.emplace_back(some.parameters, some.samples, Loading::superposed);

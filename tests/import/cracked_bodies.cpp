@@ -347,4 +347,17 @@ std::vector<CrackedBody> bodies_of_several_cracks() {
   return rows;
 }
 
+void add_start_and_tensor(SourceSeries& series, double at_start) {
+  SourceSeries::Field tensor{"S", 6, {}};
+  for (auto& frame : series.fields[0].frames) {
+    auto& values = tensor.frames.emplace_back();
+    for (std::size_t i = 0; i < frame.size(); i += 3) {
+      frame[i] += at_start;
+      values.insert(values.end(),
+                    {frame[i], frame[i + 1], frame[i + 2], 2 * frame[i + 1], frame[i], -frame[i + 2]});
+    }
+  }
+  series.fields.push_back(std::move(tensor));
+}
+
 }  // namespace cleft

@@ -60,4 +60,8 @@ std::vector<CrackedBody> cracked_bodies();
 /// The same for bodies with several cracks, which may meet.
 std::vector<CrackedBody> bodies_of_several_cracks();
 
+/// Adds `at_start` to the first components of the displacement in all frames, and the field S: a symmetric
+/// tensor made of the displacement, which tells whether tensors are turned with the body.
+void add_start_and_tensor(SourceSeries& series, double at_start);
+
 }  // namespace cleft

@@ -77,16 +77,7 @@ TEST_F(SeveralBreaks, AreReadByEveryCommandThatReadsFieldsOfImportedData) {
   const CrackedBody body = body_named("far apart, at a right angle, turned");
   SourceSeries source = body.series();
   const std::vector<CrackedBody::Node> nodes = body.nodes();
-  SourceSeries::Field stress{"S", 6, {}};  // turned with the body; it tells whether tensors are turned back
-  for (auto& frame : source.fields[0].frames) {
-    auto& values = stress.frames.emplace_back();
-    for (std::size_t i = 0; i < frame.size(); i += 3) {
-      frame[i] += 0.02;  // there from the beginning
-      values.insert(values.end(),
-                    {frame[i], frame[i + 1], frame[i + 2], 2 * frame[i + 1], frame[i], -frame[i + 2]});
-    }
-  }
-  source.fields.push_back(stress);
+  add_start_and_tensor(source, 0.02);
   make(source, "displacement,S");
   expect_success(run_cleft("check", {snapshot, file}));
   EXPECT_NE(expect_success(run_cleft("info", {snapshot})).output.find("breaks: 2"), std::string::npos);
@@ -100,7 +91,7 @@ TEST_F(SeveralBreaks, AreReadByEveryCommandThatReadsFieldsOfImportedData) {
     for (const auto& frame : source.fields[f].frames)
       for (const double value : frame) largest[f] = std::max(largest[f], std::abs(value));
   for (const char* name : {"own.pvd", "on.pvd"}) {
-    const Series decoded(folder / name, parse_fields({"displacement", "S"}));
+    const ImportedSeries decoded(folder / name, parse_fields({"displacement", "S"}));
     for (std::size_t j = 0; j < source.times.size(); ++j) {
       const FieldValues values = decoded.frame(j);
       for (std::size_t f = 0; f < 2; ++f)
@@ -146,8 +137,8 @@ TEST_F(SeveralBreaks, AndOneAreExportedOnTheirMesh) {
     const std::string frames = std::to_string(source.times.size());
     expect_success(run_cleft(
         "export", {file, "--paraview", folder / ("out_" + body.name.substr(0, 2)), "--frames", frames}));
-    const Series exported(folder / ("out_" + body.name.substr(0, 2) + ".pvd"),
-                          parse_fields({"displacement", "T"}));
+    const ImportedSeries exported(folder / ("out_" + body.name.substr(0, 2) + ".pvd"),
+                                  parse_fields({"displacement", "T"}));
     const SnapshotReader reader(snapshot);
     ASSERT_EQ(exported.mesh().points.size(), reader.snapshot().points.size());
     double largest = 0;
