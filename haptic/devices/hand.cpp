@@ -57,10 +57,10 @@ void Hand::feel(double force) {
 }
 
 ScalpelPose Hand::read(double time) {
-  // One tick with the force that acts now; a loop that missed ticks leaves it acting on.
   constexpr double newton_per_kg = 1e3;  // mm/s^2
-  const int ticks = std::max(0, static_cast<int>(std::lround((time - time_) / p_.period)));
-  for (int tick = 0; tick < ticks; ++tick) {
+  const auto ticks = std::lround((time - lost_ - time_) / p_.period);
+  if (ticks > 1) lost_ += static_cast<double>(ticks - 1) * p_.period;
+  if (ticks > 0) {
     const Vec3 force = under_way_[0], before = position_;
     feel(norm(force));
     const double dt = p_.period / substeps;

@@ -1,5 +1,6 @@
 // A simulated hand: a mass held by a spring and a damper to a target that follows a script. It closes the
-// force loop without hardware, optionally with a delay.
+// force loop without hardware, optionally with a delay. Time passes for it tick by tick: where the loop
+// misses ticks, the hand waits, because the force of one tick would otherwise push it for many.
 #pragma once
 
 #include <array>
@@ -39,8 +40,9 @@ class Hand : public Device {
   void command(const Vec3& force) override;
   DeviceLimits limits() const override;
 
-  double duration() const override { return script_.back().time; }  ///< upper bound: a press may end early
-  const Vec3& velocity() const { return velocity_; }                ///< mm/s
+  /// Upper bound, since a press may end early; it grows by the ticks that the loop misses.
+  double duration() const override { return script_.back().time + lost_; }
+  const Vec3& velocity() const { return velocity_; }  ///< mm/s
   /// Work of the force on the hand, N mm, from the actual motion, as a reference for the observer.
   double work() const { return work_; }
 
@@ -52,8 +54,10 @@ class Hand : public Device {
   HandParameters p_;
   std::vector<HandTarget> script_;
   std::size_t at_ = 0;
-  double time_ = 0, saved_ = 0;  // s, by which presses ended early
-  double pressed_ = 0;           // N, the largest force of a press
+  double time_ = 0;     // s, of the hand
+  double lost_ = 0;     // s, of the ticks that the loop missed
+  double saved_ = 0;    // s, by which presses ended early
+  double pressed_ = 0;  // N, the largest force of a press
   int late_;
   std::array<Vec3, most_late> under_way_{};
   Vec3 position_, velocity_;

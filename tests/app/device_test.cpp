@@ -101,7 +101,7 @@ TEST_F(DeviceTest, TheHandFollowsItsPath) {
   for (std::size_t i = 1; i < points.size(); ++i) length += norm(points[i].position - points[i - 1].position);
   EXPECT_NEAR(points.front().position.x, -8, 0.3);
   EXPECT_LT(length, 16.01);
-  EXPECT_GT(length, 8) << "the hand is behind when it lifts the blade, the more the busier the machine";
+  EXPECT_GT(length, 8) << "the hand is behind its path when it lifts the blade";
 }
 
 TEST_F(DeviceTest, UnpluggingEndsTheCutAndNothingElse) {

@@ -221,6 +221,20 @@ TEST(Loop, RunsWhileAnotherThreadCutsAndAThirdLooks) {
   EXPECT_LE(loop.statistics().excess_change, 0);
 }
 
+TEST(Hand, WaitsForALoopThatMissesTicks) {
+  // Both go the same way, tick by tick; the one whose loop misses every second tick needs twice the time.
+  ScalpelPose far;
+  far.tip = {10, 0, 0};
+  const std::vector<HandTarget> script = {{0, {}}, {0.2, far}};
+  Hand on_time({}, script), late({}, script);
+  for (int tick = 1; tick <= 200; ++tick) {
+    ASSERT_EQ(on_time.read(1e-3 * tick).tip, late.read(2e-3 * tick).tip) << tick;
+    on_time.command({-0.4, 0, 0}), late.command({-0.4, 0, 0});
+  }
+  EXPECT_NEAR(late.duration(), 0.4, 1e-9);
+  EXPECT_EQ(on_time.duration(), 0.2);
+}
+
 TEST(Recorded, ReplaysBitForBit) {
   const auto s = testing::ball(16, 20, 0.1);
   const ContactSurface surface(s.points, s.triangles);
