@@ -117,14 +117,16 @@ double Figure::distance(const Eigen::Ref<const Eigen::VectorXd>& a,
   return most;
 }
 
-double Figure::of(const Field& field) const {
+double Figure::of(const Field& field) const { return of(displacements(field)); }
+
+Eigen::VectorXd Figure::displacements(const Field& field) const {
   const std::vector<Place> at = places(field.parametrization().geometry());
   std::vector<Vec3> found(at.size());
   field.displacements(at, found);
   Eigen::VectorXd flat(static_cast<Eigen::Index>(3 * at.size()));
   for (std::size_t k = 0; k < at.size(); ++k)
     for (int c = 0; c < 3; ++c) flat[static_cast<Eigen::Index>(3 * k) + c] = found[k][c];
-  return of(flat);
+  return flat;
 }
 
 }  // namespace cleft

@@ -28,6 +28,8 @@ class Figure {
   /// The figure of their displacements, x, y, z of one after another.
   double of(const Eigen::Ref<const Eigen::VectorXd>& displacements) const;
   double of(const Field& field) const;
+  /// The displacements of the field at its places, as of() takes them.
+  Eigen::VectorXd displacements(const Field& field) const;
   /// Whether it is the field, of which distance() counts.
   bool is_field() const { return kind_ == Kind::field; }
   /// The largest distance between displacements of the same places.

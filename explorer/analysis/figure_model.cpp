@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -19,15 +18,13 @@ constexpr int most_compared = 128;            // cases that choose the method
 constexpr Eigen::Index points_at_once = 256;  // their weights stay in the cache
 
 Eigen::VectorXd displacements_of(const Field& field, const std::vector<Figure>& figures) {
-  std::vector<Place> places;
-  for (const Figure& figure : figures)
-    for (const Place& place : figure.places(field.parametrization().geometry())) places.push_back(place);
-  std::vector<Vec3> found(places.size());
-  field.displacements(places, found);
-  Eigen::VectorXd flat(static_cast<Eigen::Index>(3 * places.size()));
-  for (std::size_t k = 0; k < places.size(); ++k)
-    for (int c = 0; c < 3; ++c) flat[static_cast<Eigen::Index>(3 * k) + c] = found[k][c];
-  return flat;
+  Eigen::VectorXd all;
+  for (const Figure& figure : figures) {
+    const Eigen::VectorXd own = figure.displacements(field);
+    all.conservativeResize(all.size() + own.size());
+    all.tail(own.size()) = own;
+  }
+  return all;
 }
 
 void check_choices(const RecordedParameters& a, const RecordedParameters& b) {
@@ -93,12 +90,7 @@ DisplacementModel best_model(const std::vector<RecordedParameters>& parameters,
   CaseSamples samples;
   samples.cases = representative_cases(parameters, most_compared);
   samples.displacements = displacements(Eigen::all, samples.cases);
-  std::optional<DisplacementModel> best;
-  for (const Loading loading : loadings_of(parameters.front())) {
-    DisplacementModel model(parameters, samples, loading);
-    if (!best || model.left_out_error() < 0.5 * best->left_out_error()) best.emplace(std::move(model));
-  }
-  return std::move(*best);
+  return best_model(parameters, samples, loadings_of(parameters.front()));
 }
 
 }  // namespace
@@ -131,8 +123,8 @@ FigureModel::FigureModel(Cases cases, std::vector<Figure> figures)
   inverse_ = -others.weights;
   inverse_.diagonal().array() += 1;
   inverse_ = inverse_ * others.deviations.cwiseAbs2().cwiseInverse().asDiagonal();
-  left_out_ = figures_from(cases_.displacements * others.weights);
   const Eigen::MatrixXd predicted = cases_.displacements * others.weights;
+  left_out_ = figures_from(predicted);
   residuals_ = cases_.displacements - predicted;
   ratios_ =
       differences(n > most_chosen_again ? predicted : predicted_by_parts(), cases_.displacements).cwiseAbs() *

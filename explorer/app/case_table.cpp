@@ -74,8 +74,16 @@ QVariant CaseModel::headerData(int section, Qt::Orientation orientation, int rol
 
 void CaseModel::row_changed(int i) { emit dataChanged(index(i, 0), index(i, columnCount() - 1)); }
 
+bool ShownCases::filterAcceptsRow(int row, const QModelIndex&) const {
+  return !session_.state().filtered || !session_.study() || session_.brushed(row);
+}
+
 CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_known)
-    : session_(session), say_(std::move(say)), figures_known_(std::move(figures_known)), model_(session) {
+    : session_(session),
+      say_(std::move(say)),
+      figures_known_(std::move(figures_known)),
+      model_(session),
+      sorted_(session) {
   sorted_.setSourceModel(&model_);
   sorted_.setSortRole(Qt::UserRole);
   condition_ = new QLineEdit(this);
@@ -109,13 +117,54 @@ CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_kn
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(condition_);
+  auto* row = new QHBoxLayout;
+  count_ = new QLabel(this);
+  count_->setObjectName("found");
+  row->addWidget(count_, 1);
+  filter_ = new QCheckBox("Only these", this);
+  filter_->setObjectName("filter");
+  filter_->setToolTip("Leave the faded cases out of this list (filter on)");
+  connect(filter_, &QCheckBox::clicked, this, [this](bool on) { say_(on ? "filter on" : "filter off"); });
+  row->addWidget(filter_);
+  column->addLayout(row);
   column->addWidget(table_);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now, const QModelIndex&) {
-            const int i = sorted_.mapToSource(now).row();
-            if (now.isValid() && i != session_.state().shown) say_("case " + std::to_string(i + 1));
+            if (now.isValid() && !following_) go_to(sorted_.mapToSource(now).row());
           });
   connect(&idle_, &QTimer::timeout, this, [this] { find_next_figures(); });
+}
+
+/// A case that `find` has found is shown where the condition holds.
+void CaseTable::go_to(int i) {
+  const SessionState& s = session_.state();
+  if (i == s.shown && session_.shows_exactly() && s.where.empty()) return;
+  const bool found = !s.where.empty() && session_.finding(i);
+  say_((found ? "found " : "case ") + std::to_string(i + 1));
+}
+
+std::vector<int> CaseTable::selected() const {
+  std::vector<int> cases;
+  for (const QModelIndex& row : table_->selectionModel()->selectedRows())
+    cases.push_back(sorted_.mapToSource(row).row());
+  std::sort(cases.begin(), cases.end());
+  return cases;
+}
+
+/// How many cases are left by the condition and the brushes.
+void CaseTable::count_found() {
+  const SessionState& s = session_.state();
+  const bool any = session_.study() && !(s.where.empty() && s.brushes.empty());
+  filter_->setVisible(any || s.filtered);
+  count_->setVisible(any);
+  filter_->setChecked(s.filtered);
+  if (!any) return count_->clear();
+  int left = 0;
+  for (int i = 0; i < session_.study()->size(); ++i) left += session_.brushed(i);
+  count_->setText(QString("%1 of %2 cases").arg(left).arg(session_.study()->size()));
+  count_->setToolTip(QString("%1 of %2 cases are left; a click on one shows it where the condition holds")
+                         .arg(left)
+                         .arg(session_.study()->size()));
 }
 
 void CaseTable::find_next_figures() {
@@ -156,14 +205,26 @@ void CaseTable::follow(const Changes& changes) {
   if (changes.brushes) {
     table_->viewport()->update();  // only their colours: nothing is sorted anew
     condition_->setText(QString::fromStdString(session_.state().where));
+    following_ = true;
+    sorted_.filter_anew();
+    following_ = false;
   }
-  if ((changes.study || changes.shown) && session_.study()) {
-    const QModelIndex row = sorted_.mapFromSource(model_.index(session_.state().shown, 0));
-    if (table_->currentIndex().row() != row.row()) {
-      table_->setCurrentIndex(row);
-      table_->scrollTo(row);
-    }
+  if (changes.brushes || changes.study) count_found();
+  if ((changes.study || changes.shown || changes.brushes) && session_.study()) mark_shown();
+}
+
+/// No row where what is shown is none of the cases.
+void CaseTable::mark_shown() {
+  following_ = true;
+  const QModelIndex row =
+      session_.between() ? QModelIndex() : sorted_.mapFromSource(model_.index(session_.state().shown, 0));
+  if (!row.isValid()) {
+    table_->selectionModel()->clear();
+  } else if (table_->currentIndex().row() != row.row()) {
+    table_->setCurrentIndex(row);
+    table_->scrollTo(row);
   }
+  following_ = false;
 }
 
 }  // namespace cleft

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <QAbstractTableModel>
+#include <QCheckBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QSortFilterProxyModel>
 #include <QTableView>
@@ -32,24 +34,44 @@ class CaseModel : public QAbstractTableModel {
   int parameters_ = 0;
 };
 
+/// Sorted, and while a filter is on without the cases that are faded.
+class ShownCases : public QSortFilterProxyModel {
+ public:
+  explicit ShownCases(Session& session) : session_(session) {}
+  void filter_anew() { invalidateFilter(); }
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+
+ private:
+  Session& session_;
+};
+
 class CaseTable : public QWidget, public Panel {
  public:
   CaseTable(Session& session, Say say, std::function<void()> figures_known);
   void follow(const Changes& changes) override;
+  std::vector<int> selected() const;  ///< cases, ascending
 
  private:
   void find_next_figures();
+  void go_to(int i);
+  void count_found();
+  void mark_shown();
   void fit_columns();
 
   Session& session_;
   Say say_;
   std::function<void()> figures_known_;
   CaseModel model_;
-  QSortFilterProxyModel sorted_;
+  ShownCases sorted_;
   QLineEdit* condition_;
+  QLabel* count_;
+  QCheckBox* filter_;
   QTableView* table_;
   QTimer idle_;
   int next_ = 0;
+  bool following_ = false;  // the selection is put to what is shown, and asks for nothing
 };
 
 }  // namespace cleft

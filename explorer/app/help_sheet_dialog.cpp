@@ -10,22 +10,23 @@ namespace cleft {
 
 namespace {
 
-const char* const keys = R"(<h2>Mouse and keys</h2><table cellpadding=3>
+const char* const mouse = R"(<h2>Mouse and keys</h2><table cellpadding=3>
 <tr><td><b>Left, drag</b></td><td>turn the picture; with the scalpel: cut the skin</td></tr>
 <tr><td><b>Shift + left, middle</b></td><td>move it</td></tr>
 <tr><td><b>Wheel, right</b></td><td>zoom</td></tr>
-<tr><td><b>Space</b></td><td>play or pause</td></tr>
-<tr><td><b>Left, Right</b></td><td>back or on by 1 mm of cut</td></tr>
-<tr><td><b>Page Up, Page Down</b></td><td>case before, next case</td></tr>
-<tr><td><b>P, Z</b></td><td>click a point: plot its motion, or read the simulation's nodes there; Esc: no more</td></tr>
-<tr><td><b>C</b></td><td>scalpel on or off</td></tr>
-<tr><td><b>Ctrl+Z, Ctrl+Shift+Z</b></td><td>take the last cut or tension back, make it again</td></tr>
-<tr><td><b>Home</b></td><td>camera back to where it was at first</td></tr>
-<tr><td><b>Ctrl+O, Ctrl+M</b></td><td>open a study, a mesh</td></tr>
-<tr><td><b>Ctrl+P</b></td><td>screenshot</td></tr>
-<tr><td><b>Ctrl+S, Ctrl+L</b></td><td>save the session, load one</td></tr>
-<tr><td><b>Ctrl+D</b></td><td>dark or light</td></tr>
-<tr><td><b>F1</b></td><td>this sheet</td></tr></table>)";
+<tr><td><b>Drag along an axis of "All cases"</b></td><td>keep the cases in that range; double-click: all</td></tr>
+)";
+
+/// The keys of all menu entries.
+QString keys_of(const QList<QAction*>& actions) {
+  QString html;
+  for (const QAction* action : actions)
+    if (!action->shortcut().isEmpty())
+      html += "<tr><td><b>" + action->shortcut().toString(QKeySequence::NativeText).toHtmlEscaped() +
+              "</b></td><td>" + QString(action->text()).remove('&').remove(" ...").toHtmlEscaped() +
+              "</td></tr>";
+  return html + "</table>";
+}
 
 QString commands() {
   QString html =
@@ -44,13 +45,13 @@ QString commands() {
 
 }  // namespace
 
-HelpSheet::HelpSheet(QWidget* parent) : QDialog(parent) {
+HelpSheet::HelpSheet(QWidget* parent, const QList<QAction*>& actions) : QDialog(parent) {
   setObjectName("help");
   setWindowTitle("Cleft: keys and commands");
   resize(760, 620);
   auto* text = new QTextBrowser(this);
   text->setObjectName("help_text");
-  text->setHtml(keys + commands());
+  text->setHtml(mouse + keys_of(actions) + commands());
   auto* close = new QDialogButtonBox(QDialogButtonBox::Close, this);
   auto* column = new QVBoxLayout(this);
   column->addWidget(text);

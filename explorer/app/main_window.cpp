@@ -1,24 +1,45 @@
 #include "explorer/app/main_window.h"
 
 #include <QApplication>
-#include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QMimeData>
+#include <QScrollArea>
+#include <QSettings>
 #include <QStatusBar>
 #include <QVBoxLayout>
+#include <fstream>
 
 #include "base/error.h"
-#include "explorer/app/case_table.h"
+#include "base/message.h"
+#include "base/text.h"
 #include "explorer/app/help_sheet_dialog.h"
 #include "explorer/app/parallel_coordinates.h"
 #include "explorer/app/parameter_panel.h"
 #include "explorer/app/plots.h"
 #include "explorer/app/time_bar.h"
+#include "explorer/app/unit_dialog.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/session/command_table.h"
+#include "explorer/wound/mesh_unit.h"
 
 namespace cleft {
+
+namespace {
+constexpr const char *geometry_key = "geometry", *layout_key = "layout";  // of the settings
+
+/// Whether the first line of a table names openings or motions; that of a blade's path names normals.
+bool holds_measurements(const std::string& path) {
+  std::ifstream file(path);
+  std::string header;
+  while (std::getline(file, header) && (header.empty() || header[0] == '#')) {
+  }
+  for (const char* name : {"gape", "displacement", "du", "dv", "dw"})
+    if (("," + header + ",").find(std::string(",") + name + ",") != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
 
 MainWindow::MainWindow(Session& session) : session_(session) {
   setObjectName("main_window");
@@ -32,6 +53,14 @@ MainWindow::MainWindow(Session& session) : session_(session) {
   status_ = new QLabel(this);
   status_->setObjectName("status");
   statusBar()->addWidget(status_, 1);
+  certainty_ = new QToolButton(this);
+  certainty_->setObjectName("certainty");
+  certainty_->setAutoRaise(true);
+  certainty_->setFixedHeight(certainty_->fontMetrics().height() + 2);  // as high without a text
+  certainty_->setToolTip("The expected error of the opening: a click tells the reason (wounds)");
+  connect(certainty_, &QToolButton::clicked, this, [this] { say("wounds"); });
+  statusBar()->addPermanentWidget(certainty_);
+  session_.tell_warnings_elsewhere();  // there
   scene_->drawn = [this] {
     const double ms = 1e3 * scene_->frame_seconds();
     QString text = session_.has_scene()
@@ -47,7 +76,6 @@ MainWindow::MainWindow(Session& session) : session_(session) {
                   .arg(seen->left_out.of)
                   .arg(seen->pixels, 0, 'g', 2);
     if (device_->on()) text += "   |   " + device_->status();
-    if (!session_.warnings().empty()) text += "   |   " + QString::fromStdString(session_.warnings().front());
     const QString fits = status_->fontMetrics().elidedText(text, Qt::ElideRight, status_->width());
     status_->setText(fits);
     status_->setToolTip(fits == text ? QString() : text);
@@ -71,10 +99,19 @@ MainWindow::~MainWindow() { device_.reset(); }
 
 void MainWindow::make_middle() {
   const Say say_line = [this](const std::string& line) { return say(line); };
-  welcome_ = new WelcomePage(
-      say_line, [this] { choose_study(); },
-      [this] { choose("Open a study or a case", "Field files (*.dffd)", "open", false); });
+  welcome_ =
+      new WelcomePage([this](const std::string& path) { open_any(path); }, [this] { choose_study(); },
+                      [this] { choose("Open a study or a case", "Field files (*.dffd)", "open", false); });
   scene_ = new SceneWidget(session_, say_line);
+  scene_->too_short = [this](double mm) {
+    message_->tell(QString("The blade has moved over %1 mm of skin only, and nothing is cut: %2")
+                       .arg(mm, 0, 'g', 2)
+                       .arg("is the unit of the mesh right (command unit)? Or drag further."));
+  };
+  scene_->missed = [this] {
+    message_->tell(QString("There is no skin at this place to %1: click on the patch (Esc: no more).")
+                       .arg(scene_->picking() == "zoom" ? "zoom to" : "probe"));
+  };
   auto* time = new TimeBar(session_, say_line);
   message_ = new MessageBar;
   command_line_ = new QLineEdit;
@@ -83,6 +120,7 @@ void MainWindow::make_middle() {
       "A command, like: time 12    set tissue.young_modulus 0.02    color gape    help");
   connect(command_line_, &QLineEdit::returnPressed, this, [this] { take_command_line(); });
   stack_ = new QStackedWidget;
+  welcome_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // the picture may be smaller
   stack_->addWidget(welcome_);
   stack_->addWidget(scene_);
   auto* middle = new QWidget(this);
@@ -109,21 +147,65 @@ void MainWindow::make_docks() {
     made->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable |
                       QDockWidget::DockWidgetClosable);
     addDockWidget(area, made);
+    docks_.push_back(made);
     return made;
   };
   auto* parameters = new ParameterPanel(session_, say_line);
   auto* lines = new ParallelCoordinates(session_, say_line);
   auto* cases = new CaseTable(session_, say_line, [lines] { lines->take_figures(); });
-  auto* plots = new Plots(session_);
-  auto* parameter_dock = dock("parameter_dock", "Parameters", parameters, Qt::LeftDockWidgetArea);
-  auto* case_dock = dock("case_dock", "Cases", cases, Qt::LeftDockWidgetArea);
-  auto* plot_dock = dock("plot_dock", "Plots", plots, Qt::RightDockWidgetArea);
-  auto* line_dock = dock("line_dock", "All cases", lines, Qt::RightDockWidgetArea);
-  resizeDocks({parameter_dock, plot_dock}, {372, 310}, Qt::Horizontal);
-  resizeDocks({parameter_dock, case_dock}, {230, 330}, Qt::Vertical);
-  resizeDocks({plot_dock, line_dock}, {360, 230}, Qt::Vertical);
+  auto* plots = new Plots(session_, say_line);
+  auto* scrolled = new QScrollArea;  // many parameters do not push the other panels away
+  scrolled->setWidget(parameters);
+  scrolled->setWidgetResizable(true);
+  scrolled->setFrameShape(QFrame::NoFrame);
+  scrolled->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  dock("parameter_dock", "Parameters", scrolled, Qt::LeftDockWidgetArea);
+  dock("case_dock", "Cases", cases, Qt::LeftDockWidgetArea);
+  dock("plot_dock", "Plots", plots, Qt::RightDockWidgetArea);
+  dock("line_dock", "All cases", lines, Qt::RightDockWidgetArea);
+  cases_ = cases;
   for (Panel* panel : std::initializer_list<Panel*>{parameters, cases, plots, lines})
     panels_.push_back(panel);
+}
+
+/// As they are at first.
+void MainWindow::arrange_docks() {
+  for (QDockWidget* dock : docks_) {
+    dock->setFloating(false);
+    dock->show();
+    addDockWidget(dock == docks_[0] || dock == docks_[1] ? Qt::LeftDockWidgetArea : Qt::RightDockWidgetArea,
+                  dock);
+  }
+  size_docks();
+}
+
+/// At most half of the width is the panels'.
+void MainWindow::size_docks() {
+  constexpr int left = 372, right = 310;
+  const double part = std::min(1., 0.5 * width() / (left + right));
+  resizeDocks({docks_[0], docks_[2]}, {static_cast<int>(part * left), static_cast<int>(part * right)},
+              Qt::Horizontal);
+  resizeDocks({docks_[0], docks_[1]}, {230, 330}, Qt::Vertical);
+  resizeDocks({docks_[2], docks_[3]}, {360, 230}, Qt::Vertical);
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (!sized_) size_docks();
+  sized_ = true;
+}
+
+void MainWindow::restore_layout(bool place) {
+  const QSettings settings("cleft", "explore");
+  if (place) restoreGeometry(settings.value(geometry_key).toByteArray());
+  sized_ = restoreState(settings.value(layout_key).toByteArray());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings settings("cleft", "explore");
+  settings.setValue(geometry_key, saveGeometry());
+  settings.setValue(layout_key, saveState());
+  QMainWindow::closeEvent(event);
 }
 
 bool MainWindow::say(const std::string& line) {
@@ -139,7 +221,7 @@ bool MainWindow::say(const std::string& line) {
   } catch (const std::exception& e) {
     saying_ = false;
     progress_.reset();
-    message_->tell(QString::fromStdString(e.what()));
+    message_->tell(QString::fromStdString(message_of(e)));
     Changes all;  // widgets that were ahead of the session come back to it
     all.time = all.shown = all.coloring = all.playing = true;
     follow(all);
@@ -167,15 +249,21 @@ bool MainWindow::show_progress(const std::string& what, double part) {
 void MainWindow::take_command_line() {
   const std::string line = command_line_->text().toStdString();
   if (line == "help") return show_help();
-  if (say(line)) command_line_->clear();
+  if (!say(line)) return;
+  command_line_->clear();
+  stack_->currentWidget()->setFocus();  // Space and arrows are the picture's again
 }
 
 void MainWindow::follow(const Changes& changes) {
   stack_->setCurrentWidget(session_.has_scene() ? static_cast<QWidget*>(scene_) : welcome_);
   if (changes.study && session_.study()) remember_recent(session_.state().study);
+  if (changes.study && session_.mesh()) remember_recent(session_.state().mesh);
   if (changes.study) fill_recent(), welcome_->refresh();
   if (changes.look) paint_theme();
   follow_tools();
+  const std::vector<Validity>& validity = session_.validity();
+  certainty_->setEnabled(!validity.empty());  // always there, so that nothing moves
+  certainty_->setText(validity.empty() ? QString() : QString::fromStdString(error_of_openings(validity)));
   for (Panel* panel : panels_) panel->follow(changes);
   const std::string& study = session_.state().study;
   setWindowTitle(study.empty() ? "Cleft" : QString::fromStdString("Cleft: " + study));
@@ -194,7 +282,26 @@ void MainWindow::open_any(const std::string& path) {
   const std::string ending = ending_of(path);
   const bool mesh = is_mesh(path, MeshKind::surface);
   const bool state = ending == ".json" || ending == ".png";
-  say((mesh ? "mesh " : state ? "load " : ending == ".csv" ? "cut-file " : "open ") + quoted(path));
+  if (mesh) return open_mesh(path);
+  if (ending == ".csv" && session_.study() && holds_measurements(path))
+    return void(say("fit " + quoted(path)));
+  say((state ? "load " : ending == ".csv" ? "cut-file " : "open ") + quoted(path));
+}
+
+/// Where it would be too small or too large in mm, its unit is asked for.
+void MainWindow::open_mesh(const std::string& path) {
+  double mm = 1;
+  try {
+    const double extent = extent_of(session_.services().read_mesh(path));
+    const double cut_length = session_.cut_length_of_fields();
+    if (extent > 0 && !is_sensible_extent(extent, cut_length)) {
+      UnitDialog dialog(this, extent, cut_length);
+      if (dialog.exec() != QDialog::Accepted) return;
+      mm = dialog.mm();
+    }
+  } catch (const std::exception&) {  // the command tells what is wrong
+  }
+  say("mesh " + quoted(path) + (mm == 1 ? "" : " " + shortest(mm)));
 }
 
 void MainWindow::choose(const QString& title, const QString& filter, const std::string& command, bool save) {
@@ -210,7 +317,7 @@ void MainWindow::choose_study() {
 
 void MainWindow::show_help() {
   if (auto* shown = findChild<QDialog*>("help")) return shown->show(), shown->raise();
-  (new HelpSheet(this))->show();
+  (new HelpSheet(this, findChildren<QAction*>()))->show();
 }
 
 }  // namespace cleft

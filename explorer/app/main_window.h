@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QComboBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QLabel>
@@ -11,8 +12,10 @@
 #include <QProgressDialog>
 #include <QStackedWidget>
 #include <QTimer>
+#include <QToolButton>
 #include <vector>
 
+#include "explorer/app/case_table.h"
 #include "explorer/app/device_control.h"
 #include "explorer/app/message_bar.h"
 #include "explorer/app/panel.h"
@@ -33,14 +36,21 @@ class MainWindow : public QMainWindow {
   SceneWidget& scene() { return *scene_; }
   const DeviceControl& device() const { return *device_; }
   QString message() const { return message_->message(); }
+  /// Puts docks and tool bar where they were when a window was closed last, and the window too with `place`.
+  void restore_layout(bool place);
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   void make_middle();
   void make_docks();
+  void arrange_docks();
+  void size_docks();
+  void compare_cases();
   void make_actions();
   void make_tools();
   void make_device_menu(QMenu* menu);
@@ -59,11 +69,14 @@ class MainWindow : public QMainWindow {
   void choose_study();
   void fill_recent();
   void open_any(const std::string& path);
+  void open_mesh(const std::string& path);
   void show_help();
   void take_command_line();
 
   Session& session_;
   std::vector<Panel*> panels_;
+  std::vector<QDockWidget*> docks_;
+  CaseTable* cases_;
   QStackedWidget* stack_;
   WelcomePage* welcome_;
   SceneWidget* scene_;
@@ -71,15 +84,16 @@ class MainWindow : public QMainWindow {
   MessageBar* message_;
   QLineEdit* command_line_;
   QLabel* status_;
+  QToolButton* certainty_;
   QComboBox* coloring_;
-  QAction *scalpel_, *undo_, *redo_, *simulate_, *dark_;
+  QAction *scalpel_, *brush_, *undo_, *redo_, *simulate_, *dark_;
   QTimer simulating_;  // runs while a simulation does
   QDoubleSpinBox *depth_, *tilt_;
   QMenu *recent_, *device_menu_, *figure_menu_, *detail_menu_;
   QAction *probe_, *zoom_, *between_;
   std::unique_ptr<QProgressDialog> progress_;
   QElapsedTimer since_said_;
-  bool saying_ = false;
+  bool saying_ = false, sized_ = false;
   std::vector<QAction*> layouts_;
 };
 

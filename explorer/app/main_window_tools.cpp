@@ -1,6 +1,7 @@
 // Menus, tool bar and theme of the window.
 #include <QAction>
 #include <QApplication>
+#include <QDockWidget>
 #include <QFileDialog>
 #include <QMenuBar>
 #include <QPalette>
@@ -33,7 +34,9 @@ void MainWindow::make_actions() {
   QMenu* file = menuBar()->addMenu("&File");
   add_action(file, "open", "&Open a study ...", QKeySequence("Ctrl+O"), [this] { choose_study(); });
   add_action(file, "open_mesh", "Open a &mesh to cut ...", QKeySequence("Ctrl+M"), [this] {
-    choose("Open a mesh", QString::fromStdString(surface_filter(MeshUse::read)), "mesh", false);
+    const QString path = QFileDialog::getOpenFileName(this, "Open a mesh", {},
+                                                      QString::fromStdString(surface_filter(MeshUse::read)));
+    if (!path.isEmpty()) open_mesh(path.toStdString());
   });
   add_action(file, "open_path", "Cut along a &path file ...", {},
              [this] { choose("Open a path", "Paths (*.csv)", "cut-file", false); });
@@ -63,10 +66,18 @@ void MainWindow::make_actions() {
   add_action(file, "quit", "&Quit", QKeySequence("Ctrl+Q"), [this] { close(); });
 
   QMenu* edit = menuBar()->addMenu("&Cut");
-  scalpel_ = add_action(edit, "scalpel", "S&calpel", QKeySequence("C"),
-                        [this] { scene_->set_cutting(scalpel_->isChecked()); });
+  scalpel_ = add_action(edit, "scalpel", "S&calpel", QKeySequence("C"), [this] {
+    if (scalpel_->isChecked()) brush_->setChecked(false), scene_->set_painting(false);
+    scene_->set_cutting(scalpel_->isChecked());
+  });
   scalpel_->setCheckable(true);
   scalpel_->setToolTip("Press and drag over the skin to cut it (C)");
+  brush_ = add_action(edit, "tension_brush", "&Tension brush", QKeySequence("T"), [this] {
+    if (brush_->isChecked()) scalpel_->setChecked(false), scene_->set_cutting(false);
+    scene_->set_painting(brush_->isChecked());
+  });
+  brush_->setCheckable(true);
+  brush_->setToolTip("Press and drag over the skin along its larger tension: cuts turn against it (T)");
   undo_ = add_action(edit, "undo", "&Undo", QKeySequence("Ctrl+Z"), line("undo"));
   redo_ = add_action(edit, "redo", "&Redo", QKeySequence("Ctrl+Shift+Z"), line("redo"));
   simulate_ = add_action(edit, "simulate", "S&imulate the cuts", QKeySequence("Ctrl+Shift+S"), [this] {
@@ -84,19 +95,19 @@ void MainWindow::make_actions() {
   QMenu* view = menuBar()->addMenu("&View");
   add_action(view, "front", "&Camera to the front", QKeySequence("Home"), line("camera 0 0"));
   add_action(view, "single", "&One view", QKeySequence("1"), line("single"));
-  add_action(view, "compare", "&Four cases from this one", QKeySequence("4"), [this] {
-    if (!session_.study()) return static_cast<void>(say("compare 1 2"));
-    std::string cases = "compare";
-    const int count = session_.study()->size(), views = std::min(count, 4);
-    for (int k = 0; k < views; ++k) cases += " " + std::to_string((session_.state().shown + k) % count + 1);
-    say(cases);
-  });
+  add_action(view, "compare", "&Compare the selected cases, or four from this one", QKeySequence("4"),
+             [this] { compare_cases(); });
   add_action(view, "previous", "Case &before", QKeySequence("PgUp"), line("previous"));
   add_action(view, "next", "&Next case", QKeySequence("PgDown"), line("next"));
   add_action(view, "play_pause", "&Play or pause", QKeySequence("Space"),
              [this] { say(session_.state().playing ? "pause" : "play"); });
   add_action(view, "back", "&Back by 1 mm", QKeySequence("Left"), line("step -1"));
   add_action(view, "on", "On by 1 &mm", QKeySequence("Right"), line("step 1"));
+  QMenu* panels = view->addMenu("P&anels");
+  for (QDockWidget* dock : docks_) panels->addAction(dock->toggleViewAction());
+  panels->addSeparator();
+  add_action(panels, "arrange", "&As they were at first", {}, [this] { arrange_docks(); });
+  add_action(view, "command", "Command &line", QKeySequence("Ctrl+K"), [this] { command_line_->setFocus(); });
   make_closer_actions(view);
   make_detail_menu(view->addMenu("&Level of detail"));
   dark_ = add_action(view, "dark", "&Dark", QKeySequence("Ctrl+D"),
@@ -105,6 +116,20 @@ void MainWindow::make_actions() {
 
   QMenu* help = menuBar()->addMenu("&Help");
   add_action(help, "help_sheet", "&Keys and commands", QKeySequence("F1"), [this] { show_help(); });
+}
+
+/// Those selected in the table, if there are several; else four from the shown one on.
+void MainWindow::compare_cases() {
+  if (!session_.study()) return static_cast<void>(say("compare 1 2"));
+  std::vector<int> cases = cases_->selected();
+  const int count = session_.study()->size();
+  if (cases.size() < 2) {
+    cases.clear();
+    for (int k = 0; k < std::min(count, 4); ++k) cases.push_back((session_.state().shown + k) % count);
+  }
+  std::string line = "compare";
+  for (const int i : cases) line += " " + std::to_string(i + 1);
+  say(line);
 }
 
 /// Looking closer: between cases, at single points, at how it works.
@@ -148,6 +173,13 @@ void MainWindow::make_detail_menu(QMenu* menu) {
 
 /// Another time the same: no more.
 void MainWindow::pick(const std::string& command) {
+  if (!command.empty() && !(session_.study() && !session_.mesh())) {
+    message_->tell(session_.mesh()
+                       ? "What is probed and zoomed to is the patch that was simulated (Cut, Back to "
+                         "the patch, or the command patch), not a mesh."
+                       : "No study is open, so that there is nothing to look closer at.");
+    return follow_tools();
+  }
   scene_->set_picking(command == scene_->picking() ? "" : command);
   follow_tools();
 }
@@ -227,7 +259,7 @@ void MainWindow::make_tools() {
   bar->addAction(redo_);
   bar->addSeparator();
   const std::pair<const char*, const char*> short_texts[] = {
-      {"probe", "Probe"}, {"zoom", "Zoom"},          {"compare", "Four cases"},
+      {"probe", "Probe"}, {"zoom", "Zoom"},          {"compare", "Compare"},
       {"front", "Front"}, {"screenshot", "Picture"}, {"help_sheet", "Help"}};
   for (const auto& [name, text] : short_texts) findChild<QAction*>(name)->setIconText(text);
   for (const char* name : {"probe", "zoom", "single", "compare", "front", "screenshot", "help_sheet"})
@@ -251,20 +283,20 @@ void MainWindow::follow_tools() {
   coloring_->setEnabled(session_.has_scene());
   const bool can_cut = session_.mesh() != nullptr;
   if (!can_cut && scalpel_->isChecked()) scalpel_->setChecked(false), scene_->set_cutting(false);
-  for (QAction* action : {scalpel_}) action->setEnabled(can_cut);
+  if (!can_cut && brush_->isChecked()) brush_->setChecked(false), scene_->set_painting(false);
+  for (QAction* action : {scalpel_, brush_}) action->setEnabled(can_cut);
   depth_->setEnabled(can_cut), tilt_->setEnabled(can_cut);
-  undo_->setEnabled(!s.cuts.empty());
+  undo_->setEnabled(!s.cuts.empty() || !s.tensions.empty());
   simulate_->setEnabled(session_.mesh() != nullptr);
   simulate_->setChecked(s.simulate);
   if (session_.simulating() != simulating_.isActive())
     session_.simulating() ? simulating_.start() : simulating_.stop();
-  redo_->setEnabled(!s.undone.empty());
+  redo_->setEnabled(!s.undone.empty() || !s.tensions_undone.empty());
   dark_->setChecked(s.dark);
   device_menu_->setEnabled(can_cut);
   const bool patch = session_.study() && !can_cut;
   if (!patch) scene_->set_picking("");
   for (QAction* action : {probe_, zoom_}) {
-    action->setEnabled(patch);
     action->setChecked(action->objectName().toStdString() == scene_->picking());
   }
   between_->setEnabled(session_.study() != nullptr);
@@ -283,7 +315,7 @@ void MainWindow::fill_recent() {
   recent_->clear();
   for (const QString& path : recent_files())
     connect(recent_->addAction(path), &QAction::triggered, this,
-            [this, path] { say("open " + quoted(path.toStdString())); });
+            [this, path] { open_any(path.toStdString()); });
   recent_->setEnabled(!recent_->isEmpty());
 }
 

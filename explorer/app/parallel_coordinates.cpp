@@ -17,7 +17,7 @@ constexpr std::size_t most_smooth = 300;             // cases: more lines are dr
 ParallelCoordinates::ParallelCoordinates(Session& session, Say say)
     : session_(session), say_(std::move(say)) {
   setObjectName("parallel_coordinates");
-  setMinimumHeight(180);
+  setMinimumHeight(140);
   setToolTip(
       "A line for every case. Drag along an axis to keep the cases in that range; double-click to keep all");
 }
@@ -64,11 +64,26 @@ std::optional<std::size_t> ParallelCoordinates::axis_at(double x) const {
   return {};
 }
 
-void ParallelCoordinates::paint_line(QPainter& painter, std::size_t row) const {
+void ParallelCoordinates::paint_line(QPainter& painter, const std::vector<double>& values) const {
   QPolygonF line;
   for (std::size_t a = 0; a < axes_.size(); ++a)
-    if (std::isfinite(rows_[row][a])) line << QPointF(x_of(a), y_of(axes_[a], rows_[row][a]));
+    if (std::isfinite(values[a]))  // what lies beyond all cases is at the end of the axis
+      line << QPointF(x_of(a), std::clamp(y_of(axes_[a], values[a]), above - 2, height() - below + 2));
   painter.drawPolyline(line);
+}
+
+/// Of the interpolated field, over the axes.
+std::vector<double> ParallelCoordinates::values_between() const {
+  const CaseFigures figures = case_figures(*session_.between());
+  const auto value = [&](const std::string& name) {
+    for (const FigureText& figure : figure_texts())
+      if (figure.name == name) return figure.value(figures);
+    const auto requested = session_.state().parameters.find(name);
+    return requested == session_.state().parameters.end() ? std::nan("") : requested->second;
+  };
+  std::vector<double> values;
+  for (const Axis& axis : axes_) values.push_back(value(axis.name));
+  return values;
 }
 
 /// The lines of all cases: drawn anew where they or the brushes change, not where another case is shown.
@@ -86,7 +101,7 @@ void ParallelCoordinates::paint_lines() {
   for (const bool in : {false, true}) {
     painter.setPen(QPen(in ? kept : faded, rows_.size() <= most_smooth ? 1.3 : 0));
     for (std::size_t row = 0; row < rows_.size(); ++row)
-      if (inside[row] == in) paint_line(painter, row);
+      if (inside[row] == in) paint_line(painter, rows_[row]);
   }
 }
 
@@ -103,9 +118,10 @@ void ParallelCoordinates::paintEvent(QPaintEvent*) {
   if (lines_.size() != size() * devicePixelRatioF()) paint_lines();
   painter.drawPixmap(0, 0, lines_);
   const QColor shown(213, 94, 0);
-  painter.setPen(QPen(shown, 2.6));
+  painter.setPen(QPen(shown, 2.6, session_.between() ? Qt::DashLine : Qt::SolidLine));
+  if (session_.between()) paint_line(painter, values_between());
   for (std::size_t row = 0; row < rows_.size(); ++row)
-    if (cases_[row] == session_.state().shown) paint_line(painter, row);
+    if (!session_.between() && cases_[row] == session_.state().shown) paint_line(painter, rows_[row]);
 
   QFont small = font();
   small.setPointSizeF(0.85 * small.pointSizeF());
@@ -125,8 +141,12 @@ void ParallelCoordinates::paintEvent(QPaintEvent*) {
     std::string name = axes_[a].name;
     std::replace(name.begin(), name.end(), '_', '\n');
     std::replace(name.begin(), name.end(), '.', '\n');
+    const double room = axes_.size() > 1 ? std::min(88., x_of(1) - x_of(0)) : 88;
+    QStringList lines;  // none over those of the next axis
+    for (const QString& line : QString::fromStdString(name).split('\n'))
+      lines << painter.fontMetrics().elidedText(line, Qt::ElideRight, static_cast<int>(room) - 3);
     const QRectF over(x - 44, 1, 88, above - 14);
-    painter.drawText(over, Qt::AlignHCenter | Qt::AlignBottom, QString::fromStdString(name));
+    painter.drawText(over, Qt::AlignHCenter | Qt::AlignBottom, lines.join('\n'));
     const auto number = [](double v) { return QString::number(v, 'g', 3); };
     painter.drawText(QRectF(x - side, above - 14, 2 * side, 13), Qt::AlignHCenter, number(axes_[a].greatest));
     painter.drawText(QRectF(x - side, height() - below + 2, 2 * side, below - 4), Qt::AlignHCenter,

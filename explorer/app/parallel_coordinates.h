@@ -38,7 +38,8 @@ class ParallelCoordinates : public QWidget, public Panel {
   std::optional<std::size_t> axis_at(double x) const;
   void say_brush(double y);
   void paint_lines();
-  void paint_line(QPainter& painter, std::size_t row) const;
+  void paint_line(QPainter& painter, const std::vector<double>& values) const;
+  std::vector<double> values_between() const;
 
   Session& session_;
   Say say_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "explorer/study/case_figures.h"
 #include "params/parameters/table.h"
 
 namespace cleft {
@@ -60,6 +61,7 @@ void ParameterPanel::make_rows() {
         least = std::min(least, *value), greatest = std::max(greatest, *value);
     if (!(greatest > least)) continue;
     auto* text = new QLabel(rows_widget_);
+    text->setWordWrap(true);  // so that a long name does not widen the panel
     auto* slider = new QSlider(Qt::Horizontal, rows_widget_);
     slider->setObjectName(QString::fromStdString(name));
     slider->setRange(0, slider_steps);
@@ -98,7 +100,13 @@ void ParameterPanel::show_values() {
                        .arg(QString::fromStdString(row.name))
                        .arg(session_.between() ? asked->second : *value, 0, 'g', 4)
                        .arg(QString::fromStdString(row.unit));
-    if (!session_.between() && asked->second != *value)
+    const bool outside = asked->second < row.least || asked->second > row.greatest;
+    if (outside)
+      text += QString(" (%1 is <b>outside</b> the study, %2 to %3)")
+                  .arg(asked->second, 0, 'g', 4)
+                  .arg(row.least, 0, 'g', 4)
+                  .arg(row.greatest, 0, 'g', 4);
+    else if (!session_.between() && asked->second != *value)
       text += QString(" (asked: %1)").arg(asked->second, 0, 'g', 4);
     row.text->setText(text);
   }
@@ -107,23 +115,27 @@ void ParameterPanel::show_values() {
 
 QString ParameterPanel::note_between() const {
   return QString(
-             "<b>Between the cases: interpolated, not simulated.</b><br>Largest displacement %1 mm; %2.<br>"
+             "<b>%4 the cases: interpolated, not simulated.</b><br>Largest displacement %1 mm; %2.<br>"
              "Nearest case: %3.")
       .arg(session_.between()->report.largest_displacement, 0, 'g', 3)
       .arg(QString::fromStdString(error_of_interpolation(*session_.between())))
-      .arg(session_.state().shown + 1);
+      .arg(session_.state().shown + 1)
+      .arg(session_.between()->interpolation->outside > 0 ? "Outside" : "Between");
 }
 
 QString ParameterPanel::note_of_case() {
   const auto field = session_.field();
   QString note =
       QString(
-          "Case %1 of %2, simulated.<br>Largest displacement %3 mm; no node of the field is off by more "
-          "than %4 % of it.")
+          "Case %1 of %2, simulated.<br>Largest displacement %3 mm; what is drawn is off by at most %4 % "
+          "of it at a node")
           .arg(session_.state().shown + 1)
           .arg(session_.study()->size())
           .arg(field->report.largest_displacement, 0, 'g', 3)
-          .arg(100 * field->report.node_error, 0, 'g', 2);
+          .arg(100 * field->report.spline_error, 0, 'g', 2);
+  if (const auto error = error_of_gape(*field))
+    note += QString(", the opening by at most %1 mm").arg(*error, 0, 'g', 2);
+  note += ".";
   if (!session_.shows_exactly())
     note += QString("<br><b>No case has exactly these values: the nearest is shown</b> (%1).")
                 .arg(QString::fromStdString(session_.why_nearest()));

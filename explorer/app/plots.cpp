@@ -15,6 +15,7 @@
 
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
 #include "explorer/app/tornado_plot.h"
 
@@ -62,7 +63,7 @@ std::vector<double> error_of(const Curve& gape, const std::vector<Validity>& cut
 }
 }  // namespace
 
-Plots::Plots(Session& session) : session_(session) {
+Plots::Plots(Session& session, const Say& say) : session_(session) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   set_up(over_time_, "gape_over_time", "length cut, mm", "widest gape, mm");
@@ -78,6 +79,8 @@ Plots::Plots(Session& session) : session_(session) {
   static_cast<QVBoxLayout*>(probe->layout())->insertWidget(0, probe_note_);
   pages_->addTab(probe, "Probe");
   pages_->addTab(new TornadoPlot(session), "Tornado");
+  pages_->addTab(wounds_ = new WoundTable(session, say), "Wounds");
+  pages_->addTab(analysis_ = new AnalysisPanel(session, say), "Analysis");
   connect(pages_, &QTabWidget::currentChanged, this, [this] { draw(); });
   column->addWidget(pages_);
   soon_.setSingleShot(true);
@@ -95,7 +98,7 @@ QWidget* Plots::make_page(std::initializer_list<Plot*> plots) {
 void Plots::set_up(Plot& plot, const char* name, const char* x, const char* y) {
   plot.widget = new QVTKOpenGLNativeWidget(this);
   plot.widget->setObjectName(name);
-  plot.widget->setMinimumHeight(140);
+  plot.widget->setMinimumHeight(100);
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   window->SetMultiSamples(0);
   plot.widget->setRenderWindow(window);
@@ -148,7 +151,8 @@ void Plots::add_curve(vtkChartXY* chart, const Curve& curve, const std::string& 
   if (dashed) line->GetPen()->SetLineType(vtkPen::DASH_LINE), line->SetLegendVisibility(false);
 }
 
-void Plots::add_band(vtkChartXY* chart, const Curve& curve, const std::vector<double>& error, int color) {
+void Plots::add_band(vtkChartXY* chart, const Curve& curve, const std::vector<double>& error, int color,
+                     double least) {
   vtkNew<vtkTable> table;
   for (const char* name : {"x", "least", "most"}) {
     vtkNew<vtkFloatArray> column;
@@ -159,7 +163,7 @@ void Plots::add_band(vtkChartXY* chart, const Curve& curve, const std::vector<do
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     const auto row = static_cast<vtkIdType>(i);
     table->SetValue(row, 0, curve.x[i]);
-    table->SetValue(row, 1, std::max(0., curve.y[i] - error[i]));
+    table->SetValue(row, 1, std::max(least, curve.y[i] - error[i]));
     table->SetValue(row, 2, curve.y[i] + error[i]);
   }
   auto* band = static_cast<vtkPlotArea*>(chart->AddPlot(vtkChart::AREA));
@@ -174,6 +178,8 @@ void Plots::draw() {
   if (pages_->currentIndex() == 0) draw_opening();
   if (pages_->currentIndex() == 1) draw_probe();
   if (pages_->currentIndex() == 2) pages_->currentWidget()->update();
+  if (pages_->currentWidget() == wounds_) wounds_->show_wounds();
+  if (pages_->currentWidget() == analysis_) analysis_->show_answers();
 }
 
 void Plots::draw_probe() {
@@ -184,18 +190,23 @@ void Plots::draw_probe() {
   if (probed) {
     const Motion motion = session_.probed_motion();
     constexpr const char* names[] = {"along u", "across v", "height w"};
+    probed_ = motion.node ? motion.at_node : motion.field;  // the dots are the node's
+    probed_error_ = error_of_displacement(*session_.field());
     for (int k = 0; k < 3; ++k) {
-      add_curve(probe_.chart, motion.field[k], names[k], k, Style::line);
+      const std::vector<double> error(probed_[static_cast<std::size_t>(k)].x.size(),
+                                      probed_error_.value_or(0));
+      if (probed_error_) add_band(probe_.chart, probed_[static_cast<std::size_t>(k)], error, k, -HUGE_VAL);
+      add_curve(probe_.chart, probed_[static_cast<std::size_t>(k)], names[k], k, Style::line);
       if (motion.node)
         add_curve(probe_.chart, motion.raw[k], std::string(names[k]) + ", node", k, Style::dots);
     }
-    const Vec3& x = session_.state().probe->uvw;
-    note = QString("Motion of %1, %2, %3 mm; ").arg(x.x).arg(x.y).arg(x.z) +
-           (motion.node ? QString("dots: the simulation's node %1, %2, %3")
-                              .arg(motion.node->x, 0, 'g', 3)
-                              .arg(motion.node->y, 0, 'g', 3)
-                              .arg(motion.node->z, 0, 'g', 3)
-                        : QString::fromStdString(session_.why_no_raw(session_.state().shown)));
+    const Vec3& asked = session_.state().probe->uvw;
+    const Vec3 x = motion.node.value_or(asked);
+    note = QString("Motion of %1, %2, %3 mm").arg(x.x, 0, 'g', 3).arg(x.y, 0, 'g', 3).arg(x.z, 0, 'g', 3);
+    note += motion.node
+                ? QString(", the simulation's node %1 mm from the place asked for. Dots: the simulation")
+                      .arg(norm(x - asked), 0, 'g', 2)
+                : "; " + QString::fromStdString(session_.why_no_raw(session_.state().shown));
   }
   probe_note_->setText(note);
   probe_.chart->SetShowLegend(probed);
@@ -258,19 +269,23 @@ void Plots::draw_patch_openings() {
 
 /// Of the wounds on the screen, those of one cut after another: places count from the start of the first.
 void Plots::draw_mesh_openings() {
-  std::map<const WoundScene*, Curve> gapes;
+  std::map<const WoundScene*, MeshOpening> gapes;
   const std::vector<int> views = session_.views();
   double highest = 0;
   for (std::size_t k = 0; k < views.size(); ++k) {
     const auto scene = session_.scene_of(views[k]);
     const auto known = mesh_gapes_.find(scene.get());
-    const Curve& gape = gapes[scene.get()] = known != mesh_gapes_.end() ? known->second : gape_of(*scene);
+    const auto& [gape, validity] = gapes[scene.get()] =
+        known != mesh_gapes_.end()
+            ? known->second
+            : MeshOpening{gape_of(*scene),
+                          views[k] == session_.state().shown ? session_.validity() : scene->validity()};
     const std::string name = "case " + std::to_string(views[k] + 1);
     const int color = static_cast<int>(k);
-    const bool judged = views[k] == session_.state().shown && !session_.validity().empty();
+    const bool judged = !validity.empty();
     double most = *std::max_element(gape.y.begin(), gape.y.end());
     if (judged) {
-      const std::vector<double> error = error_of(gape, session_.validity());
+      const std::vector<double> error = error_of(gape, validity);
       add_band(over_time_.chart, gape, error, color);
       most += *std::max_element(error.begin(), error.end());
     }
@@ -284,9 +299,9 @@ void Plots::draw_mesh_openings() {
       for (double& place : profile.x) place += begin;
       begin += paths[cut].length();
       if (judged) {
-        const std::vector<double> error = error_of(openings[cut], session_.validity()[cut].expected_error);
+        const std::vector<double> error = error_of(openings[cut], validity[cut].expected_error);
         add_band(along_cut_.chart, profile, error, color);
-        profile_error_.insert(profile_error_.end(), error.begin(), error.end());
+        if (k == 0) profile_error_.insert(profile_error_.end(), error.begin(), error.end());
       }
       add_curve(along_cut_.chart, profile, name, color, Style::line);
       if (k > 0) continue;
@@ -306,7 +321,8 @@ void Plots::showEvent(QShowEvent* event) {
 void Plots::follow(const Changes& changes) {
   if (!isVisible()) return;
   if (changes.closer && session_.state().probe) pages_->setCurrentIndex(1);
-  if (changes.closer) draw();
+  if (changes.answers && session_.study() && !changes.study) pages_->setCurrentWidget(analysis_);
+  if (changes.closer || changes.answers || changes.brushes) draw();
   if (changes.study || changes.layout || changes.look)
     draw();
   else if (changes.shown || (changes.time && !soon_.isActive()))

@@ -51,11 +51,17 @@ void SceneWidget::turn(vtkObject*, unsigned long what, void*) {
   if (stage_->views() == 0) return;
   const double last = stage_->view(0).renderer()->GetLastRenderTimeInSeconds() * stage_->views();
   if (what == vtkCommand::StartInteractionEvent) {
+    begun_at_ = stage_->camera();
     hurry(std::max(last, frame_seconds_));
   } else if (what == vtkCommand::InteractionEvent) {
     hurry(last);
   } else {
-    say_camera();
+    const CameraState::Pose now = stage_->camera();
+    const bool moved = !begun_at_ || now.position != begun_at_->position ||
+                       now.focal_point != begun_at_->focal_point || now.up != begun_at_->up ||
+                       now.view_angle != begun_at_->view_angle;
+    begun_at_.reset();
+    if (moved) say_camera();  // a click alone moves nothing
     if (what == vtkCommand::EndInteractionEvent) rest();
   }
 }
@@ -124,6 +130,11 @@ void SceneWidget::set_cutting(bool on) {
     live_cutting();
 }
 
+void SceneWidget::set_painting(bool on) {
+  painting_ = on;
+  setCursor(on ? Qt::CrossCursor : Qt::ArrowCursor);
+}
+
 void SceneWidget::follow(const Changes& changes) {
   if (!own_ && (changes.cuts || changes.study || changes.shown)) live_.reset();
   const bool seen = changes.study || changes.shown || changes.cuts || changes.time || changes.coloring ||
@@ -149,8 +160,9 @@ bool SceneWidget::event(QEvent* event) {
     auto* mouse = static_cast<QMouseEvent*>(event);
     const auto [x, y] = pixel(*mouse);
     if (mouse->button() == Qt::LeftButton && pick(x, y)) return true;
+    if (mouse->button() == Qt::LeftButton && missed) missed();
   }
-  if (cutting_ && session_.mesh() &&
+  if ((cutting_ || painting_) && session_.mesh() &&
       (type == QEvent::MouseButtonPress || type == QEvent::MouseMove || type == QEvent::MouseButtonRelease)) {
     auto* mouse = static_cast<QMouseEvent*>(event);
     const auto [x, y] = pixel(*mouse);
@@ -189,6 +201,7 @@ bool SceneWidget::press(int x, int y) {
   blade_.clear();
   if (view_ < 0 || !add_point(x, y)) return false;  // outside the skin dragging turns the picture
   keep_camera();
+  pressed_at_ = dragged_to_ = {x, y};
   since_drawn_.start();
   return pressed_ = true;
 }
@@ -209,7 +222,8 @@ bool SceneWidget::add_point(int x, int y) {
 }
 
 void SceneWidget::drag(int x, int y) {
-  if (!add_point(x, y) || blade_.size() < 3) return;
+  dragged_to_ = {x, y};
+  if (!add_point(x, y) || painting_ || blade_.size() < 3) return;
   // The place before the last: smoothing uses both neighbours.
   const CutState cut = smoothed();
   ScalpelPath::Point place = cut.points[cut.points.size() - 2];
@@ -224,7 +238,22 @@ void SceneWidget::release() {
   pressed_ = false;
   if (live_) live_->end_cut();
   show_live(nullptr, nullptr);
-  if (blade_.size() < 2) return;
+  if (blade_.size() < 2) {
+    live_.reset();
+    const double pixels =
+        std::hypot(dragged_to_.first - pressed_at_.first, dragged_to_.second - pressed_at_.second);
+    if (too_short && pixels > coarsest) too_short(stage_->mm_a_pixel(view_) * pixels);
+    return;
+  }
+  if (painting_) {
+    std::string line = "tension-stroke";
+    for (const WoundView::Place& place : blade_) {
+      const auto rounded = [](double mm) { return shortest(std::round(100 * mm) / 100); };
+      const Vec3& p = place.position;
+      line += " " + rounded(p.x) + "," + rounded(p.y) + "," + rounded(p.z);
+    }
+    return static_cast<void>(say_(line));
+  }
   own_ = true;
   const bool cut = say_(cut_line("cut", smoothed()));
   own_ = false;

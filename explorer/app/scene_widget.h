@@ -26,9 +26,14 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   /// Whether pressing and dragging cuts rather than turns the picture.
   void set_cutting(bool on);
   bool cutting() const { return cutting_; }
+  /// Whether pressing and dragging paints a line of the skin's tension.
+  void set_painting(bool on);
   /// The command of a click on the skin of the patch: "probe" or "zoom", with the place; empty: none.
   void set_picking(const std::string& command);
   const std::string& picking() const { return picking_; }
+  /// Called with the mm that the blade has moved over the skin where a drag is too short for a cut.
+  std::function<void(double)> too_short;
+  std::function<void()> missed;  ///< called where such a click is not on the skin
   /// In a motion (turning, scrubbing, sliders, a cut) pictures that take longer than half of this time are
   /// drawn without smoothed edges, and at half the resolution if that is not sufficient. At rest the picture
   /// has full quality again.
@@ -79,8 +84,10 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   Session& session_;
   Say say_;
   std::unique_ptr<Stage> stage_;
-  bool cutting_ = false, pressed_ = false, own_ = false;
+  bool cutting_ = false, painting_ = false, pressed_ = false, own_ = false;
   double depth_ = 0, tilt_ = 0, frame_seconds_ = 0;
+  std::pair<int, int> pressed_at_, dragged_to_;  // pixels, of a drag of the scalpel
+  std::optional<CameraState::Pose> begun_at_;    // the camera when a motion of the mouse began
   std::string picking_;
   double slowest_ = 0.066;
   bool coarse_ = false, smooth_ = true;

@@ -14,6 +14,7 @@ namespace cleft {
 namespace {
 constexpr int time_steps = 10000;  // of the slider, over the whole cut
 constexpr int playback_ms = 16;
+constexpr int least_slider = 110;  // pixels
 
 /// Triangles and bars in the palette's ink, as the style's own icons vanish in the dark. Coordinates 0 to 1.
 QIcon icon(const QColor& ink, const std::vector<QPolygonF>& shapes) {
@@ -66,6 +67,7 @@ TimeBar::TimeBar(Session& session, Say say) : session_(session), say_(std::move(
   speed_->setSuffix(" mm/s");
   speed_->setToolTip("Speed of the blade while playing, mm of cut a second");
 
+  slider_->setMinimumWidth(least_slider);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(6, 2, 6, 2);
   for (QWidget* w : std::initializer_list<QWidget*>{back_, play_, forward_}) row->addWidget(w);
@@ -82,6 +84,27 @@ TimeBar::TimeBar(Session& session, Say say) : session_(session), say_(std::move(
           [this](double value) { say_("speed " + shortest(value)); });
   connect(&clock_, &QTimer::timeout, this,
           [this] { session_.tick(1e-3 * static_cast<double>(since_.restart())); });
+}
+
+/// Without what is left out where there is little room.
+QSize TimeBar::minimumSizeHint() const {
+  const QSize whole = QWidget::minimumSizeHint();
+  const int spacing = layout()->spacing();
+  const auto freed = [&](const QWidget* w) {
+    return w->isVisibleTo(this) ? w->minimumSizeHint().width() + spacing : 0;
+  };
+  return {whole.width() - freed(loop_) - freed(speed_), whole.height()};
+}
+
+/// The slider is needed more than the others.
+void TimeBar::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  int room = width() - TimeBar::minimumSizeHint().width();
+  for (QWidget* w : std::initializer_list<QWidget*>{speed_, loop_}) {
+    const int needed = w->minimumSizeHint().width() + layout()->spacing();
+    w->setVisible(room >= needed);
+    if (room >= needed) room -= needed;
+  }
 }
 
 void TimeBar::paint_icons() {

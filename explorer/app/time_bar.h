@@ -18,6 +18,10 @@ class TimeBar : public QWidget, public Panel {
  public:
   TimeBar(Session& session, Say say);
   void follow(const Changes& changes) override;
+  QSize minimumSizeHint() const override;
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   QToolButton* button(const char* name, const char* tip);

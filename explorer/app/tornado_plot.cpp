@@ -10,7 +10,7 @@ namespace cleft {
 
 TornadoPlot::TornadoPlot(Session& session) : session_(session) {
   setObjectName("tornado");
-  setMinimumHeight(140);
+  setMinimumHeight(100);
   setToolTip(
       "The gape where a parameter has its least (blue) and its greatest value (orange), all others in the "
       "middle, by "

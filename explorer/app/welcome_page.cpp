@@ -31,9 +31,9 @@ void remember_recent(const std::string& path) {
   QSettings("cleft", "explore").setValue(key, QStringList(recent.mid(0, most_recent)));
 }
 
-WelcomePage::WelcomePage(Say say, const std::function<void()>& choose_folder,
-                         const std::function<void()>& choose_file)
-    : say_(std::move(say)) {
+WelcomePage::WelcomePage(std::function<void(const std::string&)> open,
+                         const std::function<void()>& choose_folder, const std::function<void()>& choose_file)
+    : open_(std::move(open)) {
   setObjectName("welcome");
   auto* title = new QLabel(
       "<h1>Cleft</h1><p>Explore studies of simulated cuts, and cut any surface mesh with "
@@ -69,7 +69,7 @@ WelcomePage::WelcomePage(Say say, const std::function<void()>& choose_folder,
   connect(open_study, &QPushButton::clicked, this, [choose_folder] { choose_folder(); });
   connect(open_file, &QPushButton::clicked, this, [choose_file] { choose_file(); });
   connect(recent_, &QListWidget::itemActivated, this,
-          [this](QListWidgetItem* item) { say_("open " + quoted(item->text().toStdString())); });
+          [this](QListWidgetItem* item) { open_(item->text().toStdString()); });
   refresh();
 }
 

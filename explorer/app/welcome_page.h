@@ -3,8 +3,8 @@
 
 #include <QListWidget>
 #include <QWidget>
-
-#include "explorer/app/panel.h"
+#include <functional>
+#include <string>
 
 namespace cleft {
 
@@ -14,11 +14,12 @@ void remember_recent(const std::string& path);
 
 class WelcomePage : public QWidget {
  public:
-  WelcomePage(Say say, const std::function<void()>& choose_folder, const std::function<void()>& choose_file);
+  WelcomePage(std::function<void(const std::string&)> open, const std::function<void()>& choose_folder,
+              const std::function<void()>& choose_file);
   void refresh();
 
  private:
-  Say say_;
+  std::function<void(const std::string&)> open_;
   QListWidget* recent_;
 };
 

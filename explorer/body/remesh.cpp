@@ -11,7 +11,7 @@ namespace cleft {
 
 namespace {
 
-constexpr int rounds = 10;
+constexpr int smoothing_rounds = 10;
 constexpr double longest = 4. / 3, shortest_part = 4. / 5;  // of the wanted length
 constexpr double straight_rim = 0.9;     // cosine of the turn of the outline where a point may go
 constexpr double least_agreement = 0.5;  // of a triangle's normal before and after a change: cosine
@@ -41,7 +41,7 @@ class Remesher {
   }
 
   LinedSurface run() {
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < smoothing_rounds; ++round) {
       collapse_short();
       split_long();
       collapse_short();

@@ -164,8 +164,7 @@ class Locator {
       std::vector<int> sides[2];
       for (const int t : skin) sides[dot(middle(t) - at(v), across) > 0].push_back(t);
       const double share = sides[0].empty() || sides[1].empty() ? 1 : 0.5;
-      for (const int right : {0, 1})
-        add(v, sides[right], skin_, share, places, right ? across : -1. * across);
+      for (const int side : {0, 1}) add(v, sides[side], skin_, share, places, side ? across : -1. * across);
     } else if (!left.empty() || !right.empty()) {  // lips and walls; the bottom is shared by both walls
       const double share = left.empty() || right.empty() || !skin.empty() ? 1 : 0.5;
       const std::size_t had = places.size();

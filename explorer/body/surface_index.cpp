@@ -18,7 +18,7 @@ namespace {
 namespace bg = boost::geometry;
 using Point = bg::model::point<double, 3, bg::cs::cartesian>;
 using Box = bg::model::box<Point>;
-using Entry = std::pair<Box, int>;
+using BoxOfTriangle = std::pair<Box, int>;
 
 constexpr unsigned first_boxes = 16;
 
@@ -44,8 +44,8 @@ struct SurfaceIndex::Tree {
     return {surface.points[a], surface.points[b], surface.points[c]};
   }
 
-  std::vector<Entry> entries() const {
-    std::vector<Entry> list;
+  std::vector<BoxOfTriangle> entries() const {
+    std::vector<BoxOfTriangle> list;
     for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
       const auto [a, b, c] = corners(t);
       list.emplace_back(box_of({a, b, c}), t);
@@ -54,7 +54,7 @@ struct SurfaceIndex::Tree {
   }
 
   SurfaceMesh surface;
-  bg::index::rtree<Entry, bg::index::rstar<16>> boxes;
+  bg::index::rtree<BoxOfTriangle, bg::index::rstar<16>> boxes;
 };
 
 SurfaceIndex::SurfaceIndex(SurfaceMesh surface) : tree_(std::make_unique<Tree>(std::move(surface))) {}
@@ -74,7 +74,7 @@ SurfacePlace SurfaceIndex::nearest_of(const Vec3& x, double reach, const Counts&
     std::size_t looked_at = 0;
     found.clear();
     tree_->boxes.query(bg::index::nearest(point_of(x), most),
-                       boost::make_function_output_iterator([&](const Entry& e) {
+                       boost::make_function_output_iterator([&](const BoxOfTriangle& e) {
                          found.emplace_back(bg::comparable_distance(point_of(x), e.first), e.second);
                        }));
     std::sort(found.begin(), found.end());

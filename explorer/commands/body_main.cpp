@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "explorer/commands/body_options.h"
 #include "explorer/commands/cut_figures.h"
+#include "explorer/commands/mesh_options.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/wound/path_file.h"
@@ -31,7 +32,9 @@ void make(const Options& options) {
   const OutputFile probe(options.out);
   BodyRequest request = options.body.request();
   MeshReport mesh;
-  request.skin = scaled(read_mesh(options.mesh, &mesh), options.scale);
+  request.skin = read_mesh(options.mesh, &mesh);
+  warn_of_size(request.skin, options.scale, nullptr, "cleft body");
+  request.skin = scaled(std::move(request.skin), options.scale);
   request.bone = options.body.read_bone(options.scale, {});
   for (const std::string& file : options.paths) {
     const bool own = read_csv(file).column("depth") >= 0;
@@ -66,9 +69,7 @@ int main(int argc, char** argv) {
   app.add_option("--depth", o.depth, "depth of the cuts, mm [the path's column, else cut.depth]")
       ->check(above(0));
   o.body.add_to(app);
-  app.add_option("--scale", o.scale, "mm per unit of the meshes and paths")
-      ->check(above(0))
-      ->capture_default_str();
+  add_scale(app, o.scale);
   app.add_flag("--json", o.json, "figures as JSON");
   return run_command(app, argc, argv, [&] { make(o); });
 }

@@ -5,6 +5,8 @@
 #include <cstdio>
 
 #include "explorer/incision/triangle_quality.h"
+#include "explorer/wound/mesh_unit.h"
+#include "params/parameters/parameters.h"
 
 namespace cleft {
 
@@ -99,6 +101,12 @@ Json warnings_of(const std::vector<Validity>& validity, const char* command) {
       warnings.push_back(warning);
     }
   return warnings;
+}
+
+void warn_of_size(const SurfaceMesh& mesh, double scale, const Field* field, const char* command) {
+  const double cut_length = field ? field->cut().length : Parameters{}.cut.length;
+  const std::string doubt = doubt_of_size(extent_of(mesh), scale, cut_length);
+  if (!doubt.empty()) std::fprintf(stderr, "%s: warning: --scale: %s\n", command, doubt.c_str());
 }
 
 }  // namespace cleft

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/command/command.h"
+#include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
 #include "explorer/incision/mesh_repair.h"
 #include "explorer/wound/validity.h"
@@ -21,5 +22,9 @@ Json figures_of(const Validity& validity);
 
 /// All warnings, also printed on stderr as those of `command`.
 Json warnings_of(const std::vector<Validity>& validity, const char* command);
+
+/// Warns on stderr where the mesh, at `scale` mm a unit, is not of the size of what the field was simulated
+/// for (null: the default case). Throws InputError where its size is absurd.
+void warn_of_size(const SurfaceMesh& mesh, double scale, const Field* field, const char* command);
 
 }  // namespace cleft

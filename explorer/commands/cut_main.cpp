@@ -14,6 +14,7 @@
 #include "explorer/commands/body_options.h"
 #include "explorer/commands/cut_figures.h"
 #include "explorer/commands/cut_volume.h"
+#include "explorer/commands/mesh_options.h"
 #include "explorer/commands/tension_options.h"
 #include "explorer/incision/local_coordinates.h"
 #include "explorer/io/formats/mesh_formats.h"
@@ -164,6 +165,7 @@ void cut(const Options& options) {
     fields = read_cut_fields(options.field, options.tension.direction, options.tension.prestresses);
   Skin skin(options.mesh);
   const Field* shape = fields ? &fields->shape() : nullptr;
+  warn_of_size(skin.surface, options.scale, shape, "cleft cut");
   const auto made = make_cuts(options, skin, shape);
   const MeshCuts& cuts = *made;
   SurfaceMesh result = cuts.mesh().surface();
@@ -229,7 +231,7 @@ int main(int argc, char** argv) {
                  "vertices that the cuts never move by more than this many micrometres stay where they are")
       ->check(at_least(0))
       ->capture_default_str();
-  app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
+  add_scale(app, o.scale);
   app.add_flag(
          "--simulate", o.simulate,
          "open the cuts as a simulation of this very body says (seconds); with --field, tell how far the "

@@ -1,10 +1,13 @@
 // cleft explore: shows a study, case by case, on its patch or as wounds in a surface mesh.
+#include <array>
 #include <iostream>
+#include <optional>
 
 #include "base/command/command.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "explorer/app/run_window.h"
+#include "explorer/commands/mesh_options.h"
 #include "explorer/session/command_table.h"
 #include "explorer/session/session.h"
 #include "explorer/view/picture.h"
@@ -30,13 +33,8 @@ void add_options(CommandLine& app, Options& o) {
   Option* mesh = app.add_option("--mesh", o.mesh, "A surface mesh to cut instead of the patch");
   Option* path = app.add_option("--path", o.path, "The scalpel's path, CSV: x,y,z,nx,ny,nz[,depth]");
   path->needs(mesh);
-  app.add_option("--scale", o.scale, "mm in a unit of the mesh and the path")
-      ->needs(mesh)
-      ->check(above(0))
-      ->capture_default_str();
-  app.add_option("--bone", o.bone,
-                 "The surface of the bone below the mesh, in its units: of families of fields")
-      ->needs(mesh);
+  add_scale(app, o.scale)->needs(mesh);
+  add_bone(app, o.bone)->needs(mesh);
   app.add_option("--script", o.script, "Do the commands of this file and open no window");
   app.add_option("--state", o.state, "Begin with a saved session: .json, or a .png written here");
   app.add_option("--screenshot", o.screenshot, "Write this PNG and open no window");
@@ -53,7 +51,8 @@ void add_options(CommandLine& app, Options& o) {
   app.add_option("--zoom", o.zoom, "1: everything is in the picture")
       ->check(in_range(0.1, 100.))
       ->capture_default_str();
-  app.add_option("--size", o.size, "WIDTH,HEIGHT in pixels, default 1280,720")
+  app.add_option("--size", o.size,
+                 "WIDTH,HEIGHT in pixels; default: 1280,720, a window as it was closed last")
       ->delimiter(',')
       ->expected(2)
       ->check(in_range(16, 8192));
@@ -83,7 +82,9 @@ void explore(const CommandLine& app, const Options& o) {
   if (!o.script.empty() || !o.screenshot.empty()) return;
   const std::string file = o.device_file.empty() ? "" : " " + quoted(o.device_file);
   const std::string device = o.device.empty() ? "" : "device " + quoted(o.device) + file;
-  run_window(session, o.size[0], o.size[1], device);
+  std::optional<std::array<int, 2>> size;
+  if (app.count("--size")) size = {o.size[0], o.size[1]};
+  run_window(session, size, device);
 }
 
 }  // namespace

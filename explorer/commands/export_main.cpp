@@ -10,6 +10,7 @@
 #include "base/output_folder.h"
 #include "base/text.h"
 #include "encoder/field/file/field_file.h"
+#include "explorer/commands/mesh_options.h"
 #include "explorer/commands/tension_options.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/paraview_file.h"
@@ -333,13 +334,8 @@ int main(int argc, char** argv) {
   auto* path =
       app.add_option("--path", o.paths, "its cut, CSV: x,y,z,nx,ny,nz[,depth]; again for further cuts");
   mesh->needs(path), path->needs(mesh);
-  app.add_option("--scale", o.scale, "mm in a unit of mesh and path")
-      ->needs(mesh)
-      ->check(above(0))
-      ->capture_default_str();
-  app.add_option("--bone", o.bone,
-                 "the surface of the bone below the mesh, in its units: of families of fields")
-      ->needs(mesh);
+  add_scale(app, o.scale)->needs(mesh);
+  add_bone(app, o.bone)->needs(mesh);
   o.tension.add_to(app);
   app.add_option("--times", o.grid.times, "lengths cut in a Cinema database")
       ->check(in_range(2, 1000))

@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
   app.add_option(
          "--where", o.where,
          "like 'gape > 3 and tissue.young_modulus < 0.01': gape (of the lips at a place, mm), t (length "
-         "cut, mm), u (place along the cut, mm), error (%), displacement (largest, mm), and parameters; "
+         "cut, mm), u (place along the cut, mm), error (of the field as it is drawn, %), displacement "
+         "(largest, mm), and parameters; "
          "and or not, < <= > >= = !=, + - * / and brackets")
       ->required();
   app.add_flag("--json", o.json, "as JSON");

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "explorer/commands/body_options.h"
 #include "explorer/commands/cut_figures.h"
+#include "explorer/commands/mesh_options.h"
 #include "explorer/commands/tension_options.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_file.h"
@@ -127,6 +128,7 @@ void haptic(const Options& o) {
   if (fields && !o.bone.empty()) fields = fields->above_bone(distance_to(bone_below(o.bone, o.scale, {})));
   const Field* field = fields ? &fields->shape() : nullptr;
   const SurfaceMesh mesh = read_mesh(o.mesh);
+  warn_of_size(mesh, o.scale, field, "cleft haptic");
   std::optional<ScalpelPath> path;
   if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field);
 
@@ -193,12 +195,12 @@ int main(int argc, char** argv) {
       "--field", o.field,
       "field file case.dffd that opens the cut; or study.dffd of three cases of other prestress, or of a "
       "family");
-  app.add_option("--bone", o.bone, "surface of the bone below the mesh: of a family's fields");
+  add_bone(app, o.bone);
   o.tension.add_to(app);
   app.add_option("--depth", o.depth,
                  "depth of the cut, mm [the path's column, else the field's; without a path the scalpel's]")
       ->check(above(0));
-  app.add_option("--scale", o.scale, "mm per unit of the mesh")->check(above(0))->capture_default_str();
+  add_scale(app, o.scale);
   app.add_option("--seconds", o.seconds, "how long, s [the hand's or the recording's time, else 10]")
       ->check(above(0));
   app.add_option("--snapshot", o.snapshot, "simulation case.h5 whose compliance tells the stiffness");

@@ -1,6 +1,7 @@
 // cleft propose: the cases that a study needs most.
 #include <algorithm>
 #include <boost/random/sobol.hpp>
+#include <boost/random/uniform_01.hpp>
 #include <cmath>
 #include <iostream>
 
@@ -45,8 +46,6 @@ Ranges ranges_of(const Study& study, const FigureModel& model) {
   return ranges;
 }
 
-double unit_fraction(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
-
 double rounded_value(double value, const Range& range) {
   const double unit = std::pow(10., std::floor(std::log10(std::max(std::abs(value), 1e-300)))) * digits;
   const auto [least, greatest] = std::minmax(range.from, range.to);
@@ -57,13 +56,14 @@ double rounded_value(double value, const Range& range) {
 Eigen::MatrixXd candidates_in(const Study& study, const Ranges& ranges) {
   const auto d = static_cast<Eigen::Index>(ranges.list.size());
   boost::random::sobol sequence(ranges.list.size());
+  boost::random::uniform_01<double> unit_fraction;
   Eigen::MatrixXd all(d, candidates_drawn);
   Eigen::Index count = 0;
   for (int i = 0; i < candidates_drawn; ++i) {
     Case one = study.base;
     for (Eigen::Index k = 0; k < d; ++k) {
       const Variation& variation = ranges.list[static_cast<std::size_t>(k)];
-      all(k, count) = rounded_value(variation.range->at(unit_fraction(sequence()), 1), *variation.range);
+      all(k, count) = rounded_value(variation.range->at(unit_fraction(sequence), 1), *variation.range);
       set_parameter(one.parameters, variation.name, all(k, count), study.name);
     }
     try {

@@ -97,6 +97,12 @@ std::vector<WoundScene::Opening> MeshScene::openings(double t) const {
   return all;
 }
 
+std::vector<WoundFigures> MeshScene::wound_figures(double t) const {
+  std::vector<Vec3> moved;
+  positions(t, moved);
+  return cleft::wound_figures(cut_->mesh(), cut_->cuts(), moved);
+}
+
 /// The displacement, or how far the replay is from it. What needs derivatives of a field is not known.
 void MeshScene::simulated_values(const Coloring& coloring, double t, std::vector<double>& out) const {
   std::vector<Vec3> moved(out.size()), replayed = surface_->points;

@@ -34,6 +34,7 @@ class MeshScene : public WoundScene {
               std::vector<double>& out) const override;
   std::vector<Validity> validity() const override;
   std::vector<Opening> openings(double t) const override;
+  std::vector<WoundFigures> wound_figures(double t) const override;
 
  private:
   MeshScene(const MeshScene&) = default;

@@ -9,6 +9,7 @@
 #include "explorer/scene/coloring.h"
 #include "explorer/wound/detail.h"
 #include "explorer/wound/validity.h"
+#include "explorer/wound/wound_figures.h"
 #include "explorer/wound/wound_surface.h"
 
 namespace cleft {
@@ -44,6 +45,7 @@ class WoundScene {
   };
   /// Of each cut in a mesh at t.
   virtual std::vector<Opening> openings(double) const { return {}; }
+  virtual std::vector<WoundFigures> wound_figures(double) const { return {}; }  ///< likewise
 };
 
 }  // namespace cleft

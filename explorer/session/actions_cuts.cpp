@@ -1,6 +1,7 @@
 // The mesh, the cuts in it and the tension of its skin: what they are, undone and redone.
 #include "base/error.h"
 #include "explorer/session/actions.h"
+#include "explorer/wound/mesh_unit.h"
 
 namespace cleft {
 
@@ -59,6 +60,10 @@ void load_mesh(Session& session, const std::string& file, double scale) {
   state.coloring = Coloring::tissue;
   state.zoom.reset(), state.figure.clear();
   state.camera = {};
+  if (const std::string doubt =
+          doubt_of_size(extent_of(*session.mesh()) / scale, scale, session.cut_length_of_fields());
+      !doubt.empty())
+    session.answer("warning: " + doubt + " (command unit)");
   cuts_changed(session);
   session.changes().all();
 }

@@ -30,7 +30,11 @@ BodyRequest request_of(Session& session) {
   request.skin = *session.mesh();
   request.paths = session.cut_paths();
   request.parameters = parameters_of_shown(session);
-  if (const auto& tension = session.state().tension) request.tension = {tension->direction};
+  if (const auto& tension = session.state().tension) {
+    if (tension->lines)
+      throw InputError("simulations take one direction of the tension, not lines (say: tension X,Y,Z L,S)");
+    request.tension = {tension->direction};
+  }
   request.bone = session.opened().bone;
   return request;
 }

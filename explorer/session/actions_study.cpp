@@ -18,6 +18,8 @@ SessionState state_at_first_case(SessionState state, const std::string& path, co
   state.compared.clear();
   state.brushes.clear();
   state.where.clear();
+  state.filtered = false;
+  state.analyzed.clear();
   state.reference = -1;
   state.probe.reset(), state.zoom.reset(), state.figure.clear();
   if (state.coloring == Coloring::difference || state.coloring == Coloring::error)

@@ -5,10 +5,11 @@ namespace cleft {
 
 struct Changes {
   bool study = false, shown = false, cuts = false, time = false, playing = false, coloring = false,
-       camera = false, layout = false, look = false, brushes = false, closer = false, detail = false;
+       camera = false, layout = false, look = false, brushes = false, closer = false, detail = false,
+       answers = false;
   void all() {
     study = shown = cuts = time = playing = coloring = camera = layout = look = brushes = closer = detail =
-        true;
+        answers = true;
   }
 };
 

@@ -87,6 +87,7 @@ const std::vector<CommandGroup>& command_groups() {
                                                 {"View", view_commands()},
                                                 {"Cuts", cut_commands()},
                                                 {"Looking closer", closer_commands()},
+                                                {"Questions to the study", answer_commands()},
                                                 {"Session and output", session_commands()}};
   return groups;
 }

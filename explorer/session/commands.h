@@ -11,5 +11,6 @@ std::span<const Command> view_commands();
 std::span<const Command> cut_commands();
 std::span<const Command> closer_commands();
 std::span<const Command> session_commands();
+std::span<const Command> answer_commands();
 
 }  // namespace cleft

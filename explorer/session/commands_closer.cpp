@@ -63,8 +63,11 @@ void probe(Session& session, CommandWords& words) {
   const Vec3 end = field->displacement(point.uvw, point.side, field->duration());
   session.answer(figures("at the end it has moved by %.3f,%.3f,%.3f mm", end.x, end.y, end.z));
   if (motion.node)
-    session.answer(figures("the simulation's nearest node, %.2f,%.2f,%.2f: the field is off by up to %.2g mm",
-                           motion.node->x, motion.node->y, motion.node->z, furthest(*field, point, motion)));
+    session.answer(
+        figures("the simulation's nearest node, %.2f,%.2f,%.2f, is plotted, %.2g mm from there: the "
+                "field is off by up to %.2g mm",
+                motion.node->x, motion.node->y, motion.node->z, norm(*motion.node - point.uvw),
+                furthest(*field, point, motion)));
   else
     session.answer(session.why_no_raw(session.state().shown));
 }

@@ -1,20 +1,38 @@
 // The mesh and the cuts in it.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "base/output_file.h"
 #include "base/text.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/session/actions.h"
 #include "explorer/session/commands.h"
+#include "explorer/wound/mesh_unit.h"
 #include "haptic/devices/list.h"
 
 namespace cleft {
 
 namespace {
 
+double read_unit(CommandWords& words) {
+  const std::string word = words.text("mm, cm, dm, m, in, or mm in a unit");
+  try {
+    return mm_of_unit(word);
+  } catch (const InputError& e) {
+    words.wrong(e.what());
+  }
+}
+
 void mesh(Session& session, CommandWords& words) {
   const std::string file = words.text("a mesh file");
-  load_mesh(session, file, words.empty() ? 1 : words.number_in("mm per unit", 1e-6, 1e6));
+  load_mesh(session, file, words.empty() ? 1 : read_unit(words));
+}
+
+void unit(Session& session, CommandWords& words) {
+  const double mm = read_unit(words);
+  if (!session.mesh()) throw InputError("there is no mesh whose unit it could be (say: mesh FILE)");
+  load_mesh(session, session.state().mesh, mm);
 }
 
 void bone(Session& session, CommandWords& words) {
@@ -74,15 +92,116 @@ void device(Session& session, CommandWords& words) {
   session.services().device(name, file);
 }
 
+/// Columns x,y,z,dx,dy,dz, in the mesh's units.
+std::shared_ptr<const std::vector<TensionLine>> read_tension_lines(const std::string& file, double scale) {
+  const NumberTable table = read_csv(file);
+  std::vector<TensionLine> lines;
+  for (const char* name : {"x", "y", "z", "dx", "dy", "dz"})
+    if (table.column(name) < 0)
+      throw FileError(file, std::string("has no column ") + name + " (lines of tension: x,y,z,dx,dy,dz)");
+  for (const std::vector<double>& row : table.rows) {
+    const auto at = [&](const char* name) { return row[static_cast<std::size_t>(table.column(name))]; };
+    const Vec3 way{at("dx"), at("dy"), at("dz")};
+    if (!(norm(way) > 0)) throw FileError(file, "a line of tension has no direction: dx = dy = dz = 0");
+    lines.push_back({scale * Vec3{at("x"), at("y"), at("z")}, way});
+  }
+  if (lines.empty()) throw FileError(file, "has no line of tension");
+  return std::make_shared<const std::vector<TensionLine>>(std::move(lines));
+}
+
 void tension(Session& session, CommandWords& words) {
-  const std::string first = words.text("a direction, or none");
+  const std::string first = words.text("a direction, a file of lines, or none");
   if (first == "none") return set_tension(session, std::nullopt);
-  CommandWords direction("tension", "X,Y,Z", {first});
-  const std::vector<double> x = direction.numbers("a direction", 3, 3),
-                            p = words.numbers("the larger and the smaller prestress", 2, 2);
-  if (!(std::hypot(x[0], x[1], x[2]) > 0)) words.wrong("the direction of a tension has a length");
+  SkinTension tension;
+  if (first.ends_with(".csv")) {
+    tension.lines = read_tension_lines(first, session.state().scale);
+    tension.direction = tension.lines->front().direction;
+  } else {
+    CommandWords direction("tension", "X,Y,Z", {first});
+    const std::vector<double> x = direction.numbers("a direction", 3, 3);
+    if (!(std::hypot(x[0], x[1], x[2]) > 0)) words.wrong("the direction of a tension has a length");
+    tension.direction = {x[0], x[1], x[2]};
+  }
+  const std::vector<double> p = words.numbers("the larger and the smaller prestress", 2, 2);
   if (!(std::min(p[0], p[1]) >= 0)) words.wrong("a prestress is not below 0 MPa");
-  set_tension(session, SkinTension{{x[0], x[1], x[2]}, std::max(p[0], p[1]), std::min(p[0], p[1])});
+  tension.larger = std::max(p[0], p[1]), tension.smaller = std::min(p[0], p[1]);
+  set_tension(session, tension);
+}
+
+/// The first stroke takes the prestresses of the shown case.
+void paint_tension(Session& session, CommandWords& words) {
+  std::vector<Vec3> places;
+  while (!words.empty()) {
+    const std::vector<double> x = words.numbers("a place", 3, 3);
+    places.push_back({x[0], x[1], x[2]});
+  }
+  SkinTension tension;
+  if (session.state().tension) {
+    tension = *session.state().tension;
+  } else {
+    const Prestress of_case = prestress_of(session.open_study().parameters(session.state().shown));
+    tension.larger = std::max(of_case.uu, of_case.vv), tension.smaller = std::min(of_case.uu, of_case.vv);
+  }
+  std::vector<TensionLine> lines;
+  if (tension.lines) lines = *tension.lines;
+  const std::size_t before = lines.size();
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (const Vec3 way = places[i] - places[i - 1]; norm(way) > 0)
+      lines.push_back({0.5 * (places[i] + places[i - 1]), way});
+  if (lines.size() == before) words.wrong("a stroke has two places");
+  tension.direction = lines.front().direction;
+  tension.lines = std::make_shared<const std::vector<TensionLine>>(std::move(lines));
+  set_tension(session, tension);
+}
+
+std::string rounded(const char* format, auto... values) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+/// ", 0.5 mm more or less"; empty where the error is not known.
+std::string uncertainty(const std::vector<Validity>& validity, std::size_t i, double widest) {
+  return i < validity.size() ? rounded(" +- %.2g", validity[i].expected_error.largest * widest) : "";
+}
+
+void wounds(Session& session, CommandWords& words) {
+  const std::string file = words.empty() ? "" : words.text("a file .csv");
+  words.expect_end();
+  if (!session.mesh() || session.state().cuts.empty()) throw InputError("there is no cut yet (say: cut ...)");
+  const std::vector<WoundFigures> all = session.scene()->wound_figures(session.state().time);
+  const std::vector<Validity>& validity = session.validity();
+  std::string csv = "cut,length,depth,opening,opening_error,opening_at,area,volume\n";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const WoundFigures& f = all[i];
+    session.answer(
+        rounded("cut %zu: %.1f mm long, %.2g mm deep; opens by up to %.2f", i + 1, f.length, f.depth,
+                f.widest) +
+        uncertainty(validity, i, f.widest) +
+        rounded(" mm, at %.1f mm; %.3g mm2 between its lips, %.3g mm3 between its walls", f.widest_at, f.area,
+                f.volume) +
+        (i < validity.size() ? "; mostly uncertain because " + validity[i].expected_error.cause : ""));
+    const double error = i < validity.size() ? validity[i].expected_error.largest * f.widest : std::nan("");
+    csv += std::to_string(i + 1);
+    for (const double value : {f.length, f.depth, f.widest, error, f.widest_at, f.area, f.volume})
+      csv += "," + (std::isfinite(value) ? shortest(value) : std::string());
+    csv += "\n";
+  }
+  if (!file.empty()) write_text_file(file, csv);
+}
+
+void look_at_wound(Session& session, CommandWords& words) {
+  const int count = static_cast<int>(session.state().cuts.size());
+  if (!session.mesh() || count == 0) throw InputError("there is no cut yet (say: cut ...)");
+  const ScalpelPath path =
+      session.cut_paths()[static_cast<std::size_t>(words.whole("the cut", 1, count) - 1)];
+  const PathFrame middle = path.at(path.length() / 2);
+  constexpr double view_angle = 24, room = 1.4;
+  const double distance = room * path.length() / 2 / std::tan(view_angle / 2 * M_PI / 180);
+  const Vec3 up = std::abs(middle.outward.y) < 0.9 ? Vec3{0, 1, 0} : middle.along;
+  session.edit().camera.pose =
+      CameraState::Pose{middle.position + distance * middle.outward, middle.position, up, view_angle};
+  session.changes().camera = true;
 }
 
 void simulate(Session& session, CommandWords& words) { simulate_cuts(session, words.on_or_off()); }
@@ -105,8 +224,13 @@ void export_mesh(Session& session, CommandWords& words) {
 
 std::span<const Command> cut_commands() {
   static const std::vector<Command> commands{
-      {"mesh", "FILE [MM_PER_UNIT]",
-       "a surface mesh to cut: " + mesh_endings(MeshKind::surface, MeshUse::read), mesh},
+      {"mesh", "FILE [mm|cm|dm|m|in|MM_PER_UNIT]",
+       "a surface mesh to cut, and its unit [mm]: " + mesh_endings(MeshKind::surface, MeshUse::read), mesh},
+      {"unit", "mm|cm|dm|m|in|MM_PER_UNIT", "read the mesh again, in this unit, without cuts", unit},
+      {"wounds", "[FILE.csv]",
+       "length, depth, opening with its expected error, area and volume of each cut, and why it is uncertain",
+       wounds, Command::none},
+      {"wound", "N", "look at cut N", look_at_wound},
       {"bone", "FILE | none",
        "the surface of the bone below the mesh, in the mesh's units: families of fields open cuts by it",
        bone},
@@ -118,8 +242,13 @@ std::span<const Command> cut_commands() {
        cut_file},
       {"device", "NAME [FILE] | off",
        "cut with a haptic device: " + device_usages() + ", or the name of a plug-in", device, Command::none},
-      {"tension", "X,Y,Z LARGER,SMALLER | none",
-       "the skin's larger tension and its direction, prestresses in MPa: cuts turn against it", tension},
+      {"tension", "X,Y,Z|LINES.csv LARGER,SMALLER | none",
+       "the skin's tension, prestresses in MPa, and the direction of the larger, or lines x,y,z,dx,dy,dz of "
+       "it: "
+       "cuts turn against it",
+       tension},
+      {"tension-stroke", "X,Y,Z X,Y,Z ...",
+       "a line of the larger tension over the skin, besides those before", paint_tension},
       {"simulate", "on | off",
        "simulate the cuts in this very mesh, each time that they change, and show them so", simulate},
       {"undo", "", "take the last cut or tension back", undo},

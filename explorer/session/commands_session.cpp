@@ -84,6 +84,13 @@ std::string told_detail(const Session& session, const WoundScene& scene) {
   return text + (some ? told(*some->left_out()) : "no vertices are moved by cuts in a mesh");
 }
 
+/// To what matters of a figure.
+std::string rounded(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
 void info(Session& session, CommandWords&) {
   const SessionState& s = session.state();
   const auto scene = session.scene();
@@ -94,10 +101,12 @@ void info(Session& session, CommandWords&) {
                              std::to_string(session.study()->size()) + ": " + session.study()->name(s.shown));
     if (!session.why_nearest().empty()) session.answer("the nearest case: " + session.why_nearest());
     session.answer((session.between() ? std::string("estimated") : std::string("largest")) +
-                   " error of the field: " + shortest(100 * field->report.node_error) +
-                   " % of the largest displacement, " + shortest(field->report.largest_displacement) + " mm");
+                   " error of what is drawn: " + rounded(100 * field->report.spline_error) +
+                   " % of the largest displacement, " + rounded(field->report.largest_displacement) + " mm");
+    const std::optional<double> error = error_of_gape(*field);
     session.answer("widest gape at " + shortest(s.time) +
-                   " mm cut: " + shortest(widest_gape(*field, std::min(s.time, field->duration()))) + " mm");
+                   " mm cut: " + rounded(widest_gape(*field, std::min(s.time, field->duration()))) + " mm" +
+                   (error ? ", off by at most " + rounded(*error) + " mm" : ""));
   }
   if (!s.mesh.empty()) session.answer("mesh: " + s.mesh + ", cuts: " + std::to_string(s.cuts.size()));
   session.answer("length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");

@@ -112,6 +112,22 @@ void find(Session& session, CommandWords& words) {
   session.answer(std::to_string(count) + " of " + std::to_string(session.study()->size()) + " cases");
 }
 
+/// Where `find` has found something: the case, and the length cut at its widest gape.
+void found(Session& session, CommandWords& words) {
+  const int i = read_case(session, words);
+  if (session.state().where.empty()) words.wrong("nothing has been looked for (say: find CONDITION)");
+  const std::optional<Finding>& finding = session.finding(i);
+  if (!finding) words.wrong("'" + session.state().where + "' holds nowhere in case " + std::to_string(i + 1));
+  show_case(session, i);
+  set_time(session, finding->best_t);
+}
+
+void filter(Session& session, CommandWords& words) {
+  session.open_study();
+  session.edit().filtered = words.on_or_off();
+  session.changes().brushes = true;
+}
+
 }  // namespace
 
 std::span<const Command> study_commands() {
@@ -129,6 +145,8 @@ std::span<const Command> study_commands() {
        Command::latest},
       {"find", "CONDITION | clear", "cases where it holds, like: gape > 3 and tissue.young_modulus < 0.01",
        find, Command::latest},
+      {"found", "N", "show case N where `find` has found something, at its widest gape", found},
+      {"filter", "on|off", "leave the cases that are faded out of lists", filter},
       {"compare", "N N [N [N]]", "show two to four cases side by side", compare},
       {"single", "", "show one case again", single},
       {"difference", "N", "colour by the difference from case N", difference},

@@ -29,7 +29,11 @@ void range(Session& session, CommandWords& words) {
 void camera(Session& session, CommandWords& words) {
   CameraState& camera = session.edit().camera;
   camera = {words.number_in("the azimuth", -360, 360), words.number_in("the elevation", -360, 360),
-            words.empty() ? 1 : words.number_in("the zoom", 0.1, 100), std::nullopt};
+            words.empty() ? 1 : words.number_in("the zoom", 0.1, 100), std::nullopt, std::nullopt};
+  if (session.mesh() && !session.state().cuts.empty()) {
+    const WoundSurface& surface = session.scene()->surface();
+    camera.frame = CameraState::Frame{surface.middle, surface.outward, surface.along};
+  }
   session.changes().camera = true;
 }
 
@@ -79,7 +83,8 @@ std::span<const Command> view_commands() {
   static const std::vector<Command> commands{
       {"color", names, "what the surface is coloured by; of imported data also QUANTITY, by its name", color},
       {"range", "LOW HIGH | auto", "of the colours; auto: from 0 to the largest of all times", range},
-      {"camera", "AZIMUTH ELEVATION [ZOOM]", "degrees from the cut's normal; at zoom 1 all is seen", camera,
+      {"camera", "AZIMUTH ELEVATION [ZOOM]",
+       "degrees from the normal of the first cut at this moment; at zoom 1 all is seen", camera,
        Command::latest},
       {"look", "X,Y,Z FX,FY,FZ UX,UY,UZ [ANGLE]", "camera, the place it looks at, up, view angle", look,
        Command::latest},

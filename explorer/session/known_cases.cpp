@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "params/run/study_index.h"
 
 namespace cleft {
@@ -78,6 +79,38 @@ std::shared_ptr<const FamilyFields> KnownCases::family() {
   if (!family_ && Family::describes(study_.varying()))
     family_ = std::make_shared<const FamilyFields>(std::make_shared<const Family>(study_.path()));
   return family_;
+}
+
+const StudyAnalysis& KnownCases::analysis(const std::string& figure, const LookMeanwhile& look) {
+  const auto found = analyses_.find(figure);
+  return found != analyses_.end()
+             ? found->second
+             : analyses_.emplace(figure, analyze_study(study_.path(), figure, look)).first->second;
+}
+
+const StudyAnalysis* KnownCases::known_analysis(const std::string& figure) const {
+  const auto found = analyses_.find(figure);
+  return found == analyses_.end() ? nullptr : &found->second;
+}
+
+const StudyFit& KnownCases::fit(const std::string& measurements, double deviation,
+                                const LookMeanwhile& look) {
+  fit_ = fit_study(study_.path(), measurements, deviation, look);
+  return *fit_;
+}
+
+std::shared_ptr<const PrestressFields> KnownCases::prestress_fields(int i) {
+  const std::vector<std::string>& varying = study_.varying();
+  const auto is_prestress = [](const std::string& name) { return name.starts_with("skin.prestress_"); };
+  if (std::none_of(varying.begin(), varying.end(), is_prestress)) return nullptr;
+  const auto found = prestress_fields_.find(i);
+  if (found != prestress_fields_.end()) return found->second;
+  std::shared_ptr<const PrestressFields> fields;
+  try {
+    fields = std::make_shared<const PrestressFields>(study_, i);
+  } catch (const InputError&) {  // no three cases, which nobody has asked for
+  }
+  return prestress_fields_[i] = fields;
 }
 
 std::vector<std::string> KnownCases::notices() const {

@@ -9,11 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "explorer/session/study_answers.h"
 #include "explorer/study/case_figures.h"
 #include "explorer/study/find.h"
 #include "explorer/study/raw_case.h"
 #include "explorer/study/study.h"
 #include "explorer/wound/family_fields.h"
+#include "explorer/wound/prestress_fields.h"
 
 namespace cleft {
 
@@ -35,6 +37,18 @@ class KnownCases {
   /// first time.
   std::shared_ptr<const FamilyFields> family();
 
+  /// The analysis of a figure; made the first time.
+  const StudyAnalysis& analysis(const std::string& figure, const LookMeanwhile& look);
+  /// The same if it has been made; else null.
+  const StudyAnalysis* known_analysis(const std::string& figure) const;
+  /// Fits the study to measurements, anew each time, as their file may have changed.
+  const StudyFit& fit(const std::string& measurements, double deviation, const LookMeanwhile& look);
+  const std::optional<StudyFit>& last_fit() const { return fit_; }
+
+  /// The fields of three cases that differ from case i in the skin's prestress alone; null where there are no
+  /// three with independent ones. Reads them the first time.
+  std::shared_ptr<const PrestressFields> prestress_fields(int i);
+
   /// The parameters in which the cases differ, then the figures.
   std::vector<std::string> column_names() const;
   /// NaN if case i has no such parameter.
@@ -54,6 +68,9 @@ class KnownCases {
   std::map<std::string, std::map<int, std::optional<Finding>>> findings_;  // by condition
   std::map<int, std::shared_ptr<const RawCase>> raws_;
   std::shared_ptr<const FamilyFields> family_;
+  std::map<std::string, StudyAnalysis> analyses_;
+  std::optional<StudyFit> fit_;
+  std::map<int, std::shared_ptr<const PrestressFields>> prestress_fields_;
 };
 
 }  // namespace cleft

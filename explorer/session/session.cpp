@@ -1,13 +1,29 @@
 #include "explorer/session/session.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "explorer/session/actions.h"
 #include "explorer/session/command_table.h"
 
 namespace cleft {
+
+namespace {
+
+/// The error that is being handled; those of the file system as InputErrors, so that scripts add the place.
+[[noreturn]] void tell_as_input_error() {
+  try {
+    throw;
+  } catch (const std::filesystem::filesystem_error& e) {
+    if (is_users_mistake(e)) throw InputError(message_of(e));
+    throw;
+  }
+}
+
+}  // namespace
 
 void Session::say(const std::string& line) {
   const std::vector<std::string> words = split_line(line);
@@ -23,7 +39,7 @@ void Session::say(const std::string& line) {
   } catch (...) {
     opened_ = before;
     busy_ = false;
-    throw;
+    tell_as_input_error();
   }
   busy_ = false;
   if (command.recorded != Command::none) {
@@ -65,6 +81,7 @@ void Session::judge_cuts() {
   if (!changes_.cuts && !changes_.shown && !changes_.study) return;
   const std::vector<std::string> before = warnings();
   opened_.validity = has_scene() ? scene()->validity() : std::vector<Validity>{};
+  if (!warns_) return;
   for (const std::string& warning : warnings())
     if (std::find(before.begin(), before.end(), warning) == before.end()) answer("warning: " + warning);
 }

@@ -56,6 +56,7 @@ class Session {
   std::shared_ptr<const Field> reference();  ///< of colours by difference; null where none is chosen
   double duration();                         ///< t of the end, of the longest view
   double depth_of_case(int i);               ///< mm, of cuts without their own depth
+  double cut_length_of_fields();             ///< mm: of the shown case's cut, by which meshes are judged
   /// The cuts' paths, with the depth of the shown case if they have none.
   std::vector<ScalpelPath> cut_paths() { return cut_paths(depth_of_case(state().shown)); }
   std::shared_ptr<const CutSurface> shown_cut_surface() { return cut_surface(depth_of_case(state().shown)); }
@@ -66,11 +67,16 @@ class Session {
   /// A note on the view of case i: the estimated error of an interpolation, or that no error is known.
   /// Usually empty.
   std::string note_of(int i) const;
+  /// Whether what the view of case i shows is a guess: parameters outside the study, or, in the colours
+  /// of tissue, an opening in a mesh whose expected error is above `greatest_known_error`. It is drawn faded.
+  bool is_guess(int i) const;
+  static constexpr double greatest_known_error = 0.3;  ///< over the largest opening
   /// Of each cut of the shown case in a mesh what is known of its opening's error; empty where no field opens
   /// them.
   const std::vector<Validity>& validity() const { return opened_.validity; }
-  /// Their warnings. A line that causes a new one is answered with it.
+  /// Their warnings. A line that causes a new one is answered with it, unless warnings are told elsewhere.
   std::vector<std::string> warnings() const;
+  void tell_warnings_elsewhere() { warns_ = false; }
   /// Views report the vertices that their pictures leave out.
   void see(const std::optional<DetailSeen>& detail) { opened_.seen = detail; }
   const std::optional<DetailSeen>& seen() const { return opened_.seen; }
@@ -99,7 +105,9 @@ class Session {
   std::string why_no_raw(int i) const;           ///< empty if case i's simulation can be read
   std::shared_ptr<const RawCase> raw_of(int i);  ///< throws InputError with that reason
   Motion probed_motion();                        ///< throws InputError if nothing is probed
-  Tornado tornado();                             ///< of the gape, over all cases
+  /// Where the probe's curves are from: the simulation's nearest node, if it was kept, else the place asked.
+  Vec3 probed_place();
+  Tornado tornado();  ///< of the gape, over all cases
   const CaseFigures& figures(int i) { return cases().figures(i); }
   bool knows_figures(int i) const { return opened_.cases && opened_.cases->knows_figures(i); }
   std::vector<std::string> column_names() const { return cases().column_names(); }
@@ -130,10 +138,12 @@ class Session {
 
   std::shared_ptr<const CutSurface> cut_surface(double depth);
   Overlay make_overlay();
+  std::optional<CutFields> turning_fields(int i);
+  bool is_outside() const;
 
   SessionServices services_;
   Opened opened_;
-  bool beside_ = false, busy_ = false;
+  bool beside_ = false, busy_ = false, warns_ = true;
   std::vector<std::string> said_;
   std::vector<Listener> listeners_;
   Changes changes_;

@@ -31,6 +31,14 @@ std::shared_ptr<const RawCase> Session::raw_of(int i) {
   return cases().raw(i);
 }
 
+Vec3 Session::probed_place() {
+  const auto& [uvw, side] = state().probe.value();
+  if (!why_no_raw(state().shown).empty()) return uvw;
+  const auto raw = raw_of(state().shown);
+  const int node = raw->nearest_node(uvw, side);
+  return node < 0 ? uvw : raw->snapshot().points[static_cast<std::size_t>(node)];
+}
+
 Motion Session::probed_motion() {
   if (!state().probe) throw InputError("no point is probed (say: probe U,V,W)");
   const auto field = this->field();
@@ -63,10 +71,17 @@ Overlay Session::make_overlay() {
     if (s.figure == "lattice") overlay = lattice_at(*field(), t);
     if (s.zoom) overlay = nodes_around(*raw_of(s.shown), s.zoom->place, s.zoom->radius, t);
     if (s.probe) {
-      const auto& [uvw, side] = *s.probe;
-      overlay.dots.push_back({uvw + field()->displacement(uvw, side, t), {0.8, 0, 0.5}});
+      const Vec3 place = probed_place();
+      overlay.dots.push_back({place + field()->displacement(place, s.probe->side, t), {0.8, 0, 0.5}});
     }
   }
+  if (mesh() && s.tension && s.tension->lines)
+    for (const auto& [place, way] : *s.tension->lines) {
+      constexpr double least = 2;  // mm, to be seen
+      const Vec3 half = std::max(norm(way), least) / 2 * normalized(way);
+      overlay.lines.push_back({{place - half, place + half}, {0.0, 0.45, 0.7}});
+      overlay.in_front = true;
+    }
   return overlay;
 }
 

@@ -98,6 +98,11 @@ double Session::depth_of_case(int i) {
   return study() ? field_of(i)->cut().depth : depth_without_study;
 }
 
+double Session::cut_length_of_fields() {
+  static const double usual = Parameters{}.cut.length;
+  return study() ? field_of(state().shown)->cut().length : usual;
+}
+
 std::vector<ScalpelPath> Session::cut_paths(double depth) const {
   std::vector<ScalpelPath> paths;
   for (CutState cut : state().cuts) {
@@ -126,21 +131,44 @@ std::optional<CutFields> Session::cut_fields(int i) {
                      "--break)");
   const auto fields = [&]() -> CutFields {
     if (const auto family = opened_.cases->family()) return {family, state().tension};
+    if (const auto turning = turning_fields(i)) return *turning;
     if (!state().tension) return CutFields(field_of(i));
     return {std::make_shared<const PrestressFields>(*study(), i), state().tension};
   }();
   return opened_.bone ? fields.above_bone(distance_to(opened_.bone)) : fields;
 }
 
+/// Where the study has three cases that differ in their prestress alone, the tension of the shown case, as it
+/// is along and across the first cut, turns against every cut, even if no tension has been said.
+std::optional<CutFields> Session::turning_fields(int i) {
+  if (state().tension || state().cuts.empty() || (between() && i == state().shown)) return std::nullopt;
+  const auto three = opened_.cases->prestress_fields(i);
+  if (!three) return std::nullopt;
+  const Prestress sigma = prestress_of(study()->parameters(i));
+  if (sigma.uv != 0) return std::nullopt;  // the fields of the case know no other direction
+  const ScalpelPath path = cut_paths(depth_of_case(i)).front();
+  const Vec3 chord = path.at(path.length()).position - path.at(0).position;
+  if (norm(chord) < 0.5 * path.length()) return std::nullopt;  // it has no direction
+  return CutFields(three, SkinTension{chord, sigma.uu, sigma.vv});
+}
+
 std::string Session::title_of(int i) const {
   if (!study()) return "";
   if (mesh() && opened_.cases->family())
     return "family of " + std::to_string(study()->size()) + " cases: each place opens by its own shape";
-  if (!between() || i != state().shown) return "case " + std::to_string(i + 1) + ": " + study()->name(i);
-  std::string title = "between cases:";
-  for (const std::string& name : study()->varying())
-    if (const auto found = state().parameters.find(name); found != state().parameters.end())
-      title += " " + name + "=" + shortest_of(found->second, 4);
+  const bool interpolated = between() && i == state().shown;
+  std::string title = !interpolated                           ? "case " + std::to_string(i + 1) + ":"
+                      : between()->interpolation->outside > 0 ? "outside the cases:"
+                                                              : "between cases:";
+  const std::vector<std::string>& varying = study()->varying();
+  if (!interpolated && varying.empty()) return title + " " + study()->name(i);
+  for (const std::string& name : varying) {
+    const auto requested = state().parameters.find(name);
+    if (interpolated && requested != state().parameters.end())
+      title += " " + name + "=" + shortest_of(requested->second, 4);
+    else if (const auto value = study()->parameters(i).number(name); value && !interpolated)
+      title += " " + name + "=" + shortest_of(*value, 4);
+  }
   return title;
 }
 
@@ -148,6 +176,7 @@ std::string Session::note_of(int i) const {
   std::string note;
   if (between() && i == state().shown && !(mesh() && opened_.cases->family()))
     note = "interpolated, " + error_of_interpolation(*between());
+  if (i == state().shown && !why_nearest().empty()) note = "the nearest case: " + why_nearest();
   if (i == state().shown && !simulation_note().empty())
     note += (note.empty() ? "" : "; ") + simulation_note();
   if (i == state().shown && !validity().empty())
@@ -157,6 +186,26 @@ std::string Session::note_of(int i) const {
   if (state().coloring == Coloring::error && !mesh() && !is_own && !why_no_raw(i).empty())
     note += (note.empty() ? "" : "; ") + std::string("without raw frames: no error is known");
   return note;
+}
+
+bool Session::is_outside() const {
+  if (between()) return between()->interpolation->outside > 0;
+  if (!study() || shows_exactly()) return false;
+  const auto ranges = cases().parameter_ranges();
+  return std::any_of(state().parameters.begin(), state().parameters.end(), [&](const auto& requested) {
+    const auto range = ranges.find(requested.first);
+    return range != ranges.end() &&
+           (requested.second < range->second.first || requested.second > range->second.second);
+  });
+}
+
+bool Session::is_guess(int i) const {
+  if (i != state().shown) return false;
+  const auto beyond = [](const Validity& v) { return v.expected_error.largest > greatest_known_error; };
+  if (is_outside()) return true;
+  const bool as_it_looks =
+      state().coloring == Coloring::tissue;  // colours of values are read as pages show them
+  return as_it_looks && std::any_of(validity().begin(), validity().end(), beyond);
 }
 
 bool Session::shows_exactly() const {

@@ -51,18 +51,34 @@ Json to_json(const CameraState& camera) {
                  {"focal_point", to_json(camera.pose->focal_point)},
                  {"up", to_json(camera.pose->up)},
                  {"view_angle", camera.pose->view_angle}};
+  if (camera.frame)
+    j["frame"] = {{"middle", to_json(camera.frame->middle)},
+                  {"outward", to_json(camera.frame->outward)},
+                  {"along", to_json(camera.frame->along)}};
   return j;
 }
 
 Json to_json(const std::optional<SkinTension>& tension) {
   if (!tension) return nullptr;
-  return {
+  Json j{
       {"direction", to_json(tension->direction)}, {"larger", tension->larger}, {"smaller", tension->smaller}};
+  if (tension->lines)
+    for (const auto& [place, way] : *tension->lines)
+      j["lines"].push_back({place.x, place.y, place.z, way.x, way.y, way.z});
+  return j;
 }
 
 std::optional<SkinTension> to_tension(const Json& j) {
   if (j.is_null()) return std::nullopt;
-  return SkinTension{to_vec3(j.at("direction")), j.at("larger"), j.at("smaller")};
+  SkinTension tension{to_vec3(j.at("direction")), j.at("larger"), j.at("smaller")};
+  if (j.contains("lines")) {
+    std::vector<TensionLine> lines;
+    for (const Json& one : j.at("lines"))
+      lines.push_back(
+          {to_vec3(one), {one.at(3).get<double>(), one.at(4).get<double>(), one.at(5).get<double>()}});
+    tension.lines = std::make_shared<const std::vector<TensionLine>>(std::move(lines));
+  }
+  return tension;
 }
 
 Json to_json(const std::vector<TensionChange>& changes) {
@@ -78,7 +94,12 @@ std::vector<TensionChange> to_changes(const Json& list) {
 }
 
 CameraState to_camera(const Json& j) {
-  CameraState camera{j.at("azimuth"), j.at("elevation"), j.at("zoom"), std::nullopt};
+  CameraState camera{j.at("azimuth"), j.at("elevation"), j.at("zoom"), std::nullopt, std::nullopt};
+  if (j.contains("frame")) {
+    const Json& frame = j.at("frame");
+    camera.frame = CameraState::Frame{to_vec3(frame.at("middle")), to_vec3(frame.at("outward")),
+                                      to_vec3(frame.at("along"))};
+  }
   if (j.contains("pose")) {
     const Json& pose = j.at("pose");
     camera.pose = CameraState::Pose{to_vec3(pose.at("position")), to_vec3(pose.at("focal_point")),
@@ -118,6 +139,8 @@ SessionState to_state(const Json& j) {
         ProbeState{to_vec3(j["probe"].at("place")), static_cast<Side>(j["probe"].at("side").get<int>())};
   if (j.contains("zoom")) s.zoom = ZoomState{to_vec3(j["zoom"].at("place")), j["zoom"].at("radius")};
   s.figure = j.value("figure", "");
+  s.filtered = j.value("filtered", false);
+  s.analyzed = j.value("analyzed", "");
   s.simulate = j.value("simulate", false);
   if (j.contains("detail")) s.detail = detail_of(j["detail"].get<std::string>());
   return s;
@@ -169,6 +192,8 @@ std::string state_to_json(const SessionState& s) {
   if (s.probe) j["probe"] = {{"place", to_json(s.probe->uvw)}, {"side", static_cast<int>(s.probe->side)}};
   if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
   if (!s.figure.empty()) j["figure"] = s.figure;
+  if (s.filtered) j["filtered"] = true;
+  if (!s.analyzed.empty()) j["analyzed"] = s.analyzed;
   if (s.simulate) j["simulate"] = true;
   if (s.detail) j["detail"] = text_of(*s.detail);
   return j.dump(1) + "\n";

@@ -24,6 +24,13 @@ struct CameraState {
     double view_angle = 24;  ///< degrees
   };
   std::optional<Pose> pose;
+  /// What the angles count from: the place looked at, its normal, and the direction along the cut.
+  struct Frame {
+    Vec3 middle, outward, along;
+  };
+  /// In a mesh that of the cut at which the angles were said, so that further cuts do not turn the picture;
+  /// none: of the first cut.
+  std::optional<Frame> frame;
 };
 
 struct CutState {
@@ -74,6 +81,8 @@ struct SessionState {
   /// Cases outside these ranges of parameters and figures are faded.
   std::map<std::string, std::pair<double, double>> brushes;
   std::string where;          ///< cases in which this condition holds nowhere are faded too; empty: none
+  std::string analyzed;       ///< figure whose analysis is shown; empty: none
+  bool filtered = false;      ///< whether lists leave out the cases that are faded
   std::vector<int> compared;  ///< two to four cases side by side; empty: one view
   CameraState camera;
   std::optional<ProbeState> probe;

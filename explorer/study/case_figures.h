@@ -13,8 +13,11 @@ namespace cleft {
 struct CaseFigures {
   double gape = 0;                  ///< widest opening of the complete cut
   double largest_displacement = 0;  ///< from the closed frame
-  double node_error = 0;            ///< of the field, over largest_displacement
+  /// Largest error of the spline, which is drawn, at any node and frame, over largest_displacement; that of
+  /// the field's file together with its residual (FitReport::node_error) is less.
+  double error = 0;
   double cut_length = 0, cut_depth = 0;
+  double gape_error = 0;  ///< of the fit, or as interpolation estimates it; NaN where it is not known
 };
 CaseFigures case_figures(const Field& field);
 
@@ -24,6 +27,9 @@ double gape(const Field& field, double u, double t);
 /// The largest error of an opening of the lips, mm: of the field's fit, or as interpolation estimates it of
 /// either lip; none if it is not known.
 std::optional<double> error_of_gape(const Field& field);
+
+/// The largest error of a displacement as it is drawn, mm; none if it is not known.
+std::optional<double> error_of_displacement(const Field& field);
 
 /// Widest opening of the lips when t is cut.
 double widest_gape(const Field& field, double t);

@@ -26,7 +26,7 @@ const std::vector<std::string>& names() {
 
 std::vector<double> values_of(const Field& field) {
   std::vector<double> values(names().size(), std::nan(""));
-  values[error_name] = 100 * field.report.node_error;
+  values[error_name] = 100 * field.report.spline_error;
   values[displacement_name] = field.report.largest_displacement;
   for (std::size_t i = displacement_name + 1; i < values.size(); ++i)
     values[i] = field.parameters.number(names()[i]).value_or(std::nan(""));

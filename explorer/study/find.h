@@ -1,7 +1,7 @@
 // The cases of a study that fulfil a condition, the lengths cut, and the places along the cut.
 //
 // Names: gape (opening of the lips at a place, mm), t (length cut, mm), u (the place along the cut, mm),
-// error (of the field, %), displacement (largest of the case, mm), and all numeric parameters.
+// error (of the field as it is drawn, %), displacement (largest of the case, mm), and all numeric parameters.
 #pragma once
 
 #include <map>

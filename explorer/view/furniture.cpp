@@ -37,7 +37,7 @@ double round_length(double most) {
 
 Furniture::Furniture(vtkRenderWindow* window, vtkRenderer* renderer) : window_(window), renderer_(renderer) {
   set_up(title_, 13), set_up(time_, 13), set_up(length_, 12);
-  time_->GetTextProperty()->SetLineSpacing(1.5);
+  for (vtkTextActor* text : {title_.Get(), time_.Get()}) text->GetTextProperty()->SetLineSpacing(1.5);
   title_->GetTextProperty()->SetVerticalJustificationToTop();
   time_->GetTextProperty()->SetVerticalJustificationToTop();
   length_->GetTextProperty()->SetJustificationToCentered();
@@ -85,6 +85,7 @@ void Furniture::set_text(const std::string& title, const std::string& time, bool
   title_->GetTextProperty()->SetFontSize(small ? 11 : 13);
   time_->GetTextProperty()->SetFontSize(small ? 11 : 13);
   title_->SetInput(title.c_str());
+  title_lines_ = 1 + static_cast<int>(std::count(title.begin(), title.end(), '\n'));
   time_->SetInput(time.c_str());
 }
 
@@ -108,7 +109,7 @@ void Furniture::arrange() {
   if (size[0] <= 0 || size[1] <= 0) return;
   const double scale = window_->GetDPI() / 72.;
   place(title_, 12 * scale, size[1] - 10 * scale);
-  place(time_, 12 * scale, size[1] - 30 * scale);
+  place(time_, 12 * scale, size[1] - (10 + title_lines_ * 20) * scale);
   vtkCamera* camera = renderer_->GetActiveCamera();
   const double height = 2 * camera->GetDistance() * std::tan(camera->GetViewAngle() / 2 * M_PI / 180);
   if (height > 0) draw_ruler(size[1] / height, size, scale);

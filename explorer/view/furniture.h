@@ -35,6 +35,7 @@ class Furniture {
   vtkRenderWindow* window_;
   vtkRenderer* renderer_;
   unsigned long observer_;
+  int title_lines_ = 1;
   vtkNew<vtkRenderer> corner_;
   vtkNew<vtkAxesActor> axes_;
   vtkNew<vtkTextActor> title_, time_, length_;

@@ -1,5 +1,6 @@
 #include "explorer/view/offscreen_window.h"
 
+#include <vtkLogger.h>
 #include <vtk_glew.h>  // before any other OpenGL header
 // clang-format off
 #include <EGL/egl.h>
@@ -122,6 +123,7 @@ bool has_display() {
 }
 
 vtkSmartPointer<vtkRenderWindow> make_offscreen_window(int width, int height) {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // what fails is reported by us
   vtkSmartPointer<vtkRenderWindow> window;
   if (has_display())
     window = vtkSmartPointer<vtkRenderWindow>::New();

@@ -71,7 +71,8 @@ void Stage::show(Session& session) {
   const bool relaid = cases.size() != views_.size();
   make_views(cases.size());
   const bool fresh = take_scenes(session) || relaid;
-  aim(session.state().camera, relaid);
+  aim(session.state().camera, relaid || session.mesh() != mesh_);  // another mesh may have another size
+  mesh_ = session.mesh();
   follow_camera();
   color(session, fresh);
   for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -81,6 +82,7 @@ void Stage::show(Session& session) {
     if (scenes_[i] == live_) draw_scalpel(view);
   }
   if (!scalpel_) scalpel_view_.reset();
+  for (std::size_t i = 0; i < views_.size(); ++i) views_[i].view->set_faded(session.is_guess(cases[i]));
   lay_over(session);
   for (View& v : views_) v.view->renderer()->ResetCameraClippingRange();
   label(session);
@@ -205,10 +207,13 @@ void Stage::aim(const CameraState& camera, bool fresh) {
     if (a.pose)
       return a.pose->position == b.pose->position && a.pose->focal_point == b.pose->focal_point &&
              a.pose->up == b.pose->up && a.pose->view_angle == b.pose->view_angle;
+    if (a.frame.has_value() != b.frame.has_value()) return false;
+    if (a.frame && !(a.frame->middle == b.frame->middle && a.frame->outward == b.frame->outward))
+      return false;
     return a.azimuth == b.azimuth && a.elevation == b.elevation && a.zoom == b.zoom;
   };
   const Vec3 middle = scenes_.front()->surface().middle;
-  if (!fresh && same(camera, shown_.camera) && (camera.pose || middle == shown_.middle)) {
+  if (!fresh && same(camera, shown_.camera) && (camera.pose || camera.frame || middle == shown_.middle)) {
     for (View& v : views_) v.view->renderer()->ResetCameraClippingRange();
     return;
   }
@@ -249,12 +254,12 @@ void Stage::label(Session& session) {
   const std::vector<int> cases = session.views();
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const std::string whole = session.title_of(cases[i]);
-    const std::string title = views_.size() > 1 ? without_groups(whole) : whole;
+    const double width = views_[i].view->renderer()->GetSize()[0] * 72. / window_->GetDPI();
+    const std::string title = wrapped(views_.size() > 1 ? without_groups(whole) : whole, width);
     char time[80];
     std::snprintf(time, sizeof time, "%.1f of %.1f mm cut", views_[i].view->time(),
                   views_[i].view->duration());
     std::string below = time;
-    const double width = views_[i].view->renderer()->GetSize()[0] * 72. / window_->GetDPI();
     for (const std::string& text :
          {session.note_of(cases[i]), cases[i] == session.state().shown ? caption_ : std::string()})
       if (!text.empty()) below += "\n" + wrapped(text, width);

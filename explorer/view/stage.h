@@ -78,7 +78,8 @@ class Stage {
   std::shared_ptr<const WoundScene> live_;
   std::optional<HapticState> scalpel_;
   std::unique_ptr<ScalpelView> scalpel_view_;
-  std::string caption_;  // of what lies over the scene
+  const SurfaceMesh* mesh_ = nullptr;  // that the camera was aimed at; null: a patch
+  std::string caption_;                // of what lies over the scene
   Shown shown_;
   std::optional<Detail> detail_;
   unsigned long camera_observer_;

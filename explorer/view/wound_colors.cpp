@@ -31,6 +31,20 @@ vtkSmartPointer<vtkLookupTable> table(const std::vector<Stop>& stops, double lea
 
 }  // namespace
 
+std::array<double, 3> faded(const std::array<double, 3>& color) {
+  constexpr double grey = 0.80, part = 0.65;
+  return {color[0] + part * (grey - color[0]), color[1] + part * (grey - color[1]),
+          color[2] + part * (grey - color[2])};
+}
+
+void fade(vtkLookupTable* colors) {
+  for (vtkIdType i = 0; i < colors->GetNumberOfTableValues(); ++i) {
+    const double* own = colors->GetTableValue(i);
+    const auto [red, green, blue] = faded({own[0], own[1], own[2]});
+    colors->SetTableValue(i, red, green, blue);
+  }
+}
+
 vtkSmartPointer<vtkLookupTable> tissue_colors() {
   return table({{0, 0.86, 0.52, 0.46},
                 {0.12, 0.80, 0.40, 0.36},

@@ -10,6 +10,11 @@ namespace cleft {
 
 inline constexpr std::array<double, 3> skin_color{0.91, 0.70, 0.60};
 
+/// A colour of a surface that is a guess: paler and greyer.
+std::array<double, 3> faded(const std::array<double, 3>& color);
+/// The same of all colours of a table.
+void fade(vtkLookupTable* colors);
+
 /// From the skin down to the bottom of the cut, by depth fraction 0 to 1: dermis, fat, muscle.
 vtkSmartPointer<vtkLookupTable> tissue_colors();
 

@@ -30,7 +30,6 @@ vtkSmartPointer<vtkActor> make_actor(vtkPolyData* data, vtkLookupTable* colors) 
   actor->SetMapper(mapper);
   vtkProperty* look = actor->GetProperty();
   look->SetInterpolationToPhong();
-  look->SetColor(skin_color[0], skin_color[1], skin_color[2]);
   look->SetAmbient(0.12);
   look->SetDiffuse(0.9);
   look->SetSpecular(0.12);
@@ -123,6 +122,7 @@ void WoundView::add_actors() {
   if (coloring_ != Coloring::tissue) {
     const auto [least, greatest] = range_ ? *range_ : range_of(coloring_, reference_.get());
     skin = value_colors(least, greatest > least ? greatest : least + 1);
+    if (is_faded_) fade(skin);
     legend_ = make_legend(skin, text_of(coloring_).title);
     legend_->SetVisibility(has_legend_);
     add_prop(legend_);
@@ -131,11 +131,15 @@ void WoundView::add_actors() {
   still_actor_ = make_actor(skin_->still(), skin);
   for (vtkActor* actor : {skin_actor_.Get(), still_actor_.Get()}) {
     add_prop(actor);
+    const auto [red, green, blue] = is_faded_ ? faded(skin_color) : skin_color;
+    actor->GetProperty()->SetColor(red, green, blue);
     if (!skin) continue;
     actor->GetProperty()->SetAmbient(0.35);  // colours must be read against the legend
     actor->GetProperty()->SetDiffuse(0.62);
   }
-  wall_actor_ = make_actor(walls_->data(), tissue_colors());
+  const vtkSmartPointer<vtkLookupTable> tissue = tissue_colors();
+  if (is_faded_) fade(tissue);
+  wall_actor_ = make_actor(walls_->data(), tissue);
   wall_actor_->GetProperty()->SetSpecular(0.3);  // moist
   wall_actor_->GetProperty()->SetSpecularPower(40);
   add_prop(wall_actor_);
@@ -148,6 +152,14 @@ void WoundView::set_opacity(double opacity) {
   if (opacity == opacity_) return;
   opacity_ = opacity;
   show_opacity();
+}
+
+void WoundView::set_faded(bool faded) {
+  if (faded == is_faded_) return;
+  is_faded_ = faded;
+  if (!scene_) return;
+  add_actors();
+  set_time(time_);
 }
 
 void WoundView::show_opacity() {
@@ -215,9 +227,11 @@ void WoundView::aim(const CameraState& state) {
     return;
   }
   const WoundSurface& surface = scene_->surface();
-  const Vec3 &middle = surface.middle, normal = normalized(surface.outward);
+  const CameraState::Frame from =
+      state.frame.value_or(CameraState::Frame{surface.middle, surface.outward, surface.along});
+  const Vec3 &middle = from.middle, normal = normalized(from.outward);
   // Heads and patches have y upwards; for a cut that faces up or down the picture is aligned with the cut.
-  const Vec3 up = std::abs(normal.y) < 0.9 ? Vec3{0, 1, 0} : surface.along;
+  const Vec3 up = std::abs(normal.y) < 0.9 ? Vec3{0, 1, 0} : from.along;
   constexpr double view_angle = 24;
   const Vec3 eye = middle + normal;
   camera->SetViewAngle(view_angle / state.zoom);
@@ -228,15 +242,15 @@ void WoundView::aim(const CameraState& state) {
   camera->Azimuth(state.azimuth);
   camera->Elevation(state.elevation);
   camera->OrthogonalizeViewUp();
-  const double distance = distance_to_see_all(view_angle);
+  const double distance = distance_to_see_all(middle, view_angle);
   const double* back = camera->GetDirectionOfProjection();
   camera->SetPosition(middle.x - distance * back[0], middle.y - distance * back[1],
                       middle.z - distance * back[2]);
   renderer_->ResetCameraClippingRange();
 }
 
-/// From the middle of the cut, at the camera's direction, with a margin.
-double WoundView::distance_to_see_all(double view_angle) const {
+/// From the middle, at the camera's direction, with a margin.
+double WoundView::distance_to_see_all(const Vec3& middle, double view_angle) const {
   vtkCamera* camera = renderer_->GetActiveCamera();
   const auto vec = [](const double* x) { return Vec3{x[0], x[1], x[2]}; };
   const Vec3 forward = vec(camera->GetDirectionOfProjection()), up = vec(camera->GetViewUp()),
@@ -246,7 +260,7 @@ double WoundView::distance_to_see_all(double view_angle) const {
   const double high = std::tan(view_angle / 2 * M_PI / 180), wide = aspect * high;
   double distance = 0;
   for (const Vec3& x : scene_->surface().points) {
-    const Vec3 from = x - scene_->surface().middle;
+    const Vec3 from = x - middle;
     const double needed = std::max(std::abs(dot(from, up)) / high, std::abs(dot(from, right)) / wide);
     distance = std::max(distance, 1.35 * needed - dot(from, forward));
   }

@@ -40,6 +40,9 @@ class WoundView {
   /// Opacity of the skin, 0 to 1, so that an overlay is visible through it.
   void set_opacity(double opacity);
 
+  /// Whether its colours are those of a guess; the legend's too.
+  void set_faded(bool faded);
+
   void aim(const CameraState& camera);
   void set_dark(bool dark);
   /// Whether edges are smoothed, which takes a fifth of a picture's time in software.
@@ -65,7 +68,7 @@ class WoundView {
   void add_actors();
   void set_background();
   void show_opacity();
-  double distance_to_see_all(double view_angle) const;
+  double distance_to_see_all(const Vec3& middle, double view_angle) const;
   void add_prop(vtkProp* prop);
 
   vtkNew<vtkRenderer> renderer_;
@@ -80,7 +83,7 @@ class WoundView {
   std::optional<std::tuple<Coloring, const Field*, std::pair<double, double>>>
       known_range_;  // as last asked for
   vtkSmartPointer<vtkScalarBarActor> legend_;
-  bool dark_ = false, has_legend_ = true;
+  bool dark_ = false, is_faded_ = false, has_legend_ = true;
   double opacity_ = 1;
   std::vector<double> values_;
   double time_ = 0;

@@ -61,7 +61,7 @@ Json shortened(const Json& header) {
   for (const char* name :
        {"case", "parametrization", "quantum", "slices", "bases", "domain", "cut", "tip", "parameters"})
     kept[name] = header.at(name);
-  for (const char* name : {"node_error", "largest_displacement"})
+  for (const char* name : {"spline_error", "largest_displacement"})
     kept["report"][name] = header.at("report").at(name);
   return kept;
 }
@@ -109,7 +109,7 @@ Cases cases_of(const PublishedStudy& study, const ReportState& report) {
                           {"bytes", record.coefficients.size()},
                           {"gape", figures.gape},
                           {"displacement", figures.largest_displacement},
-                          {"error", figures.node_error}});
+                          {"error", figures.error}});
   }
   return cases;
 }
@@ -125,7 +125,7 @@ Cases cases_of(const PublishedStudy& study, const MeshMotion& mesh, const MeshMo
                           {"bytes", 0},
                           {"gape", motion.gapes[at]},
                           {"displacement", motion.largest[at]},
-                          {"error", study.report(i).node_error}});
+                          {"error", study.report(i).spline_error}});
   }
   return cases;
 }

@@ -209,7 +209,8 @@ void FamilyFields::extend(VaryingField& field, const Incision& incision, double 
                           const SkinTension& tension) const {
   const double length = incision.path().length() * scale;
   const LocalShape local = known_to_family(local_shape(incision, scale, s, smoothing()), incision, scale, s);
-  const Prestress prestress = prestress_in({local.along, cross(local.outward, local.along)}, tension, s);
+  const Prestress prestress = prestress_in({local.along, cross(local.outward, local.along)}, tension, s,
+                                           scale * incision.path().at(s / scale).position);
   const CaseShape one = case_of(local, prestress, from_middle(s, length, shape().cut()));
   const auto [there, outside] = family_->at(one.shapes, one.prestress);
   field.extend({s, there, prestress, local.along, outside});

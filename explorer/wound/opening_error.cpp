@@ -68,7 +68,8 @@ using Parts = std::vector<Part>;
 
 Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, const Neighbourhood& n) {
   const double beyond = std::max(0., 1 - canonical.length / length);
-  Parts parts = {{of_fit, "that is the error of the field's fit"},
+  Parts parts = {{std::max(of_fit, n.field), n.between ? "the field lies between the cases of a study"
+                                                       : "that is the error of the field's fit"},
                  {std::min(1., std::max(of_length, n.length_defect)) * beyond,
                   "the path of # mm is longer than the field's cut", length},
                  {of_neighbour * std::exp(-n.nearest_cut / neighbour_reach), "another cut is # mm beside it",

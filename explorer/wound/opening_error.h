@@ -27,6 +27,9 @@ struct Neighbourhood {
   /// 0 if it meets none.
   double junction_tension = 0;
   double length_defect = 0;  ///< excess of an endless cut's opening over the field's, relative to it
+  double field =
+      0;  ///< error that the field states of its opening, over that opening: of a fit or between cases
+  bool between = false;  ///< whether the field was interpolated
   double held_back = 0;  ///< of its lips or other vertices, by bends or the guard, over its largest opening
 };
 

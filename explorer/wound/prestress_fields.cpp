@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -47,13 +48,39 @@ Prestress prestress_of(const RecordedParameters& p) {
   return {p.value_or(sigma.uu, 0.), p.value_or(sigma.vv, 0.), p.value_or(sigma.uv, 0.)};
 }
 
-Prestress prestress_in(const std::array<Vec3, 2>& directions, const SkinTension& tension, double s) {
+namespace {
+
+/// Twice the angle of the lines' mean in the skin: a line has no head, so that means are of twice its angle.
+/// Lines that stand upright on the skin count little. None where there is nothing left of them.
+std::optional<double> twice_angle_of(const std::vector<TensionLine>& lines,
+                                     const std::array<Vec3, 2>& directions, const Vec3& place) {
+  constexpr double near = 1;  // mm: nearer lines count alike
+  double cosine = 0, sine = 0, all = 0;
+  for (const TensionLine& line : lines) {
+    const Vec3 way = line.place - place;
+    const Vec3 d = normalized(line.direction);
+    const double along = dot(d, directions[0]), across = dot(d, directions[1]);
+    const double weight = 1 / (dot(way, way) + near * near);
+    cosine += weight * (along * along - across * across), sine += weight * 2 * along * across;
+    all += weight;
+  }
+  if (std::hypot(cosine, sine) < upright * upright * all) return std::nullopt;
+  return std::atan2(sine, cosine);
+}
+
+}  // namespace
+
+Prestress prestress_in(const std::array<Vec3, 2>& directions, const SkinTension& tension, double s,
+                       const Vec3& place) {
   const double mean = (tension.larger + tension.smaller) / 2, half = (tension.larger - tension.smaller) / 2;
   const double along = dot(tension.direction, directions[0]), across = dot(tension.direction, directions[1]);
-  if (std::hypot(along, across) < upright * norm(tension.direction))
+  const bool painted = tension.lines && !tension.lines->empty();
+  const std::optional<double> of_lines =
+      painted ? twice_angle_of(*tension.lines, directions, place) : std::nullopt;
+  if (painted ? !of_lines : std::hypot(along, across) < upright * norm(tension.direction))
     throw InputError("the tension stands upright on the skin " + shortest(s) +
                      " mm along the path; give its direction in the skin");
-  const double twice = 2 * std::atan2(across, along);
+  const double twice = of_lines.value_or(2 * std::atan2(across, along));
   return {mean + half * std::cos(twice), mean - half * std::cos(twice), half * std::sin(twice)};
 }
 
@@ -62,7 +89,8 @@ PathPrestress prestress_along(const IncisionVolume& volume, double length, const
   for (int i = 0; i <= pieces; ++i) {
     const PathFrame frame = volume.skin_frame(length * i / pieces);
     result.stations.push_back(length * i / pieces * volume.scale());
-    result.values.push_back(prestress_in({frame.along, frame.across}, tension, result.stations.back()));
+    result.values.push_back(prestress_in({frame.along, frame.across}, tension, result.stations.back(),
+                                         volume.scale() * frame.position));
   }
   return result;
 }

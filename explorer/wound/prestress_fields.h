@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,19 +20,28 @@ struct PathPrestress {
   std::vector<Prestress> values;
 };
 
+/// The direction of the skin's larger tension at a place, both in the mesh's space; mm.
+struct TensionLine {
+  Vec3 place, direction;
+};
+
 /// Principal prestresses of the skin, MPa, and the direction of the larger in the mesh's space, which is
 /// projected to the skin.
 struct SkinTension {
   Vec3 direction;
   double larger = 0, smaller = 0;
+  /// Lines that have been painted or read; where there are some the direction at a place is the mean of
+  /// theirs, by the squares of their inverse distances, and `direction` is not used.
+  std::shared_ptr<const std::vector<TensionLine>> lines = nullptr;
 };
 
 /// A case's prestress, MPa; components that are not recorded are 0.
 Prestress prestress_of(const RecordedParameters& parameters);
 
-/// The prestress along and across two unit vectors, within the skin at s mm of the path, MPa. Throws
-/// InputError if the direction is normal to the skin.
-Prestress prestress_in(const std::array<Vec3, 2>& directions, const SkinTension& tension, double s);
+/// The prestress along and across two unit vectors, within the skin at s mm of the path, which is at `place`,
+/// mm; MPa. Throws InputError if the direction is normal to the skin.
+Prestress prestress_in(const std::array<Vec3, 2>& directions, const SkinTension& tension, double s,
+                       const Vec3& place);
 
 /// The same in the frame of the skin along all of a path, whose length is in mesh units.
 PathPrestress prestress_along(const IncisionVolume& volume, double length, const SkinTension& tension);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/text.h"
+#include "explorer/study/case_figures.h"
 #include "explorer/wound/prestress_fields.h"
 
 namespace cleft {
@@ -169,9 +170,11 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
       v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
     const bool known = turned || pulled_alike(field);
     const double widest = opening(cuts[i]->field, std::min(length, canonical));
-    v.expected_error = opening_error_of(*cuts[i], known,
-                                        {nearest_beside, v.junction_tension.value_or(0), v.length_defect,
-                                         widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
+    const double own = turned || !(widest > 0) ? 0 : error_of_gape(field).value_or(0) / widest;
+    v.expected_error = opening_error_of(
+        *cuts[i], known,
+        {nearest_beside, v.junction_tension.value_or(0), v.length_defect, own,
+         field.interpolation.has_value(), widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
     if (v.expected_error.largest > greatest_expected)
       v.warnings.push_back(
           (cuts.size() > 1 ? "cut " + std::to_string(i + 1) + ": " : "") + "its opening may be off by " +

@@ -10,6 +10,7 @@ cd "$work"
 "$build/bin/make-head" --out head.stl --path path.csv > /dev/null
 "$build/bin/cleft" run "$root/examples/demo.toml" --out study > /dev/null
 export XDG_CONFIG_HOME=$work/settings XDG_RUNTIME_DIR=$work  # not the user's
+export CLEFT_BIN=$build/bin
 for size in 1280x720 1920x1080; do
   rm -rf settings
   mkdir -p "$root/docs/gallery/$size"

@@ -57,7 +57,7 @@ std::string canonical_path(const Snapshot& s) {
 TEST_F(EndToEnd, AFieldFeelsAsStiffAsItsSimulation) {
   // A force that differs by less than 7 % feels the same (haptic/force_parameters.h).
   folder->write("still.csv", "time,x,y,z,ax,ay,az,ex,ey,ez,cutting,present\n0.01,0,0,9,0,0,1,1,0,0,0,1\n");
-  write_mesh(*folder / "sheet.stl", {{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {{0, 1, 2}}});
+  write_mesh(*folder / "sheet.stl", {{{0, 0, 0}, {90, 0, 0}, {0, 90, 0}}, {{0, 1, 2}}});
   double stiffness[2];
   for (const bool field : {false, true}) {
     const Outcome felt = expect_success(run_cleft(

@@ -43,6 +43,28 @@ inline const std::string& shared_study() {
   return study;
 }
 
+/// Three cases that differ in the skin's prestress alone, whose fields superpose.
+inline void write_study_of_prestresses(const std::string& study) {
+  int number = 0;
+  const std::vector<Vec3> prestresses{{0.01, 0.03, 0}, {0.02, 0.01, 0}, {0.01, 0.01, 0.005}};
+  for (const Vec3& p : prestresses) {
+    const std::string place = study + "/cases/case" + std::to_string(number);
+    std::filesystem::create_directories(place);
+    Field field = synthetic_field(5 - number);
+    field.parameters = recorded({{"skin.prestress_u", p.x},
+                                 {"skin.prestress_v", p.y},
+                                 {"skin.prestress_uv", p.z},
+                                 {"skin.thickness", 1.5},
+                                 {"skin.young_modulus", 0.5},
+                                 {"skin.poisson_ratio", 0.4},
+                                 {"tissue.young_modulus", 0.01},
+                                 {"tissue.poisson_ratio", 0.45}});
+    field.case_hash = "case" + std::to_string(number++);
+    write_field(place + "/case.dffd", field);
+    write_text_file(place + "/manifest.json", "{}");
+  }
+}
+
 class SessionTest : public testing::Test {
  protected:
   static const std::string& study() { return shared_study(); }

@@ -145,24 +145,7 @@ TEST_F(SessionTest, CutsSideBySideRelieveEachOther) {
 
 TEST_F(SessionTest, CutsTurnAgainstATension) {
   const TemporaryFolder folder;
-  int number = 0;
-  const std::vector<Vec3> prestresses{{0.01, 0.03, 0}, {0.02, 0.01, 0}, {0.01, 0.01, 0.005}};
-  for (const Vec3& p : prestresses) {
-    const std::string place = folder / ("study/cases/case" + std::to_string(number));
-    std::filesystem::create_directories(place);
-    Field field = synthetic_field(5 - number);
-    field.parameters = recorded({{"skin.prestress_u", p.x},
-                                 {"skin.prestress_v", p.y},
-                                 {"skin.prestress_uv", p.z},
-                                 {"skin.thickness", 1.5},
-                                 {"skin.young_modulus", 0.5},
-                                 {"skin.poisson_ratio", 0.4},
-                                 {"tissue.young_modulus", 0.01},
-                                 {"tissue.poisson_ratio", 0.45}});
-    field.case_hash = "case" + std::to_string(number++);
-    write_field(place + "/case.dffd", field);
-    write_text_file(place + "/manifest.json", "{}");
-  }
+  write_study_of_prestresses(folder / "study");
   EXPECT_NE(refused("tension 0,1,0 0.03,0.01").find("open"), std::string::npos);
   say("open " + (folder / "study"));
   say("set skin.prestress_v 0.03");

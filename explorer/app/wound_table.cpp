@@ -1,0 +1,48 @@
+#include "explorer/app/wound_table.h"
+
+#include <QHeaderView>
+
+namespace cleft {
+
+WoundTable::WoundTable(Session& session, Say say) : session_(session), say_(std::move(say)) {
+  setObjectName("wounds");
+  setEditTriggers(QAbstractItemView::NoEditTriggers);
+  setSelectionBehavior(QAbstractItemView::SelectRows);
+  setToolTip("The cuts as they are now; a double-click looks at one (wound N)");
+  const QStringList names{"length\nmm", "depth\nmm", "opening\nmm", "area\nmm\u00b2", "volume\nmm\u00b3"};
+  setColumnCount(static_cast<int>(names.size()));
+  setHorizontalHeaderLabels(names);
+  QFont small = font();
+  small.setPointSizeF(0.85 * small.pointSizeF());
+  setFont(small);
+  horizontalHeader()->setFont(small);
+  horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  connect(this, &QTableWidget::cellDoubleClicked, this,
+          [this](int row, int) { say_("wound " + std::to_string(row + 1)); });
+}
+
+void WoundTable::show_wounds() {
+  const std::vector<WoundFigures> wounds = session_.mesh() && session_.has_scene()
+                                               ? session_.scene()->wound_figures(session_.state().time)
+                                               : std::vector<WoundFigures>{};
+  const std::vector<Validity>& validity = session_.validity();
+  setRowCount(static_cast<int>(wounds.size()));
+  for (std::size_t i = 0; i < wounds.size(); ++i) {
+    const WoundFigures& f = wounds[i];
+    const auto number = [](double value) { return QString::number(value, 'g', 3); };
+    QString opening = number(f.widest), why;
+    if (i < validity.size()) {
+      opening += QString(" \u00b1 %1").arg(validity[i].expected_error.largest * f.widest, 0, 'g', 2);
+      why = "Mostly uncertain because " + QString::fromStdString(validity[i].expected_error.cause);
+    }
+    const QString texts[] = {number(f.length), number(f.depth), opening, number(f.area), number(f.volume)};
+    for (int column = 0; column < columnCount(); ++column) {
+      auto* item = new QTableWidgetItem(texts[column]);
+      item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      item->setToolTip(why);
+      setItem(static_cast<int>(i), column, item);
+    }
+  }
+}
+
+}  // namespace cleft

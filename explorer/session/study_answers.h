@@ -1,0 +1,59 @@
+// What a study answers as a whole: the commands `cleft analyze`, `fit` and `propose`, run beside the
+// explorer.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cleft {
+
+/// Of a figure: how much of its variance each parameter makes (Sobol's indices).
+struct StudyAnalysis {
+  struct Effect {
+    std::string name;
+    double first = 0, first_error = 0;  ///< share that it makes alone, and half of its 95 % interval
+    double total = 0, total_error = 0;  ///< with all others
+    std::vector<double> at, mean;       ///< of the figure at values of the parameter, over all others
+  };
+  std::string figure, unit;
+  double mean = 0, deviation = 0;
+  double error = 0;             ///< of the figure between the cases: the median; 95 % of new cases are within
+  std::vector<Effect> effects;  ///< the greatest total first
+};
+
+/// Of measurements: the parameters that explain them.
+struct StudyFit {
+  struct Value {
+    std::string name;
+    double most_likely = 0, low = 0, high = 0;  ///< and 90 % of what is possible
+  };
+  std::string measurements;  ///< their file
+  std::vector<Value> values;
+  double misfit = 0;              ///< of the residuals, over their expected size
+  double misfit_probability = 0;  ///< that they are as large by chance
+  std::vector<std::string> open;  ///< what the measurements do not tell, as sentences
+  std::string next;               ///< the further measurement that would tell most
+};
+
+/// The next cases, and the error that they are for.
+struct StudyProposal {
+  double error = 0;  ///< over the largest value of the figure
+  std::vector<std::map<std::string, double>> cases;
+};
+
+/// Called every tenth of a second while a command runs; what it throws ends the command.
+using LookMeanwhile = std::function<void()>;
+
+/// Each throws InputError with the message of the command that it runs, which is beside this program or in
+/// the folder that the environment variable CLEFT_BIN names.
+StudyAnalysis analyze_study(const std::string& study, const std::string& figure, const LookMeanwhile& look);
+StudyFit fit_study(const std::string& study, const std::string& measurements, double deviation,
+                   const LookMeanwhile& look);
+StudyProposal propose_cases(const std::string& study, int count, const LookMeanwhile& look);
+
+/// A study file with these cases in place of those of `study_file`.
+std::string study_of(const std::string& study_file, const StudyProposal& proposal);
+
+}  // namespace cleft
