@@ -143,7 +143,7 @@ struct OwnCoordinates {
   void add_turned_places(const BreakMap& map) {
     round = map.round().has_value();
     turn = round && map.round()->whole_circle() ? 2 * std::numbers::pi * map.round()->radius : 0;
-    for (std::size_t n = 0, nodes = places.size(); n < nodes; ++n)
+    for (std::size_t n = 0, count = places.size(); n < count; ++n)
       if (const auto again = map.again(places[n]))
         places.push_back(*again), frames.push_back(frames[n]), node.push_back(n);
   }
@@ -154,7 +154,7 @@ struct OwnCoordinates {
     std::iota(along.begin(), along.end(), std::size_t{0});
     std::sort(along.begin(), along.end(),
               [this](std::size_t a, std::size_t b) { return places[a].x < places[b].x; });
-    for (std::size_t n = 0, nodes = places.size(); n < nodes; ++n)
+    for (std::size_t n = 0, count = places.size(); n < count; ++n)
       for (const Vec3& place : further_places(cut, places[n])) {
         const auto after = std::lower_bound(along.begin(), along.end(), place.x,
                                             [this](std::size_t a, double u) { return places[a].x < u; });
@@ -233,7 +233,7 @@ struct OwnCoordinates {
       moved.cell_offsets.push_back(static_cast<std::int64_t>(moved.connectivity.size()));
     }
     for (auto& pair : moved.pairs)
-      for (std::int32_t& node : pair) node = static_cast<std::int32_t>(number[node]);
+      for (std::int32_t& end : pair) end = static_cast<std::int32_t>(number[end]);
     return moved;
   }
 };
