@@ -81,8 +81,8 @@ TEST_F(CloserWindow, WhatTakesLongShowsProgressAndIsCancelled) {
   bool shown = false;
   QTimer watch;
   QObject::connect(&watch, &QTimer::timeout, [&] {
-    if (auto* dialog = window_.findChild<QProgressDialog*>("progress"))
-      shown = shown || dialog->isVisible(), dialog->findChild<QPushButton*>()->click();
+    if (auto* dialog = window_.findChild<QProgressDialog*>("progress"); dialog && dialog->isVisible())
+      shown = true, dialog->findChild<QPushButton*>()->click();
   });
   watch.start(20);
   const std::string before = state_to_json(now());
