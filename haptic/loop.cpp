@@ -74,15 +74,19 @@ void HapticLoop::count(const Vec3& force) {
   s.excess_change = std::max(s.excess_change, change - permitted * (1 + 1e-12));
 }
 
-void HapticLoop::run(const std::atomic<bool>& stop, double seconds) {
+void HapticLoop::run(const std::atomic<bool>& stop, std::optional<double> seconds) {
   const TickingThread thread(options_.real_time);
   refused_ = thread.refused();
   const auto period = static_cast<std::int64_t>(static_cast<double>(clock_second) / options_.rate);
   std::int64_t due = clock_time(CLOCK_MONOTONIC);
-  const std::int64_t end = due + static_cast<std::int64_t>(seconds * static_cast<double>(clock_second));
+  const std::int64_t begin = due;
+  const auto is_over = [&] {  // the time of a simulated hand grows by the ticks that are missed
+    return static_cast<double>(due - begin) >=
+           seconds.value_or(device_.duration()) * static_cast<double>(clock_second);
+  };
   std::int64_t missed = 0;
   const std::int64_t faults_before = page_faults();
-  while (due < end && !stop.load(std::memory_order_relaxed)) {
+  while (!is_over() && !stop.load(std::memory_order_relaxed)) {
     due += period * (1 + missed);
     be_awake_at(due);
     const std::int64_t woken = clock_time(CLOCK_MONOTONIC);
@@ -93,6 +97,7 @@ void HapticLoop::run(const std::atomic<bool>& stop, double seconds) {
       statistics_.compute.add(1e-9 * static_cast<double>(clock_time(CLOCK_THREAD_CPUTIME_ID) - before));
     missed = std::max<std::int64_t>(0, (clock_time(CLOCK_MONOTONIC) - due) / period);
     if (missed == 0) continue;
+    statistics_.missed += static_cast<std::uint64_t>(missed);
     if (statistics_.overruns < statistics_.overrun_ticks.size())
       statistics_.overrun_ticks[statistics_.overruns] = state_.tick;
     ++statistics_.overruns;

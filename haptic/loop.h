@@ -9,6 +9,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,8 +56,9 @@ class HapticLoop {
   /// One tick, dt s after the one before.
   void update(double dt);
 
-  /// Ticks at absolute times until `stop` or for `seconds`. Missed times are skipped.
-  void run(const std::atomic<bool>& stop, double seconds);
+  /// Ticks at absolute times until `stop`, for `seconds` or, without them, as long as the device moves.
+  /// Missed times are skipped.
+  void run(const std::atomic<bool>& stop, std::optional<double> seconds = {});
 
   double rate() const { return options_.rate; }
   double period() const { return 1 / options_.rate; }

@@ -27,6 +27,7 @@ struct LoopStatistics {
   TimeHistogram lateness;                 ///< of waking up
   std::uint64_t ticks = 0, overruns = 0;  ///< an overrun: a tick that ended after the next one's time
   std::array<std::uint64_t, 256> overrun_ticks{};  ///< the first ones
+  std::uint64_t missed = 0;                        ///< ticks that there were not, because of overruns
   std::int64_t page_faults = 0;                    ///< of the thread, in the loop
   double largest_force = 0, largest_change = 0;    ///< N; N for each tick
   /// Largest change a tick beyond the permitted one, change * force + floor: N, 0 if none exceeded it.

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace cleft {
@@ -16,7 +17,10 @@ class TickQueue {
 
   void push(const T& value) {
     const std::size_t at = written_.load(std::memory_order_relaxed);
-    if (at - read_.load(std::memory_order_acquire) == values_.size()) return;
+    if (at - read_.load(std::memory_order_acquire) == values_.size()) {
+      ++dropped_;
+      return;
+    }
     values_[at % values_.size()] = value;
     written_.store(at + 1, std::memory_order_release);
   }
@@ -29,8 +33,12 @@ class TickQueue {
     return true;
   }
 
+  /// How many values were dropped; for the writer's thread.
+  std::uint64_t dropped() const { return dropped_; }
+
  private:
   std::vector<T> values_;
+  std::uint64_t dropped_ = 0;
   alignas(64) std::atomic<std::size_t> written_{0};
   alignas(64) std::atomic<std::size_t> read_{0};
 };

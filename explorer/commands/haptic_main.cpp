@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "explorer/commands/body_options.h"
 #include "explorer/commands/cut_figures.h"
+#include "explorer/commands/haptic_figures.h"
 #include "explorer/commands/mesh_options.h"
 #include "explorer/commands/tension_options.h"
 #include "explorer/io/formats/mesh_formats.h"
@@ -20,19 +21,22 @@
 #include "explorer/scalpel/scalpel_cutting.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/path_file.h"
-#include "haptic/bare_timer.h"
 #include "haptic/devices/list.h"
 #include "haptic/devices/recorded.h"
 #include "haptic/real_time.h"
 #include "haptic/surface_stiffness.h"
+#include "params/run/signal_handler.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace {
 
 using namespace cleft;
 
+constexpr int steps_a_second = 60;  // of the mesh: a picture each
+
 struct Options {
-  std::string mesh, path, field, bone, snapshot, device = default_device(), trajectory, record;
+  std::string mesh, path, field, bone, snapshot, device = default_device(), trajectory, record, out,
+                                                 clock = "wall";
   double scale = 1, rate = 1000, speed = 30;
   double depth = 0, seconds = 0, stiffness = 0;  // 0: not given
   double delay = 0;                              // ms
@@ -40,10 +44,14 @@ struct Options {
   TensionOptions tension;
 };
 
-/// N/mm, of the skin over the middle of the cut in a simulation, closed.
-double snapshot_stiffness(const std::string& file) {
+/// N/mm, of the skin over the middle of the cut in a simulation, closed. Throws InputError if it is of
+/// another case than the field.
+double snapshot_stiffness(const std::string& file, const Field* field) {
   const SnapshotReader reader(file);
   const Snapshot& s = reader.snapshot();
+  if (field && !field->case_hash.empty() && !s.case_hash.empty() && field->case_hash != s.case_hash)
+    throw FileError(file, "is the simulation of case " + s.case_hash + ", but --field is of case " +
+                              field->case_hash + ": give the field's own simulation, or --stiffness");
   const Vec3 middle{s.cut_start + s.cut_length / 2, 0, 0};
   std::size_t nearest = 0;
   for (std::size_t n = 0; n < s.points.size(); ++n)
@@ -54,50 +62,12 @@ double snapshot_stiffness(const std::string& file) {
   throw FileError(file, "has no compliance of the skin (imported data have none): give --stiffness");
 }
 
-double stiffness(const Options& o, const Field* field) {
+double stiffness(const Options& o, const std::optional<CutFields>& fields) {
   if (o.stiffness > 0) return o.stiffness;
-  if (!o.snapshot.empty()) return snapshot_stiffness(o.snapshot);
+  const Field* field = fields ? &fields->shape() : nullptr;
+  if (!o.snapshot.empty())
+    return snapshot_stiffness(o.snapshot, fields && fields->turning() ? nullptr : field);
   return field ? surface_stiffness(*field) : ForceParameters{}.stiffness;
-}
-
-Json quantiles_us(const TimeHistogram& h) {
-  return {{"p50", 1e6 * h.quantile(0.5)},
-          {"p99", 1e6 * h.quantile(0.99)},
-          {"p99.9", 1e6 * h.quantile(0.999)},
-          {"max", 1e6 * h.largest()}};
-}
-
-Json figures_of(const HapticLoop& loop, const BareTimer& bare, const ScalpelCutting& cutting) {
-  const LoopStatistics& s = loop.statistics();
-  const CuttingFigures& c = cutting.figures();
-  const auto named = std::min<std::uint64_t>(s.overruns, s.overrun_ticks.size());
-  return {
-      {"seconds", loop.state().time},
-      {"ticks", s.ticks},
-      {"compute_us", quantiles_us(s.compute)},
-      {"lateness_us", quantiles_us(s.lateness)},
-      {"bare_timer_compute_us", quantiles_us(bare.compute)},
-      {"bare_timer_lateness_us", quantiles_us(bare.lateness)},
-      {"page_faults", s.page_faults},
-      {"overruns", s.overruns},
-      {"overrun_ticks", std::vector<std::uint64_t>(s.overrun_ticks.begin(), s.overrun_ticks.begin() + named)},
-      {"real_time_refused", loop.refused()},
-      {"stiffness_N_per_mm", loop.model().stiffness()},
-      {"largest_force_N", s.largest_force},
-      {"largest_change_N", s.largest_change},
-      {"change_beyond_permitted_N", s.excess_change},
-      {"energy_put_in_Nmm", -loop.passivity().delivered()},
-      {"energy_created_Nmm", loop.passivity().created()},
-      {"punctures", loop.state().punctures},
-      {"last_puncture_N", loop.model().last_puncture_force()},
-      {"cuts", cutting.incisions()},
-      {"cut_mm", cutting.cut_length()},
-      {"triangles_cut", c.triangles_cut},
-      {"cut_steps", c.cuts},
-      {"cut_step_us", quantiles_us(c.cut)},
-      {"grid_update_us", quantiles_us(c.update)},
-      {"wound_us", quantiles_us(c.open)},
-      {"stopped", c.stopped}};
 }
 
 /// A thread that is told to stop and waited for, whatever happens beside it.
@@ -118,11 +88,74 @@ DeviceKind device_of(const Options& o) {
                    "; here there are " + device_choices(false));
 }
 
+/// Set by SIGINT and SIGTERM: the blade stops where it is, and what it did is reported.
+std::atomic<bool> stopped_by_signal{false};
+
+/// Loop and cutting on threads of their own, by the wall's clock; for `seconds` or as long as the device
+/// moves.
+BareTimer cut_by_wall_clock(HapticLoop& loop, ScalpelCutting& cutting, const Options& o,
+                            std::optional<double> seconds) {
+  Progress progress("haptic");
+  BareTimer bare;
+  std::atomic<bool> stop{false}, over{false};
+  Beside timer{stop, std::thread([&] { bare = bare_timer(o.rate, o.real_time, stop); })};
+  Beside ticks{stop, std::thread([&] {
+                 loop.run(stopped_by_signal, seconds);
+                 over = true;
+               })};
+  repeat(
+      clock_second / steps_a_second, [&] { return over.load(); },
+      [&] {
+        cutting.step(loop.for_cutting());
+        progress(shortest(std::round(10 * loop.for_view().read().time) / 10) + " s");
+      });
+  return bare;
+}
+
+/// Tick by tick in one thread, a step of the mesh after those of a picture: the same on every machine.
+void cut_by_virtual_clock(HapticLoop& loop, ScalpelCutting& cutting, const Options& o, double seconds) {
+  Progress progress("haptic");
+  const auto ticks = static_cast<std::int64_t>(std::ceil(seconds * o.rate - 1e-6));
+  const auto a_step = std::max<std::int64_t>(1, std::llround(o.rate / steps_a_second));
+  for (std::int64_t tick = 1; tick <= ticks && !stopped_by_signal; ++tick) {
+    loop.update(1 / o.rate);
+    if (tick % a_step != 0) continue;
+    cutting.step(loop.for_cutting());
+    progress(shortest(std::round(10 * loop.state().time) / 10) + " s");
+  }
+}
+
+/// Checks the names of files before the work.
+void check_files(const Options& o) {
+  for (const std::string& file : {o.record, o.out})
+    if (!file.empty()) {
+      refuse_to_overwrite(file, {o.mesh, o.path, o.field, o.bone, o.snapshot, o.trajectory});
+      const OutputFile probe(file);
+    }
+  if (!o.out.empty()) surface_format(o.out, MeshUse::write);
+}
+
+void check_clock(const Options& o, const DeviceKind& kind) {
+  if (o.clock == "wall") return;
+  if (!kind.input)
+    throw InputError("--clock virtual: the device " + o.device +
+                     " is moved by a hand, which follows the wall's clock; give --device hand or recorded");
+  if (o.real_time)
+    throw InputError("--real-time: is about the wall's clock; leave it out with --clock virtual");
+}
+
+/// Cuts what the blade has passed since the last step, ends its cut, and passes all motion on.
+void finish(HapticLoop& loop, ScalpelCutting& cutting) {
+  cutting.step(loop.for_cutting());
+  cutting.end_cut();
+  do cutting.step(loop.for_cutting());
+  while (cutting.figures().waiting > 0);
+}
+
 void haptic(const Options& o) {
   const DeviceKind kind = device_of(o);
-  refuse_to_overwrite(o.record, {o.mesh, o.path, o.field, o.bone, o.snapshot, o.trajectory});
-  std::optional<OutputFile> probe;
-  if (!o.record.empty()) probe.emplace(o.record);  // reports a bad name before the work
+  check_clock(o, kind);
+  check_files(o);
   std::optional<CutFields> fields;
   if (!o.field.empty()) fields = read_cut_fields(o.field, o.tension.direction, o.tension.prestresses);
   if (fields && !o.bone.empty()) fields = fields->above_bone(distance_to(bone_below(o.bone, o.scale, {})));
@@ -133,7 +166,7 @@ void haptic(const Options& o) {
   if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field);
 
   ForceParameters force;
-  force.stiffness = stiffness(o, field);
+  force.stiffness = stiffness(o, fields);
   DeviceRequest request;
   request.trajectory = o.trajectory;
   request.hand.delay = 1e-3 * o.delay;
@@ -141,38 +174,31 @@ void haptic(const Options& o) {
   request.start = path ? pose_over(*path, o.scale, 0, 10) : pose_above(mesh, o.scale);
   if (path) request.script = hand_along(*path, o.scale, o.speed, request.hand, force);
   const std::unique_ptr<Device> device = kind.make(request);
-  const double moving = std::isfinite(device->duration()) ? device->duration() : 10;
-  const double seconds = o.seconds > 0 ? o.seconds : moving;
+  std::optional<double> seconds;  // none: as long as the device moves
+  if (o.seconds > 0 || !std::isfinite(device->duration())) seconds = o.seconds > 0 ? o.seconds : 10;
 
   ScalpelCutting cutting(mesh, {path, {}, fields, o.scale, o.depth});
   LoopOptions options;
   options.rate = o.rate;
   options.measure = true;
   options.real_time = o.real_time;
-  if (!o.record.empty()) options.record = static_cast<std::size_t>(seconds * o.rate) + 1;
+  const double at_most = seconds.value_or(device->duration());
+  if (!o.record.empty()) options.record = static_cast<std::size_t>(at_most * o.rate) + 1;
   HapticLoop loop(*device, cutting.surface(), force, options);
-  BareTimer bare;
-  std::atomic<bool> stop{false}, over{false};
+  Json figures;
   {
-    Progress progress("haptic");
-    Beside timer{stop, std::thread([&] { bare = bare_timer(o.rate, o.real_time, stop); })};
-    Beside ticks{stop, std::thread([&] {
-                   loop.run(stop, seconds);
-                   over = true;
-                 })};
-    repeat(
-        clock_second / 60, [&] { return over.load(); },
-        [&] {
-          cutting.step(loop.for_cutting());
-          progress(shortest(std::round(10 * loop.for_view().read().time) / 10) + " s");
-        });
+    const SignalHandler handler({SIGINT, SIGTERM}, [](int) { stopped_by_signal = true; });
+    std::optional<BareTimer> bare;
+    if (o.clock == "wall")
+      bare = cut_by_wall_clock(loop, cutting, o, seconds);
+    else
+      cut_by_virtual_clock(loop, cutting, o, at_most);
+    finish(loop, cutting);
+    figures = figures_of(loop, cutting);
+    if (bare) add_times(figures, loop, *bare, cutting);
   }
-  cutting.step(loop.for_cutting());  // what the blade did while the last step was made
-  if (!o.record.empty()) {
-    probe.reset();
-    write_recording(o.record, loop.recorded());
-  }
-  Json figures = figures_of(loop, bare, cutting);
+  if (!o.record.empty()) write_recording(o.record, loop.recorded());
+  if (!o.out.empty()) write_cut_mesh(o.out, cutting, o.scale);
   figures["warnings"] = warnings_of(cutting.validity(), "cleft haptic");
   print_figures(figures, o.json);
 }
@@ -201,7 +227,9 @@ int main(int argc, char** argv) {
                  "depth of the cut, mm [the path's column, else the field's; without a path the scalpel's]")
       ->check(above(0));
   add_scale(app, o.scale);
-  app.add_option("--seconds", o.seconds, "how long, s [the hand's or the recording's time, else 10]")
+  app.add_option("--seconds", o.seconds,
+                 "how long, s [as long as the hand or the recording moves, else 10]; Ctrl-C ends it too, "
+                 "with its report")
       ->check(above(0));
   app.add_option("--snapshot", o.snapshot, "simulation case.h5 whose compliance tells the stiffness");
   app.add_option("--stiffness", o.stiffness,
@@ -209,6 +237,14 @@ int main(int argc, char** argv) {
       ->check(above(0));
   app.add_option("--trajectory", o.trajectory, "recording that the recorded device plays");
   app.add_option("--record", o.record, "write the poses as a recording");
+  app.add_option("--out", o.out,
+                 "write the mesh as the blade leaves it: " + mesh_endings(MeshKind::surface, MeshUse::write));
+  app.add_option(
+         "--clock", o.clock,
+         "wall: ticks at their times, as a hand feels them; virtual, for a simulated hand or a recording: "
+         "tick by tick, as fast as they are computed, with the same cuts, forces and mesh on every machine")
+      ->check(one_of({"wall", "virtual"}))
+      ->capture_default_str();
   app.add_option("--rate", o.rate, "ticks a second, 100 to 10000")->check(above(0))->capture_default_str();
   app.add_option("--speed", o.speed, "of the hand along the path, mm/s")
       ->check(above(0))

@@ -52,15 +52,15 @@ void MeshCuts::make(ScalpelPath path, const IncisionOptions& options, double pro
   list_.push_back(made_.back().get());
 }
 
-std::vector<double> MeshCuts::depths() const {
+std::vector<double> depths_of(const CutMesh& mesh, double scale) {
   std::vector<double> depths;
-  for (const CutMesh::Vertex& v : mesh_.vertices()) depths.push_back(v.depth * scale_);
+  for (const CutMesh::Vertex& v : mesh.vertices()) depths.push_back(v.depth * scale);
   return depths;
 }
 
-std::vector<double> MeshCuts::regions() const {
+std::vector<double> regions_of(const CutMesh& mesh) {
   std::vector<double> regions;
-  for (const CutMesh::Vertex& v : mesh_.vertices())
+  for (const CutMesh::Vertex& v : mesh.vertices())
     regions.push_back(v.depth_fraction == 0 ? 0 : side_of(v.kind) == Side::right ? 2 : 1);
   return regions;
 }

@@ -17,6 +17,10 @@ struct MeshCutsOptions {
   std::optional<double> max_edge;  ///< see IncisionOptions
 };
 
+// Of every vertex of a mesh with cuts.
+std::vector<double> depths_of(const CutMesh& mesh, double scale);  ///< mm below the skin
+std::vector<double> regions_of(const CutMesh& mesh);  ///< 0 skin and lips, 1 left wall, 2 right wall
+
 class MeshCuts {
  public:
   /// At least one path, with depths, in mesh units. `origin`: the mesh is cut in coordinates from there
@@ -36,9 +40,9 @@ class MeshCuts {
   double stepping_seconds() const { return stepping_; }  ///< of these, for the steps of the blade
 
   // Of every vertex of mesh().
-  std::vector<double> depths() const;   ///< mm below the skin
-  std::vector<double> regions() const;  ///< 0 skin and lips, 1 left wall, 2 right wall
-  std::vector<double> along() const;    ///< mm along the path; of a vertex on no cut, along the last one
+  std::vector<double> depths() const { return depths_of(mesh_, scale_); }
+  std::vector<double> regions() const { return regions_of(mesh_); }
+  std::vector<double> along() const;  ///< mm along the path; of a vertex on no cut, along the last one
 
  private:
   void make(ScalpelPath path, const IncisionOptions& options, double progress);

@@ -50,7 +50,7 @@ ScalpelPose Recorded::read(double time) {
 
 void write_recording(const std::string& path, const std::vector<RecordedPose>& poses) {
   std::string text;
-  for (const char* column : columns) text += (text.empty() ? "" : ",") + std::string(column);
+  for (const char* column : columns) (text += text.empty() ? "" : ",") += column;
   text += '\n';
   for (const auto& [time, pose] : poses) {
     text += shortest(time);

@@ -67,6 +67,14 @@ TEST_F(EndToEnd, AFieldFeelsAsStiffAsItsSimulation) {
     stiffness[field] = nlohmann::json::parse(felt.output)["stiffness_N_per_mm"];
   }
   EXPECT_NEAR(stiffness[1] / stiffness[0], 1, 0.07) << stiffness[0] << " N/mm in the simulation";
+  Field other = read_field(*folder / "case.dffd");
+  other.case_hash = "00000000000000aa";
+  write_field(*folder / "other.dffd", other);
+  const Outcome refused = run_cleft("haptic", {"--mesh", *folder / "sheet.stl", "--device", "recorded",
+                                               "--trajectory", *folder / "still.csv", "--field",
+                                               *folder / "other.dffd", "--snapshot", *folder / "case.h5"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.output.find("--field is of case 00000000000000aa"), std::string::npos) << refused.output;
 }
 
 TEST_F(EndToEnd, ACutFlatSkinFollowsTheFiniteElementsAtEveryFrame) {
