@@ -53,6 +53,7 @@ FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Fig
     if (!of_numbers.emplace(parameters.numbers(), i).second) continue;
     if (!cases.parameters.empty()) check_choices(cases.parameters.front(), parameters);
     cases.parameters.push_back(parameters);
+    cases.numbers.push_back(i);
     columns.push_back(displacements_of(field, figures));
     errors.emplace_back(Eigen::VectorXd::Constant(static_cast<Eigen::Index>(figures.size()),
                                                   error_of_gape(field).value_or(std::nan(""))));

@@ -34,6 +34,7 @@ class FigureModel {
     std::vector<RecordedParameters> parameters;
     Eigen::MatrixXd displacements;  ///< a column for each: of the places of all figures, one after another
     Eigen::MatrixXd fit_errors;     ///< figures x cases, mm: of the fields; NaN where it is not known
+    std::vector<int> numbers = {};  ///< in the study; empty: as they stand here
   };
   static constexpr double share = 0.95;  ///< of new cases within the errors
 
@@ -47,6 +48,13 @@ class FigureModel {
   /// Of a case, in the order of varying(); and its own figures.
   Eigen::VectorXd place_of(int i) const { return places_.col(i); }
   Eigen::VectorXd figures_of(int i) const { return own_.col(i); }
+  const RecordedParameters& parameters_of(int i) const {
+    return cases_.parameters[static_cast<std::size_t>(i)];
+  }
+  /// Its number in the study: of cases of equal parameters there is one here.
+  int number_of(int i) const {
+    return cases_.numbers.empty() ? i : cases_.numbers[static_cast<std::size_t>(i)];
+  }
   const std::string& method() const { return model_->regression().covariance().name; }
 
   /// Figures x points; points: the values of varying(), a column for each.

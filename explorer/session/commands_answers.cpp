@@ -74,6 +74,34 @@ void propose(Session& session, CommandWords& words) {
   session.answer(file + " has these cases (cleft run " + file + " --out " + study.path() + ")");
 }
 
+/// And shows the wound of the parameters that are found.
+void find_optimum(Session& session, CommandWords& words, bool greatest) {
+  const PublishedStudy& study = session.open_study();
+  const std::string all = words.rest(), mark = " where ";
+  const std::size_t at = all.find(mark);
+  const std::string figure = all.substr(0, at),
+                    where = at == std::string::npos ? "" : all.substr(at + mark.size()),
+                    what = (greatest ? "greatest " : "least ") + figure;
+  const StudyOptimum found =
+      best_in_study(study.path(), greatest, figure, where, shown_progress(session, "searching the " + what));
+  if (!found.holds) {
+    session.answer("nowhere between the cases does '" + where + "' hold; it nearly does at");
+  } else {
+    session.answer("the " + what + " between the cases is at");
+  }
+  for (const auto& [name, value] : found.values) {
+    request_parameter(session, name, value);
+    session.answer(line_of("%s = %.4g", name.c_str(), value));
+  }
+  for (const StudyOptimum::Figure& one : found.figures)
+    session.answer(line_of("%s: %.4g +- %.2g mm", one.name.c_str(), one.value, one.error));
+  if (found.holds && !found.holds_within_errors)
+    session.answer("within these errors the condition may fail (cleft find --certain keeps their distance)");
+}
+
+void minimize(Session& session, CommandWords& words) { find_optimum(session, words, false); }
+void maximize(Session& session, CommandWords& words) { find_optimum(session, words, true); }
+
 }  // namespace
 
 std::span<const Command> answer_commands() {
@@ -83,6 +111,10 @@ std::span<const Command> answer_commands() {
        analyze, Command::latest},
       {"fit", "MEASURED.csv [DEVIATION]",
        "the parameters that explain measurements, mm (cleft fit), and their wound", fit},
+      {"minimize", "FIGURE [where CONDITION]",
+       "the parameters between the cases at which a figure is least (cleft find --minimize), and their wound",
+       minimize},
+      {"maximize", "FIGURE [where CONDITION]", "the same for the greatest figure", maximize},
       {"propose", "[COUNT [FILE.toml]]",
        "the cases that the study needs most (cleft propose) [8]; FILE: a study file with them", propose,
        Command::none},

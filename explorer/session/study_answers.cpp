@@ -117,6 +117,20 @@ StudyProposal propose_cases(const std::string& study, int count, const LookMeanw
   return found;
 }
 
+StudyOptimum best_in_study(const std::string& study, bool greatest, const std::string& figure,
+                           const std::string& where, const LookMeanwhile& look) {
+  std::vector<std::string> arguments{study, greatest ? "--maximize" : "--minimize", figure};
+  if (!where.empty()) arguments.insert(arguments.end(), {"--where", where});
+  const AnswerJson optimum = answer_of("find", arguments, look).at("optimum");
+  StudyOptimum found{optimum.at("values").get<std::map<std::string, double>>(),
+                     optimum.at("holds"),
+                     optimum.at("holds_within_errors"),
+                     {}};
+  for (const AnswerJson& one : optimum.at("figures"))
+    found.figures.push_back({one.at("figure"), one.at("value"), one.at("interpolation_error")});
+  return found;
+}
+
 std::string study_of(const std::string& study_file, const StudyProposal& proposal) {
   std::istringstream lines(read_text_file(study_file));
   std::string text;

@@ -1,5 +1,5 @@
-// What a study answers as a whole: the commands `cleft analyze`, `fit` and `propose`, run beside the
-// explorer.
+// What a study answers as a whole: the commands `cleft analyze`, `find`, `fit` and `propose`, run
+// beside the explorer.
 #pragma once
 
 #include <functional>
@@ -43,6 +43,18 @@ struct StudyProposal {
   std::vector<std::map<std::string, double>> cases;
 };
 
+/// The parameters between the cases at which a figure is least or greatest under a condition.
+struct StudyOptimum {
+  std::map<std::string, double> values;
+  bool holds = false;                ///< the condition; else they are the nearest to it
+  bool holds_within_errors = false;  ///< wherever its figures are within their errors
+  struct Figure {
+    std::string name;
+    double value = 0, error = 0;  ///< mm; 95 % of new cases are within
+  };
+  std::vector<Figure> figures;  ///< of the aim and of the condition
+};
+
 /// Called every tenth of a second while a command runs; what it throws ends the command.
 using LookMeanwhile = std::function<void()>;
 
@@ -52,6 +64,9 @@ StudyAnalysis analyze_study(const std::string& study, const std::string& figure,
 StudyFit fit_study(const std::string& study, const std::string& measurements, double deviation,
                    const LookMeanwhile& look);
 StudyProposal propose_cases(const std::string& study, int count, const LookMeanwhile& look);
+/// `where` may be empty.
+StudyOptimum best_in_study(const std::string& study, bool greatest, const std::string& figure,
+                           const std::string& where, const LookMeanwhile& look);
 
 /// A study file with these cases in place of those of `study_file`.
 std::string study_of(const std::string& study_file, const StudyProposal& proposal);

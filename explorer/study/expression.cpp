@@ -27,7 +27,10 @@ const std::vector<std::string> comparisons{"<=", ">=", "==", "!=", "<", ">", "="
 
 class Parser {
  public:
-  Parser(const std::string& text, const std::vector<std::string>& names) : text_(text), names_(names) {}
+  /// `calls`: those that are found, if there may be any.
+  Parser(const std::string& text, const std::vector<std::string>& names,
+         std::vector<std::string>* calls = nullptr)
+      : text_(text), names_(names), calls_(calls) {}
 
   NodePtr run() {
     NodePtr node = disjunction();
@@ -137,6 +140,7 @@ class Parser {
     while (end < text_.size() && in_word(text_[end])) ++end;
     const std::string word = text_.substr(at_, end - at_);
     if (word.empty()) wrong(std::string("'") + text_[at_] + "' is no value");
+    if (calls_ && end < text_.size() && text_[end] == '(') return call(end);
     const auto found = std::find(names_.begin(), names_.end(), word);
     if (found == names_.end()) {
       std::string all;
@@ -150,8 +154,22 @@ class Parser {
         Node{"name", 0, static_cast<std::size_t>(found - names_.begin()), {}, {}, false});
   }
 
+  /// A name with its brackets, which open at a place.
+  NodePtr call(std::size_t open) {
+    const std::size_t close = text_.find(')', open);
+    if (close == std::string::npos) wrong("a bracket is not closed");
+    std::string whole = text_.substr(at_, close + 1 - at_);
+    std::erase_if(whole, [](unsigned char c) { return std::isspace(c); });
+    at_ = close + 1;
+    auto found = std::find(calls_->begin(), calls_->end(), whole);
+    if (found == calls_->end()) found = calls_->insert(found, whole);
+    const auto number = static_cast<std::size_t>(found - calls_->begin());
+    return std::make_shared<Node>(Node{"name", 0, names_.size() + number, {}, {}, false});
+  }
+
   const std::string& text_;
   const std::vector<std::string>& names_;
+  std::vector<std::string>* calls_;
   std::size_t at_ = 0;
   static constexpr int most_nested = 200;
   int depth_ = 0;
@@ -178,6 +196,32 @@ bool holds_at(const Node& n, const std::vector<double>& values) {
                           : a != b;
 }
 
+/// Of a comparison, `negated` or not.
+double excess_of(std::string what, bool negated, double a, double b) {
+  constexpr double equal = 1e-3;
+  if (std::isnan(a) || std::isnan(b)) return HUGE_VAL;
+  if (negated)
+    what = what == "<"    ? ">="
+           : what == "<=" ? ">"
+           : what == ">"  ? "<="
+           : what == ">=" ? "<"
+           : what == "==" ? "!="
+                          : "==";
+  const double apart = a == 0 || b == 0 ? a - b : (a - b) / std::max(std::abs(a), std::abs(b));
+  if (what == "==") return std::abs(apart) - equal;
+  if (what == "!=") return apart == 0 ? equal : 0;
+  return what[0] == '<' ? apart : -apart;
+}
+
+double excess_at(const Node& n, bool negated, const std::vector<double>& values) {
+  if (n.what == "not") return excess_at(*n.left, !negated, values);
+  if (n.what == "and" || n.what == "or") {
+    const double a = excess_at(*n.left, negated, values), b = excess_at(*n.right, negated, values);
+    return (n.what == "and") != negated ? std::max(a, b) : std::min(a, b);
+  }
+  return excess_of(n.what, negated, value_of(*n.left, values), value_of(*n.right, values));
+}
+
 bool occurs(const Node& n, std::size_t name) {
   if (n.what == "name") return n.name == name;
   return (n.left && occurs(*n.left, name)) || (n.right && occurs(*n.right, name));
@@ -188,6 +232,16 @@ bool occurs(const Node& n, std::size_t name) {
 Expression::Expression(const std::string& text, const std::vector<std::string>& names)
     : root_(Parser(text, names).run()) {}
 
+Expression Expression::with_calls(const std::string& text, std::vector<std::string>& names) {
+  std::vector<std::string> calls;
+  Expression expression(Parser(text, names, &calls).run());
+  names.insert(names.end(), calls.begin(), calls.end());
+  return expression;
+}
+
+double Expression::excess(const std::vector<double>& values) const {
+  return excess_at(*root_, false, values);
+}
 bool Expression::holds(const std::vector<double>& values) const { return holds_at(*root_, values); }
 bool Expression::uses(std::size_t name) const { return occurs(*root_, name); }
 

@@ -1,4 +1,4 @@
-// cleft analyze and cleft fit, as a user runs them.
+// cleft analyze, fit and find with aims, as a user runs them.
 #include "tests/pipeline/commands.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,38 @@ TEST_F(QuestionsToAStudy, AreFitted) {
   EXPECT_GT(read_csv(draws).rows.size(), 1000u);
 }
 
+TEST_F(QuestionsToAStudy, AreOptimised) {
+  const auto found = figures_of(expect_success(run_cleft(
+      "find", {study(), "--minimize", "skin.prestress_v", "--where", "gape > 5", "--certain", "--json"})));
+  const auto& optimum = found.at("optimum");
+  EXPECT_TRUE(optimum.at("holds_within_errors").get<bool>());
+  CaseParameters values;
+  for (const auto& [name, value] : optimum.at("values").items()) values[name] = value.get<double>();
+  EXPECT_GT(Figure("gape").of(made_field(values)), 5);  // in truth
+  values["skin.prestress_v"] *= 0.98;
+  EXPECT_LT(Figure("gape").of(made_field(values)), 5);
+  ASSERT_FALSE(found.at("cases").empty());
+  EXPECT_LT(values["skin.prestress_v"],
+            found.at("cases")[0].at("values").at("skin.prestress_v").get<double>());
+
+  const auto several = figures_of(expect_success(
+      run_cleft("find", {study(), "--maximize", "gape", "--maximize", "tissue.young_modulus", "--json"})));
+  EXPECT_FALSE(several.contains("optimum"));
+  EXPECT_GT(several.at("cases").size(), 2u);
+  EXPECT_LT(several.at("cases").size(), 24u);
+  const Outcome text = expect_success(run_cleft("find", {study(), "--maximize", "gape"}));
+  EXPECT_NE(text.output.find("its field: cleft interpolate"), std::string::npos) << text.output;
+  const Outcome nowhere =
+      expect_success(run_cleft("find", {study(), "--maximize", "gape", "--where", "cut.depth > 50"}));
+  EXPECT_NE(nowhere.output.find("nowhere between the cases"), std::string::npos) << nowhere.output;
+}
+
 TEST_F(QuestionsToAStudy, WithoutSenseAreRefused) {
+  expect_refused("find", {study()}, "--where is missing");
+  expect_refused("find", {study(), "--minimize", "gap"}, "there is no figure 'gap'");
+  expect_refused("find", {study(), "--minimize", "gape", "--where", "t > 3"}, "nothing is named 't'");
+  expect_refused("find", {study(), "--minimize", "gape", "--maximize", "gape"}, "give one of both");
+  expect_refused("find", {study(), "--minimize", "gape", "--certain"}, "with a --where");
   expect_refused("analyze", {study(), "--of", "gap"}, "there is no figure 'gap'");
   expect_refused("analyze", {study(), "--given", "cut.dept=uniform(1, 2)"}, "did you mean 'cut.depth'?");
   expect_refused("analyze", {study(), "--given", "cut.depth=uniform(2, 1)"}, "expected uniform(from, to)");

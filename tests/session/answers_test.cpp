@@ -71,6 +71,18 @@ TEST_F(Answers, WhatFitsIsShown) {
   EXPECT_NE(refused("fit " + folder_ / "gone.csv").find("gone.csv"), std::string::npos);
 }
 
+TEST_F(Answers, WhatIsBestIsShown) {
+  open();
+  say("maximize gape where skin.prestress_v < 0.03");
+  EXPECT_NEAR(state().parameters.at("skin.prestress_v"), 0.03, 1e-5);
+  EXPECT_EQ(state().parameters.at("tissue.young_modulus"), 0.04);
+  ASSERT_TRUE(session_.between());
+  EXPECT_NE(answers_.find("the greatest gape between the cases is at"), std::string::npos) << answers_;
+  say("minimize skin.prestress_v where gape > 500");
+  EXPECT_NE(answers_.find("nowhere between the cases does 'gape > 500' hold"), std::string::npos) << answers_;
+  EXPECT_NE(refused("minimize gap").find("there is no figure 'gap'"), std::string::npos);
+}
+
 TEST_F(Answers, AWaitThatIsCancelledEndsTheCommand) {
   open();
   session_.tell_progress_to([](const std::string&, double) { return false; });

@@ -108,6 +108,37 @@ TEST(Expression, AnUnknownNameGetsTheNearest) {
   }
 }
 
+TEST(Expression, TellsHowFarItIsFromHolding) {
+  const std::vector<std::string> names{"a", "b"};
+  const auto excess = [&](const std::string& text, double a, double b) {
+    return Expression(text, names).excess({a, b});
+  };
+  EXPECT_DOUBLE_EQ(excess("a < b", 3, 4), -0.25);
+  EXPECT_DOUBLE_EQ(excess("a < b", 4, 3), 0.25);
+  EXPECT_DOUBLE_EQ(excess("a >= b", 4, 3), -0.25);
+  EXPECT_DOUBLE_EQ(excess("not a >= b", 4, 3), 0.25);
+  EXPECT_DOUBLE_EQ(excess("a > 0", -3, 0), 3);
+  EXPECT_DOUBLE_EQ(excess("a < b and a < 2", 3, 4), 1. / 3);
+  EXPECT_DOUBLE_EQ(excess("a < b or a < 2", 3, 4), -0.25);
+  EXPECT_DOUBLE_EQ(excess("not (a < b or a < 2)", 3, 4), 0.25);
+  EXPECT_LT(excess("a == b", 1, 1.0005), 0);
+  EXPECT_GT(excess("a == b", 1, 1.002), 0);
+  EXPECT_GT(excess("not a == b", 1, 1), 0);
+  EXPECT_EQ(excess("a < b", std::nan(""), 1), HUGE_VAL);
+}
+
+TEST(Expression, TakesNamesWithNumbers) {
+  std::vector<std::string> names{"gape", "cut.depth"};
+  const Expression e =
+      Expression::with_calls("gape( 3, 18 ) > gape and v(1,2,3) < (cut.depth + gape(3,18))", names);
+  EXPECT_EQ(names, (std::vector<std::string>{"gape", "cut.depth", "gape(3,18)", "v(1,2,3)"}));
+  EXPECT_TRUE(e.holds({1, 2, 3, 4}));
+  EXPECT_FALSE(e.holds({1, 2, 3, 6}));
+  EXPECT_TRUE(e.uses(3));
+  EXPECT_THROW(Expression::with_calls("gape(3 > 2", names), InputError);
+  EXPECT_THROW(Expression("gape(3) > 2", {"gape"}), InputError);
+}
+
 TEST(Condition, HoldsWhereTheFieldSaysSo) {
   const Field field = synthetic_field(5);
   const auto found = Condition("gape > 3").find(field);
