@@ -7,6 +7,10 @@ const dotOf = (a, b) => {
   return sum;
 };
 
+function addMultiple(sum, size, numbers) {
+  for (let n = 0; n < sum.length; ++n) sum[n] += size * numbers[n];
+}
+
 /// Weights of the rows of a regression by kernels (Covariance and KernelRegression).
 class Regression {
   constructor(data) {
@@ -279,14 +283,15 @@ class BetweenCases {
       ? Math.hypot(prediction.error / largest, Math.max(data.fit_error, ofFits / largest), data.modes ? data.modes.error : 0) : 0;
     return {cases: prediction.cases, weights, errorOf};
   }
-  /// The field at these values, and errorOf().
+  /// The field at these values, which is valid until the next, and errorOf().
   at(values) {
     const {weights, errorOf} = this.predictionAt(values), {data, modes, shares, columns} = this, parameters = this.complete(values);
-    const points = new Float64Array(modes.length ? modes[0].length : 0);
+    const points = this.points = this.points || new Float64Array(modes.length ? modes[0].length : 0);
+    points.fill(0);
     modes.forEach((mode, k) => {
       let size = 0;
       for (let i = 0, at = k * columns; i < columns; ++i) size += shares[at + i] * weights[i];
-      for (let n = 0; n < points.length; ++n) points[n] += size * mode[n];
+      addMultiple(points, size, mode);
     });
     const geometry = geometryAt(data.geometry, parameters);
     const field = new Field({parametrization: data.parametrization, bases: basesIn(data.bases, data.parametrization, geometry), ...geometry}, points);

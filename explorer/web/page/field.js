@@ -2,6 +2,8 @@
 "use strict";
 
 const clamp = (x, low, high) => x < low ? low : x > high ? high : x;
+/// Math.hypot is ten times slower.
+const lengthOf = (x, y, z) => Math.sqrt(x * x + y * y + z * z);
 
 /// The functions of a B-spline basis that do not vanish at x, from number `first` on, into values[at ...], and
 /// their derivatives into slopes, if given. `left`: the limit from the left at a knot. Piegl and Tiller, The
@@ -251,7 +253,7 @@ class Field {
     this.time = NaN;
   }
   profiles(t) { return this.breaks ? [openingProfile(this, t)] : []; }
-  /// Sums over the basis in time: afterwards a place needs 64 terms.
+  /// Sums over the basis in time.
   collapse(t) {
     if (t === this.time) return;
     this.time = t;
@@ -283,25 +285,20 @@ class Field {
   /// `some`: only of these. Gradients, where they are given, get the derivatives, row by row.
   displacements(lines, us, vs, ws, sides, t, out, gradients, some) {
     this.collapse(t);
-    lines.at(t);
-    const {grid} = this, V = this.sizes[1], W = this.sizes[2];
-    const {along, across, height} = lines;
+    lines.at(t, Boolean(gradients));
+    const [U, V] = this.sizes, {along, across, height} = lines;
     const one = (n, iv, share, by, target) => {
-      const iu = us[n], iw = ws[n];
+      const iu = us[n];
       const a = (by === 0 ? along.slope : along.value), b = (by === 1 ? across.slope : across.value),
-            c = (by === 2 ? height.slope : height.value);
+            plane = (by === 2 ? height.slopePlanes : height.planes);
+      const b0 = b[4 * iv], b1 = b[4 * iv + 1], b2 = b[4 * iv + 2], b3 = b[4 * iv + 3];
       let x = 0, y = 0, z = 0;
-      let plane = 3 * ((along.first[iu] * V + across.first[iv]) * W + height.first[iw]);
-      const c0 = c[4 * iw], c1 = c[4 * iw + 1], c2 = c[4 * iw + 2], c3 = c[4 * iw + 3];
-      for (let i = 0; i < 4; ++i, plane += 3 * V * W) {
+      for (let i = 0, at = 3 * ((ws[n] * U + along.first[iu]) * V + across.first[iv]); i < 4; ++i, at += 3 * V) {
         const wi = share * a[4 * iu + i];
         if (wi === 0) continue;
-        for (let j = 0, at = plane; j < 4; ++j, at += 3 * W) {
-          const wij = wi * b[4 * iv + j];
-          x += wij * (c0 * grid[at] + c1 * grid[at + 3] + c2 * grid[at + 6] + c3 * grid[at + 9]);
-          y += wij * (c0 * grid[at + 1] + c1 * grid[at + 4] + c2 * grid[at + 7] + c3 * grid[at + 10]);
-          z += wij * (c0 * grid[at + 2] + c1 * grid[at + 5] + c2 * grid[at + 8] + c3 * grid[at + 11]);
-        }
+        x += wi * (b0 * plane[at] + b1 * plane[at + 3] + b2 * plane[at + 6] + b3 * plane[at + 9]);
+        y += wi * (b0 * plane[at + 1] + b1 * plane[at + 4] + b2 * plane[at + 7] + b3 * plane[at + 10]);
+        z += wi * (b0 * plane[at + 2] + b1 * plane[at + 5] + b2 * plane[at + 8] + b3 * plane[at + 11]);
       }
       target[0] += x, target[1] += y, target[2] += z;
     };
@@ -321,7 +318,8 @@ class Field {
   }
 }
 
-/// The values of a field's bases at lists of u, v and w.
+/// The values of a field's bases at lists of u, v and w, and for each w the control points summed over the basis along
+/// it, so that a place needs 16 terms.
 class PlaceLines {
   constructor(field, us, vs, ws) {
     this.field = field;
@@ -347,11 +345,27 @@ class PlaceLines {
     });
     ws.forEach((w, n) => this.fill(this.height, n, bases[2], parametrization.height(parametrization.inside(w, 2)), false));
   }
-  at(t) {
-    if (t === this.time) return;
-    this.time = t;
+  at(t, slopes) {
+    if (t === this.time && (!slopes || this.sloping)) return;
+    this.time = t, this.sloping = slopes;
+    this.height.planes = this.planesOf(this.height.value, this.height.planes);
+    if (slopes) this.height.slopePlanes = this.planesOf(this.height.slope, this.height.slopePlanes);
     const {parametrization, bases} = this.field, time = parametrization.inside(t, 3);
     this.us.forEach((u, n) =>
       this.fill(this.along, n, bases[0], parametrization.along(parametrization.inside(u, 0), time), false));
+  }
+  planesOf(weights, planes) {
+    const {first} = this.height, {grid, sizes: [U, V, W]} = this.field, rows = U * V;
+    // Rows of four functions are read in full: there are as many zeros behind the last.
+    planes = planes || new Float64Array(3 * (first.length * rows + 4 * (V + 1)));
+    for (let n = 0, to = 0; n < first.length; ++n) {
+      const c0 = weights[4 * n], c1 = weights[4 * n + 1], c2 = weights[4 * n + 2], c3 = weights[4 * n + 3];
+      for (let row = 0; row < rows; ++row, to += 3) {
+        const at = 3 * (row * W + first[n]);
+        for (let c = 0; c < 3; ++c)
+          planes[to + c] = c0 * grid[at + c] + c1 * grid[at + 3 + c] + c2 * grid[at + 6 + c] + c3 * grid[at + 9 + c];
+      }
+    }
+    return planes;
   }
 }

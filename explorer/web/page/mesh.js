@@ -33,7 +33,9 @@ class MeshMotion {
     const count = this.moving.length;
     this.decoded ??= this.coded.map(piece => {
       const grid = {along: count, across: 1, height: 1, unknown: Int32Array.from({length: count}, (_, n) => n), unknowns: count};
-      return Float32Array.from(decodeCoefficients(grid, this.slices, new Uint8Array(piece())), value => value * this.quantum);
+      const whole = decodeCoefficients(grid, this.slices, new Uint8Array(piece())), mode = new Float32Array(whole.length);
+      for (let n = 0; n < mode.length; ++n) mode[n] = whole[n] * this.quantum;
+      return mode;
     });
     return this.decoded;
   }
@@ -43,7 +45,7 @@ class MeshMotion {
     this.modesOf().forEach((mode, k) => {
       let size = 0;
       for (let i = 0; i < this.cases; ++i) size += weights[i] * this.shares[k * this.cases + i];
-      if (size !== 0) for (let n = 0; n < series.length; ++n) series[n] += size * mode[n];
+      if (size !== 0) addMultiple(series, size, mode);
     });
     return new MovingMesh(this, series);
   }
@@ -90,7 +92,7 @@ class MeshScene {
   }
   values(coloring, t, out) {
     const d = this.displacement;
-    for (let p = 0; p < this.count; ++p) out[p] = Math.hypot(d[3 * p], d[3 * p + 1], d[3 * p + 2]);
+    for (let p = 0; p < this.count; ++p) out[p] = lengthOf(d[3 * p], d[3 * p + 1], d[3 * p + 2]);
     return out;
   }
   largestValue(coloring, out) {

@@ -21,7 +21,11 @@ function dataOf(id) {
   return text;
 }
 
-const bytesOf = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
+function bytesOf(text) {
+  const characters = atob(text), bytes = new Uint8Array(characters.length);
+  for (let n = 0; n < bytes.length; ++n) bytes[n] = characters.charCodeAt(n);
+  return bytes;
+}
 const base64Size = bytes => 4 * Math.ceil(bytes / 3);
 
 /// The header of a case, of the columns of docs/formats.md.
@@ -66,10 +70,10 @@ class Page {
       {name: "gape", title: "gape, mm", short: "gape"}, {name: "displacement", title: "displacement, mm", short: "displacement"},
       {name: "error", title: "error, %", short: "error"}];
     this.state = {case: 0, values: null, t: this.duration(0), color: "displacement", dark: matchMedia("(prefers-color-scheme: dark)").matches, where: ""};
-    this.view = new View(document.getElementById("view"));
+    this.view = new View(document.getElementById("view"), document.getElementById("painted"));
     this.build();
     this.readAddress();
-    this.refresh();
+    this.refresh(true);
     this.filter();
     this.prepare();
     window.addEventListener("resize", () => this.refresh());
@@ -124,6 +128,8 @@ class Page {
   build() {
     const get = id => document.getElementById(id);
     this.get = get;
+    get("legend-colors").width = 256, get("legend-colors").height = 1;
+    get("legend-colors").getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(valueTable), 256, 1), 0, 0);
     document.title = this.data.title + " - Cleft";
     get("title").textContent = this.data.title;
     this.data.cases.forEach((one, i) => {
@@ -367,9 +373,6 @@ class Page {
     get("legend-title").textContent = get("color").selectedOptions[0].textContent;
     get("legend-least").textContent = "0";
     get("legend-greatest").textContent = shownNumber(this.range[1]);
-    const canvas = get("legend-colors");
-    canvas.width = 256, canvas.height = 1;
-    canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(valueTable), 256, 1), 0, 0);
   }
   refreshSlow() {
     const {field, get, state} = this;

@@ -106,8 +106,10 @@ class PatchScene {
     // Closed walls are hidden; only their edges would shine through the skin.
     this.openWalls = 0;
     for (const [n, [, count]] of this.wallEnds.entries()) if (n > 0 && this.wallEnds[n - 1][0] < tip) this.openWalls = count;
-    for (let p = 0; p < this.count; ++p)
+    for (let n = 0, count = some ? some.length : this.count; n < count; ++n) {
+      const p = some ? some[n] : n;
       this.now[p] = us[this.u[p]] >= tip ? Math.sign(vs[this.v[p]]) : this.sides[p];
+    }
     field.displacements(this.lines, this.u, this.v, this.w, this.now, t, this.displacement, null, some);
     return this.displacement;
   }
@@ -120,10 +122,10 @@ class PatchScene {
     }
     for (let n = 0; n < count; ++n) {
       const p = some ? some[n] : n, m = this.mirror[p];
-      if (coloring === "displacement") out[p] = Math.hypot(d[3 * p], d[3 * p + 1], d[3 * p + 2]);
+      if (coloring === "displacement") out[p] = lengthOf(d[3 * p], d[3 * p + 1], d[3 * p + 2]);
       else if (coloring === "strain") out[p] = largestStrain(this.gradients, 9 * p);
       else if (coloring !== "gape" || (this.now[p] === 0 && this.vs[this.v[p]] === 0)) out[p] = 0;
-      else out[p] = Math.hypot(d[3 * p] - d[3 * m], d[3 * p + 1] - d[3 * m + 1], d[3 * p + 2] - d[3 * m + 2]);
+      else out[p] = lengthOf(d[3 * p] - d[3 * m], d[3 * p + 1] - d[3 * m + 1], d[3 * p + 2] - d[3 * m + 2]);
     }
     return out;
   }
@@ -135,9 +137,12 @@ class PatchScene {
     for (let i = 1; i <= 8; ++i) {
       this.at(duration * i / 8, few);
       this.values(coloring, duration * i / 8, out, few);
-      const found = Float64Array.from(few, p => out[p]);
-      if (coloring === "strain") largest = Math.max(largest, found.sort()[Math.floor(0.99 * (found.length - 1))]);
-      else for (const value of found) if (value > largest) largest = value;
+      if (coloring === "strain") {
+        const found = Float64Array.from(few, p => out[p]).sort();
+        largest = Math.max(largest, found[Math.floor(0.99 * (found.length - 1))]);
+      } else {
+        for (const p of few) if (out[p] > largest) largest = out[p];
+      }
     }
     return largest > 0 ? largest : 1;
   }

@@ -1,4 +1,4 @@
-// The picture: a surface in WebGL2, with the explorer's colours and lights.
+// The picture: a surface with the explorer's colours and lights, its camera, and which of two ways draws it.
 "use strict";
 
 const tissueStops = [[0, 0.86, 0.52, 0.46], [0.12, 0.80, 0.40, 0.36], [0.20, 0.93, 0.74, 0.46],
@@ -35,110 +35,34 @@ function colorTable(stops) {
 }
 const tissueTable = colorTable(tissueStops), valueTable = colorTable(valueStops);
 
-const vertexShader = `#version 300 es
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in float value;
-uniform mat4 projection, camera;
-uniform vec2 range;
-out vec3 seen, facing;
-out float part;
-void main() {
-  vec4 place = camera * vec4(position, 1.0);
-  seen = place.xyz;
-  facing = mat3(camera) * normal;
-  part = (value - range.x) / max(range.y - range.x, 1e-30);
-  gl_Position = projection * place;
-}`;
-const fragmentShader = `#version 300 es
-precision highp float;
-in vec3 seen, facing;
-in float part;
-uniform sampler2D colors;
-uniform vec4 plain;   // a colour, where its fourth number is 1
-uniform vec4 look;    // ambient, diffuse, specular, its power
-out vec4 shown;
-void main() {
-  vec3 n = normalize(facing);
-  if (dot(n, -normalize(seen)) < 0.0) n = -n;
-  vec3 color = plain.a > 0.5 ? plain.rgb : texture(colors, vec2(clamp(part, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
-  vec3 lights[3] = vec3[3](vec3(-0.7, 0.9, 1.0), vec3(0.5, -0.25, 1.0), vec3(0.2, 1.0, -0.8));
-  vec3 tints[3] = vec3[3](0.80 * vec3(1.0, 1.0, 0.95), 0.50 * vec3(0.97, 1.0, 1.0), 0.25 * vec3(1.0));
-  vec3 sum = look.x * color;
-  for (int i = 0; i < 3; ++i) {
-    vec3 l = normalize(lights[i]);
-    float cosine = max(0.0, dot(n, l));
-    vec3 mirrored = reflect(-l, n);
-    float gloss = cosine > 0.0 ? pow(max(0.0, dot(mirrored, -normalize(seen))), look.w) : 0.0;
-    sum += tints[i] * (look.y * cosine * color + look.z * gloss);
-  }
-  shown = vec4(sum, 1.0);
-}`;
+/// The pixels of a canvas, as the camera has them.
+function sizeCanvas(canvas, {width, height}) {
+  if (canvas.width !== width || canvas.height !== height) canvas.width = width, canvas.height = height;
+}
 
 class View {
-  constructor(canvas) {
-    this.canvas = canvas;
-    const gl = canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
-    if (!gl) throw new Error("This browser cannot draw: it has no WebGL2.");
-    this.gl = gl;
-    const program = gl.createProgram();
-    for (const [kind, text] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentShader]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
-      gl.attachShader(program, shader);
-    }
-    gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
-    gl.useProgram(program);
-    this.places = {};
-    for (const name of ["projection", "camera", "range", "colors", "plain", "look"])
-      this.places[name] = gl.getUniformLocation(program, name);
-    const texture = bytes => {
-      const made = gl.createTexture();
-      gl.bindTexture(gl.TEXTURE_2D, made);
-      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-      for (const [name, value] of [[gl.TEXTURE_MIN_FILTER, gl.LINEAR], [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
-                                   [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]])
-        gl.texParameteri(gl.TEXTURE_2D, name, value);
-      return made;
-    };
-    this.tissue = texture(tissueTable);
-    this.scale = texture(valueTable);
-    this.buffers = [gl.createBuffer(), gl.createBuffer(), gl.createBuffer()];
-    this.buffers.forEach((buffer, n) => {
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.enableVertexAttribArray(n);
-      gl.vertexAttribPointer(n, n < 2 ? 3 : 1, gl.FLOAT, false, 0, 0);
-    });
-    this.indices = gl.createBuffer();
-    gl.enable(gl.DEPTH_TEST);
-    this.azimuth = 0, this.elevation = 0, this.zoom = 1, this.coarse = 1;
+  /// Drawing by WebGL2 starts when it is measured; until then, where there is none, and while the picture moves where
+  /// WebGL2 is slower (because software draws, too), the painter draws on a canvas above.
+  constructor(canvas, painted) {
+    this.canvas = canvas, this.painted = painted;
+    this.painter = new Painter(painted);
+    this.webgl = null, this.slow = false;
+    this.azimuth = 0, this.elevation = 0, this.zoom = 1;
   }
   /// Another surface: triangles of skin, then of walls, points at rest, and the part of the depth of each.
   take(scene) {
-    const {gl} = this;
     this.scene = scene;
     this.positions = new Float32Array(3 * scene.count);
-    this.normals = new Float32Array(3 * scene.count);
+    this.skinNormals = new Float32Array(3 * scene.count);
+    this.wallNormals = new Float32Array(3 * scene.count);
     this.triangles = new Uint32Array(scene.skin.length + scene.walls.length);
     this.triangles.set(scene.skin), this.triangles.set(scene.walls, scene.skin.length);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.indices);
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, this.triangles, gl.STATIC_DRAW);
   }
-  /// Points as they are displaced, and normals.
+  /// Points as they are displaced, and normals. Skin and walls meet in an edge: each has normals of its own.
   move(displacement) {
-    const {scene, positions, normals, triangles} = this, {rest} = scene;
+    const {scene, positions, triangles} = this, {rest} = scene;
     for (let n = 0; n < positions.length; ++n) positions[n] = rest[n] + displacement[n];
-    this.smooth(normals, positions, triangles, 0, scene.skin.length);
-    const {gl} = this;
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[0]);
-    gl.bufferData(gl.ARRAY_BUFFER, positions, gl.DYNAMIC_DRAW);
-    // Skin and walls meet in an edge: each has normals of its own.
-    this.skinNormals = normals;
-    this.wallNormals = this.wallNormals && this.wallNormals.length === normals.length ? this.wallNormals
-                                                                                     : new Float32Array(normals.length);
+    this.smooth(this.skinNormals, positions, triangles, 0, scene.skin.length);
     this.smooth(this.wallNormals, positions, triangles, scene.skin.length, triangles.length);
   }
   smooth(normals, x, triangles, from, to) {
@@ -162,30 +86,15 @@ class View {
                 back[0] * right[1] - back[1] * right[0]];
     return {right, up, back};
   }
-  /// How many pixels a moving picture may have: fewer where software draws.
-  measure() {
-    if (!this.drawn) return;
-    const pixel = new Uint8Array(4), {gl} = this, begin = performance.now();
-    this.draw(...this.drawn);
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-    this.coarse = clamp(Math.sqrt((performance.now() - begin) / 15), 1, 3);
-  }
-  /// Draws again with all pixels.
-  refine() {
-    if (this.rough) this.draw(...this.drawn);
-  }
-  draw(values, range, dark, moving = false) {
-    const {gl, canvas, scene} = this;
-    this.drawn = [values, range, dark], this.rough = moving && this.coarse > 1;
-    const ratio = Math.min(2, window.devicePixelRatio || 1) / (this.rough ? this.coarse : 1);
+  /// The camera of a picture with so many pixels for each of the screen's: all of the surface at rest is in it.
+  cameraAt(ratio) {
+    const {canvas, scene, azimuth, elevation, zoom} = this;
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio)), height = Math.max(1, Math.round(canvas.clientHeight * ratio));
-    if (canvas.width !== width || canvas.height !== height) canvas.width = width, canvas.height = height;
-    gl.viewport(0, 0, width, height);
-    gl.clearColor(...(dark ? [0.15, 0.165, 0.19] : [0.88, 0.905, 0.93]), 1);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    if (!scene) return;
-    const {right, up, back} = this.axes(), middle = scene.middle, angle = 24 * Math.PI / 180, aspect = width / height;
-    const high = Math.tan(angle / 2), wide = aspect * high, dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    const seen = [azimuth, elevation, zoom, width, height];
+    if (this.cameraOf === scene && seen.every((number, n) => number === this.cameraSeen[n])) return this.camera;
+    this.cameraOf = scene, this.cameraSeen = seen;
+    const axes = this.axes(), {right, up, back} = axes, {middle} = scene, angle = 24 * Math.PI / 180;
+    const aspect = width / height, high = Math.tan(angle / 2), wide = aspect * high;
     let distance = 0, nearest = Infinity, farthest = -Infinity;
     for (let p = 0, {rest} = scene; p < 3 * scene.count; p += 3) {
       const x = rest[p] - middle[0], y = rest[p + 1] - middle[1], z = rest[p + 2] - middle[2];
@@ -195,27 +104,50 @@ class View {
       nearest = Math.min(nearest, depth), farthest = Math.max(farthest, depth);
     }
     const margin = 0.1 * (farthest - nearest) + 0.2 * distance;
-    const near = Math.max(0.01 * distance, distance - farthest - margin), far = distance - nearest + margin;
-    const f = 1 / Math.tan(angle / 2 / this.zoom);
-    gl.uniformMatrix4fv(this.places.projection, false,
-      [f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0, 2 * far * near / (near - far), 0]);
-    gl.uniformMatrix4fv(this.places.camera, false,
-      [right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0,
-       -dot(right, middle), -dot(up, middle), -dot(back, middle) - distance, 1]);
-    const part = (from, count, normals, numbers, texture, limits, look, plain) => {
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[1]);
-      gl.bufferData(gl.ARRAY_BUFFER, normals, gl.DYNAMIC_DRAW);
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[2]);
-      gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.DYNAMIC_DRAW);
-      gl.bindTexture(gl.TEXTURE_2D, texture);
-      gl.uniform2fv(this.places.range, limits);
-      gl.uniform4fv(this.places.look, look);
-      gl.uniform4fv(this.places.plain, plain);
-      gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 4 * from);
+    this.camera = {axes, middle, distance, width, height, aspect, f: 1 / Math.tan(angle / 2 / zoom),
+                   near: Math.max(0.01 * distance, distance - farthest - margin), far: distance - nearest + margin};
+    return this.camera;
+  }
+  /// Skin and walls: which numbers of corners, their normals, values with their range and colours or one colour, and
+  /// how they shine (ambient, diffuse, specular, its power).
+  parts(values, range) {
+    const {scene} = this, skin = {from: 0, to: scene.skin.length, normals: this.skinNormals};
+    const walls = {from: skin.to, to: skin.to + scene.openWalls, normals: this.wallNormals, values: scene.depth, range: [0, 1],
+                   table: tissueTable, look: [0.12, 0.9, 0.3, 40]};
+    if (values) Object.assign(skin, {values, range, table: valueTable, look: [0.35, 0.62, 0.12, 18]});
+    else Object.assign(skin, {values: scene.depth, range: [0, 1], table: tissueTable, look: [0.12, 0.9, 0.12, 18], plain: [0.91, 0.70, 0.60]});
+    return scene.openWalls ? [skin, walls] : [skin];
+  }
+  /// Starts WebGL2, and decides which way is faster while the picture moves.
+  measure() {
+    if (!this.drawn) return;
+    try {
+      this.webgl ??= new WebglDrawing(this.canvas);
+    } catch (error) {
+      return this.draw(...this.drawn);  // the painter goes on
+    }
+    const time = rough => {
+      const begin = performance.now();
+      this.draw(...this.drawn, rough);
+      if (!rough) this.webgl.finish();
+      return performance.now() - begin;
     };
-    const skin = scene.skin.length, walls = scene.openWalls;
-    if (values) part(0, skin, this.skinNormals, values, this.scale, range, [0.35, 0.62, 0.12, 18], [0, 0, 0, 0]);
-    else part(0, skin, this.skinNormals, scene.depth, this.tissue, [0, 1], [0.12, 0.9, 0.12, 18], [0.91, 0.70, 0.60, 1]);
-    if (walls) part(skin, walls, this.wallNormals, scene.depth, this.tissue, [0, 1], [0.12, 0.9, 0.3, 40], [0, 0, 0, 0]);
+    this.slow = true;  // so that rough pictures are the painter's
+    time(true), time(false);  // compiles
+    const painter = time(true), webgl = time(false);
+    this.slow = webgl > 10 && webgl > painter;
+  }
+  /// Draws again as well as it can.
+  refine() {
+    if (this.rough) this.draw(...this.drawn);
+  }
+  draw(values, range, dark, moving = false) {
+    const painting = !this.webgl || (moving && this.slow), ratio = Math.min(2, window.devicePixelRatio || 1);
+    this.drawn = [values, range, dark], this.rough = moving && painting;
+    this.painted.hidden = !painting;
+    if (!this.scene) return;
+    const background = dark ? [0.15, 0.165, 0.19] : [0.88, 0.905, 0.93], parts = this.parts(values, range);
+    if (painting) this.painter.draw(this, this.cameraAt(moving ? 1 : 2), background, parts);
+    else this.webgl.draw(this, this.cameraAt(ratio), background, parts);
   }
 }
