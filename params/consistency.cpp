@@ -206,8 +206,6 @@ class ConsistencyCheck {
   /// What the finite model does not have.
   void check_finite() const {
     const std::string finite = " with model = \"finite\"";
-    need(!p_.cut.contact, "cut.contact = true: lips do not press on each other" + finite +
-                              "; set it to false, or model to \"small\"");
     need(!p_.skin.initial_stress_stiffness,
          "skin.initial_stress_stiffness = true: the prestress stiffens the skin anyway" + finite +
              "; set it to false");

@@ -19,8 +19,17 @@ struct Hinge {
   double weight;  ///< 1 over the sum of the triangles' areas, 1/mm^2
 };
 
-/// All of a mesh. The lips of the cut are edges of one triangle: the skin has a joint along the whole cut.
+/// All of a mesh that no cut parts.
 std::vector<Hinge> skin_hinges(const PatchMesh& mesh);
+
+/// A hinge across a cut, which holds as long as the cut is closed at both ends of its edge. Of the edge it
+/// has the nodes of one lip, with which those of the other move until then.
+struct Joint {
+  Hinge hinge;
+  std::vector<int> pairs;  ///< that tie its two lips, sorted
+};
+
+std::vector<Joint> skin_joints(const PatchMesh& mesh);
 
 /// Adds the matrix of the energy of bending, to the rows that this rank owns, of a matrix whose pattern has
 /// these entries. It is quadratic in the displacements as long as triangles keep their shape, however far
@@ -30,6 +39,11 @@ std::vector<Hinge> skin_hinges(const PatchMesh& mesh);
 void add_bending(const PatchElements& elements, double stiffness,
                  dealii::TrilinosWrappers::SparseMatrix& matrix);
 
+/// A hinge's part of it, times a factor. `first_unknown` by node; rows from `first` to before `end`.
+void add_hinge(const Hinge& hinge, double factor, const std::vector<int>& first_unknown, int first, int end,
+               dealii::TrilinosWrappers::SparseMatrix& matrix);
+
+/// Of hinges and joints.
 void add_bending_pattern(const PatchMesh& mesh, const std::vector<int>& first_unknown,
                          const dealii::IndexSet& owned, dealii::TrilinosWrappers::SparsityPattern& pattern);
 

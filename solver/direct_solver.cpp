@@ -218,11 +218,12 @@ Block DirectSolver::solve_together(const std::vector<Column>& columns) {
   return solution;
 }
 
-Block DirectSolver::solve_once(const Block& load, int open) {
+Block DirectSolver::solve_once(const Block& load, int open, const Touching& touching) {
   Block pulls = load;
   to_pulls(pulls);
-  Block solution = factor_.solve(
-      pulls, [&](Eigen::VectorXd& kept) { kept = opening_->jumps(opening_->prepare(kept), open, false); });
+  Block solution = factor_.solve(pulls, [&](Eigen::VectorXd& kept) {
+    kept = opening_->jumps(opening_->prepare(kept), open, touching.places, touching.openings);
+  });
   to_displacements(solution);
   return solution;
 }

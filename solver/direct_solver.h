@@ -26,7 +26,8 @@ class DirectSolver : public FrameSolver {
   void set_release(const Release& release) override;
   void set_loads(Block loads, Together together = Together::all) override;
   Block solve(const std::vector<Column>& columns) override;
-  Block solve_once(const Block& load, int open) override;
+  using FrameSolver::solve_once;
+  Block solve_once(const Block& load, int open, const Touching& touching) override;
 
  private:
   /// Solves the columns in one block of MUMPS.

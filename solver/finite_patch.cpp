@@ -46,6 +46,9 @@ struct FinitePatch::Parts {
       bending.reinit(all.pattern);
       add_bending(all, parameters.skin.bending_stiffness, bending);
       bending.compress(dealii::VectorOperation::add);
+      joints = skin_joints(all.mesh), first_unknown = all.first_unknown;
+      stiffness_of_joints = parameters.skin.bending_stiffness;
+      holds.assign(joints.size(), false);
     }
     for (int c = 0; c < elements.count(); ++c)
       for (int a = 0; a < 6; ++a) {
@@ -76,8 +79,12 @@ struct FinitePatch::Parts {
   Epetra_Import exchange;   // from the owned unknowns to these
   std::vector<int> places;  // in `near`, of the vertices of the elements
   dealii::TrilinosWrappers::SparseMatrix tangent, bending;
-  bool bends = false;  // whether the skin has a bending stiffness
-  Block pull;          // dead loads, N
+  bool bends = false;  // whether the skin has a bending stiffness, as `bending` and the joints that hold
+  std::vector<Joint> joints;
+  std::vector<bool> holds;
+  std::vector<int> first_unknown;  // by node
+  double stiffness_of_joints = 0;
+  Block pull;  // dead loads, N
 };
 
 FinitePatch::FinitePatch(const PatchSystem& system, const Parameters& parameters) {
@@ -89,6 +96,23 @@ FinitePatch::FinitePatch(const PatchSystem& system, const Parameters& parameters
 }
 
 FinitePatch::~FinitePatch() = default;
+
+void FinitePatch::set_open(const Release& release, int open) {
+  Parts& p = *parts_;
+  std::vector<bool> closed(release.order.size(), true);
+  for (int i = 0; i < open; ++i) closed[release.order[i]] = false;
+  const int first = p.system.first(), end = first + p.system.owned();
+  for (std::size_t j = 0; j < p.joints.size(); ++j) {
+    const Joint& joint = p.joints[j];
+    const bool now =
+        std::all_of(joint.pairs.begin(), joint.pairs.end(), [&](int pair) { return closed[pair]; });
+    if (now == p.holds[j]) continue;
+    add_hinge(joint.hinge, now ? p.stiffness_of_joints : -p.stiffness_of_joints, p.first_unknown, first, end,
+              p.bending);
+    p.holds[j] = now;
+  }
+  if (p.bends) p.bending.compress(dealii::VectorOperation::add);
+}
 
 FinitePatch::Balance FinitePatch::balance(const Block& displacement) const {
   const Parts& p = *parts_;

@@ -6,6 +6,7 @@
 
 #include "base/vec3.h"
 #include "params/parameters/parameters.h"
+#include "solver/patch_mesh.h"
 #include "solver/patch_system.h"
 
 namespace cleft {
@@ -18,6 +19,10 @@ class FinitePatch {
   /// Keeps a reference to the system, whose mesh, division and load it has.
   FinitePatch(const PatchSystem& system, const Parameters& parameters);
   ~FinitePatch();
+
+  /// With the first `open` pairs of a release open: across the cut the skin resists bending where it is
+  /// closed, before the first call nowhere.
+  void set_open(const Release& release, int open);
 
   /// The element whose volume has shrunk most: the least determinant of the deformation gradient.
   struct LeastElement {

@@ -47,9 +47,12 @@ class ForcesOfParameter {
     }
   }
 
-  Block at(const Block& displacement) const {
+  Block at(const Release& release, int open, const Block& displacement) const {
     Block sum = load_;
-    for (const auto& [patch, weight] : patches_) sum += weight * patch->balance(displacement).left_over;
+    for (const auto& [patch, weight] : patches_) {
+      patch->set_open(release, open);
+      sum += weight * patch->balance(displacement).left_over;
+    }
     return sum;
   }
 
@@ -67,7 +70,7 @@ void solve_finite_series(SharedStiffness& shared, const Release& release, std::s
   FinitePatch patch(system, output.parameters());
   const double largest_load = largest(system, system.load(output.parameters().skin));
   NewtonSolver newton(shared.mesh(), system, patch, release, *shared.chosen().solver, shared.residual(),
-                      largest_load);
+                      largest_load, output.parameters().cut.contact);
   std::vector<ForcesOfParameter> forces;
   forces.reserve(names.size());
   for (const std::string& name : names) forces.emplace_back(system, output.parameters(), name);
@@ -87,7 +90,7 @@ void solve_finite_series(SharedStiffness& shared, const Release& release, std::s
     if (names.empty()) continue;
     Block all(system.owned(), static_cast<Eigen::Index>(names.size()));
     for (std::size_t i = 0; i < names.size(); ++i)
-      all.col(static_cast<Eigen::Index>(i)) = forces[i].at(displacement);
+      all.col(static_cast<Eigen::Index>(i)) = forces[i].at(release, release.released[frame], displacement);
     all = newton.responses(frame, displacement, all);
     for (std::size_t i = 0; i < names.size(); ++i)
       output.write_derivative(names[i], frame, all.col(static_cast<Eigen::Index>(i)));

@@ -75,6 +75,12 @@ void on_root(const PatchSystem& system, const std::function<void()>& work) {
   if (!failure.empty()) throw SolveError(failure);
 }
 
+Block FrameSolver::solve_once(const Block& load, int open, const Touching& touching) {
+  CLEFT_CHECK(touching.places.size(), ==, std::size_t{0});
+  set_loads(load);
+  return solve({{0, open, false, 1e-10}});
+}
+
 double rounding_error(const PatchSystem& system, FrameSolver& solver) {
   const Block translation = Block::Ones(system.owned(), 1);
   solver.set_loads(system.multiply(translation));

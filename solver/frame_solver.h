@@ -51,11 +51,15 @@ class FrameSolver {
   /// are fastest.
   virtual Block solve(const std::vector<Column>& columns) = 0;
 
-  /// The displacement under one load, without contact; discards the loads that are set.
-  virtual Block solve_once(const Block& load, int open) {
-    set_loads(load);
-    return solve({{0, open, false, 1e-10}});
-  }
+  /// Open pairs whose lips touch, by their places in the release, and their normal openings, mm.
+  struct Touching {
+    std::vector<int> places;
+    Eigen::VectorXd openings;
+  };
+  /// The displacement under one load; pairs that touch have the openings that are given and slide, all others
+  /// are free. Discards the loads that are set. Iterations are for no pairs that touch.
+  virtual Block solve_once(const Block& load, int open, const Touching& touching);
+  Block solve_once(const Block& load, int open) { return solve_once(load, open, {}); }
 
   /// Iterations of every column solved so far; empty for a direct solver.
   virtual std::vector<int> iterations() const { return {}; }

@@ -13,17 +13,32 @@ namespace {
 
 constexpr double converged = 1e-7;            // residual, relative to the largest load
 constexpr int most_steps = 25;                // of Newton's method, for a part of the load
+constexpr int most_revisions = 60;            // of the pairs that touch, likewise
 constexpr int most_iterations_of_step = 200;  // of conjugate gradients
 constexpr int iterations_of_a_factor = 30;    // of a frame, above which a new factor pays
 constexpr double least_part = 1. / 64;        // of the load
 constexpr double accurate = 1e-10;            // residual of a derivative's linear system, relative
 constexpr double loosest = 0.1;               // residual of a step's linear system, relative
 
+/// Closes what is closed in a frame: a prediction may part it, where a frame opens a part of a column, or a
+/// branch leaves.
+void close_what_is_closed(const PatchMesh& mesh, const PatchSystem& system, const Release& release, int frame,
+                          Block& displacement) {
+  const CutNodes cut(mesh, system);
+  std::vector<bool> closed(cut.pairs.size(), true);
+  for (int i = 0; i < release.released[frame]; ++i) closed[release.order[i]] = false;
+  Eigen::MatrixXd at_cut = all_gather_rows(system, displacement, cut.unknowns);
+  for (std::size_t p = 0; p < cut.pairs.size(); ++p)  // a right node is the left one of later pairs only
+    if (closed[p])
+      at_cut.middleRows<3>(3 * cut.pairs[p][1]) = at_cut.middleRows<3>(3 * cut.pairs[p][0]).eval();
+  set_rows(system, displacement, cut.unknowns, at_cut);
+}
+
 }  // namespace
 
 NewtonSolver::NewtonSolver(const PatchMesh& mesh, const PatchSystem& system, FinitePatch& patch,
                            const Release& release, FrameSolver& reference, const FrameResidual& residual,
-                           double largest_load)
+                           double largest_load, bool contact)
     : mesh_(mesh),
       system_(system),
       patch_(patch),
@@ -31,15 +46,17 @@ NewtonSolver::NewtonSolver(const PatchMesh& mesh, const PatchSystem& system, Fin
       reference_(reference),
       residual_(residual),
       largest_load_(largest_load),
-      prediction_(mesh, system, release) {}
+      prediction_(mesh, system, release),
+      contact_(mesh, system, release, contact) {}
 
 NewtonFrame NewtonSolver::solve(int frame, Block& displacement) {
   NewtonFrame report;
   report.frame = frame;
   const Block start = displacement;
+  patch_.set_open(release_, release_.released[frame]);
   balance_ = patch_.balance(start);
   const FinitePatch::Balance at_start = balance_;
-  const Block& tied = at_start.left_over;  // of it what the pairs that open now transmitted
+  const Block tied = left_over();  // of it what opens now transmitted
   bool predicted = predict(frame, start, displacement);
   double done = 0, part = 1;
   Block reached = start;
@@ -85,10 +102,12 @@ Block NewtonSolver::responses(int frame, const Block& displacement, const Block&
 /// Starts from the prediction where its forces are nearer to balance, and says so.
 bool NewtonSolver::predict(int frame, const Block& start, Block& displacement) {
   if (!prediction_.possible(frame)) return false;
-  const Block predicted = prediction_.predict(before_, start);
+  Block predicted = prediction_.predict(before_, start);
+  close_what_is_closed(mesh_, system_, release_, frame, predicted);
   FinitePatch::Balance there = patch_.balance(predicted);
   if (!(there.least.determinant > 0) ||
-      !(residual_of(frame, there.left_over, predicted) < residual_of(frame, balance_.left_over, start)))
+      !(residual_of(frame, there.left_over + contact_.forces(there.left_over), predicted) <
+        residual_of(frame, left_over(), start)))
     return false;
   displacement = predicted;
   balance_ = std::move(there);
@@ -98,12 +117,22 @@ bool NewtonSolver::predict(int frame, const Block& start, Block& displacement) {
 /// Newton's method for F(u) = f - tied from a displacement with its balance; whether it has converged.
 bool NewtonSolver::converge(int frame, const Block& tied, Block& displacement, NewtonFrame& report) {
   const int open = release_.released[frame];
+  contact_.begin(open);
+  if (!close_gaps(open, displacement)) return false;
   for (int i = 0;; ++i) {
-    const Block force = balance_.left_over - tied;
+    const Block acting = balance_.left_over - tied;
+    const Block force = acting + contact_.forces(acting);
     report.residual = residual_of(frame, force, displacement);
+    if (i == most_steps + most_revisions || !std::isfinite(report.residual)) return false;
+    // As far as the residual lets pulls and overlaps be told.
+    const double least = std::max(report.residual, converged);
+    if (contact_.revise(displacement, acting, least * largest_load_, least)) {
+      if (contact_.revisions() > most_revisions || !close_gaps(open, displacement)) return false;
+      continue;
+    }
     // Where the last step met a negative curvature the equilibrium is that of a saddle.
     if (report.residual < converged) return report.steps.empty() || !report.steps.back().indefinite;
-    if (i == most_steps || !std::isfinite(report.residual)) return false;
+    if (i - contact_.revisions() == most_steps) return false;
     patch_.set_tangent(displacement);
     const double enough = std::max(std::min(report.residual, loosest), 0.1 * converged / report.residual);
     Direction d = direction(force, open, enough);
@@ -111,6 +140,15 @@ bool NewtonSolver::converge(int frame, const Block& tied, Block& displacement, N
     report.steps.push_back({report.residual, d.iterations, length, d.indefinite});
     if (length == 0) return false;
   }
+}
+
+/// Moves the lips that touch onto each other, as the factor's tangent gives way.
+bool NewtonSolver::close_gaps(int open, Block& displacement) {
+  const FrameSolver::Touching closing = contact_.closing(displacement);
+  if (closing.places.empty() || closing.openings.isZero(0)) return true;
+  displacement += factor().solve_once(Block::Zero(displacement.rows(), 1), open, closing);
+  balance_ = patch_.balance(displacement);
+  return balance_.least.determinant > 0;
 }
 
 /// Conjugate gradients: the tangent's step, to `enough` in the norm of the preconditioner. At a negative
@@ -171,7 +209,7 @@ double NewtonSolver::residual_of(int frame, const Block& force, const Block& dis
 }
 
 Block NewtonSolver::precondition(const Block& force, int open) {
-  return (factor_ ? *factor_ : reference_).solve_once(force, open);
+  return factor().solve_once(force, open, contact_.sliding());
 }
 
 /// Where the tangent is not definite with all pairs open the last factor, or else that of the reference

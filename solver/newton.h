@@ -6,6 +6,7 @@
 #include "solver/direct_solver.h"
 #include "solver/finite_patch.h"
 #include "solver/frame_figures.h"
+#include "solver/lip_contact.h"
 #include "solver/prediction.h"
 #include "solver/solve.h"
 
@@ -15,13 +16,15 @@ namespace cleft {
 /// pairs together, to a relative residual like that of the forces, so that convergence stays quadratic
 /// (Dembo, Eisenstat and Steihaug 1982). The preconditioner is a frame's exact solution with a factor of an
 /// earlier tangent, at first that of the reference state; a new factor is made when iterations have become
-/// many. Calls are collective.
+/// many. Where lips touch, each step is one among the displacements that keep them together along their
+/// normals. Calls are collective.
 class NewtonSolver {
  public:
   /// `reference`: a solver with the factor of the tangent at the reference state, which must live as long as
-  /// this object, and whose loads are changed. `largest_load`: N, the unit of residuals.
+  /// this object, and whose loads are changed. `largest_load`: N, the unit of residuals. `contact`: whether
+  /// lips press on each other where they would overlap.
   NewtonSolver(const PatchMesh& mesh, const PatchSystem& system, FinitePatch& patch, const Release& release,
-               FrameSolver& reference, const FrameResidual& residual, double largest_load);
+               FrameSolver& reference, const FrameResidual& residual, double largest_load, bool contact);
 
   /// From the equilibrium of the frame before (frame 0: from the reference state), which is replaced. To be
   /// called for the frames in their order. If Newton's method does not converge, the forces that tie what the
@@ -33,8 +36,8 @@ class NewtonSolver {
   /// its tangent. Throws SolveError if that is not positive definite.
   Block responses(int frame, const Block& displacement, const Block& forces);
 
-  /// Forces out of balance at the last frame.
-  const Block& left_over() const { return balance_.left_over; }
+  /// Forces out of balance at the last frame, but for what closed pairs transmit.
+  Block left_over() const { return balance_.left_over + contact_.forces(balance_.left_over); }
 
  private:
   struct Direction {
@@ -45,10 +48,12 @@ class NewtonSolver {
 
   bool predict(int frame, const Block& start, Block& displacement);
   bool converge(int frame, const Block& tied, Block& displacement, NewtonFrame& report);
+  bool close_gaps(int open, Block& displacement);
   Direction direction(const Block& force, int open, double enough);
   double line_search(const Block& step, const Block& tied, Block& displacement);
   double residual_of(int frame, const Block& force, const Block& displacement) const;
   Block precondition(const Block& force, int open);
+  FrameSolver& factor() { return factor_ ? *factor_ : reference_; }
   void renew_factor();
   [[noreturn]] void fail(int frame, double fraction, const NewtonFrame& report) const;
 
@@ -60,6 +65,7 @@ class NewtonSolver {
   const FrameResidual& residual_;
   double largest_load_;
   Prediction prediction_;
+  LipContact contact_;
   Block before_;                          // the frame before the last
   std::unique_ptr<DirectSolver> factor_;  // of a later tangent
   FinitePatch::Balance balance_;          // at the displacement reached

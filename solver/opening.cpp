@@ -36,10 +36,26 @@ Opening::Load Opening::prepare(const Eigen::VectorXd& pull) const {
 }
 
 Eigen::VectorXd Opening::jumps(const Load& load, int open, bool contact) const {
+  Eigen::VectorXd leading = load.head(3 * open);
+  if (contact && open > 0)
+    leading += normal_forward_.topLeftCorner(3 * open, open) * contact_forces(load, open);
+  return substituted_back(std::move(leading), open);
+}
+
+Eigen::VectorXd Opening::jumps(const Load& load, int open, const std::vector<int>& touching,
+                               const Eigen::VectorXd& normal_jumps) const {
+  Eigen::VectorXd leading = load.head(3 * open);
+  if (!touching.empty()) {
+    const Eigen::MatrixXd normals = normal_forward_(Eigen::seqN(0, 3 * open), touching);
+    const Eigen::MatrixXd compliance = normals.transpose() * normals;
+    leading += normals * compliance.llt().solve(normal_jumps - normals.transpose() * leading);
+  }
+  return substituted_back(std::move(leading), open);
+}
+
+Eigen::VectorXd Opening::substituted_back(Eigen::VectorXd leading, int open) const {
   Eigen::VectorXd jumps = Eigen::VectorXd::Zero(size_);
   if (open == 0) return jumps;
-  Eigen::VectorXd leading = load.head(3 * open);
-  if (contact) leading += normal_forward_.topLeftCorner(3 * open, open) * contact_forces(load, open);
   factor_.matrixLLT()
       .topLeftCorner(3 * open, 3 * open)
       .triangularView<Eigen::Lower>()

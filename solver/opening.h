@@ -28,7 +28,14 @@ class Opening {
   /// lips press on each other, without friction, where they would overlap: normal jumps >= 0.
   Eigen::VectorXd jumps(const Load& load, int open, bool contact) const;
 
+  /// The same where the lips of some open pairs touch, by their places in the order: their normal jumps are
+  /// given, mm, whether they press or pull. All others are free.
+  Eigen::VectorXd jumps(const Load& load, int open, const std::vector<int>& touching,
+                        const Eigen::VectorXd& normal_jumps) const;
+
  private:
+  /// From L^T times the jumps of the open pairs.
+  Eigen::VectorXd substituted_back(Eigen::VectorXd leading, int open) const;
   /// Forces >= 0 that keep the normal jumps >= 0, by pair.
   Eigen::VectorXd contact_forces(const Load& load, int open) const;
 

@@ -18,7 +18,8 @@ class Prediction {
   /// Whether this frame releases the column behind which the frame before released one.
   bool possible(int frame) const;
 
-  /// The displacement of a frame from those of the two before it. Closed pairs stay closed. Collective.
+  /// The displacement of a frame from those of the two before it. Where the frame opens a part of a column,
+  /// or a branch leaves, pairs that are still closed may part. Collective.
   Block predict(const Block& before_last, const Block& last) const;
 
  private:

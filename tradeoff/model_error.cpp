@@ -33,7 +33,7 @@ ModelError model_error(const Parameters& parameters, const std::string& work,
   const auto coarse = [&](double elements, Model model) {
     Parameters p =
         applied({.element_size = length / elements, .margin = compared_margin * length}, parameters);
-    p.model = model, p.cut.contact = false, p.mesh.cut_length = p.mesh.cut_depth = 0;
+    p.model = model, p.mesh.cut_length = p.mesh.cut_depth = 0;
     if (model == Model::finite) p.skin.initial_stress_stiffness = false;
     check_consistency(p, "model = \"finite\"");
     progress("solving with " + std::string(model == Model::small ? "small" : "finite") + " strains and " +

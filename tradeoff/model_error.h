@@ -22,10 +22,9 @@ struct ModelError {
   double small_rise, finite_rise;  ///< mm: how far a lip rises above the skin
 };
 
-/// Takes seconds. `parameters`: of a straight cut, with either model; where the finite one lacks the contact
-/// of lips both are without it, and it has the geometric stiffness of the tension in any case. Throws
-/// InputError if the finite model does not have what else the case asks for, std::runtime_error if it has no
-/// solution.
+/// Takes seconds. `parameters`: of a straight cut, with either model; the finite one has the geometric
+/// stiffness of the tension in any case. Throws InputError if the finite model does not have what else the
+/// case asks for, std::runtime_error if it has no solution.
 ModelError model_error(const Parameters& parameters, const std::string& work,
                        const std::function<void(const std::string&)>& progress);
 

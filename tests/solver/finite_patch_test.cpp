@@ -4,22 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
-#include "solver/newton.h"
-#include "tests/solver/dense_patch.h"
+#include "solver/bending.h"
+#include "tests/solver/newton_frames.h"
 
 namespace cleft {
 
 namespace {
-
-Parameters finite_case() {
-  Parameters p = dense_patch_case();
-  p.model = Model::finite;
-  p.skin.initial_stress_stiffness =
-      true;  // of the system, whose K is then the tangent at the reference state
-  return p;
-}
 
 struct FiniteCase {
   const char* name;
@@ -59,26 +53,6 @@ double norm_of(const PatchSystem& system, const Block& block) {
   return std::sqrt(dot(system, block.col(0), block.col(0)));
 }
 
-/// All frames of a case.
-std::vector<Block> newton_frames(const DensePatch& patch, const Parameters& p,
-                                 std::vector<NewtonFrame>* reports = nullptr) {
-  DirectSolver solver(patch.mesh, patch.system);
-  solver.factorize();
-  solver.set_release(patch.release);
-  const FrameResidual residual(patch.mesh, patch.system);
-  FinitePatch finite(patch.system, p);
-  NewtonSolver newton(patch.mesh, patch.system, finite, patch.release, solver, residual,
-                      patch.load.cwiseAbs().maxCoeff());
-  Block u = Block::Zero(patch.system.owned(), 1);
-  std::vector<Block> frames;
-  for (int frame = 0; frame < static_cast<int>(patch.release.released.size()); ++frame) {
-    const NewtonFrame report = newton.solve(frame, u);
-    if (reports) reports->push_back(report);
-    frames.push_back(u);
-  }
-  return frames;
-}
-
 }  // namespace
 
 TEST(FinitePatch, TheReferenceStateHasTheLoadAndTheTangentOfTheSystem) {
@@ -105,6 +79,7 @@ TEST(FinitePatch, ForcesAndTangentAreDerivativesOfTheEnergy) {
     SCOPED_TRACE(c.name);
     const DensePatch patch(c.parameters);
     FinitePatch finite(patch.system, c.parameters);
+    finite.set_open(patch.release, patch.release.released[2]);  // the rest of the cut resists bending
     const Block u = some_displacement(patch.system, 0.05);
     Block direction = some_displacement(patch.system, 1);
     direction = direction.array().square().matrix();
@@ -135,6 +110,22 @@ TEST(FinitePatch, TheElementThatHasShrunkMostIsFound) {
   EXPECT_NEAR(least.place.z, -0.5, 0.1);
 }
 
+/// The stiffness of the small model, whose skin bends freely along the whole cut, with the joints that are
+/// closed (bending_test.cpp).
+Eigen::MatrixXd with_joints(const DensePatch& patch, const Parameters& p, int open) {
+  const std::set<int> closed(patch.release.order.begin() + open, patch.release.order.end());
+  Eigen::MatrixXd k = patch.stiffness;
+  for (const auto& [hinge, pairs] : skin_joints(patch.mesh)) {
+    if (!std::includes(closed.begin(), closed.end(), pairs.begin(), pairs.end())) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      Eigen::VectorXd bend = Eigen::VectorXd::Zero(k.rows());
+      for (int n = 0; n < 4; ++n) bend[patch.system.unknown(hinge.nodes[n], axis)] = hinge.bend[n];
+      k += p.skin.bending_stiffness * hinge.weight * bend * bend.transpose();
+    }
+  }
+  return k;
+}
+
 /// The difference is of the order of the strain: of a thousandth, more where the tissue is nearly
 /// incompressible.
 TEST(Newton, UnderSmallTensionTheSeriesIsThatOfTheSmallModel) {
@@ -146,8 +137,9 @@ TEST(Newton, UnderSmallTensionTheSeriesIsThatOfTheSmallModel) {
     const DensePatch patch(p);
     const std::vector<Block> frames = newton_frames(patch, p);
     for (std::size_t j = 0; j < frames.size(); ++j) {
+      const int open = patch.release.released[j];
       const Eigen::VectorXd expected =
-          patch.solve(patch.closure(patch.release, patch.release.released[j]), patch.load);
+          solve_with_multipliers(with_joints(patch, p, open), patch.closure(patch.release, open), patch.load);
       const Eigen::VectorXd found = patch.whole(frames[j]);
       EXPECT_LT((found - expected).norm(), 5e-3 * expected.norm() + 1e-15) << "frame " << j;
     }
@@ -162,8 +154,9 @@ TEST(Newton, ConvergesQuadraticallyToForcesInBalance) {
     const DensePatch patch(c.parameters);
     std::vector<NewtonFrame> reports;
     const std::vector<Block> frames = newton_frames(patch, c.parameters, &reports);
-    const FinitePatch finite(patch.system, c.parameters);
+    FinitePatch finite(patch.system, c.parameters);
     for (std::size_t j = 0; j < frames.size(); ++j) {
+      finite.set_open(patch.release, patch.release.released[j]);
       const NewtonFrame& report = reports[j];
       SCOPED_TRACE("frame " + std::to_string(j));
       EXPECT_LT(report.residual, 1e-7);
@@ -213,6 +206,7 @@ TEST(Newton, BucklingPiecesComeToAStableBalanceInPartsOfTheLoad) {
       indefinite += step.indefinite, shortened += step.length < 1;
 
     FinitePatch finite(patch.system, p);
+    finite.set_open(patch.release, 0);
     EXPECT_GT(finite.balance(u).least.determinant, 0);
     finite.set_tangent(u);
     const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(patch.system.size(), patch.system.size());

@@ -94,8 +94,6 @@ TEST_F(SolveRefuses, WhatTheFiniteModelDoesNotHave) {
                        {"--method iterative", "model = finite", "--method direct"});
   expect_wrong_options({.sensitivities = {"skin.bending_stiffness"}}, {"model=finite"},
                        {"--sensitivities skin.bending_stiffness", "0", "set it above 0"});
-  expect_refused({"--set", "model=finite", "--set", "cut.contact=true"},
-                 {"cut.contact = true", "model = \"finite\"", "set it to false"});
   expect_refused({"--set", "model=finite", "--set", "skin.initial_stress_stiffness=true"},
                  {"skin.initial_stress_stiffness = true", "set it to false"});
   expect_refused({"--set", "model=finite", "--set", "tissue.law=st-venant-kirchhoff", "--set",

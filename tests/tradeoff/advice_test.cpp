@@ -144,13 +144,13 @@ TEST(ModelErrorOfACase, GrowsInProportionToWeakTension) {
 
 TEST(Advice, SaysWhyAModelCannotBeChosen) {
   const TemporaryFolder folder;
-  const std::string with_contact = folder.write("contact.toml",
-                                                "[case]\ncut = { length = 12, depth = 2, contact = true }\n"
-                                                "patch.height = 5\n"),
+  const std::string stiffened = folder.write("stiffened.toml",
+                                             "[case]\ncut = { length = 12, depth = 2 }\n"
+                                             "skin.initial_stress_stiffness = true\npatch.height = 5\n"),
                     out = folder / "out.toml";
   const std::string said =
-      expect_success(run_cleft("advise", {with_contact, "--error", "0.2", "--out", out})).output;
-  for (const char* part : {"cut.contact = true: lips do not press", "small strains are off by another",
+      expect_success(run_cleft("advise", {stiffened, "--error", "0.2", "--out", out})).output;
+  for (const char* part : {"the prestress stiffens the skin anyway", "small strains are off by another",
                            "which is not in the error of 0.2"})
     EXPECT_NE(said.find(part), said.npos) << said;
   EXPECT_EQ(read_study(out).base.parameters.model, Model::small);

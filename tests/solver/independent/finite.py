@@ -100,7 +100,42 @@ def skin_forces(patch, u):
     return forces
 
 
-def out_of_balance(patch, u, rule="full"):
-    """(N, 3): the loads less the forces of tissue, skin and springs."""
+def out_of_balance(patch, frame, rule="full", u=None):
+    """(N, 3): the loads less the forces of tissue, skin and springs, at the displacement of a frame or another one."""
+    u = patch.displacement[frame] if u is None else u
     return pull(patch, rule) - tissue_forces(patch, u, rule) - skin_forces(patch, u) - \
-        (foundation(patch) + bending_stiffness(patch)) @ u
+        (foundation(patch) + bending_stiffness(patch, frame)) @ u
+
+
+def normals(patch):
+    """(P, 3): of the pairs of straight cuts, from left to right: v of the first cut, u of a branch, which leaves it
+    toward +v, and whose nodes on the first cut have three copies."""
+    right = set()
+    result = np.zeros((len(patch.pairs), 3))
+    for number, (left, right_node) in enumerate(patch.pairs):
+        of_branch = abs(patch.points[left, 1]) > 1e-9 or left in right
+        result[number, 0 if of_branch else 1] = 1
+        right.add(right_node)
+    return result
+
+
+def without_contact(patch, frame, left_over, closed=1e-6):
+    """left_over without what the lips of open pairs may do: press on each other along the normal, where they touch to
+    `closed` of the largest displacement. Fails where they overlap by more. From the last pair back, because a closed
+    pair hands on what its right node bears to its left one, which may be the right one of an earlier pair."""
+    forces, u = left_over.copy(), patch.displacement[frame]
+    largest, touching = np.abs(u).max(), 0
+    for number in reversed(range(len(patch.pairs))):
+        left, right = patch.pairs[number]
+        shared = forces[right].copy()
+        if number < patch.released[frame]:
+            normal = normals(patch)[number]
+            gap, pressed = normal @ (u[right] - u[left]), -normal @ shared
+            if gap < -closed * largest:
+                raise SystemExit(f"frame {frame}: lips overlap by {-gap:.2e} mm")
+            presses = pressed > 0 and gap < closed * largest
+            touching += presses
+            shared = -pressed * normal if presses else np.zeros(3)
+        forces[right] -= shared
+        forces[left] += shared
+    return forces, touching

@@ -59,7 +59,7 @@ class Patch:
             self.parameters = dict(BEFORE_THEY_CAME)
             for name, value in file["parameters"].attrs.items():
                 self.parameters[name] = value.decode() if isinstance(value, bytes) else value
-        if self.parameters["cut.contact"] == "true":
+        if self.parameters["cut.contact"] == "true" and self["model"] != "finite":
             raise SystemExit("cut.contact = true: its frames solve no linear system")
         if not self.is_body and np.abs(self.points[self.skin][:, :, 2]).max() > 0:
             raise SystemExit("the skin does not lie at w = 0")
@@ -105,14 +105,15 @@ def scatter(cells, blocks, nodes):
     return sparse.coo_matrix((blocks.ravel(), (rows, columns)), shape=(3 * nodes, 3 * nodes)).tocsc()
 
 
-def bending_stiffness(patch):
+def bending_stiffness(patch, frame=None):
     """(N, N), in each direction: edge by edge, D / (areas of its two triangles) times the square of its length times
-    the jump of the gradient across it."""
+    the jump of the gradient across it. With a frame, also of the edges across its closed pairs, whose nodes are one."""
     if patch["skin.bending_stiffness"] == 0:
         return sparse.csc_matrix((len(patch.points),) * 2)
     gradient, area = skin_gradients(patch)
+    stands = np.arange(len(patch.points)) if frame is None else patch.joined(frame)
     sides = {}
-    for triangle, corners in enumerate(patch.skin):
+    for triangle, corners in enumerate(stands[patch.skin]):
         for c in range(3):
             edge = tuple(sorted((corners[c], corners[(c + 1) % 3])))
             sides.setdefault(edge, []).append(triangle)
@@ -123,7 +124,7 @@ def bending_stiffness(patch):
         along = patch.points[b, :2] - patch.points[a, :2]
         across, jump = np.array([along[1], -along[0]]), {}
         for triangle, sign in zip(both, (1, -1)):
-            for node, slope in zip(patch.skin[triangle], gradient[triangle]):
+            for node, slope in zip(stands[patch.skin[triangle]], gradient[triangle]):
                 jump[node] = jump.get(node, 0) + sign * slope @ across
         for i, at_i in jump.items():
             for j, at_j in jump.items():

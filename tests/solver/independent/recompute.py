@@ -10,7 +10,7 @@ import argparse
 import shutil
 import sys
 
-from finite import out_of_balance
+from finite import out_of_balance, without_contact
 from patch import Patch, RULES, foundation, h5py, load, np, solve, stiffness
 
 BOUND = 1e-8
@@ -39,14 +39,16 @@ def finite_errors(patch, matrix, frame, rule):
     """Of a frame of the finite model: the largest force that is out of balance over the largest load, and by how much
     such forces would move the patch, with the tangent at the reference state, over the largest displacement."""
     stands, displacement = patch.joined(frame), patch.displacement[frame]
-    left_over = out_of_balance(patch, displacement, rule)
+    left_over, touching = out_of_balance(patch, frame, rule), 0
+    if patch["cut.contact"] == "true":
+        left_over, touching = without_contact(patch, frame, left_over)
     together = np.zeros_like(left_over)
     np.add.at(together, stands, left_over)
     unbalanced = np.abs(together).max() / np.abs(load(patch)).max()
     moved = np.abs(solve(patch, matrix, frame, left_over)).max()
     largest = np.abs(displacement).max()
-    print(f"frame {frame}: {len(patch.pairs) - patch.released[frame]} pairs closed, forces out of balance "
-          f"{unbalanced:.1e}, which would move the patch by {moved / largest if largest > 0 else moved:.1e}")
+    print(f"frame {frame}: {len(patch.pairs) - patch.released[frame]} pairs closed, {touching} pressed, forces out of "
+          f"balance {unbalanced:.1e}, which would move the patch by {moved / largest if largest > 0 else moved:.1e}")
     return unbalanced, moved / largest if largest > 0 else moved
 
 

@@ -141,7 +141,8 @@ Block displacement_of(const Disc& disc, Parameters p) {
   if (p.model == Model::small) return gather_rows(system, solver.solve_once(load, release.released[1]), all);
   const FrameResidual residual(disc.mesh, system);
   FinitePatch patch(system, p);
-  NewtonSolver newton(disc.mesh, system, patch, release, solver, residual, load.cwiseAbs().maxCoeff());
+  NewtonSolver newton(disc.mesh, system, patch, release, solver, residual, load.cwiseAbs().maxCoeff(),
+                      p.cut.contact);
   Block u = Block::Zero(system.owned(), 1);
   newton.solve(0, u);
   const NewtonFrame frame = newton.solve(1, u);

@@ -248,7 +248,7 @@ def calculix(tool, page):
         patch = Patch(out)
         for frame in range(1, last + 1):
             found = patch.displacement[frame]
-            stands, unbalanced = patch.joined(frame), out_of_balance(patch, found, "centroid")
+            stands, unbalanced = patch.joined(frame), out_of_balance(patch, frame, "centroid", found)
             together = np.zeros_like(unbalanced)
             np.add.at(together, stands, unbalanced)
             residual = np.abs(together).max() / np.abs(load(patch)).max()
