@@ -83,16 +83,20 @@ def displacements_of(path):
 
 
 def pictures(script, page, fragment):
-    """The page's picture, and the explorer's after a script."""
+    """The page's pictures, by WebGL2 and by the painter, which draws where that is software, and the explorer's after a script."""
     picture, lines = os.path.join(SCRATCH.name, "explorer.png"), os.path.join(SCRATCH.name, "explorer.txt")
     with open(lines, "w") as out:
         out.write(script)
     command("cleft", "explore", "--script", lines, "--screenshot", picture)
     opened(page, fragment)
-    text = BROWSER.run("""(() => { const place = document.getElementById('picture').style;
+    texts = BROWSER.run("""(() => { const place = document.getElementById('picture').style, {view} = cleft;
       place.position = 'fixed'; place.width = '1280px'; place.height = '720px';
-      cleft.refresh(); return document.getElementById('view').toDataURL(); })()""")
-    own = matplotlib.image.imread(io.BytesIO(base64.b64decode(text.split(",")[1])), format="png")[..., :3]
+      view.measure(), cleft.refresh();
+      const texts = [view.canvas.toDataURL()], hidden = [view.painted.hidden];
+      view.slow = true, cleft.refresh(true);
+      return [...texts, view.painted.toDataURL(), ...hidden, view.painted.hidden]; })()""")
+    assert texts[2:] == [True, False], "the painter draws moving pictures, and only these"
+    own = [matplotlib.image.imread(io.BytesIO(base64.b64decode(text.split(",")[1])), format="png")[..., :3] for text in texts[:2]]
     return own, matplotlib.image.imread(picture)[..., :3]
 
 
@@ -198,7 +202,8 @@ class Page(unittest.TestCase):
         for color, azimuth, elevation in (("displacement", 0, 0), ("gape", 30, -35), ("tissue", 0, 0)):
             own, expected = pictures(f"open '{STUDY}'\ncolor {color}\ncamera {azimuth} {elevation} 1\n", PAGE,
                                      f"#case=1&color={color}&az={azimuth}&el={elevation}&dark=0")
-            self.assertLess(different(own, expected), 0.02, color)
+            for drawn, way in zip(own, ("WebGL2", "painter")):
+                self.assertLess(different(drawn, expected), 0.02, (color, way))
 
     def test_a_mesh_opens_as_cut_opens_it(self):
         head, path, page, cut = (os.path.join(SCRATCH.name, name) for name in ("head.stl", "path.csv", "mesh.html", "cut.vtp"))
@@ -227,7 +232,20 @@ class Page(unittest.TestCase):
         self.assertTrue(least < BROWSER.run("cleft.largest.displacement") < greatest)
         self.assertEqual(BROWSER.mistakes(), [])
         own, expected = pictures(f"open '{STUDY}'\nmesh '{head}'\ncut-file '{path}'\ncolor displacement\n", page, "#case=1&color=displacement&az=0&el=0&dark=0")
-        self.assertLess(different(own, expected), 0.02)
+        for drawn in own:
+            self.assertLess(different(drawn, expected), 0.02)
+
+    def test_a_page_is_drawn_where_there_is_no_webgl(self):
+        opened()
+        shown = BROWSER.run("""(() => { const {view} = cleft, {canvas} = view;
+          canvas.getContext = () => null, view.webgl = null, view.measure(), cleft.refresh();
+          const {data} = view.painter.context.getImageData(0, 0, view.painted.width, view.painted.height);
+          let drawn = 0;
+          for (let n = 0; n < data.length; n += 4) if (data[n] > data[n + 2] + 10) ++drawn;
+          return [view.webgl, view.painted.hidden, view.painted.width / canvas.clientWidth, 4 * drawn / data.length]; })()""")
+        self.assertEqual(shown[:3], [None, False, 2])
+        self.assertGreater(shown[3], 0.2)  # skin, on a blue background
+        self.assertEqual(BROWSER.mistakes(), [])
 
     def test_curves_and_table_hold_the_figures(self):
         opened()
@@ -241,8 +259,9 @@ class Page(unittest.TestCase):
         done = BROWSER.run("""(async () => {
           let seed = 1;
           const random = () => (seed = seed * 48271 % 2147483647) / 2147483647;
-          // A small picture: software draws it.
+          // A small picture, and every fiftieth by WebGL2: software draws it.
           document.getElementById('picture').style.cssText = 'height: 64px; width: 64px; min-height: 0';
+          cleft.view.measure(), cleft.view.slow = true;
           const inputs = [...document.querySelectorAll('#parameters input, #time')];
           const colors = [...document.getElementById('color').options].map(one => one.value);
           for (let n = 0; n < 1000; ++n) {
@@ -250,7 +269,7 @@ class Page(unittest.TestCase):
             input.value = String(Number(input.min) + random() * (Number(input.max) - Number(input.min)));
             input.dispatchEvent(new Event('input'));
             if (n % 10 === 0) cleft.set({color: colors[n / 10 % colors.length]});
-            cleft.refresh();
+            cleft.refresh(n % 50 > 0);
             if (!cleft.scene.displacement.every(Number.isFinite)) return 'not a number at ' + n;
           }
           cleft.refreshSlow();
@@ -268,9 +287,10 @@ class Page(unittest.TestCase):
         opened()
         BROWSER.run("cleft.set({case: 2, t: 3, color: 'gape', dark: true, where: 'gape > 0.1'}), cleft.turn(20, -30, 2), cleft.refresh(), cleft.refreshSlow()")
         address = BROWSER.run("location.href")
-        picture = BROWSER.run("document.getElementById('view').toDataURL()")
+        drawn = "(cleft.view.measure(), cleft.refresh(), document.getElementById('view').toDataURL())"
+        picture = BROWSER.run(drawn)
         opened(fragment="#" + address.split("#", 1)[1])
-        self.assertEqual(BROWSER.run("document.getElementById('view').toDataURL()"), picture)
+        self.assertEqual(BROWSER.run(drawn), picture)
         self.assertEqual(BROWSER.run("document.getElementById('where').value"), "gape > 0.1")
         opened(fragment="#case=99999999&t=NaN&color=<b>&az=1e99&zoom=-5&values=1,x&where=%3Cimg%3E")
         self.assertEqual(BROWSER.run("cleft.state.case"), 3)

@@ -133,7 +133,7 @@ class View {
       return performance.now() - begin;
     };
     this.slow = true;  // so that rough pictures are the painter's
-    time(true), time(false);  // compiles
+    time(false);  // compiles
     const painter = time(true), webgl = time(false);
     this.slow = webgl > 10 && webgl > painter;
   }
