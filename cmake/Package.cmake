@@ -4,7 +4,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_PACKAGE_NAME cleft)
 set(CPACK_PACKAGE_VENDOR Cleft)
-set(CPACK_PACKAGE_CONTACT "Cleft developers <cleft@cleft.invalid>" CACHE STRING "Who maintains the packages: Name <address>")
+set(CPACK_PACKAGE_CONTACT "Cleft maintainers <maintainers@cleft.example.org>" CACHE STRING "Who maintains the packages: Name <address>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)

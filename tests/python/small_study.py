@@ -1,9 +1,15 @@
-"""Studies that take seconds, made by the commands, for the tests of the Python module."""
+"""Studies that take seconds, made by the commands, for the tests of the Python module and of pages.
+
+small_study.py FOLDER: makes anew there those that several tests ask for; where CLEFT_STUDIES names that folder, a test
+gets a copy.
+"""
 
 import os
+import shutil
 import subprocess
+import sys
 
-BIN = os.environ["CLEFT_BIN"]
+BIN, MADE = os.environ["CLEFT_BIN"], os.environ.get("CLEFT_STUDIES")
 PATCH = """
 [case]
 patch.length = {length}
@@ -48,9 +54,24 @@ def command(*words, check=True, stdin=None):
     return done.stdout
 
 
+SHARED = {"four": FOUR_CASES, "three": THREE_PRESTRESSES, "family": FAMILY}
+
+
 def make_study(folder, text=FOUR_CASES, name="study"):
     path = os.path.join(folder, name)
     with open(path + ".toml", "w") as out:
         out.write(text)
-    command("cleft", "run", path + ".toml", "--out", path)
+    shared = [os.path.join(MADE, one) for one in SHARED if SHARED[one] == text] if MADE else []
+    if shared and os.path.exists(shared[0]):
+        shutil.copytree(shared[0], path)
+    else:
+        command("cleft", "run", path + ".toml", "--out", path)
     return path
+
+
+if __name__ == "__main__":
+    MADE = None
+    shutil.rmtree(sys.argv[1], ignore_errors=True)
+    os.makedirs(sys.argv[1])
+    for one, text in SHARED.items():
+        make_study(sys.argv[1], text, one)
