@@ -23,8 +23,8 @@ from vtk.util.numpy_support import vtk_to_numpy
 
 CUTS = PATCH.format(length=20, width=8).replace("cut.length = 8\n", "") + """
 [vary]
-"cut.length" = [6, 8, 10]
-"tissue.young_modulus" = [0.01, 0.03]
+"cut.length" = [6, 7, 9, 10]
+"tissue.young_modulus" = [0.01, 0.02, 0.03]
 """
 SCRATCH = tempfile.TemporaryDirectory()
 STUDY = PAGE = BROWSER = None
