@@ -64,14 +64,6 @@ void add_springs(const FEFaceValues<3>& values, double spring, FullMatrix<double
       }
 }
 
-/// Of a face below or at the side, N/mm^3. Tissue that is grown to bone gives way a thousand times less than
-/// by its own strain.
-double spring_of(types::boundary_id boundary, const Parameters& p) {
-  constexpr double firm = 1e3;
-  if (boundary == BoundaryId::bone) return firm * p.tissue.young_modulus / p.patch.height;
-  return boundary == BoundaryId::bottom ? p.foundation.stiffness : p.foundation.side_stiffness;
-}
-
 void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const Cell& cell, unsigned face,
               const Vec3& direction, FullMatrix<double>& cell_matrix, FullMatrix<double>& cell_loads) {
   const std::array<int, 3> corner = corners_of_face(cell, face);
@@ -97,6 +89,12 @@ void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const Cel
 
 }  // namespace
 
+double spring_of(types::boundary_id boundary, const Parameters& p) {
+  constexpr double firm = 1e3;
+  if (boundary == BoundaryId::bone) return firm * p.tissue.young_modulus / p.patch.height;
+  return boundary == BoundaryId::bottom ? p.foundation.stiffness : p.foundation.side_stiffness;
+}
+
 Assembly::Assembly(const PatchElements& elements, int loads) {
   stiffness_.reinit(elements.pattern);
   for (int i = 0; i < loads; ++i)
@@ -105,7 +103,7 @@ Assembly::Assembly(const PatchElements& elements, int loads) {
 
 void Assembly::add(const PatchElements& elements, const Parameters& p, double factor,
                    const Eigen::Matrix3Xd& combination) {
-  const Materials materials(p);
+  const Materials materials(p, elements.mesh.materials);
   const bool mean_dilatation = p.tissue.formulation == TissueFormulation::mean_dilatation;
   const bool initial_stress_stiffness = p.skin.initial_stress_stiffness;
   FEValues<3> values(elements.mapping, elements.element, wedge_rule(elements.discretization.rule),

@@ -11,6 +11,10 @@
 
 namespace cleft {
 
+/// Of a face below or at the side, N/mm^3. Tissue that is grown to bone gives way a thousand times less than
+/// by its own strain.
+double spring_of(dealii::types::boundary_id boundary, const Parameters& parameters);
+
 /// A matrix and columns of loads over the unknowns of some elements.
 class Assembly {
  public:

@@ -16,7 +16,8 @@ Release release_of(const Body& body);
 /// shapes that a patch could have.
 Parameters parameters_of(const Body& body, Parameters parameters);
 
-/// Throws InputError, which names the option or the parameter, if a case asks for what bodies cannot do yet.
-void check_body_case(const Parameters& parameters, const std::string& where);
+/// Throws InputError, which names the option or the parameter, if a case asks for what bodies cannot do yet,
+/// or what the body's regions cannot.
+void check_body_case(const Body& body, const Parameters& parameters, const std::string& where);
 
 }  // namespace cleft

@@ -3,6 +3,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include "solver/assembly.h"
 #include "solver/element_rules.h"
 #include "solver/skin_triangle.h"
 
@@ -22,7 +23,8 @@ Eigen::Vector3d at(const DoFHandler<3>::active_cell_iterator& cell, unsigned ver
 }  // namespace
 
 FiniteElements::FiniteElements(const PatchElements& elements, const Parameters& p)
-    : materials_(p), mean_dilatation_(p.tissue.formulation == TissueFormulation::mean_dilatation) {
+    : materials_(p, elements.mesh.materials),
+      mean_dilatation_(p.tissue.formulation == TissueFormulation::mean_dilatation) {
   const auto [uu, vv, uv] = p.skin.prestress;
   initial_.topLeftCorner<2, 2>() << uu, uv, uv, vv;
   initial_ *= p.tissue.prestress_share;
@@ -60,16 +62,17 @@ FiniteElements::FiniteElements(const PatchElements& elements, const Parameters& 
           const Eigen::Vector3d x = at(cell, skin.corner[i]);
           place[i] = {x[0], x[1], x[2]};
         }
-        const SkinTriangle triangle(place[0], place[1], place[2]);
-        skin.gradient = triangle.gradients(), skin.area = triangle.area();
+        const SkinTriangle triangle(
+            place[0], place[1], place[2],
+            elements.mesh.tension_of(static_cast<int>(cell->id().get_coarse_cell_id())));
+        skin.axes = triangle.axes(), skin.gradient = triangle.gradients(), skin.area = triangle.area();
         continue;
       }
       if (own.springs < 0) {
         own.springs = static_cast<int>(springs_.size());
         springs_.emplace_back(Eigen::Matrix<double, 6, 6>::Zero());
       }
-      const double spring =
-          boundary == BoundaryId::bottom ? p.foundation.stiffness : p.foundation.side_stiffness;
+      const double spring = spring_of(boundary, p);
       face_values.reinit(cell, f);
       for (const unsigned q : face_values.quadrature_point_indices())
         for (int a = 0; a < corners; ++a)
@@ -91,11 +94,11 @@ void FiniteElements::response(int number, const FiniteTissue::Displacements& dis
   if (cell.springs >= 0) add_springs(springs_[cell.springs], displacements, tangent, out);
 }
 
-/// The membrane's deformation gradient F maps the plane of the skin to space; E = (F^T F - I) / 2.
+/// The membrane's deformation gradient F maps the plane of the triangle to space; E = (F^T F - I) / 2.
 void FiniteElements::add_skin(const Skin& skin, const FiniteTissue::Displacements& displacements,
                               bool tangent, CellResponse& out) const {
   const FiniteSkin& material = materials_.skin[skin.region];
-  Eigen::Matrix<double, 3, 2> f = Eigen::Matrix<double, 3, 2>::Identity();
+  Eigen::Matrix<double, 3, 2> f = skin.axes;
   for (int a = 0; a < 3; ++a) f += displacements.col(skin.corner[a]) * skin.gradient.col(a).transpose();
   const Eigen::Matrix2d right = f.transpose() * f;
   const SkinResponse r = material.at({(right(0, 0) - 1) / 2, (right(1, 1) - 1) / 2, right(0, 1)});

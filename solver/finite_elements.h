@@ -29,7 +29,8 @@ class FiniteElements {
  private:
   struct Skin {
     std::array<int, 3> corner;             // vertices of the cell
-    Eigen::Matrix<double, 2, 3> gradient;  // of their shape functions
+    Eigen::Matrix<double, 3, 2> axes;      // of the triangle's plane: e_u and e_v in space
+    Eigen::Matrix<double, 2, 3> gradient;  // of their shape functions, along e_u and e_v
     double area;
     unsigned region;
   };

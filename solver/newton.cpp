@@ -235,8 +235,8 @@ void NewtonSolver::fail(int frame, double fraction, const NewtonFrame& report) c
                    " % of what it releases: Newton's method finds no equilibrium" +
                    (indefinite ? ", and the tangent is indefinite: the skin wrinkles or folds" : "") +
                    ". The element that has shrunk most, to " + rounded(balance_.least.determinant) +
-                   " of its volume, is at (u, v, w) = (" + rounded(place.x) + ", " + rounded(place.y) + ", " +
-                   rounded(place.z) +
+                   " of its volume, is at " + (mesh_.is_body() ? "(x, y, z)" : "(u, v, w)") + " = (" +
+                   rounded(place.x) + ", " + rounded(place.y) + ", " + rounded(place.z) +
                    ") mm. Raise skin.bending_stiffness or tissue.young_modulus, lower the prestress, or make "
                    "mesh.element_size smaller");
 }

@@ -69,14 +69,15 @@ void make_whole(const PatchMesh& mesh, const Parameters& parameters, Triangulati
   std::vector<Point<3>> vertices;
   for (const Vec3& p : mesh.points) vertices.emplace_back(p.x, p.y, p.z);
   std::vector<CellData<3>> cells;
-  for (const auto& wedge : mesh.wedges) {
+  for (std::size_t w = 0; w < mesh.wedges.size(); ++w) {
+    const auto& wedge = mesh.wedges[w];
     CellData<3>& cell = cells.emplace_back(6);
     Vec3 center;
     for (unsigned i = 0; i < 6; ++i) {
       cell.vertices[i] = wedge[i];
       center = center + 1. / 6 * mesh.points[wedge[i]];
     }
-    cell.material_id = region_at(tissue_regions(), parameters, center);
+    cell.material_id = mesh.region.empty() ? region_at(tissue_regions(), parameters, center) : mesh.region[w];
   }
   whole.create_triangulation(vertices, cells, SubCellData());
   const Boundaries boundaries(mesh, parameters);

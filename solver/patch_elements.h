@@ -21,7 +21,7 @@ struct BoundaryId {
   static constexpr dealii::types::boundary_id other = 0, bottom = 1, side = 2, bone = 3, skin = 4;
 };
 
-/// A cell's material id is its region's row in tissue_regions().
+/// A cell's material id is its region's row in tissue_regions(), or its number in the mesh's materials.
 class PatchElements {
  public:
   /// `division`: rank_of_cell of earlier elements, for equal numbers of the unknowns, because Zoltan's

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "base/vec3.h"
 #include "params/meshed_cut.h"
 #include "params/parameters/parameters.h"
+#include "params/region_material.h"
 
 namespace cleft {
 
@@ -45,6 +47,9 @@ struct PatchMesh {
   /// Of a body (solver/body_mesh.h), which has no lines and no grid, and of a shaped patch; else empty.
   std::vector<Vec3> tension;  ///< by triangle of skin: the direction of skin.prestress_u
   std::vector<bool> on_bone;  ///< by face of the bottom; also of a patch on bone
+  /// Of a body with regions; else empty: what these are made of, and the number of each wedge's.
+  std::vector<RegionMaterial> materials;
+  std::vector<std::uint8_t> region;
 
   /// Of a patch that is shaped or whose cut is tilted (has_coordinates); else empty: by node, coordinates of
   /// the cut (u along it, v across it, w = -depth below the skin, mm), and unit vectors of these directions

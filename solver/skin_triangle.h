@@ -31,6 +31,13 @@ class SkinTriangle {
 
   double area() const { return area_; }  ///< mm^2
 
+  /// e_u and e_v, unit vectors in space, one in each column.
+  Eigen::Matrix<double, 3, 2> axes() const {
+    Eigen::Matrix<double, 3, 2> axes;
+    for (int i = 0; i < 2; ++i) axes.col(i) << axes_[i].x, axes_[i].y, axes_[i].z;
+    return axes;
+  }
+
   /// Of the shape functions of the corners, along e_u and e_v, 1/mm.
   const Eigen::Matrix<double, 2, 3>& gradients() const { return gradients_; }
 

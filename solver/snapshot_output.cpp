@@ -42,6 +42,11 @@ Snapshot describe(const Parameters& parameters, const PatchMesh& mesh, const Rel
   if (body) {
     s.body = body->hash;
     s.tension = body->tension;
+    s.region = body->region;
+    for (const RegionMaterial& material : body->materials) {
+      const Parameters::Tissue tissue = material.tissue_of(parameters);
+      s.region_moduli.push_back({tissue.young_modulus, tissue.poisson_ratio});
+    }
     for (const Support support : body->support) s.support.push_back(static_cast<std::uint8_t>(support));
   } else {
     s.coordinates = !mesh.canonical.empty();

@@ -59,7 +59,7 @@ void check_options(const Parameters& p, const SolveOptions& options, const std::
                      ": --method iterative: contact is found with the factor; set cut.contact to false, or "
                      "use --method direct");
   if (p.model == Model::finite) check_finite(p, options, where);
-  if (options.body) check_body_case(p, where);
+  if (options.body) check_body_case(*options.body, p, where);
   check_sensitivities(options.sensitivities, p, where + ": --sensitivities");
   for (const std::string& name : options.sensitivities)
     if (options.unit_prestress && name.find("prestress") != std::string::npos)

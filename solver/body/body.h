@@ -9,10 +9,12 @@
 
 #include "base/h5/h5.h"
 #include "base/vec3.h"
+#include "params/region_material.h"
 
 namespace cleft {
 
-inline constexpr FileFormat body_format{"cleft-body", 1, "body", "cleft body"};
+/// Version 2: with regions.
+inline constexpr FileFormat body_format{"cleft-body", 1, "body", "cleft body", 2};
 
 /// What holds a face of the tissue's lower side.
 enum class Support : std::uint8_t { springs = 0, bone = 1 };
@@ -37,6 +39,8 @@ struct Body {
   std::vector<Support> support;            ///< of each of them
   std::vector<std::array<int, 4>> sides;   ///< faces at the rim, where the body goes on; cyclic
   std::vector<int> skin_above;             ///< N: the node of the skin from which a node hangs
+  std::vector<RegionMaterial> materials;   ///< of the regions; none: all is one tissue
+  std::vector<std::uint8_t> region;        ///< of each wedge, if there are regions: its number
 
   std::vector<BodyPair> pairs;         ///< in the order in which they open; each does
   std::vector<std::int32_t> released;  ///< F: number of pairs open in each frame; 0 in frame 0

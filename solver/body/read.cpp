@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "base/error.h"
 #include "solver/body/body.h"
@@ -58,6 +59,20 @@ void read_cuts(const h5::File& file, Body& b) {
   b.depth = file.read_number("/cut", "depth_of_cut");
 }
 
+void read_regions(const h5::File& file, Body& b) {
+  b.region = file.read<std::uint8_t>("/regions/of_wedge", {b.wedges.size()});
+  const auto young = file.read<double>("/regions/young_modulus", {0});
+  const auto poisson = file.read<double>("/regions/poisson_ratio", {young.size()});
+  std::istringstream names(file.read_text("/regions", "names"));
+  for (std::size_t r = 0; r < young.size(); ++r) {
+    RegionMaterial& m = b.materials.emplace_back();
+    if (!std::getline(names, m.name))
+      throw FileError(file.path(), "/regions, names: one line a region is needed");
+    if (!std::isnan(young[r])) m.young_modulus = young[r];
+    if (!std::isnan(poisson[r])) m.poisson_ratio = poisson[r];
+  }
+}
+
 class BodyCheck {
  public:
   BodyCheck(const Body& body, const std::string& name) : b_(body), name_(name) {}
@@ -96,6 +111,7 @@ class BodyCheck {
       require(0 <= n && n < static_cast<int>(b_.points.size()),
               "skin_above names a node that does not exist");
     check_wedges();
+    check_regions();
     check_tension();
     check_pairs();
     check_frames();
@@ -127,6 +143,22 @@ class BodyCheck {
         require(volume > 0, "wedge " + std::to_string(w) + " at (" + place(here) +
                                 ") mm is flat or turned inside out; make the tissue thinner there");
       }
+  }
+
+  void check_regions() const {
+    require(b_.region.size() == (b_.materials.empty() ? 0 : b_.wedges.size()),
+            "/regions/of_wedge: one number a wedge is needed");
+    for (std::size_t w = 0; w < b_.region.size(); ++w)
+      require(b_.region[w] < b_.materials.size(), "/regions/of_wedge, row " + std::to_string(w) +
+                                                      ": there is no region " + std::to_string(b_.region[w]));
+    for (const RegionMaterial& m : b_.materials) check_material(m, "region " + m.name);
+  }
+
+  void check_material(const RegionMaterial& m, const std::string& of) const {
+    require(!m.young_modulus || (*m.young_modulus > 0 && std::isfinite(*m.young_modulus)),
+            of + ": young_modulus must be positive");
+    require(!m.poisson_ratio || (*m.poisson_ratio >= 0 && *m.poisson_ratio <= 0.4999),
+            of + ": poisson_ratio must be from 0 to 0.4999");
   }
 
   void check_tension() const {
@@ -203,6 +235,7 @@ Body read_body(const std::string& path) {
   for (const std::uint8_t s : file.read<std::uint8_t>("/foundation/support", {0}))
     b.support.push_back(static_cast<Support>(s));
   b.sides = read_table<4>(file, "/foundation/quads");
+  if (file.has("/regions/of_wedge")) read_regions(file, b);
   read_cuts(file, b);
   check_body(b, path);
   b.hash = hash_of(b);

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "base/output_file.h"
 #include "base/text.h"
 #include "params/hash.h"
@@ -72,6 +74,21 @@ void write_cuts(h5::File& file, const Body& b) {
   file.write_number("/cut", "depth_of_cut", b.depth);
 }
 
+/// Moduli that are those of the case are NaN.
+void write_regions(h5::File& file, const Body& b) {
+  std::vector<double> young, poisson;
+  std::string names;
+  for (const RegionMaterial& m : b.materials) {
+    constexpr double of_case = std::numeric_limits<double>::quiet_NaN();
+    young.push_back(m.young_modulus.value_or(of_case)), poisson.push_back(m.poisson_ratio.value_or(of_case));
+    names += (names.empty() ? "" : "\n") + m.name;
+  }
+  write_list(file, "/regions/of_wedge", b.region);
+  write_list(file, "/regions/young_modulus", young);
+  write_list(file, "/regions/poisson_ratio", poisson);
+  file.write_text("/regions", "names", names);
+}
+
 template <class T>
 void add(std::string& bytes, const std::vector<T>& list) {
   bytes += std::to_string(list.size()) + ";";
@@ -90,6 +107,10 @@ std::string hash_of(const Body& b) {
     bytes += std::to_string(p.left) + "," + std::to_string(p.right) + "," + std::to_string(p.cut) + "," +
              shortest(p.along) + "," + shortest(p.depth) + "," + shortest(p.normal.x) + "," +
              shortest(p.normal.y) + "," + shortest(p.normal.z) + ";";
+  for (const RegionMaterial& m : b.materials)
+    bytes += m.name + "," + (m.young_modulus ? shortest(*m.young_modulus) : "") + "," +
+             (m.poisson_ratio ? shortest(*m.poisson_ratio) : "") + ";";
+  if (!b.materials.empty()) add(bytes, b.region);
   return sha256(bytes).substr(0, 16);
 }
 
@@ -97,7 +118,9 @@ void write_body(const std::string& path, Body& b) {
   b.hash = hash_of(b);
   OutputFile out(path);
   h5::File file = h5::File::create(out.path());
-  write_format(file, body_format);
+  FileFormat format = body_format;
+  if (!b.materials.empty()) format.version = body_format.further;
+  write_format(file, format);
   file.write_text("/", "units", "mm");
   file.write_text("/", "body", b.hash);
   file.write_text("/", "producer", producer());
@@ -113,6 +136,7 @@ void write_body(const std::string& path, Body& b) {
   for (const Support s : b.support) support.push_back(static_cast<std::uint8_t>(s));
   write_list(file, "/foundation/support", support);
   write_table(file, "/foundation/quads", b.sides);
+  if (!b.materials.empty()) write_regions(file, b);
   write_cuts(file, b);
   file.close();
   out.commit();

@@ -40,6 +40,18 @@ FiniteSkin finite_skin(const Parameters& p) {
   }
 }
 
+/// Calls visit(row, parameters) for each row of tissue, or for each region of a body.
+template <class Visit>
+void each_tissue(const Parameters& parameters, const std::vector<RegionMaterial>& own, const Visit& visit) {
+  if (own.empty())
+    for (const auto& row : tissue_regions()) visit(row, parameters);
+  for (const RegionMaterial& region : own) {
+    Parameters p = parameters;
+    p.tissue = region.tissue_of(p);
+    visit(tissue_regions().front(), p);
+  }
+}
+
 }  // namespace
 
 const std::vector<TissueRegion>& tissue_regions() {
@@ -57,13 +69,15 @@ const std::vector<SkinRegion>& skin_regions() {
   return regions;
 }
 
-Materials::Materials(const Parameters& parameters) {
-  for (const auto& region : tissue_regions()) tissue.push_back(region.material(parameters));
+Materials::Materials(const Parameters& parameters, const std::vector<RegionMaterial>& own) {
+  each_tissue(parameters, own,
+              [&](const TissueRegion& row, const Parameters& p) { tissue.push_back(row.material(p)); });
   for (const auto& region : skin_regions()) skin.push_back(region.material(parameters));
 }
 
-FiniteMaterials::FiniteMaterials(const Parameters& parameters) {
-  for (const auto& region : tissue_regions()) tissue.push_back(region.finite(parameters));
+FiniteMaterials::FiniteMaterials(const Parameters& parameters, const std::vector<RegionMaterial>& own) {
+  each_tissue(parameters, own,
+              [&](const TissueRegion& row, const Parameters& p) { tissue.push_back(row.finite(p)); });
   for (const auto& region : skin_regions()) skin.push_back(region.finite(parameters));
 }
 

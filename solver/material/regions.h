@@ -5,6 +5,7 @@
 
 #include "base/vec3.h"
 #include "params/parameters/parameters.h"
+#include "params/region_material.h"
 #include "solver/material/finite_skin.h"
 #include "solver/material/finite_tissue.h"
 #include "solver/material/skin_material.h"
@@ -36,16 +37,17 @@ unsigned region_at(const std::vector<Region<Material, Finite>>& regions, const P
   return row;
 }
 
-/// The materials of a case, by row.
+/// The materials of a case, by row. Where a body has regions of its own, these stand for the rows of tissue:
+/// each is the first row's material with the region's moduli.
 struct Materials {
-  explicit Materials(const Parameters& parameters);
+  explicit Materials(const Parameters& parameters, const std::vector<RegionMaterial>& own = {});
   std::vector<TissueMaterial> tissue;
   std::vector<SkinMaterial> skin;
 };
 
 /// Those of the finite model.
 struct FiniteMaterials {
-  explicit FiniteMaterials(const Parameters& parameters);
+  explicit FiniteMaterials(const Parameters& parameters, const std::vector<RegionMaterial>& own = {});
   std::vector<FiniteTissue> tissue;
   std::vector<FiniteSkin> skin;
 };

@@ -233,6 +233,12 @@ Snapshot read_all_but_displacements(const h5::File& file) {
     s.tension = as_vectors(file.read<double>("/skin/tension", {0, 3}));
   if (!s.body.empty() || file.has("/foundation/support"))
     s.support = file.read<std::uint8_t>("/foundation/support", {s.foundation_triangles.size()});
+  if (file.has("/regions/of_wedge")) {
+    s.region = file.read<std::uint8_t>("/regions/of_wedge", {0});
+    const auto moduli = file.read<double>("/regions/moduli", {0, 2});
+    for (std::size_t r = 0; r + 1 < moduli.size(); r += 2)
+      s.region_moduli.push_back({moduli[r], moduli[r + 1]});
+  }
   for (const std::string& name : file.attribute_names("/parameters")) {
     try {
       s.parameters.set(name, file.read_number("/parameters", name));

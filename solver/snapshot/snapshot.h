@@ -81,7 +81,9 @@ struct Snapshot {
   /// coordinates of the cut, as those of a body do.
   bool coordinates = false;
   std::vector<Vec3> tension;  ///< of a body or a shaped patch, by triangle of skin: direction of prestress_u
-  std::vector<std::uint8_t> support;     ///< by foundation triangle: 0 springs, 1 bone; empty: all springs
+  std::vector<std::uint8_t> support;  ///< by foundation triangle: 0 springs, 1 bone; empty: all springs
+  std::vector<std::uint8_t> region;   ///< of a body with regions, by wedge: its number; else empty
+  std::vector<std::array<double, 2>> region_moduli;  ///< E, MPa, and Poisson's ratio, by number
   std::optional<SnapshotSource> source;  ///< of imported data, which may lack pairs and have no residuals
   std::optional<std::size_t> counting;   ///< of a piece: SnapshotPiece::counting
   std::vector<SnapshotPiece> pieces;     ///< of imported data with several breaks: one for each

@@ -141,6 +141,11 @@ SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
   if (!s.body.empty() || !s.tension.empty())
     file_.write<double>("/skin/tension", as_numbers(s.tension), {s.tension.size(), 3});
   if (!s.body.empty() || !s.support.empty()) write_list(file_, "/foundation/support", s.support);
+  if (!s.region.empty()) {
+    write_list(file_, "/regions/of_wedge", s.region);
+    file_.write<double>("/regions/moduli", {s.region_moduli.front().data(), 2 * s.region_moduli.size()},
+                        {s.region_moduli.size(), 2});
+  }
   write_cut(file_, s);
   write_parameters(file_, s);
   if (s.source) write_source(file_, *s.source);

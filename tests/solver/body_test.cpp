@@ -146,9 +146,76 @@ TEST(Body, BadOnesAreRefusedWithTheirPlace) {
 
 TEST(Body, WhatItCannotDoIsRefused) {
   Parameters p = small_case();
+  p.skin.bending_stiffness = 0.01;
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "skin.bending_stiffness = 0.01",
+                      refusal_of([&] { check_body_case(Body{}, p, "c.toml"); }));
+  Body body;
+  body.materials = {{"fat", {}, 0.495}};
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "region fat of the body has poisson_ratio = 0.495",
+                      refusal_of([&] { check_body_case(body, small_case(), "c.toml"); }));
+}
+
+/// Regions of one material are that material; one without moduli is the case's tissue.
+TEST(Body, ARegionIsMadeOfItsMaterial) {
+  Parameters p = small_case();
+  Body body = body_of_patch(p, around_cylinder(40));
+  p.tissue.young_modulus = 0.05, p.tissue.poisson_ratio = 0.3;
+  const Solved as_one = solved(p, shared(body));
+  body.materials = {{"all", 0.05, 0.3}, {"of the case"}};
+  body.region.assign(body.wedges.size(), 0);
+  const Solved as_region = solved(small_case(), shared(body));
+  body.region.assign(body.wedges.size(), 1);
+  const Solved of_case = solved(p, shared(body));
+  for (std::size_t n = 0; n < as_one.frames.back().size(); ++n) {
+    ASSERT_EQ(as_region.frames.back()[n], as_one.frames.back()[n]);
+    ASSERT_EQ(of_case.frames.back()[n], as_one.frames.back()[n]);
+  }
+  EXPECT_GT(solved(small_case(), shared(body)).report.gape, 1.02 * as_one.report.gape);
+}
+
+TEST(Body, AFileHoldsItsRegions) {
+  const TemporaryFolder folder;
+  Body body = body_of_patch(small_case(), flat);
+  const std::string without = hash_of(body);
+  body.materials = {{"fat", 0.01}, {"deep muscle", {}, 0.4}};
+  body.region.assign(body.wedges.size(), 1);
+  body.region.front() = 0;
+  write_body(folder / "body.h5", body);
+  const Body read = read_body(folder / "body.h5");
+  EXPECT_EQ(read.materials, body.materials);
+  EXPECT_EQ(read.region, body.region);
+  EXPECT_EQ(read.hash, body.hash);
+  EXPECT_NE(read.hash, without);
+  body.region[5] = 2;
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "row 5: there is no region 2",
+                      refusal_of([&] { check_body(body, "b"); }));
+}
+
+/// Under finite strains a flat body is the patch too, and it does not matter how a bent one lies.
+TEST(Body, FiniteStrainsAreThoseOfThePatchAndDoNotSeeRotations) {
+  Parameters p = small_case();
+  p.patch = {24, 20, 6};
   p.model = Model::finite;
-  EXPECT_PRED_FORMAT2(testing::IsSubstring, "model = finite",
-                      refusal_of([&] { check_body_case(p, "c.toml"); }));
+  p.skin.prestress = {0.01, 0.03, 0.004};
+  const Solved patch = solved(p, {}), same = solved(p, shared(body_of_patch(p, flat)));
+  const auto largest_difference = [](const Solved& a, const Solved& b, auto turned) {
+    double largest = 0;
+    for (std::size_t n = 0; n < a.frames.back().size(); ++n)
+      largest = std::max(largest, norm(turned(a.frames.back()[n]) - b.frames.back()[n]));
+    return largest;
+  };
+  EXPECT_LT(largest_difference(patch, same, [](const Vec3& a) { return a; }), 1e-5 * patch.report.gape);
+  const Vec3 x = normalized({1, 2, -0.5}), z = normalized(cross(x, {0, 0, 1})), y = cross(z, x);
+  const auto turned = [&](const Vec3& a) { return a.x * x + a.y * y + a.z * z; };
+  const Solved here = solved(p, shared(body_of_patch(p, around_cylinder(40))));
+  const Solved there = solved(p, shared(body_of_patch(p, [&](const Vec3& at) {
+                                BentPlace place = around_cylinder(40)(at);
+                                place.position = turned(place.position) + Vec3{300, -20, 7};
+                                for (Vec3& axis : place.axes) axis = turned(axis);
+                                return place;
+                              })));
+  EXPECT_LT(largest_difference(here, there, turned), 1e-5 * here.report.gape);
+  EXPECT_GT(largest_difference(here, patch, [](const Vec3& a) { return a; }), 1e-2 * here.report.gape);
 }
 
 }  // namespace cleft

@@ -62,9 +62,12 @@ class Deck:
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         inverted = np.einsum("ei,ei->e", normal, corners[:, 3] - corners[:, 0]) < 0
         wedges = np.where(inverted[:, None], wedges[:, [3, 4, 5, 0, 1, 2]], wedges)  # ccx wants them upright
-        self.add_elements("C3D6", "TISSUE", wedges)
-        self.add_material("TISSUE", self.patch["tissue.young_modulus"], self.patch["tissue.poisson_ratio"])
-        self.lines.append("*SOLID SECTION, ELSET=TISSUE, MATERIAL=TISSUE")
+        moduli = self.patch.tissue_moduli().T
+        for number, (young, poisson) in enumerate(np.unique(moduli, axis=0)):
+            name = f"TISSUE{number}"
+            self.add_elements("C3D6", name, wedges[(moduli == (young, poisson)).all(axis=1)])
+            self.add_material(name, young, poisson)
+            self.lines.append(f"*SOLID SECTION, ELSET={name}, MATERIAL={name}")
 
     def add_skin(self, load_scale):
         patch, first = self.patch, self.elements + 1

@@ -13,7 +13,7 @@ def pull(patch, rule):
 
 
 def tissue_forces(patch, u, rule):
-    young, poisson = patch["tissue.young_modulus"], patch["tissue.poisson_ratio"]
+    young, poisson = patch.tissue_moduli()
     mu, lam, kappa = young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson)), \
         young / (3 * (1 - 2 * poisson))
     moved = u[patch.wedges]
@@ -32,7 +32,7 @@ def tissue_forces(patch, u, rule):
             stress += (kappa * (change - 1) * determinant)[:, None, None] * inverse
         else:
             strain = (right - np.eye(3)) / 2
-            stress = lam * np.trace(strain, axis1=1, axis2=2)[:, None, None] * np.eye(3) + 2 * mu * strain
+            stress = (lam * np.trace(strain, axis1=1, axis2=2))[:, None, None] * np.eye(3) + 2 * mu[:, None, None] * strain
         parts = volume[:, None, None] * np.einsum("eij,ejk,enk->eni", f, stress + initial, gradient)
         np.add.at(forces, patch.wedges.ravel(), parts.reshape(-1, 3))
     return forces
@@ -80,7 +80,7 @@ def fung(patch, prestress, elasticity, strain):
 def skin_forces(patch, u):
     gradient, area = skin_gradients(patch)
     young, nu = patch["skin.young_modulus"], patch["skin.poisson_ratio"]
-    f = np.eye(3)[:, :2] + np.einsum("eni,enj->eij", u[patch.skin], gradient)
+    f = np.swapaxes(patch.skin_axes(), 1, 2) + np.einsum("eni,enj->eij", u[patch.skin], gradient)
     right = np.swapaxes(f, 1, 2) @ f
     strain = (right - np.eye(2)) / 2
     if patch["skin.law"] == "neo-hookean":

@@ -54,6 +54,8 @@ class Patch:
             else:
                 self.tension = np.tile([1., 0, 0], (len(self.skin), 1))
                 self.on_bone = np.zeros(len(self.bottom), dtype=bool)
+            self.regions = file["regions/of_wedge"][:] if "regions" in file else None
+            self.region_moduli = file["regions/moduli"][:] if "regions" in file else None
             self.pairs, self.released = file["cut/pairs"][:], file["cut/released"][:]
             self.displacement = vtk["PointData/displacement"][:].reshape(len(self.released), -1, 3)
             self.parameters = dict(BEFORE_THEY_CAME)
@@ -63,14 +65,20 @@ class Patch:
             raise SystemExit("cut.contact = true: its frames solve no linear system")
         if not self.is_body and np.abs(self.points[self.skin][:, :, 2]).max() > 0:
             raise SystemExit("the skin does not lie at w = 0")
-        if self.is_body and (self["model"] != "small" or self["skin.bending_stiffness"] != 0):
-            raise SystemExit("a body of finite strains, or whose skin resists bending, is not solved here")
+        if self.is_body and self["skin.bending_stiffness"] != 0:
+            raise SystemExit("a body whose skin resists bending is not solved here")
         if np.abs(np.linalg.norm(self.tension, axis=1) - 1).max() > 1e-6 or \
                 np.abs(np.einsum("ei,ei->e", self.tension, self.normals())).max() > 1e-6:
             raise SystemExit("a direction of the tension is no unit vector in the plane of its triangle")
 
     def __getitem__(self, name):
         return self.parameters[name]
+
+    def tissue_moduli(self):
+        """E and nu of each wedge."""
+        if self.regions is not None:
+            return self.region_moduli[self.regions].T
+        return np.array([[self["tissue.young_modulus"]], [self["tissue.poisson_ratio"]]]) * np.ones(len(self.wedges))
 
     def prestress(self):
         """2 x 2, MPa."""
@@ -150,7 +158,7 @@ def wedge_points(patch, rule):
 def tissue_stiffness(patch, rule):
     """Linear wedges, isotropic: lambda tr(e) I + 2 mu e; or, with the mean dilatation, 2 mu dev(e) point by point and
     the bulk modulus on the element's mean of tr(e)."""
-    young, poisson = patch["tissue.young_modulus"], patch["tissue.poisson_ratio"]
+    young, poisson = patch.tissue_moduli()
     mu, lam = young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson))
     mean = patch["tissue.formulation"] == "mean-dilatation"
     count = len(patch.wedges)
