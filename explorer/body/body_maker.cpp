@@ -13,7 +13,7 @@
 #include "explorer/body/lined_surface.h"
 #include "explorer/body/parting.h"
 #include "explorer/body/remesh.h"
-#include "explorer/incision/incision.h"
+#include "explorer/body/skin_coordinates.h"
 #include "params/meshed_cut.h"
 
 namespace cleft {
@@ -21,7 +21,6 @@ namespace cleft {
 namespace {
 
 constexpr double most_columns = 5000;  // of nodes along all cuts: no solver takes more
-constexpr double least_within = 0.02;  // of a direction of the tension: its part within the skin at a cut
 constexpr double bend_of_edge = 0.5;   // radians by which the skin may turn along an edge
 
 /// A path as the mesh has it: made longer at both ends by the front's part of an element, because a mesh's
@@ -36,23 +35,9 @@ struct LongerPath {
     const Vec3 apart = p.at(p.length()).position - p.at(0).position;
     if (part == 0 || norm(apart) < size) return;  // a loop has no ends
     front = part * p.length() / (count - 2 * part);
-    std::vector<ScalpelPath::Point> points;
-    const auto add = [&](double s) {
-      const PathFrame at = p.at(s);
-      points.push_back({at.position, at.outward, p.depth(std::clamp(s, 0., p.length()))});
-    };
-    add(-front);
-    const int pieces = std::clamp(static_cast<int>(std::ceil(8 * p.length() / size)), 32, 4000);
-    for (int i = 0; i <= pieces; ++i) add(p.length() * i / pieces);
-    add(p.length() + front);
-    path = ScalpelPath(points);
+    path = stretched(p, -front, p.length() + front, size);
   }
 };
-
-std::string numbers_of(const Vec3& v) {
-  const auto rounded = [](double x) { return shortest(std::round(1e3 * x) / 1e3); };
-  return "(" + rounded(v.x) + ", " + rounded(v.y) + ", " + rounded(v.z) + ")";
-}
 
 class Maker {
  public:
@@ -65,7 +50,8 @@ class Maker {
     make_surface();
     double depth = 0;
     for (const ScalpelPath& path : r_.paths) depth = std::max(depth, path.largest_depth());
-    layers_ = make_layers(p_, depth);
+    layers_ = divided(make_layers(p_, depth), r_.layers, p_.mesh.element_size);
+    for (const TissueLayer& layer : r_.layers) body_.materials.push_back(layer.material);
     extrude_all();
     add_nodes();
     add_elements();
@@ -160,7 +146,7 @@ class Maker {
       for (std::size_t p = 0; p < at_out.size(); ++p)
         if (at_out[p] && squared_norm(blade_[p]) > 0) {
           throw InputError(
-              "the tissue below the cut at " + numbers_of(s_.mesh.points[p]) +
+              "the tissue below the cut at " + place_text(s_.mesh.points[p]) +
               " mm would be turned inside out: the skin is bent too strongly there, or the blade "
               "too flat; smooth the mesh, move the cut, or make mesh.element_size larger");
         }
@@ -224,6 +210,8 @@ class Maker {
         std::array<int, 6> wedge;
         for (int i = 0; i < 3; ++i) wedge[i] = node(t, i, k + 1), wedge[3 + i] = node(t, i, k);
         body_.wedges.push_back(wedge);
+        if (!r_.layers.empty())
+          body_.region.push_back(static_cast<std::uint8_t>(tissue_between(layers_, r_.layers, k)));
         if (k == 0) body_.skin.push_back({wedge[3], wedge[4], wedge[5]});
         if (k + 2 == layers()) {
           body_.bottom.push_back({wedge[0], wedge[1], wedge[2]});
@@ -316,64 +304,20 @@ class Maker {
   }
 
   void set_tension() {
-    const ScalpelPath& first = r_.paths.front();
-    Vec3 direction = first.at(first.length()).position - first.at(0).position;
-    if (!r_.tension.empty())
-      direction = r_.tension.front();
-    else if (norm(direction) < 1e-3 * first.length())
-      direction = first.at(0).along;
-    for (std::size_t n = 0; n < body_.skin.size(); ++n) {
-      const auto& t = body_.skin[n];
-      const Vec3 a = body_.points[t[0]], b = body_.points[t[1]], c = body_.points[t[2]];
-      const Vec3 normal = normalized(cross(b - a, c - a));
-      Vec3 within = direction - dot(direction, normal) * normal;
-      const auto& corners = s_.mesh.triangles[n];
-      if (norm(within) < least_within * norm(direction) &&
-          std::any_of(corners.begin(), corners.end(), [&](int p) { return squared_norm(blade_[p]) > 0; }))
-        throw InputError("the direction of the tension, " + numbers_of(direction) +
-                         ", is perpendicular to the skin at " + numbers_of(a) +
-                         " mm, on a cut; give one within the skin (--direction)");
-      if (norm(within) < 1e-6 * norm(direction))
-        within = b - a;  // seen from its end: any direction is as good
-      body_.tension.push_back(normalized(within));
-    }
+    std::vector<bool> on_a_cut;
+    for (const Vec3& blade : blade_) on_a_cut.push_back(squared_norm(blade) > 0);
+    body_.tension = directions_within(s_.mesh, r_.paths.front(), r_.tension, on_a_cut);
   }
 
   /// Coordinates of the first cut: of its surroundings on the skin before it was cut, as replays have them.
   void set_canonical() {
-    const ScalpelPath& path = r_.paths.front();
-    CutMesh mesh(s_.mesh);
-    IncisionOptions options;
-    options.max_edge = 0, options.reach = std::numeric_limits<double>::infinity();
-    const Incision incision(mesh, path, options);
-    const auto& labels = incision.surroundings().labels();
-    const std::vector<Vec3> normals = normals_of(s_.mesh);
-    const SurfaceIndex index(s_.mesh);
-    std::vector<Vec3> canonical(s_.mesh.points.size());
-    std::vector<std::array<Vec3, 3>> frames(s_.mesh.points.size());
     std::set<int> on_cut;
     for (const CutLine& line : s_.cuts.front()) on_cut.insert({line.from, line.to});
-    for (int p = 0; p < columns(); ++p) {
-      const PathCoordinates at = path.coordinates(s_.mesh.points[p]);
-      double across = at.v;
-      if (on_cut.contains(p))
-        across = 0;
-      else if (p < static_cast<int>(labels.size()) && labels[p].reached && labels[p].side != Side::both)
-        across = Surroundings::across(at.v, labels[p].detour, labels[p].side);
-      canonical[p] = {at.s - path.length() / 2, across, 0};
-      const PathFrame frame = path.at(at.s);
-      const SurfacePlace place = index.nearest(frame.position);
-      const auto& corners = s_.mesh.triangles[place.triangle];
-      Vec3 normal;
-      for (int i = 0; i < 3; ++i) normal += place.weights[i] * normals[corners[i]];
-      normal = normalized(normal);
-      const Vec3 along = normalized(frame.along - dot(frame.along, normal) * normal);
-      frames[p] = {along, cross(normal, along), normal};
-    }
+    const SkinCoordinates on_skin = coordinates_on(s_.mesh, r_.paths.front(), on_cut);
     for (std::size_t n = 0; n < body_.points.size(); ++n) {
-      const int p = column_of_[n];
-      body_.canonical.push_back({canonical[p].x, canonical[p].y, -depth_of_[n]});
-      body_.frames.push_back(frames[p]);
+      const Vec3& at = on_skin.canonical[column_of_[n]];
+      body_.canonical.push_back({at.x, at.y, -depth_of_[n]});
+      body_.frames.push_back(on_skin.frames[column_of_[n]]);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "explorer/body/surface_index.h"
+#include "explorer/body/tissue_layers.h"
 #include "explorer/incision/scalpel_path.h"
 #include "params/parameters/parameters.h"
 #include "solver/body/body.h"
@@ -18,8 +19,9 @@ struct BodyRequest {
   SurfaceMesh skin;                ///< counter-clockwise from outside
   std::vector<ScalpelPath> paths;  ///< in the order in which they are cut, each with its depth
   std::shared_ptr<const SurfaceIndex> bone = nullptr;  ///< what lies below; null: nothing
-  Parameters parameters;      ///< mesh.element_size, grading and front; patch.height: thickness of tissue
-  double reach = 40;          ///< of the body around the paths, over the skin
+  Parameters parameters;  ///< mesh.element_size, grading and front; patch.height: thickness of tissue
+  double reach = 40;      ///< of the body around the paths, over the skin
+  std::vector<TissueLayer> layers = {};  ///< of the tissue, from the skin down; none: all is one
   std::vector<Vec3> tension;  ///< one direction of skin.prestress_u; none: from the first path's start to
                               ///< its end
 };

@@ -21,6 +21,8 @@ struct BodyOptions {
   /// The first of these options that was given; empty if none was. --bone may not count.
   std::string first_given(bool but_bone) const;
 
+  bool given(const std::string& name) const { return app_->count(name) > 0; }
+
   /// Without skin, paths and bone.
   BodyRequest request() const;
   /// As bone_below(); null if none was given.

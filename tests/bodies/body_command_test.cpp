@@ -55,6 +55,30 @@ class BodyCommand : public ::testing::Test {
     first.insert(first.end(), more.begin(), more.end());
     return first;
   }
+  /// Its cells in a file of text, each region of wedges a half of them.
+  static std::string vtu_of(const Body& b) {
+    std::string points, nodes, offsets, types, tags, regions;
+    for (const Vec3& p : b.points) points += shortest(p.x) + " " + shortest(p.y) + " " + shortest(p.z) + "\n";
+    std::size_t end = 0;
+    const auto add = [&](const auto& cell, int type, int region) {
+      for (const int n : cell) nodes += std::to_string(n) + " ";
+      offsets += std::to_string(end += cell.size()) + " ", types += std::to_string(type) + " ";
+      tags += "0.5 ", regions += std::to_string(region) + " ";
+    };
+    for (const auto& t : b.skin) add(t, 5, 1);
+    for (std::size_t w = 0; w < b.wedges.size(); ++w) add(b.wedges[w], 13, w < b.wedges.size() / 2 ? 7 : 8);
+    const auto array = [](const std::string& type, const std::string& name, const std::string& values) {
+      return "<DataArray type='" + type + "' Name='" + name + "' format='ascii'>" + values + "</DataArray>\n";
+    };
+    return "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='" +
+           std::to_string(b.points.size()) + "' NumberOfCells='" +
+           std::to_string(b.skin.size() + b.wedges.size()) +
+           "'>\n<Points><DataArray type='Float64' NumberOfComponents='3' format='ascii'>" + points +
+           "</DataArray></Points>\n<Cells>" + array("Int32", "connectivity", nodes) +
+           array("Int32", "offsets", offsets) + array("UInt8", "types", types) + "</Cells>\n<CellData>" +
+           array("Float64", "tags", tags) + array("Int32", "region", regions) +
+           "</CellData></Piece></UnstructuredGrid></VTKFile>\n";
+  }
   std::string body() {
     expect_success(run_cleft("body", with(options_, {"--out", in / "body.h5"})));
     return in / "body.h5";
@@ -150,8 +174,8 @@ TEST_F(BodyCommand, SimulationsOfWhatIsNotSimulated) {
           {"--mesh", in / "skin.obj", "--path", in / "path.csv", "--rest", "--reach", "10", "--out",
            out / "a.obj"},
           {"--reach: is for --simulate"});
-  for (const auto& [assignment, message] :
-       {std::pair{"model=finite", "model = finite: a body"}, {"skin.prestress_v=-0.01", "compressed"}}) {
+  for (const auto& [assignment, message] : {std::pair{"skin.edges=free", "skin.edges = free: a body"},
+                                            {"skin.prestress_v=-0.01", "compressed"}}) {
     refused("cut", with(options_, {"--set", assignment, "--simulate", "--out", out / "a.obj"}), {message});
     expect_solve_refused(body(), {"--set", assignment}, {message});
   }
@@ -183,6 +207,58 @@ TEST_F(BodyCommand, DamagedBodies) {
   bytes[at] ^= 1;
   write_text_file(in / "flipped.h5", bytes);
   expect_solve_refused(in / "flipped.h5", {}, {"flipped.h5", "/VTKHDF/Points is damaged"});
+}
+
+/// A volume mesh with regions, from a file: what it becomes, and what is refused.
+TEST_F(BodyCommand, AMeshOfOnesOwn) {
+  const Body made = read_body(body());
+  in.write("own.vtu", vtu_of(made));
+  in.write("materials.toml",
+           "[fat]\nregion = 7\nyoung_modulus = 0.01\n[deep]\nregion = 8\n[faces]\nskin = 1\n");
+  const std::vector<std::string> own = {"--mesh",        in / "own.vtu", "--path",
+                                        in / "path.csv", "--case",       in / "case.toml"};
+  const auto expect_own_refused = [&](const std::vector<std::string>& more,
+                                      const std::vector<std::string>& parts) {
+    refused("body", with(with(own, more), {"--out", out / "body.h5"}), parts);
+  };
+  expect_success(run_cleft("body", with(own, {"--out", in / "plain.h5"})));
+  EXPECT_EQ(read_body(in / "plain.h5").pairs.size(), made.pairs.size());
+  expect_success(
+      run_cleft("body", with(own, {"--materials", in / "materials.toml", "--out", in / "own.h5"})));
+  const Body with_regions = read_body(in / "own.h5");
+  ASSERT_EQ(with_regions.materials.size(), 2U);
+  EXPECT_EQ(with_regions.materials[0], (RegionMaterial{"fat", 0.01, {}}));
+  EXPECT_EQ(std::count(with_regions.region.begin(), with_regions.region.end(), 0),
+            static_cast<long>(made.wedges.size() / 2));
+
+  expect_own_refused({"--regions", "materials"},
+                     {"has no array 'materials'", "its arrays are: tags, region"});
+  expect_own_refused({"--release", "when"}, {"has no array 'when' of one number for each point"});
+  expect_own_refused({"--regions", "tags"}, {"array 'tags', cell 0: a region is a whole number"});
+  expect_own_refused({"--bone", bone(-6)}, {"--bone", "[faces]"});
+  expect_own_refused({"--depth", "3"}, {"--depth", "its walls"});
+  expect_own_refused({"--reach", "20"}, {"--reach", "leave it out"});
+  in.write("materials.toml", "[fat]\nregion = 7\n[skin]\nregion = 1\n");
+  expect_own_refused({"--materials", in / "materials.toml"},
+                     {"own.vtu: region 8 of 'region'", "has no material; add region = 8"});
+  in.write("own.vtu", vtu_of(made).substr(0, 5000));
+  expect_own_refused({}, {"own.vtu: cannot be read as a mesh of cells"});
+  refused("body", with(options_, {"--release", "when", "--out", out / "body.h5"}), {"--release", "own mesh"});
+}
+
+/// Layers of different tissue, and what is wrong with some.
+TEST_F(BodyCommand, LayersBelowASurface) {
+  const auto materials = [&](const std::string& text) {
+    in.write("layers.toml", text);
+    return std::vector<std::string>{"--materials", in / "layers.toml", "--out", out / "body.h5"};
+  };
+  for (const auto& [text, part] :
+       {std::pair{"[fat]\nto_depth = 3\n", "the last one"},
+        {"[fat]\n[muscle]\n", "needs to_depth"},
+        {"[fat]\nto_depth = 3\n[fascia]\nto_depth = 2\n[muscle]\n", "from the skin down"},
+        {"[fat]\nto_depth = 30\n[muscle]\n", "patch.height = 8 mm"},
+        {"[fat]\nregion = 2\n", "below a surface say to_depth"}})
+    refused("body", with(options_, materials(text)), {part});
 }
 
 /// Ctrl-C, while the solver runs: nothing is left.

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -256,6 +258,29 @@ TEST(MakeBody, GoodTrianglesAtATJunction) {
     make_body(r, &report);
     EXPECT_GT(report.least_angle, 15) << seed;
   }
+}
+
+/// Tissue changes exactly where a layer ends: below the cut, within it, and where nodes were already.
+TEST(BodyMaker, LayersEndWhereTheyAreSaidTo) {
+  BodyRequest r = request(testing::flat, {along});
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Body plain = make_body(r);
+  r.layers = {{{"dermis", 0.08}, 0.9}, {{"fat"}, 3.7}, {{"muscle"}, infinite}};
+  const Body body = make_body(r);
+  ASSERT_EQ(body.materials.size(), 3U);
+  EXPECT_EQ(body.pairs.size() > plain.pairs.size(), true);  // the dermis has nodes of its own below it
+  std::array<double, 3> volume{};
+  for (std::size_t w = 0; w < body.wedges.size(); ++w) {
+    const auto p = [&](int i) { return body.points[body.wedges[w][i]]; };
+    double low = p(0).z, high = p(3).z;
+    EXPECT_LE(-low, std::array{0.9, 3.7, 6.}[body.region[w]] + 1e-9);
+    EXPECT_GE(-high, std::array{0., 0.9, 3.7}[body.region[w]] - 1e-9);
+    volume[body.region[w]] += (high - low) * norm(cross(p(1) - p(0), p(2) - p(0))) / 2;
+  }
+  EXPECT_NEAR(volume[0] / volume[1], 0.9 / 2.8, 1e-9);
+  EXPECT_NEAR(volume[2] / volume[1], 2.3 / 2.8, 1e-9);
+  r.layers = {{{"fat"}, 7}, {{"muscle"}, infinite}};
+  EXPECT_THROW(make_body(r), InputError);
 }
 
 }  // namespace cleft

@@ -1,0 +1,93 @@
+#include "explorer/body/skin_coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "explorer/body/extrusion.h"
+#include "explorer/body/surface_index.h"
+#include "explorer/incision/incision.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double least_within = 0.02;  // of a direction of the tension: its part within the skin at a cut
+
+}  // namespace
+
+SkinCoordinates coordinates_on(const SurfaceMesh& skin, const ScalpelPath& path,
+                               const std::set<int>& on_cut) {
+  CutMesh mesh(skin);
+  IncisionOptions options;
+  options.max_edge = 0, options.reach = std::numeric_limits<double>::infinity();
+  const Incision incision(mesh, path, options);
+  const auto& labels = incision.surroundings().labels();
+  const std::vector<Vec3> normals = normals_of(skin);
+  const SurfaceIndex index(skin);
+  SkinCoordinates result;
+  for (int p = 0; p < static_cast<int>(skin.points.size()); ++p) {
+    const PathCoordinates at = path.coordinates(skin.points[p]);
+    double across = at.v;
+    if (on_cut.contains(p))
+      across = 0;
+    else if (p < static_cast<int>(labels.size()) && labels[p].reached && labels[p].side != Side::both)
+      across = Surroundings::across(at.v, labels[p].detour, labels[p].side);
+    result.canonical.push_back({at.s - path.length() / 2, across, 0});
+    const PathFrame frame = path.at(at.s);
+    const SurfacePlace place = index.nearest(frame.position);
+    const auto& corners = skin.triangles[place.triangle];
+    Vec3 normal;
+    for (int i = 0; i < 3; ++i) normal += place.weights[i] * normals[corners[i]];
+    normal = normalized(normal);
+    const Vec3 along = normalized(frame.along - dot(frame.along, normal) * normal);
+    result.frames.push_back({along, cross(normal, along), normal});
+  }
+  return result;
+}
+
+std::vector<Vec3> directions_within(const SurfaceMesh& skin, const ScalpelPath& path,
+                                    const std::vector<Vec3>& asked, const std::vector<bool>& on_a_cut) {
+  Vec3 direction = path.at(path.length()).position - path.at(0).position;
+  if (!asked.empty())
+    direction = asked.front();
+  else if (norm(direction) < 1e-3 * path.length())
+    direction = path.at(0).along;
+  std::vector<Vec3> directions;
+  for (const auto& t : skin.triangles) {
+    const Vec3 a = skin.points[t[0]], b = skin.points[t[1]], c = skin.points[t[2]];
+    const Vec3 normal = normalized(cross(b - a, c - a));
+    Vec3 within = direction - dot(direction, normal) * normal;
+    if (norm(within) < least_within * norm(direction) &&
+        std::any_of(t.begin(), t.end(), [&](int p) { return on_a_cut[p]; }))
+      throw InputError("the direction of the tension, " + place_text(direction) +
+                       ", is perpendicular to the skin at " + place_text(a) +
+                       " mm, on a cut; give one within the skin (--direction)");
+    if (norm(within) < 1e-6 * norm(direction)) within = b - a;  // seen from its end: any direction is as good
+    directions.push_back(normalized(within));
+  }
+  return directions;
+}
+
+ScalpelPath stretched(const ScalpelPath& path, double from, double to, double size) {
+  std::vector<ScalpelPath::Point> points;
+  const auto add = [&](double s) {
+    const PathFrame at = path.at(s);
+    points.push_back({at.position, at.outward, path.depth(std::clamp(s, 0., path.length()))});
+  };
+  const double first = std::max(0., from), last = std::min(path.length(), to);
+  if (from < 0) add(from);
+  const int pieces = std::clamp(static_cast<int>(std::ceil(8 * (last - first) / size)), 32, 4000);
+  for (int i = 0; i <= pieces; ++i) add(first + (last - first) * i / pieces);
+  if (to > path.length()) add(to);
+  return ScalpelPath(points);
+}
+
+std::string place_text(const Vec3& p) {
+  const auto rounded = [](double x) { return shortest(std::round(1e3 * x) / 1e3); };
+  return "(" + rounded(p.x) + ", " + rounded(p.y) + ", " + rounded(p.z) + ")";
+}
+
+}  // namespace cleft
