@@ -78,6 +78,8 @@ int main(int argc, char** argv) {
   app.add_option("--meshes", o.meshes, "folder of .obj and .stl files, besides the generated ones");
   app.add_option("--only", o.only, "meshes whose name contains this");
   app.add_option("--cut", o.plan.only, "these cuts alone, by their numbers, with those in the mesh at once");
+  app.add_flag("--crossing", o.plan.crossing,
+               "pairs of cuts, the second across the first, in meshes that are in mm as they are");
   app.add_flag("--list", o.plan.list, "each group of cuts that is unsound, or takes more than 10 s");
   return run_command(app, argc, argv, [&] { run(o); });
 }

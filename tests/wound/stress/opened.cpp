@@ -21,12 +21,15 @@ constexpr double as_far = 1.25;        // nearly the same length
 constexpr int samples_along = 120, samples_across = 24;  // of the field
 constexpr int places_along = 48, places_across = 12;     // of a family's fields
 
-/// Whether a triangle keeps its side and a fifth of its area.
-bool kept(const Vec3 (&rest)[3], const Vec3 (&now)[3]) {
+/// The area of a triangle over that at rest; negative if it has turned by more than 90 degrees.
+double determinant(const Vec3 (&rest)[3], const Vec3 (&now)[3]) {
   const Vec3 before = cross(rest[1] - rest[0], rest[2] - rest[0]),
              after = cross(now[1] - now[0], now[2] - now[0]);
-  return dot(before, after) > 0 && norm(after) >= shrunk * norm(before);
+  return std::copysign(norm(after) / norm(before), dot(before, after));
 }
+
+/// Whether a triangle keeps its side and a fifth of its area.
+bool kept(const Vec3 (&rest)[3], const Vec3 (&now)[3]) { return determinant(rest, now) >= shrunk; }
 
 /// The place in the flat patch: by s and not by u, which does not change between the halves of a path longer
 /// than the canonical cut.
@@ -96,6 +99,7 @@ class Look {
     const auto& v = mesh_.triangle(t).vertex;
     const Vec3 rest[3] = {mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])},
                moved[3] = {now[v[0]], now[v[1]], now[v[2]]};
+    found_.least_determinant = std::min(found_.least_determinant, determinant(rest, moved));
     if (!turned_[t] && !kept(rest, moved)) {
       turned_[t] = true;
       if (field_turns(t, time)) {
@@ -188,7 +192,9 @@ class Look {
   void look_at_pair(const Wound& wound, const Incision::ChainVertex& c, const std::vector<Vec3>& now) {
     if (c.left == c.right) return;
     const PathFrame frame = wound.incision->path().at(c.s);
-    if (scale_ * dot(now[c.right] - now[c.left], frame.across) < -passed) ++found_.crossed;
+    const double past = -scale_ * dot(now[c.right] - now[c.left], frame.across);
+    found_.passed = std::max(found_.passed, past);
+    if (past > passed) ++found_.crossed;
   }
 
   const ReplayedWounds& wounds_;
@@ -255,6 +261,8 @@ void Opened::add(const Opened& o) {
   stretched += o.stretched, spikes += o.spikes, crossed += o.crossed, unsteady += o.unsteady;
   torn_by_field += o.torn_by_field, opening += o.opening;
   largest = std::max(largest, o.largest);
+  least_determinant = std::min(least_determinant, o.least_determinant);
+  passed = std::max(passed, o.passed);
 }
 
 Opened look_at_opened(const ReplayedWounds& wounds, const FieldLimits& limits, int count) {
@@ -263,12 +271,14 @@ Opened look_at_opened(const ReplayedWounds& wounds, const FieldLimits& limits, i
 
 std::string text_of(const Opened& o) {
   char text[400];
-  std::snprintf(text, sizeof text,
-                "%ld turned (first at %.6g %.6g %.6g), %ld turned by the field, %ld torn, %ld stretched, %ld "
-                "of either by the field, %ld spikes, %ld lips crossed, %ld unsteady, largest %.3g of the "
-                "field's, openings %.6g mm",
-                o.turned, o.first_turned.x, o.first_turned.y, o.first_turned.z, o.turned_by_field, o.torn,
-                o.stretched, o.torn_by_field, o.spikes, o.crossed, o.unsteady, o.largest, o.opening);
+  std::snprintf(
+      text, sizeof text,
+      "%ld turned (first at %.6g %.6g %.6g), %ld turned by the field, %ld torn, %ld stretched, %ld "
+      "of either by the field, %ld spikes, %ld lips crossed (by at most %.3g mm), %ld unsteady, least "
+      "determinant %.3g, largest %.3g of the "
+      "field's, openings %.6g mm",
+      o.turned, o.first_turned.x, o.first_turned.y, o.first_turned.z, o.turned_by_field, o.torn, o.stretched,
+      o.torn_by_field, o.spikes, o.crossed, o.passed, o.unsteady, o.least_determinant, o.largest, o.opening);
   return text + o.first_is;
 }
 

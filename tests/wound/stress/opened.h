@@ -34,9 +34,11 @@ struct Opened {
   long crossed = 0;          ///< pairs of lips that pass each other by more than 0.05 mm
   long unsteady = 0;         ///< positions that are not the same to the bit when time comes back
   double largest = 0;        ///< displacement over the field's largest
-  double opening = 0;        ///< mm: sum over the pairs of lips of the complete cuts
-  Vec3 first_turned;         ///< where, at rest
-  std::string first_is;      ///< its corners
+  double least_determinant = 1;  ///< of a skin triangle: its area over that at rest, less than 0 if it turns
+  double passed = 0;             ///< mm by which lips pass each other at most
+  double opening = 0;            ///< mm: sum over the pairs of lips of the complete cuts
+  Vec3 first_turned;             ///< where, at rest
+  std::string first_is;          ///< its corners
 
   bool sound() const { return turned + torn + stretched + spikes + crossed + unsteady == 0; }
   void add(const Opened& other);

@@ -40,11 +40,12 @@ class Opening {
 
  private:
   void group() {
-    const int count = 1 + static_cast<int>(random_() % static_cast<unsigned>(plan_.cuts_at_once));
+    const int count =
+        plan_.crossing ? 2 : 1 + static_cast<int>(random_() % static_cast<unsigned>(plan_.cuts_at_once));
     std::mt19937_64 own(random_());
     const double size =
         std::exp(std::uniform_real_distribution(std::log(plan_.least_edge), std::log(plan_.most_edge))(own));
-    const double scale = size / mean_edge_;
+    const double scale = plan_.crossing ? 1 : size / mean_edge_;
     const long first = tally_.cuts;
     const bool wanted = plan_.only.empty() || std::any_of(plan_.only.begin(), plan_.only.end(), [&](long c) {
                           return first <= c && c < first + count;
@@ -57,6 +58,8 @@ class Opening {
     const auto begin = Clock::now();
     for (int i = 0; i < count; ++i) {
       kind = static_cast<PathKind>(own() % path_kinds);
+      if (plan_.crossing)
+        kind = earlier ? PathKind::across : static_cast<PathKind>(own() % 2);  // straight, wavy
       if (earlier && own() % 2 == 0) kind = PathKind::across;
       std::optional<ScalpelPath> path = random_path(ground_, kind, earlier, own);
       const bool refined = own() % 2 == 0;
@@ -66,7 +69,7 @@ class Opening {
       if (auto cut = make(mesh, *path, scale, refined)) cuts.push_back(std::move(cut));
       earlier = path;
     }
-    if (!wanted || cuts.empty()) return;
+    if (!wanted || cuts.empty() || (plan_.crossing && cuts.size() < 2)) return;
     ++tally_.groups, ++tally_.of[static_cast<std::size_t>(kind)];
     open(cuts, kind, scale, subject_.name + ", cut " + std::to_string(first) + " (" + kinds + ")", begin);
   }

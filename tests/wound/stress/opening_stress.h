@@ -21,6 +21,7 @@ struct OpeningPlan {
   double least_edge = 0.7, most_edge = 4;  ///< mm: the mesh is scaled so that its mean edge is between
   std::vector<long> only;                  ///< these cuts, with those in the mesh at once; none: all
   bool list = false;
+  bool crossing = false;  ///< groups are pairs of cuts that cross, in a mesh that is in mm as it is
 };
 
 /// Cuts made one after the other in one mesh and opened together count as one group.
