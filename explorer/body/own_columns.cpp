@@ -14,19 +14,11 @@ namespace cleft {
 
 namespace {
 
-enum VtkType {
-  vertex = 1,
-  poly_vertex = 2,
-  line = 3,
-  poly_line = 4,
-  triangle = 5,
-  quad = 9,
-  tetrahedron = 10,
-  hexahedron = 12,
-  wedge = 13,
-  pyramid = 14,
-  quadratic_edge = 21
-};
+/// VTK's numbers of cells.
+namespace vtk {
+constexpr int poly_line = 4, triangle = 5, quad = 9, tetrahedron = 10, hexahedron = 12, wedge = 13,
+              pyramid = 14, quadratic_edge = 21;
+}
 
 constexpr double same_place = 1e-6;  // of the shortest edge
 constexpr double too_near = 0.25;    // of the shortest edge: no two nodes of a sound mesh are so near
@@ -36,7 +28,7 @@ const std::vector<std::array<int, 2>>& edges_of(int type) {
                                                            {5, 3}, {0, 3}, {1, 4}, {2, 5}};
   static const std::vector<std::array<int, 2>> of_hexahedron = {
       {0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-  return type == wedge ? of_wedge : of_hexahedron;
+  return type == vtk::wedge ? of_wedge : of_hexahedron;
 }
 
 template <class Nodes>
@@ -88,7 +80,7 @@ class Columns {
     list_faces();
     c_.above.assign(m_.points.size(), -1), c_.depth.assign(m_.points.size(), 0);
     used_.assign(m_.types.size(), false);
-    for (const int cell : skin_) m_.types[cell] == triangle ? grow_wedges(cell) : grow_hexahedra(cell);
+    for (const int cell : skin_) m_.types[cell] == vtk::triangle ? grow_wedges(cell) : grow_hexahedra(cell);
     for (std::size_t c = 0; c < used_.size(); ++c)
       if (is_volume(m_.types[c]) && !used_[c])
         refuse(static_cast<int>(c),
@@ -107,7 +99,7 @@ class Columns {
     throw FileError(m_.name, "cell " + std::to_string(cell) + " at " + place_text(middle) + " mm " + what);
   }
 
-  static bool is_volume(int type) { return type == wedge || type == hexahedron; }
+  static bool is_volume(int type) { return type == vtk::wedge || type == vtk::hexahedron; }
 
   void check_cells() const {
     for (const Vec3& p : m_.points)
@@ -117,18 +109,18 @@ class Columns {
     for (std::size_t c = 0; c < m_.types.size(); ++c) {
       const int type = m_.types[c];
       any = any || is_volume(type);
-      if (is_volume(type) || type == triangle || type == quad || type <= poly_line) continue;
+      if (is_volume(type) || type == vtk::triangle || type == vtk::quad || type <= vtk::poly_line) continue;
       const std::string number = " (VTK's type " + std::to_string(type) + ")";
-      if (type == tetrahedron || type == pyramid)
+      if (type == vtk::tetrahedron || type == vtk::pyramid)
         refuse(static_cast<int>(c),
-               std::string("is a ") + (type == pyramid ? "pyramid" : "tetrahedron") + number +
+               std::string("is a ") + (type == vtk::pyramid ? "pyramid" : "tetrahedron") + number +
                    ": only wedges and hexahedra in columns below the skin are solved. Extrude "
                    "the skin's triangles inward in layers (gmsh: Extrude { ... Layers { ... }; "
                    "Recombine; })");
       refuse(static_cast<int>(c),
              "is of a kind that is not solved" + number + ": " +
-                 (type >= quadratic_edge ? "make its elements linear (gmsh: Mesh.ElementOrder = 1)"
-                                         : "use wedges or hexahedra, and triangles or quads"));
+                 (type >= vtk::quadratic_edge ? "make its elements linear (gmsh: Mesh.ElementOrder = 1)"
+                                              : "use wedges or hexahedra, and triangles or quads"));
     }
     if (!any) throw FileError(m_.name, "has neither wedges nor hexahedra");
   }
@@ -167,20 +159,20 @@ class Columns {
   }
 
   void list_faces() {
-    const bool triangles = std::find(m_.types.begin(), m_.types.end(), int{triangle}) != m_.types.end();
+    const bool triangles = std::find(m_.types.begin(), m_.types.end(), vtk::triangle) != m_.types.end();
     for (int c = 0; c < static_cast<int>(m_.types.size()); ++c) {
       const auto& nodes = m_.nodes[c];
-      if (m_.types[c] == wedge) {
+      if (m_.types[c] == vtk::wedge) {
         cells_at_[key_of(std::array{nodes[0], nodes[1], nodes[2]})].push_back(c);
         cells_at_[key_of(std::array{nodes[3], nodes[4], nodes[5]})].push_back(c);
-      } else if (m_.types[c] == hexahedron) {
+      } else if (m_.types[c] == vtk::hexahedron) {
         static constexpr int faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                             {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
         for (const auto& f : faces)
           cells_at_[key_of(std::array{nodes[f[0]], nodes[f[1]], nodes[f[2]], nodes[f[3]]})].push_back(c);
-      } else if (m_.types[c] == triangle || m_.types[c] == quad) {
+      } else if (m_.types[c] == vtk::triangle || m_.types[c] == vtk::quad) {
         const int region = m_.regions.empty() ? 0 : m_.regions[c];
-        if (f_.all_skin ? m_.types[c] == triangle || !triangles : f_.skin.contains(region))
+        if (f_.all_skin ? m_.types[c] == vtk::triangle || !triangles : f_.skin.contains(region))
           skin_.push_back(c);
         if (f_.free.contains(region)) free_.insert(key_of(nodes));
         if (!f_.bone.contains(region)) continue;
@@ -238,7 +230,7 @@ class Columns {
     begin_columns(halves(upper));
     for (int cell = below(upper); cell >= 0; cell = below(upper)) {
       const std::vector<int> lower = opposite(cell, upper);
-      if (m_.types[cell] != hexahedron || lower.size() != 4)
+      if (m_.types[cell] != vtk::hexahedron || lower.size() != 4)
         refuse(cell, "has another shape than the one above it");
       add_layer(cell, halves(lower), halves(upper));
       upper = lower;
@@ -328,14 +320,14 @@ class Columns {
       by_places[key_of(places)].push_back(list.front());
     }
     for (const auto& [key, list] : by_places) {
-      const Side& a = list.front();
+      const bool in_order = list.front().column <= list.back().column;
+      const Side &a = in_order ? list.front() : list.back(), &b = in_order ? list.back() : list.front();
       if (list.size() > 2)
         refuse(c_.cells[list[2].column][list[2].layer], "is the third at one of its faces");
       if (list.size() == 1) {
         if (!free_.contains(key_of(a.nodes))) c_.sides.push_back(a.nodes);
         continue;
       }
-      const Side& b = list.back();
       if (a.layer != b.layer)
         refuse(c_.cells[b.column][b.layer],
                "and the one on the other side of the cut are in different layers");

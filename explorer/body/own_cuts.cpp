@@ -14,7 +14,7 @@ namespace cleft {
 
 namespace {
 
-constexpr double beside = 0.5;    // of an edge: how far it may be from its path
+constexpr double beside_path = 0.5;  // of an edge: how far it may be from its path
 constexpr double as_long = 0.02;  // of an edge: a path that ends so near to its walls is as long as they are
 
 /// Assigns walls to paths.
@@ -64,7 +64,7 @@ class Assignment {
       const double beyond = std::max({0., -at.s - length, at.s - paths_[k].length() - length});
       if (const double d = std::hypot(at.v, at.w, beyond); d < distance) distance = d, best = k, s = at.s;
     }
-    if (!(distance <= beside * length))
+    if (!(distance <= beside_path * length))
       throw FileError(name_,
                       "walls with doubled nodes at " + place_text(middle) + " mm are " +
                           shortest(std::round(1e3 * distance) / 1e3) +

@@ -11,8 +11,8 @@ namespace cleft {
 
 namespace {
 
-constexpr double nothing = 0.05;  // of an element: wedges so flat are not made for a change of tissue
-constexpr double near = 0.3;      // of a step between nodes: these move
+constexpr double flattest = 0.05;     // of an element: wedges so flat are not made for a change of tissue
+constexpr double moves_within = 0.3;  // of a step between nodes: these move
 
 }  // namespace
 
@@ -53,9 +53,9 @@ Layers divided(Layers layers, const std::vector<TissueLayer>& tissue, double siz
     const auto nearest = next - (*next - at > at - *(next - 1) ? 1 : 0);
     const bool may_move =
         *nearest > depth[layers.bottom] && std::find(fixed.begin(), fixed.end(), *nearest) == fixed.end();
-    if (std::abs(*nearest - at) < nothing * size) {
+    if (std::abs(*nearest - at) < flattest * size) {
       fixed.push_back(*nearest);
-    } else if (may_move && std::abs(*nearest - at) < near * (*next - *(next - 1))) {
+    } else if (may_move && std::abs(*nearest - at) < moves_within * (*next - *(next - 1))) {
       *nearest = at, fixed.push_back(at);
     } else {
       layers.bottom += at < depth[layers.bottom] ? 1 : 0;

@@ -42,7 +42,7 @@ Json figures_of(const Body& body, const OwnBodyReport& r) {
   Json figures = {{"nodes", body.points.size()},        {"wedges", body.wedges.size()},
                   {"skin_triangles", body.skin.size()}, {"pairs", body.pairs.size()},
                   {"frames", body.times.size()},        {"least_determinant", r.least_determinant},
-                  {"columns_on_bone", r.on_bone}};
+                  {"triangles_on_bone", r.on_bone}};
   for (const auto& cut : r.cuts)
     figures["cuts"].push_back({{"length_mm", cut.length}, {"depth_mm", cut.depth}});
   for (const auto& region : r.regions) figures["wedges_of"][region.name] = region.wedges;
