@@ -33,6 +33,8 @@ const std::vector<Command> commands = {
     {"decode", "a field as its source's series"},
     {"pack", "a study's fields in one file"},
     {"interpolate", "a case never simulated"},
+    {"certify", "a bound of its error"},
+    {"residual", "how far a series is from solved"},
     {"analyze", "what a figure depends on"},
     {"fit", "parameters that explain measurements"},
     {"propose", "the next cases of a study"},

@@ -1,8 +1,24 @@
 #include "params/stiffness.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "params/material/isotropic.h"
 #include "params/parameters/table.h"
 
 namespace cleft {
+
+namespace {
+
+std::string text_of_all(const Parameters& p) {
+  std::string key;
+  for (const Parameter& row : parameter_table()) key += to_text(get_parameter(p, row)) + ";";
+  return key;
+}
+
+}  // namespace
 
 std::string stiffness_key(Parameters p) {
   const Parameters defaults;
@@ -16,9 +32,61 @@ std::string stiffness_key(Parameters p) {
   if (p.mesh.cut_depth == 0) p.mesh.cut_depth = p.cut.depth;
   p.cut.length = defaults.cut.length, p.cut.depth = defaults.cut.depth;
   p.cut.frames = defaults.cut.frames, p.cut.contact = defaults.cut.contact;
-  std::string key;
-  for (const Parameter& row : parameter_table()) key += to_text(get_parameter(p, row)) + ";";
-  return key;
+  return text_of_all(p);
+}
+
+Parameters with_moduli_of(const Parameters& parameters, const Parameters& other) {
+  Parameters p = parameters;
+  p.skin.thickness = other.skin.thickness, p.skin.young_modulus = other.skin.young_modulus;
+  p.skin.poisson_ratio = other.skin.poisson_ratio, p.skin.bending_stiffness = other.skin.bending_stiffness;
+  p.tissue.young_modulus = other.tissue.young_modulus, p.tissue.poisson_ratio = other.tissue.poisson_ratio;
+  p.foundation = other.foundation;
+  return p;
+}
+
+std::string mesh_and_release_key(Parameters p) {
+  const Parameters defaults;
+  p = with_moduli_of(p, defaults);
+  p.skin.prestress = defaults.skin.prestress, p.tissue.prestress_share = defaults.tissue.prestress_share;
+  return text_of_all(p);
+}
+
+StiffnessRatios stiffness_ratios(const Parameters& one, const Parameters& other) {
+  const auto moduli = [](const Parameters& p) {
+    const Isotropic tissue(p.tissue.young_modulus, p.tissue.poisson_ratio);
+    const double sheet = p.skin.thickness * p.skin.young_modulus, nu = p.skin.poisson_ratio;
+    // The springs of bone are multiples of Young's modulus, whose ratio is between those of these two.
+    return std::array{tissue.shear,
+                      tissue.bulk,
+                      sheet / (1 + nu),
+                      sheet / (1 - nu),
+                      p.skin.bending_stiffness,
+                      p.foundation.stiffness,
+                      p.foundation.side_stiffness};
+  };
+  StiffnessRatios ratios{HUGE_VAL, 0};
+  const auto a = moduli(one), b = moduli(other);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == 0 && b[i] == 0) continue;
+    const double ratio = b[i] == 0 ? HUGE_VAL : a[i] / b[i];
+    ratios = {std::min(ratios.least, ratio), std::max(ratios.greatest, ratio)};
+  }
+  return ratios;
+}
+
+void check_linear(const Parameters& p, const std::string& where) {
+  const auto refuse = [&](const std::string& setting, const std::string& why, const std::string& remedy) {
+    throw InputError(where + ": " + setting + ": " + why + "; " + remedy);
+  };
+  const std::string solve = "solve the case (cleft solve) and compare";
+  if (p.model == Model::finite)
+    refuse(row_of(p, p.model).name + " = finite", "the bound is one of linear equations", solve);
+  if (p.cut.contact)
+    refuse(row_of(p, p.cut.contact).name + " = true", "forces of contact are not known without solving",
+           solve + ", or set it to false");
+  if (p.skin.initial_stress_stiffness)
+    refuse(row_of(p, p.skin.initial_stress_stiffness).name + " = true",
+           "the stiffness may have negative parts, so that no ratio of moduli bounds it", solve);
 }
 
 }  // namespace cleft

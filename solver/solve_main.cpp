@@ -17,6 +17,7 @@
 #include "solver/body_mesh.h"
 #include "solver/mpi_session.h"
 #include "solver/solve.h"
+#include "solver/unsolved.h"
 
 using namespace cleft;
 
@@ -146,6 +147,17 @@ std::vector<std::string> outputs(const std::vector<std::string>& cases, const st
   return files;
 }
 
+/// Of cases that are not solved.
+void write_meshes(const std::vector<CaseToSolve>& cases, const SolveOptions& options, bool as_json) {
+  if (options.body) throw InputError("--unsolved: is for patches; the body's file is its mesh");
+  Json list = Json::array();
+  for (const CaseToSolve& one : cases) {
+    write_unsolved(one.parameters, one.out, MPI_COMM_WORLD);
+    list.push_back({{"out", one.out}});
+  }
+  if (as_json) print_figures(list, true);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -191,9 +203,11 @@ int main(int argc, char** argv) {
                  "(default: what the case files say)")
       ->delimiter(',')
       ->allow_extra_args(false);
-  bool no_estimate = false;
+  bool no_estimate = false, unsolved = false;
   app.add_flag("--no-estimate", no_estimate,
                "do not estimate, by coarser meshes, which error of the opening mesh and patch leave");
+  app.add_flag("--unsolved", unsolved,
+               "solve nothing: write the mesh, the cut and the times, with displacements of 0");
   app.add_flag("--json", json, "print the figures as JSON; several cases: a list");
   app.add_flag(
       "--verbose", verbose,
@@ -221,6 +235,7 @@ int main(int argc, char** argv) {
         check_options(cases.back().parameters, options, case_files[c]);
       });
     mistakes.throw_if_any();
+    if (unsolved) return write_meshes(cases, options, root && json);
     if (root && verbose)
       options.log = [](const std::string& line) { std::cerr << line + '\n' << std::flush; };
     Progress progress("solving");
