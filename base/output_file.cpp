@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/unfinished.h"
 
 namespace cleft {
 
@@ -32,15 +33,18 @@ OutputFile::OutputFile(std::string final_path) : final_(std::move(final_path)) {
   temporary_ = (folder / ("." + target.stem().string() + "." + std::to_string(getpid()) + ".part" +
                           target.extension().string()))
                    .string();
+  begin_unfinished(temporary_);
 }
 
 OutputFile::~OutputFile() {
   std::error_code ignored;
   if (!committed_) fs::remove(temporary_, ignored);
+  end_unfinished(temporary_);
 }
 
 void OutputFile::commit() {
   flush_to_disk(temporary_);
+  const auto whole = not_while_ending();
   fs::rename(temporary_, final_);
   committed_ = true;
 }

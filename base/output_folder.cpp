@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/unfinished.h"
 
 namespace cleft {
 
@@ -31,15 +32,18 @@ OutputFolder::OutputFolder(std::string folder, const std::string& name)
   std::error_code refused;
   if (!fs::create_directory(temporary_, refused))
     throw InputError(output + ": the folder '" + folder_ + "' cannot be written: " + refused.message());
+  begin_unfinished(temporary_);
 }
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);
+  end_unfinished(temporary_);
 }
 
 void OutputFolder::commit(const std::vector<std::string>& names) {
   flush_all(temporary_);
+  auto whole = not_while_ending();
   std::vector<std::pair<fs::path, fs::path>> moves;
   const auto move = [&moves](const fs::path& from, const fs::path& to) {
     fs::rename(from, to);
@@ -57,6 +61,7 @@ void OutputFolder::commit(const std::vector<std::string>& names) {
       fs::rename(last->second, last->first, ignored);
     throw;
   }
+  whole.unlock();
   flush_to_disk(folder_);
 }
 

@@ -13,6 +13,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/stopwatch.h"
+#include "base/unfinished.h"
+
 extern char** environ;
 
 namespace cleft {
@@ -74,16 +77,20 @@ int opened(const std::string& path) {
   _exit(127);
 }
 
-/// Waits for the child's end, and forwards `stop`.
+/// Waits for the child's end, and forwards `stop`. A child that does not follow in a few seconds is killed:
+/// mpirun, requested to end while it starts, may go on.
 int awaited(pid_t child, const StopCount* stop, rusage& usage) {
+  constexpr double patience = 5;  // seconds
   const Descriptor end(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));
   int status = 0, told = 0;
+  Stopwatch since_told;
   for (;;) {
     const pid_t ended = wait4(child, &status, WNOHANG, &usage);
     if (ended == child) return status;
     if (ended < 0 && errno != EINTR) throw std::runtime_error("the end of a child could not be awaited");
-    if (stop && *stop > told) {
-      told = *stop;
+    const bool again = told > 0 && since_told.seconds() > patience;
+    if (stop && (*stop > told || again)) {
+      told = again ? told + 1 : *stop, since_told = Stopwatch();
       kill(told == 1 ? child : -child, told == 1 ? SIGTERM : SIGKILL);
     }
     pollfd ending{end, POLLIN, 0};
@@ -115,6 +122,7 @@ ProcessResult run_process(const std::vector<std::string>& argv, const std::strin
   rusage usage{};
   if (child > 0 && read(read_end, &error, sizeof error) == sizeof error) awaited(child, nullptr, usage);
   if (error != 0) throw std::runtime_error(argv[0] + " could not be started: " + std::strerror(error));
+  const UnfinishedChild unfinished(child);
   const int status = awaited(child, stop, usage);
   const double peak = 1024. * static_cast<double>(usage.ru_maxrss);
   if (WIFSIGNALED(status)) return {0, WTERMSIG(status), peak};

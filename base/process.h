@@ -24,9 +24,10 @@ using StopCount = volatile std::sig_atomic_t;
 /// Runs a program (argv[0] is its path or a name on PATH) to its end; both its outputs go to the file `log`,
 /// or its standard output to `output`, if that is given. `environment` is added to this process's own. The
 /// child leads its own process group, which Ctrl-C in a terminal does not reach: when *stop is 1 it gets
-/// SIGTERM, from 2 on the group is killed. The child does not outlive this process: if this process is
-/// killed, the child gets SIGTERM. (The kernel watches the thread that starts it, which must wait for its
-/// end, as this function does.) Throws std::runtime_error naming the program if it cannot be started.
+/// SIGTERM, and from 2 on, or if it has not ended within 5 s, the group is killed. The child does not outlive
+/// this process: if this process is killed, the child gets SIGTERM. (The kernel watches the thread that
+/// starts it, which must wait for its end, as this function does.) Throws std::runtime_error naming the
+/// program if it cannot be started.
 ProcessResult run_process(const std::vector<std::string>& argv, const std::string& log,
                           const std::map<std::string, std::string>& environment,
                           const StopCount* stop = nullptr, const std::string& output = "");

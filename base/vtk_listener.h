@@ -2,10 +2,12 @@
 #pragma once
 
 #include <vtkCallbackCommand.h>
+#include <vtkDataObject.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 namespace cleft {
@@ -46,5 +48,19 @@ class VtkListener {
   vtkNew<vtkCallbackCommand> command_;
   std::string message_;
 };
+
+/// The text of a file that `writer`, a vtkXMLWriter, makes of `data`; for messages about `path`. (Over a full
+/// disk VTK's writers crash.) Arrays are binary: raw appended data are no XML, and ParaView with a strict
+/// parser cannot read them.
+template <class Writer>
+std::string xml_of(Writer* writer, vtkDataObject* data, const std::string& path) {
+  const VtkListener writing(writer);
+  writer->SetDataModeToBinary();
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(data);
+  if (writer->Write() == 0 || writing.failed())
+    throw std::runtime_error(path + ": could not be written: " + writing.reason());
+  return writer->GetOutputString();
+}
 
 }  // namespace cleft

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/memory_file.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"
 #include "base/process.h"
@@ -235,8 +236,13 @@ class PanelScript {
   std::vector<Line> lines_;
 };
 
+/// gnuplot does not tell of a full disk: it writes to files in memory.
+struct ChartFiles {
+  MemoryFile svg, png;
+};
+
 std::string script_of(const std::vector<Chart>& charts, const std::string& heading,
-                      const std::string& caption) {
+                      const std::string& caption, const ChartFiles& files) {
   const int rows = (static_cast<int>(charts.size()) + panels_a_row - 1) / panels_a_row,
             columns = std::min(panels_a_row, static_cast<int>(charts.size()));
   const int width = columns * panel_width, height = rows * panel_height + heading_height;
@@ -251,9 +257,9 @@ std::string script_of(const std::vector<Chart>& charts, const std::string& headi
   const std::string common =
       "set encoding utf8\nset grid lc rgb '#dddddd' lw 0.6\nset border 3\nset tics nomirror\nunset key\n"
       "set lmargin 10\nset rmargin 2\n";
-  return "set terminal svg size " + size + " font " + font +
-         " background '#ffffff'\nset output 'chart.svg'\n" + common + page + "set terminal pngcairo size " +
-         size + " font " + font + "\nset output 'chart.png'\n" + page;
+  return "set terminal svg size " + size + " font " + font + " background '#ffffff'\nset output '" +
+         files.svg.path() + "'\n" + common + page + "set terminal pngcairo size " + size + " font " + font +
+         "\nset output '" + files.png.path() + "'\n" + page;
 }
 
 }  // namespace
@@ -266,7 +272,8 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& stem, cons
                     name = path.filename();
   OutputFolder out(folder, name);
   const auto in = [&](const std::string& file) { return out.path() + "/" + file; };
-  write_text_file(in("chart.gp"), script_of(charts, heading, caption));
+  const ChartFiles files;
+  write_text_file(in("chart.gp"), script_of(charts, heading, caption, files));
   ProcessResult result;
   try {
     result = run_process({"/bin/sh", "-c", "cd \"$0\" && exec gnuplot chart.gp", out.path()}, in("log"), {});
@@ -275,8 +282,7 @@ void draw_charts(const std::vector<Chart>& charts, const std::string& stem, cons
   }
   if (result.exit_code == 127) throw std::runtime_error("gnuplot is missing: install Debian's gnuplot-nox");
   if (!result.success()) throw std::runtime_error("gnuplot failed: " + read_text_file(in("log")));
-  for (const char* ending : {".svg", ".png"})
-    fs::rename(in(std::string("chart") + ending), in(name + ending));
+  files.svg.copy_to(in(name + ".svg")), files.png.copy_to(in(name + ".png"));
   out.commit({name + ".svg", name + ".png"});
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/message.h"
 #include "base/text.h"
+#include "base/unfinished.h"
 
 namespace cleft {
 
@@ -36,11 +37,14 @@ std::string fitted(const std::string& text) {
 
 int run_command(CommandLine& line, int argc, char** argv, const std::function<void()>& body) {
   if (const int code = line.parse(argc, argv, producer()); code >= 0) return code;
+  end_without_leftovers();
   try {
     body();
     if (!std::cout.flush()) throw std::runtime_error("standard output could not be written");
+    wait_if_ending();
     return 0;
   } catch (const std::exception& e) {
+    wait_if_ending();
     const bool mistake = is_users_mistake(e);
     complain(line, mistake ? "error" : "failed", message_of(e));
     return mistake ? 2 : 1;

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/output_folder.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
 
@@ -104,12 +105,7 @@ void write_frame(vtkUnstructuredGrid* grid, const std::vector<Values>& all, cons
     grid->GetPointData()->AddArray(array);
   }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  const VtkListener writing(writer.Get());
-  writer->SetFileName(path.c_str());
-  writer->SetInputData(grid);
-  writer->SetDataModeToBinary();
-  if (writer->Write() == 0 || writing.failed())
-    throw FileError(path, "cannot be written: " + writing.reason());
+  write_text_file(path, xml_of(writer.Get(), grid, path));
 }
 
 double clamped(const Field& field, int axis, double value) {
@@ -227,24 +223,25 @@ void write_decoded(const DecodedNodes& decoded, const SourceMesh& mesh, const st
     const auto frames = static_cast<int>(std::max(2., decoded.first->report.frames));
     for (int j = 0; j < frames; ++j) times.push_back(decoded.first->duration() * j / (frames - 1));
   }
-  const fs::path temporary = folder.string() + ".incomplete";
-  fs::remove_all(temporary);
-  fs::create_directories(temporary);
+  const std::string name = folder.filename().string();
+  OutputFolder place(folder.has_parent_path() ? folder.parent_path().string() : ".", name);
+  const fs::path frames = fs::path(place.path()) / name;
+  fs::create_directory(frames);
   std::ostringstream list;
   list << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
           "byte_order=\"LittleEndian\">\n<Collection>\n";
   const auto grid = grid_of(mesh);
   for (std::size_t j = 0; j < times.size(); ++j) {
     progress("writing frame " + std::to_string(j + 1) + " of " + std::to_string(times.size()));
-    std::ostringstream name;
-    name << "frame_" << std::setw(4) << std::setfill('0') << j << ".vtu";
-    write_frame(grid, values_at(decoded, source, j, times[j] - times.front()), temporary / name.str());
+    std::ostringstream frame;
+    frame << "frame_" << std::setw(4) << std::setfill('0') << j << ".vtu";
+    write_frame(grid, values_at(decoded, source, j, times[j] - times.front()), frames / frame.str());
     list << "<DataSet timestep=\"" << shortest(times[j]) << "\" part=\"0\" file=\""
-         << (folder.filename() / name.str()).string() << "\"/>\n";
+         << (folder.filename() / frame.str()).string() << "\"/>\n";
   }
   list << "</Collection>\n</VTKFile>\n";
-  fs::rename(temporary, folder);
-  write_text_file(pvd, list.str());
+  write_text_file((fs::path(place.path()) / pvd.filename()).string(), list.str());
+  place.commit({name, pvd.filename().string()});
 }
 
 }  // namespace cleft

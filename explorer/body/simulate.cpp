@@ -11,6 +11,7 @@
 #include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "base/unfinished.h"
 #include "params/study.h"
 
 namespace cleft {
@@ -24,10 +25,12 @@ class WorkFolder {
     std::string name = (std::filesystem::temp_directory_path() / "cleft-simulate-XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error(name + ": a temporary folder cannot be made");
     path_ = name;
+    begin_unfinished(path_);
   }
   ~WorkFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
+    end_unfinished(path_);
   }
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;

@@ -20,6 +20,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/memory_file.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
@@ -111,13 +112,13 @@ vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<P
 
 template <class Writer>
 void write_with(const vtkNew<Writer>& writer, vtkPolyData* data, const std::string& path) {
-  OutputFile file(path);
-  const VtkListener writing(writer.Get());
-  writer->SetFileName(file.path().c_str());
-  writer->SetInputData(data);
-  if (writer->Write() == 0 || writing.failed())
-    throw std::runtime_error(path + ": could not be written: " + writing.reason());
-  file.commit();
+  write_through_memory(path, [&](const std::string& file) {
+    const VtkListener writing(writer.Get());
+    writer->SetFileName(file.c_str());
+    writer->SetInputData(data);
+    if (writer->Write() == 0 || writing.failed())
+      throw std::runtime_error(path + ": could not be written: " + writing.reason());
+  });
 }
 
 void write_stl(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>&) {
@@ -132,9 +133,7 @@ void write_obj(const std::string& path, const SurfaceMesh& mesh, const std::vect
 
 void write_vtp(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetDataModeToBinary();  // raw appended data are no XML: ParaView with a strict parser cannot read
-                                  // them
-  write_with(writer, to_vtk(mesh, arrays), path);
+  write_text_file(path, xml_of(writer.Get(), to_vtk(mesh, arrays), path));
 }
 
 /// What reads and writes a row of the table of formats.

@@ -236,15 +236,8 @@ void VolumeMesh::write(const std::string& path, const std::vector<Vec3>& points,
   moved->SetPoints(double_points(points));
   for (int split = 0; split < splits_; ++split) moved->GetPointData()->RemoveArray(part_name(split).c_str());
   add_arrays(arrays, moved->GetPointData(), points.size());
-  OutputFile file(path);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  const VtkListener writing(writer.Get());
-  writer->SetDataModeToBinary();
-  writer->SetFileName(file.path().c_str());
-  writer->SetInputData(moved);
-  if (writer->Write() == 0 || writing.failed())
-    throw std::runtime_error(path + ": could not be written: " + writing.reason());
-  file.commit();
+  write_text_file(path, xml_of(writer.Get(), moved, path));
 }
 
 }  // namespace cleft

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/process.h"
 #include "base/text.h"
+#include "base/unfinished.h"
 
 namespace cleft {
 
@@ -26,10 +27,12 @@ class AnswerFolder {
     std::string name = (fs::temp_directory_path() / "cleft-answer-XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder can be made: " + name);
     path_ = name;
+    begin_unfinished(path_);
   }
   ~AnswerFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    end_unfinished(path_);
   }
   AnswerFolder(const AnswerFolder&) = delete;
   AnswerFolder& operator=(const AnswerFolder&) = delete;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/output_file.h"
+#include "base/memory_file.h"
 #include "explorer/view/offscreen_window.h"
 #include "explorer/view/picture.h"
 
@@ -34,14 +34,14 @@ vtkSmartPointer<vtkImageData> read_half(vtkRenderWindow* window) {
 }
 
 void write_png(vtkImageData* image, const std::string& path, const std::string& state) {
-  OutputFile file(path);
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->SetFileName(file.path().c_str());
-  if (!state.empty()) writer->AddText(picture_state_key, state.c_str());
-  writer->Write();
-  if (writer->GetErrorCode() != 0) throw std::runtime_error(path + ": the picture could not be written");
-  file.commit();
+  write_through_memory(path, [&](const std::string& file) {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputData(image);
+    writer->SetFileName(file.c_str());
+    if (!state.empty()) writer->AddText(picture_state_key, state.c_str());
+    writer->Write();
+    if (writer->GetErrorCode() != 0) throw std::runtime_error(path + ": the picture could not be written");
+  });
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "base/memory_file.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"
 #include "base/vtk_listener.h"
@@ -47,7 +48,8 @@ void each_frame(Session& session, const MovieFormat& format,
 }
 
 void write_ogg(Session& session, const std::string& path, const MovieFormat& format) {
-  OutputFile file(path);
+  { const OutputFile probe(path); }  // reports a bad name before the work
+  const MemoryFile file;
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
   vtkNew<vtkOggTheoraWriter> writer;
   const VtkListener writing(writer.Get());
@@ -67,7 +69,7 @@ void write_ogg(Session& session, const std::string& path, const MovieFormat& for
   });
   writer->End();
   check();
-  file.commit();
+  file.copy_to(path);
 }
 
 void write_folder(Session& session, const std::string& path, const MovieFormat& format) {

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/sealed_json.h"
+#include "base/unfinished.h"
 
 namespace cleft {
 
@@ -77,6 +78,7 @@ void write_index(const std::string& file, const std::map<std::string, IndexedCas
   Json cases = Json::array();
   for (const auto& [hash, entry] : index) cases.push_back(row_of(hash, entry));
   const std::string part = file + "." + std::to_string(getpid()) + ".part";
+  const Unfinished unfinished(part);
   std::ofstream out(part, std::ios::binary);
   out << sealed_text({{"format", "cleft-index"}, {"version", version}, {"cases", cases}});
   out.close();

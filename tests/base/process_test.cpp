@@ -69,6 +69,15 @@ TEST(Process, IsAskedToEndAndThenMadeTo) {
   EXPECT_EQ(run_process({"sleep", "60"}, place / "log", {}, &stop).signal, SIGTERM);
 }
 
+TEST(Process, IsMadeToEndWhereItDoesNotFollow) {
+  const TemporaryFolder place;
+  StopCount stop = 1;  // and nobody asks again
+  EXPECT_EQ(
+      run_process({"sh", "-c", "trap '' TERM; sleep 60 & wait; wait; sleep 60"}, place / "log", {}, &stop)
+          .signal,
+      SIGKILL);
+}
+
 TEST(Process, DoesNotOutliveTheOneThatStartedIt) {
   const TemporaryFolder place;
   const pid_t driver = fork();
