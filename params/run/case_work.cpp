@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "params/parameters/table.h"
 #include "params/run/estimates.h"
+#include "params/run/lock.h"
 
 namespace cleft {
 
@@ -181,7 +182,7 @@ void CaseWork::solve_together(const std::vector<CaseOnItsWay*>& cases) const {
   const Stopwatch watch;
   const std::string group = first.file("group");
   fs::remove_all(group);
-  fs::create_directory(group);
+  make_shared_folder(first.attempt.folder, "group");
   std::vector<std::string> arguments;
   for (const CaseOnItsWay* one : cases) {
     write_case_file(one->file("case.toml"), *one->one);

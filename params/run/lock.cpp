@@ -1,7 +1,9 @@
 #include "params/run/lock.h"
 
 #include <fcntl.h>
+#include <pwd.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 
@@ -18,7 +21,58 @@ namespace fs = std::filesystem;
 
 namespace {
 
-int open_lock(const std::string& path) { return open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644); }
+/// "alice", or "user 1000".
+std::string owner_of(const struct stat& file) {
+  std::vector<char> buffer(1 << 14);
+  passwd entry{}, *found = nullptr;
+  if (getpwuid_r(file.st_uid, &entry, buffer.data(), buffer.size(), &found) == 0 && found)
+    return found->pw_name;
+  return "user " + std::to_string(file.st_uid);
+}
+
+[[noreturn]] void refuse(const std::string& path, int error) {
+  std::string what = path + ": could not be locked: " + std::strerror(error);
+  struct stat file {};
+  if (stat(path.c_str(), &file) == 0 && file.st_uid != geteuid())
+    what += "; it belongs to " + owner_of(file) + ", who can chmod g+rw it";
+  else if (stat(path.c_str(), &file) != 0 && stat(fs::path(path).parent_path().c_str(), &file) == 0 &&
+           file.st_uid != geteuid())
+    what += "; its folder belongs to " + owner_of(file) + ", who can chmod g+rwxs it for your group";
+  throw std::runtime_error(what);
+}
+
+/// What a folder's group may do, its files' group may do; failures show where another user cannot lock.
+void share_as(const fs::path& folder, int file, mode_t mask) {
+  struct stat parent {
+  }, made{};
+  if (stat(folder.c_str(), &parent) != 0 || fstat(file, &made) != 0) return;
+  if (made.st_gid != parent.st_gid && fchown(file, static_cast<uid_t>(-1), parent.st_gid) != 0) return;
+  const mode_t wanted = parent.st_mode & mask;
+  if ((made.st_mode & mask) != wanted) fchmod(file, wanted);
+}
+
+/// Reading suffices to lock. -1 and errno where it cannot be opened.
+int open_lock(const std::string& path) {
+  constexpr mode_t of_files = 0666;
+  const int made = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, of_files);
+  if (made >= 0) {
+    share_as(fs::path(path).parent_path(), made, of_files);
+    return made;
+  }
+  if (errno != EEXIST && errno != EACCES && errno != EROFS) return -1;
+  const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  return file >= 0 ? file : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+}
+
+/// Waits.
+void lock(int file, const std::string& path) {
+  while (flock(file, LOCK_EX) != 0)
+    if (errno != EINTR) {
+      const int error = errno;
+      close(file);
+      refuse(path, error);
+    }
+}
 
 }  // namespace
 
@@ -26,7 +80,7 @@ Lock::Lock(const std::string& path) : file_(open_lock(path)) {
   if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   const int error = errno;
   if (file_ >= 0) close(file_);
-  throw std::runtime_error(path + ": could not be locked: " + std::strerror(error));
+  refuse(path, error);
 }
 
 Lock::~Lock() {
@@ -39,24 +93,40 @@ Lock& Lock::operator=(Lock&& other) noexcept {
 }
 
 bool Lock::is_held(const std::string& path) {
-  const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0) return false;
+  int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (file < 0 && errno == EACCES) file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return errno == EACCES;
   const bool held = flock(file, LOCK_EX | LOCK_NB) != 0;
   close(file);
   return held;
 }
 
 Moment::Moment(const std::string& study, const std::string& file) : file_(open_lock(study + file)) {
-  while (file_ >= 0 && flock(file_, LOCK_EX) != 0)
-    if (errno != EINTR) {
-      const int error = errno;
-      close(file_);
-      throw std::runtime_error(study + file + ": could not be locked: " + std::strerror(error));
-    }
+  if (file_ < 0) refuse(study + file, errno);
+  lock(file_, study + file);
+}
+
+Moment Moment::to_look(const std::string& study) {
+  const std::string path = study + "/.lock";
+  const int file = open_lock(path);
+  const int error = errno;
+  if (file < 0 && fs::exists(path)) refuse(path, error);
+  if (file >= 0) lock(file, path);
+  return Moment(file);
 }
 
 Moment::~Moment() {
   if (file_ >= 0) close(file_);
+}
+
+void make_shared_folder(const std::string& parent, const std::string& name) {
+  constexpr mode_t of_folders = 07777;
+  const std::string path = parent + "/" + name;
+  if (!fs::create_directory(path)) return;
+  const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  share_as(parent, folder, of_folders);
+  close(folder);
 }
 
 void check_file_system(const std::string& folder) {

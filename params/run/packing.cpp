@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "params/run/leftovers.h"
 #include "params/run/lock.h"
 
 namespace cleft {
@@ -22,23 +23,12 @@ namespace {
 constexpr double least_gap = 2;              // seconds between packings, and before the first
 constexpr double share = 0.05;               // of the time, at most
 constexpr const char* pack_lock = "/.pack";  // locked while one packs; holds the seconds that it took
-constexpr auto stale = std::chrono::hours(1);
-
-/// What killed runs left of study.dffd and study.toml.
-void remove_parts(const std::string& study) {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(study, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(".study.") && name.find(".part") != std::string::npos &&
-        fs::file_time_type::clock::now() - entry.last_write_time(ignored) > stale)
-      fs::remove(entry.path(), ignored);
-  }
-}
 
 /// Called by the holder of the lock. The messages of cleft pack are in `log` at its end.
 bool pack(const std::string& study, const std::string& log, const StopCount* stop) {
   const Stopwatch watch;
-  remove_parts(study);
+  sweep_leftovers(study);
+  sweep_pack_logs(study, log);
   const bool done =
       run_process({executable_folder() + "/cleft-pack", study}, log, {}, stop, "/dev/null").success();
   if (done) std::ofstream(study + pack_lock) << watch.seconds() << "\n";

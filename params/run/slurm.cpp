@@ -18,6 +18,8 @@
 #include "base/process.h"
 #include "base/sealed_json.h"
 #include "base/text.h"
+#include "base/unfinished.h"
+#include "params/run/lock.h"
 #include "params/run/packing.h"
 #include "params/run/signal_handler.h"
 #include "params/run/slurm_task.h"
@@ -85,7 +87,7 @@ class SlurmRun {
         settings_(std::move(settings)),
         place_(fs::absolute(folder.path()).string() + "/slurm"),
         packing_(folder.path(), leave) {
-    fs::create_directories(place_);
+    make_shared_folder(folder.path(), "slurm");
     for (const Case& one : cases) hashes_.push_back(one.hash());
   }
 
@@ -114,6 +116,7 @@ class SlurmRun {
  private:
   ProcessResult slurm(const std::vector<std::string>& argv, std::string& output) const {
     const std::string base = place_ + "/." + argv.front() + "." + std::to_string(getpid());
+    const Unfinished log(base + ".log"), out(base + ".out");
     const ProcessResult result = run_process(argv, base + ".log", {}, nullptr, base + ".out");
     output = read_text_file(base + ".out");
     if (!result.success()) output = read_text_file(base + ".log");
@@ -210,10 +213,10 @@ class SlurmRun {
   /// The record of an array is written before it is submitted: its name leads from the queue to its cases.
   void submit_array(const SlurmTasks& tasks) {
     const std::string name = new_name(), record = place_ + "/" + name;
-    fs::create_directory(record);
+    make_shared_folder(place_, name);
     write_text_file(record + "/tasks.json",
                     sealed_text({{"format", "cleft-tasks"}, {"version", 2}, {"tasks", tasks}}));
-    std::ofstream(record + "/job.sh") << script_of(record);
+    write_text_file(record + "/job.sh", script_of(record));
     std::vector<std::string> argv = {"sbatch",
                                      "--parsable",
                                      "--job-name=" + name,
@@ -239,6 +242,7 @@ class SlurmRun {
       std::cerr << "sbatch does not reach Slurm; the jobs are submitted again: " << output;
       return;
     }
+    if (output.empty()) throw std::runtime_error("sbatch named no job: is the disk of " + place_ + " full?");
     std::cerr << "submitted job " << lines_of(output).front() << ": " << tasks.size() << " tasks\n";
   }
 

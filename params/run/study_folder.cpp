@@ -11,6 +11,7 @@
 #include "base/sealed_json.h"
 #include "base/text.h"
 #include "params/hash.h"
+#include "params/run/leftovers.h"
 
 namespace cleft {
 
@@ -65,7 +66,10 @@ bool holds_others_files(const std::string& path) {
 Attempt new_attempt(const std::string& attempts) {
   const std::string token = new_token(), folder = attempts + "/" + token;
   clear(attempts);
-  fs::create_directories(folder);
+  const fs::path all = fs::path(attempts).parent_path();
+  make_shared_folder(all.parent_path(), all.filename());  // empty, a copy of the study may lack it
+  make_shared_folder(all, fs::path(attempts).filename());
+  make_shared_folder(attempts, token);
   return {folder, token, Lock(folder + "/lock")};
 }
 
@@ -129,9 +133,15 @@ StudyFolder StudyFolder::create(const std::string& path, const Study& study) {
     throw InputError("--out " + path +
                      ": the folder holds other files; give a new one, or the folder of a study");
   std::error_code error;
-  fs::create_directories(path + "/cases", error);
-  if (!error) fs::create_directories(path + "/attempts", error);
+  fs::create_directories(path, error);
+  try {
+    for (const char* name : {"cases", "attempts"})
+      if (!error) make_shared_folder(path, name);
+  } catch (const fs::filesystem_error& e) {
+    error = e.code();
+  }
   if (error) throw InputError("--out " + path + ": could not be created: " + error.message());
+  sweep_leftovers(path);
   check_file_system(path);
   keep_body(path, study.base);
   const std::string file = path + "/study.toml";
@@ -151,7 +161,7 @@ bool StudyFolder::is_published(const std::string& hash) const {
 
 CaseStatus StudyFolder::status(const std::string& hash) const {
   if (is_published(hash)) return {CaseState::published, "", false};
-  const Moment moment(path_);
+  const Moment moment = Moment::to_look(path_);
   return status_of_attempts(path_ + "/attempts/" + hash);
 }
 
@@ -159,7 +169,7 @@ std::vector<CaseStatus> StudyFolder::status(const std::vector<Case>& cases,
                                             const std::map<std::string, IndexedCase>& published) const {
   std::map<std::string, CaseStatus> attempted;
   {
-    const Moment moment(path_);
+    const Moment moment = Moment::to_look(path_);
     for (const std::string& hash : folders_in(path_ + "/attempts"))
       attempted[hash] = status_of_attempts(path_ + "/attempts/" + hash);
   }
@@ -287,7 +297,7 @@ std::vector<StudyFolder::SetAside> StudyFolder::set_damaged_aside() const {
     const auto why = damage(hash);  // another run may have been quicker
     if (!why || !fs::exists(published(hash))) continue;
     const std::string folder = path_ + "/damaged/" + hash + "." + new_token();
-    fs::create_directories(path_ + "/damaged");
+    make_shared_folder(path_, "damaged");
     fs::rename(published(hash), folder);
     list.push_back({hash, *why, folder});
   }
