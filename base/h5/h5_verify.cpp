@@ -1,4 +1,4 @@
-// File::read_everything(): whether all that a file holds can be read.
+// File::read_everything(): whether all that a file holds can be read, is in the file, and is under checksums.
 #include <algorithm>
 
 #include "base/h5/h5_access.h"
@@ -7,11 +7,34 @@ namespace cleft::h5 {
 
 namespace {
 
+/// What keeps damage of a dataset's elements from being seen; empty: nothing.
+std::string unprotected(hid_t dataset, hssize_t elements) {
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  if (H5Pget_external_count(creation) > 0) return "is stored in another file";
+  if (H5Pget_layout(creation) == H5D_VIRTUAL) return "is made of other datasets (virtual)";
+  if (elements == 0) return "";
+  if (H5Pget_layout(creation) == H5D_CHUNKED)
+    for (int k = 0; k < H5Pget_nfilters(creation); ++k) {
+      unsigned flags = 0, config = 0;
+      std::size_t parameters = 0;
+      if (H5Pget_filter2(creation, static_cast<unsigned>(k), &flags, &parameters, nullptr, 0, nullptr,
+                         &config) == H5Z_FILTER_FLETCHER32)
+        return "";
+    }
+  return "has no checksum (Fletcher-32)";
+}
+
 /// For H5Ovisit: reads an object's attributes, and its elements where it is a dataset. Negative where it
 /// cannot.
-herr_t read_object(hid_t root, const char* name, const H5O_info_t* info, void*) {
+herr_t read_object(hid_t root, const char* name, const H5O_info_t* info, void* problem) {
   const Handle object(H5Oopen(root, name, H5P_DEFAULT), H5Oclose);
   if (object < 0) return -1;
+  const auto found = [&](const std::string& what) {
+    *static_cast<std::string*>(problem) = std::string("/") + name + " " + what;
+    return -1;
+  };
+  constexpr unsigned first_with_checksum = 2;
+  if (info->hdr.version < first_with_checksum) return found("has a header without a checksum");
   std::vector<std::uint8_t> bytes;
   const auto read_attribute = [](hid_t owner, const char* attribute, const H5A_info_t*,
                                  void* buffer) -> herr_t {
@@ -25,6 +48,7 @@ herr_t read_object(hid_t root, const char* name, const H5O_info_t* info, void*) 
   const Handle space(H5Dget_space(object), H5Sclose), type(H5Dget_type(object), H5Tclose);
   const hssize_t rows = H5Sget_simple_extent_npoints(space);
   if (space < 0 || type < 0 || rows < 0) return -1;
+  if (const std::string what = unprotected(object, rows); !what.empty()) return found(what);
   Shape extent(std::max(1, H5Sget_simple_extent_ndims(space)), 1);
   H5Sget_simple_extent_dims(space, extent.data(), nullptr);
   constexpr double most_unwritten = 16e9;  // an array of zeros that an import never wrote
@@ -44,9 +68,21 @@ herr_t read_object(hid_t root, const char* name, const H5O_info_t* info, void*) 
 }  // namespace
 
 void File::read_everything() const {
-  if (H5Ovisit2(file_, H5_INDEX_NAME, H5_ITER_INC, read_object, nullptr, H5O_INFO_BASIC) < 0)
-    throw FileError(path_,
-                    "is damaged: a dataset or attribute cannot be read, or its checksum does not match");
+  constexpr const char* remedy = ": files of Cleft are whole and under checksums; write it again";
+  std::string problem;
+  const auto is_inside = [](hid_t, const char* name, const H5L_info_t* link, void* told) -> herr_t {
+    if (link->type == H5L_TYPE_HARD) return 0;
+    *static_cast<std::string*>(told) =
+        std::string("/") + name +
+        (link->type == H5L_TYPE_EXTERNAL ? " is a link to another file" : " is a symbolic link");
+    return -1;
+  };
+  if (H5Lvisit(file_, H5_INDEX_NAME, H5_ITER_INC, is_inside, &problem) < 0 && !problem.empty())
+    throw FileError(path_, problem + remedy);
+  if (H5Ovisit2(file_, H5_INDEX_NAME, H5_ITER_INC, read_object, &problem, H5O_INFO_BASIC | H5O_INFO_HDR) >= 0)
+    return;
+  if (!problem.empty()) throw FileError(path_, problem + remedy);
+  throw FileError(path_, "is damaged: a dataset or attribute cannot be read, or its checksum does not match");
 }
 
 }  // namespace cleft::h5

@@ -70,6 +70,15 @@ TEST(StudyFile, HoldsEveryFieldAsItsOwnFileDoes) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(packed.folder.path()), {}), 5);
 }
 
+TEST(StudyFile, NamesThatAreNoFoldersOrTwiceThereAreRefused) {
+  for (const std::string name : {"..", "../evil", "a/b", ".hidden", "", "case1"}) {
+    Packed packed(different_fields());
+    packed.cases[0].name = name;
+    write_study(packed.file(), study_records(packed.cases));
+    EXPECT_THROW(StudyFile(packed.file()), FileError) << name;
+  }
+}
+
 TEST(StudyFile, KeepsParametersThatAreText) {
   Packed packed(different_fields());
   packed.cases[0].choices.set("cut.contact", "true");

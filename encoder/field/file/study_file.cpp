@@ -55,7 +55,9 @@ struct StudyFile::Parts {
     for (const Json& name : header["names"]) {
       if (!name.is_string()) throw InputError("a case's name is no text");
       names.push_back(name.get<std::string>());
+      check_name(names.back());
     }
+    check_distinct();
     for (const Json& bytes : header["bytes"]) {
       if (!bytes.is_number_unsigned()) throw InputError("a case's number of bytes is no count");
       begins.push_back(begins.back() + bytes.get<std::uint32_t>());
@@ -92,6 +94,23 @@ struct StudyFile::Parts {
   std::vector<std::vector<double>> modes;  // mm; once a case has asked for them
 
  private:
+  /// A case's name becomes that of a folder or a file where the study is exported.
+  static void check_name(const std::string& name) {
+    const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
+      return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ';
+    });
+    if (!plain || name.empty() || name.front() == '.')
+      throw InputError("a case is called '" + name + "', which is no name of a folder; pack the study again");
+  }
+
+  void check_distinct() const {
+    std::vector<std::string> sorted = names;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end())
+      throw InputError("two cases are called '" + *twice + "'; pack the study again");
+  }
+
   void read_modes(const Json& header) {
     coded.quanta = numbers_of(header, "quanta");
     const std::vector<double> lengths = numbers_of(header, "bytes");
