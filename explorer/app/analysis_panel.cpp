@@ -199,6 +199,10 @@ void AnalysisPlot::paint_cases(QPainter& painter, std::size_t row) const {
     painter.setBrush(color);
     painter.drawEllipse(at, 2.6, 2.6);
     painter.setBrush(Qt::NoBrush);
+    const std::vector<int>& selected = session_.state().selected;
+    if (std::find(selected.begin(), selected.end(), i) == selected.end()) continue;
+    painter.setPen(QPen(ink, 1.4));
+    painter.drawEllipse(at, 5, 5);
   }
   painter.restore();
 }

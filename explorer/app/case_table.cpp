@@ -74,6 +74,16 @@ QVariant CaseModel::headerData(int section, Qt::Orientation orientation, int rol
 
 void CaseModel::row_changed(int i) { emit dataChanged(index(i, 0), index(i, columnCount() - 1)); }
 
+int CaseModel::column_of(const std::string& name) const {
+  return name.empty()
+             ? 0
+             : static_cast<int>(std::find(columns_.begin(), columns_.end(), name) - columns_.begin()) + 1;
+}
+
+std::string CaseModel::name_of(int column) const {
+  return column == 0 ? "" : columns_.at(static_cast<std::size_t>(column) - 1);
+}
+
 bool ShownCases::filterAcceptsRow(int row, const QModelIndex&) const {
   return !session_.state().filtered || !session_.study() || session_.brushed(row);
 }
@@ -132,6 +142,15 @@ CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_kn
           [this](const QModelIndex& now, const QModelIndex&) {
             if (now.isValid() && !following_) go_to(sorted_.mapToSource(now).row());
           });
+  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+    if (!following_) say_selection();
+  });
+  connect(table_->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this,
+          [this](int column, Qt::SortOrder order) {
+            if (following_ || !session_.study() || column >= model_.columnCount()) return;
+            const std::string name = model_.name_of(column);
+            say_("sort " + (name.empty() ? "none" : name) + (order == Qt::DescendingOrder ? " down" : ""));
+          });
   connect(&idle_, &QTimer::timeout, this, [this] { find_next_figures(); });
 }
 
@@ -149,6 +168,25 @@ std::vector<int> CaseTable::selected() const {
     cases.push_back(sorted_.mapToSource(row).row());
   std::sort(cases.begin(), cases.end());
   return cases;
+}
+
+/// One row alone is the case that is shown.
+void CaseTable::say_selection() {
+  const std::vector<int> cases = selected();
+  if (cases.size() < 2 && session_.state().selected.empty()) return;
+  std::string line = "select";
+  for (const int i : cases) line += " " + std::to_string(i + 1);
+  selecting_ = true;
+  say_(cases.size() < 2 ? "select none" : line);
+  selecting_ = false;
+}
+
+void CaseTable::sort() {
+  following_ = true;
+  const SessionState& s = session_.state();
+  table_->sortByColumn(model_.column_of(s.sorted_by),
+                       s.descending ? Qt::DescendingOrder : Qt::AscendingOrder);
+  following_ = false;
 }
 
 /// How many cases are left by the condition and the brushes.
@@ -209,19 +247,28 @@ void CaseTable::follow(const Changes& changes) {
     sorted_.filter_anew();
     following_ = false;
   }
+  if (changes.study || changes.lists) sort();
   if (changes.brushes || changes.study) count_found();
-  if ((changes.study || changes.shown || changes.brushes) && session_.study()) mark_shown();
+  const bool marked = changes.study || changes.shown || changes.brushes || changes.lists;
+  if (marked && session_.study() && !selecting_) mark_shown();
 }
 
-/// No row where what is shown is none of the cases.
+/// Those selected; else the one that is shown, and no row where what is shown is none of the cases.
 void CaseTable::mark_shown() {
   following_ = true;
   const QModelIndex row =
       session_.between() ? QModelIndex() : sorted_.mapFromSource(model_.index(session_.state().shown, 0));
-  if (!row.isValid()) {
+  if (!session_.state().selected.empty()) {
+    QItemSelection rows;
+    for (const int i : session_.state().selected)
+      if (const QModelIndex at = sorted_.mapFromSource(model_.index(i, 0)); at.isValid()) rows.select(at, at);
+    selection()->setCurrentIndex(row, QItemSelectionModel::NoUpdate);
+    selection()->select(rows, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+  } else if (!row.isValid()) {
     table_->selectionModel()->clear();
-  } else if (table_->currentIndex().row() != row.row()) {
+  } else if (table_->currentIndex().row() != row.row() || selected().size() != 1) {
     table_->setCurrentIndex(row);
+    selection()->select(row, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
     table_->scrollTo(row);
   }
   following_ = false;

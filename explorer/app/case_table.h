@@ -25,6 +25,9 @@ class CaseModel : public QAbstractTableModel {
 
   void new_study();
   void row_changed(int i);
+  /// Column 0 is the number of the case, as the name "" is.
+  int column_of(const std::string& name) const;
+  std::string name_of(int column) const;
 
  private:
   bool known(int row, int column) const;
@@ -53,11 +56,18 @@ class CaseTable : public QWidget, public Panel {
   void follow(const Changes& changes) override;
   std::vector<int> selected() const;  ///< cases, ascending
 
+  // For another view of the same cases, in the same order, with the same selection.
+  QAbstractItemModel* model() { return &sorted_; }
+  QItemSelectionModel* selection() const { return table_->selectionModel(); }
+  int case_of(const QModelIndex& index) const { return sorted_.mapToSource(index).row(); }
+
  private:
   void find_next_figures();
   void go_to(int i);
   void count_found();
   void mark_shown();
+  void say_selection();
+  void sort();
   void fit_columns();
 
   Session& session_;
@@ -72,6 +82,7 @@ class CaseTable : public QWidget, public Panel {
   QTimer idle_;
   int next_ = 0;
   bool following_ = false;  // the selection is put to what is shown, and asks for nothing
+  bool selecting_ = false;  // it is asked for here
 };
 
 }  // namespace cleft

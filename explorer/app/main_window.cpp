@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/message.h"
 #include "base/text.h"
+#include "explorer/app/case_wall.h"
 #include "explorer/app/help_sheet_dialog.h"
 #include "explorer/app/parallel_coordinates.h"
 #include "explorer/app/parameter_panel.h"
@@ -166,14 +167,39 @@ void MainWindow::make_docks() {
   cases_ = cases;
   for (Panel* panel : std::initializer_list<Panel*>{parameters, cases, plots, lines})
     panels_.push_back(panel);
+  make_wall();
+}
+
+/// Below the picture; it is a part of the session whether it is shown, however that is asked for.
+void MainWindow::make_wall() {
+  auto* wall = new CaseWall(
+      session_, [this](const std::string& line) { return say(line); }, *cases_);
+  wall_ = new QDockWidget("Wall", this);
+  wall_->setObjectName("wall_dock");
+  wall_->setWidget(wall);
+  addDockWidget(Qt::BottomDockWidgetArea, wall_);
+  setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  wall_->hide();
+  docks_.push_back(wall_);
+  panels_.push_back(wall);
+  const auto say_shown = [this] {
+    const bool on = !wall_->isHidden();  // a window that is closed or minimised hides no panel
+    if (on != session_.state().wall) session_.say(on ? "wall on" : "wall off");
+  };
+  connect(wall_->toggleViewAction(), &QAction::triggered, this, say_shown);
+  connect(wall_->toggleViewAction(), &QAction::toggled, this, say_shown);  // by the panel's own button
 }
 
 /// As they are at first.
 void MainWindow::arrange_docks() {
+  say("wall off");
   for (QDockWidget* dock : docks_) {
     dock->setFloating(false);
-    dock->show();
-    addDockWidget(dock == docks_[0] || dock == docks_[1] ? Qt::LeftDockWidgetArea : Qt::RightDockWidgetArea,
+    dock->setVisible(dock != wall_);
+    addDockWidget(dock == wall_                            ? Qt::BottomDockWidgetArea
+                  : dock == docks_[0] || dock == docks_[1] ? Qt::LeftDockWidgetArea
+                                                           : Qt::RightDockWidgetArea,
                   dock);
   }
   size_docks();
@@ -199,6 +225,10 @@ void MainWindow::restore_layout(bool place) {
   const QSettings settings("cleft", "explore");
   if (place) restoreGeometry(settings.value(geometry_key).toByteArray());
   sized_ = restoreState(settings.value(layout_key).toByteArray());
+  if (session_.state().wall)
+    wall_->show();  // a script has asked for it
+  else if (!wall_->isHidden())
+    session_.say("wall on");
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
@@ -260,6 +290,7 @@ void MainWindow::follow(const Changes& changes) {
   if (changes.study && session_.mesh()) remember_recent(session_.state().mesh);
   if (changes.study) fill_recent(), welcome_->refresh();
   if (changes.look) paint_theme();
+  if (wall_->isHidden() == session_.state().wall) wall_->setVisible(session_.state().wall);
   follow_tools();
   const std::vector<Validity>& validity = session_.validity();
   certainty_->setEnabled(!validity.empty());  // always there, so that nothing moves

@@ -49,6 +49,7 @@ class MainWindow : public QMainWindow {
   void make_middle();
   void make_docks();
   void arrange_docks();
+  void make_wall();
   void size_docks();
   void compare_cases();
   void make_actions();
@@ -76,6 +77,7 @@ class MainWindow : public QMainWindow {
   Session& session_;
   std::vector<Panel*> panels_;
   std::vector<QDockWidget*> docks_;
+  QDockWidget* wall_;  ///< the last of them; shown where the session says so
   CaseTable* cases_;
   QStackedWidget* stack_;
   WelcomePage* welcome_;

@@ -118,6 +118,11 @@ void ParallelCoordinates::paintEvent(QPaintEvent*) {
   if (lines_.size() != size() * devicePixelRatioF()) paint_lines();
   painter.drawPixmap(0, 0, lines_);
   const QColor shown(213, 94, 0);
+  const std::vector<int>& selected = session_.state().selected;
+  painter.setPen(QPen(palette().highlight().color(), 2.2));
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    if (std::find(selected.begin(), selected.end(), cases_[row]) != selected.end())
+      paint_line(painter, rows_[row]);
   painter.setPen(QPen(shown, 2.6, session_.between() ? Qt::DashLine : Qt::SolidLine));
   if (session_.between()) paint_line(painter, values_between());
   for (std::size_t row = 0; row < rows_.size(); ++row)
@@ -175,7 +180,7 @@ void ParallelCoordinates::mouseReleaseEvent(QMouseEvent*) { dragged_.reset(); }
 void ParallelCoordinates::follow(const Changes& changes) {
   if (changes.study) take_figures();
   if (changes.brushes || changes.look) lines_ = QPixmap();
-  if (changes.shown || changes.brushes || changes.look) update();
+  if (changes.shown || changes.brushes || changes.look || changes.lists) update();
 }
 
 }  // namespace cleft

@@ -19,6 +19,7 @@ SessionState state_at_first_case(SessionState state, const std::string& path, co
   state.brushes.clear();
   state.where.clear();
   state.filtered = false;
+  state.sorted_by.clear(), state.descending = false, state.selected.clear();
   state.analyzed.clear();
   state.reference = -1;
   state.probe.reset(), state.zoom.reset(), state.figure.clear();
@@ -37,6 +38,7 @@ void check_case(int i, int cases, const char* what) {
 void check_cases(const SessionState& state, int cases) {
   check_case(state.shown, cases, "case");
   for (const int i : state.compared) check_case(i, cases, "compared case");
+  for (const int i : state.selected) check_case(i, cases, "selected case");
   if (state.reference >= 0) check_case(state.reference, cases, "reference case");
 }
 

@@ -76,15 +76,20 @@ void difference(Session& session, CommandWords& words) {
   session.changes().coloring = true;
 }
 
+/// Throws InputError with the nearest one if there is no such parameter or figure.
+void check_column(const Session& session, const CommandWords& words, const std::string& name) {
+  const std::vector<std::string> names = session.column_names();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    words.wrong("'" + name + "' is neither a parameter that differs nor a figure" +
+                did_you_mean(name, names));
+}
+
 void brush(Session& session, CommandWords& words) {
   const std::string name = words.text("a parameter or figure, or 'clear'");
   if (name == "clear" && words.empty()) {
     session.edit().brushes.clear();
   } else {
-    const std::vector<std::string> names = session.column_names();
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      words.wrong("'" + name + "' is neither a parameter that differs nor a figure" +
-                  did_you_mean(name, names));
+    check_column(session, words, name);
     if (words.empty()) words.wrong("needs two numbers");
     const double low = words.number("the lower end"), high = words.number("the upper end");
     if (low > high) words.wrong("the lower end must not be above the upper end");
@@ -128,6 +133,37 @@ void filter(Session& session, CommandWords& words) {
   session.changes().brushes = true;
 }
 
+void sort(Session& session, CommandWords& words) {
+  const std::string name = words.text("a parameter or figure, or none");
+  const std::string order = words.empty() ? "up" : words.text("up or down");
+  if (order != "up" && order != "down") words.wrong("'" + order + "' is neither up nor down");
+  session.open_study();
+  if (name != "none") check_column(session, words, name);
+  session.edit().sorted_by = name == "none" ? "" : name;
+  session.edit().descending = order == "down";
+  session.changes().lists = true;
+}
+
+void mark(Session& session, CommandWords& words) {
+  const int count = session.open_study().size();
+  const std::string first = words.text("cases, or none");
+  std::vector<int> cases;
+  if (first != "none") {
+    CommandWords number("select", "N N ... | none", {first});
+    cases.push_back(number.whole("the case", 1, count) - 1);
+    while (!words.empty()) cases.push_back(read_case(session, words));
+  }
+  std::sort(cases.begin(), cases.end());
+  cases.erase(std::unique(cases.begin(), cases.end()), cases.end());
+  session.edit().selected = cases;
+  session.changes().lists = true;
+}
+
+void wall(Session& session, CommandWords& words) {
+  session.edit().wall = words.on_or_off();
+  session.changes().lists = true;
+}
+
 }  // namespace
 
 std::span<const Command> study_commands() {
@@ -147,6 +183,10 @@ std::span<const Command> study_commands() {
        find, Command::latest},
       {"found", "N", "show case N where `find` has found something, at its widest gape", found},
       {"filter", "on|off", "leave the cases that are faded out of lists", filter},
+      {"sort", "NAME [up|down] | none", "sort lists by a parameter or figure; none: as cases are numbered",
+       sort, Command::latest},
+      {"select", "N N ... | none", "mark these cases in lists and plots", mark, Command::latest},
+      {"wall", "on|off", "pictures of all cases, which are kept beside the study", wall, Command::latest},
       {"compare", "N N [N [N]]", "show two to four cases side by side", compare},
       {"single", "", "show one case again", single},
       {"difference", "N", "colour by the difference from case N", difference},

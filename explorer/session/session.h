@@ -49,6 +49,9 @@ class Session {
   /// Of case i and its own mesh, where its data were imported and their snapshot lies beside the field; else
   /// null.
   std::shared_ptr<const FieldOnMesh> own_mesh(int i);
+  /// Case i as it was simulated, without views and colours of others, for its picture on the wall. Throws
+  /// InputError if it cannot be shown.
+  std::shared_ptr<const WoundScene> scene_as_simulated(int i) const;
   std::vector<std::string> quantities();  ///< of the shown case, besides the displacement
   std::shared_ptr<const Field> field();   ///< of the shown case; null without a study
   /// The field of case i, or the interpolated one if that is shown instead.

@@ -87,6 +87,13 @@ std::shared_ptr<const WoundScene> Session::scene_of(int i) {
   return found;
 }
 
+std::shared_ptr<const WoundScene> Session::scene_as_simulated(int i) const {
+  const PublishedStudy& study = open_study();
+  if (const auto own = field_on_own_mesh(study.file(i))) return std::make_shared<BodyScene>(own);
+  if (study.has_several_breaks(i)) throw InputError(study.file(i) + ": has several breaks, and no snapshot");
+  return std::make_shared<PatchScene>(std::make_shared<const Field>(study.read(i)));
+}
+
 double Session::duration() {
   double longest = 0;
   for (const int i : views()) longest = std::max(longest, scene_of(i)->duration());

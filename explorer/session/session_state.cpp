@@ -140,6 +140,10 @@ SessionState to_state(const Json& j) {
   if (j.contains("zoom")) s.zoom = ZoomState{to_vec3(j["zoom"].at("place")), j["zoom"].at("radius")};
   s.figure = j.value("figure", "");
   s.filtered = j.value("filtered", false);
+  s.wall = j.value("wall", false);
+  s.sorted_by = j.value("sorted_by", "");
+  s.descending = j.value("descending", false);
+  for (const Json& c : j.value("selected", Json::array())) s.selected.push_back(c.get<int>() - 1);
   s.analyzed = j.value("analyzed", "");
   s.simulate = j.value("simulate", false);
   if (j.contains("detail")) s.detail = detail_of(j["detail"].get<std::string>());
@@ -193,6 +197,10 @@ std::string state_to_json(const SessionState& s) {
   if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
   if (!s.figure.empty()) j["figure"] = s.figure;
   if (s.filtered) j["filtered"] = true;
+  if (s.wall) j["wall"] = true;
+  if (!s.sorted_by.empty()) j["sorted_by"] = s.sorted_by;
+  if (s.descending) j["descending"] = true;
+  for (const int c : s.selected) j["selected"].push_back(c + 1);
   if (!s.analyzed.empty()) j["analyzed"] = s.analyzed;
   if (s.simulate) j["simulate"] = true;
   if (s.detail) j["detail"] = text_of(*s.detail);

@@ -83,6 +83,10 @@ struct SessionState {
   std::string where;          ///< cases in which this condition holds nowhere are faded too; empty: none
   std::string analyzed;       ///< figure whose analysis is shown; empty: none
   bool filtered = false;      ///< whether lists leave out the cases that are faded
+  bool wall = false;          ///< whether the pictures of all cases are shown
+  std::string sorted_by;      ///< parameter or figure by which lists are sorted; empty: as cases are numbered
+  bool descending = false;    ///< whether they begin with the largest
+  std::vector<int> selected;  ///< cases that are marked in lists and plots, ascending; empty: none
   std::vector<int> compared;  ///< two to four cases side by side; empty: one view
   CameraState camera;
   std::optional<ProbeState> probe;

@@ -38,6 +38,27 @@ TEST_F(SessionTest, AParameterChoosesTheNearestCaseAndKeepsTheOthers) {
   EXPECT_TRUE(session_.shows_exactly());
 }
 
+TEST_F(SessionTest, OrderSelectionAndWallAreCommandsThatAreSaved) {
+  open();
+  say("sort gape down");
+  say("select 4 2 4");
+  say("wall on");
+  const SessionState saved = state_from_json(state_to_json(state()));
+  EXPECT_EQ(saved.sorted_by, "gape");
+  EXPECT_TRUE(saved.descending);
+  EXPECT_EQ(saved.selected, (std::vector{1, 3})) << "each once, in order";
+  EXPECT_TRUE(saved.wall);
+  EXPECT_NE(refused("sort gap").find("'gape'"), std::string::npos) << "the nearest name";
+  EXPECT_NE(refused("sort gape left"), "");
+  EXPECT_NE(refused("select 2 5"), "");
+  EXPECT_NE(refused("select"), "");
+  EXPECT_EQ(state().selected, (std::vector{1, 3})) << "a refused line changes nothing";
+  say("select none");
+  EXPECT_TRUE(state().selected.empty());
+  say("sort none");
+  EXPECT_EQ(state().sorted_by, "");
+}
+
 TEST_F(SessionTest, TimeIsClampedPlayedAndLooped) {
   open();
   say("time 1000");
