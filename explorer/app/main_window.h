@@ -59,6 +59,8 @@ class MainWindow : public QMainWindow {
   void add_plugins();
   void make_closer_actions(QMenu* menu);
   void make_detail_menu(QMenu* menu);
+  void make_look_menu(QMenu* menu);
+  void follow_look();
   void pick(const std::string& command);
   bool show_progress(const std::string& what, double part);
   QAction* add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
@@ -91,7 +93,7 @@ class MainWindow : public QMainWindow {
   QAction *scalpel_, *brush_, *undo_, *redo_, *simulate_, *dark_;
   QTimer simulating_;  // runs while a simulation does
   QDoubleSpinBox *depth_, *tilt_;
-  QMenu *recent_, *device_menu_, *figure_menu_, *detail_menu_;
+  QMenu *recent_, *device_menu_, *figure_menu_, *detail_menu_, *look_menu_;
   QAction *probe_, *zoom_, *between_;
   std::unique_ptr<QProgressDialog> progress_;
   QElapsedTimer since_said_;

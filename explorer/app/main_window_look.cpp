@@ -38,8 +38,8 @@ void MainWindow::make_look_menu(QMenu* menu) {
     if (session_.state().clip) return void(say("clip off"));
     const bool mesh = session_.mesh() != nullptr;
     const double length = mesh && !session_.state().cuts.empty() ? session_.cut_paths().front().length()
-                          : session_.study()                      ? session_.cut_length_of_fields()
-                                                                  : 0;
+                          : session_.study()                     ? session_.cut_length_of_fields()
+                                                                 : 0;
     say("clip cut 1 " + shortest(length / 2));
   });
 }

@@ -110,6 +110,7 @@ void MainWindow::make_actions() {
   add_action(view, "command", "Command &line", QKeySequence("Ctrl+K"), [this] { command_line_->setFocus(); });
   make_closer_actions(view);
   make_detail_menu(view->addMenu("&Level of detail"));
+  make_look_menu(view->addMenu("&Surface"));
   dark_ = add_action(view, "dark", "&Dark", QKeySequence("Ctrl+D"),
                      [this] { say(session_.state().dark ? "theme light" : "theme dark"); });
   dark_->setCheckable(true);
@@ -304,6 +305,7 @@ void MainWindow::follow_tools() {
   figure_menu_->setEnabled(session_.has_scene());
   const QString figure = "figure_" + QString::fromStdString(s.figure.empty() ? "off" : s.figure);
   for (QAction* action : figure_menu_->actions()) action->setChecked(action->objectName() == figure);
+  follow_look();
   detail_menu_->setEnabled(can_cut);
   const QString detail = "detail_" + QString::fromStdString(s.detail ? text_of(*s.detail) : "off");
   for (QAction* action : detail_menu_->actions()) action->setChecked(action->objectName() == detail);

@@ -21,7 +21,8 @@ std::vector<std::array<double, 3>> colors_of(const std::vector<unsigned>& codes)
 /// viridis, magma: Smith and van der Walt (matplotlib). cividis: Nunez, Anderton and Renslow. vik: Crameri.
 const std::vector<ColorMap>& color_maps() {
   static const std::vector<ColorMap> all{
-      {"warm", "skin tone, then warm to dark", false, colors_of({0xedd4bf, 0xe6a880, 0xc77070, 0x8a4273, 0x3d1f61})},
+      {"warm", "skin tone, then warm to dark", false,
+       colors_of({0xedd4bf, 0xe6a880, 0xc77070, 0x8a4273, 0x3d1f61})},
       {"viridis", "dark blue, green, yellow", false,
        colors_of({0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725})},
       {"cividis", "blue to yellow, the same to colour-blind eyes", false,

@@ -20,6 +20,8 @@ const std::vector<ColoringText>& colorings() {
        "opening between a point and its mirror image across the cut; on the lips, the gape"},
       {Coloring::strain, "strain", "strain, mm/mm", "largest principal Green-Lagrange strain of the field"},
       {Coloring::difference, "difference", "difference, mm", "from the displacement of another case"},
+      {Coloring::widening, "widening", "widening, mm",
+       "the gape less that of another case (difference N): above 0 where it opens wider"},
       {Coloring::error, "error", "error of the field, mm",
        "from the displacement of the simulation's nearest node, at the nearest frame"},
   };
@@ -100,6 +102,9 @@ double color_value(const Coloring& coloring, const VaryingField& field, const Fi
     case Coloring::difference:
       return reference ? norm(field.displacement(place.uvw, place.side, place.t, s) -
                               reference->displacement(place.uvw, place.side, place.t))
+                       : 0;
+    case Coloring::widening:
+      return reference ? opening_across(field, place, s) - opening_across(VaryingField(*reference), place, 0)
                        : 0;
     case Coloring::error:
       return std::nan("");

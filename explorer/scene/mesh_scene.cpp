@@ -127,8 +127,9 @@ void MeshScene::values(const Coloring& coloring, const Field* reference, double 
       const double own_time = std::clamp(s + a.time_offset, 0., field.shape().cut().length);
       const Place place{a.uvw, closed ? Side::both : a.side, own_time};
       double& value = out[a.vertex];
-      value = std::max(value, a.weight * wounds_->amplitude(k, a.s, now) *
-                                  color_value(coloring, field, reference, place, a.s));
+      const double here =
+          a.weight * wounds_->amplitude(k, a.s, now) * color_value(coloring, field, reference, place, a.s);
+      if (is_signed(coloring) ? std::abs(here) > std::abs(value) : here > value) value = here;
     }
   }
 }

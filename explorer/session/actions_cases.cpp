@@ -111,7 +111,7 @@ void color_by(Session& session, const Coloring& coloring) {
     session.opened().drawn.scenes.clear();  // made anew with what they are compared with
   }
   session.edit().coloring = coloring;
-  session.edit().range.reset();
+  session.edit().range.reset(), session.edit().percentiles.reset();
   session.changes().coloring = true;
 }
 

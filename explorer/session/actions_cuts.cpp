@@ -55,6 +55,7 @@ void load_mesh(Session& session, const std::string& file, double scale) {
   state.mesh = absolute_path(file);
   state.scale = scale;
   forget_cuts(state);
+  state.clip.reset();
   state.bone.clear();
   read_surfaces(session, session.opened());
   state.coloring = Coloring::tissue;
@@ -73,6 +74,7 @@ void show_patch(Session& session) {
   SessionState& state = session.edit();
   state.mesh.clear(), state.bone.clear();
   forget_cuts(state);
+  state.clip.reset();
   read_surfaces(session, session.opened());
   follow_parameters(session);  // no tension keeps it from what lies between cases
   state.coloring = Coloring::displacement;

@@ -188,6 +188,9 @@ std::string Session::note_of(int i) const {
     note += (note.empty() ? "" : "; ") + simulation_note();
   if (i == state().shown && !validity().empty())
     note += (note.empty() ? "" : "; ") + error_of_openings(validity());
+  if (state().warp != 1)
+    note += (note.empty() ? "" : "; ") +
+            ("displacements drawn " + shortest_of(state().warp, 3) + " times as large");
   const auto own = opened_.drawn.own_meshes.find(i);
   const bool is_own = own != opened_.drawn.own_meshes.end() && own->second;
   if (state().coloring == Coloring::error && !mesh() && !is_own && !why_no_raw(i).empty())

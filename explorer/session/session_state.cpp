@@ -128,6 +128,11 @@ SessionState to_state(const Json& j) {
   s.speed = j.at("speed");
   s.coloring = coloring_of(j.at("color"));
   if (!j.at("range").is_null()) s.range = j.at("range").get<std::pair<double, double>>();
+  if (j.contains("percentiles")) s.percentiles = j["percentiles"].get<std::pair<double, double>>();
+  s.map = j.value("map", "");
+  s.warp = j.value("warp", 1.);
+  s.edges = j.value("edges", false);
+  if (j.contains("clip")) s.clip = ClipState{to_vec3(j["clip"].at("place")), to_vec3(j["clip"].at("ahead"))};
   s.brushes = j.at("brushes").get<std::map<std::string, std::pair<double, double>>>();
   s.where = j.at("where");
   s.reference = j.at("reference").get<int>() - 1;
@@ -196,6 +201,11 @@ std::string state_to_json(const SessionState& s) {
   if (s.probe) j["probe"] = {{"place", to_json(s.probe->uvw)}, {"side", static_cast<int>(s.probe->side)}};
   if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
   if (!s.figure.empty()) j["figure"] = s.figure;
+  if (s.percentiles) j["percentiles"] = {s.percentiles->first, s.percentiles->second};
+  if (!s.map.empty()) j["map"] = s.map;
+  if (s.warp != 1) j["warp"] = s.warp;
+  if (s.edges) j["edges"] = true;
+  if (s.clip) j["clip"] = {{"place", to_json(s.clip->place)}, {"ahead", to_json(s.clip->ahead)}};
   if (s.filtered) j["filtered"] = true;
   if (s.wall) j["wall"] = true;
   if (!s.sorted_by.empty()) j["sorted_by"] = s.sorted_by;

@@ -55,6 +55,11 @@ struct TensionChange {
   std::optional<SkinTension> tension;  ///< before it; of one that is undone, after it
 };
 
+/// What lies where `ahead` points from `place` is not drawn.
+struct ClipState {
+  Vec3 place, ahead;
+};
+
 struct SessionState {
   std::string study;  ///< study folder, study.dffd or case.dffd; empty: nothing is open
   int shown = 0;      ///< case, from 0
@@ -77,7 +82,12 @@ struct SessionState {
 
   Coloring coloring = Coloring::displacement;
   std::optional<std::pair<double, double>> range;  ///< of colours; none: from 0 to the largest of all times
-  int reference = -1;                              ///< the case that `difference` is relative to
+  std::optional<std::pair<double, double>> percentiles;  ///< whose values are the ends; none: as above
+  std::string map;                ///< of colours (color_maps.h); empty: the usual one for what is shown
+  double warp = 1;                ///< by which displacements are multiplied where they are drawn
+  bool edges = false;             ///< whether the edges of triangles are drawn
+  std::optional<ClipState> clip;  ///< none: everything is drawn
+  int reference = -1;             ///< the case that `difference` is relative to
   /// Cases outside these ranges of parameters and figures are faded.
   std::map<std::string, std::pair<double, double>> brushes;
   std::string where;          ///< cases in which this condition holds nowhere are faded too; empty: none

@@ -70,6 +70,7 @@ void Stage::show(Session& session) {
   const std::vector<int> cases = session.views();
   const bool relaid = cases.size() != views_.size();
   make_views(cases.size());
+  warp_ = session.state().warp;
   const bool fresh = take_scenes(session) || relaid;
   aim(session.state().camera, relaid || session.mesh() != mesh_);  // another mesh may have another size
   mesh_ = session.mesh();
@@ -77,6 +78,9 @@ void Stage::show(Session& session) {
   color(session, fresh);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     WoundView& view = *views_[i].view;
+    view.set_warp(scenes_[i] == live_ ? 1 : warp_);
+    view.set_edges(session.state().edges);
+    view.set_clip(session.state().clip);
     const double time = scenes_[i] == live_ ? scenes_[i]->duration() : session.state().time;
     if (scenes_[i] == live_ || view.time() != time) view.set_time(time);
     if (scenes_[i] == live_) draw_scalpel(view);
@@ -126,7 +130,7 @@ PixelBound Stage::pixel_bound(const View& view) const { return {view.view->rende
 double Stage::detail_of(const View& view) const {
   if (!detail_) return 0;
   if (!detail_->pixels) return 1e-3 * detail_->amount;
-  const double mm = pixel_bound(view).mm(detail_->amount);
+  const double mm = pixel_bound(view).mm(detail_->amount) / std::max(warp_, 1.);
   return mm > 0 ? std::exp2(std::floor(2 * std::log2(mm)) / 2) : 0;
 }
 
@@ -137,13 +141,17 @@ void Stage::tell_detail(Session& session) const {
       static_cast<std::size_t>(std::find(cases.begin(), cases.end(), session.state().shown) - cases.begin());
   const std::size_t i = shown < cases.size() ? shown : 0;
   const auto out = detail_ ? scenes_[i]->left_out() : std::nullopt;
-  session.see(out ? std::optional(DetailSeen{*out, pixel_bound(views_[i]).pixels(out->error)})
+  session.see(out ? std::optional(DetailSeen{*out, pixel_bound(views_[i]).pixels(warp_ * out->error)})
                   : std::nullopt);
 }
 
 /// In the view of the shown case.
 void Stage::lay_over(Session& session) {
-  const Overlay overlay = live_ ? Overlay{} : session.overlay();
+  Overlay overlay = live_ ? Overlay{} : session.overlay();
+  if (warp_ != 1 && !overlay.empty()) {
+    overlay = {};
+    overlay.caption = "nodes, lattices and volumes lie over displacements as they are only (warp 1)";
+  }
   caption_ = overlay.caption;
   const std::vector<int> cases = session.views();
   for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -181,15 +189,16 @@ void Stage::draw_scalpel(const WoundView& view) {
 
 void Stage::color(Session& session, bool fresh) {
   const SessionState& s = session.state();
-  const auto reference = s.coloring == Coloring::difference ? session.reference() : nullptr;
-  const bool other = s.coloring != shown_.coloring || reference.get() != shown_.reference;
+  const auto reference = needs_reference(s.coloring) ? session.reference() : nullptr;
+  const bool other =
+      s.coloring != shown_.coloring || reference.get() != shown_.reference || s.map != shown_.map;
   if (s.range) {
     if (!fresh && !other && *s.range == shown_.range) return;
     shown_.range = *s.range;
   } else {
     std::pair<double, double> range{HUGE_VAL, -HUGE_VAL};
     for (View& v : views_) {
-      const auto [least, greatest] = v.view->range_of(s.coloring, reference.get());
+      const auto [least, greatest] = v.view->range_of(s.coloring, reference.get(), s.percentiles);
       range = {std::min(range.first, least), std::max(range.second, greatest)};
     }
     if (!(range.second > range.first)) range.second = range.first + 1;
@@ -198,7 +207,8 @@ void Stage::color(Session& session, bool fresh) {
   }
   shown_.coloring = s.coloring;
   shown_.reference = reference.get();
-  for (View& v : views_) v.view->color_by(s.coloring, reference, shown_.range);
+  shown_.map = s.map;
+  for (View& v : views_) v.view->color_by(s.coloring, reference, shown_.range, s.map);
 }
 
 void Stage::aim(const CameraState& camera, bool fresh) {

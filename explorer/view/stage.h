@@ -55,6 +55,7 @@ class Stage {
     Coloring coloring = Coloring::tissue;
     const Field* reference = nullptr;
     std::pair<double, double> range{0, 0};
+    std::string map;
     CameraState camera;
     Vec3 middle;
     bool dark = false;
@@ -82,6 +83,7 @@ class Stage {
   std::string caption_;                // of what lies over the scene
   Shown shown_;
   std::optional<Detail> detail_;
+  double warp_ = 1;
   unsigned long camera_observer_;
   bool smooth_ = true;
   double samples_;

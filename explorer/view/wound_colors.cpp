@@ -55,13 +55,13 @@ vtkSmartPointer<vtkLookupTable> tissue_colors() {
                0, 1);
 }
 
-vtkSmartPointer<vtkLookupTable> value_colors(double least, double greatest) {
-  return table({{0, 0.93, 0.83, 0.75},
-                {0.25, 0.90, 0.66, 0.50},
-                {0.5, 0.78, 0.44, 0.44},
-                {0.75, 0.54, 0.26, 0.45},
-                {1, 0.24, 0.12, 0.38}},
-               least, greatest);
+vtkSmartPointer<vtkLookupTable> value_colors(const ColorMap& map, double least, double greatest) {
+  std::vector<Stop> stops;
+  for (std::size_t i = 0; i < map.stops.size(); ++i) {
+    const auto& [red, green, blue] = map.stops[i];
+    stops.push_back({double(i) / double(map.stops.size() - 1), red, green, blue});
+  }
+  return table(stops, least, greatest);
 }
 
 }  // namespace cleft

@@ -6,6 +6,8 @@
 
 #include <array>
 
+#include "explorer/scene/color_maps.h"
+
 namespace cleft {
 
 inline constexpr std::array<double, 3> skin_color{0.91, 0.70, 0.60};
@@ -18,7 +20,6 @@ void fade(vtkLookupTable* colors);
 /// From the skin down to the bottom of the cut, by depth fraction 0 to 1: dermis, fat, muscle.
 vtkSmartPointer<vtkLookupTable> tissue_colors();
 
-/// For values of that range: skin tone, then warm to dark, even in lightness.
-vtkSmartPointer<vtkLookupTable> value_colors(double least, double greatest);
+vtkSmartPointer<vtkLookupTable> value_colors(const ColorMap& map, double least, double greatest);
 
 }  // namespace cleft

@@ -81,36 +81,66 @@ void WoundView::show(std::shared_ptr<const WoundScene> scene, std::optional<doub
 }
 
 void WoundView::color_by(const Coloring& coloring, std::shared_ptr<const Field> reference,
-                         std::optional<std::pair<double, double>> range) {
-  coloring_ = coloring, reference_ = std::move(reference), range_ = range;
+                         std::optional<std::pair<double, double>> range, const std::string& map) {
+  coloring_ = coloring, reference_ = std::move(reference), range_ = range, map_ = map;
   if (!scene_) return;
   add_actors();
   set_time(time_);
 }
 
-std::pair<double, double> WoundView::range_of(const Coloring& coloring, const Field* reference) {
+namespace {
+
+constexpr int times_of_ranges = 8;
+
+/// Of at least one value: the least that is not below that part of them.
+double quantile(std::vector<double>& values, double part) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+/// Of what moves.
+std::vector<double> WoundView::values_over_time(const Coloring& coloring, const Field* reference) {
+  const std::vector<bool> moving = scene_->moving();
+  std::vector<double> all, values;
+  for (int i = 1; i <= times_of_ranges; ++i) {
+    scene_->values(coloring, reference, scene_->duration() * i / times_of_ranges, values);
+    for (std::size_t p = 0; p < values.size(); ++p)
+      if ((moving.empty() || moving[p]) && std::isfinite(values[p])) all.push_back(values[p]);
+  }
+  return all;
+}
+
+std::pair<double, double> WoundView::range_of(const Coloring& coloring, const Field* reference,
+                                              const std::optional<std::pair<double, double>>& percentiles) {
   if (coloring == Coloring::tissue) return {0, 0};
-  if (known_range_ && std::get<0>(*known_range_) == coloring && std::get<1>(*known_range_) == reference)
-    return std::get<2>(*known_range_);
-  constexpr int samples = 8;
+  if (known_range_ && known_range_->coloring == coloring && known_range_->reference == reference &&
+      known_range_->percentiles == percentiles)
+    return known_range_->range;
   const bool from_zero = coloring.kind != Coloring::quantity;
   std::vector<double> values;
   double least = from_zero ? 0 : HUGE_VAL, greatest = from_zero ? 0 : -HUGE_VAL;
-  for (int i = from_zero ? 1 : 0; i <= samples; ++i) {
-    scene_->values(coloring, reference, scene_->duration() * i / samples, values);
+  if (percentiles) {
+    values = values_over_time(coloring, reference);
+    if (!values.empty())
+      least = quantile(values, percentiles->first / 100),
+      greatest = quantile(values, percentiles->second / 100);
+  }
+  for (int i = from_zero ? 1 : 0; !percentiles && i <= times_of_ranges; ++i) {
+    scene_->values(coloring, reference, scene_->duration() * i / times_of_ranges, values);
     std::erase_if(values, [](double v) { return !std::isfinite(v); });  // unknown errors
     if (values.empty()) continue;
     // Strain has no bound at the ends of the cut: the highest values there would leave no colour for the
     // rest.
-    const double part = coloring == Coloring::strain ? 0.99 : 1;
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    greatest = std::max(greatest, *at);
-    if (!from_zero) least = std::min(least, *std::min_element(values.begin(), values.end()));
+    greatest = std::max(greatest, quantile(values, coloring == Coloring::strain ? 0.99 : 1));
+    if (!from_zero || is_signed(coloring))
+      least = std::min(least, *std::min_element(values.begin(), values.end()));
   }
+  if (is_signed(coloring)) greatest = std::max(std::abs(least), std::abs(greatest)), least = -greatest;
   if (least > greatest) least = greatest = 0;
-  known_range_ = {coloring, reference, {least, greatest}};
+  known_range_ = {coloring, reference, percentiles, {least, greatest}};
   return {least, greatest};
 }
 
@@ -121,7 +151,9 @@ void WoundView::add_actors() {
   vtkSmartPointer<vtkLookupTable> skin;
   if (coloring_ != Coloring::tissue) {
     const auto [least, greatest] = range_ ? *range_ : range_of(coloring_, reference_.get());
-    skin = value_colors(least, greatest > least ? greatest : least + 1);
+    const std::vector<ColorMap>& maps = color_maps();
+    const ColorMap& map = !map_.empty() ? color_map(map_) : is_signed(coloring_) ? maps.back() : maps.front();
+    skin = value_colors(map, least, greatest > least ? greatest : least + 1);
     if (is_faded_) fade(skin);
     legend_ = make_legend(skin, text_of(coloring_).title);
     legend_->SetVisibility(has_legend_);
@@ -144,6 +176,8 @@ void WoundView::add_actors() {
   wall_actor_->GetProperty()->SetSpecularPower(40);
   add_prop(wall_actor_);
   show_opacity();
+  show_edges();
+  show_section();
   walls_->color([this](int p) { return scene_->surface().depth_fraction[p]; });
   set_background();
 }
@@ -160,6 +194,45 @@ void WoundView::set_faded(bool faded) {
   if (!scene_) return;
   add_actors();
   set_time(time_);
+}
+
+void WoundView::set_warp(double factor) {
+  if (factor == warp_) return;
+  warp_ = factor;
+  if (scene_) set_time(time_);
+}
+
+void WoundView::set_edges(bool visible) {
+  if (visible == edges_) return;
+  edges_ = visible;
+  if (scene_) show_edges();
+}
+
+void WoundView::show_edges() {
+  for (vtkActor* actor : {skin_actor_.Get(), still_actor_.Get(), wall_actor_.Get()}) {
+    actor->GetProperty()->SetEdgeVisibility(edges_);
+    actor->GetProperty()->SetEdgeColor(0.25, 0.25, 0.28);
+  }
+}
+
+void WoundView::set_clip(const std::optional<ClipState>& clip) {
+  const bool same = clip.has_value() == clip_.has_value() &&
+                    (!clip || (clip->place == clip_->place && clip->ahead == clip_->ahead));
+  if (same) return;
+  clip_ = clip;
+  if (!scene_) return;
+  add_actors();
+  set_time(time_);
+}
+
+/// Of actors that are new.
+void WoundView::show_section() {
+  section_.reset();
+  if (!clip_) return;
+  section_.emplace(clip_->place, clip_->ahead);
+  for (vtkActor* actor : {skin_actor_.Get(), still_actor_.Get(), wall_actor_.Get()}) section_->clip(actor);
+  for (vtkPolyData* surface : {skin_->data(), skin_->still(), walls_->data()}) section_->add(surface);
+  add_prop(section_->line());
 }
 
 void WoundView::show_opacity() {
@@ -192,6 +265,9 @@ void WoundView::add_prop(vtkProp* prop) {
 void WoundView::set_time(double t) {
   time_ = std::clamp(t, 0., scene_->duration());
   scene_->positions(time_, points_);
+  const std::vector<Vec3>& rest = scene_->surface().points;
+  for (std::size_t p = 0; warp_ != 1 && p < points_.size(); ++p)
+    points_[p] = rest[p] + warp_ * (points_[p] - rest[p]);
   CLEFT_CHECK(points_.size(), ==, scene_->surface().points.size());
   skin_->move(points_);
   walls_->move(points_);

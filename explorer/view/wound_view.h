@@ -15,6 +15,7 @@
 
 #include "explorer/scene/wound_scene.h"
 #include "explorer/session/session_state.h"
+#include "explorer/view/section_line.h"
 #include "explorer/view/surface_part.h"
 
 namespace cleft {
@@ -33,15 +34,20 @@ class WoundView {
   double duration() const { return scene_->duration(); }
 
   /// Sets the colouring; `reference` is the field that `difference` is relative to. Without a range: from 0
-  /// to the largest value of all times.
+  /// to the largest value of all times. `map`: its name; empty: the usual one.
   void color_by(const Coloring& coloring, std::shared_ptr<const Field> reference = nullptr,
-                std::optional<std::pair<double, double>> range = std::nullopt);
+                std::optional<std::pair<double, double>> range = std::nullopt, const std::string& map = "");
 
   /// Opacity of the skin, 0 to 1, so that an overlay is visible through it.
   void set_opacity(double opacity);
 
   /// Whether its colours are those of a guess; the legend's too.
   void set_faded(bool faded);
+
+  /// Displacements are drawn so many times as large as they are.
+  void set_warp(double factor);
+  void set_edges(bool visible);
+  void set_clip(const std::optional<ClipState>& clip);
 
   void aim(const CameraState& camera);
   void set_dark(bool dark);
@@ -50,8 +56,11 @@ class WoundView {
   /// Whether the legend is shown: in one of several views with the same colours.
   void set_legend(bool visible) { has_legend_ = visible; }
   /// The ends of the colours where no range is given: from 0 to the largest value of all times, for strain
-  /// the 99th percentile; of a quantity from the least value to the greatest.
-  std::pair<double, double> range_of(const Coloring& coloring, const Field* reference);
+  /// the 99th percentile; of a quantity from the least value to the greatest; of what has a sign as far to
+  /// either side of 0. With percentiles: those of the values of all points that move, at all times.
+  std::pair<double, double> range_of(
+      const Coloring& coloring, const Field* reference,
+      const std::optional<std::pair<double, double>>& percentiles = std::nullopt);
 
   /// A place of the skin at rest.
   struct Place {
@@ -68,6 +77,9 @@ class WoundView {
   void add_actors();
   void set_background();
   void show_opacity();
+  void show_edges();
+  void show_section();
+  std::vector<double> values_over_time(const Coloring& coloring, const Field* reference);
   double distance_to_see_all(const Vec3& middle, double view_angle) const;
   void add_prop(vtkProp* prop);
 
@@ -80,11 +92,21 @@ class WoundView {
   Coloring coloring_ = Coloring::tissue;
   std::shared_ptr<const Field> reference_;
   std::optional<std::pair<double, double>> range_;
-  std::optional<std::tuple<Coloring, const Field*, std::pair<double, double>>>
-      known_range_;  // as last asked for
+  /// As last asked for.
+  struct KnownRange {
+    Coloring coloring;
+    const Field* reference;
+    std::optional<std::pair<double, double>> percentiles;
+    std::pair<double, double> range;
+  };
+  std::optional<KnownRange> known_range_;
   vtkSmartPointer<vtkScalarBarActor> legend_;
   bool dark_ = false, is_faded_ = false, has_legend_ = true;
-  double opacity_ = 1;
+  std::string map_;
+  double opacity_ = 1, warp_ = 1;
+  bool edges_ = false;
+  std::optional<ClipState> clip_;
+  std::optional<SectionLine> section_;
   std::vector<double> values_;
   double time_ = 0;
 };

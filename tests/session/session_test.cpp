@@ -59,6 +59,46 @@ TEST_F(SessionTest, OrderSelectionAndWallAreCommandsThatAreSaved) {
   EXPECT_EQ(state().sorted_by, "");
 }
 
+TEST_F(SessionTest, HowTheSurfaceIsDrawnIsACommandThatIsSaved) {
+  open();
+  say("warp 2.5");
+  say("map viridis");
+  say("edges on");
+  say("range 2% 98%");
+  say("clip cut 1 10");
+  const SessionState saved = state_from_json(state_to_json(state()));
+  EXPECT_EQ(saved.warp, 2.5);
+  EXPECT_EQ(saved.map, "viridis");
+  EXPECT_TRUE(saved.edges);
+  EXPECT_EQ(saved.percentiles, (std::pair{2., 98.}));
+  ASSERT_TRUE(saved.clip);
+  EXPECT_EQ(saved.clip->place.x, -5) << "the cut begins at u = -15";
+  EXPECT_EQ(saved.clip->ahead.x, 1);
+  EXPECT_NE(session_.note_of(0).find("displacements drawn 2.5 times as large"), std::string::npos);
+  EXPECT_NE(refused("map viridi").find("'viridis'"), std::string::npos);
+  EXPECT_NE(refused("range 2% 98"), "");
+  EXPECT_NE(refused("range -1% 50%"), "");
+  EXPECT_NE(refused("range 60% 50%"), "");
+  EXPECT_NE(refused("warp -1"), "");
+  EXPECT_NE(refused("clip cut 2 10"), "") << "the patch has one cut";
+  EXPECT_NE(refused("clip cut 1 31"), "");
+  EXPECT_NE(refused("clip 0,0,0 0,0,0"), "");
+  say("range 0 3");
+  EXPECT_FALSE(state().percentiles) << "one or the other";
+  say("range 2% 98%");
+  EXPECT_FALSE(state().range);
+  say("map auto");
+  EXPECT_EQ(state().map, "");
+  say("mesh plate.stl");
+  EXPECT_FALSE(state().clip) << "its places were those of the patch";
+  say("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  say("clip cut 1 20");
+  EXPECT_NEAR(state().clip->place.x, 5, 1e-6);
+  EXPECT_NE(refused("color widening"), "") << "from which case?";
+  say("difference 2");
+  say("color widening");
+}
+
 TEST_F(SessionTest, TimeIsClampedPlayedAndLooped) {
   open();
   say("time 1000");
