@@ -27,6 +27,18 @@ void told_as_indefinite(const PatchSystem& system, const std::function<void()>& 
   }
 }
 
+/// Squares of loads beyond this, or of those below its inverse, leave the range of numbers.
+constexpr double largest_load = 1e150;
+
+/// The power of two next below a load's norm. Divided by it, a load of any size keeps its digits in single
+/// precision, and all its bits.
+double unit_of(double norm) {
+  if (!(norm < largest_load))
+    throw SolveError(
+        "a load has values that are not numbers, or too large ones: see skin.prestress and the moduli");
+  return norm > 1 / largest_load ? std::ldexp(1, std::ilogb(norm)) : 1;
+}
+
 /// Lines of the grid: along each axis, where they are by the mean length of the elements between them.
 std::array<std::vector<double>, 3> lines_of(const PatchMesh& mesh) {
   const auto& size = mesh.grid;
@@ -211,8 +223,17 @@ struct GridSolver::Parts {
       for (int u = 0; columns[lane].load >= 0 && u < system.owned(); ++u)
         r[static_cast<std::size_t>(u) * lanes + lane] = loads(u, columns[lane].load);
     project(r, lanes);
-    Sums enough = dot(table, r, r), rz{}, alpha{}, beta{};
-    for (int lane = 0; lane < lanes; ++lane) enough[lane] = columns[lane].residual * std::sqrt(enough[lane]);
+    Sums enough = dot(table, r, r), unit{}, rz{}, alpha{}, beta{};
+    for (int lane = 0; lane < lanes; ++lane) {
+      const double norm = std::sqrt(enough[lane]);
+      unit[lane] = unit_of(norm), enough[lane] = columns[lane].residual * norm / unit[lane];
+    }
+    const auto scale = [&](Vector& values, bool back) {
+      for (std::size_t u = 0; u < static_cast<std::size_t>(system.owned()); ++u)
+        for (int lane = 0; lane < lanes; ++lane)
+          values[u * lanes + lane] *= back ? unit[lane] : 1 / unit[lane];
+    };
+    scale(r, false), scale(x, false);
     project(x, lanes);
     multiply(table, x, q);
     Sums minus_one;
@@ -229,8 +250,10 @@ struct GridSolver::Parts {
       }
       if (!any) break;
       if (n == most_rounds)
-        throw SolveError("no solution after " + std::to_string(n) +
-                         " iterations: the stiffness is badly conditioned");
+        throw SolveError(
+            "no solution after " + std::to_string(n) +
+            " iterations: the springs are too weak, the moduli of skin and tissue differ too much, or "
+            "tissue.poisson_ratio is too near 0.5; change them, or use --method direct");
       for (std::size_t u = 0; u < static_cast<std::size_t>(system.owned()); ++u)
         for (int lane = 0; lane < lanes; ++lane)
           level.b[u * lanes + lane] = active[lane] ? static_cast<float>(r[u * lanes + lane]) : 0.F;
@@ -259,6 +282,7 @@ struct GridSolver::Parts {
       table.add(system.owned(), alpha.data(), p.data(), x.data());
       table.add(system.owned(), minus.data(), q.data(), r.data());
     }
+    scale(x, true);
   }
 
   /// Some columns, each from the last solution of its load.

@@ -184,6 +184,7 @@ void finish_level(Level& level, const DoubledGrid& grid, MPI_Comm communicator,
       place.pairs.push_back(pair);
       const auto left =
           pair < 0 ? copies.end() : std::find(copies.begin(), copies.end(), grid.pairs()[pair].left);
+      CLEFT_CHECK(pair < 0 || left != copies.end(), ==, true);
       place.left.push_back(pair < 0 ? -1 : static_cast<int>(left - copies.begin()));
     }
   }

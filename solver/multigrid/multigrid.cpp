@@ -103,12 +103,17 @@ float Multigrid::largest_eigenvalue(Level& level) {
     }
   std::fill(level.b.begin(), level.b.end(), 0.F);
   Eigen::MatrixXd tridiagonal = Eigen::MatrixXd::Zero(steps, steps);
-  double before = 0, length = 0, turn = 0;
+  double first = 0, before = 0, length = 0, turn = 0;
   for (int i = 0; i < steps; ++i) {
     level.r = rest;
     level.tie(level.r, 1);
     lanes_->relax(level.owned, level.inverse.data(), 0, 1, level.r.data(), level.d.data(), level.x.data());
     const double now = dot(rest, level.d);
+    if (i == 0) first = now;
+    if (i > 0 && std::abs(now) < 1e-10 * first) {  // all of a small level's eigenvalues are found
+      tridiagonal.conservativeResize(i, i);
+      break;
+    }
     if (!(now > 0)) throw IndefiniteLevel("by the diagonal of a level of the multigrid");
     turn = i == 0 ? 0 : now / before;
     for (std::size_t u = 0; u < own; ++u) step[u] = level.d[u] + static_cast<float>(turn) * step[u];
@@ -123,10 +128,6 @@ float Multigrid::largest_eigenvalue(Level& level) {
     length = now / energy, before = now;
     tridiagonal(i, i) += 1 / length;
     for (std::size_t u = 0; u < own; ++u) rest[u] += static_cast<float>(length) * level.r[u];
-    if (dot(rest, rest) < 1e-10 * now) {
-      tridiagonal.conservativeResize(i + 1, i + 1);
-      break;
-    }
   }
   return static_cast<float>(
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(tridiagonal, Eigen::EigenvaluesOnly)

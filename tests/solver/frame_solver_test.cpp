@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/error.h"
 #include "solver/algebraic_solver.h"
 #include "solver/direct_solver.h"
@@ -45,6 +47,14 @@ struct Solvers {
   GridSolver grid;
   AlgebraicSolver algebraic;
 };
+
+/// Large enough for several levels of the multigrid, which solves the small patches in one.
+Parameters larger_patch() {
+  Parameters p = dense_patch_case();
+  p.patch.length = 24, p.patch.width = 16, p.patch.height = 5;
+  p.cut.length = 12, p.cut.branch = 3;
+  return p;
+}
 
 void expect_all_frames(const DensePatch& patch, const Release& release, Solvers& solvers) {
   const Eigen::MatrixXd loads = two_loads(patch);
@@ -133,11 +143,8 @@ TEST(FrameSolver, FramesBeginAtZeroWhereTheSkinIsHeld) {
   }
 }
 
-/// Large enough for several levels of the multigrid, which solves the small patches in one.
 TEST(FrameSolver, IterationsAgreeWithTheFactorOnALargerPatch) {
-  Parameters p = dense_patch_case();
-  p.patch.length = 24, p.patch.width = 16, p.patch.height = 5;
-  p.cut.length = 12, p.cut.branch = 3;
+  const Parameters p = larger_patch();
   const PatchMesh mesh = make_patch_mesh(p);
   const PatchSystem system(mesh, p, MPI_COMM_WORLD);
   ASSERT_GT(system.size(), 7000);
@@ -162,6 +169,24 @@ TEST(FrameSolver, IterationsAgreeWithTheFactorOnALargerPatch) {
   for (const int n : algebraic.iterations())
     EXPECT_LT(n, 22) << "18 were seen, and 23 with a wrong rigid mode";
   for (const int n : grid.iterations()) EXPECT_LT(n, 13);
+}
+
+/// The equations are linear, and a power of two changes no digit: not in the preconditioner's single
+/// precision either, whose least number is about 1e-38.
+TEST(FrameSolver, IterationsKeepTheDigitsOfTinyAndHugeLoads) {
+  const Parameters p = larger_patch();
+  const PatchMesh mesh = make_patch_mesh(p);
+  const PatchSystem system(mesh, p, MPI_COMM_WORLD);
+  const Release release = make_release(mesh, p);
+  GridSolver grid(mesh, system);
+  grid.set_release(release);
+  const auto frame = [&](double factor) {
+    grid.set_loads(factor * system.load(p.skin));
+    return Block(grid.solve({{0, release.released.back()}}) / factor);
+  };
+  const Block expected = frame(1);
+  for (const int power : {-200, -20, 3, 200})
+    EXPECT_EQ((frame(std::ldexp(1, power)) - expected).cwiseAbs().sum(), 0) << power;
 }
 
 TEST(FrameSolver, LipsBesideTheTipMoveSmoothlyFromFrameToFrame) {

@@ -1,6 +1,8 @@
 // What cannot be solved is told on every rank. CMakeLists.txt runs these tests on several ranks too.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "solver/direct_solver.h"
 #include "solver/grid_solver.h"
 #include "tests/solver/small_patch.h"
@@ -54,6 +56,23 @@ TEST(Unsolvable, ABucklingPatchFailsOnEveryRank) {
       }));
       MPI_Barrier(MPI_COMM_WORLD);  // all ranks are still in step
     }
+}
+
+/// On all ranks, though one alone has the value.
+TEST(Unsolvable, IterationsRefuseLoadsThatAreNotNumbers) {
+  const Parameters p = small_patch();
+  const PatchMesh mesh = make_patch_mesh(p);
+  const PatchSystem system(mesh, p, MPI_COMM_WORLD);
+  GridSolver iterative(mesh, system);
+  iterative.set_release(make_release(mesh, p));
+  for (const double value : {std::nan(""), 1e200}) {
+    Block load = system.load(p.skin);
+    if (system.rank() == 0) load(0, 0) = value;
+    iterative.set_loads(load);
+    const std::string failure = failure_of([&] { iterative.solve({{0, 2}}); });
+    EXPECT_NE(failure.find("skin.prestress"), std::string::npos) << failure;
+    MPI_Barrier(MPI_COMM_WORLD);  // all ranks are still in step
+  }
 }
 
 TEST(Unsolvable, IterationsRefuseContact) {
