@@ -25,7 +25,7 @@ struct IndefiniteLevel : std::runtime_error {
 class Multigrid {
  public:
   struct Settings {
-    int smoothing = 8;           ///< relaxations before and after the coarser level
+    int smoothing = 12;          ///< relaxations before and after the coarser level
     double joined = 2.4;         ///< longest joined element, over the shortest of the finer level
     std::size_t coarsest = 250;  ///< nodes
   };
