@@ -13,7 +13,7 @@ COLOURS = {"strong": "#0072b2", "weak": "#d55e00"}
 
 
 def axis(values):
-    """The powers of ten, or halves of ranges below one, around positive values, as logarithms."""
+    """A range around positive values, as logarithms."""
     low, high = math.log10(min(values)), math.log10(max(values))
     margin = max(0.08, 0.08 * (high - low))
     return low - margin, high + margin
@@ -21,8 +21,9 @@ def axis(values):
 
 def ticks(low, high):
     steps = [1, 2, 5] if high - low < 2.5 else [1]
-    return [s * 10.0**e for e in range(math.floor(low), math.ceil(high) + 1) for s in steps
-            if low <= math.log10(s * 10.0**e) <= high]
+    found = [s * 10.0**e for e in range(math.floor(low), math.ceil(high) + 1) for s in steps
+             if low <= math.log10(s * 10.0**e) <= high]
+    return found if len(found) > 1 else [float(f"{10**at:.2g}") for at in (low + 0.04, high - 0.04)]
 
 
 class Panel:

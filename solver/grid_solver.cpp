@@ -28,15 +28,15 @@ void told_as_indefinite(const PatchSystem& system, const std::function<void()>& 
 }
 
 /// Squares of loads beyond this, or of those below its inverse, leave the range of numbers.
-constexpr double largest_load = 1e150;
+constexpr double largest_norm = 1e150;
 
 /// The power of two next below a load's norm. Divided by it, a load of any size keeps its digits in single
 /// precision, and all its bits.
 double unit_of(double norm) {
-  if (!(norm < largest_load))
+  if (!(norm < largest_norm))
     throw SolveError(
         "a load has values that are not numbers, or too large ones: see skin.prestress and the moduli");
-  return norm > 1 / largest_load ? std::ldexp(1, std::ilogb(norm)) : 1;
+  return norm > 1 / largest_norm ? std::ldexp(1, std::ilogb(norm)) : 1;
 }
 
 /// Lines of the grid: along each axis, where they are by the mean length of the elements between them.
