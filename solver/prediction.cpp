@@ -8,6 +8,7 @@ namespace cleft {
 Prediction::Prediction(const PatchMesh& mesh, const PatchSystem& system, const Release& release)
     : mesh_(mesh), system_(system), release_(release), base_(mesh.points.size()), behind_(base_.size()) {
   std::iota(base_.begin(), base_.end(), 0);
+  if (mesh.is_body()) return;  // it has no grid whose columns follow each other
   std::map<std::pair<int, int>, int> right;  // by incision and node of the grid
   for (const NodePair& pair : mesh.pairs) {  // a right node is the left one of later pairs only
     base_[pair.right] = base_[pair.left];
@@ -23,7 +24,7 @@ Prediction::Prediction(const PatchMesh& mesh, const PatchSystem& system, const R
 int Prediction::column(int pair) const { return base_[mesh_.pairs[pair].left] % mesh_.grid[0]; }
 
 bool Prediction::possible(int frame) const {
-  if (frame < 2) return false;
+  if (frame < 2 || mesh_.is_body()) return false;
   const auto released = [&](int f) {  // the first pair that a frame releases
     return release_.order[release_.released[f - 1]];
   };

@@ -15,7 +15,7 @@ class Prediction {
   /// Keeps references to all.
   Prediction(const PatchMesh& mesh, const PatchSystem& system, const Release& release);
 
-  /// Whether this frame releases the column behind which the frame before released one.
+  /// Whether this frame releases the column behind which the frame before released one. Never in a body.
   bool possible(int frame) const;
 
   /// The displacement of a frame from those of the two before it. Where the frame opens a part of a column,
