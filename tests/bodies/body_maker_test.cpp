@@ -273,8 +273,8 @@ TEST(BodyMaker, LayersEndWhereTheyAreSaidTo) {
   for (std::size_t w = 0; w < body.wedges.size(); ++w) {
     const auto p = [&](int i) { return body.points[body.wedges[w][i]]; };
     double low = p(0).z, high = p(3).z;
-    EXPECT_LE(-low, std::array{0.9, 3.7, 6.}[body.region[w]] + 1e-9);
-    EXPECT_GE(-high, std::array{0., 0.9, 3.7}[body.region[w]] - 1e-9);
+    EXPECT_LE(-low, (std::array{0.9, 3.7, 6.}[body.region[w]] + 1e-9));
+    EXPECT_GE(-high, (std::array{0., 0.9, 3.7}[body.region[w]] - 1e-9));
     volume[body.region[w]] += (high - low) * norm(cross(p(1) - p(0), p(2) - p(0))) / 2;
   }
   EXPECT_NEAR(volume[0] / volume[1], 0.9 / 2.8, 1e-9);

@@ -10,7 +10,7 @@ namespace cleft {
 
 namespace {
 
-std::string refusal_of(const std::string& text) {
+std::string materials_refusal(const std::string& text) {
   const TemporaryFolder folder;
   try {
     read_region_file(folder.write("m.toml", text));
@@ -46,7 +46,7 @@ TEST(RegionMaterials, MistakesAreToldWithTheirLines) {
                                    {"[faces]\nskin = 1\n", "has no section"},
                                    {"fat = 1\n", "'fat' must be a section [fat]"},
                                    {"[fat\n", "line 1"}})
-    EXPECT_PRED_FORMAT2(testing::IsSubstring, part, refusal_of(text));
+    EXPECT_PRED_FORMAT2(testing::IsSubstring, part, materials_refusal(text));
 }
 
 }  // namespace cleft
