@@ -19,12 +19,12 @@ constexpr double moves_within = 0.3;  // of a step between nodes: these move
 std::vector<TissueLayer> layers_of(const RegionFile& file) {
   std::vector<TissueLayer> layers;
   if (file.faces)
-    throw InputError("[faces] of --materials is of an own mesh of cells (.vtu); --mesh is a surface");
+    throw InputError("[faces] of --materials is of an own mesh of cells; --mesh is a surface");
   for (const RegionSection& section : file.sections) {
     const bool last = &section == &file.sections.back();
     const std::string layer = section.where + ": layer [" + section.material.name + "]";
     if (!section.regions.empty())
-      throw InputError(layer + ": region is of an own mesh of cells (.vtu); below a surface say to_depth");
+      throw InputError(layer + ": region is of an own mesh of cells; below a surface say to_depth");
     if (last && section.to_depth)
       throw InputError(layer + " is the last one and goes down to patch.height; leave to_depth out");
     if (!last && !section.to_depth)

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <thread>
@@ -71,11 +72,15 @@ TEST(Process, IsAskedToEndAndThenMadeTo) {
 
 TEST(Process, IsMadeToEndWhereItDoesNotFollow) {
   const TemporaryFolder place;
-  StopCount stop = 1;  // and nobody asks again
-  EXPECT_EQ(
-      run_process({"sh", "-c", "trap '' TERM; sleep 60 & wait; wait; sleep 60"}, place / "log", {}, &stop)
-          .signal,
-      SIGKILL);
+  StopCount stop = 0;
+  std::thread asks([&] {  // once it ignores the signal, and never again
+    while (!std::filesystem::exists(place / "ready"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    stop = 1;
+  });
+  const std::string command = "trap '' TERM; touch " + place / "ready" + "; sleep 60 & wait; wait; sleep 60";
+  EXPECT_EQ(run_process({"sh", "-c", command}, place / "log", {}, &stop).signal, SIGKILL);
+  asks.join();
 }
 
 TEST(Process, DoesNotOutliveTheOneThatStartedIt) {
