@@ -8,7 +8,7 @@ namespace cleft {
 Prediction::Prediction(const PatchMesh& mesh, const PatchSystem& system, const Release& release)
     : mesh_(mesh), system_(system), release_(release), base_(mesh.points.size()), behind_(base_.size()) {
   std::iota(base_.begin(), base_.end(), 0);
-  if (mesh.is_body()) return;  // it has no grid whose columns follow each other
+  if (mesh.is_body()) return;                // it has no grid whose columns follow each other
   std::map<std::pair<int, int>, int> right;  // by incision and node of the grid
   for (const NodePair& pair : mesh.pairs) {  // a right node is the left one of later pairs only
     base_[pair.right] = base_[pair.left];
