@@ -26,6 +26,7 @@ struct Writer {
   Words command;  ///< "IN/" and "OUT/" are the folders of inputs and of outputs
   /// Without one the outputs are a folder, or several files, that may not exist before.
   std::string output = {};
+  friend void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
 };
 
 const Writer writers[] = {

@@ -1,9 +1,10 @@
 // Loaded before the C library (LD_PRELOAD): writes to files, and flushes of them, fail.
 //
 //   CLEFT_FAILING_WRITES=N         now and then, one in N, with EIO
-//   CLEFT_FAIL_IN=FOLDER           of files in FOLDER, every event is a line of the file CLEFT_FAIL_COUNT,
-//   and CLEFT_FAIL_AT=N                the Nth fails CLEFT_FAIL_WITH=NUMBER         with this error number,
-//   or by the signal -NUMBER
+//   CLEFT_FAIL_IN=FOLDER           counts events of files in FOLDER:
+//   CLEFT_FAIL_COUNT=FILE              each is a line of FILE
+//   CLEFT_FAIL_AT=N                    the Nth fails (and all after it, if the error is EACCES)
+//   CLEFT_FAIL_WITH=NUMBER             with this error number, or by the signal -NUMBER
 //
 // Events are openings for writing, writes and flushes. (libfiu, which does the like, locks itself up where a
 // program loads libraries of its own, as Open MPI does.)
@@ -54,8 +55,10 @@ bool fails_now() {
         log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
     if (call(to, "event\n", 6) != 6) std::abort();
   }
-  if (!at || !with || number != std::atoi(at)) return false;
-  const int how = std::atoi(with);
+  if (!at || !with) return false;
+  // Rights do not come back: a library that opens a file again in another way is refused again.
+  const int how = std::atoi(with), first = std::atoi(at);
+  if (how == EACCES ? number < first : number != first) return false;
   if (how < 0) {
     kill(getpid(), -how);
     wait_for_the_end();
