@@ -18,8 +18,7 @@ constexpr double moves_within = 0.3;  // of a step between nodes: these move
 
 std::vector<TissueLayer> layers_of(const RegionFile& file) {
   std::vector<TissueLayer> layers;
-  if (file.faces)
-    throw InputError("[faces] of --materials is of an own mesh of cells; --mesh is a surface");
+  if (file.faces) throw InputError("[faces] of --materials is of an own mesh of cells; --mesh is a surface");
   for (const RegionSection& section : file.sections) {
     const bool last = &section == &file.sections.back();
     const std::string layer = section.where + ": layer [" + section.material.name + "]";

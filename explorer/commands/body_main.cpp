@@ -78,8 +78,7 @@ Body make_own(const Options& options, Json& figures) {
 Body make_below(const Options& options, Json& figures) {
   for (const auto& [given, name] :
        {std::pair{options.regions.has_value(), "--regions"}, {options.release.has_value(), "--release"}})
-    if (given)
-      throw InputError(std::string(name) + ": is of an own mesh of cells; --mesh is a surface");
+    if (given) throw InputError(std::string(name) + ": is of an own mesh of cells; --mesh is a surface");
   BodyRequest request = options.body.request();
   MeshReport mesh;
   request.skin = read_mesh(options.mesh, &mesh);
