@@ -10,11 +10,11 @@
 # Without a base (no git, or a clone of a single commit) clang-format checks all files, and clang-tidy none.
 #
 # clang-format checks whole files. clang-tidy is slow, so it checks .cpp files only, the last changed first, at most 24
-# of them, until 120 seconds have passed, and what it finds counts where the line has changed (in headers too). The last
+# of them, until 60 seconds have passed, and what it finds counts where the line has changed (in headers too). The last
 # line says how many files were checked, and how many were not.
 set -eu
 root=$1; build=$2; here=$(cd "$(dirname "$0")" && pwd)
-most_files=24; most_seconds=120; commits_back=20
+most_files=24; most_seconds=60; commits_back=20
 for tool in clang-format clang-tidy; do
   command -v $tool > /dev/null || { echo "$tool is missing; ./setup/install.sh tests installs it"; exit 1; }
 done
