@@ -11,7 +11,7 @@ namespace cleft {
 namespace {
 
 /// Of one mesh, but for its depth. Fields with few control points: errors of interpolation and of fits.
-constexpr const char* small_study = R"(
+constexpr const char* certified_study = R"(
 name = "certified"
 keep_snapshots = "none"
 [case]
@@ -42,7 +42,7 @@ class Certified : public ::testing::Test {
 };
 
 TEST_F(Certified, BoundsHoldAndAreNear) {
-  const std::string study = run_study(small_study);
+  const std::string study = run_study(certified_study);
   const auto found = figures_of(expect_success(
       run_cleft("certify", {study, "--points", folder_.write("points.csv", points), "--solve", "--json"})));
   ASSERT_EQ(found.size(), 3u);
@@ -75,7 +75,7 @@ TEST_F(Certified, BoundsHoldAndAreNear) {
 }
 
 TEST_F(Certified, StudiesWithContactAreRefused) {
-  std::string text = small_study;
+  std::string text = certified_study;
   text.insert(text.find("[encode]"), "cut.contact = true\n");
   const std::string study = run_study(text);
   const Outcome outcome =

@@ -314,14 +314,22 @@ class Page(unittest.TestCase):
         study = os.path.join(SCRATCH.name, "<img src=x onerror=hacked=1>.dffd")
         with open(os.path.join(STUDY, "study.dffd"), "rb") as source, open(study, "wb") as out:
             out.write(source.read())
-        with h5py.File(study, "r+") as file:
-            header = json.loads(bytes(file["header"][:]))
-            header["names"][0] = hostile
-            columns = header["columns"]
-            columns["parameters/" + hostile] = columns.pop("parameters/tissue.young_modulus")
-            text = np.frombuffer(json.dumps(header).encode(), np.uint8)
-            del file["header"]
-            file.create_dataset("header", data=text, compression="gzip")
+        def call_first_case(name):
+            with h5py.File(study, "r+") as file:
+                header = json.loads(bytes(file["header"][:]))
+                header["names"][0] = name
+                columns = header["columns"]
+                first = next(key for key in (f"parameters/{hostile}", "parameters/tissue.young_modulus") if key in columns)
+                columns["parameters/" + hostile] = columns.pop(first)
+                text = np.frombuffer(json.dumps(header).encode(), np.uint8)
+                del file["header"]
+                file.create_dataset("header", data=text, compression="gzip")
+
+        call_first_case(hostile)
+        refused = command("cleft", "export", study, "--web", os.path.join(SCRATCH.name, "refused.html"), check=False)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("no name of a folder", refused.stderr)
+        call_first_case(hostile.replace("/", "|"))
         page = os.path.join(SCRATCH.name, "hostile.html")
         command("cleft", "export", study, "--web", page)
         opened(page, "#where=" + "%3Cscript%3Ehacked%3D1%3C/script%3E")
