@@ -13,7 +13,7 @@ namespace cleft {
 
 namespace {
 
-constexpr int most_chosen_again = 64, parts_left_out = 8;
+constexpr int most_chosen_again = 64, most_parts = 8;
 constexpr int most_compared = 128;            // cases that choose the method
 constexpr Eigen::Index points_at_once = 256;  // their weights stay in the cache
 
@@ -127,15 +127,20 @@ FigureModel::FigureModel(Cases cases, std::vector<Figure> figures)
   const Eigen::MatrixXd predicted = cases_.displacements * others.weights;
   left_out_ = figures_from(predicted);
   residuals_ = cases_.displacements - predicted;
-  ratios_ =
-      differences(n > most_chosen_again ? predicted : predicted_by_parts(), cases_.displacements).cwiseAbs() *
-      others.deviations.cwiseInverse().asDiagonal();
+  ratios_ = n > most_chosen_again ? ratios_of(predicted, others.deviations)
+                                  : ratios_of(predicted_by_parts(), deviations_without_parts());
+}
+
+/// Residuals of predictions over their deviations.
+Eigen::MatrixXd FigureModel::ratios_of(const Eigen::MatrixXd& predicted,
+                                       const Eigen::VectorXd& deviations) const {
+  return differences(predicted, cases_.displacements).cwiseAbs() * deviations.cwiseInverse().asDiagonal();
 }
 
 /// The method and its lengths are those that predict the cases left out best, which few cases may do by
 /// chance: then each part of them is predicted by a method that was chosen without it.
 Eigen::MatrixXd FigureModel::predicted_by_parts() const {
-  const int parts = std::min(parts_left_out, cases());
+  const int parts = std::min(most_parts, cases());
   Eigen::MatrixXd predicted(cases_.displacements.rows(), cases());
   parallel_for(parts, [&](int part) {
     std::vector<int> left, rest;
@@ -148,6 +153,20 @@ Eigen::MatrixXd FigureModel::predicted_by_parts() const {
     predicted(Eigen::all, left) = displacements * best_model(of_rest, displacements).at(of_left).weights;
   });
   return predicted;
+}
+
+/// Standard deviations of the chosen model at each case where the case's whole part is left out: with B the
+/// part, those of the inverse of (K^-1)_BB.
+Eigen::VectorXd FigureModel::deviations_without_parts() const {
+  const int parts = std::min(most_parts, cases());
+  Eigen::VectorXd deviations(cases());
+  for (int part = 0; part < parts; ++part) {
+    std::vector<int> left;
+    for (int i = part; i < cases(); i += parts) left.push_back(i);
+    const Eigen::MatrixXd own = inverse_(left, left);
+    deviations(left) = own.inverse().diagonal().cwiseSqrt();
+  }
+  return deviations;
 }
 
 Eigen::MatrixXd FigureModel::figures_from(const Eigen::MatrixXd& displacements) const {

@@ -84,7 +84,9 @@ class FigureModel {
                          const std::function<void(Eigen::Index first, Eigen::Index count)>& work);
   Eigen::MatrixXd figures_from(const Eigen::MatrixXd& displacements) const;
   Eigen::MatrixXd differences(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) const;
+  Eigen::MatrixXd ratios_of(const Eigen::MatrixXd& predicted, const Eigen::VectorXd& deviations) const;
   Eigen::MatrixXd predicted_by_parts() const;
+  Eigen::VectorXd deviations_without_parts() const;
   void estimate_errors(const DisplacementModel::Predictions& found, const Eigen::MatrixXd& displacements,
                        Eigen::Ref<Eigen::MatrixXd> errors) const;
 

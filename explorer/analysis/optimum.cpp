@@ -87,7 +87,8 @@ class Evolution {
   void advance() {
     const Eigen::Index d = members_.rows(), n = members_.cols();
     const std::vector<int> order = ranks();
-    const auto leading = std::max<Eigen::Index>(2, static_cast<Eigen::Index>(best_share * 1. * double(n)));
+    const auto leading =
+        std::max<Eigen::Index>(2, static_cast<Eigen::Index>(best_share * static_cast<double>(n)));
     Eigen::MatrixXd trials = members_;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Eigen::Index best = order[static_cast<std::size_t>(below(leading))], one = below(n),

@@ -1,13 +1,14 @@
 // cleft analyze: what a figure of a study depends on, and how it is distributed.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
 #include "base/command/command.h"
 #include "base/error.h"
 #include "base/quantiles.h"
+#include "base/text.h"
 #include "explorer/analysis/figure_model.h"
+#include "explorer/analysis/interactions.h"
 #include "explorer/analysis/sensitivity.h"
 #include "explorer/commands/analysis_options.h"
 
@@ -18,6 +19,7 @@ namespace {
 constexpr int parts_left_out = 8;
 constexpr Eigen::Index errors_estimated = 512;  // points
 constexpr double much_outside = 0.01;           // of the draws
+constexpr double least_share = 0.005;           // of the variance, of a pair that is printed
 
 struct Options {
   std::string study, figure = "gape";
@@ -41,6 +43,16 @@ double share_outside(const FigureModel& model, const Eigen::MatrixXd& points) {
     outside += out;
   }
   return static_cast<double>(outside) / static_cast<double>(points.cols());
+}
+
+Json to_json(const Interaction& pair, const std::vector<InputDistribution>& distributions) {
+  Json mean = Json::array();
+  for (Eigen::Index q = 0; q < pair.mean.cols(); ++q)
+    mean.push_back(std::vector<double>(pair.mean.col(q).begin(), pair.mean.col(q).end()));
+  return {{"parameters", {distributions[pair.one].name(), distributions[pair.other].name()}},
+          {"share", to_json(pair.share)},
+          {"at", {pair.at, pair.other_at}},
+          {"mean", mean}};
 }
 
 Json analyze(const Options& o) {
@@ -69,6 +81,8 @@ Json analyze(const Options& o) {
           .errors.row(0)
           .transpose();
   const double fit = model.fit_error(0);
+  progress("looking at pairs of parameters");
+  const std::vector<Interaction> interactions = interactions_of(distributions, figure, alternatives, found);
 
   Json json = {{"figure", o.figure},     {"unit", model.figures()[0].unit()},
                {"cases", model.cases()}, {"method", model.method()},
@@ -88,13 +102,24 @@ Json analyze(const Options& o) {
                                   {"total", to_json(effect.total)},
                                   {"main_effect", {{"at", effect.at}, {"mean", effect.mean}}}});
   }
+  json["interactions"] = Json::array();
+  for (const Interaction& pair : interactions) json["interactions"].push_back(to_json(pair, distributions));
   return json;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+std::string number(double value) { return formatted("%.4g", value); }
+
+/// Those whose share is no error.
+void print_interactions(const Json& pairs) {
+  bool any = false;
+  for (const Json& pair : pairs) {
+    const double share = pair["share"]["value"], error = pair["share"]["error"];
+    if (share < least_share || share < error) continue;
+    if (!any) std::cout << "\n  pairs together, beyond what each makes alone\n";
+    any = true;
+    std::cout << formatted("  %.3f +- %.3f    ", share, error) << pair["parameters"][0].get<std::string>()
+              << ", " << pair["parameters"][1].get<std::string>() << "\n";
+  }
 }
 
 void print(const Json& found) {
@@ -116,13 +141,13 @@ void print(const Json& found) {
     return a["total"]["value"].get<double>() > b["total"]["value"].get<double>();
   });
   for (const Json& row : rows) {
-    char line[200];
-    std::snprintf(line, sizeof line, "  %-26s %.3f +- %.3f    %.3f +- %.3f    %s\n",
-                  row["name"].get<std::string>().c_str(), row["first_order"]["value"].get<double>(),
-                  row["first_order"]["error"].get<double>(), row["total"]["value"].get<double>(),
-                  row["total"]["error"].get<double>(), row["distribution"].get<std::string>().c_str());
-    std::cout << line;
+    std::cout << formatted("  %-26s %.3f +- %.3f    %.3f +- %.3f    %s\n",
+                           row["name"].get<std::string>().c_str(), row["first_order"]["value"].get<double>(),
+                           row["first_order"]["error"].get<double>(), row["total"]["value"].get<double>(),
+                           row["total"]["error"].get<double>(),
+                           row["distribution"].get<std::string>().c_str());
   }
+  print_interactions(found["interactions"]);
 }
 
 }  // namespace
@@ -143,7 +168,7 @@ int main(int argc, char** argv) {
   app.add_option("--samples", o.samples, "size of the sample from which the indices are estimated")
       ->check(in_range(64, 1 << 20))
       ->capture_default_str();
-  app.add_flag("--json", o.json, "as JSON, with the curve of each parameter's effect");
+  app.add_flag("--json", o.json, "as JSON, with the curves of each parameter's effect and of pairs");
   return run_command(app, argc, argv, [&] {
     const Json found = analyze(o);
     if (const double share = found["share_outside"].get<double>(); share > much_outside)

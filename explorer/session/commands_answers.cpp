@@ -10,12 +10,6 @@ namespace cleft {
 
 namespace {
 
-std::string line_of(const char* format, auto... values) {
-  char text[320];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
 LookMeanwhile shown_progress(const Session& session, const std::string& what) {
   return [&session, what] { session.progress(what, 0.5); };
 }
@@ -27,13 +21,16 @@ void analyze(Session& session, CommandWords& words) {
       session.cases().analysis(figure, shown_progress(session, "analyzing " + figure));
   session.edit().analyzed = figure;
   session.changes().answers = true;
-  session.answer(line_of("%s: mean %.4g %s, standard deviation %.3g; between the cases it is off by %.2g %s",
-                         figure.c_str(), found.mean, found.unit.c_str(), found.deviation, found.error,
-                         found.unit.c_str()));
+  session.answer(formatted(
+      "%s: mean %.4g %s, standard deviation %.3g; between the cases it is off by %.2g %s", figure.c_str(),
+      found.mean, found.unit.c_str(), found.deviation, found.error, found.unit.c_str()));
   for (const StudyAnalysis::Effect& e : found.effects)
-    session.answer(line_of("%s: %.1f +- %.1f %% of the variance alone, %.1f +- %.1f %% with others",
-                           e.name.c_str(), 100 * e.first, 100 * e.first_error, 100 * e.total,
-                           100 * e.total_error));
+    session.answer(formatted("%s: %.1f +- %.1f %% of the variance alone, %.1f +- %.1f %% with others",
+                             e.name.c_str(), 100 * e.first, 100 * e.first_error, 100 * e.total,
+                             100 * e.total_error) +
+                   (e.partner ? formatted(", most with %s (%.1f +- %.1f %%)", e.partner->name.c_str(),
+                                          100 * e.partner->share, 100 * e.partner->error)
+                              : ""));
 }
 
 /// And shows the wound of the most likely parameters.
@@ -47,9 +44,9 @@ void fit(Session& session, CommandWords& words) {
   for (const StudyFit::Value& v : found.values) {
     request_parameter(session, v.name, v.most_likely);
     session.answer(
-        line_of("%s: %.4g, 90 %% from %.4g to %.4g", v.name.c_str(), v.most_likely, v.low, v.high));
+        formatted("%s: %.4g, 90 %% from %.4g to %.4g", v.name.c_str(), v.most_likely, v.low, v.high));
   }
-  session.answer(line_of("residuals are %.3g of their expected size", found.misfit) +
+  session.answer(formatted("residuals are %.3g of their expected size", found.misfit) +
                  (found.misfit_probability < 0.01 ? ": no case of the study's ranges fits" : "") +
                  "; to tell more, measure " + found.next);
   for (const std::string& sentence : found.open) session.answer(sentence);
@@ -62,8 +59,8 @@ void propose(Session& session, CommandWords& words) {
   words.expect_end();
   const StudyProposal found =
       propose_cases(study.path(), count, shown_progress(session, "comparing candidates"));
-  session.answer(line_of("the estimated error is %.2g %% of the largest value; most would be learned from",
-                         100 * found.error));
+  session.answer(formatted("the estimated error is %.2g %% of the largest value; most would be learned from",
+                           100 * found.error));
   for (const auto& values : found.cases) {
     std::string line;
     for (const auto& [name, value] : values) line += (line.empty() ? "" : " ") + name + "=" + shortest(value);
@@ -91,10 +88,10 @@ void find_optimum(Session& session, CommandWords& words, bool greatest) {
   }
   for (const auto& [name, value] : found.values) {
     request_parameter(session, name, value);
-    session.answer(line_of("%s = %.4g", name.c_str(), value));
+    session.answer(formatted("%s = %.4g", name.c_str(), value));
   }
   for (const StudyOptimum::Figure& one : found.figures)
-    session.answer(line_of("%s: %.4g +- %.2g mm", one.name.c_str(), one.value, one.error));
+    session.answer(formatted("%s: %.4g +- %.2g mm", one.name.c_str(), one.value, one.error));
   if (found.holds && !found.holds_within_errors)
     session.answer("within these errors the condition may fail (cleft find --certain keeps their distance)");
 }

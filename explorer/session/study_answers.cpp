@@ -2,62 +2,27 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/message.h"
 #include "base/process.h"
+#include "base/scratch_folder.h"
 #include "base/text.h"
-#include "base/unfinished.h"
 
 namespace cleft {
 
 namespace {
 
-namespace fs = std::filesystem;
 using AnswerJson = nlohmann::ordered_json;
-
-/// A folder of the system's temporary files, for the two outputs of a command.
-class AnswerFolder {
- public:
-  AnswerFolder() {
-    std::string name = (fs::temp_directory_path() / "cleft-answer-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder can be made: " + name);
-    path_ = name;
-    begin_unfinished(path_);
-  }
-  ~AnswerFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-    end_unfinished(path_);
-  }
-  AnswerFolder(const AnswerFolder&) = delete;
-  AnswerFolder& operator=(const AnswerFolder&) = delete;
-  std::string operator/(const char* name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
-/// Without the name of the command and of the kind of the error.
-std::string essence(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  for (const char* mark : {"error: ", "failed: "})
-    if (const auto at = text.rfind(mark); at != std::string::npos)
-      return text.substr(at + std::string(mark).size());
-  return text.empty() ? "the command said nothing" : text;
-}
 
 AnswerJson answer_of(const std::string& command, std::vector<std::string> arguments,
                      const LookMeanwhile& look) {
-  const char* folder = std::getenv("CLEFT_BIN");
-  arguments.insert(arguments.begin(),
-                   (folder ? std::string(folder) : executable_folder()) + "/cleft-" + command);
+  arguments.insert(arguments.begin(), command_path(command));
   arguments.insert(arguments.end(), {"--json", "--quiet"});
-  const AnswerFolder files;
+  const ScratchFolder files("answer");
   const std::string log = files / "log", output = files / "output";
   StopCount stop = 0;
   auto running =
@@ -70,8 +35,31 @@ AnswerJson answer_of(const std::string& command, std::vector<std::string> argume
     running.wait();
     throw;
   }
-  if (!running.get().success()) throw InputError(essence(read_text_file(log)));
+  if (!running.get().success()) throw InputError(last_error(read_text_file(log), "the command said nothing"));
   return AnswerJson::parse(read_text_file(output));
+}
+
+/// The first of the pairs, which begin with the largest share, that the parameter belongs to.
+std::optional<StudyAnalysis::Partner> partner_of(const std::string& name, const AnswerJson& pairs) {
+  constexpr double least_share = 0.01;
+  for (const AnswerJson& pair : pairs) {
+    const bool first = pair.at("parameters").at(0) == name;
+    if (!first && pair.at("parameters").at(1) != name) continue;
+    StudyAnalysis::Partner partner;
+    partner.share = pair.at("share").at("value"), partner.error = pair.at("share").at("error");
+    if (partner.share < std::max(least_share, partner.error)) return {};
+    const std::size_t own = first ? 0 : 1;
+    partner.name = pair.at("parameters").at(1 - own);
+    partner.at = pair.at("at").at(own).get<std::vector<double>>();
+    const auto values = pair.at("at").at(1 - own).get<std::vector<double>>();
+    partner.low = values.front(), partner.high = values.back();
+    const auto mean = pair.at("mean").get<std::vector<std::vector<double>>>();  // by the second parameter
+    for (std::size_t k = 0; k < partner.at.size(); ++k)
+      partner.mean_at_low.push_back(first ? mean.front()[k] : mean[k].front()),
+          partner.mean_at_high.push_back(first ? mean.back()[k] : mean[k].back());
+    return partner;
+  }
+  return {};
 }
 
 }  // namespace
@@ -89,6 +77,7 @@ StudyAnalysis analyze_study(const std::string& study, const std::string& figure,
     effect.total = one.at("total").at("value"), effect.total_error = one.at("total").at("error");
     effect.at = one.at("main_effect").at("at").get<std::vector<double>>();
     effect.mean = one.at("main_effect").at("mean").get<std::vector<double>>();
+    effect.partner = partner_of(effect.name, json.at("interactions"));
   }
   std::stable_sort(found.effects.begin(), found.effects.end(),
                    [](const auto& a, const auto& b) { return a.total > b.total; });
@@ -101,7 +90,6 @@ StudyFit fit_study(const std::string& study, const std::string& measurements, do
   if (deviation > 0) arguments.insert(arguments.end(), {"--deviation", shortest(deviation)});
   const AnswerJson json = answer_of("fit", arguments, look);
   StudyFit found;
-  found.measurements = measurements;
   for (const AnswerJson& one : json.at("parameters"))
     found.values.push_back(
         {one.at("name"), one.at("most_likely"), one.at("interval_90").at(0), one.at("interval_90").at(1)});

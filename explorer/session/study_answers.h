@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,19 @@ namespace cleft {
 
 /// Of a figure: how much of its variance each parameter makes (Sobol's indices).
 struct StudyAnalysis {
+  /// Of a parameter, the one with which it makes most of the variance beyond what each makes alone.
+  struct Partner {
+    std::string name;
+    double share = 0, error = 0;                        ///< and half of its 95 % interval
+    double low = 0, high = 0;                           ///< values of the partner
+    std::vector<double> at, mean_at_low, mean_at_high;  ///< of the figure at values of the parameter
+  };
   struct Effect {
     std::string name;
     double first = 0, first_error = 0;  ///< share that it makes alone, and half of its 95 % interval
     double total = 0, total_error = 0;  ///< with all others
     std::vector<double> at, mean;       ///< of the figure at values of the parameter, over all others
+    std::optional<Partner> partner;     ///< none: no share is larger than its error, and than a hundredth
   };
   std::string figure, unit;
   double mean = 0, deviation = 0;
@@ -29,7 +38,6 @@ struct StudyFit {
     std::string name;
     double most_likely = 0, low = 0, high = 0;  ///< and 90 % of what is possible
   };
-  std::string measurements;  ///< their file
   std::vector<Value> values;
   double misfit = 0;              ///< of the residuals, over their expected size
   double misfit_probability = 0;  ///< that they are as large by chance

@@ -1,11 +1,10 @@
-#include "explorer/analysis/sensitivity.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "base/error.h"
+#include "explorer/analysis/interactions.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
@@ -42,6 +41,53 @@ TEST(Sensitivities, OfIshigamisFunctionAreThoseOfItsClosedForm) {
   const ParameterEffect& effect = found.parameters[0];
   for (std::size_t p = 0; p < effect.at.size(); ++p)
     EXPECT_NEAR(effect.mean[p] - effect.mean[effect.at.size() / 2], 2.948 * std::sin(effect.at[p]), 0.35);
+}
+
+TEST(Interactions, OfIshigamisFunctionAreThoseOfItsClosedForm) {
+  const auto distributions = of_ishigami();
+  const Sensitivities found = sensitivities_of(distributions, ishigami, {}, 1024);
+  const std::vector<Interaction> pairs = interactions_of(distributions, ishigami, {}, found);
+  ASSERT_EQ(pairs.size(), 3u);
+  EXPECT_EQ(pairs[0].one, 0u);
+  EXPECT_EQ(pairs[0].other, 2u);
+  EXPECT_NEAR(pairs[0].share.value, 0.2437, 0.01);  // the whole of what x3 does
+  for (const std::size_t other : {1u, 2u}) EXPECT_NEAR(pairs[other].share.value, 0, 1e-6) << other;
+  // Of x1 and x3, over x2: 3.5 + sin x1 + b x3^4 sin x1.
+  const Interaction& pair = pairs[0];
+  for (Eigen::Index p = 0; p < pair.mean.rows(); ++p)
+    for (Eigen::Index q = 0; q < pair.mean.cols(); ++q) {
+      const double x1 = pair.at[static_cast<std::size_t>(p)], x3 = pair.other_at[static_cast<std::size_t>(q)];
+      EXPECT_NEAR(pair.mean(p, q), 3.5 + (1 + 0.1 * std::pow(x3, 4)) * std::sin(x1), 0.15) << x1 << " " << x3;
+    }
+}
+
+TEST(Interactions, IntervalsHoldWhatDrawsAndDataLeaveOpen) {
+  // x1 x2 (1 + c x3): of every value of x3, x1 and x2 make something else together.
+  const auto distributions = of_ishigami();
+  const auto figure = [](double c) {
+    return [c](const Eigen::MatrixXd& x) {
+      return Eigen::VectorXd((x.row(0).array() * x.row(1).array() * (1 + c * x.row(2).array())).transpose());
+    };
+  };
+  const auto share = [&](double c, const AlternativeFigures& alternatives) {
+    const Sensitivities found = sensitivities_of(distributions, figure(c), {}, 1024);
+    return interactions_of(distributions, figure(c), alternatives, found)[0].share;
+  };
+  // Variances: of x1 x2 s^4, of x1 x2 x3 c^2 s^6, with s^2 = pi^2 / 3.
+  const double s2 = pi * pi / 3, exact = 1 / (1 + 0.04 * s2);
+  const Estimate of_draws = share(0.2, {});
+  EXPECT_NEAR(of_draws.value, exact, of_draws.error);
+  EXPECT_LT(of_draws.error, 0.1);
+  EXPECT_NEAR(share(0, {}).value, 1, 0.01);
+  EXPECT_LT(share(0, {}).error, 1e-6);
+  const auto others = [&](const Eigen::MatrixXd& x) {
+    const Eigen::RowVectorXd own = figure(0)(x).transpose();
+    Eigen::MatrixXd rows(3, x.cols());
+    rows << 0.98 * own, own, 1.02 * own;
+    return rows;
+  };
+  // Shares of .9604, 1 and 1.0404: 1.96 times the jackknife's deviation of three.
+  EXPECT_NEAR(share(0, others).error, 1.96 * std::sqrt(2. / 3 * 2 * 0.04 * 0.04), 0.002);
 }
 
 TEST(Sensitivities, WhatTheDataLeaveOpenWidensTheIntervals) {

@@ -316,6 +316,22 @@ TEST_F(WindowLayout, TheStudyAnswersWhatAFigureDependsOnAndWhatFits) {
   EXPECT_EQ(plot.analysis()->effects[0].name, "skin.prestress_v") << "2 to 5 mm";
   QTest::mouseClick(&plot, Qt::LeftButton, {}, plot.dot_of(0, 2).toPoint());
   EXPECT_EQ(now().shown, 2);
+  // Around the dots of the third case and no other, then with Shift around the first's.
+  const auto drag_around = [&](int i, Qt::KeyboardModifiers keys) {
+    const QPoint dot = plot.dot_of(0, i).toPoint();
+    constexpr int reach = 7;
+    QTest::mousePress(&plot, Qt::LeftButton, keys, dot + QPoint(-reach, -reach));
+    for (const QPoint& corner : {QPoint(reach, -reach), QPoint(reach, reach), QPoint(-reach, reach)}) {
+      QMouseEvent move(QEvent::MouseMove, dot + corner, Qt::NoButton, Qt::LeftButton, keys);
+      QApplication::sendEvent(&plot, &move);
+    }
+    QTest::mouseRelease(&plot, Qt::LeftButton, keys, dot + QPoint(-reach, reach));
+  };
+  drag_around(2, {});
+  EXPECT_EQ(now().selected, std::vector<int>{2});
+  drag_around(0, Qt::ShiftModifier);
+  EXPECT_EQ(now().selected, (std::vector<int>{0, 2}));
+  EXPECT_EQ(now().shown, 2) << "a drag shows no case";
   write_text_file(folder_ / "measured.csv", "u,gape,deviation\n0,3.5,0.1\n");
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(QString::fromStdString(folder_ / "measured.csv"))});
