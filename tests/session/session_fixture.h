@@ -67,6 +67,12 @@ inline void write_study_of_prestresses(const std::string& study) {
 
 class SessionTest : public testing::Test {
  protected:
+  /// The largest way of any point.
+  static double widest(const std::vector<Vec3>& points, const std::vector<Vec3>& rest) {
+    double largest = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) largest = std::max(largest, norm(points[i] - rest[i]));
+    return largest;
+  }
   static const std::string& study() { return shared_study(); }
   void say(const std::string& line) { session_.say(line); }
   void open() { say("open " + study()); }

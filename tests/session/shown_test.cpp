@@ -11,11 +11,6 @@ namespace {
 /// Fields whose residual makes the nodes far better than the spline; parameters as Sobol sampling draws them.
 class Shown : public SessionTest {
  protected:
-  static double widest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    double most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, norm(a[i] - b[i]));
-    return most;
-  }
   Shown() {
     for (const double modulus : {0.0123456789012, 0.0345678901234}) {
       const std::string name = "case" + shortest(modulus), place = folder_ / ("study/cases/" + name);
