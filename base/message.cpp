@@ -66,4 +66,12 @@ bool is_users_mistake(const std::exception& error) {
   return e && e->code() != std::errc::no_space_on_device && e->code() != std::errc::io_error;
 }
 
+std::string last_error(std::string written, const std::string& nothing) {
+  while (!written.empty() && written.back() == '\n') written.pop_back();
+  for (const char* mark : {"error: ", "failed: "})
+    if (const auto at = written.rfind(mark); at != std::string::npos)
+      return written.substr(at + std::string(mark).size());
+  return written.empty() ? nothing : written;
+}
+
 }  // namespace cleft

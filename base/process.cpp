@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -102,6 +103,11 @@ int awaited(pid_t child, const StopCount* stop, rusage& usage) {
 
 std::string executable_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
+}
+
+std::string command_path(const std::string& name) {
+  const char* folder = std::getenv("CLEFT_BIN");
+  return (folder ? std::string(folder) : executable_folder()) + "/cleft-" + name;
 }
 
 ProcessResult run_process(const std::vector<std::string>& argv, const std::string& log,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <limits>
 
 namespace cleft {
@@ -26,6 +27,9 @@ class Stopwatch {
   }
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
+
+/// Seconds of processor time of this process so far.
+inline double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// The shortest time of `repeats` runs of `work`, s, which excludes other load of the machine.
 template <class Work>

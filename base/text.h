@@ -1,6 +1,8 @@
 // Small helpers for messages and text files.
 #pragma once
 
+#include <cstdio>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +18,21 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 /// " (did you mean 'x'?)", or "" if no name is close.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
+/// As printf writes it, of any length.
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  std::string text(static_cast<std::size_t>(std::snprintf(nullptr, 0, format, values...)), '\0');
+  std::snprintf(text.data(), text.size() + 1, format, values...);
+  return text;
+}
+
 /// Reads a whole number or a decimal; throws InputError "<where>: '<text>' is not a number".
 double parse_number(std::string_view text, const std::string& where);
+
+/// Of assignments NAME=NUMBER of an option, such as --set; throws InputError for one that is none, or a name
+/// that is given twice.
+std::map<std::string, double> numbers_by_name(const std::vector<std::string>& assignments,
+                                              const std::string& option);
 
 /// Name and version of this program, as written into files.
 std::string producer();

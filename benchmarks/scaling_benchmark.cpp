@@ -26,8 +26,6 @@ struct Traffic {
 };
 Traffic traffic;
 
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 double bytes_of(int count, MPI_Datatype type) {
   int size = 0;
   PMPI_Type_size(type, &size);
@@ -37,9 +35,9 @@ double bytes_of(int count, MPI_Datatype type) {
 /// Runs a call of the library, and counts the time in it.
 template <class Call>
 int timed(const Call& call) {
-  const double before = processor_seconds();
+  const double before = cleft::processor_seconds();
   const int result = call();
-  if (traffic.counting) traffic.processor_seconds += processor_seconds() - before;
+  if (traffic.counting) traffic.processor_seconds += cleft::processor_seconds() - before;
   return result;
 }
 

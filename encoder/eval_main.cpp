@@ -158,10 +158,7 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
   std::string text = "du,dv,dw" + quantity_names(field) + "\n";
   for (std::size_t n = 0; n < values.size(); ++n) {
     Vec3 d = residual ? values[n] + residual->at(n, j) : values[n];
-    if (!axes.empty()) {
-      const double* a = &axes[9 * n];
-      d = d.x * Vec3{a[0], a[1], a[2]} + d.y * Vec3{a[3], a[4], a[5]} + d.z * Vec3{a[6], a[7], a[8]};
-    }
+    if (!axes.empty()) d = in_space(d, &axes[9 * n]);
     text += row_of(d);
     for (std::size_t q = 0; q < of_quantities.size(); ++q) {
       std::vector<double> numbers(static_cast<std::size_t>(field.quantities[q].components));

@@ -60,6 +60,8 @@ class RegionFileReader {
   }
 
   void read_section(const std::string& name, const toml::table& table) {
+    if (name.empty() || name.find('\n') != std::string::npos)
+      return mistakes_.add(place_of(path_, table) + ": a material's name must be one line of text");
     RegionSection section{{name}, {}, {}, place_of(path_, table)};
     const std::vector<std::string> known = {"region", "to_depth", "young_modulus", "poisson_ratio"};
     for (const auto& [key, node] : table) {
@@ -120,14 +122,8 @@ class RegionFileReader {
 }  // namespace
 
 RegionFile read_region_file(const std::string& path) {
-  const std::string text = read_text_file(path);
-  try {
-    const toml::table file = toml::parse(text, path);
-    return RegionFileReader(path, file).read();
-  } catch (const toml::parse_error& e) {
-    throw InputError(path + ", line " + std::to_string(e.source().begin.line) + ": " +
-                     std::string(e.description()));
-  }
+  const toml::table file = parse_toml(read_text_file(path), path);
+  return RegionFileReader(path, file).read();
 }
 
 }  // namespace cleft

@@ -253,15 +253,10 @@ void check_sbatch_option(const std::string& option, const std::string& where) {
 
 Study read_study(const std::string& path) {
   const std::string text = read_text_file(path);
-  try {
-    const toml::table file = toml::parse(text, path);
-    Study study = StudyReader(path, file).read();
-    study.text = text;
-    return study;
-  } catch (const toml::parse_error& e) {
-    throw InputError(path + ", line " + std::to_string(e.source().begin.line) + ": " +
-                     std::string(e.description()));
-  }
+  const toml::table file = parse_toml(text, path);
+  Study study = StudyReader(path, file).read();
+  study.text = text;
+  return study;
 }
 
 Case read_case(const std::string& path, const std::vector<std::string>& assignments) {

@@ -4,6 +4,15 @@
 
 namespace cleft {
 
+toml::table parse_toml(const std::string& text, const std::string& path) {
+  try {
+    return toml::parse(text, path);
+  } catch (const toml::parse_error& e) {
+    throw InputError(path + ", line " + std::to_string(e.source().begin.line) + ": " +
+                     std::string(e.description()));
+  }
+}
+
 std::string place_of(const std::string& path, const toml::node& node) {
   return path + ", line " + std::to_string(node.source().begin.line);
 }

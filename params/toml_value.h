@@ -9,6 +9,9 @@
 
 namespace cleft {
 
+/// Throws InputError "<path>, line <n>: what is wrong".
+toml::table parse_toml(const std::string& text, const std::string& path);
+
 /// "<path>, line <n>"
 std::string place_of(const std::string& path, const toml::node& node);
 

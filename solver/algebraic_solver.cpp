@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "solver/block_rows.h"
 #include "solver/cut_nodes.h"
+#include "solver/iterative_solver.h"
 #include "solver/spectrum.h"
 
 namespace cleft {
@@ -113,8 +114,7 @@ struct AlgebraicSolver::Parts {
   std::vector<int> groups(int open) const {
     std::vector<int> first(cut.nodes.size());
     std::iota(first.begin(), first.end(), 0);
-    std::vector<bool> closed(mesh.pairs.size(), false);
-    for (std::size_t i = open; i < release.order.size(); ++i) closed[release.order[i]] = true;
+    const std::vector<bool> closed = release.closed(open);
     for (std::size_t p = 0; p < mesh.pairs.size(); ++p)  // a right node is the left one of later pairs only
       if (closed[p]) first[cut.pairs[p][1]] = first[cut.pairs[p][0]];
     return first;
@@ -184,14 +184,14 @@ struct AlgebraicSolver::Parts {
     project(first, x);
     Eigen::VectorXd r = load;
     project(first, r);
-    const double enough = column.residual * std::sqrt(dot(system, r, r));
+    const double enough = column.residual * checked_norm(std::sqrt(dot(system, r, r)));
     Eigen::VectorXd product = system.multiply(x);
     project(first, product);
     r -= product;
     Eigen::VectorXd direction;
     double rz = 0;
     int n = 0;
-    for (; std::sqrt(dot(system, r, r)) > enough; ++n) {
+    for (; !(std::sqrt(dot(system, r, r)) <= enough); ++n) {
       if (n == most_iterations)
         throw SolveError("no solution after " + std::to_string(n) +
                          " iterations: the stiffness is badly conditioned");
@@ -234,16 +234,13 @@ void AlgebraicSolver::set_loads(Block loads, Together) {
 }
 
 Block AlgebraicSolver::solve(const std::vector<Column>& columns) {
+  refuse_contact(columns);
   Block solution(parts_->loads.rows(), static_cast<Eigen::Index>(columns.size()));
   std::vector<std::size_t> order(columns.size());  // frame by frame: its loads share a hierarchy
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return columns[a].open < columns[b].open; });
   for (const std::size_t c : order) {
-    if (columns[c].contact)
-      throw SolveError(
-          "cut.contact = true: contact is found with the factor, not by iterations; set it to false, use "
-          "--method direct, or raise mesh.element_size or mesh.grading until the factor fits into memory");
     Eigen::VectorXd x = parts_->last[columns[c].load];
     parts_->solve(parts_->loads.col(columns[c].load), columns[c], x);
     parts_->last[columns[c].load] = x;

@@ -1,4 +1,4 @@
-// Frames by conjugate gradients, for patches whose factor does not fit into memory.
+// Frames by conjugate gradients, for bodies, which have no grid.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@ namespace cleft {
 
 /// Conjugate gradients on the displacements that keep closed pairs together, preconditioned by smoothed
 /// aggregation (Trilinos ML) with the six rigid-body modes. The projection P replaces tied copies by their
-/// mean; P K P is solved with the preconditioner P M P, where M is a multigrid hierarchy for the patch as far
+/// mean; P K P is solved with the preconditioner P M P, where M is a multigrid hierarchy for the body as far
 /// open as the frame or a few pairs further. A column starts from the previous one of its load.
 class AlgebraicSolver : public FrameSolver {
  public:

@@ -27,15 +27,15 @@ CaseOutput::CaseOutput(SharedStiffness& shared, const Release& release, std::siz
   const PatchMesh& mesh = shared_.mesh();
   const bool coordinates = body || !mesh.canonical.empty(), compliance = has_compliance(mesh);
   std::vector<SnapshotArray> arrays;
-  if (coordinates) arrays = {{"canonical", 3, false}, {"frame", 9, false}};
+  if (coordinates) arrays = {canonical_array, frame_array};
   if (compliance) arrays.insert(arrays.end(), {{"compliance", 1, false}, {"dent", 3, false}});
   for (const std::string& name : derivatives) arrays.push_back({array_of(name), 3, true});
   writing_ = std::make_unique<SnapshotOutput>(shared_.job().cases[number_].out,
                                               describe(parameters(), shared_.mesh(), release, body), arrays,
                                               shared_.system().communicator());
   if (coordinates) {
-    writing_->write_vectors("canonical", 0, body ? body->canonical : mesh.canonical);
-    writing_->write_frames("frame", body ? body->frames : mesh.frames);
+    writing_->write_vectors(canonical_array.name, 0, body ? body->canonical : mesh.canonical);
+    writing_->write_frames(frame_array.name, body ? body->frames : mesh.frames);
   }
   if (compliance) {
     writing_->write_scalars("compliance", shared_.compliance().at_node);

@@ -99,8 +99,7 @@ FinitePatch::~FinitePatch() = default;
 
 void FinitePatch::set_open(const Release& release, int open) {
   Parts& p = *parts_;
-  std::vector<bool> closed(release.order.size(), true);
-  for (int i = 0; i < open; ++i) closed[release.order[i]] = false;
+  const std::vector<bool> closed = release.closed(open);
   const int first = p.system.first(), end = first + p.system.owned();
   for (std::size_t j = 0; j < p.joints.size(); ++j) {
     const Joint& joint = p.joints[j];

@@ -13,8 +13,7 @@ FrameResidual::FrameResidual(const PatchMesh& mesh, const PatchSystem& system)
 FrameFigures FrameResidual::at_cut(const Release& release, const FrameSolver::Column& column,
                                    const Eigen::VectorXd& displacement, Eigen::VectorXd force) const {
   FrameFigures f;
-  std::vector<bool> closed(mesh_.pairs.size(), true);
-  for (int i = 0; i < column.open; ++i) closed[release.order[i]] = false;
+  const std::vector<bool> closed = release.closed(column.open);
   bool any_open = false;
   for (std::size_t p = mesh_.pairs.size(); p-- > 0;) {  // a right node is the left one of later pairs only
     const int left = 3 * cut_.pairs[p][0], right = 3 * cut_.pairs[p][1];

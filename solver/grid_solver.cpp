@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "solver/iterative_solver.h"
 #include "solver/multigrid/multigrid.h"
 #include "solver/spectrum.h"
 
@@ -27,16 +28,10 @@ void told_as_indefinite(const PatchSystem& system, const std::function<void()>& 
   }
 }
 
-/// Squares of loads beyond this, or of those below its inverse, leave the range of numbers.
-constexpr double largest_norm = 1e150;
-
 /// The power of two next below a load's norm. Divided by it, a load of any size keeps its digits in single
 /// precision, and all its bits.
 double unit_of(double norm) {
-  if (!(norm < largest_norm))
-    throw SolveError(
-        "a load has values that are not numbers, or too large ones: see skin.prestress and the moduli");
-  return norm > 1 / largest_norm ? std::ldexp(1, std::ilogb(norm)) : 1;
+  return checked_norm(norm) > 1 / largest_norm ? std::ldexp(1, std::ilogb(norm)) : 1;
 }
 
 /// Lines of the grid: along each axis, where they are by the mean length of the elements between them.
@@ -140,9 +135,8 @@ struct GridSolver::Parts {
         system(s),
         grid(grid_of(m)),
         finest(m, s, grid),
-        multigrid(
-            grid, std::move(finest.level), s.communicator(), [&s](int node) { return owner_of(s, node); },
-            Multigrid::Settings()) {}
+        multigrid(grid, std::move(finest.level), s.communicator(),
+                  [&s](int node) { return owner_of(s, node); }) {}
 
   const PatchMesh& mesh;
   const PatchSystem& system;
@@ -331,14 +325,9 @@ void GridSolver::set_loads(Block loads, Together) {
 /// Columns of a load go in the order of their open pairs, as many at a time as there are lanes, whatever the
 /// other loads: a solution does not depend on what is solved with it.
 Block GridSolver::solve(const std::vector<Column>& columns) {
+  refuse_contact(columns);
   std::vector<std::vector<std::size_t>> of_load(parts_->loads.cols());
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (columns[c].contact)
-      throw SolveError(
-          "cut.contact = true: contact is found with the factor, not by iterations; set it to false, use "
-          "--method direct, or raise mesh.element_size or mesh.grading until the factor fits into memory");
-    of_load[columns[c].load].push_back(c);
-  }
+  for (std::size_t c = 0; c < columns.size(); ++c) of_load[columns[c].load].push_back(c);
   std::size_t rounds = 0;
   for (auto& list : of_load) {
     std::stable_sort(list.begin(), list.end(),

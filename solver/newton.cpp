@@ -25,8 +25,7 @@ constexpr double loosest = 0.1;               // residual of a step's linear sys
 void close_what_is_closed(const PatchMesh& mesh, const PatchSystem& system, const Release& release, int frame,
                           Block& displacement) {
   const CutNodes cut(mesh, system);
-  std::vector<bool> closed(cut.pairs.size(), true);
-  for (int i = 0; i < release.released[frame]; ++i) closed[release.order[i]] = false;
+  const std::vector<bool> closed = release.closed(release.released[frame]);
   Eigen::MatrixXd at_cut = all_gather_rows(system, displacement, cut.unknowns);
   for (std::size_t p = 0; p < cut.pairs.size(); ++p)  // a right node is the left one of later pairs only
     if (closed[p])

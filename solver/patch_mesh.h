@@ -93,6 +93,13 @@ struct Release {
       position;  ///< by frame: place of the tip along the incision being made, mm; u for a straight cut
   std::vector<double> times;                ///< by frame: length cut so far, mm
   double start = 0, length = 0, depth = 0;  ///< of the first cut in the mesh, mm
+
+  /// By pair, where the first `open` of them are open.
+  std::vector<bool> closed(int open) const {
+    std::vector<bool> pairs(order.size(), true);
+    for (int i = 0; i < open; ++i) pairs[order[i]] = false;
+    return pairs;
+  }
 };
 
 /// Frame 0 is closed; then a frame for each released column, or pair (cut.frames). Columns open one after the

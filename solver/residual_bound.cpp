@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "params/parameters/table.h"
 
 namespace cleft {
 
@@ -79,12 +78,7 @@ void check_mesh(const PatchMesh& mesh, const Release& release, const Snapshot& s
 Parameters parameters_to_bound(const Snapshot& s, const std::string& where) {
   if (s.source) throw InputError(where + ": is imported; what its displacements solve is not known");
   if (!s.body.empty()) throw InputError(where + ": is of a body; the bound is for patches so far");
-  Parameters parameters;
-  for (const Parameter& row : parameter_table()) {
-    const std::optional<Value> value = s.parameters.find(row.name);
-    if (!value) throw InputError(where + ": does not record " + row.name + "; solve the case again");
-    set_parameter(parameters, row.name, *value, where);
-  }
+  const Parameters parameters = s.parameters.whole(where, "does not record", "; solve the case again");
   check_linear(parameters, where);
   return parameters;
 }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/wedge.h"
 #include "params/parameters/table.h"
 #include "solver/patch_shape.h"
 
@@ -112,13 +113,8 @@ class Shaper {
   void check_wedges() const {
     for (const auto& wedge : mesh_.wedges) {
       double least = std::numeric_limits<double>::infinity(), sum = 0;
-      for (int c = 0; c < 6; ++c) {
-        const int layer = 3 * (c / 3);
-        const auto p = [&](int i) { return mesh_.points[wedge[i]]; };
-        const double volume =
-            dot(cross(p(layer + (c + 1) % 3) - p(c), p(layer + (c + 2) % 3) - p(c)), p(3 + c % 3) - p(c % 3));
-        least = std::min(least, volume), sum += std::abs(volume) / 6;
-      }
+      for (const double j : corner_determinants([&](int i) { return mesh_.points[wedge[i]]; }))
+        least = std::min(least, j), sum += std::abs(j) / 6;
       if (!(least >= least_determinant * sum))
         throw InputError(shape_of(p_) + ": the elements at u, v, w = " + at(box_[wedge[0]]) +
                          " mm would be flat or turned over; make the curvatures or the slope smaller, or the "

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include "base/error.h"
-#include "base/output_folder.h"
+#include "base/output_file.h"
+#include "base/scratch_folder.h"
 #include "base/text.h"
 #include "encoder/samples.h"
 #include "explorer/study/between_cases.h"
@@ -21,15 +21,8 @@ namespace cleft {
 namespace {
 
 Parameters whole_parameters(const RecordedParameters& recorded, const std::string& where) {
-  Parameters parameters;
-  for (const Parameter& row : parameter_table()) {
-    const std::optional<Value> value = recorded.find(row.name);
-    if (!value)
-      throw InputError(where + ": its cases do not record " + row.name +
-                       ", so that their equations are not known; run the study again");
-    set_parameter(parameters, row.name, *value, where);
-  }
-  return parameters;
+  return recorded.whole(where, "its cases do not record",
+                        ", so that their equations are not known; run the study again");
 }
 
 /// What is written at the nodes has to be what the solver would find there.
@@ -96,11 +89,8 @@ void write_shown(const ShownCase& shown, const std::string& mesh, const std::str
   for (std::size_t frame = 0; frame < s.frames(); ++frame) {
     for (Place& place : places) place.t = s.times[frame];
     shown.field->displacements(places, values);
-    for (std::size_t n = 0; n < values.size() && !axes.empty(); ++n) {
-      const double* a = &axes[9 * n];
-      const Vec3 d = values[n];
-      values[n] = d.x * Vec3{a[0], a[1], a[2]} + d.y * Vec3{a[3], a[4], a[5]} + d.z * Vec3{a[6], a[7], a[8]};
-    }
+    for (std::size_t n = 0; n < values.size() && !axes.empty(); ++n)
+      values[n] = in_space(values[n], &axes[9 * n]);
     writer.write_frames(frame, values);
   }
   writer.finish(s);
@@ -122,19 +112,18 @@ Certificate certificate_of(const nlohmann::json& found, const Reference& referen
 /// Of cases of one mesh, by one factor.
 std::vector<Certificate> of_one_mesh(const std::vector<const ShownCase*>& shown, const PublishedStudy& study,
                                      bool solve, const std::function<void(const std::string&)>& progress) {
-  const OutputFolder work(std::filesystem::temp_directory_path().string(), "cleft-certify");
-  const auto file = [&](const std::string& name) { return work.path() + "/" + name; };
+  const ScratchFolder work("certify");
   const Reference reference = reference_for(shown, study);
-  write_text_file(file("reference.toml"), case_file_text({reference.parameters, {}}));
+  write_text_file(work / "reference.toml", case_file_text({reference.parameters, {}}));
   progress("making the mesh");
-  run_tool("solve", {file("reference.toml"), "--unsolved", "--out", file("mesh.h5")}, work.path());
+  run_tool("solve", {work / "reference.toml", "--unsolved", "--out", work / "mesh.h5"}, work.path());
   std::vector<std::string> arguments;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     progress("evaluating field " + std::to_string(i + 1) + " of " + std::to_string(shown.size()));
-    arguments.push_back(file("shown" + std::to_string(i) + ".h5"));
-    write_shown(*shown[i], file("mesh.h5"), arguments.back());
+    arguments.push_back(work / ("shown" + std::to_string(i) + ".h5"));
+    write_shown(*shown[i], work / "mesh.h5", arguments.back());
   }
-  arguments.insert(arguments.end(), {"--reference", file("reference.toml")});
+  arguments.insert(arguments.end(), {"--reference", work / "reference.toml"});
   if (solve) arguments.emplace_back("--solve");
   progress("bounding the residuals");
   std::vector<Certificate> list;

@@ -22,14 +22,7 @@ struct Options {
 
 std::vector<ParametersByName> points_of(const Options& o) {
   std::vector<ParametersByName> points;
-  if (!o.assignments.empty()) points.emplace_back();
-  for (const std::string& assignment : o.assignments) {
-    const auto equals = assignment.find('=');
-    if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected NAME=VALUE");
-    const std::string name = assignment.substr(0, equals);
-    if (!points.front().emplace(name, parse_number(assignment.substr(equals + 1), "--set " + name)).second)
-      throw InputError("--set " + name + ": given twice");
-  }
+  if (!o.assignments.empty()) points.push_back(numbers_by_name(o.assignments, "--set"));
   if (!o.points.empty()) {
     const NumberTable table = read_csv(o.points);
     for (const std::vector<double>& row : table.rows) {
@@ -90,11 +83,9 @@ void warn(const Certificate& one) {
 int main(int argc, char** argv) {
   CommandLine app(
       "Bounds the error of a field between the cases of a study, without solving its case: in the norm of "
-      "the "
-      "energy (the root of twice the elastic energy of the difference), of what is shown at the nodes of its "
-      "mesh. Rigorous for small strains without contact. All points of one mesh share one factorisation, "
-      "which "
-      "takes about as long as one simulation.",
+      "the energy (the root of twice the elastic energy of the difference), of what is shown at the nodes of "
+      "its mesh. Rigorous for small strains without contact. All points of one mesh share one factorisation, "
+      "which takes about as long as one simulation.",
       "cleft certify");
   Options o;
   app.add_option("STUDY", o.study, "study folder, or its study.dffd")->required();

@@ -30,7 +30,8 @@ herr_t read_object(hid_t root, const char* name, const H5O_info_t* info, void* p
   const Handle object(H5Oopen(root, name, H5P_DEFAULT), H5Oclose);
   if (object < 0) return -1;
   const auto found = [&](const std::string& what) {
-    *static_cast<std::string*>(problem) = std::string("/") + name + " " + what;
+    const std::string path = name;  // of the root "."
+    *static_cast<std::string*>(problem) = (path == "." ? std::string("/") : "/" + path) + " " + what;
     return -1;
   };
   constexpr unsigned first_with_checksum = 2;

@@ -17,18 +17,6 @@ namespace {
 
 constexpr double share_of_steps = 0.1;  // of the estimated error: what a small file may add
 
-CaseParameters values_of(const std::vector<std::string>& assignments) {
-  CaseParameters values;
-  for (const std::string& assignment : assignments) {
-    const auto equals = assignment.find('=');
-    if (equals == std::string::npos) throw InputError("--set " + assignment + ": expected NAME=VALUE");
-    const std::string name = assignment.substr(0, equals);
-    if (!values.emplace(name, parse_number(assignment.substr(equals + 1), "--set " + name)).second)
-      throw InputError("--set " + name + ": given twice");
-  }
-  return values;
-}
-
 Json figures_of(const Field& field, const StudyInterpolator& study, const std::string& out) {
   const Interpolation& made = *field.interpolation;
   Json features = Json::array();
@@ -67,7 +55,7 @@ int main(int argc, char** argv) {
   return run_command(app, argc, argv, [&] {
     refuse_to_overwrite(out, {study});
     const OutputFile probe(out);  // reports a bad name before the work
-    const CaseParameters values = values_of(assignments);
+    const CaseParameters values = numbers_by_name(assignments, "--set");
     Progress progress("interpolating");
     progress("reading the study");
     if (std::vector<std::string> damaged; std::filesystem::is_directory(study)) {

@@ -33,10 +33,7 @@ bool CaseModel::known(int row, int column) const {
 QVariant CaseModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::TextAlignmentRole) return int(Qt::AlignRight | Qt::AlignVCenter);
   if (role == Qt::ForegroundRole && !(session_.state().brushes.empty() && session_.state().where.empty())) {
-    for (const auto& brush : session_.state().brushes) {
-      const auto column = std::find(columns_.begin(), columns_.end(), brush.first) - columns_.begin();
-      if (!known(index.row(), static_cast<int>(column) + 1)) return {};
-    }
+    if (!session_.knows_brushed(index.row())) return {};
     return session_.brushed(index.row()) ? QVariant() : QVariant(QColor(150, 150, 150));
   }
   if (role != Qt::DisplayRole && role != Qt::UserRole) return {};
@@ -198,7 +195,10 @@ void CaseTable::count_found() {
   filter_->setChecked(s.filtered);
   if (!any) return count_->clear();
   int left = 0;
-  for (int i = 0; i < session_.study()->size(); ++i) left += session_.brushed(i);
+  for (int i = 0; i < session_.study()->size(); ++i) {
+    if (!session_.knows_brushed(i)) return count_->setText("...");  // until its figures have been read
+    left += session_.brushed(i);
+  }
   count_->setText(QString("%1 of %2 cases").arg(left).arg(session_.study()->size()));
   count_->setToolTip(QString("%1 of %2 cases are left; a click on one shows it where the condition holds")
                          .arg(left)
@@ -210,6 +210,7 @@ void CaseTable::find_next_figures() {
   while (next_ < cases && session_.knows_figures(next_)) ++next_;
   if (next_ >= cases) {
     idle_.stop();
+    count_found();
     figures_known_();
     return;
   }

@@ -8,7 +8,6 @@
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <cmath>
 
 namespace cleft {
 
@@ -148,13 +147,11 @@ QString CaseWall::text(int i) const {
                 : QString());
 }
 
-/// As the table does, nothing is read for it.
+/// As in the table, nothing is read for brushes.
 bool CaseWall::is_faded(int i) const {
   const SessionState& s = session_.state();
   if (s.brushes.empty() && s.where.empty()) return false;
-  for (const auto& brush : s.brushes)
-    if (!session_.knows_figures(i) && !session_.study()->parameters(i).number(brush.first)) return false;
-  return !session_.brushed(i);
+  return session_.knows_brushed(i) && !session_.brushed(i);
 }
 
 void CaseWall::showEvent(QShowEvent* event) {

@@ -8,7 +8,6 @@
 #include <QSettings>
 #include <QStatusBar>
 #include <QVBoxLayout>
-#include <fstream>
 
 #include "base/error.h"
 #include "base/message.h"
@@ -29,14 +28,14 @@ namespace cleft {
 namespace {
 constexpr const char *geometry_key = "geometry", *layout_key = "layout";  // of the settings
 
-/// Whether the first line of a table names openings or motions; that of a blade's path names normals.
+/// Whether a table has openings or motions; that of a blade's path has normals.
 bool holds_measurements(const std::string& path) {
-  std::ifstream file(path);
-  std::string header;
-  while (std::getline(file, header) && (header.empty() || header[0] == '#')) {
+  try {
+    const NumberTable table = read_csv(path);
+    for (const char* name : {"gape", "displacement", "du", "dv", "dw"})
+      if (table.column(name) >= 0) return true;
+  } catch (const InputError&) {  // the command that reads it tells what is wrong
   }
-  for (const char* name : {"gape", "displacement", "du", "dv", "dw"})
-    if (("," + header + ",").find(std::string(",") + name + ",") != std::string::npos) return true;
   return false;
 }
 

@@ -322,10 +322,12 @@ void Plots::follow(const Changes& changes) {
   if (!isVisible()) return;
   if (changes.closer && session_.state().probe) pages_->setCurrentIndex(1);
   if (changes.answers && session_.study() && !changes.study) pages_->setCurrentWidget(analysis_);
-  if (changes.closer || changes.answers || changes.brushes) draw();
-  if (changes.study || changes.layout || changes.look)
+  if (changes.study || changes.layout || changes.look || changes.closer || changes.answers)
     draw();
-  else if (changes.shown || (changes.time && !soon_.isActive()))
+  else if ((changes.brushes || changes.lists) && pages_->currentWidget() == analysis_)
+    analysis_->show_answers();
+  const bool drawn = changes.study || changes.layout || changes.look;
+  if (!drawn && (changes.shown || (changes.time && !soon_.isActive())))
     soon_.start(milliseconds_a_plot);  // once a slider rests
 }
 

@@ -57,9 +57,7 @@ void SceneWidget::turn(vtkObject*, unsigned long what, void*) {
     hurry(last);
   } else {
     const CameraState::Pose now = stage_->camera();
-    const bool moved = !begun_at_ || now.position != begun_at_->position ||
-                       now.focal_point != begun_at_->focal_point || now.up != begun_at_->up ||
-                       now.view_angle != begun_at_->view_angle;
+    const bool moved = begun_at_ != now;
     begun_at_.reset();
     if (moved) say_camera();  // a click alone moves nothing
     if (what == vtkCommand::EndInteractionEvent) rest();
@@ -242,7 +240,7 @@ void SceneWidget::release() {
     live_.reset();
     const double pixels =
         std::hypot(dragged_to_.first - pressed_at_.first, dragged_to_.second - pressed_at_.second);
-    if (too_short && pixels > coarsest) too_short(stage_->mm_a_pixel(view_) * pixels);
+    if (too_short && !painting_ && pixels > coarsest) too_short(stage_->mm_a_pixel(view_) * pixels);
     return;
   }
   if (painting_) {

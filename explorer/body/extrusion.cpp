@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text.h"
+#include "explorer/body/skin_coordinates.h"
 #include "params/meshed_cut.h"
 
 namespace cleft {
@@ -77,11 +77,6 @@ class Extruder {
   }
 
  private:
-  static std::string place(const Vec3& p) {
-    const auto rounded = [](double x) { return shortest(std::round(1e3 * x) / 1e3); };
-    return "(" + rounded(p.x) + ", " + rounded(p.y) + ", " + rounded(p.z) + ")";
-  }
-
   /// Where columns that no blade turns go: means over the neighbourhood, as far as the tissue is thick.
   std::vector<Vec3> upright(const std::vector<Vec3>& normal) const {
     double edge = 0;
@@ -155,7 +150,7 @@ class Extruder {
       const Vec3& at = s_.mesh.points[p];
       const Vec3 whole = e_.thickness[p] * e_.inward[p];
       if (bone->meets(at, -1. * whole) && !bone->meets(at, 3. * whole))
-        throw InputError("bone lies above the skin at " + place(at) +
+        throw InputError("bone lies above the skin at " + place_text(at) +
                          " mm; check units and places of --bone");
       if (const auto part = bone->meets(at, whole)) {
         e_.thickness[p] *= std::max(0.05, *part);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/wedge.h"
 #include "explorer/body/own_cuts.h"
 #include "explorer/body/skin_coordinates.h"
 
@@ -178,13 +179,8 @@ class OwnBodyMaker {
     report.least_determinant = 1;
     for (const auto& w : body_.wedges) {
       double least = std::numeric_limits<double>::infinity(), sum = 0;
-      for (int i = 0; i < 6; ++i) {
-        const int layer = 3 * (i / 3);
-        const auto p = [&](int corner) { return body_.points[w[corner]]; };
-        const double j =
-            dot(cross(p(layer + (i + 1) % 3) - p(i), p(layer + (i + 2) % 3) - p(i)), p(3 + i % 3) - p(i % 3));
+      for (const double j : corner_determinants([&](int i) { return body_.points[w[i]]; }))
         least = std::min(least, j), sum += j / 6;
-      }
       report.least_determinant = std::min(report.least_determinant, least / sum);
     }
   }

@@ -17,7 +17,7 @@ struct OwnBodyRequest {
   OwnMesh mesh;
   std::vector<double> release;        ///< by node: mm cut when the pair of it opens; empty: along the paths
   std::string regions_name;           ///< of the array of regions, for messages
-  std::optional<RegionFile> regions;  ///< none: all is one tissue, all triangles are skin
+  std::optional<RegionFile> regions;  ///< none: all is one tissue, all triangles (or quads) are skin
   std::vector<ScalpelPath> paths;     ///< in the order in which they are cut
   Parameters parameters;              ///< mesh.front: how far inside its first closed nodes a cut ends
   std::vector<Vec3> tension;          ///< as BodyRequest::tension

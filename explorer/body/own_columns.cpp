@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/wedge.h"
 #include "explorer/body/skin_coordinates.h"
 
 namespace cleft {
@@ -285,12 +286,11 @@ class Columns {
       }
       for (std::size_t k = 0; k < c_.wedges[c].size(); ++k) {
         const auto& w = c_.wedges[c][k];
+        const std::array<double, 6> determinants = corner_determinants([&](int i) { return p(w[i]); });
         for (int i = 0; i < 6; ++i) {
-          const int layer = 3 * (i / 3);
-          const Vec3 here = p(w[i]), up = p(w[3 + i % 3]) - p(w[i % 3]);
-          if (!(dot(cross(p(w[layer + (i + 1) % 3]) - here, p(w[layer + (i + 2) % 3]) - here), up) > 0))
+          if (!(determinants[i] > 0))
             refuse(c_.cells[c][k],
-                   "is flat or turned inside out at " + place_text(here) +
+                   "is flat or turned inside out at " + place_text(p(w[i])) +
                        " mm; make the layers thinner, or the mesh coarser, where the skin is bent");
         }
       }

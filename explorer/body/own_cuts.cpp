@@ -128,11 +128,12 @@ struct Join {
   int visit;
 };
 
-/// The blade is at a place of a cut; from and to: the edges before and behind it.
+/// The blade is at a place of a cut. passed: the edge that ends there; ahead: the one that begins there;
+/// null: none.
 struct Visit {
   int cut;
   double s;
-  const OwnEdge *before, *behind;
+  const OwnEdge *passed, *ahead;
 };
 
 class Opening {
@@ -154,9 +155,9 @@ class Opening {
       const auto& edges = cuts_[c].edges;
       const bool loop = edges.front().from == edges.back().to;
       for (std::size_t i = 0; i < edges.size(); ++i) {
-        const OwnEdge* before = i > 0 && edges[i - 1].to == edges[i].from ? &edges[i - 1] : nullptr;
-        if (i > 0 && !before) visits_.push_back({c, edges[i - 1].s_to, &edges[i - 1], nullptr});
-        if (i > 0 || !loop) visits_.push_back({c, edges[i].s_from, before, &edges[i]});
+        const OwnEdge* passed = i > 0 && edges[i - 1].to == edges[i].from ? &edges[i - 1] : nullptr;
+        if (i > 0 && !passed) visits_.push_back({c, edges[i - 1].s_to, &edges[i - 1], nullptr});
+        if (i > 0 || !loop) visits_.push_back({c, edges[i].s_from, passed, &edges[i]});
       }
       visits_.push_back({c, edges.back().s_to, &edges.back(), loop ? &edges.front() : nullptr});
     }
@@ -164,8 +165,8 @@ class Opening {
 
   void list_joins() {
     for (int v = 0; v < static_cast<int>(visits_.size()); ++v) {
-      if (const OwnEdge* e = visits_[v].before) list_joins(v, *e, e->corner_to);
-      if (const OwnEdge* e = visits_[v].behind) list_joins(v, *e, e->corner);
+      if (const OwnEdge* e = visits_[v].passed) list_joins(v, *e, e->corner_to);
+      if (const OwnEdge* e = visits_[v].ahead) list_joins(v, *e, e->corner);
     }
   }
 

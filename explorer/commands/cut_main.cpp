@@ -143,8 +143,10 @@ void move_as_simulated(const Options& options, const MeshCuts& cuts,
   request.bone = bone;
   Progress progress("simulating");
   static StopCount stop = 0;
-  const SignalHandler handler({SIGINT, SIGTERM}, [](int) { stop = stop + 1; });
-  const BodySimulation simulation = simulate(request, std::ref(progress), &stop);
+  const BodySimulation simulation = [&] {
+    const SignalHandler handler({SIGINT, SIGTERM}, [](int) { stop = stop + 1; });
+    return simulate(request, std::ref(progress), &stop);
+  }();
   const SimulatedWounds wounds(cuts.cuts(), options.scale, simulation.body, *simulation.series);
   std::vector<Vec3> simulated(positions.size());
   wounds.positions(cuts.progress(), simulated);

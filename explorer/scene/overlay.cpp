@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/text.h"
+
 namespace cleft {
 
 namespace {
@@ -11,12 +13,6 @@ namespace {
 // Okabe and Ito's colours, which colour-blind people can distinguish.
 constexpr Ink blue{0, 0.447, 0.698}, vermilion{0.835, 0.369, 0}, green{0, 0.62, 0.451},
     grey{0.35, 0.35, 0.38};
-
-std::string text_of(const char* format, auto... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 Vec3 moved(const Field& field, const Vec3& uvw, Side side, double t) {
   return uvw + field.displacement(uvw, side, t);
@@ -45,8 +41,8 @@ Overlay nodes_around(const RawCase& raw, const Vec3& place, double radius, doubl
   overlay.in_front = true;
   if (largest > 0) overlay.scale = {"error of the field at the nodes, mm", largest, little, much};
   overlay.caption =
-      text_of("%zu nodes of the simulation, frame %zu at %.1f mm: the field is off by up to %.2g mm",
-              nodes.size(), frame, raw.snapshot().times[frame], largest);
+      formatted("%zu nodes of the simulation, frame %zu at %.1f mm: the field is off by up to %.2g mm",
+                nodes.size(), frame, raw.snapshot().times[frame], largest);
   return overlay;
 }
 
@@ -70,8 +66,8 @@ Overlay constraints_at(const RawCase& raw, double t) {
   }
   overlay.surface_opacity = 0.25;
   overlay.caption =
-      text_of("frame %zu: %zu constraints hold pairs of nodes together (blue), %d are released (orange)",
-              frame, s.pairs.size() - static_cast<std::size_t>(released), released);
+      formatted("frame %zu: %zu constraints hold pairs of nodes together (blue), %d are released (orange)",
+                frame, s.pairs.size() - static_cast<std::size_t>(released), released);
   return overlay;
 }
 
@@ -110,8 +106,8 @@ Overlay lattice_at(const Field& field, double t) {
   }
   overlay.surface_opacity = 0.3;
   overlay.caption =
-      text_of("the lattice at t = %.1f mm: %d x %d x %d x %d control points, broken at the cut", t,
-              field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size());
+      formatted("the lattice at t = %.1f mm: %d x %d x %d x %d control points, broken at the cut", t,
+                field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size());
   return overlay;
 }
 
@@ -152,7 +148,7 @@ Overlay volume_along(const ScalpelPath& path, const Field& field, double s) {
   overlay.dots.push_back({place(s, 0, -depth), green});
   overlay.dots.push_back({place(s, 0, 2 * above), green});
   overlay.in_front = true;
-  overlay.caption = text_of(
+  overlay.caption = formatted(
       "the parametrisation volume along the path (blue), the blade's ruled surface (orange), the blade "
       "at s = %.1f mm (green)",
       s);

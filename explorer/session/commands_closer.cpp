@@ -12,12 +12,6 @@ namespace cleft {
 
 namespace {
 
-std::string figures(const char* format, auto... values) {
-  char text[240];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
 Vec3 read_place(Session& session, CommandWords& words) {
   const std::vector<double> x = words.numbers("a place U,V,W", 3, 3);
   const auto field = session.field();
@@ -25,7 +19,7 @@ Vec3 read_place(Session& session, CommandWords& words) {
   const char* axes[] = {"u", "v", "w"};
   for (int k = 0; k < 3; ++k)
     if (const Interval d = field->domain(k); x[k] < d.front - 1e-9 || x[k] > d.back + 1e-9)
-      words.wrong(figures("%s = %g is outside the patch, %g to %g mm", axes[k], x[k], d.front, d.back));
+      words.wrong(formatted("%s = %g is outside the patch, %g to %g mm", axes[k], x[k], d.front, d.back));
   return {x[0], x[1], x[2]};
 }
 
@@ -50,7 +44,7 @@ void probe(Session& session, CommandWords& words) {
   if (word == "left" || word == "right") {
     const Side side = word == "left" ? Side::left : Side::right;
     if (point.side != Side::both && point.side != side)
-      words.wrong(figures("v = %g is on the other side of the cut", point.uvw.y));
+      words.wrong(formatted("v = %g is on the other side of the cut", point.uvw.y));
     point.side = side;
     word = words.empty() ? "" : words.text("a file");
   } else if (point.side == Side::both && point.uvw.z > -session.field()->cut().depth) {
@@ -61,13 +55,13 @@ void probe(Session& session, CommandWords& words) {
   const Motion motion = session.probed_motion();
   if (!word.empty()) write_text_file(word, motion_as_csv(*field, point.uvw, point.side, motion));
   const Vec3 end = field->displacement(point.uvw, point.side, field->duration());
-  session.answer(figures("at the end it has moved by %.3f,%.3f,%.3f mm", end.x, end.y, end.z));
+  session.answer(formatted("at the end it has moved by %.3f,%.3f,%.3f mm", end.x, end.y, end.z));
   if (motion.node)
     session.answer(
-        figures("the simulation's nearest node, %.2f,%.2f,%.2f, is plotted, %.2g mm from there: the "
-                "field is off by up to %.2g mm",
-                motion.node->x, motion.node->y, motion.node->z, norm(*motion.node - point.uvw),
-                furthest(*field, point, motion)));
+        formatted("the simulation's nearest node, %.2f,%.2f,%.2f, is plotted, %.2g mm from there: the "
+                  "field is off by up to %.2g mm",
+                  motion.node->x, motion.node->y, motion.node->z, norm(*motion.node - point.uvw),
+                  furthest(*field, point, motion)));
   else
     session.answer(session.why_no_raw(session.state().shown));
 }
@@ -86,7 +80,7 @@ void zoom(Session& session, CommandWords& words) {
   const double radius = words.empty() ? 5 : words.number_in("the radius", 0.1, 1000);
   const auto raw = session.raw_of(session.state().shown);
   if (raw->nodes_within(at, radius).empty())
-    words.wrong(figures("the simulation has no node within %g mm of this place", radius));
+    words.wrong(formatted("the simulation has no node within %g mm of this place", radius));
   session.edit().zoom = ZoomState{at, radius};
   constexpr double view_angle = 24;
   const double distance = 1.6 * radius / std::tan(view_angle / 2 * M_PI / 180);
@@ -111,11 +105,11 @@ void figure(Session& session, CommandWords& words) {
 
 void tornado(Session& session, CommandWords&) {
   const Tornado t = session.tornado();
-  session.answer(figures("gape %.3g mm in the middle of the study; %s explains %.0f %% of its variance",
-                         t.middle, t.logarithms ? "a power law" : "a plane", 100 * t.explained));
+  session.answer(formatted("gape %.3g mm in the middle of the study; %s explains %.0f %% of its variance",
+                           t.middle, t.logarithms ? "a power law" : "a plane", 100 * t.explained));
   for (const Tornado::Bar& b : t.bars)
-    session.answer(figures("%-28s %.4g to %.4g: gape %.3g to %.3g mm", b.parameter.c_str(), b.least,
-                           b.greatest, b.at_least, b.at_greatest));
+    session.answer(formatted("%-28s %.4g to %.4g: gape %.3g to %.3g mm", b.parameter.c_str(), b.least,
+                             b.greatest, b.at_least, b.at_greatest));
 }
 
 }  // namespace

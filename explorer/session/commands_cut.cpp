@@ -154,17 +154,6 @@ void paint_tension(Session& session, CommandWords& words) {
   set_tension(session, tension);
 }
 
-std::string rounded(const char* format, auto... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
-/// ", 0.5 mm more or less"; empty where the error is not known.
-std::string uncertainty(const std::vector<Validity>& validity, std::size_t i, double widest) {
-  return i < validity.size() ? rounded(" +- %.2g", validity[i].expected_error.largest * widest) : "";
-}
-
 void wounds(Session& session, CommandWords& words) {
   const std::string file = words.empty() ? "" : words.text("a file .csv");
   words.expect_end();
@@ -174,14 +163,14 @@ void wounds(Session& session, CommandWords& words) {
   std::string csv = "cut,length,depth,opening,opening_error,opening_at,area,volume\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
     const WoundFigures& f = all[i];
-    session.answer(
-        rounded("cut %zu: %.1f mm long, %.2g mm deep; opens by up to %.2f", i + 1, f.length, f.depth,
-                f.widest) +
-        uncertainty(validity, i, f.widest) +
-        rounded(" mm, at %.1f mm; %.3g mm2 between its lips, %.3g mm3 between its walls", f.widest_at, f.area,
-                f.volume) +
-        (i < validity.size() ? "; mostly uncertain because " + validity[i].expected_error.cause : ""));
     const double error = i < validity.size() ? validity[i].expected_error.largest * f.widest : std::nan("");
+    session.answer(
+        formatted("cut %zu: %.1f mm long, %.2g mm deep; opens by up to %.2f", i + 1, f.length, f.depth,
+                  f.widest) +
+        (i < validity.size() ? formatted(" +- %.2g", error) : "") +
+        formatted(" mm, at %.1f mm; %.3g mm2 between its lips, %.3g mm3 between its walls", f.widest_at,
+                  f.area, f.volume) +
+        (i < validity.size() ? "; mostly uncertain because " + validity[i].expected_error.cause : ""));
     csv += std::to_string(i + 1);
     for (const double value : {f.length, f.depth, f.widest, error, f.widest_at, f.area, f.volume})
       csv += "," + (std::isfinite(value) ? shortest(value) : std::string());

@@ -85,11 +85,7 @@ std::string told_detail(const Session& session, const WoundScene& scene) {
 }
 
 /// To what matters of a figure.
-std::string rounded(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string rounded(double value) { return formatted("%.3g", value); }
 
 void info(Session& session, CommandWords&) {
   const SessionState& s = session.state();

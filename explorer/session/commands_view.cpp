@@ -76,12 +76,12 @@ void map(Session& session, CommandWords& words) {
 
 void warp(Session& session, CommandWords& words) {
   session.edit().warp = words.number_in("the factor", 0, 100);
-  session.changes().look = true;
+  session.changes().coloring = true;
 }
 
 void edges(Session& session, CommandWords& words) {
   session.edit().edges = words.on_or_off();
-  session.changes().look = true;
+  session.changes().coloring = true;
 }
 
 /// Across a cut, mm of its path from its start.
@@ -102,7 +102,7 @@ ClipState across_cut(Session& session, CommandWords& words) {
 
 void clip(Session& session, CommandWords& words) {
   const std::string first = words.text("a place, cut or off");
-  session.changes().look = true;
+  session.changes().coloring = true;
   if (first == "off") return session.edit().clip.reset();
   if (first == "cut") return void(session.edit().clip = across_cut(session, words));
   CommandWords place("clip", "X,Y,Z DX,DY,DZ | cut N MM | off", {first});

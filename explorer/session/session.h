@@ -118,6 +118,8 @@ class Session {
   /// The finding of the condition of `find` in case i.
   const std::optional<Finding>& finding(int i) { return cases().finding(state().where, i); }
   bool brushed(int i);  ///< whether no brush and no condition fades case i
+  /// Whether all brushes on case i can be judged by what has been read of it.
+  bool knows_brushed(int i) const;
 
   // For windows.
   void tick(double seconds);  ///< advances playing by that time; listeners are notified

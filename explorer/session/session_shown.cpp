@@ -12,11 +12,7 @@ namespace cleft {
 
 namespace {
 
-std::string shortest_of(double value, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
+std::string shortest_of(double value, int digits) { return formatted("%.*g", digits, value); }
 
 }  // namespace
 
@@ -140,7 +136,9 @@ std::optional<CutFields> Session::cut_fields(int i) {
     if (const auto family = opened_.cases->family()) return {family, state().tension};
     if (const auto turning = turning_fields(i)) return *turning;
     if (!state().tension) return CutFields(field_of(i));
-    return {std::make_shared<const PrestressFields>(*study(), i), state().tension};
+    auto three = opened_.cases->prestress_fields(i);
+    if (!three) three = std::make_shared<const PrestressFields>(*study(), i);  // tells why there are none
+    return {three, state().tension};
   }();
   return opened_.bone ? fields.above_bone(distance_to(opened_.bone)) : fields;
 }
@@ -181,20 +179,17 @@ std::string Session::title_of(int i) const {
 
 std::string Session::note_of(int i) const {
   std::string note;
+  const auto add = [&](const std::string& text) { note += (note.empty() ? "" : "; ") + text; };
   if (between() && i == state().shown && !(mesh() && opened_.cases->family()))
     note = "interpolated, " + error_of_interpolation(*between());
   if (i == state().shown && !why_nearest().empty()) note = "the nearest case: " + why_nearest();
-  if (i == state().shown && !simulation_note().empty())
-    note += (note.empty() ? "" : "; ") + simulation_note();
-  if (i == state().shown && !validity().empty())
-    note += (note.empty() ? "" : "; ") + error_of_openings(validity());
-  if (state().warp != 1)
-    note += (note.empty() ? "" : "; ") +
-            ("displacements drawn " + shortest_of(state().warp, 3) + " times as large");
+  if (i == state().shown && !simulation_note().empty()) add(simulation_note());
+  if (i == state().shown && !validity().empty()) add(error_of_openings(validity()));
+  if (state().warp != 1) add("displacements drawn " + shortest_of(state().warp, 3) + " times as large");
   const auto own = opened_.drawn.own_meshes.find(i);
   const bool is_own = own != opened_.drawn.own_meshes.end() && own->second;
   if (state().coloring == Coloring::error && !mesh() && !is_own && !why_no_raw(i).empty())
-    note += (note.empty() ? "" : "; ") + std::string("without raw frames: no error is known");
+    add("without raw frames: no error is known");
   return note;
 }
 
@@ -223,6 +218,12 @@ bool Session::shows_exactly() const {
   const auto& values = study()->parameters(state().shown);
   return std::all_of(state().parameters.begin(), state().parameters.end(), [&](const auto& requested) {
     return values.number(requested.first).value_or(requested.second) == requested.second;
+  });
+}
+
+bool Session::knows_brushed(int i) const {
+  return std::all_of(state().brushes.begin(), state().brushes.end(), [&](const auto& brush) {
+    return knows_figures(i) || opened_.cases->study().parameters(i).number(brush.first);
   });
 }
 

@@ -22,15 +22,18 @@ struct CameraState {
   struct Pose {
     Vec3 position, focal_point, up;
     double view_angle = 24;  ///< degrees
+    friend bool operator==(const Pose&, const Pose&) = default;
   };
   std::optional<Pose> pose;
   /// What the angles count from: the place looked at, its normal, and the direction along the cut.
   struct Frame {
     Vec3 middle, outward, along;
+    friend bool operator==(const Frame&, const Frame&) = default;
   };
   /// In a mesh that of the cut at which the angles were said, so that further cuts do not turn the picture;
   /// none: of the first cut.
   std::optional<Frame> frame;
+  friend bool operator==(const CameraState&, const CameraState&) = default;
 };
 
 struct CutState {
@@ -58,6 +61,7 @@ struct TensionChange {
 /// What lies where `ahead` points from `place` is not drawn.
 struct ClipState {
   Vec3 place, ahead;
+  friend bool operator==(const ClipState&, const ClipState&) = default;
 };
 
 struct SessionState {

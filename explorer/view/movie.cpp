@@ -48,8 +48,6 @@ void each_frame(Session& session, const MovieFormat& format,
 }
 
 void write_ogg(Session& session, const std::string& path, const MovieFormat& format) {
-  { const OutputFile probe(path); }  // reports a bad name before the work
-  const MemoryFile file;
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
   vtkNew<vtkOggTheoraWriter> writer;
   const VtkListener writing(writer.Get());
@@ -57,19 +55,20 @@ void write_ogg(Session& session, const std::string& path, const MovieFormat& for
     if (writing.failed() || writer->GetErrorCode() != 0)
       throw std::runtime_error(path + ": the movie could not be written: " + writing.reason());
   };
-  writer->SetFileName(file.path().c_str());
   writer->SetRate(static_cast<int>(std::round(format.rate)));
   writer->SetQuality(2);
-  bool begun = false;
-  each_frame(session, format, [&](int, vtkImageData* image) {
-    writer->SetInputData(image);
-    if (!begun) writer->Start(), begun = true;
-    writer->Write();
+  write_through_memory(path, [&](const std::string& file) {
+    writer->SetFileName(file.c_str());
+    bool begun = false;
+    each_frame(session, format, [&](int, vtkImageData* image) {
+      writer->SetInputData(image);
+      if (!begun) writer->Start(), begun = true;
+      writer->Write();
+      check();
+    });
+    writer->End();
     check();
   });
-  writer->End();
-  check();
-  file.copy_to(path);
 }
 
 void write_folder(Session& session, const std::string& path, const MovieFormat& format) {

@@ -150,7 +150,7 @@ void Stage::lay_over(Session& session) {
   Overlay overlay = live_ ? Overlay{} : session.overlay();
   if (warp_ != 1 && !overlay.empty()) {
     overlay = {};
-    overlay.caption = "nodes, lattices and volumes lie over displacements as they are only (warp 1)";
+    overlay.caption = "nodes, lattices, volumes and lines lie over displacements as they are only (warp 1)";
   }
   caption_ = overlay.caption;
   const std::vector<int> cases = session.views();
@@ -212,18 +212,8 @@ void Stage::color(Session& session, bool fresh) {
 }
 
 void Stage::aim(const CameraState& camera, bool fresh) {
-  const auto same = [](const CameraState& a, const CameraState& b) {
-    if (a.pose.has_value() != b.pose.has_value()) return false;
-    if (a.pose)
-      return a.pose->position == b.pose->position && a.pose->focal_point == b.pose->focal_point &&
-             a.pose->up == b.pose->up && a.pose->view_angle == b.pose->view_angle;
-    if (a.frame.has_value() != b.frame.has_value()) return false;
-    if (a.frame && !(a.frame->middle == b.frame->middle && a.frame->outward == b.frame->outward))
-      return false;
-    return a.azimuth == b.azimuth && a.elevation == b.elevation && a.zoom == b.zoom;
-  };
   const Vec3 middle = scenes_.front()->surface().middle;
-  if (!fresh && same(camera, shown_.camera) && (camera.pose || camera.frame || middle == shown_.middle)) {
+  if (!fresh && camera == shown_.camera && (camera.pose || camera.frame || middle == shown_.middle)) {
     for (View& v : views_) v.view->renderer()->ResetCameraClippingRange();
     return;
   }

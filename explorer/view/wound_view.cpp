@@ -216,9 +216,7 @@ void WoundView::show_edges() {
 }
 
 void WoundView::set_clip(const std::optional<ClipState>& clip) {
-  const bool same = clip.has_value() == clip_.has_value() &&
-                    (!clip || (clip->place == clip_->place && clip->ahead == clip_->ahead));
-  if (same) return;
+  if (clip == clip_) return;
   clip_ = clip;
   if (!scene_) return;
   add_actors();

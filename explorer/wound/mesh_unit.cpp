@@ -16,11 +16,7 @@ constexpr double least_lengths = 1.2, most_lengths = 60;
 constexpr double usual_lengths = 8;     // a head
 constexpr double absurd_lengths = 1e5;  // kilometres
 
-std::string rounded(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string rounded(double value) { return formatted("%.3g", value); }
 
 }  // namespace
 

@@ -101,4 +101,15 @@ std::map<std::string, std::string> RecordedParameters::texts() const {
   return texts;
 }
 
+Parameters RecordedParameters::whole(const std::string& where, const std::string& lacks,
+                                     const std::string& remedy) const {
+  Parameters parameters;
+  for (const Parameter& row : parameter_table()) {
+    const std::optional<Value> value = find(row.name);
+    if (!value) throw InputError(where + ": " + lacks + " " + row.name + remedy);
+    set_parameter(parameters, row.name, *value, where);
+  }
+  return parameters;
+}
+
 }  // namespace cleft

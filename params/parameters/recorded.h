@@ -53,6 +53,10 @@ class RecordedParameters {
   /// The same for a number; none if it is a text.
   std::optional<double> number(const std::string& name) const;
 
+  /// All parameters, with the checks of set_parameter(). Throws InputError "<where>: <lacks> NAME<remedy>" if
+  /// one is not recorded.
+  Parameters whole(const std::string& where, const std::string& lacks, const std::string& remedy) const;
+
   /// All recorded values including extras, sorted by name; and the numbers and texts among them.
   std::map<std::string, Value> all() const;
   std::map<std::string, double> numbers() const;

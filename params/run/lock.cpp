@@ -52,6 +52,12 @@ void share_as(const fs::path& folder, int file, mode_t mask) {
 }
 
 /// Reading suffices to lock. -1 and errno where it cannot be opened.
+int open_existing(const std::string& path) {
+  const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  return file >= 0 ? file : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+}
+
+/// Makes it where there is none. -1 and errno likewise.
 int open_lock(const std::string& path) {
   constexpr mode_t of_files = 0666;
   const int made = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, of_files);
@@ -59,9 +65,11 @@ int open_lock(const std::string& path) {
     share_as(fs::path(path).parent_path(), made, of_files);
     return made;
   }
-  if (errno != EEXIST && errno != EACCES && errno != EROFS) return -1;
-  const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
-  return file >= 0 ? file : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int why = errno;
+  if (why != EEXIST && why != EACCES && why != EROFS) return -1;
+  const int file = open_existing(path);
+  if (file < 0 && errno == ENOENT) errno = why;  // there is none, and none can be made
+  return file;
 }
 
 /// Waits.
@@ -93,8 +101,7 @@ Lock& Lock::operator=(Lock&& other) noexcept {
 }
 
 bool Lock::is_held(const std::string& path) {
-  int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0 && errno == EACCES) file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = open_existing(path);
   if (file < 0) return errno == EACCES;
   const bool held = flock(file, LOCK_EX | LOCK_NB) != 0;
   close(file);

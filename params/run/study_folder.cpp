@@ -132,15 +132,12 @@ StudyFolder StudyFolder::create(const std::string& path, const Study& study) {
   if (fs::is_directory(path) && !fs::exists(path + "/study.toml") && holds_others_files(path))
     throw InputError("--out " + path +
                      ": the folder holds other files; give a new one, or the folder of a study");
-  std::error_code error;
-  fs::create_directories(path, error);
   try {
-    for (const char* name : {"cases", "attempts"})
-      if (!error) make_shared_folder(path, name);
+    fs::create_directories(path);
+    for (const char* name : {"cases", "attempts"}) make_shared_folder(path, name);
   } catch (const fs::filesystem_error& e) {
-    error = e.code();
+    throw InputError("--out " + path + ": could not be created: " + e.code().message());
   }
-  if (error) throw InputError("--out " + path + ": could not be created: " + error.message());
   sweep_leftovers(path);
   check_file_system(path);
   keep_body(path, study.base);

@@ -84,21 +84,18 @@ void Halo::update(T* values, int width) const {
                   values + static_cast<std::ptrdiff_t>(copies_[p].nodes[i]) * width);
 }
 
-template <class T>
-void Halo::add_to_owners(T* values, int width) const {
+void Halo::add_to_owners(float* values, int width) const {
   if (copies_.empty() && owned_.empty()) return;
-  std::vector<std::vector<T>> received;
+  std::vector<std::vector<float>> received;
   exchange(values, copies_, owned_, width, received);
   for (std::size_t p = 0; p < owned_.size(); ++p)
     for (std::size_t i = 0; i < owned_[p].nodes.size(); ++i) {
-      T* own = values + static_cast<std::ptrdiff_t>(owned_[p].nodes[i]) * width;
+      float* own = values + static_cast<std::ptrdiff_t>(owned_[p].nodes[i]) * width;
       for (int w = 0; w < width; ++w) own[w] += received[p][i * width + w];
     }
 }
 
 template void Halo::update(float*, int) const;
 template void Halo::update(double*, int) const;
-template void Halo::add_to_owners(float*, int) const;
-template void Halo::add_to_owners(double*, int) const;
 
 }  // namespace cleft

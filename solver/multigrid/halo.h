@@ -21,8 +21,7 @@ class Halo {
   template <class T>
   void update(T* values, int width) const;
   /// Adds the copies' values to those of their owners. Collective.
-  template <class T>
-  void add_to_owners(T* values, int width) const;
+  void add_to_owners(float* values, int width) const;
 
  private:
   struct Peer {

@@ -10,19 +10,27 @@
 
 namespace cleft {
 
+namespace {
+
+constexpr int relaxations = 12;             // before and after the coarser level
+constexpr double longest_joined = 2.4;      // element, over the shortest of the finer level
+constexpr std::size_t most_coarsest = 250;  // nodes of the coarsest level
+
+}  // namespace
+
 Multigrid::Multigrid(const DoubledGrid& grid, Level finest, MPI_Comm communicator,
-                     const std::function<int(int)>& owner, const Settings& settings)
-    : grid_(grid), communicator_(communicator), settings_(settings) {
+                     const std::function<int(int)>& owner)
+    : grid_(grid), communicator_(communicator) {
   levels_.push_back(std::move(finest));
   finish_level(levels_.front(), grid, communicator, owner);
   for (;;) {
     Level& last = levels_.back();
     const std::size_t nodes = grid.count(last.lines);
-    if (nodes <= settings_.coarsest) break;
+    if (nodes <= most_coarsest) break;
     GridLines lines = last.lines;
     double shortest = grid.shortest(lines);
     do {
-      lines = grid.coarser(last.lines, settings_.joined * shortest);
+      lines = grid.coarser(last.lines, longest_joined * shortest);
       shortest *= 1.3;
     } while (grid.count(lines) > nodes * 3 / 5 && shortest < 1e3 * grid.shortest(last.lines));
     if (grid.count(lines) > nodes * 4 / 5) break;
@@ -142,7 +150,7 @@ void Multigrid::residual(Level& level) {
 
 void Multigrid::smooth(Level& level, bool from_zero) {
   float keep = 0;
-  for (int k = 1; k <= settings_.smoothing; ++k) {
+  for (int k = 1; k <= relaxations; ++k) {
     if (k == 1 && from_zero)
       std::copy(level.b.begin(), level.b.end(), level.r.begin());
     else
@@ -226,14 +234,6 @@ void Multigrid::solve_coarsest() {
         level.x[(std::size_t{3} * n + axis) * lanes + lane] =
             static_cast<float>(solution(3 * tied.unknown_of[coarse_offsets_[rank] + n] + axis));
   }
-}
-
-double Multigrid::bytes() const {
-  double bytes = 0;
-  for (const Level& level : levels_)
-    bytes += 40. * static_cast<double>(level.matrix.column.size()) +
-             8. * static_cast<double>(level.up.column.size()) + 72. * level.local();
-  return bytes;
 }
 
 }  // namespace cleft

@@ -24,14 +24,9 @@ struct IndefiniteLevel : std::runtime_error {
 /// nodes. Matrices and vectors have single precision.
 class Multigrid {
  public:
-  struct Settings {
-    int smoothing = 12;          ///< relaxations before and after the coarser level
-    double joined = 2.4;         ///< longest joined element, over the shortest of the finer level
-    std::size_t coarsest = 250;  ///< nodes
-  };
   /// `finest`: nodes, owned, matrix, and the grid's finest lines. Collective, as all calls.
   Multigrid(const DoubledGrid& grid, Level finest, MPI_Comm communicator,
-            const std::function<int(int)>& owner, const Settings& settings);
+            const std::function<int(int)>& owner);
 
   /// The order in which pairs open: pair p is open with more than opens_after[p] open pairs.
   void set_release(std::vector<int> opens_after);
@@ -42,9 +37,6 @@ class Multigrid {
   Level& finest() { return levels_.front(); }
   /// x = V-cycle(b)
   void apply();
-
-  const std::vector<Level>& levels() const { return levels_; }
-  double bytes() const;  ///< of matrices, on this rank
 
  private:
   void cycle(std::size_t level);
@@ -58,7 +50,6 @@ class Multigrid {
 
   const DoubledGrid& grid_;
   MPI_Comm communicator_;
-  Settings settings_;
   std::vector<Level> levels_;
   std::vector<std::vector<int>> opens_after_;  // by level and pair
   const LaneTable* lanes_ = nullptr;

@@ -238,6 +238,10 @@ Snapshot read_all_but_displacements(const h5::File& file) {
     const auto moduli = file.read<double>("/regions/moduli", {0, 2});
     for (std::size_t r = 0; r + 1 < moduli.size(); r += 2)
       s.region_moduli.push_back({moduli[r], moduli[r + 1]});
+    for (const std::uint8_t region : s.region)
+      if (region >= s.region_moduli.size())
+        throw FileError(file.path(),
+                        "/regions/of_wedge: there are no moduli of region " + std::to_string(region));
   }
   for (const std::string& name : file.attribute_names("/parameters")) {
     try {
