@@ -81,15 +81,19 @@ double parse_number(std::string_view text, const std::string& where) {
   return value;
 }
 
+static std::string given_to(const std::string& option, const std::string& text) {
+  return option + ' ' + text;
+}
+
 std::map<std::string, double> numbers_by_name(const std::vector<std::string>& assignments,
                                               const std::string& option) {
   std::map<std::string, double> numbers;
   for (const std::string& assignment : assignments) {
     const auto equals = assignment.find('=');
-    if (equals == std::string::npos) throw InputError(option + " " + assignment + ": expected NAME=VALUE");
-    const std::string name = assignment.substr(0, equals);
-    if (!numbers.emplace(name, parse_number(assignment.substr(equals + 1), option + " " + name)).second)
-      throw InputError(option + " " + name + ": given twice");
+    const std::string name = assignment.substr(0, equals), where = given_to(option, name);
+    if (equals == std::string::npos) throw InputError(where + ": expected NAME=VALUE");
+    if (!numbers.emplace(name, parse_number(assignment.substr(equals + 1), where)).second)
+      throw InputError(where + ": given twice");
   }
   return numbers;
 }

@@ -13,7 +13,9 @@ namespace cleft {
 
 namespace {
 
-constexpr int most_chosen_again = 64, most_parts = 8;
+constexpr std::size_t few_cases = 64;  // whose quantiles are those of a normal distribution, and whose method
+                                       // is chosen again without each part of them
+constexpr int most_parts = 8;
 constexpr int most_compared = 128;            // cases that choose the method
 constexpr Eigen::Index points_at_once = 256;  // their weights stay in the cache
 
@@ -70,12 +72,13 @@ FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Fig
   return cases;
 }
 
-/// What a new value of the same kind keeps with a probability of `share`: between two of many values. Few
-/// have no such quantile: theirs is taken from a normal distribution of their mean square.
+/// What a new value of the same kind keeps with a probability of `share`: between two of many values. Of few
+/// values that quantile is one of the largest, by chance: theirs is taken from a normal distribution of their
+/// mean square.
 double kept(std::vector<double> values, double share) {
   const auto n = static_cast<double>(values.size());
-  const double rank = (n + 1) * share - 1;
-  if (rank < n - 1) {
+  if (values.size() > few_cases) {
+    const double rank = (n + 1) * share - 1;
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(values.begin(), at, values.end());
     return *at + (rank - std::floor(rank)) * (*std::min_element(at + 1, values.end()) - *at);
@@ -127,8 +130,9 @@ FigureModel::FigureModel(Cases cases, std::vector<Figure> figures)
   const Eigen::MatrixXd predicted = cases_.displacements * others.weights;
   left_out_ = figures_from(predicted);
   residuals_ = cases_.displacements - predicted;
-  ratios_ = n > most_chosen_again ? ratios_of(predicted, others.deviations)
-                                  : ratios_of(predicted_by_parts(), deviations_without_parts());
+  ratios_ = n > static_cast<Eigen::Index>(few_cases)
+                ? ratios_of(predicted, others.deviations)
+                : ratios_of(predicted_by_parts(), deviations_without_parts());
 }
 
 /// Residuals of predictions over their deviations.

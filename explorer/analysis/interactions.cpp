@@ -9,10 +9,10 @@ namespace cleft {
 
 namespace {
 
-constexpr int along_each = 7;                          // of the quadrature, along each parameter
-constexpr int draw_groups = 4, draws_in_a_group = 16;  // draws of the other parameters
-constexpr std::size_t most_parameters = 6;             // whose pairs are looked at
-constexpr double of_jackknife_spread = 1.96;           // half a 95 % interval of a normal distribution
+constexpr int along_each = 6;                         // nodes of the quadrature, along each parameter
+constexpr int draw_groups = 4, draws_in_a_group = 8;  // draws of the other parameters
+constexpr std::size_t most_parameters = 6;            // whose pairs are looked at
+constexpr double of_jackknife_spread = 1.96;          // half a 95 % interval of a normal distribution
 
 struct Quadrature {
   std::vector<double> parts;  // 0 to 1, increasing

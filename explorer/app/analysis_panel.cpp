@@ -1,6 +1,7 @@
 #include "explorer/app/analysis_panel.h"
 
 #include <QFileDialog>
+#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
@@ -37,7 +38,12 @@ AnalysisPanel::AnalysisPanel(Session& session, const Say& say) : session_(sessio
   below->addWidget(propose_);
   column->addLayout(top);
   column->addLayout(below);
-  column->addWidget(plot_ = new AnalysisPlot(session, say), 1);
+  auto* room = new QScrollArea(this);
+  room->setWidgetResizable(true);
+  room->setFrameShape(QFrame::NoFrame);
+  room->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  room->setWidget(plot_ = new AnalysisPlot(session, say));
+  column->addWidget(room, 1);
   connect(analyze_, &QPushButton::clicked, this,
           [this, say] { say("analyze " + figure_->currentText().toStdString()); });
   connect(fit_, &QPushButton::clicked, this, [this, say] {
@@ -59,6 +65,7 @@ void AnalysisPanel::show_answers() {
     const QSignalBlocker quiet(figure_);
     figure_->setEditText(QString::fromStdString(session_.state().analyzed));
   }
+  plot_->take_room();
   plot_->update();
 }
 

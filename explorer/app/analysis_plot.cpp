@@ -46,7 +46,7 @@ struct AnalysisPlot::Frame {
 
 AnalysisPlot::AnalysisPlot(Session& session, Say say) : session_(session), say_(std::move(say)) {
   setObjectName("analysis_plot");
-  setMinimumHeight(100);
+  take_room();
   QFont small = font();
   small.setPointSizeF(0.8 * small.pointSizeF());
   setFont(small);
@@ -61,6 +61,13 @@ AnalysisPlot::AnalysisPlot(Session& session, Say say) : session_(session), say_(
 const StudyAnalysis* AnalysisPlot::analysis() const {
   if (!session_.study() || session_.state().analyzed.empty()) return nullptr;
   return session_.cases().known_analysis(session_.state().analyzed);
+}
+
+void AnalysisPlot::take_room() {
+  constexpr int least = 100, lines_a_row = 8;  // pixels
+  const StudyAnalysis* found = analysis();
+  const int rows = found ? static_cast<int>(found->effects.size()) : 0;
+  setMinimumHeight(std::max(least, rows * lines_a_row * fontMetrics().height()));
 }
 
 AnalysisPlot::Frame AnalysisPlot::frame_of(std::size_t row) const {
@@ -159,9 +166,10 @@ void AnalysisPlot::paint_cases(QPainter& painter, std::size_t row) const {
   const QRectF below(frame.room.left(), frame.room.bottom() + 1, frame.room.width(), line);
   painter.drawText(below, Qt::AlignLeft, short_number(frame.least_x));
   painter.drawText(below, Qt::AlignRight, short_number(frame.greatest_x));
-  const QRectF beside(0, frame.room.top() - line / 2, frame.room.left() - 3, line);
+  const QRectF beside(0, frame.room.top(), frame.room.left() - 3, line);  // below the parameter's name
   painter.drawText(beside, Qt::AlignRight, short_number(frame.greatest_y));
-  painter.drawText(beside.translated(0, frame.room.height()), Qt::AlignRight, short_number(frame.least_y));
+  painter.drawText(beside.translated(0, frame.room.height() - line), Qt::AlignRight,
+                   short_number(frame.least_y));
   painter.save();
   painter.setClipRect(frame.room.adjusted(-4, -4, 4, 4));
   if (const auto& fit = session_.cases().last_fit())

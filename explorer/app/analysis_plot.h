@@ -14,6 +14,8 @@ class AnalysisPlot : public QWidget {
   AnalysisPlot(Session& session, Say say);
   /// The analysis that is shown; null: there is none yet.
   const StudyAnalysis* analysis() const;
+  /// Grows to what all rows need to be read.
+  void take_room();
   /// Where the dot of a case is drawn in the row of a parameter, pixels.
   QPointF dot_of(std::size_t row, int case_number) const;
 

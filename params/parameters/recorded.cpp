@@ -103,10 +103,13 @@ std::map<std::string, std::string> RecordedParameters::texts() const {
 
 Parameters RecordedParameters::whole(const std::string& where, const std::string& lacks,
                                      const std::string& remedy) const {
+  const auto missing = [&](const std::string& name) {
+    return InputError(where + ": " + lacks + ' ' + name + remedy);
+  };
   Parameters parameters;
   for (const Parameter& row : parameter_table()) {
     const std::optional<Value> value = find(row.name);
-    if (!value) throw InputError(where + ": " + lacks + " " + row.name + remedy);
+    if (!value) throw missing(row.name);
     set_parameter(parameters, row.name, *value, where);
   }
   return parameters;

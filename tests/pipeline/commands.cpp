@@ -54,7 +54,8 @@ nlohmann::json figures_of(const Outcome& outcome) {
   std::size_t begin = outcome.output.find('{');
   if (begin == std::string::npos) return nlohmann::json::parse(outcome.output);
   // Of a list of objects.
-  const std::size_t before = begin == 0 ? std::string::npos : outcome.output.find_last_not_of(" \n", begin - 1);
+  const std::size_t before =
+      begin == 0 ? std::string::npos : outcome.output.find_last_not_of(" \n", begin - 1);
   if (before != std::string::npos && outcome.output[before] == '[') begin = before;
   return nlohmann::json::parse(outcome.output.substr(begin));
 }
