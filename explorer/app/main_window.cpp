@@ -109,8 +109,12 @@ void MainWindow::make_middle() {
                        .arg("is the unit of the mesh right (command unit)? Or drag further."));
   };
   scene_->missed = [this] {
-    message_->tell(QString("There is no skin at this place to %1: click on the patch (Esc: no more).")
-                       .arg(scene_->picking() == "zoom" ? "zoom to" : "probe"));
+    const std::string& what = scene_->picking();
+    message_->tell(QString("There is no skin at this place to %1: click on the %2 (Esc: no more).")
+                       .arg(what == measuring_picks ? "measure"
+                            : what == "zoom"        ? "zoom to"
+                                                    : "probe",
+                            session_.mesh() ? "mesh" : "patch"));
   };
   auto* time = new TimeBar(session_, say_line);
   message_ = new MessageBar;

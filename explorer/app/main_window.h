@@ -62,6 +62,8 @@ class MainWindow : public QMainWindow {
   void make_look_menu(QMenu* menu);
   void follow_look();
   void pick(const std::string& command);
+  void measure();
+  void follow_picking();
   bool show_progress(const std::string& what, double part);
   QAction* add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
                       std::function<void()> run);
@@ -94,7 +96,7 @@ class MainWindow : public QMainWindow {
   QTimer simulating_;  // runs while a simulation does
   QDoubleSpinBox *depth_, *tilt_;
   QMenu *recent_, *device_menu_, *figure_menu_, *detail_menu_, *look_menu_;
-  QAction *probe_, *zoom_, *between_;
+  QAction *probe_, *zoom_, *measure_, *between_;
   std::unique_ptr<QProgressDialog> progress_;
   QElapsedTimer since_said_;
   bool saying_ = false, sized_ = false;

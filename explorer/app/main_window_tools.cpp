@@ -133,30 +133,6 @@ void MainWindow::compare_cases() {
   say(line);
 }
 
-/// Looking closer: between cases, at single points, at how it works.
-void MainWindow::make_closer_actions(QMenu* menu) {
-  between_ = add_action(menu, "between", "&Interpolate between cases", {},
-                        [this] { say(session_.state().between ? "between off" : "between on"); });
-  between_->setCheckable(true);
-  probe_ = add_action(menu, "probe", "Pro&be a point", QKeySequence("P"), [this] { pick("probe"); });
-  probe_->setCheckable(true);
-  probe_->setToolTip("Click a point of the patch: its motion is plotted (P)");
-  zoom_ = add_action(menu, "zoom", "&Zoom to the simulation's nodes", QKeySequence("Z"),
-                     [this] { pick("zoom"); });
-  zoom_->setCheckable(true);
-  zoom_->setToolTip("Click a point of the patch: the simulation's nodes there are read and drawn (Z)");
-  add_action(menu, "closer_off", "&No probe, no zoom", QKeySequence("Esc"), [this] {
-    pick("");
-    if (session_.state().probe) say("probe clear");
-    if (session_.state().zoom) say("zoom off");
-  });
-  figure_menu_ = menu->addMenu("&How it works");
-  for (const std::string& name : overlay_figures())
-    add_action(figure_menu_, ("figure_" + name).c_str(), QString::fromStdString(name), {}, [this, name] {
-      say("figure " + name);
-    })->setCheckable(true);
-}
-
 /// What a cut in a mesh never moves by more than that stays at rest.
 void MainWindow::make_detail_menu(QMenu* menu) {
   detail_menu_ = menu;
@@ -170,19 +146,6 @@ void MainWindow::make_detail_menu(QMenu* menu) {
     add_action(menu, (std::string("detail_") + amount).c_str(), text, {},
                [this, amount = std::string(amount)] { say("detail " + amount); })
         ->setCheckable(true);
-}
-
-/// Another time the same: no more.
-void MainWindow::pick(const std::string& command) {
-  if (!command.empty() && !(session_.study() && !session_.mesh())) {
-    message_->tell(session_.mesh()
-                       ? "What is probed and zoomed to is the patch that was simulated (Cut, Back to "
-                         "the patch, or the command patch), not a mesh."
-                       : "No study is open, so that there is nothing to look closer at.");
-    return follow_tools();
-  }
-  scene_->set_picking(command == scene_->picking() ? "" : command);
-  follow_tools();
 }
 
 void MainWindow::make_device_menu(QMenu* menu) {
@@ -260,10 +223,11 @@ void MainWindow::make_tools() {
   bar->addAction(redo_);
   bar->addSeparator();
   const std::pair<const char*, const char*> short_texts[] = {
-      {"probe", "Probe"}, {"zoom", "Zoom"},          {"compare", "Compare"},
+      {"probe", "Probe"}, {"zoom", "Zoom"},          {"measure", "Ruler"},  {"compare", "Compare"},
       {"front", "Front"}, {"screenshot", "Picture"}, {"help_sheet", "Help"}};
   for (const auto& [name, text] : short_texts) findChild<QAction*>(name)->setIconText(text);
-  for (const char* name : {"probe", "zoom", "single", "compare", "front", "screenshot", "help_sheet"})
+  for (const char* name :
+       {"probe", "zoom", "measure", "single", "compare", "front", "screenshot", "help_sheet"})
     bar->addAction(findChild<QAction*>(name));
 }
 
@@ -295,11 +259,7 @@ void MainWindow::follow_tools() {
   redo_->setEnabled(!s.undone.empty() || !s.tensions_undone.empty());
   dark_->setChecked(s.dark);
   device_menu_->setEnabled(can_cut);
-  const bool patch = session_.study() && !can_cut;
-  if (!patch) scene_->set_picking("");
-  for (QAction* action : {probe_, zoom_}) {
-    action->setChecked(action->objectName().toStdString() == scene_->picking());
-  }
+  follow_picking();
   between_->setEnabled(session_.study() != nullptr);
   between_->setChecked(s.between);
   figure_menu_->setEnabled(session_.has_scene());

@@ -105,7 +105,7 @@ bool SceneWidget::pick(int x, int y) {
   if (!place) return false;
   const auto rounded = [](double mm) { return shortest(std::round(100 * mm) / 100); };
   say_(picking_ + " " + rounded(place->position.x) + "," + rounded(place->position.y) + "," +
-       rounded(std::min(place->position.z, 0.)));
+       rounded(session_.mesh() ? place->position.z : std::min(place->position.z, 0.)));
   return true;
 }
 
@@ -154,7 +154,9 @@ void SceneWidget::draw() {
 bool SceneWidget::event(QEvent* event) {
   const auto type = event->type();
   if (pointed && session_.mesh() && points(event)) return true;
-  if (!picking_.empty() && session_.study() && !session_.mesh() && type == QEvent::MouseButtonPress) {
+  const bool picks =
+      picking_ == measuring_picks ? session_.has_scene() : session_.study() && !session_.mesh();
+  if (!picking_.empty() && picks && type == QEvent::MouseButtonPress) {
     auto* mouse = static_cast<QMouseEvent*>(event);
     const auto [x, y] = pixel(*mouse);
     if (mouse->button() == Qt::LeftButton && pick(x, y)) return true;

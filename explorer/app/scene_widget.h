@@ -17,6 +17,9 @@
 
 namespace cleft {
 
+/// The command of clicks with the ruler.
+inline constexpr const char* measuring_picks = "measure add";
+
 class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
  public:
   SceneWidget(Session& session, Say say);
@@ -28,7 +31,8 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   bool cutting() const { return cutting_; }
   /// Whether pressing and dragging paints a line of the skin's tension.
   void set_painting(bool on);
-  /// The command of a click on the skin of the patch: "probe" or "zoom", with the place; empty: none.
+  /// The command of a click on the skin, with the place: "probe" or "zoom", of the patch, or
+  /// measuring_picks; empty: none.
   void set_picking(const std::string& command);
   const std::string& picking() const { return picking_; }
   /// Called with the mm that the blade has moved over the skin where a drag is too short for a cut.

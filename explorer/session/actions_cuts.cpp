@@ -59,7 +59,7 @@ void load_mesh(Session& session, const std::string& file, double scale) {
   state.bone.clear();
   read_surfaces(session, session.opened());
   state.coloring = Coloring::tissue;
-  state.zoom.reset(), state.figure.clear();
+  state.zoom.reset(), state.figure.clear(), state.ruler.clear();
   state.camera = {};
   if (const std::string doubt =
           doubt_of_size(extent_of(*session.mesh()) / scale, scale, session.cut_length_of_fields());
@@ -72,7 +72,7 @@ void load_mesh(Session& session, const std::string& file, double scale) {
 void show_patch(Session& session) {
   session.open_study();
   SessionState& state = session.edit();
-  state.mesh.clear(), state.bone.clear();
+  state.mesh.clear(), state.bone.clear(), state.ruler.clear();
   forget_cuts(state);
   state.clip.reset();
   read_surfaces(session, session.opened());

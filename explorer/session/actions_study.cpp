@@ -23,6 +23,7 @@ SessionState state_at_first_case(SessionState state, const std::string& path, co
   state.analyzed.clear();
   state.reference = -1;
   state.probe.reset(), state.zoom.reset(), state.figure.clear();
+  if (state.mesh.empty()) state.ruler.clear();
   if (needs_reference(state.coloring) || state.coloring == Coloring::error)
     state.coloring = Coloring::displacement;
   state.clip.reset();

@@ -103,6 +103,33 @@ void figure(Session& session, CommandWords& words) {
   session.changes().closer = true;
 }
 
+/// Between places of the skin as it is now; they move with it.
+void measure(Session& session, CommandWords& words) {
+  constexpr std::size_t most = 100;  // places
+  const std::string first = words.text("places X,Y,Z, add, or clear");
+  session.changes().closer = true;
+  std::vector<Vec3>& places = session.edit().ruler;
+  if (first == "clear") {
+    words.expect_end();
+    return places.clear();
+  }
+  const auto add = [&](CommandWords& from) {
+    if (places.size() == most) words.wrong("more than 100 places");
+    const std::vector<double> x = from.numbers("a place X,Y,Z", 3, 3);
+    places.push_back({x[0], x[1], x[2]});
+  };
+  if (first != "add") {
+    CommandWords place("measure", "X,Y,Z X,Y,Z ... | add X,Y,Z | clear", {first});
+    places.clear();
+    add(place);
+  }
+  while (!words.empty()) add(words);
+  const SkinRuler& ruler = session.ruler();
+  const double t = std::min(session.state().time, session.scene()->duration());
+  session.answer(places.size() < 2 ? "one place: add another to measure a distance"
+                                   : told(ruler.at(t), ruler.at_rest()));
+}
+
 void tornado(Session& session, CommandWords&) {
   const Tornado t = session.tornado();
   session.answer(formatted("gape %.3g mm in the middle of the study; %s explains %.0f %% of its variance",
@@ -119,6 +146,11 @@ std::span<const Command> closer_commands() {
       {"probe", "U,V,W [left|right] [FILE.csv] | clear",
        "plot one point's motion, the simulation's node beside it", probe, Command::latest},
       {"zoom", "U,V,W [RADIUS] | off", "the simulation's nodes there, with the field's error at each", zoom},
+      {"measure", "X,Y,Z X,Y,Z ... | add X,Y,Z | clear",
+       "distances between places of the skin, the angle at the second of three, the area of three or more, "
+       "as "
+       "they move; the places are those at rest",
+       measure},
       {"figure", "constraints|lattice|volume|off",
        "how it works: constraints of the simulation, the spline's lattice, the blade's volume", figure},
       {"tornado", "", "what each parameter does to the gape", tornado, Command::none},

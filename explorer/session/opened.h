@@ -15,6 +15,7 @@
 #include "explorer/body/surface_index.h"
 #include "explorer/incision/cut_surface.h"
 #include "explorer/incision/surface_mesh.h"
+#include "explorer/scene/skin_ruler.h"
 #include "explorer/scene/wound_scene.h"
 #include "explorer/session/known_cases.h"
 #include "explorer/session/session_state.h"
@@ -36,6 +37,7 @@ struct Drawn {
   std::map<double, std::shared_ptr<const CutSurface>> cut_surfaces;  ///< by depth of cuts that state none, mm
   std::map<int, std::shared_ptr<const WoundScene>> scenes;           ///< of the cases in the views
   std::map<int, std::shared_ptr<const FieldOnMesh>> own_meshes;      ///< of cases; null: not there
+  std::shared_ptr<const SkinRuler> ruler;                            ///< of the scene that was last measured
 };
 
 /// The vertices that a picture leaves out of the shown case's wounds.

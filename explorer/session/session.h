@@ -66,6 +66,8 @@ class Session {
   std::optional<CutFields> cut_fields(int i);  ///< the fields of cuts in case i; none without a study
   /// The overlay over the shown case; if it cannot be drawn, the caption gives the reason.
   Overlay overlay();
+  /// Of the places of the state, on the shown case's skin. Throws InputError where one is not on it.
+  const SkinRuler& ruler();
   std::string title_of(int i) const;
   /// A note on the view of case i: the estimated error of an interpolation, or that no error is known.
   /// Usually empty.
@@ -142,6 +144,7 @@ class Session {
   std::vector<ScalpelPath> cut_paths(double depth) const;
 
   std::shared_ptr<const CutSurface> cut_surface(double depth);
+  void lay_ruler_over(Overlay& overlay);
   Overlay make_overlay();
   std::optional<CutFields> turning_fields(int i);
   bool is_outside() const;

@@ -82,7 +82,26 @@ Overlay Session::make_overlay() {
       overlay.lines.push_back({{place - half, place + half}, {0.0, 0.45, 0.7}});
       overlay.in_front = true;
     }
+  if (!s.ruler.empty() && has_scene()) lay_ruler_over(overlay);
   return overlay;
+}
+
+const SkinRuler& Session::ruler() {
+  const auto scene = this->scene();
+  std::shared_ptr<const SkinRuler>& ruler = opened_.drawn.ruler;
+  const std::vector<Vec3>& places = state().ruler;
+  if (!ruler || ruler->scene() != scene || ruler->places() != places)
+    ruler = std::make_shared<const SkinRuler>(scene, places);
+  return *ruler;
+}
+
+void Session::lay_ruler_over(Overlay& overlay) {
+  constexpr Ink ink{0.8, 0, 0.5};
+  const Measures now = ruler().at(std::min(state().time, scene()->duration())), rest = ruler().at_rest();
+  for (const Vec3& place : now.places) overlay.dots.push_back({place, ink});
+  if (now.places.size() > 1) overlay.lines.push_back({now.places, ink});
+  overlay.in_front = true;
+  overlay.caption += (overlay.caption.empty() ? "" : "\n") + told(now, rest);
 }
 
 Tornado Session::tornado() {

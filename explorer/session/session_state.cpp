@@ -143,6 +143,7 @@ SessionState to_state(const Json& j) {
     s.probe =
         ProbeState{to_vec3(j["probe"].at("place")), static_cast<Side>(j["probe"].at("side").get<int>())};
   if (j.contains("zoom")) s.zoom = ZoomState{to_vec3(j["zoom"].at("place")), j["zoom"].at("radius")};
+  for (const Json& place : j.value("ruler", Json::array())) s.ruler.push_back(to_vec3(place));
   s.figure = j.value("figure", "");
   s.filtered = j.value("filtered", false);
   s.wall = j.value("wall", false);
@@ -200,6 +201,7 @@ std::string state_to_json(const SessionState& s) {
   if (!s.tensions_undone.empty()) j["tensions_undone"] = to_json(s.tensions_undone);
   if (s.probe) j["probe"] = {{"place", to_json(s.probe->uvw)}, {"side", static_cast<int>(s.probe->side)}};
   if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
+  for (const Vec3& place : s.ruler) j["ruler"].push_back(to_json(place));
   if (!s.figure.empty()) j["figure"] = s.figure;
   if (s.percentiles) j["percentiles"] = {s.percentiles->first, s.percentiles->second};
   if (!s.map.empty()) j["map"] = s.map;

@@ -105,7 +105,8 @@ struct SessionState {
   CameraState camera;
   std::optional<ProbeState> probe;
   std::optional<ZoomState> zoom;
-  std::string figure;  ///< of how the method works, over the scene; empty: none
+  std::vector<Vec3> ruler;  ///< places of the skin between which is measured, at rest; empty: none
+  std::string figure;       ///< of how the method works, over the scene; empty: none
   bool dark = false;
   std::optional<Detail> detail;  ///< of the wounds in a mesh; none: everything is evaluated
 };

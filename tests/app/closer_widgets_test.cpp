@@ -50,6 +50,28 @@ TEST_F(CloserWindow, PointsArePickedToBeProbedAndZoomedTo) {
   EXPECT_NE(window_.message().indexOf("case1/case.h5"), -1) << "said in the window";
 }
 
+TEST_F(CloserWindow, PlacesAreClickedToBeMeasured) {
+  tell("open " + raw_study());
+  settle(20);
+  QTest::keyClick(&window_, Qt::Key_M);
+  EXPECT_TRUE(widget<QAction>("measure").isChecked());
+  press(0.5, 0.3);
+  press(0.5, 0.7);
+  ASSERT_EQ(now().ruler.size(), 2u) << window_.message().toStdString();
+  EXPECT_NE(window_.message().indexOf("(at rest"), -1) << window_.message().toStdString();
+  EXPECT_GT(now().ruler[0].y, 1) << "above the cut";
+  EXPECT_LT(now().ruler[1].y, -1);
+  QTest::keyClick(&window_, Qt::Key_M);
+  EXPECT_FALSE(widget<QAction>("measure").isChecked());
+  EXPECT_EQ(now().ruler.size(), 2u) << "it stays";
+  QTest::keyClick(&window_, Qt::Key_M);
+  EXPECT_TRUE(now().ruler.empty()) << "another begins";
+  press(0.5, 0.3);
+  QTest::keyClick(&window_, Qt::Key_Escape);
+  EXPECT_TRUE(now().ruler.empty());
+  EXPECT_FALSE(widget<QAction>("measure").isChecked());
+}
+
 TEST_F(CloserWindow, TheTornadoIsThatOfTheSession) {
   tell("open " + study());
   wait_for_figures();

@@ -92,6 +92,45 @@ TEST_F(Closer, AProbePlotsAPointAndTheNodeBesideIt) {
   EXPECT_EQ(state().probe->side, Side::left);
 }
 
+TEST_F(Closer, ARulerMovesWithTheSkin) {
+  open_raw();
+  say("time 20");
+  answers_.clear();
+  say("measure -5,4,0 -5,-4,0 1,-4,0");
+  // Where the field takes the places, and the law of cosines and Heron's formula of their distances.
+  const auto field = session_.field();
+  std::vector<Vec3> places{{-5, 4, 0}, {-5, -4, 0}, {1, -4, 0}};
+  for (Vec3& place : places) place += field->displacement(place, side_of(place.y), 20);
+  const double a = norm(places[1] - places[0]), b = norm(places[2] - places[1]),
+               c = norm(places[2] - places[0]), half = (a + b + c) / 2;
+  EXPECT_GT(a, 9) << "it is the opening's size that is measured";
+  const Measures now = session_.ruler().at(20), rest = session_.ruler().at_rest();
+  ASSERT_EQ(now.distances.size(), 2u);
+  constexpr double of_flat_triangles = 0.01;  // mm: places lie between the surface's points
+  EXPECT_NEAR(now.distances[0], a, of_flat_triangles);
+  EXPECT_NEAR(now.distances[1], b, of_flat_triangles);
+  EXPECT_NEAR(now.angle.value(), std::acos((a * a + b * b - c * c) / (2 * a * b)) * 180 / M_PI, 0.1);
+  EXPECT_NEAR(now.area.value(), std::sqrt(half * (half - a) * (half - b) * (half - c)), 0.1);
+  EXPECT_NEAR(rest.distances[0], 8, 1e-9);
+  EXPECT_NEAR(rest.angle.value(), 90, 1e-9);
+  EXPECT_NEAR(rest.area.value(), 24, 1e-9);
+  EXPECT_NE(answers_.find(formatted("%.2f mm (at rest 8.00)", now.distances[0])), answers_.npos) << answers_;
+  EXPECT_EQ(session_.overlay().dots.size(), 3u);
+  EXPECT_NE(session_.overlay().caption.find("angle"), std::string::npos);
+  say("time 0");
+  EXPECT_NEAR(session_.ruler().at(0).distances[0], 8, 1e-9);
+  say("measure add 1,4,0");
+  EXPECT_NEAR(session_.ruler().at_rest().area.value(), 48, 1e-9) << "of four places";
+  EXPECT_FALSE(session_.ruler().at_rest().angle);
+  EXPECT_NE(refused("measure add 0,0,50").find("the skin is 50 mm away from 0,0,50"), std::string::npos);
+  EXPECT_EQ(state().ruler.size(), 4u) << "what is refused adds nothing";
+  say("save " + folder_ / "s.json");
+  say("measure clear");
+  EXPECT_TRUE(session_.overlay().empty());
+  say("load " + folder_ / "s.json");
+  EXPECT_EQ(state().ruler.size(), 4u);
+}
+
 TEST_F(Closer, ZoomReadsTheNodesOfThePlaceAndNoOthers) {
   open_raw();
   say("time 21");
