@@ -235,6 +235,8 @@ void MainWindow::follow_tools() {
   const SessionState& s = session_.state();
   const QSignalBlocker quiet(coloring_);
   std::vector<ColoringText> all = colorings();
+  if (!session_.mesh() || session_.mesh()->colors.empty())
+    std::erase_if(all, [](const ColoringText& c) { return c.coloring == Coloring::own; });
   for (const std::string& name : session_.quantities()) {
     all.push_back(text_of(Coloring(name)));
     all.back().name = name;

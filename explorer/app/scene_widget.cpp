@@ -272,7 +272,7 @@ ScalpelCutting& SceneWidget::live_cutting() {
   return *live_;
 }
 
-void SceneWidget::show_live(const ScalpelCutting& cutting) {
+void SceneWidget::show_live(ScalpelCutting& cutting) {
   const bool same = moment_ && moment_->cuts == cutting.figures().cuts;
   moment_ = moment_of(cutting, moment_.get());
   if (!same || !live_scene_) live_scene_ = std::make_shared<LiveScene>(moment_, session_.scene()->surface());

@@ -81,7 +81,7 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   bool points(QEvent* event);
   CutState smoothed() const;
   ScalpelCutting& live_cutting();
-  void show_live(const ScalpelCutting& cutting);
+  void show_live(ScalpelCutting& cutting);
   void draw();
   void say_camera();
 

@@ -189,6 +189,7 @@ void cut(const Options& options) {
                                               options.scale, cuts.progress(), options.out);
   } else {
     const auto arrays = point_arrays(cuts, result.points);
+    result.colors = cuts.colors();
     write_mesh(options.out, moved(std::move(result), cuts.origin()), arrays);
   }
   print_figures(figures, options.json);

@@ -4,6 +4,7 @@
 
 #include "explorer/io/mesh_file.h"
 #include "explorer/wound/mesh_cuts.h"
+#include "explorer/wound/tissue_colors.h"
 
 namespace cleft {
 
@@ -57,7 +58,7 @@ void add_times(Json& figures, HapticLoop& loop, const BareTimer& bare, const Sca
                   {"wound_us", quantiles_us(c.open)}});
 }
 
-void write_cut_mesh(const std::string& file, const ScalpelCutting& cutting, double scale) {
+void write_cut_mesh(const std::string& file, ScalpelCutting& cutting, double scale) {
   const CutMesh& mesh = cutting.mesh();
   SurfaceMesh surface = mesh.surface();
   PointArray displacement{"displacement", 3, {}};
@@ -66,6 +67,7 @@ void write_cut_mesh(const std::string& file, const ScalpelCutting& cutting, doub
     const Vec3 d = surface.points[v] - mesh.position(static_cast<int>(v));
     displacement.values.insert(displacement.values.end(), {d.x, d.y, d.z});
   }
+  surface.colors = with_tissue(cutting.colors(), depth_fractions_of(mesh));
   write_mesh(file, surface,
              {displacement, {"depth", 1, depths_of(mesh, scale)}, {"region", 1, regions_of(mesh)}});
 }

@@ -15,6 +15,6 @@ Json figures_of(const HapticLoop& loop, const ScalpelCutting& cutting);
 void add_times(Json& figures, HapticLoop& loop, const BareTimer& bare, const ScalpelCutting& cutting);
 
 /// The mesh as it was left, in its own units; with the arrays displacement, depth and region of `cleft cut`.
-void write_cut_mesh(const std::string& file, const ScalpelCutting& cutting, double scale);
+void write_cut_mesh(const std::string& file, ScalpelCutting& cutting, double scale);
 
 }  // namespace cleft

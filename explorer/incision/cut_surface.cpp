@@ -1,6 +1,7 @@
 #include "explorer/incision/cut_surface.h"
 
 #include "base/error.h"
+#include "explorer/incision/places_before.h"
 
 namespace cleft {
 
@@ -14,6 +15,7 @@ CutSurface::CutSurface(const SurfaceMesh& mesh, const std::vector<ScalpelPath>& 
       throw InputError("cut " + std::to_string(cuts_.size() + 1) + ": " + e.what());
     }
   }
+  if (!mesh.colors.empty()) colors_ = PlacesBefore(mesh).carried(mesh_, mesh.colors);
 }
 
 }  // namespace cleft

@@ -18,11 +18,14 @@ class CutSurface {
   const CutMesh& mesh() const { return mesh_; }
   const std::vector<std::unique_ptr<Incision>>& cuts() const { return cuts_; }
   int original_points() const { return original_points_; }
+  /// The mesh's own, carried to each vertex (PlacesBefore); empty where it has none.
+  const std::vector<PointColor>& colors() const { return colors_; }
 
  private:
   CutMesh mesh_;
   int original_points_;
   std::vector<std::unique_ptr<Incision>> cuts_;
+  std::vector<PointColor> colors_;
 };
 
 }  // namespace cleft

@@ -12,6 +12,7 @@
 #include <vtkSTLReader.h>
 #include <vtkSTLWriter.h>
 #include <vtkTriangleFilter.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -77,6 +78,36 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   return triangles;
 }
 
+constexpr const char* color_name = "RGB";
+
+/// Bytes, as ParaView takes them for colours.
+vtkSmartPointer<vtkUnsignedCharArray> color_array(const std::vector<PointColor>& colors) {
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetName(color_name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(colors.size()));
+  unsigned char* to = array->GetPointer(0);
+  for (const PointColor& color : colors)
+    for (const std::uint8_t part : byte_color(color)) *to++ = part;
+  return array;
+}
+
+/// The colours of points: bytes that are called RGB or RGBA, or are what the data are coloured by. Null:
+/// there are none.
+vtkUnsignedCharArray* colors_of(vtkPointData* of) {
+  for (vtkDataArray* array : {of->GetArray(color_name), of->GetArray("RGBA"), of->GetScalars()}) {
+    const auto bytes = vtkUnsignedCharArray::SafeDownCast(array);
+    if (bytes && (bytes->GetNumberOfComponents() == 3 || bytes->GetNumberOfComponents() == 4)) return bytes;
+  }
+  return nullptr;
+}
+
+PointColor color_at(const vtkUnsignedCharArray& colors, vtkIdType point) {
+  PointColor color;
+  for (int k = 0; k < 3; ++k) color[static_cast<std::size_t>(k)] = colors.GetTypedComponent(point, k) / 255.F;
+  return color;
+}
+
 vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, int& merged) {
   const PlyPolygons ply = read_ply(path);
   vtkNew<vtkPoints> points;
@@ -91,6 +122,7 @@ vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, int& merged)
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetPolys(cells);
+  if (!ply.colors.empty()) data->GetPointData()->AddArray(color_array(ply.colors));
   return merged_triangles(data, merged);
 }
 
@@ -107,6 +139,10 @@ vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<P
   data->SetPoints(points);
   data->SetPolys(cells);
   add_arrays(arrays, data->GetPointData(), mesh.points.size());
+  if (!mesh.colors.empty()) {
+    CLEFT_CHECK(mesh.colors.size(), ==, mesh.points.size());
+    data->GetPointData()->AddArray(color_array(mesh.colors));
+  }
   return data;
 }
 
@@ -136,6 +172,10 @@ void write_vtp(const std::string& path, const SurfaceMesh& mesh, const std::vect
   write_text_file(path, xml_of(writer.Get(), to_vtk(mesh, arrays), path));
 }
 
+void write_ply(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>&) {
+  write_text_file(path, ply_of(mesh));
+}
+
 /// What reads and writes a row of the table of formats.
 struct SurfaceFile {
   std::string_view ending;
@@ -147,7 +187,7 @@ struct SurfaceFile {
 constexpr SurfaceFile surface_files[] = {
     {".stl", check_stl, read_with<vtkSTLReader>, write_stl},
     {".obj", check_obj, read_with<vtkOBJReader>, write_obj},
-    {".ply", nullptr, read_ply_mesh, nullptr},
+    {".ply", nullptr, read_ply_mesh, write_ply},
     {".vtp", nullptr, read_with<vtkXMLPolyDataReader>, write_vtp},
 };
 
@@ -175,6 +215,7 @@ SurfaceMesh mesh_of_polygons(vtkPolyData* data, const std::string& path, MeshRep
   MeshReport unread, &report = told ? *told : unread;
   SurfaceMesh mesh;
   std::vector<int> number(data->GetNumberOfPoints(), -1);
+  const vtkUnsignedCharArray* colors = colors_of(data->GetPointData());
   vtkCellArray* cells = data->GetPolys();
   vtkIdType size;
   const vtkIdType* corners;
@@ -193,7 +234,10 @@ SurfaceMesh mesh_of_polygons(vtkPolyData* data, const std::string& path, MeshRep
     auto& triangle = mesh.triangles.emplace_back();
     for (int i = 0; i < 3; ++i) {
       int& n = number[corners[i]];
-      if (n < 0) n = static_cast<int>(mesh.points.size()), mesh.points.push_back(p[i]);
+      if (n < 0) {
+        n = static_cast<int>(mesh.points.size()), mesh.points.push_back(p[i]);
+        if (colors) mesh.colors.push_back(color_at(*colors, corners[i]));
+      }
       triangle[i] = n;
     }
   }

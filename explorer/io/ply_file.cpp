@@ -225,6 +225,32 @@ void read_element(Body& body, const Element& element, int kept, std::vector<doub
   }
 }
 
+/// Where an element has its colours; -1: it has none. Refuses types that are no colours.
+std::array<int, 3> color_indices(const std::string& path, const Element& element) {
+  const std::array<int, 3> indices{property_index(element, {"red", "diffuse_red"}, false),
+                                   property_index(element, {"green", "diffuse_green"}, false),
+                                   property_index(element, {"blue", "diffuse_blue"}, false)};
+  for (const int i : indices)
+    if (i < 0) return {-1, -1, -1};
+  for (const int i : indices) {
+    const Property& property = element.properties[static_cast<std::size_t>(i)];
+    if (property.type->kind == Type::integer ||
+        (property.type->kind == Type::natural && property.type->bytes > 2))
+      throw FileError(path, "its colours '" + property.name + "' are of type " + property.type->names[0] +
+                                "; uchar, ushort, float and double are read");
+  }
+  return indices;
+}
+
+/// 0 to 1.
+float color_part(const Body& body, const Property& property, double value) {
+  const double whole = property.type->kind == Type::real ? 1 : property.type->bytes == 1 ? 255 : 65535;
+  if (!(value >= 0 && value <= whole))
+    body.refuse("has the " + property.name + " " + shortest(value) + "; from 0 to " + shortest(whole) +
+                " are colours");
+  return static_cast<float>(value / whole);
+}
+
 }  // namespace
 
 PlyPolygons read_ply(const std::string& path) {
@@ -241,6 +267,7 @@ PlyPolygons read_ply(const std::string& path) {
     const int x = property_index(element, {"x"}, false), y = property_index(element, {"y"}, false),
               z = property_index(element, {"z"}, false),
               corners = property_index(element, {"vertex_indices", "vertex_index"}, true);
+    const std::array<int, 3> color = points ? color_indices(path, element) : std::array{-1, -1, -1};
     const bool known_points = points && x >= 0 && y >= 0 && z >= 0, known_faces = faces && corners >= 0;
     has_points = has_points || known_points, has_faces = has_faces || known_faces;
     for (std::size_t n = 0; n < element.count && !element.properties.empty(); ++n) {
@@ -251,6 +278,13 @@ PlyPolygons read_ply(const std::string& path) {
         if (!std::isfinite(place.x) || !std::isfinite(place.y) || !std::isfinite(place.z))
           body.refuse("has a coordinate that is no finite number");
         result.points.push_back(place);
+        if (color[0] >= 0) {
+          PointColor& own = result.colors.emplace_back();
+          for (std::size_t k = 0; k < own.size(); ++k) {
+            const auto i = static_cast<std::size_t>(color[k]);
+            own[k] = color_part(body, element.properties[i], scalars[i]);
+          }
+        }
       }
       if (!known_faces) continue;
       std::vector<int>& polygon = result.polygons.emplace_back();

@@ -17,6 +17,6 @@ struct CuttingMoment {
   int cuts = 0;           ///< CuttingFigures::cuts as of the surface
 };
 /// `before`: the previous state, or null.
-std::shared_ptr<const CuttingMoment> moment_of(const ScalpelCutting& cutting, const CuttingMoment* before);
+std::shared_ptr<const CuttingMoment> moment_of(ScalpelCutting& cutting, const CuttingMoment* before);
 
 }  // namespace cleft

@@ -27,7 +27,11 @@ constexpr double far = 30;  // mm, how far ahead a cut without a field is taken 
 }  // namespace
 
 ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
-    : setup_(std::move(setup)), mesh_(mesh), original_points_(static_cast<int>(mesh.points.size())) {
+    : setup_(std::move(setup)),
+      mesh_(mesh),
+      original_points_(static_cast<int>(mesh.points.size())),
+      own_colors_(mesh.colors) {
+  if (!own_colors_.empty()) places_.emplace(mesh);
   for (const ScalpelPath& path : setup_.made) {
     add_cut(path, {}, all);
     cuts_.back()->advance_to(path.length());
@@ -68,6 +72,10 @@ double ScalpelCutting::cut_length() const {
   for (std::size_t k = made_; k < cuts_.size(); ++k)
     length += setup_.scale * (cuts_[k]->tip() - cuts_[k]->start());
   return length;
+}
+
+std::vector<PointColor> ScalpelCutting::colors() {
+  return places_ ? places_->carried(mesh_, own_colors_) : std::vector<PointColor>{};
 }
 
 std::vector<Validity> ScalpelCutting::validity() const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "explorer/incision/incision.h"
+#include "explorer/incision/places_before.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/live_wounds.h"
 #include "haptic/contact_query.h"
@@ -48,6 +49,8 @@ class ScalpelCutting {
   std::vector<Validity> validity() const;
   const CutMesh& mesh() const { return mesh_; }
   int original_points() const { return original_points_; }
+  /// The mesh's own, carried to each vertex as it is now; empty where it has none.
+  std::vector<PointColor> colors();
   /// That of the newest cut; null if there is none.
   const Incision* incision() const { return cuts_.empty() ? nullptr : cuts_.back().get(); }
   /// Places of the cuts that the scalpel has made without a path.
@@ -90,6 +93,8 @@ class ScalpelCutting {
   Setup setup_;
   CutMesh mesh_;
   int original_points_;
+  std::vector<PointColor> own_colors_;  // of the mesh before
+  std::optional<PlacesBefore> places_;  // none without colours
   std::vector<std::unique_ptr<Incision>> cuts_;
   LiveWounds wounds_;     // of all cuts; none without a field
   std::size_t made_ = 0;  // existing cuts

@@ -47,6 +47,7 @@ void BodyScene::values(const Coloring& coloring, const Field* reference, double 
   };
   switch (coloring.kind) {
     case Coloring::tissue:
+    case Coloring::own:
       return out.assign(nodes_.size(), 0);
     case Coloring::quantity:
       return take(quantities(coloring.name, t));

@@ -15,6 +15,7 @@ namespace cleft {
 const std::vector<ColoringText>& colorings() {
   static const std::vector<ColoringText> all{
       {Coloring::tissue, "tissue", "", "skin and the layers of the wound, as they look"},
+      {Coloring::own, "own", "", "the mesh's own colours, as its file has them"},
       {Coloring::displacement, "displacement", "displacement, mm", "from the closed frame"},
       {Coloring::gape, "gape", "gape, mm",
        "opening between a point and its mirror image across the cut; on the lips, the gape"},
@@ -111,6 +112,7 @@ double color_value(const Coloring& coloring, const VaryingField& field, const Fi
     case Coloring::quantity:
       return quantity_value(coloring.name, field.shape(), place);
     case Coloring::tissue:
+    case Coloring::own:
       break;
   }
   return 0;

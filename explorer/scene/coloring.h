@@ -10,7 +10,7 @@ namespace cleft {
 
 /// What a surface is coloured by; compares and converts as its kind does.
 struct Coloring {
-  enum Kind { tissue, displacement, gape, strain, difference, widening, error, quantity };
+  enum Kind { tissue, own, displacement, gape, strain, difference, widening, error, quantity };
   Coloring(Kind of = displacement) : kind(of) {}  // NOLINT: a kind is a colouring
   explicit Coloring(std::string of_quantity) : kind(quantity), name(std::move(of_quantity)) {}
   friend bool operator==(const Coloring&, const Coloring&) = default;
@@ -25,6 +25,10 @@ struct ColoringText {
   std::string title;  ///< with its unit, as in legends
   std::string help;
 };
+/// Whether the surface looks as it is: there are no values and no legend.
+inline bool is_look(const Coloring& coloring) {
+  return coloring == Coloring::tissue || coloring == Coloring::own;
+}
 /// Whether its values go to both sides of 0.
 inline bool is_signed(const Coloring& coloring) { return coloring == Coloring::widening; }
 /// Whether it is relative to another case.

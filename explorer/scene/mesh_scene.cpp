@@ -13,7 +13,7 @@ MeshScene::MeshScene(std::shared_ptr<const CutSurface> cut, const std::optional<
     duration_ += incision->path().length();
   }
   if (!wounds.empty()) wounds_ = std::make_shared<ReplayedWounds>(std::move(wounds));
-  WoundSurface surface = wound_surface_of(cut_->mesh(), cut_->original_points());
+  WoundSurface surface = wound_surface_of(cut_->mesh(), cut_->original_points(), cut_->colors());
   aim_at_cuts(surface);
   surface_ = std::make_shared<const WoundSurface>(std::move(surface));
 }
@@ -115,7 +115,7 @@ void MeshScene::simulated_values(const Coloring& coloring, double t, std::vector
 void MeshScene::values(const Coloring& coloring, const Field* reference, double t,
                        std::vector<double>& out) const {
   out.assign(surface_->points.size(), 0);
-  if (coloring == Coloring::tissue) return;
+  if (is_look(coloring)) return;
   if (simulated_) return simulated_values(coloring, t, out);
   if (!wounds_) return;
   const Wounds::Blade now = wounds_->blade(t);

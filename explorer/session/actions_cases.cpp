@@ -102,6 +102,12 @@ void find_cases(Session& session, const std::string& condition) {
 }
 
 void color_by(Session& session, const Coloring& coloring) {
+  if (coloring == Coloring::own && (!session.mesh() || session.mesh()->colors.empty()))
+    throw InputError(std::string(session.mesh()
+                                     ? "the mesh has no colours of its own"
+                                     : "there is no mesh with colours of its own (say: mesh FILE)") +
+                     "; a .ply has, whose vertices have red, green and blue, and a .vtp with an array RGB of "
+                     "bytes");
   if (coloring == Coloring::error) {
     if (session.mesh() && !session.opened().simulated.wounds)
       throw InputError(

@@ -58,7 +58,7 @@ void load_mesh(Session& session, const std::string& file, double scale) {
   state.clip.reset();
   state.bone.clear();
   read_surfaces(session, session.opened());
-  state.coloring = Coloring::tissue;
+  state.coloring = session.mesh()->colors.empty() ? Coloring::tissue : Coloring::own;
   state.zoom.reset(), state.figure.clear(), state.ruler.clear();
   state.camera = {};
   if (const std::string doubt =

@@ -9,6 +9,7 @@
 #include "explorer/session/actions.h"
 #include "explorer/session/commands.h"
 #include "explorer/wound/mesh_unit.h"
+#include "explorer/wound/tissue_colors.h"
 #include "haptic/devices/list.h"
 
 namespace cleft {
@@ -206,6 +207,7 @@ void export_mesh(Session& session, CommandWords& words) {
   scene->positions(session.state().time, out.points);
   for (Vec3& x : out.points) x *= 1 / session.state().scale;
   out.triangles = scene->surface().triangles;
+  out.colors = with_tissue(scene->surface().colors, scene->surface().depth_fraction);
   session.services().write_mesh(file, out);
 }
 

@@ -208,8 +208,7 @@ bool Session::is_guess(int i) const {
   if (i != state().shown) return false;
   const auto beyond = [](const Validity& v) { return v.expected_error.largest > greatest_known_error; };
   if (is_outside()) return true;
-  const bool as_it_looks =
-      state().coloring == Coloring::tissue;  // colours of values are read as pages show them
+  const bool as_it_looks = is_look(state().coloring);  // colours of values are read as pages show them
   return as_it_looks && std::any_of(validity().begin(), validity().end(), beyond);
 }
 

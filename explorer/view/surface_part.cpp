@@ -77,6 +77,18 @@ void SurfacePart::Sheet::take_colors(const std::function<double(int)>& scalar) {
   data->Modified();
 }
 
+void SurfacePart::Sheet::take_paint(const std::function<PointColor(int)>& color) {
+  paint->SetName(painted);
+  paint->SetNumberOfComponents(3);
+  paint->SetNumberOfTuples(static_cast<vtkIdType>(shape.source().size()));
+  unsigned char* to = paint->GetPointer(0);
+  for (const int point : shape.source())
+    for (const std::uint8_t part : byte_color(color(point))) *to++ = part;
+  paint->Modified();
+  data->GetPointData()->AddArray(paint);
+  data->Modified();
+}
+
 SurfacePart::SurfacePart(const WoundSurface& surface, const std::function<bool(Region)>& belongs,
                          const std::vector<bool>& moving) {
   Triangles all;
@@ -107,6 +119,11 @@ void SurfacePart::move(const std::vector<Vec3>& points) { moving_->take(points);
 void SurfacePart::color(const std::function<double(int)>& scalar) {
   moving_->take_colors(scalar);
   still_->take_colors(scalar);
+}
+
+void SurfacePart::paint(const std::function<PointColor(int)>& color) {
+  moving_->take_paint(color);
+  still_->take_paint(color);
 }
 
 std::array<int, 3> SurfacePart::corners(const vtkPolyData* of, std::size_t cell) const {

@@ -4,6 +4,7 @@
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <functional>
 #include <optional>
@@ -28,6 +29,10 @@ class SurfacePart {
   /// Rewrites the colour scalar of every vertex from that of its point.
   void color(const std::function<double(int point)>& scalar);
 
+  /// Gives every vertex the colour of its point, in bytes, in the array `painted`.
+  void paint(const std::function<PointColor(int point)>& color);
+  static constexpr const char* painted = "painted";
+
   vtkPolyData* data() const { return moving_->data; }
   vtkPolyData* still() const { return still_->data; }  ///< without triangles if all moves
 
@@ -40,11 +45,13 @@ class SurfacePart {
     void take(const std::vector<Vec3>& points);
     void put(const std::vector<Vec3>& points);  ///< with the normals there are
     void take_colors(const std::function<double(int)>& scalar);
+    void take_paint(const std::function<PointColor(int)>& color);
 
     SmoothNormals shape;
     std::vector<Vec3> normal;  // of every vertex, as drawn
     vtkNew<vtkPolyData> data;
     vtkNew<vtkFloatArray> points, normals, scalars;
+    vtkNew<vtkUnsignedCharArray> paint;  // part of the data once there is any
   };
   std::optional<Sheet> moving_, still_;
 };

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "explorer/wound/tissue_colors.h"
+
 namespace cleft {
 namespace {
 
@@ -37,22 +39,23 @@ std::array<double, 3> faded(const std::array<double, 3>& color) {
           color[2] + part * (grey - color[2])};
 }
 
+PointColor faded(const PointColor& color) {
+  const auto [red, green, blue] = faded(std::array<double, 3>{color[0], color[1], color[2]});
+  return {static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue)};
+}
+
 void fade(vtkLookupTable* colors) {
   for (vtkIdType i = 0; i < colors->GetNumberOfTableValues(); ++i) {
     const double* own = colors->GetTableValue(i);
-    const auto [red, green, blue] = faded({own[0], own[1], own[2]});
+    const auto [red, green, blue] = faded(std::array{own[0], own[1], own[2]});
     colors->SetTableValue(i, red, green, blue);
   }
 }
 
 vtkSmartPointer<vtkLookupTable> tissue_colors() {
-  return table({{0, 0.86, 0.52, 0.46},
-                {0.12, 0.80, 0.40, 0.36},
-                {0.20, 0.93, 0.74, 0.46},
-                {0.50, 0.90, 0.66, 0.36},
-                {0.64, 0.66, 0.17, 0.13},
-                {1, 0.34, 0.04, 0.05}},
-               0, 1);
+  std::vector<Stop> stops;
+  for (const auto& [at, red, green, blue] : tissue_stops) stops.push_back({at, red, green, blue});
+  return table(stops, 0, 1);
 }
 
 vtkSmartPointer<vtkLookupTable> value_colors(const ColorMap& map, double least, double greatest) {

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "explorer/incision/surface_mesh.h"
 #include "explorer/scene/color_maps.h"
 
 namespace cleft {
@@ -14,6 +15,7 @@ inline constexpr std::array<double, 3> skin_color{0.91, 0.70, 0.60};
 
 /// A colour of a surface that is a guess: paler and greyer.
 std::array<double, 3> faded(const std::array<double, 3>& color);
+PointColor faded(const PointColor& color);
 /// The same of all colours of a table.
 void fade(vtkLookupTable* colors);
 

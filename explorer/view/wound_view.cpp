@@ -37,6 +37,13 @@ vtkSmartPointer<vtkActor> make_actor(vtkPolyData* data, vtkLookupTable* colors) 
   return actor;
 }
 
+void show_paint(vtkMapper* mapper) {
+  mapper->ScalarVisibilityOn();
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray(SurfacePart::painted);
+  mapper->SetColorModeToDirectScalars();
+}
+
 }  // namespace
 
 WoundView::WoundView() {
@@ -115,7 +122,7 @@ std::vector<double> WoundView::values_over_time(const Coloring& coloring, const 
 
 std::pair<double, double> WoundView::range_of(const Coloring& coloring, const Field* reference,
                                               const std::optional<std::pair<double, double>>& percentiles) {
-  if (coloring == Coloring::tissue) return {0, 0};
+  if (is_look(coloring)) return {0, 0};
   if (known_range_ && known_range_->coloring == coloring && known_range_->reference == reference &&
       known_range_->percentiles == percentiles)
     return known_range_->range;
@@ -149,7 +156,7 @@ void WoundView::add_actors() {
   props_.clear();
   legend_ = nullptr;
   vtkSmartPointer<vtkLookupTable> skin;
-  if (coloring_ != Coloring::tissue) {
+  if (!is_look(coloring_)) {
     const auto [least, greatest] = range_ ? *range_ : range_of(coloring_, reference_.get());
     const std::vector<ColorMap>& maps = color_maps();
     const ColorMap& map = !map_.empty() ? color_map(map_) : is_signed(coloring_) ? maps.back() : maps.front();
@@ -159,12 +166,14 @@ void WoundView::add_actors() {
     legend_->SetVisibility(has_legend_);
     add_prop(legend_);
   }
+  const bool painted = coloring_ == Coloring::own && paint_skin();
   skin_actor_ = make_actor(skin_->data(), skin);
   still_actor_ = make_actor(skin_->still(), skin);
   for (vtkActor* actor : {skin_actor_.Get(), still_actor_.Get()}) {
     add_prop(actor);
     const auto [red, green, blue] = is_faded_ ? faded(skin_color) : skin_color;
     actor->GetProperty()->SetColor(red, green, blue);
+    if (painted) show_paint(actor->GetMapper());
     if (!skin) continue;
     actor->GetProperty()->SetAmbient(0.35);  // colours must be read against the legend
     actor->GetProperty()->SetDiffuse(0.62);
@@ -180,6 +189,17 @@ void WoundView::add_actors() {
   show_section();
   walls_->color([this](int p) { return scene_->surface().depth_fraction[p]; });
   set_background();
+}
+
+/// In the mesh's own colours; false where it has none.
+bool WoundView::paint_skin() {
+  const std::vector<PointColor>& own = scene_->surface().colors;
+  if (own.empty()) return false;
+  skin_->paint([&](int point) {
+    const PointColor& color = own[static_cast<std::size_t>(point)];
+    return is_faded_ ? faded(color) : color;
+  });
+  return true;
 }
 
 void WoundView::set_opacity(double opacity) {
@@ -269,7 +289,7 @@ void WoundView::set_time(double t) {
   CLEFT_CHECK(points_.size(), ==, scene_->surface().points.size());
   skin_->move(points_);
   walls_->move(points_);
-  if (coloring_ == Coloring::tissue) return;
+  if (is_look(coloring_)) return;
   scene_->values(coloring_, reference_.get(), time_, values_);
   skin_->color([this](int p) { return values_[p]; });
 }

@@ -75,6 +75,7 @@ class WoundView {
  private:
   void add_lights();
   void add_actors();
+  bool paint_skin();
   void set_background();
   void show_opacity();
   void show_edges();

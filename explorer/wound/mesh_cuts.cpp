@@ -6,7 +6,9 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "explorer/incision/local_coordinates.h"
+#include "explorer/incision/places_before.h"
 #include "explorer/wound/ipv.h"
+#include "explorer/wound/tissue_colors.h"
 
 namespace cleft {
 
@@ -63,6 +65,17 @@ std::vector<double> regions_of(const CutMesh& mesh) {
   for (const CutMesh::Vertex& v : mesh.vertices())
     regions.push_back(v.depth_fraction == 0 ? 0 : side_of(v.kind) == Side::right ? 2 : 1);
   return regions;
+}
+
+std::vector<double> depth_fractions_of(const CutMesh& mesh) {
+  std::vector<double> fractions;
+  for (const CutMesh::Vertex& v : mesh.vertices()) fractions.push_back(v.depth_fraction);
+  return fractions;
+}
+
+std::vector<PointColor> MeshCuts::colors() const {
+  if (uncut_.colors.empty()) return {};
+  return with_tissue(PlacesBefore(uncut_).carried(mesh_, uncut_.colors), depth_fractions_of(mesh_));
 }
 
 std::vector<double> MeshCuts::along() const {

@@ -20,6 +20,7 @@ struct MeshCutsOptions {
 // Of every vertex of a mesh with cuts.
 std::vector<double> depths_of(const CutMesh& mesh, double scale);  ///< mm below the skin
 std::vector<double> regions_of(const CutMesh& mesh);  ///< 0 skin and lips, 1 left wall, 2 right wall
+std::vector<double> depth_fractions_of(const CutMesh& mesh);
 
 class MeshCuts {
  public:
@@ -42,6 +43,8 @@ class MeshCuts {
   // Of every vertex of mesh().
   std::vector<double> depths() const { return depths_of(mesh_, scale_); }
   std::vector<double> regions() const { return regions_of(mesh_); }
+  /// The mesh's own, and those of tissue below the skin; empty where it has none.
+  std::vector<PointColor> colors() const;
   std::vector<double> along() const;  ///< mm along the path; of a vertex on no cut, along the last one
 
  private:

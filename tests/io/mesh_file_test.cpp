@@ -27,7 +27,7 @@ class MeshFile : public ::testing::Test {
 
 TEST_F(MeshFile, ComesBackAsWritten) {
   const SurfaceMesh mesh = testing::sphere(2, 5);
-  for (const char* name : {"a.vtp", "a.obj", "a.stl", "a.STL"}) {
+  for (const char* name : {"a.vtp", "a.obj", "a.stl", "a.STL", "a.ply"}) {
     write_mesh(path(name), mesh, {{"s", 1, std::vector<double>(mesh.points.size(), 2)}});
     const SurfaceMesh back = read_mesh(path(name));
     ASSERT_EQ(back.points.size(), mesh.points.size()) << name;
@@ -38,7 +38,7 @@ TEST_F(MeshFile, ComesBackAsWritten) {
     EXPECT_NEAR(testing::shape_of(CutMesh(back)).volume, testing::shape_of(CutMesh(mesh)).volume, 1e-3);
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(fs::path(path("x")).parent_path()), {}),
-            4);  // nothing half-written
+            5);  // nothing half-written
 }
 
 TEST_F(MeshFile, PolygonsBecomeTrianglesAndRubbishGoes) {
@@ -66,7 +66,7 @@ TEST_F(MeshFile, ObjFacesMayNameOnlyWhatIsThere) {
 
 TEST_F(MeshFile, TruncatedFilesDoNotCrash) {
   const SurfaceMesh mesh = testing::sphere(2, 5);
-  for (const char* ending : {".stl", ".obj", ".vtp"}) {
+  for (const char* ending : {".stl", ".obj", ".ply", ".vtp"}) {
     write_mesh(path(std::string("whole") + ending), mesh);
     const auto size = fs::file_size(path(std::string("whole") + ending));
     for (int k = 1; k < 8; ++k) {

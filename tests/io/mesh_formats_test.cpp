@@ -68,11 +68,11 @@ void expect_in(const std::string& text, const std::string& part) {
 
 TEST_F(MeshFormats, AreTheOnesThatTextsName) {
   EXPECT_EQ(surfaces, ".stl .obj .ply .vtp");
-  EXPECT_EQ(written, ".stl .obj .vtp");
+  EXPECT_EQ(written, ".stl .obj .ply .vtp");
   EXPECT_EQ(volumes, ".vtu");
   EXPECT_EQ(mesh_endings_with_arrays(), ".vtp .vtu");
   EXPECT_EQ(surface_filter(MeshUse::read), "Surface meshes (*.stl *.obj *.ply *.vtp)");
-  EXPECT_EQ(surface_filter(MeshUse::write), "Surface meshes (*.stl *.obj *.vtp)");
+  EXPECT_EQ(surface_filter(MeshUse::write), "Surface meshes (*.stl *.obj *.ply *.vtp)");
   const std::string cut_help = run_cleft("cut", {"--help"}).output;
   expect_in(cut_help, "surface mesh: " + surfaces + "; or a mesh of volume: " + volumes);
   expect_in(cut_help, "the cut mesh: " + written + ", or of volume " + volumes +
@@ -83,11 +83,11 @@ TEST_F(MeshFormats, AreTheOnesThatTextsName) {
 
 TEST_F(MeshFormats, ErrorsNameThemAll) {
   const std::string other = in.write("mesh.3ds", "");
-  const Outcome read = cut(other, in / "cut.vtp"), write = cut(in / "mesh.stl", in / "cut.ply"),
+  const Outcome read = cut(other, in / "cut.vtp"), write = cut(in / "mesh.stl", in / "cut.3ds"),
                 kinds = cut(box("box.vtu"), in / "cut.vtp");
   for (const Outcome& outcome : {read, write, kinds}) EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
   expect_in(read.output, "unknown ending '.3ds' of a mesh; known are " + surfaces);
-  expect_in(write.output, "unknown ending '.ply' of a mesh to write; known are " + written);
+  expect_in(write.output, "unknown ending '.3ds' of a mesh to write; known are " + written);
   expect_in(kinds.output, "a mesh of volume, " + volumes);
   expect_in(kinds.output, written);
 }

@@ -1,6 +1,7 @@
 // The scalpel cuts a mesh as the loop drives it, in simulated time: every sixteen ticks the mesh follows.
 #include <gtest/gtest.h>
 
+#include "explorer/scalpel/cutting_moment.h"
 #include "explorer/scalpel/hand_script.h"
 #include "explorer/scalpel/scalpel_cutting.h"
 #include "explorer/wound/replay.h"
@@ -210,6 +211,34 @@ TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
     apart = std::max(apart, norm(cutting.position(static_cast<int>(v)) - moved[v]));
   EXPECT_GT(std::abs(wounds.amplitude(0, 15, wounds.blade(wounds.duration())) - 1), 0.05);
   EXPECT_LT(apart, 5e-3);  // what is not felt, 0.002, once before the blade came and once after it
+}
+
+TEST(Cutting, TheMeshKeepsItsOwnColorsWhileItIsCut) {
+  testing::Surface ball = testing::ball(30, radius);
+  SurfaceMesh mesh{ball.points, ball.triangles};
+  for (Vec3& p : mesh.points) p = {p.z, p.x, p.y};
+  const auto color = [](const Vec3& p) {
+    return PointColor{static_cast<float>(0.5 + 0.004 * p.x), static_cast<float>(0.5 + 0.004 * p.y), 0.5F};
+  };
+  for (const Vec3& p : mesh.points) mesh.colors.push_back(color(p));
+  const ScalpelPath path = path_over_the_ball(5);
+  ScalpelCutting cutting(mesh, {path, {}, std::nullopt, 1, 0});
+  HapticState scalpel;
+  scalpel.phase = Phase::cutting;
+  std::shared_ptr<const CuttingMoment> moment = moment_of(cutting, nullptr);
+  for (double s = 0; s < 25; s += 0.7) {
+    scalpel.pose.tip = path.at(s).position - 4 * path.at(s).outward;
+    cutting.step(scalpel);
+    moment = moment_of(cutting, moment.get());
+    const WoundSurface& surface = *moment->surface;
+    ASSERT_EQ(surface.colors.size(), surface.points.size());
+    for (std::size_t v = 0; v < surface.points.size(); ++v) {
+      if (surface.depth_fraction[v] > 0) continue;
+      const PointColor expected = color(surface.points[v]);
+      for (std::size_t k = 0; k < 2; ++k) ASSERT_NEAR(surface.colors[v][k], expected[k], 1e-4) << s;
+    }
+  }
+  EXPECT_GT(moment->surface->points.size(), mesh.points.size() + 100);
 }
 
 }  // namespace

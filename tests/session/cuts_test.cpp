@@ -223,5 +223,39 @@ TEST_F(SessionTest, TheWoundFollowsTheCase) {
   EXPECT_GT(widest(points(), rest), 1.5 * widest(narrow, rest)) << "gape 5 against 2 mm";
 }
 
+TEST_F(SessionTest, AMeshIsDrawnInItsOwnColorsUntilAnotherColoringIsChosen) {
+  open();
+  say("mesh plate.stl");
+  EXPECT_EQ(state().coloring, Coloring::tissue);
+  EXPECT_NE(refused("color own").find("no colours of its own"), std::string::npos);
+  say("mesh painted_plate.stl");
+  EXPECT_EQ(state().coloring, Coloring::own);
+  say("cut -15,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  EXPECT_EQ(state().coloring, Coloring::own);
+  EXPECT_EQ(state_from_json(state_to_json(state())).coloring, Coloring::own);
+  const auto expect_own = [](const std::vector<PointColor>& colors, const std::vector<Vec3>& rest,
+                             const std::vector<double>& depth) {
+    ASSERT_EQ(colors.size(), rest.size());
+    for (std::size_t v = 0; v < rest.size(); ++v)
+      if (depth[v] == 0) EXPECT_NEAR(colors[v][0], 0.5 + 0.01 * rest[v].x, 1e-6);
+  };
+  const WoundSurface surface = session_.scene()->surface();
+  expect_own(surface.colors, surface.points, surface.depth_fraction);
+  say("export out.ply");
+  expect_own(exported_.colors, surface.points, surface.depth_fraction);
+  bool tissue = false;
+  for (std::size_t v = 0; v < exported_.colors.size(); ++v)
+    tissue = tissue || (surface.depth_fraction[v] == 1 && exported_.colors[v][0] < 0.35F);
+  EXPECT_TRUE(tissue) << "at the bottom of the cut";
+  say("color displacement");
+  say("undo");
+  EXPECT_EQ(state().coloring, Coloring::displacement) << "what was chosen stays";
+  say("color own");
+  EXPECT_EQ(session_.scene()->surface().colors.size(), session_.scene()->surface().points.size());
+  say("patch");
+  EXPECT_EQ(state().coloring, Coloring::displacement);
+  EXPECT_NE(refused("color own").find("mesh FILE"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cleft

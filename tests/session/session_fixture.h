@@ -105,6 +105,9 @@ class SessionTest : public testing::Test {
                       SurfaceMesh plate = flat_plate();
                       if (file.ends_with("bone_plate.stl"))
                         for (Vec3& x : plate.points) x.z -= 6;
+                      if (file.ends_with("painted_plate.stl"))
+                        for (const Vec3& x : plate.points)
+                          plate.colors.push_back({static_cast<float>(0.5 + 0.01 * x.x), 0.25F, 0.75F});
                       return plate;
                     },
                     [this](const std::string&, const SurfaceMesh& mesh) { exported_ = mesh; },

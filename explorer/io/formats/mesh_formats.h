@@ -20,8 +20,8 @@ struct MeshFormat {
 };
 
 inline constexpr MeshFormat mesh_formats[] = {
-    {".stl", MeshKind::surface, true, false},  {".obj", MeshKind::surface, true, false},
-    {".ply", MeshKind::surface, false, false}, {".vtp", MeshKind::surface, true, true},
+    {".stl", MeshKind::surface, true, false}, {".obj", MeshKind::surface, true, false},
+    {".ply", MeshKind::surface, true, false}, {".vtp", MeshKind::surface, true, true},
     {".vtu", MeshKind::volume, true, true},
 };
 
