@@ -109,4 +109,8 @@ void warn_of_size(const SurfaceMesh& mesh, double scale, const Field* field, con
   if (!doubt.empty()) std::fprintf(stderr, "%s: warning: --scale: %s\n", command, doubt.c_str());
 }
 
+void tell_note(const SurfaceMesh& mesh, const std::string& file, const char* command) {
+  if (!mesh.note.empty()) std::fprintf(stderr, "%s: %s: %s\n", command, file.c_str(), mesh.note.c_str());
+}
+
 }  // namespace cleft

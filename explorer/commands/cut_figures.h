@@ -26,5 +26,7 @@ Json warnings_of(const std::vector<Validity>& validity, const char* command);
 /// Warns on stderr where the mesh, at `scale` mm a unit, is not of the size of what the field was simulated
 /// for (null: the default case). Throws InputError where its size is absurd.
 void warn_of_size(const SurfaceMesh& mesh, double scale, const Field* field, const char* command);
+/// What its reader has to say of the mesh, to standard error.
+void tell_note(const SurfaceMesh& mesh, const std::string& file, const char* command);
 
 }  // namespace cleft

@@ -168,6 +168,7 @@ void cut(const Options& options) {
   Skin skin(options.mesh);
   const Field* shape = fields ? &fields->shape() : nullptr;
   warn_of_size(skin.surface, options.scale, shape, "cleft cut");
+  tell_note(skin.surface, options.mesh, "cleft cut");
   const auto made = make_cuts(options, skin, shape);
   const MeshCuts& cuts = *made;
   SurfaceMesh result = cuts.mesh().surface();

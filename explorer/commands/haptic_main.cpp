@@ -162,6 +162,7 @@ void haptic(const Options& o) {
   const Field* field = fields ? &fields->shape() : nullptr;
   const SurfaceMesh mesh = read_mesh(o.mesh);
   warn_of_size(mesh, o.scale, field, "cleft haptic");
+  tell_note(mesh, o.mesh, "cleft haptic");
   std::optional<ScalpelPath> path;
   if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field);
 

@@ -49,7 +49,7 @@ SurfaceMesh without_duplicates(const SurfaceMesh& mesh, MeshReport& report) {
   std::vector<bool> twice(mesh.triangles.size());
   for (std::size_t i = 1; i < keys.size(); ++i)
     if (keys[i].first == keys[i - 1].first) twice[keys[i].second] = true;
-  SurfaceMesh result{mesh.points, {}, mesh.colors};
+  SurfaceMesh result{mesh.points, {}, mesh.colors, mesh.note};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (!twice[t]) result.triangles.push_back(mesh.triangles[t]);
   report.duplicate_triangles = static_cast<int>(mesh.triangles.size() - result.triangles.size());

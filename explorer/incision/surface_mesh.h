@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/vec3.h"
@@ -27,6 +28,7 @@ struct SurfaceMesh {
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;
   std::vector<PointColor> colors = {};  ///< of each point; empty: the mesh has none
+  std::string note = {};                ///< what its reader has to say of the colours; empty: nothing
 };
 
 }  // namespace cleft

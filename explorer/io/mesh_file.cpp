@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/memory_file.h"
@@ -27,6 +28,7 @@
 #include "base/vtk_listener.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_checks.h"
+#include "explorer/io/obj_texture.h"
 #include "explorer/io/ply_file.h"
 #include "explorer/io/polygons.h"
 
@@ -64,8 +66,14 @@ vtkSmartPointer<vtkPolyData> merged_triangles(vtkPolyData* polygons, int& merged
   return clean->GetOutput();
 }
 
+/// What a reader has to tell besides its triangles.
+struct Told {
+  int merged_points = 0;
+  std::string note = {};
+};
+
 template <class Reader>
-vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
+vtkSmartPointer<vtkPolyData> read_with(const std::string& path, Told& told) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
@@ -73,7 +81,9 @@ vtkSmartPointer<vtkPolyData> read_with(const std::string& path, int& merged) {
   reader->Update();
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
   check_corners(path, reader->GetOutput());
-  auto triangles = merged_triangles(reader->GetOutput(), merged);
+  if constexpr (std::is_same_v<Reader, vtkOBJReader>)
+    told.note = add_texture_colors(path, reader->GetOutput());
+  auto triangles = merged_triangles(reader->GetOutput(), told.merged_points);
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
   return triangles;
 }
@@ -108,7 +118,7 @@ PointColor color_at(const vtkUnsignedCharArray& colors, vtkIdType point) {
   return color;
 }
 
-vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, int& merged) {
+vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, Told& told) {
   const PlyPolygons ply = read_ply(path);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -123,7 +133,7 @@ vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, int& merged)
   data->SetPoints(points);
   data->SetPolys(cells);
   if (!ply.colors.empty()) data->GetPointData()->AddArray(color_array(ply.colors));
-  return merged_triangles(data, merged);
+  return merged_triangles(data, told.merged_points);
 }
 
 vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
@@ -180,7 +190,7 @@ void write_ply(const std::string& path, const SurfaceMesh& mesh, const std::vect
 struct SurfaceFile {
   std::string_view ending;
   void (*check)(const std::string& path);  ///< what VTK's reader would crash on; null: none
-  vtkSmartPointer<vtkPolyData> (*read)(const std::string& path, int& merged);
+  vtkSmartPointer<vtkPolyData> (*read)(const std::string& path, Told& told);
   void (*write)(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays);
 };
 
@@ -262,8 +272,11 @@ SurfaceMesh read_mesh(const std::string& path, MeshReport* told) {
   if (!std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
   if (file.check) file.check(path);
   MeshReport report;
-  const auto data = file.read(path, report.merged_points);
+  Told found;
+  const auto data = file.read(path, found);
+  report.merged_points = found.merged_points;
   SurfaceMesh mesh = mesh_of_polygons(data, path, &report);
+  mesh.note = found.note;
   if (told) *told = report;
   return mesh;
 }

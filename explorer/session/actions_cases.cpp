@@ -103,11 +103,10 @@ void find_cases(Session& session, const std::string& condition) {
 
 void color_by(Session& session, const Coloring& coloring) {
   if (coloring == Coloring::own && (!session.mesh() || session.mesh()->colors.empty()))
-    throw InputError(std::string(session.mesh()
-                                     ? "the mesh has no colours of its own"
-                                     : "there is no mesh with colours of its own (say: mesh FILE)") +
-                     "; a .ply has, whose vertices have red, green and blue, and a .vtp with an array RGB of "
-                     "bytes");
+    throw InputError(session.mesh()
+                         ? "the mesh has no colours of its own; give a file with red, green and blue of each "
+                           "point, or with a texture no finer than its triangles"
+                         : "there is no mesh with colours of its own (say: mesh FILE)");
   if (coloring == Coloring::error) {
     if (session.mesh() && !session.opened().simulated.wounds)
       throw InputError(

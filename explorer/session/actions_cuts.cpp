@@ -61,6 +61,7 @@ void load_mesh(Session& session, const std::string& file, double scale) {
   state.coloring = session.mesh()->colors.empty() ? Coloring::tissue : Coloring::own;
   state.zoom.reset(), state.figure.clear(), state.ruler.clear();
   state.camera = {};
+  if (!session.mesh()->note.empty()) session.answer(file + ": " + session.mesh()->note);
   if (const std::string doubt =
           doubt_of_size(extent_of(*session.mesh()) / scale, scale, session.cut_length_of_fields());
       !doubt.empty())
