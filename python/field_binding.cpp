@@ -244,13 +244,8 @@ void bind_field(py::module_& module) {
       .def(
           "save",
           [](const SharedField& self, const std::string& path) {
-            constexpr double share_of_steps = 0.1;  // of the error: what a small file may add
             const Field& field = *self.field;
-            if (field.interpolation)
-              write_field(path, compact(field, share_of_steps * field.report.spline_error *
-                                                   field.report.largest_displacement));
-            else
-              write_field(path, field);
+            write_field(path, field.interpolation ? compact_interpolated(field) : field);
           },
           arg("path"), "Writes a case.dffd, completely or not at all. Residuals at nodes are not in it.");
   py::class_<PatchSurface>(module, "PatchSurface",

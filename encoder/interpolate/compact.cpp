@@ -1,7 +1,9 @@
 #include "encoder/interpolate/compact.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "encoder/field/unknowns.h"
 
 namespace cleft {
@@ -13,6 +15,16 @@ Field compact(const Field& field, double bound) {
   for (std::size_t n = 0; n < field.coefficients().size(); ++n)
     if (norm(stepped.coefficients()[n] - field.coefficients()[n]) > bound) return field;
   return stepped;
+}
+
+Field compact_interpolated(const Field& field) {
+  constexpr double share = 0.1, least_fit = 2e-3;
+  CLEFT_CHECK(field.interpolation.has_value(), ==, true);
+  const double whole = field.interpolation->estimated_error,
+               between = field.interpolation->interpolation_error;
+  const double fit = std::sqrt(std::max(0., whole * whole - between * between));
+  return compact(field,
+                 share * std::min(whole, std::max(fit, least_fit)) * field.report.largest_displacement);
 }
 
 }  // namespace cleft

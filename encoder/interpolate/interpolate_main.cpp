@@ -15,8 +15,6 @@ using namespace cleft;
 
 namespace {
 
-constexpr double share_of_steps = 0.1;  // of the estimated error: what a small file may add
-
 Json figures_of(const Field& field, const StudyInterpolator& study, const std::string& out) {
   const Interpolation& made = *field.interpolation;
   Json features = Json::array();
@@ -65,8 +63,7 @@ int main(int argc, char** argv) {
     }
     const StudyInterpolator interpolator(study);
     const Field field = interpolator.at(values);
-    write_field(
-        out, compact(field, share_of_steps * field.report.spline_error * field.report.largest_displacement));
+    write_field(out, compact_interpolated(field));
     if (const double outside = field.interpolation->outside; outside > 0)
       std::cerr << "cleft interpolate: warning: these parameters lie outside the study, by "
                 << shortest(std::round(1000 * outside) / 1000)

@@ -32,6 +32,17 @@ std::vector<CaseParameters> three_varied(int inside) {
   return list;
 }
 
+/// Cases that are closed, bit for bit, where nothing is cut.
+std::vector<StudyMember> closed_study() {
+  auto members = made_study(three_varied(8));
+  for (StudyMember& member : members) {
+    Field closed = quantised(made_field(member.field.parameters.numbers()), 1e-4, 0.5);
+    closed.parameters = member.field.parameters, closed.quantum = 0;
+    member.field = closed;
+  }
+  return members;
+}
+
 std::string message_of(const StudyInterpolator& study, const CaseParameters& values) {
   try {
     study.at(values);
@@ -181,13 +192,7 @@ TEST(StudyInterpolator, WithDerivativesThreeCasesDoForMore) {
 
 TEST(StudyInterpolator, UncutTissueStaysClosedToTheLastBit) {
   // All cases are closed where nothing is cut; so is what lies between, also as it is written.
-  auto members = made_study(three_varied(8));
-  for (StudyMember& member : members) {
-    Field closed = quantised(made_field(member.field.parameters.numbers()), 1e-4, 0.5);
-    closed.parameters = member.field.parameters, closed.quantum = 0;
-    member.field = closed;
-  }
-  const StudyInterpolator study{CommonCases(members)};
+  const StudyInterpolator study{CommonCases(closed_study())};
   const TemporaryFolder folder;
   const Field field = study.at(values_at(0.3, 0.4, 0.7));
   write_field(folder / "floats.dffd", field);
@@ -209,6 +214,18 @@ TEST(StudyInterpolator, UncutTissueStaysClosedToTheLastBit) {
                     read.displacement({u, 0, w}, Side::right, t));
         }
     EXPECT_EQ(read.displacement({3, 1, -1}, Side::both, 0), Vec3{});
+  }
+}
+
+TEST(StudyInterpolator, AFileAddsNoMoreThanTheFitsHoweverLargeTheEstimate) {
+  Field field = StudyInterpolator(CommonCases(closed_study())).at(values_at(0.3, 0.4, 0.7));
+  const double fit = 0.01;
+  for (const double between : {0., 0.05, 3.}) {
+    field.interpolation->interpolation_error = between;
+    field.interpolation->estimated_error = std::hypot(fit, between);
+    const Field small = compact_interpolated(field);
+    EXPECT_GT(small.quantum, 0.01 * fit * field.report.largest_displacement) << between;  // few bytes
+    EXPECT_LE(distance_of(small, field), 0.1 * fit) << between;
   }
 }
 
