@@ -26,6 +26,12 @@ Json parameters_of(const RecordedParameters& parameters) {
 
 Json list_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 
+/// By which `cleft status` and `cleft find` name the published case of a file; empty of other files.
+std::string published_hash(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  return std::filesystem::exists(folder / "manifest.json") ? folder.filename().string() : "";
+}
+
 Json info_of_source(const SnapshotSource& source) {
   return {{"source", source.file},        {"origin", list_of(source.origin)},
           {"u", list_of(source.axes[0])}, {"v", list_of(source.axes[1])},
@@ -143,7 +149,8 @@ Json info_of_study(const std::string& file) {
                      {"bytes", study.coefficient_bytes(i)},
                      {"modes_error", study.modes_error(i)},
                      {"report", shown(study.report(i))},
-                     {"parameters", parameters_of(study.parameters(i))}});
+                     {"parameters", parameters_of(study.parameters(i))},
+                     {"hash", study.name(i)}});
   return {{"format", "cleft-study"},
           {"cases", study.size()},
           {"modes", study.modes()},
@@ -212,11 +219,17 @@ void print_info(Json info, bool as_json) {
 
 Json info_of(const std::string& file) {
   const std::string format = format_of(file);
-  if (format == "cleft-snapshot") return info_of_snapshot(file);
-  if (format == "cleft-field")
-    return pieces_in(file) > 0 ? info_of_pieces(file) : info_of_field(read_field(file), file);
-  if (format == "cleft-study") return info_of_study(file);
-  throw FileError(file, "is neither a snapshot nor a field nor a study");
+  Json info;
+  if (format == "cleft-snapshot")
+    info = info_of_snapshot(file);
+  else if (format == "cleft-field")
+    info = pieces_in(file) > 0 ? info_of_pieces(file) : info_of_field(read_field(file), file);
+  else if (format == "cleft-study")
+    return info_of_study(file);
+  else
+    throw FileError(file, "is neither a snapshot nor a field nor a study");
+  if (const std::string hash = published_hash(file); !hash.empty()) info["hash"] = hash;
+  return info;
 }
 
 }  // namespace

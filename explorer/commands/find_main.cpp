@@ -38,9 +38,7 @@ std::string to_text(const PublishedStudy& study, int i, const Finding& f) {
   char figures[200];
   std::snprintf(figures, sizeof figures, "  %.1f to %.1f mm cut, u %.1f to %.1f mm, gape up to %.2f mm",
                 f.first_t, f.last_t, f.least_u, f.greatest_u, f.gape);
-  const std::string& hash = study.hash(i);
-  return "case " + std::to_string(i + 1) + (hash.empty() ? "" : " (" + hash + ")") + ": " + study.name(i) +
-         "\n" + figures +
+  return "case " + std::to_string(i + 1) + study.hash_behind(i) + ": " + study.name(i) + "\n" + figures +
          (!f.confirmed   ? " (the simulation is not kept)"
           : *f.confirmed ? " (confirmed by the simulation)"
                          : " (NOT confirmed by the simulation)");
@@ -123,7 +121,8 @@ std::string line_of_case(const Json& one) {
   std::string line = "case " + std::to_string(one["case"].get<int>()) + ": ";
   for (const auto& [name, value] : one["values"].items())
     line += name + " " + rounded(value.get<double>()) + ", ";
-  return line + one["name"].get<std::string>() + "\n";
+  const std::string hash = one["hash"].get<std::string>();
+  return line + one["name"].get<std::string>() + (hash.empty() ? "" : " (" + hash + ")") + "\n";
 }
 
 void print_optimum(const Options& o, const Wanted& wanted, const Json& found) {

@@ -94,7 +94,8 @@ void info(Session& session, CommandWords&) {
     session.answer(session.between()
                        ? session.title_of(s.shown) + ", " + session.note_of(s.shown)
                        : "case " + std::to_string(s.shown + 1) + " of " +
-                             std::to_string(session.study()->size()) + ": " + session.study()->name(s.shown));
+                             std::to_string(session.study()->size()) + ": " + session.study()->name(s.shown) +
+                             session.study()->hash_behind(s.shown));
     if (!session.why_nearest().empty()) session.answer("the nearest case: " + session.why_nearest());
     session.answer((session.between() ? std::string("estimated") : std::string("largest")) +
                    " error of what is drawn: " + rounded(100 * field->report.spline_error) +

@@ -52,7 +52,8 @@ void between(Session& session, CommandWords& words) {
 void list_cases(Session& session, CommandWords&) {
   const PublishedStudy& study = session.open_study();
   for (int i = 0; i < study.size(); ++i)
-    session.answer(std::to_string(i + 1) + (i == session.state().shown ? " * " : "   ") + study.name(i));
+    session.answer(std::to_string(i + 1) + (i == session.state().shown ? " * " : "   ") + study.name(i) +
+                   study.hash_behind(i));
 }
 
 void compare(Session& session, CommandWords& words) {
@@ -112,7 +113,7 @@ void find(Session& session, CommandWords& words) {
     char text[160];
     std::snprintf(text, sizeof text, "case %d: %.1f to %.1f mm cut, u %.1f to %.1f mm, gape up to %.2f mm",
                   i + 1, f->first_t, f->last_t, f->least_u, f->greatest_u, f->gape);
-    session.answer(text);
+    session.answer(text + session.study()->hash_behind(i));
   }
   session.answer(std::to_string(count) + " of " + std::to_string(session.study()->size()) + " cases");
 }

@@ -31,6 +31,8 @@ class PublishedStudy {
   /// The identity of a published case, by which `cleft status` and the folder cases/ name it; empty for a
   /// field file that belongs to no study.
   const std::string& hash(int i) const { return cases_.at(i).hash; }
+  /// To follow the number of a case in a text: a space and its hash in brackets; nothing where it has none.
+  std::string hash_behind(int i) const { return hash(i).empty() ? "" : " (" + hash(i) + ")"; }
   /// The report of its fit, without its coefficients.
   FitReport report(int i) const;
   const std::string& file(int i) const { return cases_.at(i).file; }

@@ -104,6 +104,13 @@ TEST_F(QuestionsToAStudy, AreOptimised) {
   EXPECT_LT(several.at("cases").size(), 24u);
   const Outcome text = expect_success(run_cleft("find", {study(), "--maximize", "gape"}));
   EXPECT_NE(text.output.find("its field: cleft interpolate"), std::string::npos) << text.output;
+  const Outcome lines = expect_success(
+      run_cleft("find", {study(), "--maximize", "gape", "--maximize", "tissue.young_modulus"}));
+  for (const auto& one : several.at("cases"))
+    EXPECT_NE(lines.output.find(one.at("name").get<std::string>() + " (" + one.at("hash").get<std::string>() +
+                                ")\n"),
+              std::string::npos)
+        << lines.output;
   const Outcome nowhere =
       expect_success(run_cleft("find", {study(), "--maximize", "gape", "--where", "cut.depth > 50"}));
   EXPECT_NE(nowhere.output.find("nowhere between the cases"), std::string::npos) << nowhere.output;

@@ -93,7 +93,11 @@ TEST(StudyRun, PublishesEveryCaseOnceAndChecks) {
   for (const auto& one : packed["list"]) {
     const std::string own = folder + "/cases/" + std::string(one["name"]) + "/case.dffd";
     const auto info = nlohmann::json::parse(expect_success(run_cleft("info", {own, "--json"})).output);
-    for (const char* name : {"case", "report", "parameters"}) EXPECT_EQ(one[name], info[name]);
+    for (const char* name : {"case", "report", "parameters", "hash"}) EXPECT_EQ(one[name], info[name]);
+    EXPECT_EQ(info["hash"], one["name"]) << "that of its folder, as `cleft status` prints it";
+    const std::string snapshot = folder + "/cases/" + std::string(one["name"]) + "/case.h5";
+    EXPECT_NE(expect_success(run_cleft("info", {snapshot})).output.find("hash: " + std::string(one["name"])),
+              std::string::npos);
   }
 
   const auto before = fs::last_write_time(folder + "/cases");

@@ -176,6 +176,9 @@ TEST_F(SessionTest, FindFadesTheCasesWhereItHoldsNowhere) {
   EXPECT_FALSE(session_.brushed(3)) << "wide, but stiff";
   EXPECT_NE(answers_.find("1 of 4 cases"), std::string::npos);
   EXPECT_NE(answers_.find("case 3: "), std::string::npos);
+  ASSERT_FALSE(session_.study()->hash(2).empty());
+  const std::string hash = " mm (" + session_.study()->hash(2) + ")";
+  EXPECT_NE(answers_.find(hash), std::string::npos) << answers_;
   say("brush gape 0 3");
   EXPECT_FALSE(session_.brushed(2)) << "both have to hold";
   say("find clear");
