@@ -76,12 +76,21 @@ def opened(path=None, fragment=""):
     BROWSER.open("file://" + (path or PAGE) + fragment)
 
 
-def displacements_of(path):
-    """The point array `displacement` of a .vtp."""
+def surface_of(path):
+    """A .vtp."""
     reader = vtk.vtkXMLPolyDataReader()
     reader.SetFileName(path)
     reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("displacement"))
+    return reader.GetOutput()
+
+
+def displacements_of(path):
+    """The point array `displacement` of a .vtp."""
+    return vtk_to_numpy(surface_of(path).GetPointData().GetArray("displacement"))
+
+
+def points_of(path):
+    return vtk_to_numpy(surface_of(path).GetPoints().GetData())
 
 
 def pictures(script, page, fragment):
@@ -236,6 +245,27 @@ class Page(unittest.TestCase):
         own, expected = pictures(f"open '{STUDY}'\nmesh '{head}'\ncut-file '{path}'\ncolor displacement\n", page, "#case=1&color=displacement&az=0&el=0&dark=0")
         for drawn in own:
             self.assertLess(different(drawn, expected), 0.02)
+
+    def test_a_family_opens_a_mesh_as_in_the_explorer(self):
+        # One motion, of all cases together: each place has the field of its own shape.
+        study = make_study(SCRATCH.name, FAMILY, "family_of_mesh")
+        head, path, page, shut, moved, script = (os.path.join(SCRATCH.name, "family_" + name)
+                                                 for name in ("head.stl", "path.csv", "mesh.html", "shut.vtp", "moved.vtp", "script.txt"))
+        command("make-head", "--out", head, "--path", path)
+        figures = json.loads(command("cleft", "export", study, "--web", page, "--mesh", head, "--path", path, "--json"))
+        self.assertEqual(figures["cases"], 1)
+        with open(script, "w") as out:
+            out.write(f"open '{study}'\nmesh '{head}'\ncut-file '{path}'\ntime 1000\nexport '{moved}'\n")
+        command("cleft", "explore", "--script", script)
+        command("cleft", "cut", "--mesh", head, "--path", path, "--rest", "--depth", "2", "--out", shut)
+        expected = np.linalg.norm(points_of(moved) - points_of(shut), axis=1)
+        opened(page)
+        BROWSER.run("cleft.set({t: cleft.mesh.duration}), cleft.refresh()")
+        own = np.linalg.norm(np.reshape(BROWSER.run("[...cleft.scene.displacement]"), (-1, 3)), axis=1)
+        self.assertGreater(np.count_nonzero(expected > 0.1 * expected.max()), 100)
+        self.assertLess(np.abs(own - expected).max(), 2 * figures["modes_error"] * expected.max())
+        self.assertIn("family of", BROWSER.run("document.getElementById('error').textContent"))
+        self.assertEqual(BROWSER.mistakes(), [])
 
     def test_a_page_is_drawn_where_there_is_no_webgl(self):
         opened()
