@@ -1,5 +1,6 @@
 #include "encoder/interpolate/kernel_regression.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -221,6 +222,35 @@ Eigen::MatrixXd KernelRegression::covariance_between(const Eigen::MatrixXd& feat
   return between;
 }
 
+namespace {
+
+/// Whether squares are seen apart from all else: not if the places lie on a quadric though they are as many
+/// as would determine one, such as two parallel lines. A square is then the same as a constant, which a
+/// quadratic trend shares out, and between the lines only a part of it is left.
+bool sees_squares(const Eigen::MatrixXd& features) {
+  constexpr double same = 1e-6, nothing = 1e-10;
+  const Eigen::Index n = features.rows(), d = features.cols();
+  Eigen::Index distinct = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    bool first = true;
+    for (Eigen::Index j = 0; j < i && first; ++j)
+      first = (features.row(i) - features.row(j)).cwiseAbs().maxCoeff() > same;
+    distinct += first;
+  }
+  Eigen::MatrixXd terms(n, 1 + d + d * (d + 1) / 2);
+  terms.col(0).setOnes(), terms.middleCols(1, d) = features;
+  Eigen::Index at = 1 + d;
+  for (Eigen::Index a = 0; a < d; ++a)
+    for (Eigen::Index b = 0; b <= a; ++b) terms.col(at++) = features.col(a).cwiseProduct(features.col(b));
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(terms.transpose() * terms, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  const Eigen::Index rank = (values.array() > nothing * values.maxCoeff()).count();
+  return rank >= std::min(distinct, terms.cols());
+}
+
+}  // namespace
+
 std::vector<KernelRegression> all_methods(const TrainingCases& cases) {
   using enum Covariance::Correlation;
   const Eigen::VectorXd lengths = Eigen::VectorXd::Constant(cases.features.cols(), 2.0);
@@ -228,11 +258,14 @@ std::vector<KernelRegression> all_methods(const TrainingCases& cases) {
   std::vector<KernelRegression> methods;
   methods.emplace_back(cases, Covariance{"linear polynomial" + with, 1, none, 1, 1e-9, lengths});
   if (cases.features.cols() == 0) return methods;
-  methods.emplace_back(cases, Covariance{"quadratic polynomial" + with, 2, none, 1, 1e-9, lengths});
+  const bool squares = !cases.slopes.of.empty() || sees_squares(cases.features);
+  if (squares)
+    methods.emplace_back(cases, Covariance{"quadratic polynomial" + with, 2, none, 1, 1e-9, lengths});
   methods.emplace_back(
       cases, tuned(cases, {"radial basis functions" + with, 1, matern, 100, 1e-9, lengths}, true, false));
   std::optional<KernelRegression> process;
   for (const int degree : {1, 2}) {
+    if (degree == 2 && !squares) continue;
     KernelRegression one(
         cases, tuned(cases, {"Gaussian process" + with, degree, gaussian, 100, 1e-6, lengths}, false, true));
     if (!process || one.left_out_error() < process->left_out_error()) process.emplace(std::move(one));

@@ -203,6 +203,31 @@ TEST(KernelRegression, RadialFunctionsPassThroughTheCases) {
   }
 }
 
+TEST(KernelRegression, SquaresAreLeftOutWhereCasesLieOnTwoLines) {
+  // Two moduli and three lengths, in features of both; and a modulus between.
+  for (const int count : {6, 7}) {
+    Problem p = random_problem(count, 2, 1, 4);
+    for (int i = 0; i < count; ++i) {
+      const double modulus = i == 6 ? 0 : i % 2 ? 1 : -1, length = i == 6 ? 0 : i / 2 - 1;
+      p.cases.features.row(i) << (modulus + length) / 2, (modulus - length) / 2;
+    }
+    bool squares = false;
+    for (const KernelRegression& method : all_methods(p.cases)) squares |= method.covariance().degree > 1;
+    EXPECT_EQ(squares, count == 7);
+    // Of the same everywhere, a quadratic trend has less left between the lines: squares took their part.
+    p.cases.features.conservativeResize(6, 2), p.cases.loads = Eigen::MatrixXd::Ones(6, 1);
+    p.cases.gram = Eigen::MatrixXd::Ones(6, 6);
+    const auto of_the_same = [&](int degree) {
+      const Covariance trend{"", degree, Covariance::Correlation::none, 1, 1e-9, Eigen::VectorXd::Ones(2)};
+      return KernelRegression(p.cases, trend)
+          .weights(Eigen::MatrixXd::Zero(1, 2), Eigen::MatrixXd::Ones(1, 1))
+          .of_rows.sum();
+    };
+    EXPECT_NEAR(of_the_same(1), 1, 1e-6);
+    EXPECT_LT(of_the_same(2), 0.8);
+  }
+}
+
 TEST(KernelRegression, TuningMakesNoMethodWorse) {
   const Problem p = random_problem(20, 2, 1, 4);
   for (const KernelRegression& method : all_methods(p.cases)) {
