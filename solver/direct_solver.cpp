@@ -131,6 +131,15 @@ void DirectSolver::factorize() {
   MPI_Bcast(neighbors_.data(), count, MPI_INT, 0, system_.communicator());
 }
 
+bool DirectSolver::is_definite(const Release& release, int open, const std::vector<int>& touching) const {
+  int definite = 1;
+  if (system_.rank() == 0)
+    definite = Opening::is_definite(factor_.schur(), {release.order.begin(), release.order.begin() + open},
+                                    touching, normals_);
+  MPI_Bcast(&definite, 1, MPI_INT, 0, system_.communicator());
+  return definite != 0;
+}
+
 void DirectSolver::set_release(const Release& release) {
   loads_.clear();
   on_root(system_, [&] {

@@ -22,6 +22,9 @@ class DirectSolver : public FrameSolver {
   double bytes_needed() const;  ///< on this rank
   double operations() const { return factor_.operations(); }
   void factorize();
+  /// Whether the matrix is positive definite among the displacements that the first `open` pairs of a release
+  /// leave free, and touching pairs along their normals not.
+  bool is_definite(const Release& release, int open, const std::vector<int>& touching) const;
 
   void set_release(const Release& release) override;
   void set_loads(Block loads, Together together = Together::all) override;

@@ -18,6 +18,11 @@ struct SolveError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A matrix is not positive definite.
+struct IndefiniteError : SolveError {
+  using SolveError::SolveError;
+};
+
 /// The remedy in messages about a matrix K that is not positive definite.
 inline constexpr const char* cause_of_indefinite =
     "are the springs and moduli large enough, and the skin nowhere compressed?";

@@ -15,7 +15,6 @@ constexpr double converged = 1e-7;            // residual, relative to the large
 constexpr int most_steps = 25;                // of Newton's method, for a part of the load
 constexpr int most_revisions = 60;            // of the pairs that touch, likewise
 constexpr int most_iterations_of_step = 200;  // of conjugate gradients
-constexpr int iterations_of_a_factor = 30;    // of a frame, above which a new factor pays
 constexpr double least_part = 1. / 64;        // of the load
 constexpr double accurate = 1e-10;            // residual of a derivative's linear system, relative
 constexpr double loosest = 0.1;               // residual of a step's linear system, relative
@@ -51,6 +50,7 @@ NewtonSolver::NewtonSolver(const PatchMesh& mesh, const PatchSystem& system, Fin
 NewtonFrame NewtonSolver::solve(int frame, Block& displacement) {
   NewtonFrame report;
   report.frame = frame;
+  saddle_ = false;
   const Block start = displacement;
   patch_.set_open(release_, release_.released[frame]);
   balance_ = patch_.balance(start);
@@ -75,12 +75,6 @@ NewtonFrame NewtonSolver::solve(int frame, Block& displacement) {
     balance_ = patch_.balance(displacement);
   }
   before_ = start;
-  int iterations = 0;
-  for (const NewtonStep& step : report.steps) iterations += step.iterations;
-  if (iterations > iterations_of_a_factor && frame + 1 < static_cast<int>(release_.released.size())) {
-    patch_.set_tangent(displacement);
-    renew_factor();
-  }
   return report;
 }
 
@@ -129,8 +123,7 @@ bool NewtonSolver::converge(int frame, const Block& tied, Block& displacement, N
       if (contact_.revisions() > most_revisions || !close_gaps(open, displacement)) return false;
       continue;
     }
-    // Where the last step met a negative curvature the equilibrium is that of a saddle.
-    if (report.residual < converged) return report.steps.empty() || !report.steps.back().indefinite;
+    if (report.residual < converged) return is_stable(open, displacement);
     if (i - contact_.revisions() == most_steps) return false;
     patch_.set_tangent(displacement);
     const double enough = std::max(std::min(report.residual, loosest), 0.1 * converged / report.residual);
@@ -211,22 +204,32 @@ Block NewtonSolver::precondition(const Block& force, int open) {
   return factor().solve_once(force, open, contact_.sliding());
 }
 
-/// Where the tangent is not definite with all pairs open the last factor, or else that of the reference
-/// state, goes on serving.
-void NewtonSolver::renew_factor() {
+/// Whether an equilibrium is none of a saddle, by the factor of its tangent: iterations need not meet a
+/// negative curvature that the forces hardly feel. The factor then serves the next frame. Where it is not
+/// definite with all pairs open that of the reference state does.
+bool NewtonSolver::is_stable(int open, const Block& displacement) {
+  patch_.set_tangent(displacement);
   factor_.reset();
+  bool stable = false;
   try {
     factor_ = std::make_unique<DirectSolver>(mesh_, system_, patch_.lower_triangle());
     factor_->factorize();
-    factor_->set_release(release_);
+    stable = factor_->is_definite(release_, open, contact_.sliding().places);
+  } catch (const IndefiniteError&) {
+    factor_.reset();
+  }
+  try {
+    if (factor_) factor_->set_release(release_);
   } catch (const SolveError&) {
     factor_.reset();
   }
+  saddle_ = saddle_ || !stable;
+  return stable;
 }
 
 void NewtonSolver::fail(int frame, double fraction, const NewtonFrame& report) const {
-  const bool indefinite = std::any_of(report.steps.begin(), report.steps.end(),
-                                      [](const NewtonStep& step) { return step.indefinite; });
+  const bool indefinite = saddle_ || std::any_of(report.steps.begin(), report.steps.end(),
+                                                 [](const NewtonStep& step) { return step.indefinite; });
   const auto rounded = [](double x) { return shortest(std::round(1000 * x) / 1000); };
   const Vec3& place = balance_.least.place;
   throw SolveError("frame " + std::to_string(frame) + " (" + rounded(release_.times[frame]) +

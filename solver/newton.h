@@ -15,9 +15,9 @@ namespace cleft {
 /// The linear system of a step is solved by conjugate gradients among the displacements that keep closed
 /// pairs together, to a relative residual like that of the forces, so that convergence stays quadratic
 /// (Dembo, Eisenstat and Steihaug 1982). The preconditioner is a frame's exact solution with a factor of an
-/// earlier tangent, at first that of the reference state; a new factor is made when iterations have become
-/// many. Where lips touch, each step is one among the displacements that keep them together along their
-/// normals. Calls are collective.
+/// earlier tangent, at first that of the reference state, later that of the last frame: it is made to see
+/// that an equilibrium is stable. Where lips touch, each step is one among the displacements that keep them
+/// together along their normals. Calls are collective.
 class NewtonSolver {
  public:
   /// `reference`: a solver with the factor of the tangent at the reference state, which must live as long as
@@ -54,7 +54,7 @@ class NewtonSolver {
   double residual_of(int frame, const Block& force, const Block& displacement) const;
   Block precondition(const Block& force, int open);
   FrameSolver& factor() { return factor_ ? *factor_ : reference_; }
-  void renew_factor();
+  bool is_stable(int open, const Block& displacement);
   [[noreturn]] void fail(int frame, double fraction, const NewtonFrame& report) const;
 
   const PatchMesh& mesh_;
@@ -68,6 +68,7 @@ class NewtonSolver {
   LipContact contact_;
   Block before_;                          // the frame before the last
   std::unique_ptr<DirectSolver> factor_;  // of a later tangent
+  bool saddle_ = false;                   // whether the frame has come to an equilibrium that is not stable
   FinitePatch::Balance balance_;          // at the displacement reached
 };
 

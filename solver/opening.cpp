@@ -28,6 +28,23 @@ Opening::Opening(const Eigen::MatrixXd& stiffness, std::vector<int> order, const
   factor_.matrixL().solveInPlace(normal_forward_);
 }
 
+bool Opening::is_definite(const Eigen::MatrixXd& stiffness, const std::vector<int>& open,
+                          const std::vector<int>& touching, const std::vector<Vec3>& normal) {
+  if (open.empty()) return true;
+  std::vector<int> rows;
+  for (const int pair : open)
+    for (int axis = 0; axis < 3; ++axis) rows.push_back(3 * pair + axis);
+  Eigen::MatrixXd j = stiffness(rows, rows);
+  // Along the normals of touching pairs a stiffness that outweighs all others holds.
+  const double holding = 1e6 * j.diagonal().cwiseAbs().maxCoeff();
+  for (const int place : touching) {
+    const Vec3& n = normal[open[place]];
+    const Eigen::Vector3d along(n.x, n.y, n.z);
+    j.block<3, 3>(3 * place, 3 * place) += holding * along * along.transpose();
+  }
+  return Eigen::LLT<Eigen::MatrixXd>(j).info() == Eigen::Success;
+}
+
 Opening::Load Opening::prepare(const Eigen::VectorXd& pull) const {
   Load load(factor_.rows());
   for (std::size_t p = 0; p < order_.size(); ++p) load.segment<3>(3 * p) = pull.segment<3>(3 * order_[p]);

@@ -19,6 +19,11 @@ class Opening {
   /// `normal` of every pair, for contact. Throws std::runtime_error if J is not positive definite.
   Opening(const Eigen::MatrixXd& stiffness, std::vector<int> order, const std::vector<Vec3>& normal);
 
+  /// Whether J is positive definite among the jumps of `open` pairs, of which those at the places `touching`
+  /// have none along their normals.
+  static bool is_definite(const Eigen::MatrixXd& stiffness, const std::vector<int>& open,
+                          const std::vector<int>& touching, const std::vector<Vec3>& normal);
+
   /// A load with its forward substitution.
   using Load = Eigen::VectorXd;
   /// `pull`: the right-hand side g of J a = g, three rows for every pair of the mesh, N.

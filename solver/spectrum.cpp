@@ -62,7 +62,7 @@ void fail_indefinite(const PatchSystem& system, const std::string& shown_by) {
   text << shown_by << ": the stiffness matrix is not positive definite: its smallest eigenvalue is at most "
        << spectrum.smallest << " N/mm, its largest at least " << spectrum.largest << " N/mm; "
        << cause_of_indefinite;
-  throw SolveError(text.str());
+  throw IndefiniteError(text.str());
 }
 
 }  // namespace cleft

@@ -26,12 +26,13 @@ inline Eigen::MatrixXd solve_with_multipliers(const Eigen::MatrixXd& k, const Ei
   return matrix.partialPivLu().solve(right).topRows(n);
 }
 
-/// The same on every rank.
+/// The same on every rank of the communicator.
 class DensePatch {
  public:
-  explicit DensePatch(const Parameters& p, const Discretization& discretization = {})
+  explicit DensePatch(const Parameters& p, const Discretization& discretization = {},
+                      MPI_Comm communicator = MPI_COMM_WORLD)
       : mesh(make_patch_mesh(p)),
-        system(mesh, p, MPI_COMM_WORLD, discretization),
+        system(mesh, p, communicator, discretization),
         release(make_release(mesh, p)) {
     const PatchSystem::Entries entries = system.lower_triangle();
     stiffness = Eigen::MatrixXd::Zero(system.size(), system.size());

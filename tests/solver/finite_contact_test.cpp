@@ -110,4 +110,37 @@ TEST(NewtonContact, LipsNeitherOverlapNorPullNorRub) {
   EXPECT_GT(touching, 10);
 }
 
+/// The same series on this rank alone (on one rank nothing is compared). Both end at a residual of 1e-7 of
+/// the largest load, so that displacements agree to about as many digits; the pairs that touch are the same.
+TEST(NewtonContact, IsTheSameOnSeveralRanks) {
+  int touching = 0;
+  for (const DenseCase& c : pressed_cases()) {
+    if (c.name != std::string("Branch")) continue;
+    Parameters p = pulled(c.parameters, {0.05, 0.004, 0.004});
+    p.cut.frames = FrameEvery::column;  // few, as messages take long
+    const DensePatch shared(p), alone(p, {}, MPI_COMM_SELF);
+    const std::vector<Block> on_all = newton_frames(shared, p), on_one = newton_frames(alone, p);
+    ASSERT_EQ(on_all.size(), on_one.size());
+    for (std::size_t j = 0; j < on_one.size(); ++j) {
+      SCOPED_TRACE("frame " + std::to_string(j));
+      const Eigen::VectorXd u = shared.whole(on_all[j]), expected = alone.whole(on_one[j]);
+      const double size = expected.cwiseAbs().maxCoeff();
+      double difference = 0;
+      for (int node = 0; node < static_cast<int>(alone.mesh.points.size()); ++node)
+        for (int axis = 0; axis < 3; ++axis)
+          difference = std::max(difference, std::abs(u[shared.system.unknown(node, axis)] -
+                                                     expected[alone.system.unknown(node, axis)]));
+      EXPECT_LE(difference, 1e-6 * size);
+      const int open = alone.release.released[j];
+      const Eigen::VectorXd gaps = shared.gaps(shared.release, open) * u;
+      const Eigen::VectorXd gaps_alone = alone.gaps(alone.release, open) * expected;
+      for (int i = 0; i < open; ++i) {
+        EXPECT_EQ(std::abs(gaps[i]) < 1e-9 * size, std::abs(gaps_alone[i]) < 1e-9 * size) << i;
+        touching += std::abs(gaps[i]) < 1e-9 * size;
+      }
+    }
+  }
+  EXPECT_GT(touching, 3);
+}
+
 }  // namespace cleft
