@@ -127,6 +127,8 @@ std::vector<Interaction> interactions_of(const std::vector<InputDistribution>& d
       const GroupMeans means = means_of(figure(points));
       pair.mean = Eigen::MatrixXd::Zero(along_each, along_each);
       for (const Eigen::MatrixXd& one : means) pair.mean += one / draw_groups;
+      // Few draws of the others shift all places alike: the mean of all is known better.
+      pair.mean.array() += found.mean - q.weights.dot(pair.mean * q.weights);
       const GroupMeans rests = rests_of(means);
       std::vector<double> of_draws, of_data;
       for (int g = 0; g < draw_groups; ++g)

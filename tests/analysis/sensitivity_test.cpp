@@ -57,7 +57,7 @@ TEST(Interactions, OfIshigamisFunctionAreThoseOfItsClosedForm) {
   for (Eigen::Index p = 0; p < pair.mean.rows(); ++p)
     for (Eigen::Index q = 0; q < pair.mean.cols(); ++q) {
       const double x1 = pair.at[static_cast<std::size_t>(p)], x3 = pair.other_at[static_cast<std::size_t>(q)];
-      EXPECT_NEAR(pair.mean(p, q), 3.5 + (1 + 0.1 * std::pow(x3, 4)) * std::sin(x1), 0.15) << x1 << " " << x3;
+      EXPECT_NEAR(pair.mean(p, q), 3.5 + (1 + 0.1 * std::pow(x3, 4)) * std::sin(x1), 0.02) << x1 << " " << x3;
     }
 }
 
