@@ -125,12 +125,6 @@ void CaseWall::new_study() {
   for (const std::string& name : session_.column_names()) by_->addItem(QString::fromStdString(name));
   pictures_.resize(static_cast<std::size_t>(study.size()));
   tried_.assign(pictures_.size(), false);
-  if (isVisible()) read_kept();
-}
-
-/// The pictures that were kept, once the wall is seen.
-void CaseWall::read_kept() {
-  const PublishedStudy& study = *session_.study();
   file_ = wall_file_of(study);
   const WallPictures before = read_wall_file(file_, thumbnail_look);
   for (int i = 0; i < study.size(); ++i) {
@@ -162,8 +156,6 @@ bool CaseWall::is_faded(int i) const {
 
 void CaseWall::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  if (file_.empty() && session_.study()) read_kept();
-  tell_progress();
   if (next_without() >= 0) idle_.start();
 }
 

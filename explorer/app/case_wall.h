@@ -37,7 +37,6 @@ class CaseWall : public QWidget, public Panel {
 
  private:
   void new_study();
-  void read_kept();
   void follow_lists();
   void say_sort();
   void draw_next();
@@ -57,7 +56,7 @@ class CaseWall : public QWidget, public Panel {
   std::unique_ptr<ThumbnailDrawer> drawer_;
   std::vector<QPixmap> pictures_;  // by case
   std::vector<bool> tried_;        // likewise
-  std::string file_;               // where they are kept; empty: not read yet
+  std::string file_;               // where they are kept; empty: nowhere
   WallPictures kept_;              // what is to be in it
   int fresh_ = 0;                  // that are not in it
 };
