@@ -12,7 +12,6 @@ namespace {
 constexpr int along_each = 6;                         // nodes of the quadrature, along each parameter
 constexpr int draw_groups = 4, draws_in_a_group = 8;  // draws of the other parameters
 constexpr std::size_t most_parameters = 6;            // whose pairs are looked at
-constexpr double of_jackknife_spread = 1.96;          // half a 95 % interval of a normal distribution
 
 struct Quadrature {
   std::vector<double> parts;  // 0 to 1, increasing
@@ -86,15 +85,6 @@ double variance_together(const GroupMeans& rests, const Eigen::VectorXd& weights
   return sum / products;
 }
 
-double jackknife_error(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  if (n < 2) return 0;
-  const double mean = std::accumulate(values.begin(), values.end(), 0.) / n;
-  double squares = 0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return of_jackknife_spread * std::sqrt(squares * (n - 1) / n);
-}
-
 }  // namespace
 
 std::vector<Interaction> interactions_of(const std::vector<InputDistribution>& distributions,
@@ -130,13 +120,12 @@ std::vector<Interaction> interactions_of(const std::vector<InputDistribution>& d
       // Few draws of the others shift all places alike: the mean of all is known better.
       pair.mean.array() += found.mean - q.weights.dot(pair.mean * q.weights);
       const GroupMeans rests = rests_of(means);
-      std::vector<double> of_draws, of_data;
-      for (int g = 0; g < draw_groups; ++g)
-        of_draws.push_back(variance_together(rests, q.weights, g) / variance);
+      Eigen::VectorXd of_draws(draw_groups);
+      for (int g = 0; g < draw_groups; ++g) of_draws[g] = variance_together(rests, q.weights, g) / variance;
       const Eigen::MatrixXd others = alternatives ? alternatives(points) : Eigen::MatrixXd(0, points.cols());
+      Eigen::VectorXd of_data(others.rows());
       for (Eigen::Index k = 0; k < others.rows(); ++k)
-        of_data.push_back(variance_together(rests_of(means_of(others.row(k).transpose())), q.weights) /
-                          variance);
+        of_data[k] = variance_together(rests_of(means_of(others.row(k).transpose())), q.weights) / variance;
       pair.share = {std::clamp(variance_together(rests, q.weights) / variance, 0., 1.),
                     std::hypot(jackknife_error(of_draws), jackknife_error(of_data))};
     }

@@ -15,7 +15,6 @@ namespace cleft {
 namespace {
 
 constexpr int places = 21, averaged = 64;  // of a main effect
-constexpr double of_deviation = 1.96;      // half a 95 % interval of a normal distribution
 
 OT::ComposedDistribution joint(const std::vector<InputDistribution>& distributions) {
   OT::ComposedDistribution::DistributionCollection laws;
@@ -74,6 +73,13 @@ std::vector<double> main_effect(const FigureFunction& figure, const Eigen::Matri
 
 }  // namespace
 
+double jackknife_error(const Eigen::VectorXd& values) {
+  constexpr double of_deviation = 1.96;  // half a 95 % interval of a normal distribution
+  const auto n = static_cast<double>(values.size());
+  if (n < 2) return 0;
+  return of_deviation * std::sqrt((values.array() - values.mean()).square().sum() * (n - 1) / n);
+}
+
 Sensitivities sensitivities_of(const std::vector<InputDistribution>& distributions,
                                const FigureFunction& figure, const AlternativeFigures& alternatives,
                                int size) {
@@ -101,13 +107,9 @@ Sensitivities sensitivities_of(const std::vector<InputDistribution>& distributio
   Eigen::MatrixXd others(2 * dimension, figures.rows());
   for (Eigen::Index a = 0; a < others.cols(); ++a)
     others.col(a) = indices_of(sample, figures.row(a).transpose(), size).values;
-  Eigen::VectorXd of_data = Eigen::VectorXd::Zero(2 * dimension);
-  if (others.cols() > 1)
-    of_data = of_deviation * ((others.colwise() - others.rowwise().mean()).rowwise().squaredNorm() *
-                              (static_cast<double>(others.cols() - 1) / static_cast<double>(others.cols())))
-                                 .cwiseSqrt();
   const auto estimate = [&](Eigen::Index at) {
-    return Estimate{std::clamp(indices.values[at], 0., 1.), std::hypot(indices.errors[at], of_data[at])};
+    return Estimate{std::clamp(indices.values[at], 0., 1.),
+                    std::hypot(indices.errors[at], jackknife_error(others.row(at).transpose()))};
   };
   for (Eigen::Index k = 0; k < dimension; ++k) {
     ParameterEffect& effect = result.parameters.emplace_back();

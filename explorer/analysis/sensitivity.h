@@ -36,6 +36,10 @@ struct Sensitivities {
   int evaluations = 0;
 };
 
+/// Half the width of the 95 % interval of a number, from its values without each part of the data in turn; 0
+/// of fewer than two.
+double jackknife_error(const Eigen::VectorXd& values);
+
 /// By Jansen's estimators (1999) on a sequence of low discrepancy, `size` times two more than there are
 /// parameters. `alternatives`, if given: the figure as other data tell it, by leaving parts of the cases out
 /// (jackknife); what the indices differ by is in their intervals, with what the finite sample leaves open.

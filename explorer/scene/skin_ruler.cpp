@@ -6,25 +6,10 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/nearest_weights.h"
 #include "base/text.h"
-#include "haptic/triangle_geometry.h"
 
 namespace cleft {
-
-namespace {
-
-/// Of the corners, at a place of their triangle.
-std::array<double, 3> weights_at(const Vec3& place, const Corners& corners) {
-  const auto& [a, b, c] = corners;
-  const Vec3 normal = cross(b - a, c - a);
-  const double squared = squared_norm(normal);
-  if (!(squared > 0)) return {1, 0, 0};
-  const double of_a = dot(cross(b - place, c - place), normal) / squared,
-               of_b = dot(cross(c - place, a - place), normal) / squared;
-  return {of_a, of_b, 1 - of_a - of_b};
-}
-
-}  // namespace
 
 Measures measures_of(std::vector<Vec3> places) {
   Measures m;
@@ -61,13 +46,12 @@ SkinRuler::SkinRuler(std::shared_ptr<const WoundScene> scene, std::vector<Vec3> 
     Attachment nearest{};
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
       if (surface.regions[t] != Region::skin) continue;
-      const auto& numbers = surface.triangles[t];
-      const Corners corners{surface.points[numbers[0]], surface.points[numbers[1]],
-                            surface.points[numbers[2]]};
-      if (!(least_squared_distance(place, corners) < least)) continue;
-      const Vec3 found = closest_point(place, corners).position;
-      if (const double squared = squared_norm(found - place); squared < least)
-        least = squared, nearest = {numbers, weights_at(found, corners)};
+      const auto& corners = surface.triangles[t];
+      const auto at = [&](std::size_t i) { return surface.points[corners[i]]; };
+      const std::array<double, 3> weights = nearest_weights(place, at(0), at(1), at(2));
+      const double squared =
+          squared_norm(weights[0] * at(0) + weights[1] * at(1) + weights[2] * at(2) - place);
+      if (squared < least) least = squared, nearest = {corners, weights};
     }
     if (!(least <= farthest * farthest))
       throw InputError(

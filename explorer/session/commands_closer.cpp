@@ -125,7 +125,7 @@ void measure(Session& session, CommandWords& words) {
   }
   while (!words.empty()) add(words);
   const SkinRuler& ruler = session.ruler();
-  const double t = std::min(session.state().time, session.scene()->duration());
+  const double t = std::min(session.state().time, ruler.scene()->duration());
   session.answer(places.size() < 2 ? "one place: add another to measure a distance"
                                    : told(ruler.at(t), ruler.at_rest()));
 }
@@ -147,9 +147,7 @@ std::span<const Command> closer_commands() {
        "plot one point's motion, the simulation's node beside it", probe, Command::latest},
       {"zoom", "U,V,W [RADIUS] | off", "the simulation's nodes there, with the field's error at each", zoom},
       {"measure", "X,Y,Z X,Y,Z ... | add X,Y,Z | clear",
-       "distances between places of the skin, the angle at the second of three, the area of three or more, "
-       "as "
-       "they move; the places are those at rest",
+       "distances between places of the skin (at rest) as they move; the angle of three, the area of more",
        measure},
       {"figure", "constraints|lattice|volume|off",
        "how it works: constraints of the simulation, the spline's lattice, the blade's volume", figure},

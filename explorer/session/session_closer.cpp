@@ -97,7 +97,8 @@ const SkinRuler& Session::ruler() {
 
 void Session::lay_ruler_over(Overlay& overlay) {
   constexpr Ink ink{0.8, 0, 0.5};
-  const Measures now = ruler().at(std::min(state().time, scene()->duration())), rest = ruler().at_rest();
+  const SkinRuler& ruler = this->ruler();
+  const Measures now = ruler.at(std::min(state().time, ruler.scene()->duration())), rest = ruler.at_rest();
   for (const Vec3& place : now.places) overlay.dots.push_back({place, ink});
   if (now.places.size() > 1) overlay.lines.push_back({now.places, ink});
   overlay.in_front = true;
