@@ -41,10 +41,16 @@ std::string log_of(const std::string& study) { return study + "/.pack." + std::t
 
 void pack_study(const std::string& study) {
   const Moment moment(study, pack_lock);
-  const std::string log = study + "/pack.log";
-  if (!pack(study, log, nullptr))
-    throw std::runtime_error("the study's fields could not be packed into " + study + "/study.dffd; " + log +
+  const std::string log = log_of(study);
+  if (!pack(study, log, nullptr)) {
+    // A log that another user has left may be replaced, though not written.
+    std::string kept = study + "/pack.log";
+    std::error_code error;
+    fs::rename(log, kept, error);
+    if (error) kept = log;
+    throw std::runtime_error("the study's fields could not be packed into " + study + "/study.dffd; " + kept +
                              " says why");
+  }
   std::cerr << read_text_file(log);
   fs::remove(log);
 }

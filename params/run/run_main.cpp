@@ -1,4 +1,5 @@
 // cleft run: a study file to a folder of published cases.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -87,6 +88,20 @@ void tell(const Decision& decision, const Study& study, int cases) {
     std::cerr << "cleft run: warning: every case of the last batch failed; no more are chosen\n";
 }
 
+/// Packs what is published, if anything is, and tells how many cases another run has not published yet.
+void pack_published(const StudyFolder& folder, const std::vector<Case>& cases) {
+  const auto index = folder.index();
+  if (!index.empty()) pack_study(folder.path());
+  const std::vector<CaseStatus> states = folder.status(cases, index);
+  const auto others = std::count_if(states.begin(), states.end(), [](const CaseStatus& status) {
+    return status.state == CaseState::running;
+  });
+  if (others > 0)
+    std::cerr << "cleft run: " << others << " of " << cases.size()
+              << " cases are being run by another process, which packs them at its end; cleft status "
+              << folder.path() << " shows when they are published\n";
+}
+
 Json figures_of(const RunReport& r) {
   return {{"cases", r.cases},         {"already_published", r.already_published},
           {"published", r.published}, {"superseded", r.superseded},
@@ -171,11 +186,10 @@ int main(int argc, char** argv) {
     RunReport report;
     Decision decision{Choice::added, std::nan("")};
     do {
-      const RunReport last = run(cases_of(study, folder));
+      const std::vector<Case> cases = cases_of(study, folder);
+      const RunReport last = run(cases);
       report = report.cases == 0 ? last : with_batch(report, last);
-      if (task.empty() && report.interrupted == 0 &&
-          report.already_published + report.published + report.superseded > 0)
-        pack_study(out);
+      if (task.empty() && report.interrupted == 0) pack_published(folder, cases);
       if (!adapts || report.interrupted > 0) break;
       decision = choose_more(folder, study);
       tell(decision, study, report.cases);
