@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/error.h"
 #include "base/quantiles.h"
 #include "encoder/interpolate/convex_hull.h"
 #include "encoder/interpolate/field_samples.h"
@@ -221,24 +222,33 @@ Eigen::MatrixXd DisplacementModel::covariance(const std::vector<RecordedParamete
          points.scales.asDiagonal();
 }
 
-DisplacementModel::Predictions DisplacementModel::at(const std::vector<RecordedParameters>& list,
-                                                     bool with_errors) const {
+Eigen::MatrixXd DisplacementModel::coefficients_of(const Eigen::MatrixXd& data) const {
+  CLEFT_CHECK(regression_->rows(), ==, places_.rows());
+  return regression_->coefficients(data * scales_.cwiseInverse().asDiagonal());
+}
+
+Eigen::MatrixXd DisplacementModel::sums(const Eigen::MatrixXd& coefficients,
+                                        const std::vector<RecordedParameters>& list) const {
+  const Points points = points_of(list);
+  return regression_->sums(coefficients, points.places, points.loads) * points.scales.asDiagonal();
+}
+
+DisplacementModel::Predictions DisplacementModel::at(const std::vector<RecordedParameters>& list) const {
   const auto count = static_cast<Eigen::Index>(list.size()), n = places_.rows();
   const auto& [places, loads, plain_scales, scales] = points_of(list);
-  const KernelRegression::Weights found = regression_->weights(places, loads, with_errors);
+  const KernelRegression::Weights found = regression_->weights(places, loads);
   const Eigen::MatrixXd weights = found.of_rows * scales.asDiagonal();
   Predictions all{scales_.cwiseInverse().asDiagonal() * weights.topRows(n),
                   Eigen::MatrixXd::Zero(derivatives_, count),
-                  {},
+                  scales.cwiseProduct(found.deviations),
                   {}};
-  if (with_errors) all.deviations = scales.cwiseProduct(found.deviations);
   for (Eigen::Index w = 0; w < weights.rows() - n; ++w) {  // d / scale moves by that of d, and of the scale
     const Way& way = ways_[static_cast<std::size_t>(w)];
     const Eigen::RowVectorXd weight = weights.row(n + w) / (scales_[way.of] * way.size);
     all.derivatives.row(way.derivative) += weight;
     all.weights.row(way.of) -= weight * way.log_scale;
   }
-  if (plain_ && with_errors) {
+  if (plain_) {
     all.others.setZero(n, count);
     all.others(plain_->of, Eigen::all) = plain_->scales.cwiseInverse().asDiagonal() *
                                          plain_->regression.weights(places, loads).of_rows *

@@ -56,8 +56,13 @@ class DisplacementModel {
     /// Weights of the cases by another model, where the cases tell too little of which is right; else empty.
     Eigen::MatrixXd others;
   };
-  /// Without errors there are no deviations and no other weights, at half the cost.
-  Predictions at(const std::vector<RecordedParameters>& list, bool with_errors = true) const;
+  Predictions at(const std::vector<RecordedParameters>& list) const;
+  /// What is linear in the displacements, at many places: sums() = data * weights without errors, for the
+  /// cost of a row of coefficients in place of that of a square matrix. data: quantities x cases. Only of
+  /// models without derivatives by parameters.
+  Eigen::MatrixXd coefficients_of(const Eigen::MatrixXd& data) const;
+  Eigen::MatrixXd sums(const Eigen::MatrixXd& coefficients,
+                       const std::vector<RecordedParameters>& list) const;
   /// Covariances of the predictions' errors, in the square of the unit of the deviations; columns are changed
   /// by a case at a place as by Kriging.
   Eigen::MatrixXd covariance(const std::vector<RecordedParameters>& list) const;

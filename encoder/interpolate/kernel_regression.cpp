@@ -113,6 +113,17 @@ double Covariance::operator()(const Eigen::VectorXd& x, const Eigen::VectorXd& y
   return value + (1 + r + r * r / 3) * std::exp(-r);
 }
 
+Eigen::ArrayXd Covariance::of_rows(const Eigen::MatrixXd& x, const Eigen::RowVectorXd& y) const {
+  const Eigen::ArrayXd linear = 1 + (x * y.transpose()).array();
+  Eigen::ArrayXd values = trend * (degree == 1 ? linear : linear.pow(degree));
+  if (correlation == Correlation::none) return values;
+  Eigen::ArrayXd squared = Eigen::ArrayXd::Zero(x.rows());
+  for (Eigen::Index k = 0; k < x.cols(); ++k) squared += ((x.col(k).array() - y[k]) / lengths[k]).square();
+  if (correlation == Correlation::gaussian) return values + (-0.5 * squared).exp();
+  const Eigen::ArrayXd r = (5 * squared).sqrt();
+  return values + (1 + r + r * r / 3) * (-r).exp();
+}
+
 Covariance::Jet Covariance::along(const Eigen::VectorXd& x, const Eigen::VectorXd& dx,
                                   const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const {
   const double s = 1 + x.dot(y), first = trend * degree * std::pow(s, degree - 1),
@@ -179,23 +190,31 @@ KernelRegression::LeftOut KernelRegression::left_out() const {
 
 Eigen::MatrixXd KernelRegression::against(const Eigen::MatrixXd& features,
                                           const Eigen::MatrixXd& loads) const {
-  std::vector<Row> wanted;
-  for (Eigen::Index j = 0; j < features.rows(); ++j)
-    wanted.push_back({features.row(j).transpose(), loads.row(j).transpose(), {}, {}, false});
+  const Eigen::Index n = cases_.features.rows();
   Eigen::MatrixXd against(rows(), features.rows());
-  for (Eigen::Index i = 0; i < rows(); ++i) {
-    const Row row = row_of(cases_, i);
-    for (Eigen::Index j = 0; j < against.cols(); ++j)
-      against(i, j) = covariance_of(row, wanted[static_cast<std::size_t>(j)], covariance_);
+  against.topRows(n) = cases_.loads * loads.transpose();
+  for (Eigen::Index j = 0; j < features.rows(); ++j) {
+    against.col(j).head(n).array() *= covariance_.of_rows(cases_.features, features.row(j));
+    if (rows() == n) continue;
+    const Row wanted{features.row(j).transpose(), loads.row(j).transpose(), {}, {}, false};
+    for (Eigen::Index i = n; i < rows(); ++i)
+      against(i, j) = covariance_of(row_of(cases_, i), wanted, covariance_);
   }
   return against;
 }
 
+Eigen::MatrixXd KernelRegression::coefficients(const Eigen::MatrixXd& data) const {
+  return factor_.solve(data.transpose()).transpose();
+}
+
+Eigen::MatrixXd KernelRegression::sums(const Eigen::MatrixXd& coefficients, const Eigen::MatrixXd& features,
+                                       const Eigen::MatrixXd& loads) const {
+  return coefficients * against(features, loads);
+}
+
 KernelRegression::Weights KernelRegression::weights(const Eigen::MatrixXd& features,
-                                                    const Eigen::MatrixXd& loads,
-                                                    bool with_deviations) const {
+                                                    const Eigen::MatrixXd& loads) const {
   const Eigen::MatrixXd k = against(features, loads);
-  if (!with_deviations) return {factor_.solve(k), {}};
   Eigen::VectorXd own(features.rows());
   for (Eigen::Index j = 0; j < own.size(); ++j) {
     const Eigen::VectorXd x = features.row(j).transpose();

@@ -45,6 +45,8 @@ struct Covariance {
   double slope_nugget = 1e-6;  ///< the same of slopes
 
   double operator()(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const;
+  /// Of each row of x with y, without the loads.
+  Eigen::ArrayXd of_rows(const Eigen::MatrixXd& x, const Eigen::RowVectorXd& y) const;
 
   /// Without the loads: the value, its derivative as y moves along dy, and that as x moves along dx too.
   struct Jet {
@@ -73,9 +75,13 @@ class KernelRegression {
     Eigen::MatrixXd of_rows;     ///< a column for each: weights of the cases, followed by the slopes
     Eigen::VectorXd deviations;  ///< standard deviations, in the unit of LeftOut::deviations
   };
-  /// The deviations cost as much again as the weights; they are empty where they are not wanted.
-  Weights weights(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads,
-                  bool with_deviations = true) const;
+  Weights weights(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads) const;
+  /// Predictions of r quantities, r x m, at once: data * weights = coefficients * covariances with the rows,
+  /// so that coefficients which are solved for once make a prediction cost n r, where weights cost n^2.
+  /// data: r x rows().
+  Eigen::MatrixXd coefficients(const Eigen::MatrixXd& data) const;
+  Eigen::MatrixXd sums(const Eigen::MatrixXd& coefficients, const Eigen::MatrixXd& features,
+                       const Eigen::MatrixXd& loads) const;
   /// Covariances of the errors of predictions, m x m, in the square of that unit.
   Eigen::MatrixXd covariance_between(const Eigen::MatrixXd& features, const Eigen::MatrixXd& loads) const;
   nlohmann::ordered_json data() const;  ///< see Features

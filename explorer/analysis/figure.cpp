@@ -32,10 +32,6 @@ void add_skin(std::vector<Place>& places, const FieldGeometry& g, double t) {
       }
 }
 
-double opening(const Eigen::Ref<const Eigen::VectorXd>& displacements, Eigen::Index k) {
-  return (point(displacements, 2 * k + 1) - point(displacements, 2 * k)).norm();
-}
-
 }  // namespace
 
 Figure::Figure(const std::string& text) : text_(text) {
@@ -95,19 +91,23 @@ std::vector<Place> Figure::places(const FieldGeometry& g) const {
 }
 
 double Figure::of(const Eigen::Ref<const Eigen::VectorXd>& displacements) const {
-  const Eigen::Index count = displacements.size() / 3;
+  return of_linear_part(linear_part(displacements));
+}
+
+Eigen::MatrixXd Figure::linear_part(const Eigen::Ref<const Eigen::MatrixXd>& displacements) const {
+  if (kind_ == Kind::component) return displacements.row(component_);
+  if (kind_ != Kind::widest && kind_ != Kind::opening) return displacements;
+  Eigen::MatrixXd openings(displacements.rows() / 2, displacements.cols());
+  for (Eigen::Index k = 0; k < openings.rows(); k += 3)  // of the left lip, then of the right one
+    openings.middleRows<3>(k) = displacements.middleRows<3>(2 * k + 3) - displacements.middleRows<3>(2 * k);
+  return openings;
+}
+
+double Figure::of_linear_part(const Eigen::Ref<const Eigen::VectorXd>& part) const {
+  if (kind_ == Kind::component) return part[0];
   double most = 0;
-  switch (kind_) {
-    case Kind::component:
-      return displacements[component_];
-    case Kind::widest:
-    case Kind::opening:
-      for (Eigen::Index k = 0; k < count / 2; ++k) most = std::max(most, opening(displacements, k));
-      return most;
-    default:
-      for (Eigen::Index k = 0; k < count; ++k) most = std::max(most, point(displacements, k).norm());
-      return most;
-  }
+  for (Eigen::Index k = 0; k < part.size() / 3; ++k) most = std::max(most, point(part, k).norm());
+  return most;
 }
 
 double Figure::distance(const Eigen::Ref<const Eigen::VectorXd>& a,

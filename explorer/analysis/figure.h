@@ -28,6 +28,10 @@ class Figure {
   /// The figure of their displacements, x, y, z of one after another.
   double of(const Eigen::Ref<const Eigen::VectorXd>& displacements) const;
   double of(const Field& field) const;
+  /// What is linear in them and makes the figure, a column for each of theirs: openings, a component, or all
+  /// displacements; and the figure of such a column.
+  Eigen::MatrixXd linear_part(const Eigen::Ref<const Eigen::MatrixXd>& displacements) const;
+  double of_linear_part(const Eigen::Ref<const Eigen::VectorXd>& part) const;
   /// The displacements of the field at its places, as of() takes them.
   Eigen::VectorXd displacements(const Field& field) const;
   /// Whether it is the field, of which distance() counts.

@@ -226,13 +226,34 @@ FigureModel::Answers FigureModel::at(const Eigen::MatrixXd& points) const {
   return answers;
 }
 
-Eigen::MatrixXd FigureModel::values_at(const Eigen::MatrixXd& points) const {
-  Eigen::MatrixXd values(std::ssize(figures_), points.cols());
-  for_pieces(points.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    values.middleCols(first, count) = figures_from(
-        cases_.displacements * model_->at(parameters_at(points.middleCols(first, count)), false).weights);
-  });
-  return values;
+FigureModel::Function FigureModel::function_of(const std::vector<Told>& list) const {
+  std::vector<Figure> figures;
+  std::vector<Eigen::Index> rows{0};
+  Eigen::MatrixXd data;
+  for (const auto& [figure, displacements] : list) {
+    figures.push_back(figures_[static_cast<std::size_t>(figure)]);
+    const Eigen::MatrixXd part = figures.back().linear_part(displacements);
+    data.conservativeResize(rows.back() + part.rows(), cases());
+    data.bottomRows(part.rows()) = part;
+    rows.push_back(data.rows());
+  }
+  return [this, coefficients = model_->coefficients_of(data), figures, rows](const Eigen::MatrixXd& points) {
+    Eigen::MatrixXd values(std::ssize(figures), points.cols());
+    for_pieces(points.cols(), [&](Eigen::Index first, Eigen::Index count) {
+      const Eigen::MatrixXd sums = model_->sums(coefficients, parameters_at(points.middleCols(first, count)));
+      for (std::size_t k = 0; k < figures.size(); ++k)
+        for (Eigen::Index j = 0; j < count; ++j)
+          values(static_cast<Eigen::Index>(k), first + j) =
+              figures[k].of_linear_part(sums.col(j).segment(rows[k], rows[k + 1] - rows[k]));
+    });
+    return values;
+  };
+}
+
+FigureModel::Function FigureModel::values() const {
+  std::vector<Told> list;
+  for (int f = 0; f < std::ssize(figures_); ++f) list.push_back({f, displacements_of_figure(f)});
+  return function_of(list);
 }
 
 /// Without case i the prediction is d - r_i w_i, where w_i is its weight and r_i its residual.
@@ -257,29 +278,20 @@ void FigureModel::estimate_errors(const DisplacementModel::Predictions& found,
   }
 }
 
-/// A weight that is held at zero changes the others by the column of the inverse that undoes it.
-Eigen::MatrixXd FigureModel::without_parts(int parts, int figure, const Eigen::MatrixXd& points) const {
-  const auto f = static_cast<std::size_t>(figure);
-  const Eigen::MatrixXd displacements = cases_.displacements.middleRows(rows_[f], rows_[f + 1] - rows_[f]);
-  std::vector<std::vector<int>> left(static_cast<std::size_t>(parts));
-  for (int i = 0; i < cases(); ++i) left[static_cast<std::size_t>(i % parts)].push_back(i);
-  std::vector<Eigen::MatrixXd> undo;  // what a weight of these cases contributes to the displacements
-  for (const std::vector<int>& some : left) {
-    const Eigen::MatrixXd own = inverse_(some, some);
-    undo.emplace_back(
-        own.transpose().ldlt().solve((displacements * inverse_(Eigen::all, some)).transpose()).transpose());
+/// A weight that is held at zero changes the others by the column of the inverse that undoes it, and what
+/// these make of the displacements is as if the cases left out had that contribution less.
+FigureModel::Function FigureModel::without_parts(int parts, int figure) const {
+  const Eigen::MatrixXd displacements = displacements_of_figure(figure);
+  std::vector<Told> list;
+  for (int k = 0; k < parts; ++k) {
+    std::vector<int> left;
+    for (int i = k; i < cases(); i += parts) left.push_back(i);
+    const Eigen::MatrixXd own = inverse_(left, left);
+    list.push_back({figure, displacements});
+    list.back().displacements(Eigen::all, left) -=
+        own.transpose().ldlt().solve((displacements * inverse_(Eigen::all, left)).transpose()).transpose();
   }
-  Eigen::MatrixXd values(parts, points.cols());
-  for_pieces(points.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    const Eigen::MatrixXd weights = model_->at(parameters_at(points.middleCols(first, count)), false).weights,
-                          all = displacements * weights;
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      const Eigen::MatrixXd rest = all - undo[k] * weights(left[k], Eigen::all);
-      for (Eigen::Index j = 0; j < count; ++j)
-        values(static_cast<Eigen::Index>(k), first + j) = figures_[f].of(rest.col(j));
-    }
-  });
-  return values;
+  return function_of(list);
 }
 
 double FigureModel::fit_error(int figure) const {

@@ -63,11 +63,14 @@ class FigureModel {
     Eigen::MatrixXd errors;  ///< of the interpolation, of the figure's field; 95 % of new cases are within
   };
   Answers at(const Eigen::MatrixXd& points) const;
-  /// The values alone, at a part of the cost.
-  Eigen::MatrixXd values_at(const Eigen::MatrixXd& points) const;
+  /// Figures of points as above, a column for each.
+  using Function = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& points)>;
+  /// The values alone: what is solved for here once makes a point cost far less than at() takes. The function
+  /// refers to this model.
+  Function values() const;
   /// A figure as other data tell it: row k is that of all cases but every `parts`-th from the k-th on
   /// (jackknife).
-  Eigen::MatrixXd without_parts(int parts, int figure, const Eigen::MatrixXd& points) const;
+  Function without_parts(int parts, int figure) const;
   /// What each case's figures would be by all other cases.
   const Eigen::MatrixXd& left_out() const { return left_out_; }
   /// The error of the fields of the cases themselves, mm: the median of the largest of each.
@@ -82,6 +85,16 @@ class FigureModel {
   /// Calls work(first, count) for pieces of so many points.
   static void for_pieces(Eigen::Index points,
                          const std::function<void(Eigen::Index first, Eigen::Index count)>& work);
+  /// Values of figures, one after another, from other displacements of the cases.
+  struct Told {
+    int figure;
+    Eigen::MatrixXd displacements;
+  };
+  Function function_of(const std::vector<Told>& list) const;
+  auto displacements_of_figure(int figure) const {
+    const auto f = static_cast<std::size_t>(figure);
+    return cases_.displacements.middleRows(rows_[f], rows_[f + 1] - rows_[f]);
+  }
   Eigen::MatrixXd figures_from(const Eigen::MatrixXd& displacements) const;
   Eigen::MatrixXd differences(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) const;
   Eigen::MatrixXd ratios_of(const Eigen::MatrixXd& predicted, const Eigen::VectorXd& deviations) const;

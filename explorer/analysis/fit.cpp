@@ -129,7 +129,7 @@ ParameterFit MeasurementFit::find(const PosteriorSettings& settings) const {
 }
 
 NextMeasurement next_measurement(const FigureModel& candidates, const Eigen::MatrixXd& possible) {
-  const Eigen::MatrixXd values = candidates.values_at(some_of(possible));
+  const Eigen::MatrixXd values = candidates.values()(some_of(possible));
   const Eigen::VectorXd spread = ((values.colwise() - values.rowwise().mean()).rowwise().squaredNorm() /
                                   static_cast<double>(values.cols()))
                                      .cwiseSqrt();

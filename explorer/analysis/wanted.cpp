@@ -129,11 +129,12 @@ BestParameters best_parameters(const FigureModel& model, const Wanted& wanted) {
     const FigureModel::Varied& one = model.varying()[static_cast<std::size_t>(k)];
     problem.least[k] = one.least, problem.greatest[k] = one.greatest;
   }
+  const FigureModel::Function values = model.values();
   problem.at = [&](const Eigen::MatrixXd& unrounded) {
     Eigen::MatrixXd points = unrounded;
     round_whole_numbers(model, points);
     const FigureModel::Answers figures =
-        wanted.needs_errors() ? model.at(points) : FigureModel::Answers{model.values_at(points), {}};
+        wanted.needs_errors() ? model.at(points) : FigureModel::Answers{values(points), {}};
     const Wanted::Judged judged = wanted.judge(model, points, figures, wanted.needs_errors());
     return AimAndExcess{judged.aims.row(0).transpose(), judged.excess};
   };

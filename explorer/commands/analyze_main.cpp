@@ -68,12 +68,10 @@ Json analyze(const Options& o) {
     ranges.push_back({one.name, one.least, one.greatest});
   const std::vector<InputDistribution> distributions = distributions_of(ranges, o.given);
 
-  const FigureFunction figure = [&](const Eigen::MatrixXd& points) {
-    return Eigen::VectorXd(model.values_at(points).row(0).transpose());
+  const FigureFunction figure = [values = model.values()](const Eigen::MatrixXd& points) {
+    return Eigen::VectorXd(values(points).row(0).transpose());
   };
-  const AlternativeFigures alternatives = [&](const Eigen::MatrixXd& points) {
-    return model.without_parts(std::min(parts_left_out, model.cases()), 0, points);
-  };
+  const AlternativeFigures alternatives = model.without_parts(std::min(parts_left_out, model.cases()), 0);
   progress("drawing values of the parameters");
   const Sensitivities found = sensitivities_of(distributions, figure, alternatives, o.samples);
   const Eigen::VectorXd errors =
