@@ -124,7 +124,8 @@ Json info_of_field(const Field& field, const std::string& file) {
                                   {"largest", quantity.largest},
                                   {"scale", quantity.scale},
                                   {"error", quantity.error},
-                                  {"spline_error", quantity.spline_error}});
+                                  {"spline_error", quantity.spline_error},
+                                  {"unit", field.source ? unit_of(*field.source, quantity.name) : ""}});
   for (const ParameterDerivative& one : field.by_parameter)
     info["by_parameter"].push_back(
         {{"parameter", one.parameter}, {"largest", one.largest}, {"error", one.error}});

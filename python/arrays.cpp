@@ -120,6 +120,14 @@ py::dict dict_of(const RecordedParameters& parameters) {
   return dict;
 }
 
+py::dict units_of(const Field& field) {
+  py::dict units;
+  for (const Quantity& quantity : field.quantities)
+    if (const std::string unit = field.source ? unit_of(*field.source, quantity.name) : ""; !unit.empty())
+      units[quantity.name.c_str()] = unit;
+  return units;
+}
+
 py::dict dict_of(const FitReport& r) {
   py::dict dict;
   const std::pair<const char*, double> rows[] = {{"relative_l2", r.relative_l2},

@@ -99,6 +99,8 @@ using Dense = py::array_t<Number, py::array::c_style | py::array::forcecast>;
 /// Numbers and texts by name.
 py::dict dict_of(const RecordedParameters& parameters);
 py::dict dict_of(const FitReport& report);
+/// Of the further quantities, by name: those that are known.
+py::dict units_of(const Field& field);
 
 /// A field as Python holds it.
 struct SharedField {

@@ -87,6 +87,9 @@ void bind_blended(py::module_& module) {
           },
           "Names of the further quantities.")
       .def_property_readonly(
+          "units", [](const SharedBlend& self) { return units_of(self.field->first()); },
+          "The units of the further quantities by name, where `cleft import` was told them.")
+      .def_property_readonly(
           "duration", [](const SharedBlend& self) { return self.field->first().duration(); },
           "t of the last frame.")
       .def_property_readonly(

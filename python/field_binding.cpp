@@ -189,6 +189,9 @@ void bind_field(py::module_& module) {
           },
           "Names of the further quantities.")
       .def_property_readonly(
+          "units", [](const SharedField& self) { return units_of(*self.field); },
+          "The units of the further quantities by name, where `cleft import` was told them.")
+      .def_property_readonly(
           "domain", [](const SharedField& self) { return domain_of(*self.field); },
           "(least, greatest) of u, v, w and t, mm, by name.")
       .def_property_readonly(

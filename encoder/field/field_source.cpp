@@ -36,6 +36,21 @@ double smooth_step(double s) {
 
 }  // namespace
 
+SourceName::SourceName(const std::string& text) : there(text), here(text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos) return;
+  there = text.substr(0, colon), here = text.substr(colon + 1);
+  const std::size_t bracket = here.find('[');
+  if (bracket == std::string::npos || bracket == 0 || !here.ends_with(']')) return;
+  unit = here.substr(bracket + 1, here.size() - bracket - 2), here.resize(bracket);
+}
+
+std::string unit_of(const FieldSource& source, const std::string& name) {
+  for (const std::string& field : source.fields)
+    if (const SourceName one(field); one.here == name) return one.unit;
+  return "";
+}
+
 std::vector<double> BreakExtent::numbers() const {
   std::vector<double> list = {along.front, along.back, height.front, height.back};
   for (const bool end : joined) list.push_back(end ? 1 : 0);

@@ -33,7 +33,7 @@ struct FieldSource {
   Vec3 origin = {};                        ///<
   AxesInSpace axes = same_axes;            ///< unit vectors of u, v, w, right-handed
   std::vector<double> times = {};          ///< of the frames, in the source
-  std::vector<std::string> fields = {};    ///< SOURCE:NAME: the names there, and here
+  std::vector<std::string> fields = {};    ///< SOURCE:NAME or SOURCE:NAME[UNIT]: SourceName
   std::optional<BreakMap> map = {};        ///<
   std::optional<BreakExtent> extent = {};  ///< of one of several breaks
 
@@ -43,6 +43,15 @@ struct FieldSource {
     return map ? map->canonical(placed) : placed;
   }
 };
+
+/// "S:stress[MPa]": what a field is called in the source, what it is called here, and its unit, "" where that
+/// is not told. Without a colon both are the whole text, brackets included.
+struct SourceName {
+  explicit SourceName(const std::string& text);
+  std::string there, here, unit = {};
+};
+/// The unit of the field that is called `name` here; "" where it is not told.
+std::string unit_of(const FieldSource& source, const std::string& name);
 
 /// How much the field of each of several pieces, whose breaks are at `sources`, counts at a point of the
 /// source's space; the weights sum to 1, and change smoothly. A piece counts where its break is the nearest:

@@ -37,8 +37,7 @@ FieldSource source_of(const Field& field) {
 /// The name in the source of a field that is called `name` here.
 std::string name_there(const FieldSource& source, const std::string& name) {
   for (const std::string& field : source.fields)
-    if (const std::size_t colon = field.rfind(':'); field.substr(colon + 1) == name)
-      return field.substr(0, colon);
+    if (const SourceName one(field); one.here == name) return one.there;
   return name;
 }
 

@@ -52,8 +52,9 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option(
          "--field", o.fields,
-         "SOURCE[:NAME],...: arrays of the points, or of the cells, whose mean a node gets, and their "
-         "names here; one named displacement is what fields are fitted to")
+         "SOURCE[:NAME[UNIT]],...: arrays of the points, or of the cells, whose mean a node gets, their "
+         "names here, and their units, with which legends show them, as S:stress[MPa]; one named "
+         "displacement is what fields are fitted to")
       ->required()
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -82,7 +82,8 @@ Placed snapshot_of(const ImportedSeries& series, const SourceMesh& mesh, const B
       SnapshotSource{std::filesystem::path(series.path()).filename().string(), placement.origin,
                      placement.axes, series.times().front(), found.plane ? text_of(*found.plane) : "none"};
   for (const SeriesField& field : series.fields())
-    s.source->fields.push_back(field.source + ":" + field.name);
+    s.source->fields.push_back(field.source + ":" + field.name +
+                               (field.unit.empty() ? "" : "[" + field.unit + "]"));
   const std::vector<bool> at_front = front_of(s, found);
   result.map = given ? given->map : map_of(s, found, at_front, in_plane(mesh), is_flat);
   if (result.map) {

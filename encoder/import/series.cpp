@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/field/field_source.h"
 
 namespace cleft {
 
@@ -78,10 +79,10 @@ std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts) {
   std::vector<SeriesField> fields;
   std::set<std::string> names;
   for (const std::string& text : texts) {
-    const auto colon = text.rfind(':');
-    SeriesField field{text.substr(0, colon), colon == std::string::npos ? text : text.substr(colon + 1)};
+    const SourceName names_of(text);
+    const SeriesField field{names_of.there, names_of.here, names_of.unit};
     if (field.source.empty() || field.name.empty())
-      throw InputError("--field '" + text + "': expected SOURCE or SOURCE:NAME");
+      throw InputError("--field '" + text + "': expected SOURCE, SOURCE:NAME or SOURCE:NAME[UNIT]");
     if (field.name.find('/') != std::string::npos || field.name == ".")
       throw InputError("--field '" + text + "': '" + field.name +
                        "' cannot be a dataset's name; give another, as SOURCE:NAME");

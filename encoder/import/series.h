@@ -12,13 +12,15 @@ namespace cleft {
 /// A field and its name in the snapshot.
 struct SeriesField {
   std::string source, name;  ///< in the files, in the snapshot
+  std::string unit = {};     ///< "" where it is not told
   int components = 1;        ///< 1, 3 (a vector) or 6 (a symmetric tensor: XX YY ZZ XY YZ XZ)
   bool single = false;       ///< stored in single precision
   bool of_cells = false;     ///< values of cells; a node gets the mean of its cells
   bool all_nine = false;     ///< stored as the nine components of a tensor, row by row
 };
 
-/// "stress" or "U:displacement": SOURCE[:NAME]. Throws InputError if a name is invalid or repeated.
+/// "stress", "U:displacement" or "S:stress[MPa]": SourceName. Throws InputError if a name is invalid or
+/// repeated.
 std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts);
 
 /// Values of each field in a frame: N times its components, point by point.

@@ -37,7 +37,9 @@ const std::string of_quantity = "quantity:";
 
 ColoringText text_of(const Coloring& coloring) {
   if (coloring.kind == Coloring::quantity)
-    return {coloring, of_quantity + coloring.name, coloring.name, "a quantity of the imported data"};
+    return {coloring, of_quantity + coloring.name,
+            coloring.name + (coloring.unit.empty() ? "" : ", " + coloring.unit),
+            "a quantity of the imported data"};
   return colorings().at(static_cast<std::size_t>(coloring.kind));
 }
 

@@ -17,6 +17,7 @@ struct Coloring {
 
   Kind kind;
   std::string name = {};  ///< of a further quantity of imported data
+  std::string unit = {};  ///< of that, for legends, where it is known
 };
 
 struct ColoringText {
@@ -38,7 +39,7 @@ inline bool needs_reference(const Coloring& coloring) {
 
 /// Of all but quantities.
 const std::vector<ColoringText>& colorings();
-/// A quantity has the name quantity:NAME, and its own as title: it is in the units of its source.
+/// A quantity has the name quantity:NAME, and its own as title, with its unit where that is known.
 ColoringText text_of(const Coloring& coloring);
 /// By the name of a colouring, of one of the `quantities`, or quantity:NAME. Throws InputError for an unknown
 /// name, with the nearest one.

@@ -53,6 +53,7 @@ class Session {
   /// InputError if it cannot be shown.
   std::shared_ptr<const WoundScene> scene_as_simulated(int i) const;
   std::vector<std::string> quantities();  ///< of the shown case, besides the displacement
+  Coloring coloring_with_unit();          ///< of the state, a quantity with its unit where its source told it
   std::shared_ptr<const Field> field();   ///< of the shown case; null without a study
   /// The field of case i, or the interpolated one if that is shown instead.
   std::shared_ptr<const Field> field_of(int i);

@@ -51,6 +51,14 @@ std::vector<std::string> Session::quantities() {
   return names;
 }
 
+Coloring Session::coloring_with_unit() {
+  Coloring coloring = state().coloring;
+  if (coloring.kind != Coloring::quantity) return coloring;
+  const std::shared_ptr<const Field> shown = field();
+  if (shown && shown->source) coloring.unit = unit_of(*shown->source, coloring.name);
+  return coloring;
+}
+
 std::shared_ptr<const Field> Session::field() { return study() ? field_of(state().shown) : nullptr; }
 
 std::shared_ptr<const Field> Session::field_of(int i) {

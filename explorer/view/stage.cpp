@@ -208,7 +208,7 @@ void Stage::color(Session& session, bool fresh) {
   shown_.coloring = s.coloring;
   shown_.reference = reference.get();
   shown_.map = s.map;
-  for (View& v : views_) v.view->color_by(s.coloring, reference, shown_.range, s.map);
+  for (View& v : views_) v.view->color_by(session.coloring_with_unit(), reference, shown_.range, s.map);
 }
 
 void Stage::aim(const CameraState& camera, bool fresh) {

@@ -368,9 +368,11 @@ TEST_F(FieldsOfASeries, IsDecodedAsItWas) {
     add_start_and_tensor(series, 0.01);
     const TemporaryFolder place;
     const std::string pvd = series.write(place), h5 = place / "case.h5", dffd = place / "case.dffd";
-    expect_success(run_cleft("import", {pvd, "--field", "U:displacement,S:stress", "--out", h5}));
+    expect_success(run_cleft("import", {pvd, "--field", "U:displacement,S:stress[N/mm^2]", "--out", h5}));
     expect_success(run_cleft("encode", {h5, "--tolerance", "0.01", "--out", dffd}));
     const Field field = read_field(dffd);
+    EXPECT_EQ(unit_of(*field.source, "stress"), "N/mm^2");
+    EXPECT_EQ(unit_of(*field.source, "displacement"), "");
     expect_success(run_cleft("decode", {dffd, "--on", place / "series_0.vtu", "--out", place / "on.pvd"}));
     expect_success(run_cleft("decode", {dffd, "--nodes", h5, "--out", place / "at_nodes"}));
     for (const bool on : {true, false}) {
