@@ -101,12 +101,15 @@ void info(Session& session, CommandWords&) {
                    " error of what is drawn: " + rounded(100 * field->report.spline_error) +
                    " % of the largest displacement, " + rounded(field->report.largest_displacement) + " mm");
     const std::optional<double> error = error_of_gape(*field);
-    session.answer("widest gape at " + shortest(s.time) +
-                   " mm cut: " + rounded(widest_gape(*field, std::min(s.time, field->duration()))) + " mm" +
+    session.answer("widest gape at " + std::string(session.is_imported() ? "t = " : "") + shortest(s.time) +
+                   (session.is_imported() ? ": " : " mm cut: ") +
+                   rounded(widest_gape(*field, std::min(s.time, field->duration()))) + " mm" +
                    (error ? ", off by at most " + rounded(*error) + " mm" : ""));
   }
   if (!s.mesh.empty()) session.answer("mesh: " + s.mesh + ", cuts: " + std::to_string(s.cuts.size()));
-  session.answer("length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");
+  session.answer(session.is_imported()
+                     ? session.progress_text(s.time, scene->duration())
+                     : "length cut: " + shortest(s.time) + " of " + shortest(scene->duration()) + " mm");
   if (const std::string& note = session.simulation_note(); !note.empty()) session.answer(note);
   if (s.detail) session.answer(told_detail(session, *scene));
   for (const std::string& warning : session.warnings()) session.answer("warning: " + warning);

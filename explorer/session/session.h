@@ -59,8 +59,12 @@ class Session {
   std::shared_ptr<const Field> field_of(int i);
   std::shared_ptr<const Field> reference();  ///< of colours by difference; null where none is chosen
   double duration();                         ///< t of the end, of the longest view
-  double depth_of_case(int i);               ///< mm, of cuts without their own depth
-  double cut_length_of_fields();             ///< mm: of the shown case's cut, by which meshes are judged
+  bool is_imported();  ///< whether t is the time of another program's series, not the length cut
+  /// How far a view is: "12.0 of 30.0 mm cut", or of imported data, in the time of their source, "time 3 of
+  /// 4".
+  std::string progress_text(double time, double duration);
+  double depth_of_case(int i);    ///< mm, of cuts without their own depth
+  double cut_length_of_fields();  ///< mm: of the shown case's cut, by which meshes are judged
   /// The cuts' paths, with the depth of the shown case if they have none.
   std::vector<ScalpelPath> cut_paths() { return cut_paths(depth_of_case(state().shown)); }
   std::shared_ptr<const CutSurface> shown_cut_surface() { return cut_surface(depth_of_case(state().shown)); }

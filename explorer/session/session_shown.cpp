@@ -98,6 +98,18 @@ std::shared_ptr<const WoundScene> Session::scene_as_simulated(int i) const {
   return std::make_shared<PatchScene>(std::make_shared<const Field>(study.read(i)));
 }
 
+bool Session::is_imported() {
+  const std::shared_ptr<const Field> shown = field();
+  return shown && shown->source;
+}
+
+std::string Session::progress_text(double time, double duration) {
+  if (!is_imported()) return formatted("%.1f of %.1f mm cut", time, duration);
+  const std::vector<double>& times = field()->source->times;
+  const double start = times.empty() ? 0 : times.front();
+  return formatted("time %.4g of %.4g", start + time, start + duration);
+}
+
 double Session::duration() {
   double longest = 0;
   for (const int i : views()) longest = std::max(longest, scene_of(i)->duration());

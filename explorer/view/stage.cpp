@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 namespace cleft {
@@ -256,10 +255,7 @@ void Stage::label(Session& session) {
     const std::string whole = session.title_of(cases[i]);
     const double width = views_[i].view->renderer()->GetSize()[0] * 72. / window_->GetDPI();
     const std::string title = wrapped(views_.size() > 1 ? without_groups(whole) : whole, width);
-    char time[80];
-    std::snprintf(time, sizeof time, "%.1f of %.1f mm cut", views_[i].view->time(),
-                  views_[i].view->duration());
-    std::string below = time;
+    std::string below = session.progress_text(views_[i].view->time(), views_[i].view->duration());
     for (const std::string& text :
          {session.note_of(cases[i]), cases[i] == session.state().shown ? caption_ : std::string()})
       if (!text.empty()) below += "\n" + wrapped(text, width);

@@ -243,5 +243,25 @@ TEST_F(Shown, AProbesFileHasTheFieldAtTheNodeToo) {
             session_.field()->displacement({0.7, 3.1, -0.4}, Side::both, t).y);
 }
 
+TEST_F(Shown, ImportedDataHaveTheTimesAndTheUnitsOfTheirSource) {
+  Field field = synthetic_field(3);
+  field.quantities.push_back({"heat", 1, std::vector<double>(field.coefficients().size(), 300)});
+  field.source = FieldSource{"plate.pvd"};
+  field.source->times = {100, 115, 130};
+  field.source->fields = {"U:displacement", "T:heat[K]"};
+  write_field(folder_ / "imported.dffd", field);
+  say("open " + (folder_ / "imported.dffd"));
+  say("time 12");
+  say("color heat");
+  EXPECT_EQ(text_of(session_.coloring_with_unit()).title, "heat, K");
+  EXPECT_EQ(session_.progress_text(12, 30), "time 112 of 130");
+  say("info");
+  EXPECT_NE(answers_.find("time 112 of 130"), std::string::npos) << answers_;
+  EXPECT_EQ(answers_.find("mm cut"), std::string::npos) << answers_;
+  EXPECT_EQ(answers_.find("length cut"), std::string::npos) << answers_;
+  say("open " + study());
+  EXPECT_EQ(session_.progress_text(12, 30), "12.0 of 30.0 mm cut");
+}
+
 }  // namespace
 }  // namespace cleft
