@@ -30,6 +30,7 @@ struct Overlay {
   };
   std::vector<Dot> dots;
   std::vector<Line> lines;
+  std::vector<Dot> handles;  ///< small balls that can be dragged
   double surface_opacity = 1;
   bool in_front = false;  ///< drawn in front of the surface
   std::string caption;
@@ -41,7 +42,7 @@ struct Overlay {
   };
   std::optional<Scale> scale;
 
-  bool empty() const { return dots.empty() && lines.empty() && caption.empty(); }
+  bool empty() const { return dots.empty() && lines.empty() && handles.empty() && caption.empty(); }
 };
 
 /// The simulation's nodes within `radius` mm of a place, displaced as in the frame nearest to t, coloured by

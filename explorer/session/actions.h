@@ -34,6 +34,8 @@ void load_mesh(Session& session, const std::string& file, double scale);
 void show_patch(Session& session);
 void add_cut(Session& session, const CutState& cut);
 void replace_last_cut(Session& session, const CutState& cut);
+/// Changes a cut's path; it and all cuts after it are made anew, in their order. `index` from 0.
+void edit_cut(Session& session, std::size_t index, const CutEdit& edit);
 /// The skin's tension, against which cuts turn; none: that of the shown case for all directions of a cut.
 void set_tension(Session& session, const std::optional<SkinTension>& tension);
 /// The surface of the bone below the mesh, in its units; empty: none is known.
@@ -44,7 +46,7 @@ void simulate_cuts(Session& session, bool on);
 /// known. Waits for it unless the session works in the background.
 void follow_cuts(Session& session);
 void finish_simulation(Session& session);  ///< once it is ready
-void undo_last(Session& session);          ///< the last cut or tension
+void undo_last(Session& session);          ///< the last cut, change of one, or tension
 void redo_last(Session& session);
 
 // Time and colours.

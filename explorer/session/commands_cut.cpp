@@ -65,6 +65,50 @@ CutState read_cut(CommandWords& words) {
 void cut(Session& session, CommandWords& words) { add_cut(session, read_cut(words)); }
 void recut(Session& session, CommandWords& words) { replace_last_cut(session, read_cut(words)); }
 
+/// From 0.
+std::size_t read_cut_number(Session& session, CommandWords& words) {
+  const int count = static_cast<int>(session.state().cuts.size());
+  if (!session.mesh() || count == 0) throw InputError("there is no cut yet (say: cut ...)");
+  return static_cast<std::size_t>(words.whole("the cut", 1, count) - 1);
+}
+
+void edit(Session& session, CommandWords& words) {
+  const std::size_t index = read_cut_number(session, words);
+  CutEdit edit;
+  do {
+    const std::string what = words.text("point, reach, depth or tilt");
+    if (what == "point") {
+      const int count = static_cast<int>(session.state().cuts[index].points.size());
+      const int point = words.whole("the point", 1, count) - 1;
+      const std::vector<double> x = words.numbers("a place X,Y,Z", 3, 3);
+      edit.moves.push_back({point, {x[0], x[1], x[2]}});
+    } else if (what == "reach") {
+      edit.reach = words.number_in("the reach", 0, 1e3);
+    } else if (what == "depth") {
+      edit.depth = words.number_in("the depth", 0, 1e3);
+      if (*edit.depth > 0 && *edit.depth < 1e-3)
+        words.wrong("the depth is 0 (the case's), or 0.001 mm or more");
+    } else if (what == "tilt") {
+      edit.tilt = words.number_in("the tilt", -CutEdit::steepest, CutEdit::steepest);
+    } else {
+      words.wrong("'" + what + "' is neither point, reach, depth nor tilt");
+    }
+  } while (!words.empty());
+  edit_cut(session, index, edit);
+}
+
+void handles(Session& session, CommandWords& words) {
+  const std::string first = words.text("a cut, or off");
+  session.changes().closer = true;
+  if (first == "off") {
+    session.edit().handled = -1;
+    return;
+  }
+  CommandWords number("handles", "N | off", {first});
+  session.edit().handled = static_cast<int>(read_cut_number(session, number));
+  session.handles();  // says where there are none
+}
+
 void cut_file(Session& session, CommandWords& words) {
   const std::string file = words.text("a path file");
   const NumberTable table = read_csv(file);
@@ -181,10 +225,7 @@ void wounds(Session& session, CommandWords& words) {
 }
 
 void look_at_wound(Session& session, CommandWords& words) {
-  const int count = static_cast<int>(session.state().cuts.size());
-  if (!session.mesh() || count == 0) throw InputError("there is no cut yet (say: cut ...)");
-  const ScalpelPath path =
-      session.cut_paths()[static_cast<std::size_t>(words.whole("the cut", 1, count) - 1)];
+  const ScalpelPath path = session.cut_paths()[read_cut_number(session, words)];
   const PathFrame middle = path.at(path.length() / 2);
   constexpr double view_angle = 24, room = 1.4;
   const double distance = room * path.length() / 2 / std::tan(view_angle / 2 * M_PI / 180);
@@ -229,6 +270,12 @@ std::span<const Command> cut_commands() {
       {"cut", "X,Y,Z,NX,NY,NZ[,DEPTH] ... [depth MM]", "cut along places with outward normals, mm", cut},
       {"recut", "X,Y,Z,NX,NY,NZ[,DEPTH] ... [depth MM]", "the last cut goes there instead", recut,
        Command::latest},
+      {"edit-cut", "N [point I X,Y,Z]... [reach MM] [depth MM] [tilt DEGREES]",
+       "change cut N: points of its path are moved over the skin, those within the reach follow; depth of "
+       "its deepest place (0: the case's); lean to its left",
+       edit},
+      {"handles", "N | off", "balls that change cut N when they are dragged: its path, depth and tilt",
+       handles},
       {"cut-file", "PATH.csv", "cut along a path file: x,y,z,nx,ny,nz[,depth], in the mesh's units",
        cut_file},
       {"device", "NAME [FILE] | off",
@@ -242,7 +289,7 @@ std::span<const Command> cut_commands() {
        "a line of the larger tension over the skin, besides those before", paint_tension},
       {"simulate", "on | off",
        "simulate the cuts in this very mesh, each time that they change, and show them so", simulate},
-      {"undo", "", "take the last cut or tension back", undo},
+      {"undo", "", "take the last cut, change of a cut, or tension back", undo},
       {"redo", "", "make it again", redo},
       {"export", "FILE",
        "write the surface as it is shown, in the mesh's units: " +

@@ -17,6 +17,7 @@
 #include "explorer/incision/surface_mesh.h"
 #include "explorer/scene/skin_ruler.h"
 #include "explorer/scene/wound_scene.h"
+#include "explorer/session/cut_edit.h"
 #include "explorer/session/known_cases.h"
 #include "explorer/session/session_state.h"
 #include "explorer/study/between_cases.h"
@@ -58,6 +59,7 @@ struct Opened {
   SessionState state;
   std::shared_ptr<KnownCases> cases;         ///< null: no study is open
   std::shared_ptr<const SurfaceMesh> mesh;   ///< to be cut, mm; null: the canonical patch is shown
+  std::shared_ptr<const Skin> skin;          ///< of the mesh; null until handles are asked for
   std::shared_ptr<const SurfaceIndex> bone;  ///< below its skin, mm; null: none is known
   Between between;
   Simulated simulated;

@@ -67,6 +67,13 @@ class Session {
   double cut_length_of_fields();  ///< mm: of the shown case's cut, by which meshes are judged
   /// The cuts' paths, with the depth of the shown case if they have none.
   std::vector<ScalpelPath> cut_paths() { return cut_paths(depth_of_case(state().shown)); }
+  /// Of the mesh. Throws InputError if there is none.
+  const Skin& skin();
+  /// Of the cut whose handles are shown; none where no cut's are.
+  std::optional<CutHandles> handles();
+  /// While a handle is dragged: the path that it leads to is drawn, too, and is part of no state. None: no
+  /// longer.
+  void preview_cut(std::optional<CutState> cut) { preview_ = std::move(cut); }
   std::shared_ptr<const CutSurface> shown_cut_surface() { return cut_surface(depth_of_case(state().shown)); }
   std::optional<CutFields> cut_fields(int i);  ///< the fields of cuts in case i; none without a study
   /// The overlay over the shown case; if it cannot be drawn, the caption gives the reason.
@@ -150,6 +157,7 @@ class Session {
 
   std::shared_ptr<const CutSurface> cut_surface(double depth);
   void lay_ruler_over(Overlay& overlay);
+  void lay_handles_over(Overlay& overlay);
   Overlay make_overlay();
   std::optional<CutFields> turning_fields(int i);
   bool is_outside() const;
@@ -157,6 +165,7 @@ class Session {
   SessionServices services_;
   Opened opened_;
   bool beside_ = false, busy_ = false, warns_ = true;
+  std::optional<CutState> preview_;
   std::vector<std::string> said_;
   std::vector<Listener> listeners_;
   Changes changes_;

@@ -83,6 +83,7 @@ Overlay Session::make_overlay() {
       overlay.in_front = true;
     }
   if (!s.ruler.empty() && has_scene()) lay_ruler_over(overlay);
+  lay_handles_over(overlay);
   return overlay;
 }
 
@@ -103,6 +104,36 @@ void Session::lay_ruler_over(Overlay& overlay) {
   if (now.places.size() > 1) overlay.lines.push_back({now.places, ink});
   overlay.in_front = true;
   overlay.caption += (overlay.caption.empty() ? "" : "\n") + told(now, rest);
+}
+
+const Skin& Session::skin() {
+  if (!mesh()) throw InputError("there is no skin with cuts (say: mesh FILE)");
+  if (!opened_.skin) opened_.skin = std::make_shared<const Skin>(*mesh());
+  return *opened_.skin;
+}
+
+std::optional<CutHandles> Session::handles() {
+  if (!mesh() || state().handled < 0) return std::nullopt;
+  const CutState& cut = preview_ ? *preview_ : state().cuts.at(static_cast<std::size_t>(state().handled));
+  return handles_of(cut, depth_of_case(state().shown), skin());
+}
+
+void Session::lay_handles_over(Overlay& overlay) {
+  const auto handles = this->handles();
+  if (!handles) return;
+  constexpr Ink of_path{0.84, 0.37, 0}, of_depth{0, 0.45, 0.7}, of_tilt{0, 0.62, 0.45}, old{0.5, 0.5, 0.5};
+  if (preview_) {
+    const CutState& cut = state().cuts.at(static_cast<std::size_t>(state().handled));
+    overlay.lines.push_back({handles_of(cut, depth_of_case(state().shown), skin()).line, old});
+  }
+  overlay.lines.push_back({handles->line, of_path});
+  overlay.lines.push_back({handles->edge, of_depth});
+  overlay.lines.push_back({{handles->depth.foot, handles->depth_handle()}, of_depth});
+  overlay.lines.push_back({{handles->tilt.foot, handles->tilt_handle()}, of_tilt});
+  for (const Vec3& place : handles->places) overlay.handles.push_back({place, of_path});
+  overlay.handles.push_back({handles->depth_handle(), of_depth});
+  overlay.handles.push_back({handles->tilt_handle(), of_tilt});
+  overlay.in_front = true;
 }
 
 Tornado Session::tornado() {

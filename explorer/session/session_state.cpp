@@ -93,6 +93,25 @@ std::vector<TensionChange> to_changes(const Json& list) {
   return changes;
 }
 
+Json to_json(const std::vector<CutChange>& changes) {
+  Json list = Json::array();
+  for (const CutChange& c : changes)
+    list.push_back(
+        {{"cuts", c.cuts}, {"tensions", c.tensions}, {"cut", c.index + 1}, {"points", to_json({c.cut})[0]}});
+  return list;
+}
+
+std::vector<CutChange> to_cut_changes(const Json& list, std::size_t cuts) {
+  std::vector<CutChange> changes;
+  for (const Json& c : list) {
+    const auto cut = c.at("cut").get<std::size_t>();
+    if (cut < 1 || cut > cuts) throw InputError(formatted("a change of cut %zu, which is not there", cut));
+    changes.push_back(
+        {c.at("cuts"), c.at("tensions"), cut - 1, to_cuts(Json::array({c.at("points")})).front()});
+  }
+  return changes;
+}
+
 CameraState to_camera(const Json& j) {
   CameraState camera{j.at("azimuth"), j.at("elevation"), j.at("zoom"), std::nullopt, std::nullopt};
   if (j.contains("frame")) {
@@ -123,6 +142,11 @@ SessionState to_state(const Json& j) {
   s.tension = to_tension(j.value("tension", Json()));
   s.tensions = to_changes(j.value("tensions", Json::array()));
   s.tensions_undone = to_changes(j.value("tensions_undone", Json::array()));
+  const std::size_t all_cuts = s.cuts.size() + s.undone.size();
+  s.edits = to_cut_changes(j.value("edits", Json::array()), all_cuts);
+  s.edits_undone = to_cut_changes(j.value("edits_undone", Json::array()), all_cuts);
+  s.handled = j.value("handles", 0) - 1;
+  if (s.handled >= static_cast<int>(s.cuts.size())) throw InputError("handles of a cut that is not there");
   s.time = j.at("time");
   s.loop = j.at("loop");
   s.speed = j.at("speed");
@@ -199,6 +223,9 @@ std::string state_to_json(const SessionState& s) {
   if (s.tension) j["tension"] = to_json(s.tension);
   if (!s.tensions.empty()) j["tensions"] = to_json(s.tensions);
   if (!s.tensions_undone.empty()) j["tensions_undone"] = to_json(s.tensions_undone);
+  if (!s.edits.empty()) j["edits"] = to_json(s.edits);
+  if (!s.edits_undone.empty()) j["edits_undone"] = to_json(s.edits_undone);
+  if (s.handled >= 0) j["handles"] = s.handled + 1;
   if (s.probe) j["probe"] = {{"place", to_json(s.probe->uvw)}, {"side", static_cast<int>(s.probe->side)}};
   if (s.zoom) j["zoom"] = {{"place", to_json(s.zoom->place)}, {"radius", s.zoom->radius}};
   for (const Vec3& place : s.ruler) j["ruler"].push_back(to_json(place));

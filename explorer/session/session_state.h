@@ -58,6 +58,12 @@ struct TensionChange {
   std::optional<SkinTension> tension;  ///< before it; of one that is undone, after it
 };
 
+/// A change of a cut that was made already, with the numbers of cuts and of changes of the tension then.
+struct CutChange {
+  std::size_t cuts, tensions, index;
+  CutState cut;  ///< before it; of one that is undone, after it
+};
+
 /// What lies where `ahead` points from `place` is not drawn.
 struct ClipState {
   Vec3 place, ahead;
@@ -77,6 +83,8 @@ struct SessionState {
   std::vector<CutState> cuts, undone;
   std::optional<SkinTension> tension;  ///< of the mesh; none: that of the shown case, along every cut
   std::vector<TensionChange> tensions, tensions_undone;  ///< oldest first; last undone last
+  std::vector<CutChange> edits, edits_undone;            ///< likewise
+  int handled = -1;  ///< the cut whose handles are shown, from 0; -1: none
 
   bool simulate = false;  ///< whether the cuts in the mesh are simulated as they are; else replayed
 

@@ -33,6 +33,20 @@ void add(vtkUnsignedCharArray* array, const Ink& ink) {
   array->InsertNextTuple3(255 * ink[0], 255 * ink[1], 255 * ink[2]);
 }
 
+void put_dots(const std::vector<Overlay::Dot>& dots, vtkPolyData* data) {
+  vtkNew<vtkPoints> places;
+  vtkNew<vtkCellArray> cells;
+  const auto inks = colors();
+  for (const Overlay::Dot& dot : dots) {
+    const vtkIdType id = places->InsertNextPoint(dot.place.x, dot.place.y, dot.place.z);
+    cells->InsertNextCell(1, &id);
+    add(inks, dot.ink);
+  }
+  data->SetPoints(places), data->SetVerts(cells);
+  data->GetCellData()->SetScalars(inks);
+}
+
+constexpr double handle_pixels = 12;
 constexpr double above_the_surface_legend = 0.13;  // of a view's height
 
 vtkSmartPointer<vtkLookupTable> colors_between(const Ink& none, const Ink& most, double largest) {
@@ -58,15 +72,19 @@ void lift(vtkActor* actor, bool in_front) {
 }  // namespace
 
 OverlayView::OverlayView(vtkRenderer* renderer) : renderer_(renderer) {
-  set_up(dots_, dot_data_), set_up(lines_, line_data_);
+  set_up(dots_, dot_data_), set_up(lines_, line_data_), set_up(handles_, handle_data_);
   dots_->GetProperty()->SetPointSize(6);
   lines_->GetProperty()->SetLineWidth(1.4F);
   renderer_->AddActor(lines_);
   renderer_->AddActor(dots_);
+  handles_->GetProperty()->RenderPointsAsSpheresOn();
+  handles_->GetProperty()->LightingOn();
+  renderer_->AddActor(handles_);
 }
 
 OverlayView::~OverlayView() {
   renderer_->RemoveActor(dots_);
+  renderer_->RemoveActor(handles_);
   renderer_->RemoveActor(lines_);
   if (legend_) renderer_->RemoveViewProp(legend_);
 }
@@ -75,22 +93,18 @@ void OverlayView::show(const Overlay& overlay, bool dark) {
   const double scale = renderer_->GetRenderWindow() ? renderer_->GetRenderWindow()->GetDPI() / 72. : 1;
   dots_->GetProperty()->SetPointSize(static_cast<float>(6 * scale));
   lines_->GetProperty()->SetLineWidth(static_cast<float>(1.4 * scale));
-  for (vtkActor* actor : {dots_.Get(), lines_.Get()}) lift(actor, overlay.in_front);
-  vtkNew<vtkPoints> places, corners;
-  vtkNew<vtkCellArray> dots, lines;
-  const auto dot_colors = colors(), line_colors = colors();
-  for (const Overlay::Dot& dot : overlay.dots) {
-    const vtkIdType id = places->InsertNextPoint(dot.place.x, dot.place.y, dot.place.z);
-    dots->InsertNextCell(1, &id);
-    add(dot_colors, dot.ink);
-  }
+  handles_->GetProperty()->SetPointSize(static_cast<float>(handle_pixels * scale));
+  for (vtkActor* actor : {dots_.Get(), lines_.Get(), handles_.Get()}) lift(actor, overlay.in_front);
+  put_dots(overlay.dots, dot_data_);
+  put_dots(overlay.handles, handle_data_);
+  vtkNew<vtkPoints> corners;
+  vtkNew<vtkCellArray> lines;
+  const auto line_colors = colors();
   for (const Overlay::Line& line : overlay.lines) {
     lines->InsertNextCell(static_cast<int>(line.places.size()));
     for (const Vec3& x : line.places) lines->InsertCellPoint(corners->InsertNextPoint(x.x, x.y, x.z));
     add(line_colors, line.ink);
   }
-  dot_data_->SetPoints(places), dot_data_->SetVerts(dots);
-  dot_data_->GetCellData()->SetScalars(dot_colors);
   line_data_->SetPoints(corners), line_data_->SetLines(lines);
   line_data_->GetCellData()->SetScalars(line_colors);
   explain(overlay.scale, dark);

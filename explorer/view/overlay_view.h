@@ -27,8 +27,8 @@ class OverlayView {
   void explain(const std::optional<Overlay::Scale>& scale, bool dark);
 
   vtkRenderer* renderer_;
-  vtkNew<vtkActor> dots_, lines_;
-  vtkNew<vtkPolyData> dot_data_, line_data_;
+  vtkNew<vtkActor> dots_, lines_, handles_;
+  vtkNew<vtkPolyData> dot_data_, line_data_, handle_data_;
   vtkSmartPointer<vtkScalarBarActor> legend_;
 };
 

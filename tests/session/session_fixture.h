@@ -97,6 +97,14 @@ class SessionTest : public testing::Test {
     return out;
   }
 
+  /// Of another session that knows the plate, without pictures.
+  static SessionServices session_services_of_plate() {
+    SessionServices services;
+    services.read_mesh = [](const std::string&) { return flat_plate(); };
+    services.answer = [](const std::string&) {};
+    return services;
+  }
+
   TemporaryFolder folder_;
   std::string answers_, written_;
   SurfaceMesh exported_;
