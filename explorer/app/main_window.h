@@ -92,7 +92,7 @@ class MainWindow : public QMainWindow {
   QLabel* status_;
   QToolButton* certainty_;
   QComboBox* coloring_;
-  QAction *scalpel_, *brush_, *undo_, *redo_, *simulate_, *dark_;
+  QAction *scalpel_, *brush_, *handles_, *undo_, *redo_, *simulate_, *dark_;
   QTimer simulating_;  // runs while a simulation does
   QDoubleSpinBox *depth_, *tilt_;
   QMenu *recent_, *device_menu_, *figure_menu_, *detail_menu_, *look_menu_;

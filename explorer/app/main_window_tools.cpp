@@ -78,6 +78,16 @@ void MainWindow::make_actions() {
   });
   brush_->setCheckable(true);
   brush_->setToolTip("Press and drag over the skin along its larger tension: cuts turn against it (T)");
+  handles_ = add_action(edit, "handles", "&Handles of a cut", QKeySequence("H"), [this] {
+    const SessionState& s = session_.state();
+    say(s.handled >= 0 ? std::string("handles off") : "handles " + std::to_string(s.cuts.size()));
+    follow_tools();
+  });
+  handles_->setCheckable(true);
+  handles_->setToolTip(
+      "Drag the balls of a cut to move its path over the skin, to deepen and to tilt it; click another cut "
+      "to "
+      "have its balls (H)");
   undo_ = add_action(edit, "undo", "&Undo", QKeySequence("Ctrl+Z"), line("undo"));
   redo_ = add_action(edit, "redo", "&Redo", QKeySequence("Ctrl+Shift+Z"), line("redo"));
   simulate_ = add_action(edit, "simulate", "S&imulate the cuts", QKeySequence("Ctrl+Shift+S"), [this] {
@@ -219,12 +229,13 @@ void MainWindow::make_tools() {
           [this](double depth) { scene_->set_depth(depth); });
   connect(tilt_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
           [this](double tilt) { scene_->set_tilt(tilt); });
+  bar->addAction(handles_);
   bar->addAction(undo_);
   bar->addAction(redo_);
   bar->addSeparator();
   const std::pair<const char*, const char*> short_texts[] = {
-      {"probe", "Probe"}, {"zoom", "Zoom"},          {"measure", "Ruler"},  {"compare", "Compare"},
-      {"front", "Front"}, {"screenshot", "Picture"}, {"help_sheet", "Help"}};
+      {"handles", "Handles"}, {"probe", "Probe"}, {"zoom", "Zoom"},          {"measure", "Ruler"},
+      {"compare", "Compare"}, {"front", "Front"}, {"screenshot", "Picture"}, {"help_sheet", "Help"}};
   for (const auto& [name, text] : short_texts) findChild<QAction*>(name)->setIconText(text);
   for (const char* name :
        {"probe", "zoom", "measure", "single", "compare", "front", "screenshot", "help_sheet"})
@@ -254,6 +265,8 @@ void MainWindow::follow_tools() {
   for (QAction* action : {scalpel_, brush_}) action->setEnabled(can_cut);
   depth_->setEnabled(can_cut), tilt_->setEnabled(can_cut);
   undo_->setEnabled(!s.cuts.empty() || !s.tensions.empty());
+  handles_->setEnabled(can_cut && !s.cuts.empty());
+  handles_->setChecked(s.handled >= 0);
   simulate_->setEnabled(session_.mesh() != nullptr);
   simulate_->setChecked(s.simulate);
   if (session_.simulating() != simulating_.isActive())

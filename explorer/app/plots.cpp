@@ -320,7 +320,7 @@ void Plots::showEvent(QShowEvent* event) {
 
 void Plots::follow(const Changes& changes) {
   if (!isVisible()) return;
-  if (changes.closer && session_.state().probe) pages_->setCurrentIndex(1);
+  if (changes.closer && session_.state().probe && !session_.mesh()) pages_->setCurrentIndex(1);
   if (changes.answers && session_.study() && !changes.study) pages_->setCurrentWidget(analysis_);
   if (changes.study || changes.layout || changes.look || changes.closer || changes.answers)
     draw();

@@ -24,7 +24,8 @@ std::string text(const Vec3& x) { return shortest(x.x) + "," + shortest(x.y) + "
 
 }  // namespace
 
-SceneWidget::SceneWidget(Session& session, Say say) : session_(session), say_(std::move(say)) {
+SceneWidget::SceneWidget(Session& session, Say say)
+    : session_(session), say_(std::move(say)), handles_(session) {
   setObjectName("scene");
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   window->SetMultiSamples(0);
@@ -134,6 +135,7 @@ void SceneWidget::set_painting(bool on) {
 }
 
 void SceneWidget::follow(const Changes& changes) {
+  if (handles_.pressed() && (changes.cuts || changes.study || changes.closer)) handles_.release();
   if (!own_ && (changes.cuts || changes.study || changes.shown)) live_.reset();
   const bool seen = changes.study || changes.shown || changes.cuts || changes.time || changes.coloring ||
                     changes.camera || changes.layout || changes.look || changes.closer || changes.detail;
@@ -162,6 +164,7 @@ bool SceneWidget::event(QEvent* event) {
     if (mouse->button() == Qt::LeftButton && pick(x, y)) return true;
     if (mouse->button() == Qt::LeftButton && missed) missed();
   }
+  if (session_.state().handled >= 0 && session_.mesh() && handle(event)) return true;
   if ((cutting_ || painting_) && session_.mesh() &&
       (type == QEvent::MouseButtonPress || type == QEvent::MouseMove || type == QEvent::MouseButtonRelease)) {
     auto* mouse = static_cast<QMouseEvent*>(event);
@@ -171,6 +174,38 @@ bool SceneWidget::event(QEvent* event) {
     if (type == QEvent::MouseButtonRelease && pressed_) return release(), true;
   }
   return QVTKOpenGLNativeWidget::event(event);
+}
+
+/// A handle is dragged, or another cut is clicked to have some.
+bool SceneWidget::handle(QEvent* event) {
+  const auto type = event->type();
+  if (type != QEvent::MouseButtonPress && type != QEvent::MouseMove && type != QEvent::MouseButtonRelease)
+    return false;
+  auto* mouse = static_cast<QMouseEvent*>(event);
+  const auto [x, y] = pixel(*mouse);
+  const PicturePlace at{x, y, pixel_ratio()};
+  if (type == QEvent::MouseButtonPress && mouse->button() == Qt::LeftButton) {
+    view_ = stage_->view_at(x, y);
+    if (view_ < 0 || session_.views()[static_cast<std::size_t>(view_)] != session_.state().shown)
+      return false;
+    if (handles_.press(stage_->view(view_), at)) return true;
+    const int cut = cutting_ || painting_ ? -1 : handles_.cut_at(stage_->view(view_), at);
+    if (cut < 0 || cut == session_.state().handled) return false;
+    say_("handles " + std::to_string(cut + 1));
+    return true;
+  }
+  if (!handles_.pressed()) return false;
+  if (type == QEvent::MouseMove) {
+    handles_.drag(stage_->view(view_), at);
+    draw();
+  } else if (type == QEvent::MouseButtonRelease) {
+    const std::string line = handles_.release();
+    if (line.empty())
+      draw();
+    else
+      keep_camera(), say_(line);
+  }
+  return true;
 }
 
 /// Where a mouse is in the picture as it is drawn now, from its lower left corner.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "explorer/app/handle_drag.h"
 #include "explorer/app/panel.h"
 #include "explorer/scene/live_scene.h"
 #include "explorer/view/stage.h"
@@ -69,6 +70,7 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
 
  private:
   bool pick(int x, int y);
+  bool handle(QEvent* event);
   void turn(vtkObject*, unsigned long what, void*);
   void hurry(double last_seconds);
   void set_coarse(bool coarse);
@@ -88,6 +90,7 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   Session& session_;
   Say say_;
   std::unique_ptr<Stage> stage_;
+  HandleDrag handles_;
   bool cutting_ = false, painting_ = false, pressed_ = false, own_ = false;
   double depth_ = 0, tilt_ = 0, frame_seconds_ = 0;
   std::pair<int, int> pressed_at_, dragged_to_;  // pixels, of a drag of the scalpel

@@ -8,7 +8,10 @@ WoundTable::WoundTable(Session& session, Say say) : session_(session), say_(std:
   setObjectName("wounds");
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   setSelectionBehavior(QAbstractItemView::SelectRows);
-  setToolTip("The cuts as they are now; a double-click looks at one (wound N)");
+  setSelectionMode(QAbstractItemView::SingleSelection);
+  setToolTip(
+      "The cuts as they are now; a click shows the handles of one (handles N), a double-click looks at it "
+      "(wound N)");
   const QStringList names{"length\nmm", "depth\nmm", "opening\nmm", "area\nmm\u00b2", "volume\nmm\u00b3"};
   setColumnCount(static_cast<int>(names.size()));
   setHorizontalHeaderLabels(names);
@@ -17,6 +20,9 @@ WoundTable::WoundTable(Session& session, Say say) : session_(session), say_(std:
   setFont(small);
   horizontalHeader()->setFont(small);
   horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  const auto show_handles = [this](int row, int) { say_("handles " + std::to_string(row + 1)); };
+  connect(this, &QTableWidget::cellClicked, this, show_handles);
+  connect(this, &QTableWidget::cellActivated, this, show_handles);  // by the key Enter
   connect(this, &QTableWidget::cellDoubleClicked, this,
           [this](int row, int) { say_("wound " + std::to_string(row + 1)); });
 }
@@ -43,6 +49,11 @@ void WoundTable::show_wounds() {
       setItem(static_cast<int>(i), column, item);
     }
   }
+  const int handled = session_.mesh() ? session_.state().handled : -1;
+  if (handled >= 0)
+    selectRow(handled);
+  else
+    clearSelection();
 }
 
 }  // namespace cleft
