@@ -1,6 +1,7 @@
 #include "explorer/app/main_window.h"
 
 #include <QApplication>
+#include <QClipboard>
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QMimeData>
@@ -45,6 +46,7 @@ MainWindow::MainWindow(Session& session) : session_(session) {
   setObjectName("main_window");
   setWindowTitle("Cleft");
   setAcceptDrops(true);
+  QApplication::instance()->installEventFilter(this);
   setDockNestingEnabled(true);
   make_middle();
   make_docks();
@@ -100,8 +102,10 @@ MainWindow::~MainWindow() { device_.reset(); }
 void MainWindow::make_middle() {
   const Say say_line = [this](const std::string& line) { return say(line); };
   welcome_ =
-      new WelcomePage([this](const std::string& path) { open_any(path); }, [this] { choose_study(); },
-                      [this] { choose("Open a study or a case", "Field files (*.dffd)", "open", false); });
+      new WelcomePage({[this](const std::string& path) { open_any(path); },
+                       [this](const Example& example) { open_example(example); }, [this] { choose_study(); },
+                       [this] { choose("Open a study or a case", "Field files (*.dffd)", "open", false); },
+                       [this] { choose_mesh(); }});
   scene_ = new SceneWidget(session_, say_line);
   scene_->too_short = [this](double mm) {
     message_->tell(QString("The blade has moved over %1 mm of skin only, and nothing is cut: %2")
@@ -320,6 +324,25 @@ void MainWindow::open_any(const std::string& path) {
   if (ending == ".csv" && session_.study() && holds_measurements(path))
     return void(say("fit " + quoted(path)));
   say((state ? "load " : ending == ".csv" ? "cut-file " : "open ") + quoted(path));
+}
+
+/// What is computed first is told with its command, which is then in the clipboard, too.
+void MainWindow::open_example(const Example& example) {
+  for (const std::string& line : example.lines)
+    if (!say(line)) return;
+  if (example.command.isEmpty()) return;
+  QApplication::clipboard()->setText(example.command);
+  message_->tell({});
+  message_->answer(
+      tr("This family is computed first, in about three minutes on two cores. The command, for a "
+         "terminal, is in the clipboard; then click here again:") +
+      "\n" + example.command);
+}
+
+void MainWindow::choose_mesh() {
+  const QString path = QFileDialog::getOpenFileName(this, tr("Open a mesh"), {},
+                                                    QString::fromStdString(surface_filter(MeshUse::read)));
+  if (!path.isEmpty()) open_mesh(path.toStdString());
 }
 
 /// Where it would be too small or too large in mm, its unit is asked for.

@@ -44,6 +44,7 @@ class MainWindow : public QMainWindow {
   void dropEvent(QDropEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void make_middle();
@@ -72,6 +73,8 @@ class MainWindow : public QMainWindow {
   void paint_theme();
   void choose(const QString& title, const QString& filter, const std::string& command, bool save);
   void choose_study();
+  void choose_mesh();
+  void open_example(const Example& example);
   void fill_recent();
   void open_any(const std::string& path);
   void open_mesh(const std::string& path);

@@ -33,11 +33,7 @@ void MainWindow::make_actions() {
   const auto line = [this](const std::string& text) { return [this, text] { say(text); }; };
   QMenu* file = menuBar()->addMenu("&File");
   add_action(file, "open", "&Open a study ...", QKeySequence("Ctrl+O"), [this] { choose_study(); });
-  add_action(file, "open_mesh", "Open a &mesh to cut ...", QKeySequence("Ctrl+M"), [this] {
-    const QString path = QFileDialog::getOpenFileName(this, "Open a mesh", {},
-                                                      QString::fromStdString(surface_filter(MeshUse::read)));
-    if (!path.isEmpty()) open_mesh(path.toStdString());
-  });
+  add_action(file, "open_mesh", "Open a &mesh to cut ...", QKeySequence("Ctrl+M"), [this] { choose_mesh(); });
   add_action(file, "open_path", "Cut along a &path file ...", {},
              [this] { choose("Open a path", "Paths (*.csv)", "cut-file", false); });
   recent_ = file->addMenu("&Recent");

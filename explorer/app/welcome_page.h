@@ -1,10 +1,12 @@
-// The page instead of the picture while nothing is open: the studies opened last.
+// The page instead of the picture while nothing is open: three steps, examples, and what was opened last.
 #pragma once
 
 #include <QListWidget>
-#include <QWidget>
+#include <QScrollArea>
 #include <functional>
 #include <string>
+
+#include "explorer/app/examples.h"
 
 namespace cleft {
 
@@ -12,15 +14,20 @@ namespace cleft {
 QStringList recent_files();
 void remember_recent(const std::string& path);
 
-class WelcomePage : public QWidget {
+class WelcomePage : public QScrollArea {
  public:
-  WelcomePage(std::function<void(const std::string&)> open, const std::function<void()>& choose_folder,
-              const std::function<void()>& choose_file);
-  void refresh();
+  struct Actions {
+    std::function<void(const std::string& path)> open;
+    std::function<void(const Example&)> open_example;
+    std::function<void()> choose_study, choose_file, choose_mesh;
+  };
+  explicit WelcomePage(Actions actions);
+  void refresh();  ///< what was opened last, and which examples are there
 
  private:
-  std::function<void(const std::string&)> open_;
+  Actions actions_;
   QListWidget* recent_;
+  QWidget* examples_;
 };
 
 }  // namespace cleft
