@@ -46,6 +46,9 @@ struct Command {
   void (*run)(Session&, CommandWords&);
   /// Commands that only query or write are not recorded; of several `latest` in a row the last is recorded.
   enum Recording { all, latest, none } recorded = all;
+  /// Whether it changes only how things are looked at, as time and camera, so that it is no step of `undo
+  /// any`.
+  bool looks = false;
 };
 
 struct CommandGroup {

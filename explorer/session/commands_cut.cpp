@@ -237,8 +237,18 @@ void look_at_wound(Session& session, CommandWords& words) {
 
 void simulate(Session& session, CommandWords& words) { simulate_cuts(session, words.on_or_off()); }
 
-void undo(Session& session, CommandWords&) { undo_last(session); }
-void redo(Session& session, CommandWords&) { redo_last(session); }
+bool read_any(CommandWords& words) {
+  if (words.empty()) return false;
+  if (const std::string word = words.text("any"); word != "any") words.wrong("'" + word + "' is not any");
+  return true;
+}
+
+void undo(Session& session, CommandWords& words) {
+  read_any(words) ? session.take_back_line() : undo_last(session);
+}
+void redo(Session& session, CommandWords& words) {
+  read_any(words) ? session.make_line_again() : redo_last(session);
+}
 
 void export_mesh(Session& session, CommandWords& words) {
   const std::string file = words.text("a file " + mesh_endings(MeshKind::surface, MeshUse::write));
@@ -262,7 +272,7 @@ std::span<const Command> cut_commands() {
       {"wounds", "[FILE.csv]",
        "length, depth, opening with its expected error, area and volume of each cut, and why it is uncertain",
        wounds, Command::none},
-      {"wound", "N", "look at cut N", look_at_wound},
+      {"wound", "N", "look at cut N", look_at_wound, Command::all, true},
       {"bone", "FILE | none",
        "the surface of the bone below the mesh, in the mesh's units: families of fields open cuts by it",
        bone},
@@ -275,7 +285,7 @@ std::span<const Command> cut_commands() {
        "its deepest place (0: the case's); lean to its left",
        edit},
       {"handles", "N | off", "balls that change cut N when they are dragged: its path, depth and tilt",
-       handles},
+       handles, Command::all, true},
       {"cut-file", "PATH.csv", "cut along a path file: x,y,z,nx,ny,nz[,depth], in the mesh's units",
        cut_file},
       {"device", "NAME [FILE] | off",
@@ -289,8 +299,11 @@ std::span<const Command> cut_commands() {
        "a line of the larger tension over the skin, besides those before", paint_tension},
       {"simulate", "on | off",
        "simulate the cuts in this very mesh, each time that they change, and show them so", simulate},
-      {"undo", "", "take the last cut, change of a cut, or tension back", undo},
-      {"redo", "", "make it again", redo},
+      {"undo", "[any]",
+       "take the last cut, change of a cut, or tension back; any: what the last line has changed, except "
+       "time and camera",
+       undo},
+      {"redo", "[any]", "make it again", redo},
       {"export", "FILE",
        "write the surface as it is shown, in the mesh's units: " +
            mesh_endings(MeshKind::surface, MeshUse::write),

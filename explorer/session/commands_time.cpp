@@ -40,14 +40,14 @@ void wait(Session& session, CommandWords& words) {
 
 std::span<const Command> time_commands() {
   static const std::vector<Command> commands{
-      {"time", "MM", "show the wound when this length is cut", time, Command::latest},
-      {"step", "[MM]", "go on by a length, back where it is negative [1]", step},
-      {"end", "", "show the whole cut", end},
-      {"play", "", "let the blade go on; from the start where it is at the end", play},
-      {"pause", "", "stop there", pause},
-      {"loop", "on|off", "begin again at the end", loop},
-      {"speed", "MM_PER_S", "of playing [10]", speed},
-      {"wait", "S", "in scripts: what playing does in that time", wait},
+      {"time", "MM", "show the wound when this length is cut", time, Command::latest, true},
+      {"step", "[MM]", "go on by a length, back where it is negative [1]", step, Command::all, true},
+      {"end", "", "show the whole cut", end, Command::all, true},
+      {"play", "", "let the blade go on; from the start where it is at the end", play, Command::all, true},
+      {"pause", "", "stop there", pause, Command::all, true},
+      {"loop", "on|off", "begin again at the end", loop, Command::all, true},
+      {"speed", "MM_PER_S", "of playing [10]", speed, Command::all, true},
+      {"wait", "S", "in scripts: what playing does in that time", wait, Command::all, true},
   };
   return commands;
 }

@@ -31,7 +31,7 @@ void Session::say(const std::string& line) {
   const Command& command = find_command(words.front());
   const Opened before = opened_;
   changes_ = {};
-  busy_ = true;
+  busy_ = true, moved_ = false;
   try {
     CommandWords rest(command.name, command.arguments, {words.begin() + 1, words.end()});
     command.run(*this, rest);
@@ -43,10 +43,15 @@ void Session::say(const std::string& line) {
   }
   busy_ = false;
   if (command.recorded != Command::none) {
-    const bool again = !said_.empty() && split_line(said_.back()).front() == command.name;
+    const std::vector<std::string> last =
+        said_.empty() ? std::vector<std::string>{""} : split_line(said_.back());
+    const bool again = last.front() == command.name;
+    const bool same_slider = again && command.name == "set" && last.size() > 1 && last[1] == words[1];
     if (again && command.recorded == Command::latest) said_.pop_back();
     said_.push_back(line);
     opened_.seen.reset();
+    if (!command.looks && !moved_)
+      remember(line, before, same_slider || (again && command.recorded == Command::latest));
   }
   judge_cuts();
   notify();

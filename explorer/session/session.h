@@ -28,6 +28,13 @@ class Session {
   void run_script(const std::string& file);
   /// The lines run so far, which reproduce the session.
   const std::vector<std::string>& said() const { return said_; }
+  /// Takes back what the last line has changed that is a step (Command::looks), and what later ones have
+  /// changed with it; time and camera stay unless that line has changed them. Throws InputError if there is
+  /// none.
+  void take_back_line();
+  void make_line_again();
+  const std::string& line_to_take_back() const;  ///< empty: none
+  const std::string& line_to_make_again() const;
   using Listener = std::function<void(const Changes&)>;
   void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
 
@@ -151,6 +158,14 @@ class Session {
   void progress(const std::string& what, double part) const;
 
  private:
+  /// A line, and what was open before it; of one that is taken back, after it.
+  struct Step {
+    Opened opened;
+    std::string line;
+    bool camera, time;  // whether it has changed them
+  };
+  void remember(const std::string& line, const Opened& before, bool continues);
+  void go(std::vector<Step>& from, std::vector<Step>& to);
   void judge_cuts();
   void notify();
   std::vector<ScalpelPath> cut_paths(double depth) const;
@@ -167,6 +182,8 @@ class Session {
   bool beside_ = false, busy_ = false, warns_ = true;
   std::optional<CutState> preview_;
   std::vector<std::string> said_;
+  std::vector<Step> earlier_, later_;  // the last step last
+  bool moved_ = false;                 // between them, by the present line
   std::vector<Listener> listeners_;
   Changes changes_;
 };
