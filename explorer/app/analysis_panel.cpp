@@ -14,22 +14,25 @@ AnalysisPanel::AnalysisPanel(Session& session, const Say& say) : session_(sessio
   column->setContentsMargins(4, 4, 4, 0);
   figure_ = new QComboBox(this);
   figure_->setObjectName("analyzed_figure");
+  figure_->setAccessibleName(tr("Figure to analyze"));
   figure_->setEditable(true);
   figure_->addItems({"gape", "gape(0)", "displacement"});
   figure_->setToolTip(
-      "gape, gape(u), gape(u, t), displacement, displacement(u, v, w): as cleft analyze takes it");
+      tr("gape, gape(u), gape(u, t), displacement, displacement(u, v, w): as cleft analyze takes it"));
   figure_->setMinimumWidth(60);
-  const auto button = [&](const char* name, const char* text, const char* tip) {
+  const auto button = [&](const char* name, const QString& text, const QString& tip) {
     auto* made = new QPushButton(text, this);
     made->setObjectName(name);
     made->setToolTip(tip);
     made->setMinimumWidth(30);
     return made;
   };
-  analyze_ = button("analyze", "Analyze", "What the figure depends on, and how surely (analyze FIGURE)");
-  fit_ = button("fit", "Fit ...", "The parameters that explain my measurements, a CSV file (fit FILE)");
-  propose_ = button("propose", "Next cases ...",
-                    "The cases that the study needs most, as a study file (propose 8 FILE)");
+  analyze_ =
+      button("analyze", tr("Analyze"), tr("What the figure depends on, and how surely (analyze FIGURE)"));
+  fit_ =
+      button("fit", tr("Fit ..."), tr("The parameters that explain my measurements, a CSV file (fit FILE)"));
+  propose_ = button("propose", tr("Next cases ..."),
+                    tr("The cases that the study needs most, as a study file (propose 8 FILE)"));
   auto* top = new QHBoxLayout;
   top->addWidget(figure_, 1);
   top->addWidget(analyze_);
@@ -48,12 +51,12 @@ AnalysisPanel::AnalysisPanel(Session& session, const Say& say) : session_(sessio
           [this, say] { say("analyze " + figure_->currentText().toStdString()); });
   connect(fit_, &QPushButton::clicked, this, [this, say] {
     const QString path =
-        QFileDialog::getOpenFileName(this, "Fit to measurements", {}, "Measurements (*.csv)");
+        QFileDialog::getOpenFileName(this, tr("Fit to measurements"), {}, tr("Measurements (*.csv)"));
     if (!path.isEmpty()) say("fit " + quoted(path.toStdString()));
   });
   connect(propose_, &QPushButton::clicked, this, [this, say] {
     const QString path =
-        QFileDialog::getSaveFileName(this, "Write the next cases", {}, "Study files (*.toml)");
+        QFileDialog::getSaveFileName(this, tr("Write the next cases"), {}, tr("Study files (*.toml)"));
     if (!path.isEmpty()) say("propose 8 " + quoted(path.toStdString()));
   });
 }

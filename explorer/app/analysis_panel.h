@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QPushButton>
 
 #include "explorer/app/analysis_plot.h"
@@ -9,6 +10,8 @@
 namespace cleft {
 
 class AnalysisPanel : public QWidget {
+  Q_DECLARE_TR_FUNCTIONS(AnalysisPanel)
+
  public:
   AnalysisPanel(Session& session, const Say& say);
   void show_answers();

@@ -46,16 +46,17 @@ struct AnalysisPlot::Frame {
 
 AnalysisPlot::AnalysisPlot(Session& session, Say say) : session_(session), say_(std::move(say)) {
   setObjectName("analysis_plot");
+  setAccessibleName(tr("What the figure depends on"));
   take_room();
   QFont small = font();
   small.setPointSizeF(0.8 * small.pointSizeF());
   setFont(small);
-  setToolTip(
+  setToolTip(tr(
       "Dark: the share of the figure's variance that a parameter makes alone; light: with all others. Dots: "
       "the cases with their errors (a click shows one; a drag around some selects them, with Shift these "
       "too); "
       "line: the mean over the other parameters with its error; dotted and dashed: where the parameter with "
-      "which this one makes most together is small and large; green: what fits the measurements");
+      "which this one makes most together is small and large; green: what fits the measurements"));
 }
 
 const StudyAnalysis* AnalysisPlot::analysis() const {
@@ -109,7 +110,7 @@ void AnalysisPlot::paintEvent(QPaintEvent*) {
   if (!found) {
     painter.drawText(
         rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
-        session_.study() ? "\"Analyze\" tells what the figure depends on." : "No study is open.");
+        session_.study() ? tr("\"Analyze\" tells what the figure depends on.") : tr("No study is open."));
     return;
   }
   for (std::size_t row = 0; row < found->effects.size(); ++row) paint_row(painter, row);
@@ -149,7 +150,7 @@ void AnalysisPlot::paint_shares(QPainter& painter, const StudyAnalysis::Effect& 
   painter.setPen(ink);
   painter.drawText(
       QRectF(room.left(), room.top() + 2 * thick + 4, room.width(), line), Qt::AlignLeft,
-      QString("%1 \u00b1 %2 %").arg(100 * effect.total, 0, 'f', 0).arg(100 * effect.total_error, 0, 'f', 0));
+      tr("%1 \u00b1 %2 %").arg(100 * effect.total, 0, 'f', 0).arg(100 * effect.total_error, 0, 'f', 0));
 }
 
 void AnalysisPlot::paint_cases(QPainter& painter, std::size_t row) const {

@@ -2,6 +2,7 @@
 // cases as dots with their errors, and the mean over all other parameters with a band of its error.
 #pragma once
 
+#include <QCoreApplication>
 #include <QPolygonF>
 #include <QWidget>
 
@@ -10,6 +11,8 @@
 namespace cleft {
 
 class AnalysisPlot : public QWidget {
+  Q_DECLARE_TR_FUNCTIONS(AnalysisPlot)
+
  public:
   AnalysisPlot(Session& session, Say say);
   /// The analysis that is shown; null: there is none yet.

@@ -1,6 +1,6 @@
 #include "explorer/app/case_table.h"
 
-#include <QColor>
+#include <QApplication>
 #include <QHeaderView>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -34,7 +34,8 @@ QVariant CaseModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::TextAlignmentRole) return int(Qt::AlignRight | Qt::AlignVCenter);
   if (role == Qt::ForegroundRole && !(session_.state().brushes.empty() && session_.state().where.empty())) {
     if (!session_.knows_brushed(index.row())) return {};
-    return session_.brushed(index.row()) ? QVariant() : QVariant(QColor(150, 150, 150));
+    return session_.brushed(index.row()) ? QVariant()
+                                         : QVariant(QApplication::palette().color(QPalette::PlaceholderText));
   }
   if (role != Qt::DisplayRole && role != Qt::UserRole) return {};
   if (index.column() == 0) return index.row() + 1;
@@ -49,7 +50,7 @@ QVariant CaseModel::headerData(int section, Qt::Orientation orientation, int rol
   if (orientation != Qt::Horizontal) return {};
   if (section == 0)
     return role == Qt::DisplayRole   ? QVariant("#")
-           : role == Qt::ToolTipRole ? QVariant("Number of the case, as `case N` takes it")
+           : role == Qt::ToolTipRole ? QVariant(tr("Number of the case, as `case N` takes it"))
                                      : QVariant();
   const std::string& name = columns_[static_cast<std::size_t>(section) - 1];
   std::string unit, help;
@@ -95,18 +96,21 @@ CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_kn
   sorted_.setSortRole(Qt::UserRole);
   condition_ = new QLineEdit(this);
   condition_->setObjectName("find");
+  condition_->setAccessibleName(tr("Find cases"));
   condition_->setClearButtonEnabled(true);
-  condition_->setPlaceholderText("Find: gape > 3 and t < 20");
+  condition_->setPlaceholderText(tr("Find: gape > 3 and t < 20"));
   condition_->setToolTip(
-      "Fades the cases where this holds nowhere. gape (of the lips at a place, mm), t (length cut, mm), u "
-      "(place along "
-      "the cut, mm), error (%), displacement (mm), parameters; and or not, < <= > >= = !=, + - * / and "
-      "brackets");
+      tr("Fades the cases where this holds nowhere. gape (of the lips at a place, mm), t (length cut, mm), u "
+         "(place along "
+         "the cut, mm), error (%), displacement (mm), parameters; and or not, < <= > >= = !=, + - * / and "
+         "brackets"));
   connect(condition_, &QLineEdit::returnPressed, this, [this] {
     say_(condition_->text().isEmpty() ? "find clear" : "find " + condition_->text().toStdString());
   });
   table_ = new QTableView(this);
   table_->setObjectName("cases");
+  table_->setAccessibleName(tr("Cases"));
+  table_->setTabKeyNavigation(false);  // Tab goes on to the next panel
   table_->setModel(&sorted_);
   table_->setSortingEnabled(true);
   table_->sortByColumn(0, Qt::AscendingOrder);
@@ -128,9 +132,9 @@ CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_kn
   count_ = new QLabel(this);
   count_->setObjectName("found");
   row->addWidget(count_, 1);
-  filter_ = new QCheckBox("Only these", this);
+  filter_ = new QCheckBox(tr("Only these"), this);
   filter_->setObjectName("filter");
-  filter_->setToolTip("Leave the faded cases out of this list (filter on)");
+  filter_->setToolTip(tr("Leave the faded cases out of this list (filter on)"));
   connect(filter_, &QCheckBox::clicked, this, [this](bool on) { say_(on ? "filter on" : "filter off"); });
   row->addWidget(filter_);
   column->addLayout(row);
@@ -199,8 +203,8 @@ void CaseTable::count_found() {
     if (!session_.knows_brushed(i)) return count_->setText("...");  // until its figures have been read
     left += session_.brushed(i);
   }
-  count_->setText(QString("%1 of %2 cases").arg(left).arg(session_.study()->size()));
-  count_->setToolTip(QString("%1 of %2 cases are left; a click on one shows it where the condition holds")
+  count_->setText(tr("%1 of %2 cases").arg(left).arg(session_.study()->size()));
+  count_->setToolTip(tr("%1 of %2 cases are left; a click on one shows it where the condition holds")
                          .arg(left)
                          .arg(session_.study()->size()));
 }

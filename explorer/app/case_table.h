@@ -4,6 +4,7 @@
 
 #include <QAbstractTableModel>
 #include <QCheckBox>
+#include <QCoreApplication>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSortFilterProxyModel>
@@ -16,6 +17,8 @@
 namespace cleft {
 
 class CaseModel : public QAbstractTableModel {
+  Q_DECLARE_TR_FUNCTIONS(CaseModel)
+
  public:
   explicit CaseModel(Session& session) : session_(session) {}
   int rowCount(const QModelIndex& parent = {}) const override;
@@ -51,6 +54,8 @@ class ShownCases : public QSortFilterProxyModel {
 };
 
 class CaseTable : public QWidget, public Panel {
+  Q_DECLARE_TR_FUNCTIONS(CaseTable)
+
  public:
   CaseTable(Session& session, Say say, std::function<void()> figures_known);
   void follow(const Changes& changes) override;

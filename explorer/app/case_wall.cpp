@@ -9,6 +9,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "explorer/app/direction.h"
+
 namespace cleft {
 
 namespace {
@@ -32,20 +34,21 @@ class WallDelegate : public QStyledItemDelegate {
     const QRect room = option.rect;
     const QRect inside(room.left() + margin, room.top() + margin, thumbnail_width, thumbnail_height);
     painter->save();
-    if (wall_.is_faded(i)) painter->setOpacity(faded);
+    const bool is_faded = wall_.is_faded(i);
+    if (is_faded) painter->setOpacity(faded);
     const QPixmap& picture = wall_.picture(i);
-    painter->setPen(option.palette.color(QPalette::Text));
     if (picture.isNull())
       painter->fillRect(inside, option.palette.alternateBase());
     else
       painter->drawPixmap(inside, picture);
+    painter->setOpacity(1);  // words can be read all the same
+    painter->setPen(option.palette.color(is_faded ? QPalette::PlaceholderText : QPalette::Text));
     painter->drawText(
         QRect(inside.left(), inside.bottom() + 1, thumbnail_width, room.bottom() - inside.bottom()),
         Qt::AlignHCenter | Qt::AlignVCenter,
         option.fontMetrics.elidedText(wall_.text(i), Qt::ElideRight, thumbnail_width));
     const bool shown = i == session_.state().shown && !session_.between();
     if (shown || option.state & QStyle::State_Selected) {
-      painter->setOpacity(1);
       painter->setPen(QPen(shown ? QColor(213, 94, 0) : option.palette.color(QPalette::Highlight), 3));
       painter->drawRect(inside.adjusted(-2, -2, 2, 2));
     }
@@ -65,24 +68,25 @@ CaseWall::CaseWall(Session& session, Say say, CaseTable& table)
     : session_(session), say_(std::move(say)), table_(table) {
   by_ = new QComboBox(this);
   by_->setObjectName("wall_sort");
-  by_->setToolTip("The parameter or figure by which pictures and table are sorted (sort NAME)");
-  by_->setAccessibleName("Sort by");
+  by_->setToolTip(tr("The parameter or figure by which pictures and table are sorted (sort NAME)"));
+  by_->setAccessibleName(tr("Sort by"));
   order_ = new QToolButton(this);
   order_->setObjectName("wall_order");
-  order_->setToolTip("From the least to the greatest, or the other way round (sort NAME down)");
-  order_->setAccessibleName("Order");
+  order_->setToolTip(tr("From the least to the greatest, or the other way round (sort NAME down)"));
+  order_->setAccessibleName(tr("Order"));
   progress_ = new QLabel(this);
   progress_->setObjectName("wall_progress");
   auto* row = new QHBoxLayout;
-  row->addWidget(new QLabel("Sort by", this));
+  row->addWidget(new QLabel(tr("Sort by"), this));
   row->addWidget(by_);
   row->addWidget(order_);
   row->addWidget(progress_, 1);
   list_ = new QListView(this);
   list_->setObjectName("wall");
-  list_->setAccessibleName("Pictures of the cases");
+  list_->setAccessibleName(tr("Pictures of the cases"));
   list_->setToolTip(
-      "A click shows a case; with Ctrl or Shift several are selected. Faded: outside of what was looked for");
+      tr("A click shows a case; with Ctrl or Shift several are selected. Faded: outside of what was looked "
+         "for"));
   list_->setViewMode(QListView::IconMode);
   list_->setMovement(QListView::Static);
   list_->setResizeMode(QListView::Adjust);
@@ -118,7 +122,7 @@ void CaseWall::new_study() {
   keep();
   const QSignalBlocker quiet(by_);
   by_->clear();
-  by_->addItem("number");
+  by_->addItem(tr("number"));
   pictures_.clear(), tried_.clear(), kept_.clear(), file_.clear();
   if (!session_.study()) return;
   const PublishedStudy& study = *session_.study();
@@ -141,10 +145,10 @@ void CaseWall::new_study() {
 QString CaseWall::text(int i) const {
   const std::string figure = session_.state().sorted_by.empty() ? "gape" : session_.state().sorted_by;
   const bool known = session_.knows_figures(i) || session_.study()->parameters(i).number(figure);
-  return QString::number(i + 1) + ":  " +
-         (known ? QString::fromStdString(figure) + " " +
-                      QString::number(session_.column_value(i, figure), 'g', 3)
-                : QString());
+  return left_to_right(QString::number(i + 1) + ":  " +
+                       (known ? QString::fromStdString(figure) + " " +
+                                    QString::number(session_.column_value(i, figure), 'g', 3)
+                              : QString()));
 }
 
 /// As in the table, nothing is read for brushes.
@@ -203,14 +207,14 @@ void CaseWall::keep() {
   try {
     write_wall_file(file_, thumbnail_look, kept_);
   } catch (const std::exception& e) {
-    progress_->setToolTip(QString("The pictures are not kept: ") + e.what());
+    progress_->setToolTip(tr("The pictures are not kept: ") + e.what());
   }
 }
 
 void CaseWall::tell_progress() {
   const auto drawn = std::count(tried_.begin(), tried_.end(), true);
   const bool all = drawn == static_cast<std::ptrdiff_t>(tried_.size());
-  progress_->setText(all ? QString() : QString("%1 of %2 are drawn").arg(drawn).arg(tried_.size()));
+  progress_->setText(all ? QString() : tr("%1 of %2 are drawn").arg(drawn).arg(tried_.size()));
 }
 
 void CaseWall::follow_lists() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QLabel>
 #include <QListView>
 #include <QPixmap>
@@ -20,6 +21,8 @@
 namespace cleft {
 
 class CaseWall : public QWidget, public Panel {
+  Q_DECLARE_TR_FUNCTIONS(CaseWall)
+
  public:
   CaseWall(Session& session, Say say, CaseTable& table);
   ~CaseWall() override;

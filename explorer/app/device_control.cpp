@@ -144,7 +144,10 @@ void DeviceControl::watch_presence(bool again) {
   const bool pointer = dynamic_cast<Mouse*>(device_.get()) != nullptr;
   if (state_.tick == 0 || pointer || !(changed || (again && !present_))) return;
   present_ = state_.pose.present;
-  tell_(present_ ? "" : "the " + name_ + " is gone: nothing is cut until it is plugged in again");
+  tell_(present_ ? std::string()
+                 : tr("the %1 is gone: nothing is cut until it is plugged in again")
+                       .arg(QString::fromStdString(name_))
+                       .toStdString());
 }
 
 /// Pressed it sinks until it is as deep as the case's cut, and rises when it is let go.
@@ -170,8 +173,8 @@ void DeviceControl::move_mouse(double seconds) {
 
 QString DeviceControl::status() const {
   const QString device = QString::fromStdString(name_);
-  if (!present_) return device + " is gone";
-  return QString("%1: %2 Hz, %3 N").arg(device).arg(rate_, 0, 'f', 0).arg(norm(state_.force), 0, 'f', 2);
+  if (!present_) return tr("%1 is gone").arg(device);
+  return tr("%1: %2 Hz, %3 N").arg(device).arg(rate_, 0, 'f', 0).arg(norm(state_.force), 0, 'f', 2);
 }
 
 }  // namespace cleft

@@ -2,6 +2,7 @@
 // blade leaves the skin.
 #pragma once
 
+#include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QString>
 #include <QTimer>
@@ -15,6 +16,8 @@
 namespace cleft {
 
 class DeviceControl : public Panel {
+  Q_DECLARE_TR_FUNCTIONS(DeviceControl)
+
  public:
   /// `tell`: called with errors that occur without a command.
   DeviceControl(Session& session, SceneWidget& scene, Say say, std::function<void(const std::string&)> tell);

@@ -11,7 +11,9 @@ namespace cleft {
 
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("Examples", text); }
+struct Texts {
+  Q_DECLARE_TR_FUNCTIONS(Examples)
+};
 
 /// As a shell takes it.
 std::string shell_word(const std::string& path) {
@@ -40,24 +42,27 @@ std::vector<Example> examples_in(const std::string& folder, const std::string& c
   const std::vector<std::string> cut{"mesh " + quoted(head), "cut-file " + quoted(path)};
   std::vector<Example> all;
   if (there(study))
-    all.push_back({"example_study",
-                   tr("A study"),
-                   tr("Four cases of soft and firm tissue under a light and a strong tension of the skin."),
-                   {"open " + quoted(study)},
-                   ""});
+    all.push_back(
+        {"example_study",
+         Texts::tr("A study"),
+         Texts::tr("Four cases of soft and firm tissue under a light and a strong tension of the skin."),
+         {"open " + quoted(study)},
+         ""});
   if (there(study) && there(head) && there(path))
-    all.push_back({"example_head",
-                   tr("A head"),
-                   tr("A curved cut on a cheek, which the study opens. Press C and drag to cut further."),
-                   {"open " + quoted(study), cut[0], cut[1]},
-                   ""});
+    all.push_back(
+        {"example_head",
+         Texts::tr("A head"),
+         Texts::tr("A curved cut on a cheek, which the study opens. Press C and drag to cut further."),
+         {"open " + quoted(study), cut[0], cut[1]},
+         ""});
   if (there(family) && there(head) && there(path)) {
-    Example example{"example_family",
-                    tr("A family"),
-                    tr("The same cut, which opens at each place by the bend, tilt and depth of the blade and "
-                       "by the curvature of the skin."),
-                    {},
-                    ""};
+    Example example{
+        "example_family",
+        Texts::tr("A family"),
+        Texts::tr("The same cut, which opens at each place by the bend, tilt and depth of the blade and "
+                  "by the curvature of the skin."),
+        {},
+        ""};
     if (there(result))
       example.lines = {"open " + quoted(result), cut[0], cut[1]};
     else

@@ -14,6 +14,7 @@
 #include "base/message.h"
 #include "base/text.h"
 #include "explorer/app/case_wall.h"
+#include "explorer/app/direction.h"
 #include "explorer/app/help_sheet_dialog.h"
 #include "explorer/app/parallel_coordinates.h"
 #include "explorer/app/parameter_panel.h"
@@ -59,21 +60,21 @@ MainWindow::MainWindow(Session& session) : session_(session) {
   certainty_->setObjectName("certainty");
   certainty_->setAutoRaise(true);
   certainty_->setFixedHeight(certainty_->fontMetrics().height() + 2);  // as high without a text
-  certainty_->setToolTip("The expected error of the opening: a click tells the reason (wounds)");
+  certainty_->setToolTip(tr("The expected error of the opening: a click tells the reason (wounds)"));
   connect(certainty_, &QToolButton::clicked, this, [this] { say("wounds"); });
   statusBar()->addPermanentWidget(certainty_);
   session_.tell_warnings_elsewhere();  // there
   scene_->drawn = [this] {
     const double ms = 1e3 * scene_->frame_seconds();
     QString text = session_.has_scene()
-                       ? QString("%1 ms a picture, %2 a second").arg(ms, 0, 'f', 0).arg(1000 / ms, 0, 'f', 0)
-                       : QString("Nothing is open");
+                       ? tr("%1 ms a picture, %2 a second").arg(ms, 0, 'f', 0).arg(1000 / ms, 0, 'f', 0)
+                       : tr("Nothing is open");
     if (session_.mesh())
-      text += QString("   |   mesh of %1 triangles, %2 cuts")
+      text += tr("   |   mesh of %1 triangles, %2 cuts")
                   .arg(session_.scene()->surface().triangles.size())
                   .arg(session_.state().cuts.size());
     if (const auto& seen = session_.seen())
-      text += QString("   |   %1 of %2 vertices left at rest, off by at most %3 pixels")
+      text += tr("   |   %1 of %2 vertices left at rest, off by at most %3 pixels")
                   .arg(seen->left_out.vertices)
                   .arg(seen->left_out.of)
                   .arg(seen->pixels, 0, 'g', 2);
@@ -101,22 +102,22 @@ MainWindow::~MainWindow() { device_.reset(); }
 
 void MainWindow::make_middle() {
   const Say say_line = [this](const std::string& line) { return say(line); };
-  welcome_ =
-      new WelcomePage({[this](const std::string& path) { open_any(path); },
-                       [this](const Example& example) { open_example(example); }, [this] { choose_study(); },
-                       [this] { choose("Open a study or a case", "Field files (*.dffd)", "open", false); },
-                       [this] { choose_mesh(); }});
+  welcome_ = new WelcomePage(
+      {[this](const std::string& path) { open_any(path); },
+       [this](const Example& example) { open_example(example); }, [this] { choose_study(); },
+       [this] { choose(tr("Open a study or a case"), tr("Field files (*.dffd)"), "open", false); },
+       [this] { choose_mesh(); }});
   scene_ = new SceneWidget(session_, say_line);
   scene_->too_short = [this](double mm) {
-    message_->tell(QString("The blade has moved over %1 mm of skin only, and nothing is cut: %2")
+    message_->tell(tr("The blade has moved over %1 mm of skin only, and nothing is cut: %2")
                        .arg(mm, 0, 'g', 2)
-                       .arg("is the unit of the mesh right (command unit)? Or drag further."));
+                       .arg(tr("is the unit of the mesh right (command unit)? Or drag further.")));
   };
   scene_->missed = [this] {
     const std::string& what = scene_->picking();
-    message_->tell(QString("There is no skin at this place to %1: click on the %2 (Esc: no more).")
+    message_->tell(tr("There is no skin at this place to %1: click on the %2 (Esc: no more).")
                        .arg(what == measuring_picks ? "measure"
-                            : what == "zoom"        ? "zoom to"
+                            : what == "zoom"        ? tr("zoom to")
                                                     : "probe",
                             session_.mesh() ? "mesh" : "patch"));
   };
@@ -124,8 +125,9 @@ void MainWindow::make_middle() {
   message_ = new MessageBar;
   command_line_ = new QLineEdit;
   command_line_->setObjectName("command_line");
+  command_line_->setAccessibleName(tr("Command line"));
   command_line_->setPlaceholderText(
-      "A command, like: time 12    set tissue.young_modulus 0.02    color gape    help");
+      tr("A command, like: time 12    set tissue.young_modulus 0.02    color gape    help"));
   connect(command_line_, &QLineEdit::returnPressed, this, [this] { take_command_line(); });
   stack_ = new QStackedWidget;
   welcome_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);  // the picture may be smaller
@@ -167,10 +169,10 @@ void MainWindow::make_docks() {
   scrolled->setWidgetResizable(true);
   scrolled->setFrameShape(QFrame::NoFrame);
   scrolled->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  dock("parameter_dock", "Parameters", scrolled, Qt::LeftDockWidgetArea);
-  dock("case_dock", "Cases", cases, Qt::LeftDockWidgetArea);
-  dock("plot_dock", "Plots", plots, Qt::RightDockWidgetArea);
-  dock("line_dock", "All cases", lines, Qt::RightDockWidgetArea);
+  dock("parameter_dock", tr("Parameters"), scrolled, Qt::LeftDockWidgetArea);
+  dock("case_dock", tr("Cases"), cases, Qt::LeftDockWidgetArea);
+  dock("plot_dock", tr("Plots"), plots, Qt::RightDockWidgetArea);
+  dock("line_dock", tr("All cases"), lines, Qt::RightDockWidgetArea);
   cases_ = cases;
   for (Panel* panel : std::initializer_list<Panel*>{parameters, cases, plots, lines})
     panels_.push_back(panel);
@@ -181,7 +183,7 @@ void MainWindow::make_docks() {
 void MainWindow::make_wall() {
   auto* wall = new CaseWall(
       session_, [this](const std::string& line) { return say(line); }, *cases_);
-  wall_ = new QDockWidget("Wall", this);
+  wall_ = new QDockWidget(tr("Wall"), this);
   wall_->setObjectName("wall_dock");
   wall_->setWidget(wall);
   addDockWidget(Qt::BottomDockWidgetArea, wall_);
@@ -271,7 +273,7 @@ bool MainWindow::show_progress(const std::string& what, double part) {
   constexpr int moment = 300, steps = 1000;  // ms
   if (!saying_ || (!progress_ && since_said_.elapsed() < moment)) return true;
   if (!progress_) {
-    progress_ = std::make_unique<QProgressDialog>("", "Cancel", 0, steps, this);
+    progress_ = std::make_unique<QProgressDialog>("", tr("Cancel"), 0, steps, this);
     progress_->setObjectName("progress");
     progress_->setWindowModality(Qt::WindowModal);
     progress_->setMinimumDuration(0);
@@ -301,10 +303,11 @@ void MainWindow::follow(const Changes& changes) {
   follow_tools();
   const std::vector<Validity>& validity = session_.validity();
   certainty_->setEnabled(!validity.empty());  // always there, so that nothing moves
-  certainty_->setText(validity.empty() ? QString() : QString::fromStdString(error_of_openings(validity)));
+  certainty_->setText(validity.empty() ? QString()
+                                       : left_to_right(QString::fromStdString(error_of_openings(validity))));
   for (Panel* panel : panels_) panel->follow(changes);
   const std::string& study = session_.state().study;
-  setWindowTitle(study.empty() ? "Cleft" : QString::fromStdString("Cleft: " + study));
+  setWindowTitle(study.empty() ? "Cleft" : tr("Cleft: %1").arg(QString::fromStdString(study)));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -368,7 +371,7 @@ void MainWindow::choose(const QString& title, const QString& filter, const std::
 }
 
 void MainWindow::choose_study() {
-  const QString path = QFileDialog::getExistingDirectory(this, "Open a study folder");
+  const QString path = QFileDialog::getExistingDirectory(this, tr("Open a study folder"));
   if (!path.isEmpty()) say("open " + quoted(path.toStdString()));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
@@ -26,6 +27,8 @@
 namespace cleft {
 
 class MainWindow : public QMainWindow {
+  Q_DECLARE_TR_FUNCTIONS(MainWindow)
+
  public:
   explicit MainWindow(Session& session);
   ~MainWindow() override;

@@ -20,21 +20,21 @@ void MainWindow::make_look_menu(QMenu* menu) {
     add_action(menu, name.c_str(), text, key, std::move(run))->setCheckable(true);
   };
   for (const double factor : warps)
-    checkable("warp_" + shortest(factor), QString("Displacements %1 times as large").arg(factor),
+    checkable("warp_" + shortest(factor), tr("Displacements %1 times as large").arg(factor),
               [this, factor] { say("warp " + shortest(factor)); });
   menu->addSeparator();
-  checkable("map_auto", "Usual colours", [this] { say("map auto"); });
+  checkable("map_auto", tr("Usual colours"), [this] { say("map auto"); });
   for (const ColorMap& map : color_maps())
     checkable("map_" + map.name, QString::fromStdString(map.name + ": " + map.help),
               [this, name = map.name] { say("map " + name); });
   menu->addSeparator();
-  checkable("trim", "Colours from 2 to 98 % of the values", [this] {
+  checkable("trim", tr("Colours from 2 to 98 % of the values"), [this] {
     say(session_.state().percentiles ? std::string("range auto") : std::string("range ") + trimmed);
   });
   checkable(
-      "edges", "&Edges of triangles", [this] { say(session_.state().edges ? "edges off" : "edges on"); },
+      "edges", tr("&Edges of triangles"), [this] { say(session_.state().edges ? "edges off" : "edges on"); },
       QKeySequence("E"));
-  checkable("clip", "Section across the &first cut", [this] {
+  checkable("clip", tr("Section across the &first cut"), [this] {
     if (session_.state().clip) return void(say("clip off"));
     const bool mesh = session_.mesh() != nullptr;
     const double length = mesh && !session_.state().cuts.empty() ? session_.cut_paths().front().length()

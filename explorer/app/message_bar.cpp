@@ -16,9 +16,9 @@ MessageBar::MessageBar() {
   text_->setAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   text_->setTextFormat(Qt::PlainText);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  auto* copy = new QPushButton("Copy", this);
+  auto* copy = new QPushButton(tr("Copy"), this);
   copy->setObjectName("copy_message");
-  auto* close = new QPushButton("Close", this);
+  auto* close = new QPushButton(tr("Close"), this);
   close->setObjectName("close_message");
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(10, 4, 10, 4);

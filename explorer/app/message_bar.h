@@ -1,12 +1,15 @@
 // Errors and answers of commands in full; they can be copied and dismissed.
 #pragma once
 
+#include <QCoreApplication>
 #include <QFrame>
 #include <QLabel>
 
 namespace cleft {
 
 class MessageBar : public QFrame {
+  Q_DECLARE_TR_FUNCTIONS(MessageBar)
+
  public:
   MessageBar();
   /// Replaces the message; an empty one hides the bar.

@@ -17,9 +17,10 @@ constexpr std::size_t most_smooth = 300;             // cases: more lines are dr
 ParallelCoordinates::ParallelCoordinates(Session& session, Say say)
     : session_(session), say_(std::move(say)) {
   setObjectName("parallel_coordinates");
+  setAccessibleName(tr("Parameters and figures of all cases"));
   setMinimumHeight(140);
-  setToolTip(
-      "A line for every case. Drag along an axis to keep the cases in that range; double-click to keep all");
+  setToolTip(tr(
+      "A line for every case. Drag along an axis to keep the cases in that range; double-click to keep all"));
 }
 
 void ParallelCoordinates::take_figures() {
@@ -112,7 +113,7 @@ void ParallelCoordinates::paintEvent(QPaintEvent*) {
   if (rows_.empty()) {
     painter.fillRect(rect(), palette().base());
     painter.drawText(rect(), Qt::AlignCenter,
-                     session_.study() ? "Reading the cases ..." : "No study is open.");
+                     session_.study() ? tr("Reading the cases ...") : tr("No study is open."));
     return;
   }
   if (lines_.size() != size() * devicePixelRatioF()) paint_lines();

@@ -3,6 +3,7 @@
 // range.
 #pragma once
 
+#include <QCoreApplication>
 #include <QPixmap>
 #include <QWidget>
 #include <optional>
@@ -15,6 +16,8 @@
 namespace cleft {
 
 class ParallelCoordinates : public QWidget, public Panel {
+  Q_DECLARE_TR_FUNCTIONS(ParallelCoordinates)
+
  public:
   ParallelCoordinates(Session& session, Say say);
   void follow(const Changes& changes) override;

@@ -29,10 +29,10 @@ ParameterPanel::ParameterPanel(Session& session, Say say) : session_(session), s
   prepared_ = new QProgressBar(preparing_);
   prepared_->setObjectName("prepared");
   prepared_->setRange(0, slider_steps);
-  prepared_->setToolTip("how far the cases are read that the wound between them is made from");
-  auto* cancel = new QPushButton("Cancel", preparing_);
+  prepared_->setToolTip(tr("how far the cases are read that the wound between them is made from"));
+  auto* cancel = new QPushButton(tr("Cancel"), preparing_);
   cancel->setObjectName("cancel_preparing");
-  cancel->setToolTip("show the nearest case instead (between off)");
+  cancel->setToolTip(tr("show the nearest case instead (between off)"));
   connect(cancel, &QPushButton::clicked, this, [this] { say_("between off"); });
   row->addWidget(prepared_, 1);
   row->addWidget(cancel);
@@ -64,9 +64,11 @@ void ParameterPanel::make_rows() {
     text->setWordWrap(true);  // so that a long name does not widen the panel
     auto* slider = new QSlider(Qt::Horizontal, rows_widget_);
     slider->setObjectName(QString::fromStdString(name));
+    slider->setAccessibleName(slider->objectName());
+    text->setObjectName(slider->objectName() + ".value");
     slider->setRange(0, slider_steps);
     slider->setPageStep(slider_steps / 10);
-    const QString tip = QString("%1\n%2 to %3 %4 in this study")
+    const QString tip = tr("%1\n%2 to %3 %4 in this study")
                             .arg(QString::fromStdString(row.help))
                             .arg(least)
                             .arg(greatest)
@@ -84,7 +86,7 @@ void ParameterPanel::make_rows() {
 
 void ParameterPanel::show_values() {
   if (!session_.study()) {
-    note_->setText("No study is open.");
+    note_->setText(tr("No study is open."));
     return;
   }
   const SessionState& s = session_.state();
@@ -102,42 +104,41 @@ void ParameterPanel::show_values() {
                        .arg(QString::fromStdString(row.unit));
     const bool outside = asked->second < row.least || asked->second > row.greatest;
     if (outside)
-      text += QString(" (%1 is <b>outside</b> the study, %2 to %3)")
+      text += tr(" (%1 is <b>outside</b> the study, %2 to %3)")
                   .arg(asked->second, 0, 'g', 4)
                   .arg(row.least, 0, 'g', 4)
                   .arg(row.greatest, 0, 'g', 4);
     else if (!session_.between() && asked->second != *value)
-      text += QString(" (asked: %1)").arg(asked->second, 0, 'g', 4);
+      text += tr(" (asked: %1)").arg(asked->second, 0, 'g', 4);
     row.text->setText(text);
   }
   note_->setText(session_.between() ? note_between() : note_of_case());
 }
 
 QString ParameterPanel::note_between() const {
-  return QString(
-             "<b>%4 the cases: interpolated, not simulated.</b><br>Largest displacement %1 mm; %2.<br>"
-             "Nearest case: %3.")
+  return QString(tr("<b>%4 the cases: interpolated, not simulated.</b><br>Largest displacement %1 mm; %2.<br>"
+                    "Nearest case: %3."))
       .arg(session_.between()->report.largest_displacement, 0, 'g', 3)
       .arg(QString::fromStdString(error_of_interpolation(*session_.between())))
       .arg(session_.state().shown + 1)
-      .arg(session_.between()->interpolation->outside > 0 ? "Outside" : "Between");
+      .arg(session_.between()->interpolation->outside > 0 ? tr("Outside") : tr("Between"));
 }
 
 QString ParameterPanel::note_of_case() {
   const auto field = session_.field();
   QString note =
       QString(
-          "Case %1 of %2, simulated.<br>Largest displacement %3 mm; what is drawn is off by at most %4 % "
-          "of it at a node")
+          tr("Case %1 of %2, simulated.<br>Largest displacement %3 mm; what is drawn is off by at most %4 % "
+             "of it at a node"))
           .arg(session_.state().shown + 1)
           .arg(session_.study()->size())
           .arg(field->report.largest_displacement, 0, 'g', 3)
           .arg(100 * field->report.spline_error, 0, 'g', 2);
   if (const auto error = error_of_gape(*field))
-    note += QString(", the opening by at most %1 mm").arg(*error, 0, 'g', 2);
+    note += tr(", the opening by at most %1 mm").arg(*error, 0, 'g', 2);
   note += ".";
   if (!session_.shows_exactly())
-    note += QString("<br><b>No case has exactly these values: the nearest is shown</b> (%1).")
+    note += tr("<br><b>No case has exactly these values: the nearest is shown</b> (%1).")
                 .arg(QString::fromStdString(session_.why_nearest()));
   return note;
 }

@@ -1,6 +1,7 @@
 // A slider for each parameter that varies in the study, and the case that is shown.
 #pragma once
 
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -16,6 +17,8 @@
 namespace cleft {
 
 class ParameterPanel : public QWidget, public Panel {
+  Q_DECLARE_TR_FUNCTIONS(ParameterPanel)
+
  public:
   ParameterPanel(Session& session, Say say);
   void follow(const Changes& changes) override;

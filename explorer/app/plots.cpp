@@ -66,21 +66,21 @@ std::vector<double> error_of(const Curve& gape, const std::vector<Validity>& cut
 Plots::Plots(Session& session, const Say& say) : session_(session) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  set_up(over_time_, "gape_over_time", "length cut, mm", "widest gape, mm");
-  set_up(along_cut_, "opening_profile", "place along the cut, mm", "opening, mm");
-  set_up(probe_, "probe_plot", "length cut, mm", "displacement, mm");
+  set_up(over_time_, "gape_over_time", tr("length cut, mm"), tr("widest gape, mm"));
+  set_up(along_cut_, "opening_profile", tr("place along the cut, mm"), tr("opening, mm"));
+  set_up(probe_, "probe_plot", tr("length cut, mm"), tr("displacement, mm"));
   pages_ = new QTabWidget(this);
   pages_->setObjectName("plot_pages");
-  pages_->addTab(make_page({&over_time_, &along_cut_}), "Opening");
+  pages_->addTab(make_page({&over_time_, &along_cut_}), tr("Opening"));
   QWidget* probe = make_page({&probe_});
   probe_note_ = new QLabel(probe);
   probe_note_->setObjectName("probe_note");
   probe_note_->setWordWrap(true);
   static_cast<QVBoxLayout*>(probe->layout())->insertWidget(0, probe_note_);
-  pages_->addTab(probe, "Probe");
-  pages_->addTab(new TornadoPlot(session), "Tornado");
-  pages_->addTab(wounds_ = new WoundTable(session, say), "Wounds");
-  pages_->addTab(analysis_ = new AnalysisPanel(session, say), "Analysis");
+  pages_->addTab(probe, tr("Probe"));
+  pages_->addTab(new TornadoPlot(session), tr("Tornado"));
+  pages_->addTab(wounds_ = new WoundTable(session, say), tr("Wounds"));
+  pages_->addTab(analysis_ = new AnalysisPanel(session, say), tr("Analysis"));
   connect(pages_, &QTabWidget::currentChanged, this, [this] { draw(); });
   column->addWidget(pages_);
   soon_.setSingleShot(true);
@@ -95,9 +95,10 @@ QWidget* Plots::make_page(std::initializer_list<Plot*> plots) {
   return page;
 }
 
-void Plots::set_up(Plot& plot, const char* name, const char* x, const char* y) {
+void Plots::set_up(Plot& plot, const char* name, const QString& x, const QString& y) {
   plot.widget = new QVTKOpenGLNativeWidget(this);
   plot.widget->setObjectName(name);
+  plot.widget->setAccessibleName(tr("%1 over %2").arg(y, x));
   plot.widget->setMinimumHeight(100);
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   window->SetMultiSamples(0);
@@ -106,7 +107,7 @@ void Plots::set_up(Plot& plot, const char* name, const char* x, const char* y) {
   plot.view->GetScene()->AddItem(plot.chart);
   for (const auto& [side, title] : {std::pair{vtkAxis::BOTTOM, x}, {vtkAxis::LEFT, y}}) {
     vtkAxis* axis = plot.chart->GetAxis(side);
-    axis->SetTitle(title);
+    axis->SetTitle(title.toStdString());
     axis->GetTitleProperties()->SetBold(false);
     axis->GetTitleProperties()->SetFontSize(12);
     axis->GetLabelProperties()->SetFontSize(11);
@@ -186,27 +187,28 @@ void Plots::draw_probe() {
   probe_.chart->ClearPlots();
   dress(probe_);
   const bool probed = session_.study() && session_.state().probe;
-  QString note = "Probe (key P): click a point of the patch, or say: probe U,V,W";
+  QString note = tr("Probe (key P): click a point of the patch, or say: probe U,V,W");
   if (probed) {
     const Motion motion = session_.probed_motion();
-    constexpr const char* names[] = {"along u", "across v", "height w"};
+    constexpr const char* names[] = {QT_TR_NOOP("along u"), QT_TR_NOOP("across v"), QT_TR_NOOP("height w")};
     probed_ = motion.node ? motion.at_node : motion.field;  // the dots are the node's
     probed_error_ = error_of_displacement(*session_.field());
     for (int k = 0; k < 3; ++k) {
       const std::vector<double> error(probed_[static_cast<std::size_t>(k)].x.size(),
                                       probed_error_.value_or(0));
       if (probed_error_) add_band(probe_.chart, probed_[static_cast<std::size_t>(k)], error, k, -HUGE_VAL);
-      add_curve(probe_.chart, probed_[static_cast<std::size_t>(k)], names[k], k, Style::line);
+      add_curve(probe_.chart, probed_[static_cast<std::size_t>(k)], tr(names[k]).toStdString(), k,
+                Style::line);
       if (motion.node)
-        add_curve(probe_.chart, motion.raw[k], std::string(names[k]) + ", node", k, Style::dots);
+        add_curve(probe_.chart, motion.raw[k], tr("%1, node").arg(tr(names[k])).toStdString(), k,
+                  Style::dots);
     }
     const Vec3& asked = session_.state().probe->uvw;
     const Vec3 x = motion.node.value_or(asked);
-    note = QString("Motion of %1, %2, %3 mm").arg(x.x, 0, 'g', 3).arg(x.y, 0, 'g', 3).arg(x.z, 0, 'g', 3);
-    note += motion.node
-                ? QString(", the simulation's node %1 mm from the place asked for. Dots: the simulation")
-                      .arg(norm(x - asked), 0, 'g', 2)
-                : "; " + QString::fromStdString(session_.why_no_raw(session_.state().shown));
+    note = tr("Motion of %1, %2, %3 mm").arg(x.x, 0, 'g', 3).arg(x.y, 0, 'g', 3).arg(x.z, 0, 'g', 3);
+    note += motion.node ? tr(", the simulation's node %1 mm from the place asked for. Dots: the simulation")
+                              .arg(norm(x - asked), 0, 'g', 2)
+                        : "; " + QString::fromStdString(session_.why_no_raw(session_.state().shown));
   }
   probe_note_->setText(note);
   probe_.chart->SetShowLegend(probed);
@@ -231,7 +233,7 @@ void Plots::draw_opening() {
 }
 
 void Plots::draw_now(double t, double highest) {
-  add_curve(over_time_.chart, {{t, t}, {0, highest}}, "now", 1, Style::dashed);
+  add_curve(over_time_.chart, {{t, t}, {0, highest}}, tr("now").toStdString(), 1, Style::dashed);
   const bool several = session_.views().size() > 1;
   for (const auto& [plot, room] : {std::pair{&over_time_, several ? 1.6 : 1.05}, {&along_cut_, 1.05}}) {
     vtkAxis* axis = plot->chart->GetAxis(vtkAxis::LEFT);
@@ -252,7 +254,7 @@ void Plots::draw_patch_openings() {
     const auto known = gapes_.find(field.get());
     const Curve& gape = gapes[field.get()] = known != gapes_.end() ? known->second : gape_over_time(*field);
     const Curve profile = opening_profile(*field, std::min(session_.state().time, field->duration()));
-    const std::string name = "case " + std::to_string(views[k] + 1);
+    const std::string name = tr("case %1").arg(views[k] + 1).toStdString();
     const int color = static_cast<int>(k);
     const std::optional<double> error = error_of_gape(*field);
     for (const auto& [plot, curve] : {std::pair{&over_time_, &gape}, {&along_cut_, &profile}}) {
@@ -280,7 +282,7 @@ void Plots::draw_mesh_openings() {
             ? known->second
             : MeshOpening{gape_of(*scene),
                           views[k] == session_.state().shown ? session_.validity() : scene->validity()};
-    const std::string name = "case " + std::to_string(views[k] + 1);
+    const std::string name = tr("case %1").arg(views[k] + 1).toStdString();
     const int color = static_cast<int>(k);
     const bool judged = !validity.empty();
     double most = *std::max_element(gape.y.begin(), gape.y.end());

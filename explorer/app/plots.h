@@ -8,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkTable.h>
 
+#include <QCoreApplication>
 #include <QLabel>
 #include <QTabWidget>
 #include <QTimer>
@@ -24,6 +25,8 @@
 namespace cleft {
 
 class Plots : public QWidget, public Panel {
+  Q_DECLARE_TR_FUNCTIONS(Plots)
+
  public:
   Plots(Session& session, const Say& say);
   void follow(const Changes& changes) override;
@@ -44,7 +47,7 @@ class Plots : public QWidget, public Panel {
     vtkNew<vtkContextView> view;
     vtkNew<vtkChartXY> chart;
   };
-  void set_up(Plot& plot, const char* name, const char* x, const char* y);
+  void set_up(Plot& plot, const char* name, const QString& x, const QString& y);
   QWidget* make_page(std::initializer_list<Plot*> plots);
   void draw();
   void draw_opening();

@@ -27,12 +27,13 @@ std::string text(const Vec3& x) { return shortest(x.x) + "," + shortest(x.y) + "
 SceneWidget::SceneWidget(Session& session, Say say)
     : session_(session), say_(std::move(say)), handles_(session) {
   setObjectName("scene");
+  setAccessibleName(tr("Picture of the wound"));
   vtkNew<vtkGenericOpenGLRenderWindow> window;
   window->SetMultiSamples(0);
   setRenderWindow(window);
   stage_ = std::make_unique<Stage>(window);
   setFocusPolicy(Qt::StrongFocus);
-  setToolTip("Left: turn, middle or Shift+left: move, wheel or right: zoom");
+  setToolTip(tr("Left: turn, middle or Shift+left: move, wheel or right: zoom"));
 
   resting_.setSingleShot(true);
   connect(&resting_, &QTimer::timeout, this, [this] { rest(); });

@@ -4,6 +4,7 @@
 
 #include <QVTKOpenGLNativeWidget.h>
 
+#include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QTimer>
 #include <memory>
@@ -22,6 +23,8 @@ namespace cleft {
 inline constexpr const char* measuring_picks = "measure add";
 
 class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
+  Q_DECLARE_TR_FUNCTIONS(SceneWidget)
+
  public:
   SceneWidget(Session& session, Say say);
   ~SceneWidget() override;

@@ -36,36 +36,39 @@ QPolygonF triangle(double base, double tip) {
 }
 }  // namespace
 
-QToolButton* TimeBar::button(const char* name, const char* tip) {
+QToolButton* TimeBar::button(const char* name, const QString& tip) {
   auto* made = new QToolButton(this);
   made->setObjectName(name);
   made->setToolTip(tip);
+  made->setAccessibleName(tip);
   made->setAutoRaise(true);
   return made;
 }
 
 TimeBar::TimeBar(Session& session, Say say) : session_(session), say_(std::move(say)) {
-  back_ = button("step_back", "Back by 1 mm of cut (Left)");
-  play_ = button("play", "Play or pause (Space)");
-  forward_ = button("step_forward", "On by 1 mm of cut (Right)");
+  back_ = button("step_back", tr("Back by 1 mm of cut (Left)"));
+  play_ = button("play", tr("Play or pause (Space)"));
+  forward_ = button("step_forward", tr("On by 1 mm of cut (Right)"));
   back_->setAutoRepeat(true), forward_->setAutoRepeat(true);
   slider_ = new QSlider(Qt::Horizontal, this);
   slider_->setObjectName("time");
+  slider_->setAccessibleName(tr("Length cut, mm"));
   slider_->setRange(0, time_steps);
   slider_->setPageStep(time_steps / 20);
-  slider_->setToolTip("Length cut, mm: drag to scrub");
+  slider_->setToolTip(tr("Length cut, mm: drag to scrub"));
   label_ = new QLabel(this);
   label_->setObjectName("time_label");
   label_->setMinimumWidth(label_->fontMetrics().horizontalAdvance("888.8 of 888.8 mm cut "));
-  loop_ = new QCheckBox("Loop", this);
+  loop_ = new QCheckBox(tr("Loop"), this);
   loop_->setObjectName("loop");
-  loop_->setToolTip("Begin again at the end");
+  loop_->setToolTip(tr("Begin again at the end"));
   speed_ = new QDoubleSpinBox(this);
   speed_->setObjectName("speed");
+  speed_->setAccessibleName(tr("Speed of playing"));
   speed_->setRange(0.1, 1000);
   speed_->setDecimals(1);
-  speed_->setSuffix(" mm/s");
-  speed_->setToolTip("Speed of the blade while playing, mm of cut a second");
+  speed_->setSuffix(tr(" mm/s"));
+  speed_->setToolTip(tr("Speed of the blade while playing, mm of cut a second"));
 
   slider_->setMinimumWidth(least_slider);
   auto* row = new QHBoxLayout(this);
@@ -123,7 +126,7 @@ void TimeBar::follow(const Changes& changes) {
   const QSignalBlocker no_slider(slider_), no_loop(loop_), no_speed(speed_);
   const double duration = session_.has_scene() ? session_.duration() : 0;
   slider_->setValue(duration > 0 ? static_cast<int>(std::lround(time_steps * s.time / duration)) : 0);
-  label_->setText(QString("%1 of %2 mm cut").arg(s.time, 0, 'f', 1).arg(duration, 0, 'f', 1));
+  label_->setText(tr("%1 of %2 mm cut").arg(s.time, 0, 'f', 1).arg(duration, 0, 'f', 1));
   loop_->setChecked(s.loop);
   speed_->setValue(s.speed);
   if (changes.look) paint_icons();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QCheckBox>
+#include <QCoreApplication>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QLabel>
@@ -15,6 +16,8 @@
 namespace cleft {
 
 class TimeBar : public QWidget, public Panel {
+  Q_DECLARE_TR_FUNCTIONS(TimeBar)
+
  public:
   TimeBar(Session& session, Say say);
   void follow(const Changes& changes) override;
@@ -24,7 +27,7 @@ class TimeBar : public QWidget, public Panel {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  QToolButton* button(const char* name, const char* tip);
+  QToolButton* button(const char* name, const QString& tip);
 
   void paint_icons();
 

@@ -10,11 +10,12 @@ namespace cleft {
 
 TornadoPlot::TornadoPlot(Session& session) : session_(session) {
   setObjectName("tornado");
+  setAccessibleName(tr("What each parameter does to the gape"));
   setMinimumHeight(100);
   setToolTip(
-      "The gape where a parameter has its least (blue) and its greatest value (orange), all others in the "
-      "middle, by "
-      "a fit over all cases");
+      tr("The gape where a parameter has its least (blue) and its greatest value (orange), all others in the "
+         "middle, by "
+         "a fit over all cases"));
 }
 
 void TornadoPlot::paintEvent(QPaintEvent*) {
@@ -25,9 +26,9 @@ void TornadoPlot::paintEvent(QPaintEvent*) {
   const auto tell = [&](const QString& text) {
     painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap, text);
   };
-  if (!session_.study()) return tell("No study is open.");
+  if (!session_.study()) return tell(tr("No study is open."));
   for (int i = 0; i < session_.study()->size(); ++i)
-    if (!session_.knows_figures(i)) return tell("Reading the cases ...");
+    if (!session_.knows_figures(i)) return tell(tr("Reading the cases ..."));
   try {
     if (!tornado_ || study_ != session_.state().study) tornado_ = session_.tornado();
     study_ = session_.state().study;
@@ -53,8 +54,8 @@ void TornadoPlot::paint_bars(QPainter& painter) const {
   const auto number = [](double value) { return QString::number(value, 'g', 3); };
   const QColor ink = palette().text().color();
   painter.drawText(QRectF(0, 4, width(), 2 * line + 4), Qt::AlignHCenter | Qt::TextWordWrap,
-                   QString("widest gape, mm; %1 explains %2 % of its variance")
-                       .arg(t.logarithms ? "a power law" : "a plane")
+                   tr("widest gape, mm; %1 explains %2 % of its variance")
+                       .arg(t.logarithms ? tr("a power law") : "a plane")
                        .arg(100 * t.explained, 0, 'f', 0));
   const double top = 2.4 * line + 8,
                row = std::min((height() - top - 4) / std::max<double>(1, double(t.bars.size())), 3.4 * line);
@@ -62,9 +63,9 @@ void TornadoPlot::paint_bars(QPainter& painter) const {
     const Tornado::Bar& b = t.bars[k];
     const double y = top + double(k) * row, middle = x_of(t.middle);
     painter.setPen(ink);
-    painter.drawText(QRectF(4, y, width() - 8., line), Qt::AlignHCenter,
-                     QString("%1: %2 to %3")
-                         .arg(QString::fromStdString(b.parameter), number(b.least), number(b.greatest)));
+    painter.drawText(
+        QRectF(4, y, width() - 8., line), Qt::AlignHCenter,
+        tr("%1: %2 to %3").arg(QString::fromStdString(b.parameter), number(b.least), number(b.greatest)));
     for (const auto& [gape, color] :
          {std::pair{b.at_least, QColor(0, 114, 178)}, {b.at_greatest, QColor(213, 94, 0)}}) {
       const double x = x_of(gape);

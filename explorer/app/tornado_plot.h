@@ -1,6 +1,7 @@
 // The effect of each parameter on the gape: a bar from its least to its greatest value, the widest first.
 #pragma once
 
+#include <QCoreApplication>
 #include <QWidget>
 #include <optional>
 
@@ -9,6 +10,8 @@
 namespace cleft {
 
 class TornadoPlot : public QWidget {
+  Q_DECLARE_TR_FUNCTIONS(TornadoPlot)
+
  public:
   explicit TornadoPlot(Session& session);
   const std::optional<Tornado>& tornado() const { return tornado_; }  ///< as drawn last, for tests

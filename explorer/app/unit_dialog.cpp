@@ -12,12 +12,12 @@ namespace cleft {
 
 UnitDialog::UnitDialog(QWidget* parent, double extent, double cut_length) : QDialog(parent) {
   setObjectName("unit_dialog");
-  setWindowTitle("The unit of the mesh");
+  setWindowTitle(tr("The unit of the mesh"));
   auto* column = new QVBoxLayout(this);
   auto* question = new QLabel(
       QString(
-          "A mesh file does not tell its unit. This mesh is %1 units long; the cut of the fields is %2 mm "
-          "long. In which unit is the mesh?")
+          tr("A mesh file does not tell its unit. This mesh is %1 units long; the cut of the fields is %2 mm "
+             "long. In which unit is the mesh?"))
           .arg(extent, 0, 'g', 3)
           .arg(cut_length, 0, 'g', 3));
   question->setWordWrap(true);
@@ -26,17 +26,17 @@ UnitDialog::UnitDialog(QWidget* parent, double extent, double cut_length) : QDia
   const double guess = guessed_unit(extent, cut_length);
   for (std::size_t i = 0; i < length_units().size(); ++i) {
     const LengthUnit& unit = length_units()[i];
-    auto* button = new QRadioButton(QString("%1: the mesh is %2 mm long%3")
+    auto* button = new QRadioButton(tr("%1: the mesh is %2 mm long%3")
                                         .arg(QString::fromStdString(unit.name))
                                         .arg(extent * unit.mm, 0, 'g', 3)
-                                        .arg(unit.mm == guess ? " (a guess by its size)" : ""));
+                                        .arg(unit.mm == guess ? tr(" (a guess by its size)") : ""));
     button->setObjectName("unit_" + QString::fromStdString(unit.name));
     button->setChecked(unit.mm == guess);
     units_->addButton(button, static_cast<int>(i));
     column->addWidget(button);
   }
   auto* row = new QHBoxLayout;
-  auto* of_its_own = new QRadioButton("mm in a unit:");
+  auto* of_its_own = new QRadioButton(tr("mm in a unit:"));
   of_its_own->setObjectName("unit_other");
   units_->addButton(of_its_own, static_cast<int>(length_units().size()));
   other_ = new QDoubleSpinBox;
@@ -45,7 +45,7 @@ UnitDialog::UnitDialog(QWidget* parent, double extent, double cut_length) : QDia
   other_->setRange(0.0001, 1e6);
   other_->setValue(guess);
   auto* size = new QLabel;
-  const auto tell_size = [=](double mm) { size->setText(QString("%1 mm long").arg(extent * mm, 0, 'g', 3)); };
+  const auto tell_size = [=](double mm) { size->setText(tr("%1 mm long").arg(extent * mm, 0, 'g', 3)); };
   tell_size(guess);
   connect(other_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, [=](double mm) {
     of_its_own->setChecked(true);

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <QButtonGroup>
+#include <QCoreApplication>
 #include <QDialog>
 #include <QDoubleSpinBox>
 
 namespace cleft {
 
 class UnitDialog : public QDialog {
+  Q_DECLARE_TR_FUNCTIONS(UnitDialog)
+
  public:
   /// Of a mesh `extent` of its units long, to be cut by fields of cuts `cut_length` mm long.
   UnitDialog(QWidget* parent, double extent, double cut_length);

@@ -1,6 +1,7 @@
 // The page instead of the picture while nothing is open: three steps, examples, and what was opened last.
 #pragma once
 
+#include <QCoreApplication>
 #include <QListWidget>
 #include <QScrollArea>
 #include <functional>
@@ -15,6 +16,8 @@ QStringList recent_files();
 void remember_recent(const std::string& path);
 
 class WelcomePage : public QScrollArea {
+  Q_DECLARE_TR_FUNCTIONS(WelcomePage)
+
  public:
   struct Actions {
     std::function<void(const std::string& path)> open;

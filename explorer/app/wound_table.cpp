@@ -6,13 +6,16 @@ namespace cleft {
 
 WoundTable::WoundTable(Session& session, Say say) : session_(session), say_(std::move(say)) {
   setObjectName("wounds");
+  setAccessibleName(tr("Wounds"));
+  setTabKeyNavigation(false);
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   setSelectionBehavior(QAbstractItemView::SelectRows);
   setSelectionMode(QAbstractItemView::SingleSelection);
   setToolTip(
-      "The cuts as they are now; a click shows the handles of one (handles N), a double-click looks at it "
-      "(wound N)");
-  const QStringList names{"length\nmm", "depth\nmm", "opening\nmm", "area\nmm\u00b2", "volume\nmm\u00b3"};
+      tr("The cuts as they are now; a click shows the handles of one (handles N), a double-click looks at it "
+         "(wound N)"));
+  const QStringList names{tr("length\nmm"), tr("depth\nmm"), tr("opening\nmm"), tr("area\nmm\u00b2"),
+                          tr("volume\nmm\u00b3")};
   setColumnCount(static_cast<int>(names.size()));
   setHorizontalHeaderLabels(names);
   QFont small = font();
@@ -38,8 +41,8 @@ void WoundTable::show_wounds() {
     const auto number = [](double value) { return QString::number(value, 'g', 3); };
     QString opening = number(f.widest), why;
     if (i < validity.size()) {
-      opening += QString(" \u00b1 %1").arg(validity[i].expected_error.largest * f.widest, 0, 'g', 2);
-      why = "Mostly uncertain because " + QString::fromStdString(validity[i].expected_error.cause);
+      opening += tr(" \u00b1 %1").arg(validity[i].expected_error.largest * f.widest, 0, 'g', 2);
+      why = tr("Mostly uncertain because ") + QString::fromStdString(validity[i].expected_error.cause);
     }
     const QString texts[] = {number(f.length), number(f.depth), opening, number(f.area), number(f.volume)};
     for (int column = 0; column < columnCount(); ++column) {

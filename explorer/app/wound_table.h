@@ -1,6 +1,7 @@
 // The cuts in the mesh, one row each: length, depth, opening with its expected error, area, volume.
 #pragma once
 
+#include <QCoreApplication>
 #include <QTableWidget>
 
 #include "explorer/app/panel.h"
@@ -8,6 +9,8 @@
 namespace cleft {
 
 class WoundTable : public QTableWidget {
+  Q_DECLARE_TR_FUNCTIONS(WoundTable)
+
  public:
   WoundTable(Session& session, Say say);
   void show_wounds();  ///< as they are at the shown length cut

@@ -1,5 +1,5 @@
-// Random actions of a user with a seed: nothing crashes, and the recording leads to the same state. The
-// environment variables MONKEY and MONKEY_SEED ask for more of them.
+// Random actions of a user with a seed: nothing crashes, and the recording leads to the same state. More of
+// them: app_test --actions 1000 --seed 7 --gtest_filter='Monkey.*' (or MONKEY and MONKEY_SEED).
 #include <QAbstractButton>
 #include <QAction>
 #include <QScrollBar>
@@ -54,6 +54,12 @@ class Monkey : public WindowTest {
         "brush clear",
         "cut -12," + number(-9, 9) + ",0,0,0,1 12," + number(-9, 9) + ",0,0,0,1",
         "recut -8,1,0,0,0,1 9," + number(-9, 9) + ",0,0,0,1 depth 2",
+        "edit-cut 1 point 1 " + number(-20, 20) + "," + number(-15, 15) + ",0 reach " + number(0, 9),
+        "edit-cut " + whole(2) + " depth " + number(0.5, 6) + " tilt " + number(-40, 40),
+        "handles " + whole(2),
+        "undo",
+        "undo any",
+        "redo any",
         "time " + number(0, 40),
         "color strain",
         "color gape",
@@ -82,7 +88,9 @@ class Monkey : public WindowTest {
       if (action->isEnabled() && !name.empty() && left_out.count(name) == 0 && !name.starts_with("device_"))
         actions << action;
     }
-    actions[static_cast<int>(below(static_cast<std::size_t>(actions.size())))]->trigger();
+    QAction* action = actions[static_cast<int>(below(static_cast<std::size_t>(actions.size())))];
+    done_ = "the action " + action->objectName().toStdString();
+    action->trigger();
   }
 
   void slide() {
@@ -91,10 +99,27 @@ class Monkey : public WindowTest {
     if (slider->isEnabled()) slider->setValue(static_cast<int>(part() * slider->maximum()));
   }
 
+  /// Of a cut's handles, where some are drawn.
+  bool drag_handle() {
+    const Overlay overlay = real_.overlay();
+    if (overlay.handles.empty() || window_.scene().stage().views() != 1) return false;
+    const Vec3& place = overlay.handles[below(overlay.handles.size())].place;
+    vtkRenderer* renderer = window_.scene().stage().view(0).renderer();
+    renderer->SetWorldPoint(place.x, place.y, place.z, 1);
+    renderer->WorldToDisplay();
+    const double* at = renderer->GetDisplayPoint();
+    const double ratio = window_.scene().devicePixelRatioF();
+    const double x = at[0] / ratio / window_.scene().width(),
+                 y = 1 - at[1] / ratio / window_.scene().height();
+    drag_over(window_.scene(), x, y, x + 0.2 * (part() - 0.5), y + 0.2 * (part() - 0.5), 6);
+    return true;
+  }
+
   void press_key() {
-    constexpr Qt::Key keys[] = {Qt::Key_Space,  Qt::Key_Left, Qt::Key_Right, Qt::Key_PageUp, Qt::Key_PageDown,
-                                Qt::Key_Escape, Qt::Key_P,    Qt::Key_Z,     Qt::Key_C,      Qt::Key_T,
-                                Qt::Key_1,      Qt::Key_4,    Qt::Key_Home};
+    constexpr Qt::Key keys[] = {Qt::Key_Space,    Qt::Key_Left,   Qt::Key_Right, Qt::Key_PageUp,
+                                Qt::Key_PageDown, Qt::Key_Escape, Qt::Key_P,     Qt::Key_Z,
+                                Qt::Key_C,        Qt::Key_T,      Qt::Key_1,     Qt::Key_4,
+                                Qt::Key_Home,     Qt::Key_H,      Qt::Key_E,     Qt::Key_M};
     QTest::keyClick(&window_, keys[below(std::size(keys))]);
   }
 
@@ -107,12 +132,14 @@ class Monkey : public WindowTest {
       case 2:
         return press_key();
       case 3:
-        return drag_over(window_.scene(), part(), part(), part(), part(), 6);
+        return below(3) == 0 && drag_handle() ? void()
+                                              : drag_over(window_.scene(), part(), part(), part(), part(), 6);
       default:
-        window_.say(line());
+        window_.say(done_ = line());
     }
   }
 
+  std::string done_;  // the present action, in words
   std::mt19937 random_{static_cast<unsigned>(number_of("MONKEY_SEED", 1))};
 };
 
@@ -120,14 +147,19 @@ TEST_F(Monkey, RandomActionsLeadWhereTheirRecordingLeads) {
   const int count = number_of("MONKEY", 120);
   tell("open " + study());
   double slowest = 0;
+  std::string slowest_action;
   for (int k = 0; k < count; ++k) {
     const Stopwatch watch;
+    done_.clear();
     act();
     QApplication::processEvents();
-    slowest = std::max(slowest, watch.seconds());
+    if (watch.seconds() > slowest) slowest = watch.seconds(), slowest_action = done_;
+    // The machine may be busy; a second without a sign of progress is what a user takes for a hang.
+    if (watch.seconds() > 1)
+      std::cout << "action " << k << ", " << done_ << ": " << watch.seconds() << " s\n";
   }
-  std::cout << count << " actions, the slowest took " << slowest << " s, " << real_.said().size()
-            << " lines were recorded\n";
+  std::cout << count << " actions, the slowest (" << slowest_action << ") took " << slowest << " s, "
+            << real_.said().size() << " lines were recorded\n";
   for (int tries = 0; tries < 200 && real_.preparing(); ++tries) settle(20);
   tell("pause");
   if (real_.has_scene()) tell("time 7");  // no time that a clock has chosen
