@@ -13,6 +13,24 @@ run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/consumer -B ${work}/build -DCMAKE_PRE
 run(${CMAKE_COMMAND} --build ${work}/build)
 run(${work}/build/consumer ${work}/field.dffd)
 run(${work}/prefix/bin/cleft check ${work}/field.dffd)
+# The examples of the explorer's first page are where the installed command looks for them, and open.
+if(EXISTS ${work}/prefix/bin/cleft-explore)
+  set(examples ${work}/prefix/bin/../share/cleft/examples)
+  foreach(file demo_family.toml family.toml)
+    if(NOT EXISTS ${examples}/${file})
+      message(FATAL_ERROR "${examples}/${file} is not installed")
+    endif()
+  endforeach()
+  run(${work}/prefix/bin/cleft check ${examples}/demo.dffd)
+  file(WRITE ${work}/wounds.txt "wounds ${work}/wounds.csv\n")
+  run(${work}/prefix/bin/cleft explore ${examples}/demo.dffd --mesh ${examples}/head.stl --path ${examples}/path.csv
+    --script ${work}/wounds.txt)
+  file(STRINGS ${work}/wounds.csv wounds)
+  list(LENGTH wounds lines)
+  if(NOT lines EQUAL 2)
+    message(FATAL_ERROR "the example's head has no wound: ${wounds}")
+  endif()
+endif()
 if(PYTHON_FOLDER)
   run(${CMAKE_COMMAND} -E env PYTHONPATH=${work}/prefix/${PYTHON_FOLDER} ${PYTHON} -c
     "import cleft, sys; assert cleft.__file__.startswith(sys.argv[1]); print(cleft.open(sys.argv[2])(0, 0, 0, 0, outside='clamp'))"
