@@ -246,13 +246,13 @@ void Plots::draw_now(double t, double highest) {
 
 /// Of the fields, with the error of an opening that their fits or interpolations state.
 void Plots::draw_patch_openings() {
-  std::map<const Field*, Curve> gapes;
+  std::map<std::shared_ptr<const Field>, Curve> gapes;
   const std::vector<int> views = session_.views();
   double highest = 0;
   for (std::size_t k = 0; k < views.size(); ++k) {
     const auto field = session_.field_of(views[k]);
-    const auto known = gapes_.find(field.get());
-    const Curve& gape = gapes[field.get()] = known != gapes_.end() ? known->second : gape_over_time(*field);
+    const auto known = gapes_.find(field);
+    const Curve& gape = gapes[field] = known != gapes_.end() ? known->second : gape_over_time(*field);
     const Curve profile = opening_profile(*field, std::min(session_.state().time, field->duration()));
     const std::string name = tr("case %1").arg(views[k] + 1).toStdString();
     const int color = static_cast<int>(k);
@@ -271,13 +271,13 @@ void Plots::draw_patch_openings() {
 
 /// Of the wounds on the screen, those of one cut after another: places count from the start of the first.
 void Plots::draw_mesh_openings() {
-  std::map<const WoundScene*, MeshOpening> gapes;
+  std::map<std::shared_ptr<const WoundScene>, MeshOpening> gapes;
   const std::vector<int> views = session_.views();
   double highest = 0;
   for (std::size_t k = 0; k < views.size(); ++k) {
     const auto scene = session_.scene_of(views[k]);
-    const auto known = mesh_gapes_.find(scene.get());
-    const auto& [gape, validity] = gapes[scene.get()] =
+    const auto known = mesh_gapes_.find(scene);
+    const auto& [gape, validity] = gapes[scene] =
         known != mesh_gapes_.end()
             ? known->second
             : MeshOpening{gape_of(*scene),

@@ -70,13 +70,13 @@ class Plots : public QWidget, public Panel {
   QLabel* probe_note_;
   WoundTable* wounds_;
   AnalysisPanel* analysis_;
-  std::map<const Field*, Curve> gapes_;  // of the fields shown
+  std::map<std::shared_ptr<const Field>, Curve> gapes_;  // of the fields shown
   /// Of the wounds of a case in a mesh.
   struct MeshOpening {
     Curve gape;
     std::vector<Validity> validity;
   };
-  std::map<const WoundScene*, MeshOpening> mesh_gapes_;  // likewise, of the scenes of a mesh
+  std::map<std::shared_ptr<const WoundScene>, MeshOpening> mesh_gapes_;  // likewise, of the scenes of a mesh
   std::array<Curve, 3> probed_;
   std::optional<double> probed_error_;
   Curve profile_;

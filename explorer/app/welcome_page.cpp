@@ -70,19 +70,21 @@ WelcomePage::WelcomePage(Actions actions) : actions_(std::move(actions)) {
   examples_->layout()->setContentsMargins(0, 0, 0, 0);
   examples_->layout()->setSpacing(0);
   column->addWidget(examples_);
-  auto* last = text("recent_title", tr("Opened last:"));
-  column->addWidget(last);
+  recent_title_ = text("recent_title", tr("Opened last:"));
+  column->addWidget(recent_title_);
   recent_ = new QListWidget;
   recent_->setObjectName("recent");
   recent_->setAccessibleName(tr("Opened last"));
   recent_->setTextElideMode(Qt::ElideMiddle);
-  recent_->setMinimumHeight(4 * fontMetrics().lineSpacing());
-  column->addWidget(recent_, 1);
+  recent_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+  recent_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  column->addWidget(recent_);
   const QString meshes = QString::fromStdString(mesh_endings(MeshKind::surface, MeshUse::read));
   column->addWidget(
       text("hint", tr("Studies, field files, meshes (%1) and pictures taken here can be dropped onto "
                       "this window. <b>F1</b> shows all keys and commands.")
                        .arg(meshes)));
+  column->addStretch(1);
   setWidget(page);
   connect(recent_, &QListWidget::itemActivated, this,
           [this](QListWidgetItem* item) { actions_.open(item->text().toStdString()); });
@@ -92,6 +94,8 @@ WelcomePage::WelcomePage(Actions actions) : actions_(std::move(actions)) {
 void WelcomePage::refresh() {
   recent_->clear();
   recent_->addItems(recent_files());
+  for (QWidget* w : {static_cast<QWidget*>(recent_title_), static_cast<QWidget*>(recent_)})
+    w->setVisible(recent_->count() > 0);
   qDeleteAll(examples_->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));
   for (const Example& example : examples_in(examples_folder(), computed_examples_folder())) {
     auto* link = new QCommandLinkButton(tr("Example: %1").arg(example.title), example.help);

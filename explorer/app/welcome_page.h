@@ -29,6 +29,7 @@ class WelcomePage : public QScrollArea {
 
  private:
   Actions actions_;
+  QWidget* recent_title_;
   QListWidget* recent_;
   QWidget* examples_;
 };

@@ -1,6 +1,7 @@
 #include "explorer/app/wound_table.h"
 
 #include <QHeaderView>
+#include <cmath>
 
 namespace cleft {
 
@@ -38,7 +39,11 @@ void WoundTable::show_wounds() {
   setRowCount(static_cast<int>(wounds.size()));
   for (std::size_t i = 0; i < wounds.size(); ++i) {
     const WoundFigures& f = wounds[i];
-    const auto number = [](double value) { return QString::number(value, 'g', 3); };
+    // Three digits, without an exponent.
+    const auto number = [](double value) {
+      return std::abs(value) < 1000 ? QString::number(value, 'g', 3)
+                                    : QString::number(10 * std::round(value / 10), 'f', 0);
+    };
     QString opening = number(f.widest), why;
     if (i < validity.size()) {
       opening += tr(" \u00b1 %1").arg(validity[i].expected_error.largest * f.widest, 0, 'g', 2);

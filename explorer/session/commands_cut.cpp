@@ -199,6 +199,11 @@ void paint_tension(Session& session, CommandWords& words) {
   set_tension(session, tension);
 }
 
+/// Without an exponent.
+std::string three_digits(double value) {
+  return std::abs(value) < 1000 ? formatted("%.3g", value) : formatted("%.0f", 10 * std::round(value / 10));
+}
+
 void wounds(Session& session, CommandWords& words) {
   const std::string file = words.empty() ? "" : words.text("a file .csv");
   words.expect_end();
@@ -213,8 +218,8 @@ void wounds(Session& session, CommandWords& words) {
         formatted("cut %zu: %.1f mm long, %.2g mm deep; opens by up to %.2f", i + 1, f.length, f.depth,
                   f.widest) +
         (i < validity.size() ? formatted(" +- %.2g", error) : "") +
-        formatted(" mm, at %.1f mm; %.3g mm2 between its lips, %.3g mm3 between its walls", f.widest_at,
-                  f.area, f.volume) +
+        formatted(" mm, at %.1f mm; %s mm2 between its lips, %s mm3 between its walls", f.widest_at,
+                  three_digits(f.area).c_str(), three_digits(f.volume).c_str()) +
         (i < validity.size() ? "; mostly uncertain because " + validity[i].expected_error.cause : ""));
     csv += std::to_string(i + 1);
     for (const double value : {f.length, f.depth, f.widest, error, f.widest_at, f.area, f.volume})

@@ -96,8 +96,12 @@ void Furniture::set_axes(const std::array<const char*, 3>& names) {
 }
 
 void Furniture::set_ink(double red, double green, double blue) {
-  for (vtkTextActor* text : {title_.Get(), time_.Get(), length_.Get()})
+  const double paper = red + green + blue > 1.5 ? 0.1 : 0.95;  // under words, which may lie over the skin
+  for (vtkTextActor* text : {title_.Get(), time_.Get(), length_.Get()}) {
     text->GetTextProperty()->SetColor(red, green, blue);
+    text->GetTextProperty()->SetBackgroundColor(paper, paper, paper);
+    text->GetTextProperty()->SetBackgroundOpacity(0.55);
+  }
   bar_->GetProperty()->SetColor(red, green, blue);
   for (vtkCaptionActor2D* caption :
        {axes_->GetXAxisCaptionActor2D(), axes_->GetYAxisCaptionActor2D(), axes_->GetZAxisCaptionActor2D()})

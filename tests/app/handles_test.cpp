@@ -134,6 +134,17 @@ TEST_F(Handles, ACutIsChosenInThePictureInTheTableAndByItsKey) {
   EXPECT_FALSE(widget<QAction>("handles").isEnabled());
 }
 
+TEST_F(Handles, TheTableOfWoundsHasNoExponents) {
+  tell("set skin.prestress_v 0.05");
+  tell("undo"), tell("undo");
+  tell("cut -28,0.7,0,0,0,1 0,0.7,0,0,0,1 28,0.7,0,0,0,1 depth 25");
+  ASSERT_GT(real_.scene()->wound_figures(now().time).front().volume, 1000);
+  widget<QTabWidget>("plot_pages").setCurrentIndex(3);
+  settle(300);
+  const QString volume = widget<QTableWidget>("wounds").item(0, 4)->text();
+  EXPECT_EQ(volume.indexOf("e"), -1) << volume.toStdString();
+}
+
 TEST_F(Handles, APressBesideAHandleTurnsThePictureAndChangesNoCut) {
   const std::string before = cut_line("cut", first());
   drag(at({-5, -15, 0}), at({5, -12, 0}));

@@ -256,6 +256,18 @@ TEST_F(WindowTest, CurvesAreThoseOfTheWoundWithItsExpectedError) {
   EXPECT_EQ(error.back(), 0) << "the end is closed";
 }
 
+TEST_F(WindowTest, CurvesKeepTheWoundsThatTheyAreOf) {
+  tell("open " + study());
+  tell("mesh " + mesh());
+  tell("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  settle(500);  // the curves are drawn
+  const std::weak_ptr<const WoundScene> wounds = real_.scene();
+  tell("undo");
+  EXPECT_FALSE(wounds.expired()) << "another wound could take its place in memory, and its curves";
+  settle(500);
+  EXPECT_TRUE(wounds.expired()) << "until other curves are drawn";
+}
+
 TEST_F(WindowTest, WithoutTheScalpelDraggingTurnsThePicture) {
   tell("open " + study());
   tell("mesh " + mesh());

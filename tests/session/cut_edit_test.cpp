@@ -246,6 +246,18 @@ TEST_F(SessionTest, HandlesAreShownSavedAndGoWithTheirCut) {
   EXPECT_TRUE(session_.overlay().empty());
 }
 
+TEST_F(SessionTest, FiguresOfLargeWoundsHaveNoExponent) {
+  open();
+  say("set skin.prestress_v 0.05");
+  say("mesh plate.stl");
+  say("cut -28,0.7,0,0,0,1 0,0.7,0,0,0,1 28,0.7,0,0,0,1 depth 25");
+  const double volume = session_.scene()->wound_figures(state().time).front().volume;
+  ASSERT_GT(volume, 1000);
+  answers_.clear();
+  say("wounds");
+  EXPECT_NE(answers_.find(formatted(" %.0f mm3", 10 * std::round(volume / 10))), std::string::npos) << answers_;
+}
+
 TEST_F(SessionTest, TheRecordingOfEditsLeadsToTheSameState) {
   cut_plate();
   say("edit-cut 1 point 2 0,3,0 reach 6");
