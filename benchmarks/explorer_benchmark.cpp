@@ -149,6 +149,18 @@ void details(MainWindow& window, Session& session, const std::function<void(int)
   }
 }
 
+void shadings(MainWindow& window, const std::function<void(int)>& open_it) {
+  window.scene().set_slowest(HUGE_VAL);
+  window.scene().rest();
+  for (const char* shading : {"plain", "skin", "plain", "skin"}) {
+    const Stopwatch watch;
+    say(window, std::string("shading ") + shading);
+    QApplication::processEvents();
+    std::printf("shading %s: first picture after %.0f ms\n", shading, 1e3 * watch.seconds());
+    time_calls(" the wound opens: whole pictures", 40, open_it);
+  }
+}
+
 void mesh(MainWindow& window, Session& session, const std::string& file, const std::string& path,
           const std::string& scale) {
   say(window, "mesh " + quoted(file) + " " + scale);
@@ -165,6 +177,7 @@ void mesh(MainWindow& window, Session& session, const std::string& file, const s
   for (auto* dock : window.findChildren<QDockWidget*>()) dock->hide();
   window.scene().setFixedSize(1280, 720);
   QApplication::processEvents();
+  shadings(window, open_it);
   details(window, session, open_it);
   say(window, "camera 0 0 4");
   details(window, session, open_it);

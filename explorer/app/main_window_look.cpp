@@ -31,6 +31,8 @@ void MainWindow::make_look_menu(QMenu* menu) {
   checkable("trim", tr("Colours from 2 to 98 % of the values"), [this] {
     say(session_.state().percentiles ? std::string("range auto") : std::string("range ") + trimmed);
   });
+  checkable("shading", "Light as on skin and &wounds",
+            [this] { say(session_.state().lifelike ? "shading plain" : "shading skin"); });
   checkable(
       "edges", tr("&Edges of triangles"), [this] { say(session_.state().edges ? "edges off" : "edges on"); },
       QKeySequence("E"));
@@ -54,6 +56,7 @@ void MainWindow::follow_look() {
   check("map_auto", s.map.empty());
   for (const ColorMap& map : color_maps()) check("map_" + map.name, s.map == map.name);
   check("trim", s.percentiles.has_value());
+  check("shading", s.lifelike);
   check("edges", s.edges);
   check("clip", s.clip.has_value());
 }

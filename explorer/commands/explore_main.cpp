@@ -18,7 +18,7 @@ using namespace cleft;
 namespace {
 
 struct Options {
-  std::string study, mesh, path, bone, screenshot, script, state;
+  std::string study, mesh, path, bone, screenshot, script, state, shading;
   double scale = 1;  ///< mm in a unit of the mesh and the path
   int shown_case = 1;
   double time = -1;  ///< the end, where none is given
@@ -51,6 +51,10 @@ void add_options(CommandLine& app, Options& o) {
   app.add_option("--zoom", o.zoom, "1: everything is in the picture")
       ->check(in_range(0.1, 100.))
       ->capture_default_str();
+  app.add_option(
+      "--shading", o.shading,
+      "Light of skin and wounds: skin, as in life, or plain; default: skin in the window, plain in "
+      "pictures");
   app.add_option("--size", o.size,
                  "WIDTH,HEIGHT in pixels; default: 1280,720, a window as it was closed last")
       ->delimiter(',')
@@ -59,9 +63,14 @@ void add_options(CommandLine& app, Options& o) {
   app.footer("Commands, for --script and in the window:\n\n" + help_sheet());
 }
 
+bool has_window(const Options& o) { return o.script.empty() && o.screenshot.empty(); }
+
 /// The options as commands.
 void begin(Session& session, const CommandLine& app, const Options& o) {
   if (!o.state.empty()) session.say("load " + quoted(o.state));
+  const std::string usual = has_window(o) && o.state.empty() ? "skin" : "";
+  if (const std::string& shading = o.shading.empty() ? usual : o.shading; !shading.empty())
+    session.say("shading " + quoted(shading));
   if (!o.study.empty()) session.say("open " + quoted(o.study));
   if (app.count("--case")) session.say("case " + std::to_string(o.shown_case));
   if (!o.mesh.empty()) session.say("mesh " + quoted(o.mesh) + " " + shortest(o.scale));
@@ -79,7 +88,7 @@ void explore(const CommandLine& app, const Options& o) {
   if (!o.screenshot.empty())
     session.say("screenshot " + quoted(o.screenshot) + " " + std::to_string(o.size[0]) + " " +
                 std::to_string(o.size[1]));
-  if (!o.script.empty() || !o.screenshot.empty()) return;
+  if (!has_window(o)) return;
   const std::string file = o.device_file.empty() ? "" : " " + quoted(o.device_file);
   const std::string device = o.device.empty() ? "" : "device " + quoted(o.device) + file;
   std::optional<std::array<int, 2>> size;

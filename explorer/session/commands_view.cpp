@@ -84,6 +84,13 @@ void edges(Session& session, CommandWords& words) {
   session.changes().coloring = true;
 }
 
+void shading(Session& session, CommandWords& words) {
+  const std::string name = words.text("plain or skin");
+  if (name != "plain" && name != "skin") words.wrong("'" + name + "' is neither plain nor skin");
+  session.edit().lifelike = name == "skin";
+  session.changes().coloring = true;
+}
+
 /// Across a cut, mm of its path from its start.
 ClipState across_cut(Session& session, CommandWords& words) {
   const bool mesh = session.mesh() != nullptr;
@@ -148,6 +155,10 @@ std::span<const Command> view_commands() {
        map},
       {"warp", "FACTOR", "displacements are drawn so many times as large as they are", warp, Command::latest},
       {"edges", "on|off", "the edges of the surface's triangles", edges},
+      {"shading", "plain|skin",
+       "skin: light as in skin and on wet wounds, with the shade of folds; colours of values stay as they "
+       "are",
+       shading},
       {"clip", "X,Y,Z DX,DY,DZ | cut N MM | off",
        "leave out what lies beyond a place in a direction, or beyond a place of cut N (of the patch: 1)",
        clip, Command::latest},

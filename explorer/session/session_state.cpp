@@ -156,6 +156,7 @@ SessionState to_state(const Json& j) {
   s.map = j.value("map", "");
   s.warp = j.value("warp", 1.);
   s.edges = j.value("edges", false);
+  s.lifelike = j.value("shading", "plain") == "skin";
   if (j.contains("clip")) s.clip = ClipState{to_vec3(j["clip"].at("place")), to_vec3(j["clip"].at("ahead"))};
   s.brushes = j.at("brushes").get<std::map<std::string, std::pair<double, double>>>();
   s.where = j.at("where");
@@ -234,6 +235,7 @@ std::string state_to_json(const SessionState& s) {
   if (!s.map.empty()) j["map"] = s.map;
   if (s.warp != 1) j["warp"] = s.warp;
   if (s.edges) j["edges"] = true;
+  if (s.lifelike) j["shading"] = "skin";
   if (s.clip) j["clip"] = {{"place", to_json(s.clip->place)}, {"ahead", to_json(s.clip->ahead)}};
   if (s.filtered) j["filtered"] = true;
   if (s.wall) j["wall"] = true;

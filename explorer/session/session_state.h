@@ -98,6 +98,7 @@ struct SessionState {
   std::string map;                ///< of colours (color_maps.h); empty: the usual one for what is shown
   double warp = 1;                ///< by which displacements are multiplied where they are drawn
   bool edges = false;             ///< whether the edges of triangles are drawn
+  bool lifelike = false;          ///< whether skin and wounds are shaded as they look, else plainly
   std::optional<ClipState> clip;  ///< none: everything is drawn
   int reference = -1;             ///< the case that `difference` is relative to
   /// Cases outside these ranges of parameters and figures are faded.

@@ -79,6 +79,7 @@ void Stage::show(Session& session) {
     WoundView& view = *views_[i].view;
     view.set_warp(scenes_[i] == live_ ? 1 : warp_);
     view.set_edges(session.state().edges);
+    view.set_lifelike(session.state().lifelike);
     view.set_clip(session.state().clip);
     const double time = scenes_[i] == live_ ? scenes_[i]->duration() : session.state().time;
     if (scenes_[i] == live_ || view.time() != time) view.set_time(time);

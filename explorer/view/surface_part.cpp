@@ -89,6 +89,35 @@ void SurfacePart::Sheet::take_paint(const std::function<PointColor(int)>& color)
   data->Modified();
 }
 
+void SurfacePart::Sheet::add_array(vtkFloatArray* array, const char* name, int components) {
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(shape.source().size()));
+  data->GetPointData()->AddArray(array);
+}
+
+void SurfacePart::Sheet::take_light(const std::vector<SurfaceLight::Light>& of_points,
+                                    const std::vector<Vec3>& places) {
+  const bool fresh = !data->GetPointData()->HasArray(light_array);
+  if (fresh) {
+    add_array(light, light_array, 2);
+    add_array(rest, rest_array, 3);
+    float* to = rest->GetPointer(0);
+    for (const int point : shape.source())
+      for (int k = 0; k < 3; ++k) *to++ = static_cast<float>(places[point][k]);
+  }
+  float* to = light->GetPointer(0);
+  bool changed = fresh;
+  for (const int point : shape.source()) {
+    const auto& [open, dry] = of_points[point];
+    changed = changed || to[0] != open || to[1] != dry;
+    *to++ = open, *to++ = dry;
+  }
+  if (!changed) return;
+  light->Modified();
+  data->Modified();
+}
+
 SurfacePart::SurfacePart(const WoundSurface& surface, const std::function<bool(Region)>& belongs,
                          const std::vector<bool>& moving) {
   Triangles all;
@@ -124,6 +153,11 @@ void SurfacePart::color(const std::function<double(int)>& scalar) {
 void SurfacePart::paint(const std::function<PointColor(int)>& color) {
   moving_->take_paint(color);
   still_->take_paint(color);
+}
+
+void SurfacePart::light(const std::vector<SurfaceLight::Light>& of_points, const std::vector<Vec3>& rest) {
+  moving_->take_light(of_points, rest);
+  still_->take_light(of_points, rest);
 }
 
 std::array<int, 3> SurfacePart::corners(const vtkPolyData* of, std::size_t cell) const {

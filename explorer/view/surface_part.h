@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "explorer/view/open_sky.h"
 #include "explorer/view/smooth_normals.h"
 
 namespace cleft {
@@ -33,6 +34,11 @@ class SurfacePart {
   void paint(const std::function<PointColor(int point)>& color);
   static constexpr const char* painted = "painted";
 
+  /// Gives every vertex the light of its point, in the array `light_array` of two components: open, dry; and
+  /// its place at rest, in `rest_array`, to which its grain sticks.
+  void light(const std::vector<SurfaceLight::Light>& of_points, const std::vector<Vec3>& rest);
+  static constexpr const char *light_array = "light", *rest_array = "rest";
+
   vtkPolyData* data() const { return moving_->data; }
   vtkPolyData* still() const { return still_->data; }  ///< without triangles if all moves
 
@@ -46,12 +52,15 @@ class SurfacePart {
     void put(const std::vector<Vec3>& points);  ///< with the normals there are
     void take_colors(const std::function<double(int)>& scalar);
     void take_paint(const std::function<PointColor(int)>& color);
+    void take_light(const std::vector<SurfaceLight::Light>& of_points, const std::vector<Vec3>& rest);
+    void add_array(vtkFloatArray* array, const char* name, int components);
 
     SmoothNormals shape;
     std::vector<Vec3> normal;  // of every vertex, as drawn
     vtkNew<vtkPolyData> data;
     vtkNew<vtkFloatArray> points, normals, scalars;
-    vtkNew<vtkUnsignedCharArray> paint;  // part of the data once there is any
+    vtkNew<vtkFloatArray> light, rest;   // part of the data once there is any
+    vtkNew<vtkUnsignedCharArray> paint;  // likewise
   };
   std::optional<Sheet> moving_, still_;
 };

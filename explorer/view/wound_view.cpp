@@ -82,6 +82,7 @@ void WoundView::show(std::shared_ptr<const WoundScene> scene, std::optional<doub
   skin_.emplace(
       surface, [](Region r) { return r == Region::skin; }, scene_->moving());
   walls_.emplace(surface, [](Region r) { return r != Region::skin; });
+  lit_ = false;
   add_actors();
   set_time(t.value_or(scene_->duration()));
   if (first) aim({});
@@ -187,6 +188,7 @@ void WoundView::add_actors() {
   show_opacity();
   show_edges();
   show_section();
+  show_light();
   walls_->color([this](int p) { return scene_->surface().depth_fraction[p]; });
   set_background();
 }
@@ -225,7 +227,9 @@ void WoundView::set_warp(double factor) {
 void WoundView::set_edges(bool visible) {
   if (visible == edges_) return;
   edges_ = visible;
-  if (scene_) show_edges();
+  if (!scene_) return;
+  add_actors();
+  set_time(time_);
 }
 
 void WoundView::show_edges() {
@@ -289,6 +293,11 @@ void WoundView::set_time(double t) {
   CLEFT_CHECK(points_.size(), ==, scene_->surface().points.size());
   skin_->move(points_);
   walls_->move(points_);
+  if (lifelike_ && lit_) {
+    light_->at(points_, lights_);
+    skin_->light(lights_, rest);
+    walls_->light(lights_, rest);
+  }
   if (is_look(coloring_)) return;
   scene_->values(coloring_, reference_.get(), time_, values_);
   skin_->color([this](int p) { return values_[p]; });

@@ -15,8 +15,10 @@
 
 #include "explorer/scene/wound_scene.h"
 #include "explorer/session/session_state.h"
+#include "explorer/view/open_sky.h"
 #include "explorer/view/section_line.h"
 #include "explorer/view/surface_part.h"
+#include "haptic/pose.h"
 
 namespace cleft {
 
@@ -47,6 +49,11 @@ class WoundView {
   /// Displacements are drawn so many times as large as they are.
   void set_warp(double factor);
   void set_edges(bool visible);
+  /// Whether skin and wound look as they do in light (lifelike.h), of skin only where it has its own colours
+  /// and no edges: colours of values, and lines, are read more easily in plain light.
+  void set_lifelike(bool on);
+  /// The shade of a scalpel in that light, before every picture; null: there is none.
+  void shade_under(const ScalpelPose* scalpel);
   void set_clip(const std::optional<ClipState>& clip);
 
   void aim(const CameraState& camera);
@@ -80,6 +87,7 @@ class WoundView {
   void show_opacity();
   void show_edges();
   void show_section();
+  void show_light();
   std::vector<double> values_over_time(const Coloring& coloring, const Field* reference);
   double distance_to_see_all(const Vec3& middle, double view_angle) const;
   void add_prop(vtkProp* prop);
@@ -105,7 +113,9 @@ class WoundView {
   bool dark_ = false, is_faded_ = false, has_legend_ = true;
   std::string map_;
   double opacity_ = 1, warp_ = 1;
-  bool edges_ = false;
+  bool edges_ = false, lifelike_ = false, lit_ = false;  // lit_: light_ is of the scene
+  std::unique_ptr<SurfaceLight> light_;                  // as last needed
+  std::vector<SurfaceLight::Light> lights_;
   std::optional<ClipState> clip_;
   std::optional<SectionLine> section_;
   std::vector<double> values_;

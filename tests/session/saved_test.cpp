@@ -32,12 +32,16 @@ TEST_F(SessionTest, HowTheSurfaceIsDrawnIsACommandThatIsSaved) {
   say("warp 2.5");
   say("map viridis");
   say("edges on");
+  say("shading skin");
   say("range 2% 98%");
   say("clip cut 1 10");
   const SessionState saved = state_from_json(state_to_json(state()));
   EXPECT_EQ(saved.warp, 2.5);
   EXPECT_EQ(saved.map, "viridis");
   EXPECT_TRUE(saved.edges);
+  EXPECT_TRUE(saved.lifelike);
+  EXPECT_FALSE(state_from_json(state_to_json(SessionState{})).lifelike) << "as in sessions of before";
+  EXPECT_NE(refused("shading skim").find("'skim'"), std::string::npos);
   EXPECT_EQ(saved.percentiles, (std::pair{2., 98.}));
   ASSERT_TRUE(saved.clip);
   EXPECT_EQ(saved.clip->place.x, -5) << "the cut begins at u = -15";
