@@ -1,57 +1,38 @@
 #include "explorer/view/scalpel_view.h"
 
-#include <vtkCellArray.h>
 #include <vtkMatrix4x4.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 
-#include <cmath>
-#include <vector>
+#include <algorithm>
+
+#include "explorer/view/lifelike.h"
+#include "explorer/view/scalpel_shape.h"
 
 namespace cleft {
 
 namespace {
 
-/// A prism: an outline in the plane of edge (x) and axis (z), and as far as `thick` on either side of it.
-vtkSmartPointer<vtkPolyData> prism(const std::vector<std::pair<double, double>>& outline, double thick) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> faces;
-  const auto count = static_cast<vtkIdType>(outline.size());
-  for (const double y : {-thick, thick})
-    for (const auto& [x, z] : outline) points->InsertNextPoint(x, y, z);
-  std::vector<vtkIdType> below, above;
-  for (vtkIdType i = 0; i < count; ++i) below.push_back(i), above.push_back(2 * count - 1 - i);
-  faces->InsertNextCell(count, below.data());
-  faces->InsertNextCell(count, above.data());
-  for (vtkIdType i = 0; i < count; ++i) {
-    const vtkIdType next = (i + 1) % count, side[] = {i, i + count, next + count, next};
-    faces->InsertNextCell(4, side);
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(faces);
-  return data;
-}
-
-void dress(vtkActor* actor, vtkPolyData* data, double grey, double specular) {
+void dress(vtkActor* actor, vtkPolyData* shape, double grey) {
+  constexpr double crease = 22;  // degrees: edges between faces stay sharp
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(shape);
+  normals->SetFeatureAngle(crease);
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
+  mapper->SetInputConnection(normals->GetOutputPort());
   actor->SetMapper(mapper);
   actor->PickableOff();
-  actor->GetProperty()->SetInterpolationToFlat();
-  actor->GetProperty()->SetColor(grey, grey, grey * 1.05);
-  actor->GetProperty()->SetSpecular(specular);
-  actor->GetProperty()->SetSpecularPower(25);
+  actor->GetProperty()->SetInterpolationToPhong();
+  actor->GetProperty()->SetColor(grey, grey, std::min(1., grey * 1.03));
+  light_as_steel(actor);
 }
 
 }  // namespace
 
 ScalpelView::ScalpelView(vtkRenderer* renderer) : renderer_(renderer) {
-  // The edge is ahead; the back of the blade is straight.
-  dress(blade_, prism({{0, 0}, {2.2, 3}, {3, 8}, {2.4, 14}, {-1.2, 14}, {-1.2, 4}}, 0.15), 0.8, 0.6);
-  dress(handle_, prism({{-1.2, 14}, {2.4, 14}, {3, 22}, {3, 90}, {-2, 90}, {-2, 22}}, 1.1), 0.45, 0.3);
+  dress(blade_, scalpel_blade(), 0.92);
+  dress(handle_, scalpel_handle(), 0.70);
   renderer_->AddViewProp(blade_);
   renderer_->AddViewProp(handle_);
 }

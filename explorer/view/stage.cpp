@@ -115,6 +115,7 @@ bool Stage::take_scenes(Session& session) {
 void Stage::follow_camera() {
   for (std::size_t i = 0; i < views_.size(); ++i) {
     View& view = views_[i];
+    view.view->shade_under(scalpel_ && scenes_[i] == live_ ? &scalpel_->pose : nullptr);
     const double detail = view.whole ? detail_of(view) : 0;
     if (detail == view.detail) continue;
     view.detail = detail;
