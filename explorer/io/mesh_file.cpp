@@ -27,6 +27,7 @@
 #include "base/text.h"
 #include "base/vtk_listener.h"
 #include "explorer/io/formats/mesh_formats.h"
+#include "explorer/io/gltf_file.h"
 #include "explorer/io/mesh_checks.h"
 #include "explorer/io/obj_texture.h"
 #include "explorer/io/ply_file.h"
@@ -118,8 +119,7 @@ PointColor color_at(const vtkUnsignedCharArray& colors, vtkIdType point) {
   return color;
 }
 
-vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, Told& told) {
-  const PlyPolygons ply = read_ply(path);
+vtkSmartPointer<vtkPolyData> triangles_of(const PlyPolygons& ply, Told& told) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (const Vec3& p : ply.points) points->InsertNextPoint(p.x, p.y, p.z);
@@ -134,6 +134,16 @@ vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, Told& told) 
   data->SetPolys(cells);
   if (!ply.colors.empty()) data->GetPointData()->AddArray(color_array(ply.colors));
   return merged_triangles(data, told.merged_points);
+}
+
+vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, Told& told) {
+  return triangles_of(read_ply(path), told);
+}
+
+vtkSmartPointer<vtkPolyData> read_gltf_mesh(const std::string& path, Told& told) {
+  const GltfMesh gltf = read_gltf(path);
+  told.note = gltf.note;
+  return triangles_of(gltf.mesh, told);
 }
 
 vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
@@ -199,6 +209,8 @@ constexpr SurfaceFile surface_files[] = {
     {".obj", check_obj, read_with<vtkOBJReader>, write_obj},
     {".ply", nullptr, read_ply_mesh, write_ply},
     {".vtp", nullptr, read_with<vtkXMLPolyDataReader>, write_vtp},
+    {".glb", nullptr, read_gltf_mesh, nullptr},
+    {".gltf", nullptr, read_gltf_mesh, nullptr},
 };
 
 constexpr const SurfaceFile* file_of(std::string_view ending) {

@@ -11,11 +11,9 @@ namespace cleft {
 
 /// Gives `data`, as VTK reads it from the .obj at `path`, the colours of the image that its material maps
 /// (map_Kd in the file of `mtllib`), each the mean of the image over half the way to the nearest neighbours,
-/// as an array RGB of the points. They are left out where they are further than `most_lost` from the image,
-/// on the mean over the triangles, and where no single image can be read. Returns what is to be said of that;
-/// empty: no texture.
+/// as an array RGB of the points. They are left out where they are further than `most_lost`
+/// (texture_colors.h) from the image, on the mean over the triangles, and where no single image can be read.
+/// Returns what is to be said of that; empty: no texture.
 std::string add_texture_colors(const std::string& path, vtkPolyData* data);
-
-inline constexpr double most_lost = 0.06;  ///< of the full range, 0 to 1
 
 }  // namespace cleft

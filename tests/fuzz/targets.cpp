@@ -66,7 +66,8 @@ void read_path(const std::uint8_t* data, std::size_t size) {
 void read_and_cut_mesh(const std::uint8_t* data, std::size_t size) {
   if (size < 1) return;
   const char* endings[] = {".obj", ".stl", ".ply", ".vtp"};
-  const InputFile file(endings[data[0] % 4], data + 1, size - 1);
+  const char* ending = data[0] == 'g' ? ".glb" : data[0] == 't' ? ".gltf" : endings[data[0] % 4];
+  const InputFile file(ending, data + 1, size - 1);
   try {
     const SurfaceMesh mesh = read_mesh(file.path());
     if (mesh.triangles.size() < 10000) cut_once(mesh);

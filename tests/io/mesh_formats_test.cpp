@@ -67,11 +67,11 @@ void expect_in(const std::string& text, const std::string& part) {
 }
 
 TEST_F(MeshFormats, AreTheOnesThatTextsName) {
-  EXPECT_EQ(surfaces, ".stl .obj .ply .vtp");
+  EXPECT_EQ(surfaces, ".stl .obj .ply .vtp .glb .gltf");
   EXPECT_EQ(written, ".stl .obj .ply .vtp");
   EXPECT_EQ(volumes, ".vtu");
   EXPECT_EQ(mesh_endings_with_arrays(), ".vtp .vtu");
-  EXPECT_EQ(surface_filter(MeshUse::read), "Surface meshes (*.stl *.obj *.ply *.vtp)");
+  EXPECT_EQ(surface_filter(MeshUse::read), "Surface meshes (*.stl *.obj *.ply *.vtp *.glb *.gltf)");
   EXPECT_EQ(surface_filter(MeshUse::write), "Surface meshes (*.stl *.obj *.ply *.vtp)");
   const std::string cut_help = run_cleft("cut", {"--help"}).output;
   expect_in(cut_help, "surface mesh: " + surfaces + "; or a mesh of volume: " + volumes);

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/text.h"
 #include "explorer/io/mesh_file.h"
 #include "tests/incision/meshes.h"
 #include "tests/pipeline/commands.h"
@@ -148,6 +149,20 @@ TEST_F(ObjTexture, ThatCannotBeReadLeavesTheMeshWithoutColors) {
                                "f -3/1 -2/1 -1/1\n");
   EXPECT_TRUE(two.colors.empty());
   EXPECT_NE(two.note.find("2 textures or none"), std::string::npos) << two.note;
+}
+
+/// VTK's own reader ends the program there.
+TEST_F(ObjTexture, ThatIsDamagedIsToldOf) {
+  write_image<vtkPNGWriter>(in / "skin.png");
+  in.write("a.mtl", "newmtl skin\nmap_Kd skin.png\n");
+  std::string image = read_text_file(in / "skin.png");
+  const std::size_t data = image.find("IDAT");
+  ASSERT_NE(data, std::string::npos);
+  for (std::size_t at = data + 20; at < data + 60; ++at) image[at] = '\x55';
+  in.write("skin.png", image);
+  const SurfaceMesh mesh = read(obj_of_plate("a.mtl"));
+  EXPECT_TRUE(mesh.colors.empty());
+  EXPECT_NE(mesh.note.find("skin.png is no image that can be read"), std::string::npos) << mesh.note;
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ struct MeshFormat {
 };
 
 inline constexpr MeshFormat mesh_formats[] = {
-    {".stl", MeshKind::surface, true, false}, {".obj", MeshKind::surface, true, false},
-    {".ply", MeshKind::surface, true, false}, {".vtp", MeshKind::surface, true, true},
+    {".stl", MeshKind::surface, true, false},  {".obj", MeshKind::surface, true, false},
+    {".ply", MeshKind::surface, true, false},  {".vtp", MeshKind::surface, true, true},
+    {".glb", MeshKind::surface, false, false}, {".gltf", MeshKind::surface, false, false},
     {".vtu", MeshKind::volume, true, true},
 };
 
@@ -35,12 +36,12 @@ bool is_mesh(const std::string& path, MeshKind kind);
 /// to be written and Cleft only reads it.
 const MeshFormat& surface_format(const std::string& path, MeshUse use);
 
-/// Endings as texts list them: ".stl .obj .ply .vtp".
+/// Endings as texts list them: ".stl .obj .ply .vtp .glb .gltf".
 std::string mesh_endings(MeshKind kind, MeshUse use);
 /// Those of all formats whose written files hold arrays of the points.
 std::string mesh_endings_with_arrays();
 
-/// The surfaces as a file dialog takes them: "Surface meshes (*.stl *.obj *.ply *.vtp)".
+/// The surfaces as a file dialog takes them: "Surface meshes (*.stl *.obj ...)".
 std::string surface_filter(MeshUse use);
 
 }  // namespace cleft
