@@ -36,6 +36,7 @@ void Session::say(const std::string& line) {
     CommandWords rest(command.name, command.arguments, {words.begin() + 1, words.end()});
     command.run(*this, rest);
     rest.expect_end();
+    judge_cuts();  // cuts whose opening cannot be judged cannot be opened either
   } catch (...) {
     opened_ = before;
     busy_ = false;
@@ -53,7 +54,6 @@ void Session::say(const std::string& line) {
     if (!command.looks && !moved_)
       remember(line, before, same_slider || (again && command.recorded == Command::latest));
   }
-  judge_cuts();
   notify();
 }
 
@@ -103,6 +103,13 @@ bool Session::take_prepared() {
   if (!between.preparing || busy_ || !between.reader->ready()) return between.preparing;
   changes_ = {};
   finish_preparing(*this);
+  try {
+    judge_cuts();
+  } catch (const InputError& e) {  // the nearest case stays
+    opened_.between.field = nullptr;
+    opened_.between.why_nearest = e.what();
+    opened_.drawn.scenes.erase(state().shown);
+  }
   notify();
   return false;
 }

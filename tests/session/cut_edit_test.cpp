@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "explorer/session/actions.h"
+#include "tests/session/raw_study.h"
 #include "tests/session/session_fixture.h"
 
 namespace cleft {
@@ -255,7 +256,20 @@ TEST_F(SessionTest, FiguresOfLargeWoundsHaveNoExponent) {
   ASSERT_GT(volume, 1000);
   answers_.clear();
   say("wounds");
-  EXPECT_NE(answers_.find(formatted(" %.0f mm3", 10 * std::round(volume / 10))), std::string::npos) << answers_;
+  EXPECT_NE(answers_.find(formatted(" %.0f mm3", 10 * std::round(volume / 10))), std::string::npos)
+      << answers_;
+}
+
+TEST_F(SessionTest, CutsThatAFieldCannotOpenTogetherAreRefusedAndTheFirstStays) {
+  say("open " + raw_study());  // its fields do not tell the tension along the cut
+  say("mesh plate.stl");
+  say("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
+  const std::string before = state_to_json(state());
+  const std::vector<Vec3> once = points();
+  EXPECT_NE(refused("cut -10,12,0,0,0,1 10,12,0,0,0,1").find("or make one cut"), std::string::npos);
+  EXPECT_EQ(state_to_json(state()), before);
+  EXPECT_EQ(session_.validity().size(), 1u);
+  EXPECT_EQ(points(), once);
 }
 
 TEST_F(SessionTest, TheRecordingOfEditsLeadsToTheSameState) {
