@@ -96,6 +96,7 @@ class Monkey : public WindowTest {
   void slide() {
     const QList<QSlider*> sliders = window_.findChildren<QSlider*>();
     QSlider* slider = sliders[static_cast<int>(below(static_cast<std::size_t>(sliders.size())))];
+    done_ = "the slider " + slider->objectName().toStdString();
     if (slider->isEnabled()) slider->setValue(static_cast<int>(part() * slider->maximum()));
   }
 
@@ -120,7 +121,9 @@ class Monkey : public WindowTest {
                                 Qt::Key_PageDown, Qt::Key_Escape, Qt::Key_P,     Qt::Key_Z,
                                 Qt::Key_C,        Qt::Key_T,      Qt::Key_1,     Qt::Key_4,
                                 Qt::Key_Home,     Qt::Key_H,      Qt::Key_E,     Qt::Key_M};
-    QTest::keyClick(&window_, keys[below(std::size(keys))]);
+    const Qt::Key key = keys[below(std::size(keys))];
+    done_ = "the key " + QKeySequence(key).toString().toStdString();
+    QTest::keyClick(&window_, key);
   }
 
   void act() {
@@ -132,6 +135,7 @@ class Monkey : public WindowTest {
       case 2:
         return press_key();
       case 3:
+        done_ = "a drag";
         return below(3) == 0 && drag_handle() ? void()
                                               : drag_over(window_.scene(), part(), part(), part(), part(), 6);
       default:

@@ -79,7 +79,8 @@ class Translated : public SessionTest {
   /// What a user has typed, or what comes from the session.
   static bool is_data(const QWidget* w) {
     return (qobject_cast<const QLineEdit*>(w) && w->property("placeholderText").toString().isEmpty()) ||
-           w->objectName().endsWith(".value") || w->objectName() == "certainty" || w->objectName() == "message";
+           w->objectName().endsWith(".value") || w->objectName() == "certainty" ||
+           w->objectName() == "message";
   }
 
   std::string mesh_ = folder_ / "plate.stl";
