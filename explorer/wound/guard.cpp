@@ -18,6 +18,7 @@ void Guard::sort() {
   });
   for (const Row& row : rows_) vertices_.push_back(row.vertex);
   for (const Share& share : shares_) vertices_.push_back(share.vertex);
+  moments_.sort();
   std::sort(vertices_.begin(), vertices_.end());
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
 }
@@ -42,7 +43,7 @@ void Guard::forget(int vertex) {
   });
 }
 
-void Guard::apply(const Vec3* rest, Vec3* positions) const {
+void Guard::apply(std::size_t cut, double s, const Vec3* rest, Vec3* positions) const {
   for (const Row& row : rows_) {
     Vec3 sum;
     for (std::size_t i = row.first; i < row.last; ++i) {
@@ -51,6 +52,7 @@ void Guard::apply(const Vec3* rest, Vec3* positions) const {
     }
     positions[row.vertex] = rest[row.vertex] + sum;
   }
+  moments_.apply(cut, s, rest, positions);
 }
 
 }  // namespace cleft

@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "explorer/wound/guard_moments.h"
 
 namespace cleft {
 
 /// Displacements of some vertices, as sums of parts of the displacements that vertices have without it. The
-/// parts are constant in time, so that time can still run both ways; without such vertices it costs nothing.
+/// parts are constant in time, but for moments in which the blade passes: then displacements are reduced by a
+/// factor that depends on the position of the blade alone, so that time can still run both ways. Without such
+/// vertices it costs nothing.
 class Guard {
  public:
   struct Share {
@@ -26,21 +29,29 @@ class Guard {
   /// The displacement of `vertex` is the sum of the shares. Whoever takes from others must not be one of
   /// their shares; whoever takes only a part of its own may be.
   void replace(int vertex, std::span<const Share> shares, double change);
-  /// Must be called after the last replace().
+  /// Reduces the displacement of a vertex for a moment; see GuardMoments.
+  void hold(int vertex, std::size_t cut, const GuardMoments::Moment& moment) {
+    moments_.hold(vertex, cut, moment);
+  }
+  /// Must be called after the last replace() or hold().
   void sort();
   /// The vertex moves again as without the guard, and so do those that take a share of it.
   void forget(int vertex);
 
   /// Whether the displacement of a vertex is replaced.
   bool moves(int vertex) const { return row_of(vertex) != nullptr; }
+  /// Whether no displacement is replaced; for moments some may be reduced.
   bool empty() const { return rows_.empty(); }
+  const GuardMoments& moments() const { return moments_; }
   const std::vector<Change>& changes() const { return changes_; }
   /// The vertices whose displacements are replaced or shared, sorted.
   const std::vector<int>& vertices() const { return vertices_; }
 
-  /// Changes positions without the guard to those with it. Allocates no memory.
-  void apply(const Vec3* rest, Vec3* positions) const;
-  /// The displacement of one vertex, where own(v) is that of vertex v without the guard.
+  /// Changes positions without the guard to those with it, with the blade at s mm of a cut. Allocates no
+  /// memory.
+  void apply(std::size_t cut, double s, const Vec3* rest, Vec3* positions) const;
+  /// The displacement of one vertex with the cuts complete, where own(v) is that of vertex v without the
+  /// guard.
   template <class Own>
   Vec3 displacement(int vertex, const Own& own) const {
     const Row* row = row_of(vertex);
@@ -61,6 +72,7 @@ class Guard {
   std::vector<Row> rows_;  // in the order of apply(): those that take from others first, then by vertices
   std::vector<Share> shares_;
   std::vector<Change> changes_;
+  GuardMoments moments_;
   std::vector<int> vertices_;
 };
 

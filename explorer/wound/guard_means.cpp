@@ -11,15 +11,21 @@ namespace {
 
 /// The height of a sliver over its longest edge at most.
 constexpr double sliver = 0.2;
+/// Of the displacements of its corners: a sliver that little of them turns over is tied in any case.
+constexpr double delicate = 0.01;
 /// How often the vertices that means move are found anew, and how many may hang together.
 constexpr int mean_rounds = 6;
 constexpr std::size_t most_together = 150;
+/// Of the largest opening, twice the largest displacement: by as much those differ at most that are joined,
+/// with the cuts complete.
+constexpr double most_joined = 0.04;
 
 }  // namespace
 
 /// Inside of the skin: its ring is closed.
 bool GuardSearch::is_free(int n) const {
   const int v = vertex_[n];
+  if (leader_[n] >= 0) return false;
   try {
     return mesh_.vertex(v).kind == VertexKind::skin && mesh_.fan(v).size() == around_[n].size() &&
            !mesh_.on_boundary(v) && !mesh_.on_wound(v);
@@ -56,7 +62,7 @@ bool GuardSearch::tie(int triangle, std::vector<int>& group) {
   const int v = corner[middle], a = corner[(middle + 1) % 3], b = corner[(middle + 2) % 3], n = number_[v];
   const Vec3 along = mesh_.position(b) - mesh_.position(a), from = mesh_.position(v) - mesh_.position(a);
   const VertexKind kind = mesh_.vertex(v).kind;
-  if (n < 0 || in_group_[n] || norm(cross(along, from)) > sliver * longest * longest ||
+  if (n < 0 || in_group_[n] || leader_[n] >= 0 || norm(cross(along, from)) > sliver * longest * longest ||
       (kind != VertexKind::left_lip && kind != VertexKind::right_lip && !is_free(n)))
     return false;
   const double part = dot(from, along) / squared_norm(along);
@@ -95,44 +101,127 @@ bool GuardSearch::grow(std::vector<int>& group) {
   return grown;
 }
 
+/// The corners of a triangle that is not sound with the cuts complete, excused or not, move as one of them
+/// does, if they move nearly alike: those of a triangle that is small against what displacements differ by,
+/// as next to crossings, where its corners are on lips. Whether any are newly joined.
+bool GuardSearch::join() {
+  double largest = 0;
+  for (const Vec3& d : own_) largest = std::max(largest, norm(d));
+  const auto apart = [&](int a, int b) {
+    double most = 0;
+    for (std::size_t k = 0; k < times(); ++k)
+      if (lasting_[k]) most = std::max(most, norm(own(a, k) - own(b, k)));
+    return most;
+  };
+  std::sort(doubtful_.begin(), doubtful_.end());
+  doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
+  bool joined = false;
+  for (const int one : doubtful_) {
+    if (one < 0) continue;
+    std::size_t k = 0;
+    while (k < times() && !(lasting_[k] && offends(one, k, false))) ++k;
+    const auto corner = corners(one);
+    if (k == times() || std::any_of(corner.begin(), corner.end(), [this](int v) { return number_[v] < 0; }))
+      continue;
+    std::vector<int> together;  // with those that corners are joined with
+    for (const int v : corner) {
+      const int n = number_[v];
+      together.push_back(n);
+      if (leader_[n] < 0) continue;
+      for (std::size_t m = 0; m < leader_.size(); ++m)
+        if (leader_[m] == leader_[n]) together.push_back(static_cast<int>(m));
+    }
+    int leader = -1;
+    double least = most_joined * 2 * largest;
+    for (const int candidate : together) {
+      double most = 0;
+      for (const int n : together) most = std::max(most, apart(n, candidate));
+      if (most <= least) leader = candidate, least = most;
+    }
+    if (leader < 0) continue;
+    for (const int n : together) {
+      joined = joined || leader_[n] != leader;
+      leader_[n] = leader;
+    }
+  }
+  return joined;
+}
+
+/// All others begin anew.
+void GuardSearch::move_joined() {
+  for (auto& mean : mean_) mean.clear();
+  for (auto& tie : tie_) tie.clear();
+  in_group_.assign(in_group_.size(), false);
+  for (std::size_t n = 0; n < leader_.size(); ++n)
+    if (leader_[n] >= 0 && leader_[n] != static_cast<int>(n)) mean_[n].push_back({leader_[n], 1});
+  renew(all_numbers());
+  check_all();
+}
+
+/// Slivers so flat that they turn over whenever displacements bend.
+void GuardSearch::find_delicate() {
+  std::vector<double> largest(vertex_.size());  // squared
+  for (std::size_t n = 0; n < vertex_.size(); ++n)
+    for (std::size_t k = 0; k < times(); ++k)
+      largest[n] = std::max(largest[n], squared_norm(own(static_cast<int>(n), k)));
+  for (std::size_t n = 0; n < around_.size(); ++n)
+    for (const int one : around_[n])
+      if (one >= 0 && harmless_[one] < delicate * delicate * largest[n]) delicate_.push_back(one);
+  std::sort(delicate_.begin(), delicate_.end());
+  delicate_.erase(std::unique(delicate_.begin(), delicate_.end()), delicate_.end());
+}
+
 void GuardSearch::spread_means() {
   std::vector<int> group;
+  for (const int one : delicate_) tie(one, group);
+  if (!group.empty()) move_as_means(group);
   for (int round = 0; round < mean_rounds && !offending_.empty(); ++round) {
     if (!grow(group)) return;
-    std::vector<bool> seen(vertex_.size());
-    for (const int first : group) {
-      if (seen[first]) continue;
-      std::vector<int> together{first};
-      seen[first] = true;
-      for (std::size_t i = 0; i < together.size(); ++i)
-        for (const int next : next_[together[i]])
-          if (in_group_[next] && !seen[next]) seen[next] = true, together.push_back(next);
-      solve(together);
-    }
-    renew(group);
-    check(group);
+    move_as_means(group);
   }
+}
+
+/// The vertices of the group move as their means.
+void GuardSearch::move_as_means(const std::vector<int>& group) {
+  // Those hang together that are parts of each other's means.
+  std::vector<std::vector<Part>> means(vertex_.size());
+  std::vector<std::vector<int>> hangs_on(vertex_.size());
+  for (const int n : group) {
+    means[n] = tie_[n].empty() ? mean_of_ring(n) : tie_[n];
+    for (const Part& p : means[n])
+      if (p.number >= 0 && in_group_[p.number])
+        hangs_on[n].push_back(p.number), hangs_on[p.number].push_back(n);
+  }
+  std::vector<bool> seen(vertex_.size());
+  for (const int first : group) {
+    if (seen[first]) continue;
+    std::vector<int> together{first};
+    seen[first] = true;
+    for (std::size_t i = 0; i < together.size(); ++i)
+      for (const int next : hangs_on[together[i]])
+        if (!seen[next]) seen[next] = true, together.push_back(next);
+    solve(together, means);
+  }
+  renew(group);
+  check(group);
 }
 
 /// The displacements with which each of the group is the mean of its ring, from those beside the group; those
 /// of a group that is too large are their own.
-void GuardSearch::solve(const std::vector<int>& group) {
+void GuardSearch::solve(const std::vector<int>& group, const std::vector<std::vector<Part>>& means) {
   for (const int n : group) mean_[n].clear();
   if (group.size() > most_together) return;
   std::vector<int> beside;
-  std::vector<std::vector<Part>> means;
-  for (const int n : group) {
-    means.push_back(tie_[n].empty() ? mean_of_ring(n) : tie_[n]);
-    for (const Part& p : means.back())
+  for (const int n : group)
+    for (const Part& p : means[n])
       if (p.number >= 0 && !in_group_[p.number]) beside.push_back(p.number);
-  }
   std::sort(beside.begin(), beside.end());
   beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
   const std::size_t m = group.size(), columns = m + beside.size();
   std::vector<double> a(m * columns);
   for (std::size_t i = 0; i < m; ++i) {
     a[i * columns + i] += 1;
-    for (const auto& [n, part] : means[i]) {
+    for (const auto& [n, part] : means[group[i]]) {
       if (n < 0) continue;  // it is at rest
       if (in_group_[n])
         a[i * columns + static_cast<std::size_t>(std::find(group.begin(), group.end(), n) - group.begin())] -=
@@ -146,7 +235,8 @@ void GuardSearch::solve(const std::vector<int>& group) {
   if (!eliminate(a, m, columns)) return;
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t j = 0; j < beside.size(); ++j)
-      if (const double part = a[i * columns + m + j]; part != 0) mean_[group[i]].push_back({beside[j], part});
+      if (const double part = a[i * columns + m + j]; part != 0)
+        mean_[group[i]].push_back({leader_[beside[j]] < 0 ? beside[j] : leader_[beside[j]], part});
     if (mean_[group[i]].empty()) mean_[group[i]].push_back({group[i], 0});  // all around it is at rest
   }
 }

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,28 +15,37 @@ namespace cleft {
 
 class GuardPassage {
  public:
-  /// Vertices that the complete cut moves, and s of each of them, mm.
-  GuardPassage(const Wound& wound, const std::vector<std::pair<int, double>>& vertices);
+  /// Vertices that the complete cut moves, and s of each of them, mm. All of the skin is looked at each
+  /// `step` mm of the blade's way, without it.
+  GuardPassage(const Wound& wound, const std::vector<std::pair<int, double>>& vertices, double step);
 
   /// What is left of a triangle of the skin with the blade at s: its area seen along its normal at rest, over
   /// that at rest, or `unsound` where it is not sound.
   using Left = std::function<double(int triangle, double s)>;
   static constexpr double unsound = -std::numeric_limits<double>::infinity();
 
-  /// Positions of the blade, mm, ascending, at which triangles are not sound: one for each of them, but
-  /// `most` in all.
-  std::vector<double> find(const Left& left, std::size_t most) const;
-
- private:
+  /// A triangle next to the path, and s of those of its corners that are, mm, ascending.
   struct Beside {
     int triangle;
-    double first, last;  // s of its corners, mm
+    std::vector<double> s;
   };
-  std::vector<double> looks(const Beside& one) const;
-  static std::optional<double> least(const Left& left, int triangle, const std::vector<double>& looks);
+  const std::vector<Beside>& beside() const { return beside_; }
+
+  /// Tells of the positions of the blade, mm, at which the triangle is not sound: of each that is looked at,
+  /// and of the worst where the least that is left of it lies between these. From `first` to `last` no other
+  /// position is nearer. Whoever is told may mend it: left is asked anew for each position. Whether it has
+  /// told of any. The positions differ from round to round.
+  using Tell = std::function<void(double s, double first, double last)>;
+  bool look(const Beside& one, int round, const Left& left, const Tell& tell) const;
+  /// mm of the blade's way over which displacements next to the tip change quickly.
+  double near_tip() const { return near_; }
+
+ private:
+  std::vector<double> looks(const Beside& one, int round) const;
 
   std::vector<Beside> beside_;
   double reached_, near_;  // mm: where the cut ends; how far from the blade displacements change quickly
+  double way_;             // mm: before and after it passes a triangle
 };
 
 }  // namespace cleft

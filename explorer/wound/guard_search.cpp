@@ -13,35 +13,90 @@ namespace {
 /// A triangle is sound with this part of its area and this cosine of its turn, a little more than a fifth and
 /// a right angle: it is looked at at some times only.
 constexpr double least_area = 0.25, least_cosine = 0.05;
-/// Of the least jump: lips that pass each other by more are held back.
-constexpr double part_passed = 0.8;
 /// Neighbours that move apart by more than this many times their distance are torn from each other.
 constexpr double most_stretch = 1.5;
+/// Likewise, beyond the least jump, whatever the field does.
+constexpr double most_by_field = 3;
+/// Of the least jump: neighbours nearer than this that move further apart than that are torn whatever the
+/// field does. With a least jump of 0.05 mm, those below 0.5 mm that move by 1 mm, or nearly.
+constexpr double torn_length = 10, torn_jump = 19;
 /// Of the triangles that move: a field that turns more of them in its own patch is left to do so.
 constexpr double most_turned = 0.05;
 /// The part of its displacement that a vertex keeps from one round to the next, the least part that is worth
 /// keeping, and rounds.
 constexpr double kept_a_round = 0.75, least_factor = 0.05;
 constexpr int rounds = 60, last_rounds = 6;
+/// How often triangles whose corners have no means are joined.
+constexpr int join_rounds = 4;
 /// The strain that reduced displacements add at most.
 constexpr double most_strain = 0.25;
 
 }  // namespace
 
-Guard GuardSearch::find() {
+bool GuardSearch::find() {
   number_vertices();
   find_neighbors();
-  if (harmless_.empty()) measure_triangles();
+  measure_triangles();
   check_all();
-  if (offending_.empty() || field_is_to_blame()) return {};
+  if (field_is_to_blame()) return false;
+  find_delicate();
   spread_means();
+  for (int round = 0; round < join_rounds && join(); ++round) {
+    move_joined();
+    spread_means();
+  }
+  only_lasting_ = true;
+  std::erase_if(offending_, [this](int one) { return !offends(one); });
   reduce();
-  return result();
+  return true;
+}
+
+bool GuardSearch::is_excused() const {
+  return std::any_of(doubtful_.begin(), doubtful_.end(), [this](int one) {
+    for (std::size_t k = 0; k < times(); ++k)
+      if (lasting_[k] && offends(one, k, false)) return true;
+    return false;
+  });
+}
+
+void GuardSearch::hold_excused() {
+  excused_ = false;
+  offending_ = doubtful_;
+  check({});
+  reduce();
+}
+
+std::vector<GuardSearch::Remaining> GuardSearch::remaining() const {
+  std::vector<Remaining> found;
+  std::vector<int> ones = doubtful_;
+  std::sort(ones.begin(), ones.end());
+  ones.erase(std::unique(ones.begin(), ones.end()), ones.end());
+  for (std::size_t k = 0; k < times(); ++k)
+    for (const int one : ones)
+      if (!lasting_[k] && offends(one, k, false)) found.push_back({one, k});
+  return found;
+}
+
+std::vector<GuardSearch::Remaining> GuardSearch::sudden() const {
+  std::vector<Remaining> found;
+  for (std::size_t t = 0; t < harmless_.size(); ++t) {
+    const int one = static_cast<int>(t);
+    if (!mesh_.is_skin(one)) continue;
+    const auto corner = corners(one);
+    if (std::all_of(corner.begin(), corner.end(), [this](int v) { return number_[v] < 0; })) continue;
+    std::array<Vec3, 3> before{};
+    for (std::size_t k = 0; k < times(); ++k) {
+      const std::array<Vec3, 3> now = moved(one, k);
+      const Vec3 a = (now[1] - now[0]) - (before[1] - before[0]),
+                 b = (now[2] - now[0]) - (before[2] - before[0]);
+      if (std::max(squared_norm(a), squared_norm(b)) > harmless_[t]) found.push_back({one, k});
+      before = now;
+    }
+  }
+  return found;
 }
 
 void GuardSearch::number_vertices() {
-  vertex_.clear(), mean_.clear(), in_group_.clear(), tie_.clear(), around_.clear(), next_.clear();
-  offending_.clear();
   number_.assign(mesh_.vertices().size(), -1);
   for (const auto& moved : moved_)
     for (const auto& [v, d] : moved)
@@ -57,7 +112,7 @@ void GuardSearch::number_vertices() {
       if (number_[v] >= 0) own_[static_cast<std::size_t>(number_[v]) * times() + k] = d;
   with_ = own_;
   factor_.assign(vertex_.size(), 1), mean_.resize(vertex_.size()), in_group_.resize(vertex_.size());
-  tie_.resize(vertex_.size());
+  tie_.resize(vertex_.size()), leader_.assign(vertex_.size(), -1);
 }
 
 void GuardSearch::find_neighbors() {
@@ -131,37 +186,38 @@ bool GuardSearch::is_torn(int t, const std::array<Vec3, 3>& moved) const {
   for (int i = 0; i < 3; ++i) {
     const int a = corner[i], b = corner[(i + 1) % 3];
     const double jump = norm(moved[(i + 1) % 3] - moved[i]);
-    if (jump > least_jump_ && jump > most_stretch * norm(mesh_.position(b) - mesh_.position(a)) &&
-        !field_.stretches(a, b, jump / most_stretch))
+    const double length = norm(mesh_.position(b) - mesh_.position(a));
+    if (jump > torn_jump * least_jump_ && length < torn_length * least_jump_) return true;
+    if (jump > least_jump_ + most_by_field * length) return true;
+    if (jump > least_jump_ && jump > most_stretch * length && !field_.stretches(a, b, jump / most_stretch))
       return true;
   }
   return false;
-}
-
-bool GuardSearch::is_sound(int t, const std::array<Vec3, 3>& moved, std::size_t time) const {
-  return hardly_moves(t, moved) || (!is_torn(t, moved) && (is_kept(t, moved) || field_.turns(t, time)));
-}
-
-/// Whether the lips pass each other.
-bool GuardSearch::is_passed(const Pair& pair, std::size_t time) const {
-  const auto moved = [&](int v) { return number_[v] < 0 ? Vec3{} : with(number_[v], time); };
-  const auto [left, right] = pair.vertex;
-  return dot(moved(right) - moved(left), pair.across) < -part_passed * least_jump_ &&
-         !field_.closes(left, time);
 }
 
 std::span<const int> GuardSearch::corners(int one) const {
   return one < 0 ? std::span<const int>(pairs_[-1 - one].vertex) : mesh_.triangle(one).vertex;
 }
 
-bool GuardSearch::offends(int t) const {
-  if (t < 0) {
-    for (std::size_t k = 0; k < times(); ++k)
-      if (is_passed(pairs_[-1 - t], k)) return true;
-    return false;
+/// What the field does itself is excused, or not.
+bool GuardSearch::offends(int one, std::size_t k, bool excused) const {
+  if (one < 0) {
+    const Pair& pair = pairs_[-1 - one];
+    const auto moved = [&](int v) { return number_[v] < 0 ? Vec3{} : with(number_[v], k); };
+    return is_passed(pair, moved(pair.vertex[0]), moved(pair.vertex[1])) &&
+           !(excused && field_.closes(pair.vertex[0], k));
   }
-  for (std::size_t k = 0; k < times(); ++k)
-    if (!is_sound(t, moved(t, k), k)) return true;
+  const std::array<Vec3, 3> now = moved(one, k);
+  if (hardly_moves(one, now)) return false;
+  return is_torn(one, now) || (!is_kept(one, now) && !(excused && field_.turns(one, k)));
+}
+
+bool GuardSearch::offends(int one) {
+  for (std::size_t k = 0; k < times(); ++k) {
+    if ((only_lasting_ && one >= 0 && !lasting_[k]) || !offends(one, k, false)) continue;
+    if (doubtful_.empty() || doubtful_.back() != one) doubtful_.push_back(one);
+    if (!excused_ || offends(one, k, true)) return true;
+  }
   return false;
 }
 
@@ -228,6 +284,7 @@ void GuardSearch::reduce() {
     const std::vector<int> changed = even_out(std::move(reduced));
     renew(changed);
     check(changed);
+    for (const int n : changed) doubtful_.insert(doubtful_.end(), around_[n].begin(), around_[n].end());
   }
   const std::vector<int> all = all_numbers();
   for (int round = 1; round <= last_rounds && !offending_.empty(); ++round) {

@@ -4,8 +4,9 @@
 // vertices of triangles that are not are moved to where the means of their neighbours' displacements have
 // them, with weights that reproduce any linear displacement (Floater 2003, mean value coordinates): a
 // harmonic map, which turns nothing over where its border does not. Where that does not suffice, or is not
-// possible, as on lips, displacements are reduced there, and less so the further away. All vertices at rest
-// are sound, so that the search succeeds on any mesh.
+// possible, as on lips, displacements are reduced there, and less so the further away: for good where a
+// triangle is not sound with its cuts complete, and otherwise for the moment. All vertices at rest are sound,
+// so that the search succeeds on any mesh.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ namespace cleft {
 
 class GuardSearch {
  public:
-  /// What the field does itself, in its own flat patch: that is no fault of the mesh. Times are numbers of
-  /// calls of add(), from 0.
+  /// What the field does itself, in its own flat patch: that is no fault of the mesh, and wounds are not held
+  /// back for it for good. Times are numbers of calls of add(), from 0.
   struct ByField {
     std::function<bool(int triangle, std::size_t time)> turns;
     std::function<bool(int a, int b, double jump)> stretches;  ///< an edge; jump in mesh units
@@ -33,18 +34,53 @@ class GuardSearch {
   GuardSearch(const CutMesh& mesh, double least_jump, ByField field)
       : mesh_(mesh), least_jump_(least_jump), field_(std::move(field)) {}
 
-  /// The vertices that have moved at one time, each once, and their displacements, mesh units.
-  void add(std::vector<std::pair<int, Vec3>> moved) { moved_.push_back(std::move(moved)); }
+  /// The vertices that have moved at one time, each once, and their displacements, mesh units. `lasting`:
+  /// with the cuts complete.
+  void add(std::vector<std::pair<int, Vec3>> moved, bool lasting) {
+    moved_.push_back(std::move(moved));
+    lasting_.push_back(lasting);
+  }
   /// Two vertices that lie on the left and the right lip of a cut; `across` it, of length 1. They must not
   /// pass each other by more than `least_jump`.
   void add_pair(int left, int right, const Vec3& across) { pairs_.push_back({{left, right}, across}); }
-  /// The guard with which all triangles of the skin are sound at all these times; none where the field turns
-  /// much of its own patch over. May be called again after further calls of add().
-  Guard find();
+  /// Finds the guard with which all triangles of the skin are sound at all lasting times, but for those that
+  /// the field turns itself. Means are found for all times. False where the field turns much of its own patch
+  /// over: then it needs none.
+  bool find();
+  /// Whether triangles are left that the field turns itself, with the cuts complete; and holds these back
+  /// too.
+  bool is_excused() const;
+  void hold_excused();
+  Guard result() const;
   std::size_t times() const { return moved_.size(); }
-  /// Whether a triangle of the skin is sound with these displacements of its corners, at any time for which
-  /// ByField has an answer.
-  bool is_sound(int triangle, const std::array<Vec3, 3>& moved, std::size_t time) const;
+
+  /// A triangle of the skin, or -1 - i for pair i of lips, that is not sound at a time with the guard found.
+  struct Remaining {
+    int one;
+    std::size_t time;
+  };
+  /// Those at times that are not lasting, by times; that the field turns them is no excuse.
+  std::vector<Remaining> remaining() const;
+  /// Triangles that move so differently at a time and the one before (at rest before the first) that they may
+  /// not be sound in between, with the guard found and without moments.
+  std::vector<Remaining> sudden() const;
+  /// Whether a triangle of the skin is sound with these displacements of its corners; that the field turns it
+  /// is no excuse.
+  bool is_sound(int triangle, const std::array<Vec3, 3>& moved) const {
+    return hardly_moves(triangle, moved) || (!is_torn(triangle, moved) && is_kept(triangle, moved));
+  }
+
+  /// The blade at s mm of a cut that ends at `end`. A moment lasts while it goes from `first` to `last`, and
+  /// begins and ends over `fade` mm of its way. The displacement of a vertex is that at s, with what the
+  /// guard replaces for good and without its moments.
+  struct Passing {
+    std::size_t cut;
+    double s, first, last, end, fade;
+    std::function<Vec3(int vertex)> displacement;
+  };
+  /// Reduces displacements for a moment, so that the given ones (as in Remaining) and all around them are
+  /// sound. Returns the triangles around those that are reduced.
+  std::vector<int> hold_for_a_moment(std::vector<int> ones, const Passing& passing, Guard& guard) const;
   /// Its area then, seen along its normal at rest, over that at rest; 1 where that is 0.
   double left_of(int triangle, const std::array<Vec3, 3>& moved) const;
 
@@ -72,8 +108,11 @@ class GuardSearch {
   }
   std::array<Vec3, 3> moved(int triangle, std::size_t time) const;
   std::span<const int> corners(int one) const;
-  bool offends(int one) const;
-  bool is_passed(const Pair& pair, std::size_t time) const;
+  bool offends(int one);
+  bool offends(int one, std::size_t time, bool excused) const;
+  bool is_passed(const Pair& pair, const Vec3& left, const Vec3& right) const {
+    return dot(right - left, pair.across) < -part_passed * least_jump_;
+  }
   bool hardly_moves(int triangle, const std::array<Vec3, 3>& moved) const;
   bool is_kept(int triangle, const std::array<Vec3, 3>& moved) const;
   bool is_torn(int triangle, const std::array<Vec3, 3>& moved) const;
@@ -82,20 +121,28 @@ class GuardSearch {
   void check_all();
   bool field_is_to_blame();
   bool is_free(int number) const;
+  bool join();
+  void move_joined();
   std::vector<Part> mean_of_ring(int number) const;
   void spread_means();
+  void move_as_means(const std::vector<int>& group);
   bool tie(int triangle, std::vector<int>& group);
+  void find_delicate();
   bool grow(std::vector<int>& group);
-  void solve(const std::vector<int>& group);
+  void solve(const std::vector<int>& group, const std::vector<std::vector<Part>>& means);
   void reduce();
   std::vector<int> even_out(std::vector<int> reduced);
   void renew(const std::vector<int>& numbers);
-  Guard result() const;
+
+  /// Of the least jump: lips that pass each other by more are held back.
+  static constexpr double part_passed = 0.8;
 
   const CutMesh& mesh_;
   double least_jump_;
   ByField field_;
   std::vector<std::vector<std::pair<int, Vec3>>> moved_;  // [time]: vertices and their displacements
+  std::vector<bool> lasting_;                             // [time]
+  bool only_lasting_ = false, excused_ = true;            // what offends
 
   std::vector<int> vertex_, number_;  // of the mesh by number, and back: -1 for what does not move
   std::vector<Vec3> own_, with_;      // [number][time]: displacements without and with the guard
@@ -103,12 +150,15 @@ class GuardSearch {
   std::vector<std::vector<Part>> mean_;  // [number]: none: its own displacement
   std::vector<bool> in_group_;
   std::vector<std::vector<Part>> tie_;  // [number]: of those that are tied to the ends of an edge
+  std::vector<int> leader_;             // [number]: that moves like it; itself; -1: none
   /// [number]: triangles of the skin, and -1 - i for pair i; neighbours, over walls and across them, too.
   std::vector<std::vector<int>> around_, next_;
   std::vector<Pair> pairs_;
   /// [triangle]: mesh units, squared: corners that move by less against the first leave it sound.
   std::vector<double> harmless_;
   std::vector<int> offending_;  // sorted: triangles, and -1 - i for pair i
+  std::vector<int> delicate_;   // slivers that are not sound between two times, if not at these
+  std::vector<int> doubtful_;   // likewise, not sorted: all that ever were not sound, excused or not
 };
 
 }  // namespace cleft

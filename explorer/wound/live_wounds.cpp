@@ -59,7 +59,8 @@ bool LiveWounds::guard_skin() {
         for (const auto& [v, d] : moved) found.push_back({v, replay.station(v), d});
         return found;
       },
-      [&](int vertex, const Blade& blade) { return replays_[blade.cut].displacement(vertex, blade.s); });
+      [&](int vertex, const Blade& blade) { return replays_[blade.cut].displacement(vertex, blade.s); },
+      false);
   return true;
 }
 

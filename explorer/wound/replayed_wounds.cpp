@@ -47,7 +47,8 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
       [&](int vertex, const Blade& blade) {
         return whole_.replays[blade.cut].displacement(static_cast<std::size_t>(number[blade.cut][vertex]),
                                                       blade.s);
-      });
+      },
+      true);
   bound_vertices();
 }
 
@@ -72,6 +73,7 @@ void ReplayedWounds::bound_vertices() {
     }
   }
   for (const int v : guard().vertices()) bounds_[v] = never_left_out;
+  for (const int v : guard().moments().vertices()) bounds_[v] = never_left_out;
 }
 
 std::size_t ReplayedWounds::Level::active() const {
@@ -112,8 +114,9 @@ Wounds::Blade ReplayedWounds::blade(double t) const {
 }
 
 void ReplayedWounds::positions(double t, const Level& level, std::span<Vec3> out) const {
-  superpose(blade(t), level, out);
-  guard().apply(rest().data(), out.data());
+  const Blade now = blade(t);
+  superpose(now, level, out);
+  guard().apply(now.cut, now.s, rest().data(), out.data());
 }
 
 void ReplayedWounds::superpose(const Blade& now, const Level& level, std::span<Vec3> out) const {

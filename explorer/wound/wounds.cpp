@@ -67,7 +67,9 @@ Vec3 Wounds::changed_by_guard(int vertex, const Blade& blade) const {
     }
     return sum;
   };
-  return guard_.moves(vertex) ? guard_.displacement(vertex, own) - own(vertex) : Vec3{};
+  const double part = guard_.moments().part(vertex, blade.cut, blade.s);
+  if (part == 1 && !guard_.moves(vertex)) return {};
+  return part * guard_.displacement(vertex, own) - own(vertex);
 }
 
 /// The amplitudes while the blade makes the newest of some cuts.

@@ -70,16 +70,16 @@ class Wounds {
   /// displacement of one of them.
   using MovedAlone = std::function<std::vector<Moved>(const Blade&)>;
   using DisplacementAlone = std::function<Vec3(int vertex, const Blade&)>;
-  /// Finds the guard of all wounds as far as they are cut.
-  void find_guard(const MovedAlone& moved, const DisplacementAlone& alone);
+  /// Finds the guard of all wounds as far as they are cut; with the moments while they are cut, or without.
+  void find_guard(const MovedAlone& moved, const DisplacementAlone& alone, bool moments);
   void forget_guard(int vertex) { guard_.forget(vertex); }
 
  private:
   class GuardLooks;
   Vec3 changed_by_guard(int vertex, const Blade& blade) const;
   Relief relief_while_cut(std::size_t newest, double length) const;
-  bool turned_by_field(int triangle, const Blade& blade, bool only_well_shaped) const;
-  bool turned_between_corners(int triangle, const Blade& blade, bool only_well_shaped) const;
+  bool turned_by_field(int triangle, const Blade& blade) const;
+  bool turned_between_corners(int triangle, const Blade& blade) const;
   bool stretched_by_field(int a, int b, double jump) const;
   bool closed_by_field(int lip, const Blade& blade) const;
 

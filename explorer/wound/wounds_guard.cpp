@@ -13,11 +13,16 @@ namespace cleft {
 namespace {
 /// At how many positions of the blade in each cut the guard looks at the skin.
 constexpr int looks = 48;
-/// How often positions are added at which triangles next to the blade are not sound while it passes them.
-constexpr int passage_rounds = 4;
-/// Of the largest opening: a triangle that is not sound for a moment is not worth lips that are held back by
-/// more for good.
-constexpr double worth_a_moment = 0.02;
+/// In how many parts the way between two of these is divided for triangles that move very differently then.
+constexpr int looks_between = 8;
+/// How often triangles are looked at anew around which displacements were reduced for a moment, at other
+/// positions each time: until nothing is found so many times.
+constexpr int passage_rounds = 20, quiet_rounds = 2;
+/// Of the way over which displacements next to the tip change quickly: a moment begins and ends in it.
+constexpr double fade_part = 0.25;
+/// Of the largest opening: what the field of a single cut turns itself in its own flat patch is not worth
+/// lips that are held back by more for good.
+constexpr double worth_an_excuse = 0.02;
 /// Of its own flat patch a field that keeps less turns it over.
 constexpr double least_area = 0.3;
 /// Likewise of a triangle as it lies in the patch, as much as is called turned over on a mesh.
@@ -28,14 +33,16 @@ constexpr double least_alike = 0.7;
 constexpr double well_shaped = 0.4, tip_part = 0.5;
 /// Lengths in the patch and in space that are about the same.
 constexpr double about = 1.25;
+/// Of an edge's length in space, its length in a patch: where it is more, the patch is drawn apart there.
+constexpr double most_drawn = 2;
 /// mm: neighbours that move apart by no more are never torn.
 constexpr double least_jump = 0.05;
 /// Of that: a field that moves its own lips into each other by more does so on any mesh.
 constexpr double part_closed = 0.4;
 }  // namespace
 
-/// The positions of the blade at which the skin is looked at: even ones of all the skin, and those at which a
-/// triangle next to the blade was found not to be sound while it passes.
+/// The positions of the blade at which the skin is looked at: even ones of all the skin, and further ones of
+/// each triangle next to the path, while the blade passes that very triangle.
 class Wounds::GuardLooks {
  public:
   GuardLooks(const Wounds& wounds, const MovedAlone& moved, const DisplacementAlone& alone)
@@ -45,9 +52,7 @@ class Wounds::GuardLooks {
         alone_(alone),
         search_(
             mesh_, least_jump / wounds[0].scale(),
-            {[this](int t, std::size_t time) {
-               return wounds_.turned_by_field(t, blades_[time], time < even_looks_);
-             },
+            {[this](int t, std::size_t time) { return wounds_.turned_by_field(t, blades_[time]); },
              [this](int a, int b, double jump) { return wounds_.stretched_by_field(a, b, jump); },
              [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); }}),
         place_(mesh_.vertices().size(), -1) {
@@ -66,25 +71,29 @@ class Wounds::GuardLooks {
         number_[k][one.vertex] = static_cast<int>(vertices.size());
         vertices.emplace_back(one.vertex, one.s);
       }
-      passages_.emplace_back(wound, vertices);
+      passages_.emplace_back(wound, vertices, wound.reached() / looks);
     }
   }
   GuardLooks(const GuardLooks&) = delete;
   GuardLooks& operator=(const GuardLooks&) = delete;
 
-  Guard find() {
+  Guard find(bool moments) {
     for (std::size_t k = 0; k < wounds_.size(); ++k)
-      for (int i = 1; i <= looks; ++i) look({k, wounds_[k].reached() * (static_cast<double>(i) / looks)});
-    even_looks_ = blades_.size();
-    Guard guard = search_.find();
-    for (int round = 0; round < passage_rounds; ++round) {
-      const std::vector<Blade> further = unsound_passages(guard);
-      if (further.empty()) break;
-      for (const Blade& blade : further) look(blade);
-      Guard next = search_.find();
-      if (held_back(next) > held_back(guard) + worth_a_moment) break;
-      guard = std::move(next);
+      for (int i = 1; i <= looks; ++i)
+        look({k, wounds_[k].reached() * (static_cast<double>(i) / looks)}, i == looks);
+    if (!search_.find()) return {};
+    Guard guard = search_.result();
+    if (search_.is_excused()) {
+      search_.hold_excused();
+      Guard strict = search_.result();
+      if (wounds_.size() > 1 || held_back(strict) <= held_back(guard) + worth_an_excuse)
+        guard = std::move(strict);
     }
+    if (!moments) return guard;
+    hold_remaining(guard);
+    hold_sudden(guard);
+    for (std::size_t k = 0; k < wounds_.size(); ++k) hold_passages(k, guard);
+    guard.sort();
     return guard;
   }
 
@@ -95,12 +104,12 @@ class Wounds::GuardLooks {
   }
 
   /// All of the skin is looked at with the blade there.
-  void look(const Blade& blade) {
+  void look(const Blade& blade, bool lasting) {
     const Relief::At now = relief_at(blade);
     add(moved_(blade), now, blade.cut);
     for (std::size_t k = 0; k < blade.cut; ++k) add(complete_[k], now, k);
     for (const auto& [v, d] : sum_) place_[v] = -1;
-    search_.add(std::exchange(sum_, {}));
+    search_.add(std::exchange(sum_, {}), lasting);
     blades_.push_back(blade);
   }
 
@@ -114,13 +123,60 @@ class Wounds::GuardLooks {
     }
   }
 
-  std::vector<Blade> unsound_passages(const Guard& guard) {
-    std::vector<Blade> found;
-    for (std::size_t k = 0; k < wounds_.size(); ++k) {
-      const auto left = [&](int triangle, double s) { return this->left(triangle, {k, s}, guard); };
-      for (const double s : passages_[k].find(left, looks)) found.push_back({k, s});
+  /// What is not sound at the even looks, for the moment.
+  void hold_remaining(Guard& guard) {
+    for (const auto& [one, time] : search_.remaining()) {
+      const Blade& blade = blades_[time];
+      const double beside = wounds_[blade.cut].reached() / (2 * looks);
+      hold(one, blade, blade.s - beside, blade.s + beside, guard);
     }
-    return found;
+  }
+
+  /// What is not sound between two even looks.
+  void hold_sudden(Guard& guard) {
+    for (const auto& [one, time] : search_.sudden()) {
+      const Blade& blade = blades_[time];
+      const double before = time > 0 && blades_[time - 1].cut == blade.cut ? blades_[time - 1].s : 0;
+      for (int i = 1; i < looks_between; ++i) {
+        const double s = before + (blade.s - before) * i / looks_between,
+                     beside = (blade.s - before) / (2 * looks_between);
+        if (left(one, {blade.cut, s}, guard) == GuardPassage::unsound)
+          hold(one, {blade.cut, s}, s - beside, s + beside, guard);
+      }
+    }
+  }
+
+  /// What is not sound while the blade passes it, and then what is around it.
+  void hold_passages(std::size_t cut, Guard& guard) {
+    std::vector<bool> wanted(mesh_.triangles().size(), true);
+    for (int round = 0, quiet = 0; round < passage_rounds && quiet < quiet_rounds; ++round) {
+      std::vector<bool> next(wanted.size());
+      bool any = false;
+      for (const GuardPassage::Beside& one : passages_[cut].beside()) {
+        if (!wanted[one.triangle]) continue;
+        any |= passages_[cut].look(
+            one, round,
+            [&](int triangle, double s) {
+              return left(triangle, {cut, s}, guard);
+            },
+            [&](double s, double first, double last) {
+              for (const int touched : hold(one.triangle, {cut, s}, first, last, guard))
+                if (touched >= 0) next[touched] = true;
+            });
+      }
+      quiet = any ? 0 : quiet + 1;
+      if (any) wanted = std::move(next);
+    }
+  }
+
+  std::vector<int> hold(int one, const Blade& blade, double first, double last, Guard& guard) {
+    const Relief::At now = relief_at(blade);
+    const auto own = [&](int v) { return this->own(v, blade, now); };
+    return search_.hold_for_a_moment(
+        {one},
+        {blade.cut, blade.s, first, last, wounds_[blade.cut].reached(),
+         fade_part * passages_[blade.cut].near_tip(), [&](int v) { return guard.displacement(v, own); }},
+        guard);
   }
 
   /// The displacement of a vertex without the guard.
@@ -151,18 +207,16 @@ class Wounds::GuardLooks {
   }
 
   /// GuardPassage::Left.
-  double left(int triangle, const Blade& blade, const Guard& guard) {
+  double left(int triangle, const Blade& blade, const Guard& guard) const {
     const Relief::At now = relief_at(blade);
     const auto own = [&](int v) { return this->own(v, blade, now); };
     std::array<Vec3, 3> displacements;
     for (int i = 0; i < 3; ++i) {
       const int v = mesh_.triangle(triangle).vertex[i];
-      displacements[i] = guard.empty() ? own(v) : guard.displacement(v, own);
+      displacements[i] = guard.moments().part(v, blade.cut, blade.s) * guard.displacement(v, own);
     }
-    blades_.push_back(blade);  // for what the field does itself
-    const bool sound = search_.is_sound(triangle, displacements, blades_.size() - 1);
-    blades_.pop_back();
-    return sound ? search_.left_of(triangle, displacements) : GuardPassage::unsound;
+    return search_.is_sound(triangle, displacements) ? search_.left_of(triangle, displacements)
+                                                     : GuardPassage::unsound;
   }
 
   const Wounds& wounds_;
@@ -170,7 +224,6 @@ class Wounds::GuardLooks {
   const MovedAlone& moved_;
   const DisplacementAlone& alone_;
   std::vector<Blade> blades_;  // of all looks
-  std::size_t even_looks_ = 0;
   GuardSearch search_;
   std::vector<Relief> relief_;                // while each cut is made
   std::vector<std::vector<Moved>> complete_;  // by each cut
@@ -181,13 +234,13 @@ class Wounds::GuardLooks {
   std::vector<int> place_;                 // of a vertex in that
 };
 
-void Wounds::find_guard(const MovedAlone& moved, const DisplacementAlone& alone) {
-  guard_ = GuardLooks(*this, moved, alone).find();
+void Wounds::find_guard(const MovedAlone& moved, const DisplacementAlone& alone, bool moments) {
+  guard_ = GuardLooks(*this, moved, alone).find(moments);
 }
 
 /// Whether the fields turn their own flat patches over at a triangle's corner, or nearly so: each of them, or
 /// what they change of the area together.
-bool Wounds::turned_by_field(int triangle, const Blade& blade, bool only_well_shaped) const {
+bool Wounds::turned_by_field(int triangle, const Blade& blade) const {
   for (const int v : wounds_.front().incision->mesh().triangle(triangle).vertex) {
     double together = 1;
     for (std::size_t k = 0; k <= blade.cut; ++k) {
@@ -203,14 +256,13 @@ bool Wounds::turned_by_field(int triangle, const Blade& blade, bool only_well_sh
       if (std::min(area, together) < least_area) return true;
     }
   }
-  return turned_between_corners(triangle, blade, only_well_shaped);
+  return turned_between_corners(triangle, blade);
 }
 
 /// The same for a triangle next to the tip as it lies in the flat patch of the cut, moved by the field at its
 /// corners: a fit oscillates at the tip while it passes, between corners whose derivatives show nothing.
-/// Where the mesh lies in the patch as in space. Slivers are the mesh's fault, but not while the blade passes
-/// them: what they do for that moment is not worth lips that are held back.
-bool Wounds::turned_between_corners(int triangle, const Blade& blade, bool only_well_shaped) const {
+/// Where the mesh lies in the patch as in space. Slivers are the mesh's fault.
+bool Wounds::turned_between_corners(int triangle, const Blade& blade) const {
   const CutMesh& mesh = wounds_.front().incision->mesh();
   const auto& corners = mesh.triangle(triangle).vertex;
   const auto twice_area = [](const std::array<Vec3, 3>& p) { return cross(p[1] - p[0], p[2] - p[0]); };
@@ -234,13 +286,15 @@ bool Wounds::turned_between_corners(int triangle, const Blade& blade, bool only_
   const double sides =
       squared_norm(rest[1] - rest[0]) + squared_norm(rest[2] - rest[1]) + squared_norm(rest[0] - rest[2]);
   if (!(alike > least_alike && alike < 1 / least_alike)) return false;
-  if (only_well_shaped && 2 * std::sqrt(3.) * area < well_shaped * sides) return false;
+  if (2 * std::sqrt(3.) * area < well_shaped * sides) return false;
   return area_now < least_triangle * area || dot(before, after) < 0;
 }
 
 /// Whether two vertices that move apart by more than `jump`, mesh units, are nearer to each other in the flat
-/// patches of all cuts: the fields stretch the skin between them.
+/// patches of all cuts: the fields stretch the skin between them, and not that the patches are drawn apart.
 bool Wounds::stretched_by_field(int a, int b, double jump) const {
+  const CutMesh& mesh = wounds_.front().incision->mesh();
+  const double length = norm(mesh.position(b) - mesh.position(a));
   const auto apart = [](Side x, Side y) { return x != y && x != Side::both && y != Side::both; };
   bool moved = false;
   for (const Wound& wound : wounds_) {
@@ -250,6 +304,7 @@ bool Wounds::stretched_by_field(int a, int b, double jump) const {
     // By s and not by u: between the halves of a path longer than the canonical cut u does not change.
     const Vec3 between{to->s - from->s, to->uvw.y - from->uvw.y, to->uvw.z - from->uvw.z};
     if (apart(from->side, to->side) || !(norm(between) < about * jump * wound.scale())) return false;
+    if (norm(between) > most_drawn * wound.scale() * length) return false;
   }
   return moved;
 }

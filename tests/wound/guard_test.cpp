@@ -60,13 +60,33 @@ TEST(Guard, TakesSharesOfWhatVerticesDoWithoutIt) {
       own{{1, 0, 0}, {2, 4, 0}, {9, 9, 9}, {3, 3, 3}};
   std::vector<Vec3> positions;
   for (std::size_t v = 0; v < rest.size(); ++v) positions.push_back(rest[v] + own[v]);
-  guard.apply(rest.data(), positions.data());
+  guard.apply(0, 0, rest.data(), positions.data());
   EXPECT_EQ(positions, (std::vector<Vec3>{{0.5, 0, 0}, {12, 4, 0}, {21.75, 3, 0}, {33, 3, 3}}));
   for (int v = 0; v < 4; ++v)
     EXPECT_EQ(rest[v] + guard.displacement(v, [&](int u) { return own[u]; }), positions[v]);
   guard.forget(1);
   EXPECT_TRUE(guard.moves(0));
   EXPECT_FALSE(guard.moves(2));
+}
+
+TEST(GuardMoments, ReduceADisplacementWhileTheBladePasses) {
+  GuardMoments moments;
+  moments.hold(2, 1, {4, 5, 0.5, 2, 1});
+  moments.hold(2, 1, {4.5, 4.5, 0.25, 0.5, 0.5});
+  moments.sort();
+  // The least of the two, each linear before and after it.
+  const std::pair<double, double> parts[] = {{1, 1},      {2, 1},   {3, 0.75},   {4, 0.5}, {4.25, 0.5},
+                                             {4.5, 0.25}, {5, 0.5}, {5.5, 0.75}, {6, 1},   {7, 1}};
+  for (const auto& [s, is] : parts) {
+    EXPECT_DOUBLE_EQ(moments.part(2, 1, s), is) << s;
+    EXPECT_EQ(moments.part(2, 0, s), 1);
+    EXPECT_EQ(moments.part(1, 1, s), 1);
+    const std::vector<Vec3> rest{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    std::vector<Vec3> now{{0, 1, 0}, {1, 1, 0}, {2, 8, 0}};
+    moments.apply(1, s, rest.data(), now.data());
+    EXPECT_EQ(now[1], (Vec3{1, 1, 0}));
+    EXPECT_LT(norm(now[2] - Vec3{2, 8 * is, 0}), 1e-14) << s;
+  }
 }
 
 /// A plate, where every third triangle is divided at a place that is next to nothing beside one of its edges.
@@ -202,7 +222,7 @@ TEST(GuardPassage, FindsWhatIsUnsoundForAMoment) {
   const Wound wound(*opened.cuts[0], opened.field, 1);
   std::vector<std::pair<int, double>> vertices;
   for (const ActiveVertex& a : wound.volume.active()) vertices.emplace_back(a.vertex, a.s);
-  const GuardPassage passage(wound, vertices);
+  const GuardPassage passage(wound, vertices, 0.6);
   const auto& skin = opened.mesh;
   int near = 0;
   for (std::size_t t = 0; t < skin.triangles().size(); ++t) {
@@ -221,9 +241,16 @@ TEST(GuardPassage, FindsWhatIsUnsoundForAMoment) {
       const double from = std::abs(s - at);
       return from < for_a_while ? GuardPassage::unsound : 0.1 + from / (last - first);
     };
-    const std::vector<double> found = passage.find(left, 10);
-    ASSERT_EQ(found.size(), 1u) << t;
-    EXPECT_NEAR(found[0], at, for_a_while);
+    int found = 0;
+    for (const GuardPassage::Beside& one : passage.beside())
+      passage.look(one, 0, left, [&](double s, double from, double to) {
+        ++found;
+        EXPECT_EQ(one.triangle, static_cast<int>(t));
+        EXPECT_NEAR(s, at, for_a_while);
+        EXPECT_LE(from, s);
+        EXPECT_GE(to, s);
+      });
+    EXPECT_GE(found, 1) << t;
   }
   EXPECT_GT(near, 100);
 }

@@ -105,7 +105,8 @@ class Look {
       if (field_turns(t, time)) {
         ++found_.turned_by_field;
       } else {
-        if (found_.turned++ == 0) found_.first_turned = rest[0], found_.first_is = described(t, rest, moved);
+        if (found_.turned++ == 0)
+          found_.first_turned = rest[0], found_.first_is = described(t, time, rest, moved);
       }
     }
     for (int i = 0; i < 3; ++i) {
@@ -117,7 +118,7 @@ class Look {
       if ((!torn && !stretched) || edge_[3 * t + i]) continue;
       edge_[3 * t + i] = true;
       if (found_.torn + found_.stretched + found_.torn_by_field + found_.turned == 0)
-        found_.first_is = described(t, rest, moved);
+        found_.first_is = described(t, time, rest, moved);
       if (field_stretches(t, i, jump, time))
         ++found_.torn_by_field;
       else
@@ -125,8 +126,11 @@ class Look {
     }
   }
 
-  std::string described(int t, const Vec3 (&rest)[3], const Vec3 (&moved)[3]) const {
-    std::string text;
+  /// The corners of a triangle, and where the blade is.
+  std::string described(int t, double time, const Vec3 (&rest)[3], const Vec3 (&moved)[3]) const {
+    const ReplayedWounds::Blade blade = wounds_.blade(time);
+    std::string text = "\n      with the blade at " + std::to_string(blade.s) + " mm of cut " +
+                       std::to_string(blade.cut) + ":";
     for (int i = 0; i < 3; ++i) {
       const int v = mesh_.triangle(t).vertex[i];
       char line[300];
