@@ -302,6 +302,7 @@ ScalpelCutting& SceneWidget::live_cutting() {
     ScalpelCutting::Setup setup;
     setup.made = session_.cut_paths();
     setup.fields = session_.cut_fields(session_.state().shown);
+    setup.wait_for_guard = false;
     live_ = std::make_unique<ScalpelCutting>(*session_.mesh(), std::move(setup));
     moment_.reset();
   }

@@ -148,8 +148,7 @@ void check_clock(const Options& o, const DeviceKind& kind) {
 void finish(HapticLoop& loop, ScalpelCutting& cutting) {
   cutting.step(loop.for_cutting());
   cutting.end_cut();
-  do cutting.step(loop.for_cutting());
-  while (cutting.figures().waiting > 0);
+  cutting.settle();
 }
 
 void haptic(const Options& o) {
@@ -178,7 +177,7 @@ void haptic(const Options& o) {
   std::optional<double> seconds;  // none: as long as the device moves
   if (o.seconds > 0 || !std::isfinite(device->duration())) seconds = o.seconds > 0 ? o.seconds : 10;
 
-  ScalpelCutting cutting(mesh, {path, {}, fields, o.scale, o.depth});
+  ScalpelCutting cutting(mesh, {path, {}, fields, o.scale, o.depth, o.clock != "wall"});
   LoopOptions options;
   options.rate = o.rate;
   options.measure = true;

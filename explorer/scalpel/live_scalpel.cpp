@@ -10,11 +10,16 @@ namespace {
 constexpr double for_ever = 1e9;  // s
 /// Steps of the mesh a second: a picture each.
 constexpr int steps_a_second = 60;
+
+ScalpelCutting::Setup by_the_clock(ScalpelCutting::Setup setup) {
+  setup.wait_for_guard = false;
+  return setup;
+}
 }  // namespace
 
 LiveScalpel::LiveScalpel(const SurfaceMesh& mesh, ScalpelCutting::Setup setup, Device& device,
                          const ForceParameters& force)
-    : cutting_(mesh, std::move(setup)),
+    : cutting_(mesh, by_the_clock(std::move(setup))),
       loop_(device, cutting_.surface(), force, {}),
       moment_(moment_of(cutting_, nullptr)),
       ticks_([this] { loop_.run(stop_, for_ever); }),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "base/stopwatch.h"
@@ -55,6 +56,7 @@ ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
       changed_.push_back({static_cast<int>(t), {felt.triangles[t], true}});
   if (!changed_.empty()) surface_->update({}, changed_);
   reader_.emplace(*surface_);
+  if (setup_.fields) finder_.start();
 }
 
 void ScalpelCutting::add_cut(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering) {
@@ -83,6 +85,7 @@ std::vector<Validity> ScalpelCutting::validity() const {
 }
 
 void ScalpelCutting::step(TickQueue<HapticState>& ticks) {
+  take_guard(setup_.wait_for_guard);
   HapticState scalpel;
   bool any = false;
   for (; ticks.pop(scalpel); any = true)
@@ -92,6 +95,7 @@ void ScalpelCutting::step(TickQueue<HapticState>& ticks) {
 }
 
 void ScalpelCutting::step(const HapticState& scalpel) {
+  take_guard(setup_.wait_for_guard);
   setup_.path ? follow_path(scalpel, 0) : follow_scalpel(scalpel);
   open();
 }
@@ -150,6 +154,7 @@ void ScalpelCutting::end_cut() {
 }
 
 void ScalpelCutting::cut_at(const ScalpelPath::Point& place) {
+  take_guard(setup_.wait_for_guard);
   cut_on_to(place);
   open();
 }
@@ -210,6 +215,7 @@ bool ScalpelCutting::leads_on(const ScalpelPath::Point& next) const {
 /// One change of the newest incision, passed on to the surface and the wounds.
 template <class Change>
 void ScalpelCutting::cut(const Change& change) {
+  finder_.give_up();  // it is found anew when this cut ends
   Stopwatch watch;
   try {
     change();
@@ -250,12 +256,13 @@ void ScalpelCutting::open() {
   surface_->prepare();
   if (wounds_.empty()) return;
   Stopwatch watch;
-  wounds_.move_to_tips();
-  tell_touched();
-  if (wounds_.relieve())
-    for (const LiveReplay& replay : wounds_.replays()) tell(replay.entered());
-  if (!is_under_way() && wounds_.guard_skin())
-    for (const LiveReplay& replay : wounds_.replays()) tell(replay.entered());
+  if (!finder_.busy()) {  // else nothing has changed since it began
+    wounds_.move_to_tips();
+    tell_touched();
+    if (wounds_.relieve())
+      for (const LiveReplay& replay : wounds_.replays()) tell(replay.entered());
+    if (!is_under_way() && wounds_.wants_guard()) finder_.begin(wounds_);
+  }
   moved_.clear();
   for (; !pending_.empty() && moved_.size() < most_moved; pending_.pop_front()) {
     const int v = pending_.front();
@@ -268,6 +275,26 @@ void ScalpelCutting::open() {
   figures_.waiting = pending_.size();
   if (!moved_.empty()) surface_->update(moved_, {});
   figures_.open.add(watch.lap());
+}
+
+/// Those whose displacements it replaces are told, and those whose displacements it no longer does.
+void ScalpelCutting::take_guard(bool wait) {
+  if (!finder_.busy()) return;
+  std::optional<Guard> guard = finder_.take(wait);
+  if (!guard) return;
+  vertices_.clear();
+  for (const Guard* one : {&wounds_.guard(), &std::as_const(*guard)})
+    for (const Guard::Change& change : one->changes()) vertices_.push_back(change.vertex);
+  wounds_.take_guard(std::move(*guard));
+  ++figures_.guards;
+  tell(vertices_);
+}
+
+void ScalpelCutting::settle() {
+  do {
+    take_guard(true);
+    open();
+  } while (finder_.busy() || !pending_.empty());
 }
 
 /// Whether the newest cut goes on: no part of it is at its end yet.

@@ -12,6 +12,7 @@
 
 #include "explorer/incision/incision.h"
 #include "explorer/incision/places_before.h"
+#include "explorer/scalpel/guard_finder.h"
 #include "explorer/wound/cut_fields.h"
 #include "explorer/wound/live_wounds.h"
 #include "haptic/contact_query.h"
@@ -25,6 +26,7 @@ struct CuttingFigures {
   std::size_t triangles_cut = 0;    ///< triangles that cuts changed or added, counted once for each step
   TimeHistogram cut, open, update;  ///< the mesh; the field's displacements; the voxel grid after a cut
   std::size_t waiting = 0;          ///< vertices that moved and are passed on in the next steps
+  int guards = 0;                   ///< those that were found beside the steps, and taken over
   std::string stopped;              ///< why the last cut could not continue; "" while it can
 };
 
@@ -37,6 +39,10 @@ class ScalpelCutting {
     std::optional<CutFields> fields;
     double scale = 1;
     double depth = 0;  ///< mm, of cuts without a path; 0: as deep as the scalpel
+    /// The guard of a cut that has ended is found on a thread of its own, and taken over between two steps:
+    /// by the next one, which waits for it, so that a virtual clock gives the same on every machine; or by
+    /// the first one after it is found.
+    bool wait_for_guard = true;
   };
   /// Throws InputError if a path does not meet the mesh.
   ScalpelCutting(const SurfaceMesh& mesh, Setup setup);
@@ -67,6 +73,8 @@ class ScalpelCutting {
   /// one.
   void cut_at(const ScalpelPath::Point& place);
   void end_cut();
+  /// Takes the guard over that is being found, and passes all motion on.
+  void settle();
 
  private:
   /// Largest number of vertices whose motion is passed on in one step: the others wait, so that no step takes
@@ -86,6 +94,7 @@ class ScalpelCutting {
   void cut(const Change& change);
   void collect_changes();
   void open();
+  void take_guard(bool wait);
   bool is_under_way() const;
   void tell_touched();
   void tell(const std::vector<int>& vertices);
@@ -110,6 +119,7 @@ class ScalpelCutting {
   std::vector<ContactSurface::Changed> changed_;
   std::vector<int> vertices_;
   CuttingFigures figures_;
+  GuardFinder finder_;  // reads the wounds and the mesh: ends first
 };
 
 }  // namespace cleft

@@ -42,14 +42,25 @@ double LiveWounds::length() const {
   return length;
 }
 
+bool LiveWounds::wants_guard() const {
+  return length() != guarded_at_ &&
+         std::none_of(replays_.begin(), replays_.end(), [](const LiveReplay& r) { return r.late() > 0; });
+}
+
 bool LiveWounds::guard_skin() {
-  const double length = this->length();
-  if (length == guarded_at_ ||
-      std::any_of(replays_.begin(), replays_.end(), [](const LiveReplay& r) { return r.late() > 0; }))
-    return false;
-  guarded_at_ = length;
+  if (!wants_guard()) return false;
+  take_guard(find_guard({}));
+  return true;
+}
+
+void LiveWounds::take_guard(Guard guard) {
+  guarded_at_ = length();
+  set_guard(std::move(guard));
+}
+
+Guard LiveWounds::find_guard(const std::function<void()>& poll) const {
   std::vector<std::pair<int, Vec3>> moved;
-  find_guard(
+  return found_guard(
       [&](const Blade& blade) {
         moved.clear();
         const LiveReplay& replay = replays_[blade.cut];
@@ -60,8 +71,7 @@ bool LiveWounds::guard_skin() {
         return found;
       },
       [&](int vertex, const Blade& blade) { return replays_[blade.cut].displacement(vertex, blade.s); },
-      false);
-  return true;
+      false, poll);
 }
 
 bool LiveWounds::relieve() {

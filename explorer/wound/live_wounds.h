@@ -29,9 +29,15 @@ class LiveWounds : public Wounds {
   /// returns whether it did. If a field lacks the tension, the displacements add.
   bool relieve();
 
-  /// Finds the guard anew if cuts have grown since it was found last, and no vertex waits to enter; returns
-  /// whether it did. To be called when the newest cut is complete: until then all that this cut has changed
-  /// moves without a guard, and the rest with that of the earlier cuts.
+  /// Whether cuts have grown since the guard was found last, and no vertex waits to enter. It is found when
+  /// the newest cut is complete: until then all that this cut has changed moves without a guard, and the rest
+  /// with that of the earlier cuts.
+  bool wants_guard() const;
+  /// The guard of all cuts as they are. May be called on another thread, as long as nothing changes here;
+  /// `poll` is called all the while, and what it throws ends the search.
+  Guard find_guard(const std::function<void()>& poll) const;
+  void take_guard(Guard guard);
+  /// Finds and takes it if it is wanted; returns whether it was.
   bool guard_skin();
 
   /// The displacement of a vertex by all wounds, mm.

@@ -35,7 +35,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
   std::vector<std::vector<int>> number(size(), std::vector<int>(vertex_count()));
   for (std::size_t k = 0; k < size(); ++k)
     for (std::size_t i = 0; i < active(k).size(); ++i) number[k][active(k)[i].vertex] = static_cast<int>(i);
-  find_guard(
+  set_guard(found_guard(
       [&](const Blade& blade) {
         whole_.replays[blade.cut].active_positions(blade.s, now);
         std::vector<Moved> found;
@@ -48,7 +48,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
         return whole_.replays[blade.cut].displacement(static_cast<std::size_t>(number[blade.cut][vertex]),
                                                       blade.s);
       },
-      true);
+      true));
   bound_vertices();
 }
 

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "explorer/wound/guard_search.h"
@@ -70,8 +71,12 @@ class Wounds {
   /// displacement of one of them.
   using MovedAlone = std::function<std::vector<Moved>(const Blade&)>;
   using DisplacementAlone = std::function<Vec3(int vertex, const Blade&)>;
-  /// Finds the guard of all wounds as far as they are cut; with the moments while they are cut, or without.
-  void find_guard(const MovedAlone& moved, const DisplacementAlone& alone, bool moments);
+  /// The guard of all wounds as far as they are cut; with the moments while they are cut, or without. `poll`
+  /// is called all the while: what it throws ends the search. May be called on another thread, as long as
+  /// nothing of the wounds and their mesh changes.
+  Guard found_guard(const MovedAlone& moved, const DisplacementAlone& alone, bool moments,
+                    const std::function<void()>& poll = {}) const;
+  void set_guard(Guard guard) { guard_ = std::move(guard); }
   void forget_guard(int vertex) { guard_.forget(vertex); }
 
  private:

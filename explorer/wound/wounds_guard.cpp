@@ -45,16 +45,18 @@ constexpr double part_closed = 0.4;
 /// each triangle next to the path, while the blade passes that very triangle.
 class Wounds::GuardLooks {
  public:
-  GuardLooks(const Wounds& wounds, const MovedAlone& moved, const DisplacementAlone& alone)
+  GuardLooks(const Wounds& wounds, const MovedAlone& moved, const DisplacementAlone& alone,
+             const std::function<void()>& poll)
       : wounds_(wounds),
         mesh_(wounds[0].incision->mesh()),
         moved_(moved),
         alone_(alone),
-        search_(
-            mesh_, least_jump / wounds[0].scale(),
-            {[this](int t, std::size_t time) { return wounds_.turned_by_field(t, blades_[time]); },
-             [this](int a, int b, double jump) { return wounds_.stretched_by_field(a, b, jump); },
-             [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); }}),
+        poll_(poll),
+        search_(mesh_, least_jump / wounds[0].scale(),
+                {[this](int t, std::size_t time) { return wounds_.turned_by_field(t, blades_[time]); },
+                 [this](int a, int b, double jump) { return wounds_.stretched_by_field(a, b, jump); },
+                 [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); }},
+                poll),
         place_(mesh_.vertices().size(), -1) {
     for (std::size_t k = 0; k < wounds.size(); ++k) {
       const Wound& wound = wounds[k];
@@ -106,6 +108,7 @@ class Wounds::GuardLooks {
   /// All of the skin is looked at with the blade there.
   void look(const Blade& blade, bool lasting) {
     const Relief::At now = relief_at(blade);
+    if (poll_) poll_();
     add(moved_(blade), now, blade.cut);
     for (std::size_t k = 0; k < blade.cut; ++k) add(complete_[k], now, k);
     for (const auto& [v, d] : sum_) place_[v] = -1;
@@ -223,6 +226,7 @@ class Wounds::GuardLooks {
   const CutMesh& mesh_;
   const MovedAlone& moved_;
   const DisplacementAlone& alone_;
+  const std::function<void()>& poll_;
   std::vector<Blade> blades_;  // of all looks
   GuardSearch search_;
   std::vector<Relief> relief_;                // while each cut is made
@@ -234,8 +238,9 @@ class Wounds::GuardLooks {
   std::vector<int> place_;                 // of a vertex in that
 };
 
-void Wounds::find_guard(const MovedAlone& moved, const DisplacementAlone& alone, bool moments) {
-  guard_ = GuardLooks(*this, moved, alone).find(moments);
+Guard Wounds::found_guard(const MovedAlone& moved, const DisplacementAlone& alone, bool moments,
+                          const std::function<void()>& poll) const {
+  return GuardLooks(*this, moved, alone, poll).find(moments);
 }
 
 /// Whether the fields turn their own flat patches over at a triangle's corner, or nearly so: each of them, or

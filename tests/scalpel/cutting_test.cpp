@@ -213,6 +213,109 @@ TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
   EXPECT_LT(apart, 5e-3);  // what is not felt, 0.002, once before the blade came and once after it
 }
 
+/// A plate whose triangles at the path are slivers, so that the wound needs a guard.
+SurfaceMesh plate_with_slivers() {
+  SurfaceMesh plate = testing::grid(40, 30, -20, -15, 1);
+  for (std::size_t t = 0, count = plate.triangles.size(); t < count; t += 3) {
+    const auto [a, b, c] = plate.triangles[t];
+    const Vec3 middle = 0.5 * (plate.points[a] + plate.points[b]);
+    const int at = static_cast<int>(plate.points.size());
+    plate.points.push_back(middle + 1e-4 * (plate.points[c] - middle));
+    plate.triangles[t] = {a, b, at};
+    plate.triangles.push_back({b, c, at});
+    plate.triangles.push_back({c, a, at});
+  }
+  return plate;
+}
+
+Field taut_field() {
+  Field field = testing::opening_field({-15, 30, 3}, 50, 50, 6, 3);
+  field.parameters = recorded({{"skin.prestress_v", 0.03},
+                               {"skin.thickness", 1.5},
+                               {"skin.young_modulus", 0.2},
+                               {"skin.poisson_ratio", 0.4},
+                               {"tissue.young_modulus", 0.02},
+                               {"tissue.poisson_ratio", 0.4}});
+  return field;
+}
+
+/// The step that ends a cut begins the search for its guard on another thread; the next one takes it over.
+/// Then the mesh is, to the last bit, that of the replay of these cuts and of the same motion once more.
+TEST(ScalpelCutting, TheGuardIsTakenOverAfterTheStepThatEndsACut) {
+  const auto field = std::make_shared<const Field>(taut_field());
+  const SurfaceMesh mesh = plate_with_slivers();
+  const ScalpelPath made = testing::path_through({{-10, -5.2, 0}, {10, -5.1, 0}}, testing::up, 2),
+                    path = testing::path_through({{-12, 0.3, 0}, {12, 0.4, 0}}, testing::up, 2);
+  std::vector<Vec3> first;
+  for (int run = 0; run < 2; ++run) {
+    ScalpelCutting cutting(mesh, {path, {made}, CutFields(field), 1, 0});
+    HapticState scalpel;
+    scalpel.phase = Phase::cutting;
+    scalpel.pose.cutting = true;
+    std::vector<Vec3> before;
+    const auto positions = [&] {
+      std::vector<Vec3> all;
+      for (std::size_t v = 0; v < cutting.mesh().vertices().size(); ++v)
+        all.push_back(cutting.position(static_cast<int>(v)));
+      return all;
+    };
+    while (cutting.incision()->tip() < path.length()) {
+      scalpel.pose.tip = path.at(std::min(path.length(), cutting.incision()->tip() + 0.5)).position;
+      scalpel.pose.tip.z = -2;
+      cutting.step(scalpel);
+      ASSERT_EQ(cutting.figures().guards, 0);  // that ended the cut, too
+      ASSERT_EQ(cutting.figures().stopped, "");
+    }
+    scalpel.pose.cutting = false;
+    before = positions();
+    cutting.step(scalpel);
+    EXPECT_EQ(cutting.figures().guards, 1);
+    cutting.settle();
+    EXPECT_EQ(cutting.figures().guards, 1);
+    EXPECT_NE(before, positions());  // the guard was needed
+    if (run == 0) first = positions();
+    EXPECT_EQ(first, positions());
+  }
+  CutMesh cut(mesh);
+  std::vector<std::unique_ptr<Incision>> incisions;
+  for (const ScalpelPath& one : {made, path}) {
+    incisions.push_back(std::make_unique<Incision>(cut, one, IncisionOptions{}));
+    incisions.back()->advance_to(one.length());
+  }
+  const CutFields fields(field);
+  const ReplayedWounds wounds({fields.wound(*incisions[0], 1), fields.wound(*incisions[1], 1)});
+  std::vector<Vec3> seen(wounds.vertex_count());
+  wounds.positions(wounds.duration(), seen);
+  ASSERT_EQ(first.size(), seen.size());
+  for (std::size_t v = 0; v < seen.size(); ++v)
+    ASSERT_LT(norm(first[v] - seen[v]), 4.1e-3) << v;  // motions of two micrometres are not told, twice
+}
+
+/// A cut that begins while a guard is found does not wait for it: it is found when that cut ends.
+TEST(GuardFinder, GivesUpWhenItIsTold) {
+  const Field field = taut_field();
+  CutMesh mesh(plate_with_slivers());
+  Incision cut(mesh, testing::path_through({{-12, 0.3, 0}, {12, 0.4, 0}}, testing::up, 2));
+  LiveWounds wounds;
+  wounds.add(Wound(cut, field, 1), 5000);
+  cut.advance_to(24);
+  wounds.follow();
+  wounds.move_to_tips();
+  ASSERT_TRUE(wounds.wants_guard());
+  GuardFinder finder;
+  for (int i = 0; i < 20; ++i) {
+    finder.begin(wounds);
+    EXPECT_TRUE(finder.busy());
+    finder.give_up();
+    EXPECT_FALSE(finder.busy());
+  }
+  finder.begin(wounds);
+  const std::optional<Guard> guard = finder.take(true);
+  ASSERT_TRUE(guard);
+  EXPECT_FALSE(guard->empty());
+  EXPECT_EQ(guard->vertices(), wounds.find_guard({}).vertices());
+}
+
 TEST(Cutting, TheMeshKeepsItsOwnColorsWhileItIsCut) {
   testing::Surface ball = testing::ball(30, radius);
   SurfaceMesh mesh{ball.points, ball.triangles};

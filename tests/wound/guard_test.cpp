@@ -125,9 +125,9 @@ int unsound(const ReplayedWounds& wounds, int times) {
         found += jump > 2 * norm(rest[b] - rest[a]) + 0.05;
       }
     }
-    for (std::size_t k = 0; k < wounds.size(); ++k)
-      for (const auto& c : wounds[k].incision->chain())
-        found += dot(now[c.right] - now[c.left], wounds[k].incision->path().at(c.s).across) < -0.05;
+    for (std::size_t cut = 0; cut < wounds.size(); ++cut)
+      for (const auto& c : wounds[cut].incision->chain())
+        found += dot(now[c.right] - now[c.left], wounds[cut].incision->path().at(c.s).across) < -0.05;
   }
   return found;
 }
@@ -305,7 +305,7 @@ TEST(Guard, IsTheSameLiveBitForBit) {
       const Vec3 is = replayed.rest()[v] + live.displacement(static_cast<int>(v));
       if (count == 1)
         ASSERT_EQ(is, now[v]) << v;
-      else  // the order in which cuts are added is not the same
+      else  // cuts are added in another order, and their relief is rounded otherwise
         ASSERT_LT(norm(is - now[v]), 1e-13) << v;
     }
   }
