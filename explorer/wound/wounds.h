@@ -81,6 +81,8 @@ class Wounds {
 
  private:
   class GuardLooks;
+  /// mm: neighbours that move apart by no more are never torn.
+  static constexpr double least_jump = 0.05;
   Vec3 changed_by_guard(int vertex, const Blade& blade) const;
   Relief relief_while_cut(std::size_t newest, double length) const;
   bool turned_by_field(int triangle, const Blade& blade) const;

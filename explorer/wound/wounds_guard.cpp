@@ -1,4 +1,4 @@
-// What the guard of all wounds is found from: positions of the blade, and what the fields do themselves.
+// What the guard of all wounds is found from: positions of the blade.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,22 +23,6 @@ constexpr double fade_part = 0.25;
 /// Of the largest opening: what the field of a single cut turns itself in its own flat patch is not worth
 /// lips that are held back by more for good.
 constexpr double worth_an_excuse = 0.02;
-/// Of its own flat patch a field that keeps less turns it over.
-constexpr double least_area = 0.3;
-/// Likewise of a triangle as it lies in the patch, as much as is called turned over on a mesh.
-constexpr double least_triangle = 0.2;
-/// Of the area of a triangle in space and in the patch, the less over the larger, where they are compared.
-constexpr double least_alike = 0.7;
-/// Of a triangle's shape, which is 1 if its sides are equal; and of the cut's depth: as far is the tip felt.
-constexpr double well_shaped = 0.4, tip_part = 0.5;
-/// Lengths in the patch and in space that are about the same.
-constexpr double about = 1.25;
-/// Of an edge's length in space, its length in a patch: where it is more, the patch is drawn apart there.
-constexpr double most_drawn = 2;
-/// mm: neighbours that move apart by no more are never torn.
-constexpr double least_jump = 0.05;
-/// Of that: a field that moves its own lips into each other by more does so on any mesh.
-constexpr double part_closed = 0.4;
 }  // namespace
 
 /// The positions of the blade at which the skin is looked at: even ones of all the skin, and further ones of
@@ -52,7 +36,7 @@ class Wounds::GuardLooks {
         moved_(moved),
         alone_(alone),
         poll_(poll),
-        search_(mesh_, least_jump / wounds[0].scale(),
+        search_(mesh_, Wounds::least_jump / wounds[0].scale(),
                 {[this](int t, std::size_t time) { return wounds_.turned_by_field(t, blades_[time]); },
                  [this](int a, int b, double jump) { return wounds_.stretched_by_field(a, b, jump); },
                  [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); }},
@@ -241,93 +225,6 @@ class Wounds::GuardLooks {
 Guard Wounds::found_guard(const MovedAlone& moved, const DisplacementAlone& alone, bool moments,
                           const std::function<void()>& poll) const {
   return GuardLooks(*this, moved, alone, poll).find(moments);
-}
-
-/// Whether the fields turn their own flat patches over at a triangle's corner, or nearly so: each of them, or
-/// what they change of the area together.
-bool Wounds::turned_by_field(int triangle, const Blade& blade) const {
-  for (const int v : wounds_.front().incision->mesh().triangle(triangle).vertex) {
-    double together = 1;
-    for (std::size_t k = 0; k <= blade.cut; ++k) {
-      const Wound& wound = wounds_[k];
-      const double s = k == blade.cut ? blade.s : wound.complete();
-      const auto at = wound.volume.locate(v);
-      if (!at) continue;
-      const Side side = at->on_cut && at->s >= s ? Side::both : at->side;
-      const double t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
-      const Derivatives d = wound.field.derivatives(at->uvw, side, t, at->s);
-      const double area = cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v).z;
-      together += amplitude(k, at->s, blade) * (area - 1);
-      if (std::min(area, together) < least_area) return true;
-    }
-  }
-  return turned_between_corners(triangle, blade);
-}
-
-/// The same for a triangle next to the tip as it lies in the flat patch of the cut, moved by the field at its
-/// corners: a fit oscillates at the tip while it passes, between corners whose derivatives show nothing.
-/// Where the mesh lies in the patch as in space. Slivers are the mesh's fault.
-bool Wounds::turned_between_corners(int triangle, const Blade& blade) const {
-  const CutMesh& mesh = wounds_.front().incision->mesh();
-  const auto& corners = mesh.triangle(triangle).vertex;
-  const auto twice_area = [](const std::array<Vec3, 3>& p) { return cross(p[1] - p[0], p[2] - p[0]); };
-  const Wound& wound = wounds_[blade.cut];
-  std::array<Vec3, 3> space, rest, moved;
-  double part = 1;  // the least: that displacements are held back from corner to corner is not the field's
-  for (int i = 0; i < 3; ++i) {
-    const auto at = wound.volume.locate(corners[i]);
-    if (!at || !(std::abs(at->s - blade.s) < tip_part * wound.field.shape().cut().depth)) return false;
-    const Side side = at->on_cut && at->s >= blade.s ? Side::both : at->side;
-    const double t = std::clamp(blade.s + at->time_offset, 0., wound.field.shape().cut().length);
-    space[i] = wound.scale() * mesh.position(corners[i]);
-    rest[i] = {at->s, at->uvw.y, 0};
-    moved[i] = amplitude(blade.cut, at->s, blade) * wound.field.displacement(at->uvw, side, t, at->s);
-    part = std::min(part, at->weight);
-  }
-  std::array<Vec3, 3> now = rest;
-  for (int i = 0; i < 3; ++i) now[i] += part * moved[i];
-  const Vec3 before = twice_area(rest), after = twice_area(now);
-  const double area = norm(before), area_now = norm(after), alike = area / norm(twice_area(space));
-  const double sides =
-      squared_norm(rest[1] - rest[0]) + squared_norm(rest[2] - rest[1]) + squared_norm(rest[0] - rest[2]);
-  if (!(alike > least_alike && alike < 1 / least_alike)) return false;
-  if (2 * std::sqrt(3.) * area < well_shaped * sides) return false;
-  return area_now < least_triangle * area || dot(before, after) < 0;
-}
-
-/// Whether two vertices that move apart by more than `jump`, mesh units, are nearer to each other in the flat
-/// patches of all cuts: the fields stretch the skin between them, and not that the patches are drawn apart.
-bool Wounds::stretched_by_field(int a, int b, double jump) const {
-  const CutMesh& mesh = wounds_.front().incision->mesh();
-  const double length = norm(mesh.position(b) - mesh.position(a));
-  const auto apart = [](Side x, Side y) { return x != y && x != Side::both && y != Side::both; };
-  bool moved = false;
-  for (const Wound& wound : wounds_) {
-    const auto from = wound.volume.locate(a), to = wound.volume.locate(b);
-    if (!from || !to) continue;
-    moved = true;
-    // By s and not by u: between the halves of a path longer than the canonical cut u does not change.
-    const Vec3 between{to->s - from->s, to->uvw.y - from->uvw.y, to->uvw.z - from->uvw.z};
-    if (apart(from->side, to->side) || !(norm(between) < about * jump * wound.scale())) return false;
-    if (norm(between) > most_drawn * wound.scale() * length) return false;
-  }
-  return moved;
-}
-
-/// Whether the field of a cut moves its lips into each other.
-bool Wounds::closed_by_field(int lip, const Blade& blade) const {
-  for (std::size_t k = 0; k <= blade.cut; ++k) {
-    const Wound& wound = wounds_[k];
-    const double s = k == blade.cut ? blade.s : wound.complete();
-    const auto at = wound.volume.locate(lip);
-    if (!at || !at->on_cut || at->s >= s) continue;
-    const double t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
-    const auto moved = [&](Side side) {
-      return wound.field.displacement({at->uvw.x, 0, at->uvw.z}, side, t, at->s).y;
-    };
-    if (moved(Side::right) - moved(Side::left) < -least_jump * part_closed) return true;
-  }
-  return false;
 }
 
 }  // namespace cleft
