@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "solver/blas.h"
 #include "solver/frame_solver.h"
 #include "solver/message_order.h"
 #include "solver/spectrum.h"
@@ -20,7 +21,9 @@ namespace cleft {
 namespace {
 
 constexpr int most_with_same_sums = 1000000;  // unknowns, on several ranks
+constexpr double few_operations = 5e10;       // of a factorisation, a second or two of a core
 
+/// Also where that of an earlier factor does not suffice.
 struct NotEnoughWorkspace : SolveError {
   using SolveError::SolveError;
 };
@@ -89,19 +92,46 @@ struct CondensedFactor::Mumps {
   Eigen::MatrixXd schur;
   std::vector<int> solution_rows;              // 1-based unknowns of this rank's part of a solution
   std::optional<Redistribution> redistribute;  // known with the first solution
-  bool same_sums = false;                      // in every run
+  bool again = false;                          // whether there has been a factor
+  std::unique_ptr<double[]> workspace;
+  MUMPS_INT8 workspace_size = 0;
+  bool same_sums = false;  // in every run
 
   /// Control parameters are numbered from 1, as in the manual.
   MUMPS_INT& icntl(int number) { return id.icntl[number - 1]; }
 
+  void take(PatchSystem::Entries new_entries) {
+    entries = std::move(new_entries);
+    for (int& row : entries.row) ++row;
+    for (int& column : entries.column) ++column;
+    id.nnz_loc = static_cast<MUMPS_INT8>(entries.value.size());
+    id.irn_loc = entries.row.data();
+    id.jcn_loc = entries.column.data();
+    id.a_loc = entries.value.data();
+  }
+
+  /// Of further factors, which find it in memory already.
+  void keep_workspace() {
+    const auto numbers = static_cast<MUMPS_INT8>(id.info[7] < 0 ? -1e6 * id.info[7] : id.info[7]);
+    const MUMPS_INT8 enough = numbers + numbers * icntl(14) / 100;
+    if (workspace_size < enough) {
+      workspace = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(enough));
+      workspace_size = enough;
+    }
+    if (workspace_size > std::numeric_limits<MUMPS_INT>::max()) return;
+    id.wk_user = workspace.get(), id.lwk_user = static_cast<MUMPS_INT>(workspace_size);
+  }
+
   void run(int job, const std::string& what) {
+    // Small fronts, and single columns, are done sooner than several threads have agreed on their parts.
+    const OneBlasThread one(id.rinfog[0] < few_operations || (job == 3 && id.nrhs == 1));
     id.job = job;
     dmumps_c(&id);
     if (id.infog[0] >= 0) return;
     const std::string codes =
         "INFOG(1:2) = " + std::to_string(id.infog[0]) + ", " + std::to_string(id.infog[1]);
     if (id.infog[0] == -10 || id.infog[0] == -40) fail_indefinite(system, what + " (MUMPS, " + codes + ")");
-    if (id.infog[0] == -9)
+    if (id.infog[0] == -9 || id.infog[0] == -11)
       throw NotEnoughWorkspace(what + ": MUMPS needs more workspace than it estimated, " + codes);
     if (id.infog[0] == -13)
       throw SolveError(what + ": not enough memory (MUMPS, " + codes +
@@ -136,14 +166,8 @@ CondensedFactor::CondensedFactor(const PatchSystem& system, PatchSystem::Entries
   m.same_sums = ranks > 1 && system.size() <= most_with_same_sums;
   if (m.same_sums) m.id.keep[8] = std::numeric_limits<MUMPS_INT>::max() / 2, m.id.keep[233] = 0;
 
-  m.entries = std::move(entries);
-  for (int& row : m.entries.row) ++row;
-  for (int& column : m.entries.column) ++column;
+  m.take(std::move(entries));
   m.id.n = system.size();
-  m.id.nnz_loc = static_cast<MUMPS_INT8>(m.entries.value.size());
-  m.id.irn_loc = m.entries.row.data();
-  m.id.jcn_loc = m.entries.column.data();
-  m.id.a_loc = m.entries.value.data();
   for (const int unknown : kept) m.kept.push_back(unknown + 1);
   m.id.size_schur = static_cast<MUMPS_INT>(m.kept.size());
   m.id.listvar_schur = m.kept.data();
@@ -162,6 +186,11 @@ CondensedFactor::~CondensedFactor() {
   dmumps_c(&mumps_->id);
 }
 
+void CondensedFactor::replace(PatchSystem::Entries entries) {
+  mumps_->take(std::move(entries));
+  mumps_->again = true;
+}
+
 double CondensedFactor::bytes_needed() const { return 1e6 * mumps_->id.info[14]; }
 double CondensedFactor::operations() const { return mumps_->id.rinfog[0]; }
 
@@ -169,11 +198,15 @@ void CondensedFactor::factorize() {
   Mumps& m = *mumps_;
   if (m.system.rank() == 0) m.schur.resize(m.id.size_schur, m.id.size_schur);
   m.id.schur = m.schur.data();
-  malloc_trim(0);  // what was freed on the way here goes back to the system first
+  if (m.again)
+    m.keep_workspace();
+  else
+    malloc_trim(0);  // what was freed on the way here goes back to the system first
   try {
     m.run(2, "factorising the stiffness matrix");
   } catch (const NotEnoughWorkspace&) {  // the estimate was too small: once more with much more
     m.icntl(14) = 200;
+    m.id.lwk_user = 0, m.workspace.reset(), m.workspace_size = 0;
     m.run(2, "factorising the stiffness matrix");
   }
   // MUMPS takes our word for a definite matrix, and only counts the pivots that belie it.

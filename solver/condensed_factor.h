@@ -24,6 +24,9 @@ class CondensedFactor {
                   const std::vector<int>& order);
   ~CondensedFactor();
 
+  /// Another matrix with entries at the same places, which the analysis serves too. To be factorised anew.
+  void replace(PatchSystem::Entries entries);
+
   double bytes_needed() const;  ///< by the factorisation on this rank, as estimated
   double operations() const;    ///< of the factorisation, on all ranks
 

@@ -59,6 +59,11 @@ DirectSolver::DirectSolver(const PatchMesh& mesh, const PatchSystem& system, Pat
   for (const NodePair& pair : mesh.pairs) normals_.push_back(pair.normal);
 }
 
+void DirectSolver::replace(PatchSystem::Entries entries) {
+  opening_.reset(), neighbors_.clear(), coupling_entries_.clear();
+  factor_.replace(stiffness_with_jumps(std::move(entries)));
+}
+
 PatchSystem::Entries DirectSolver::stiffness_with_jumps(PatchSystem::Entries entries) {
   std::unordered_map<int, int> left_of,
       number;  // by unknown of a right node: that of the left one, of the jump

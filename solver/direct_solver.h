@@ -18,6 +18,8 @@ class DirectSolver : public FrameSolver {
       : DirectSolver(mesh, system, system.lower_triangle()) {}
   /// Of another matrix of the system's unknowns, by its lower triangle.
   DirectSolver(const PatchMesh& mesh, const PatchSystem& system, PatchSystem::Entries entries);
+  /// Takes another one with entries at the same places, which saves its analysis; factorize() comes next.
+  void replace(PatchSystem::Entries entries);
 
   double bytes_needed() const;  ///< on this rank
   double operations() const { return factor_.operations(); }

@@ -57,6 +57,48 @@ struct FinitePatch::Parts {
       }
   }
 
+  /// Where the stiffness of each element whose rows this rank owns goes in the matrix.
+  void find_entries() {
+    const Epetra_CrsMatrix& matrix = tangent.trilinos_matrix();
+    int *starts = nullptr, *columns = nullptr;
+    CLEFT_CHECK(matrix.ExtractCrsDataPointers(starts, columns, values), ==, 0);
+    entries.assign(elements.count(), {});
+    for (int c = 0; c < elements.count(); ++c) {
+      const std::array<int, 18>& unknowns = elements.unknowns(c);
+      std::array<int, 6> column;  // local: of a vertex's first unknown
+      for (int b = 0; b < 6; ++b) column[b] = matrix.LCID(unknowns[3 * b]);
+      for (int r = 0; r < 18 && owns(c); ++r) {
+        const int row = matrix.LRID(unknowns[r]);
+        for (int b = 0; b < 6; ++b) {
+          const int* const found =
+              std::lower_bound(columns + starts[row], columns + starts[row + 1], column[b]);
+          for (int i = 0; i < 3; ++i) CLEFT_CHECK(matrix.GCID(found[i]), ==, unknowns[3 * b + i]);
+          entries[c][6 * r + b] = static_cast<int>(found - columns);
+        }
+      }
+    }
+  }
+
+  bool owns(int cell) const {
+    const auto& unknowns = elements.unknowns(cell);
+    return std::all_of(unknowns.begin(), unknowns.end(),
+                       [&](int unknown) { return system.row(unknown) >= 0; });
+  }
+
+  void add_to_tangent(int cell, const Eigen::Matrix<double, 18, 18>& stiffness) {
+    if (!owns(cell)) {
+      const auto& unknowns = elements.unknowns(cell);
+      for (int a = 0; a < 18; ++a)
+        for (int b = 0; b < 18; ++b) cell_matrix(a, b) = stiffness(a, b);
+      tangent.add({unknowns.begin(), unknowns.end()}, cell_matrix, false);
+      return;
+    }
+    const auto* entry = entries[cell].data();
+    for (int a = 0; a < 18; ++a)  // the stiffness is symmetric
+      for (int b = 0; b < 6; ++b)
+        Eigen::Map<Eigen::Vector3d>(values + *entry++) += stiffness.col(a).segment<3>(3 * b);
+  }
+
   /// Calls visit(cell, response, its first unknowns' places) of every element of this rank.
   template <class Visit>
   void each_response(const Block& displacement, bool with_tangent, const Visit& visit) const {
@@ -79,6 +121,10 @@ struct FinitePatch::Parts {
   Epetra_Import exchange;   // from the owned unknowns to these
   std::vector<int> places;  // in `near`, of the vertices of the elements
   dealii::TrilinosWrappers::SparseMatrix tangent, bending;
+  double* values = nullptr;  // of the tangent's entries on this rank
+  // By element: of each row of its stiffness and each vertex, the number of the first of three entries.
+  std::vector<std::array<int, 108>> entries;
+  dealii::FullMatrix<double> cell_matrix{18, 18};
   bool bends = false;  // whether the skin has a bending stiffness, as `bending` and the joints that hold
   std::vector<Joint> joints;
   std::vector<bool> holds;
@@ -148,14 +194,10 @@ FinitePatch::Balance FinitePatch::balance(const Block& displacement) const {
 
 void FinitePatch::set_tangent(const Block& displacement) {
   Parts& p = *parts_;
+  if (!p.values) p.find_entries();
   p.tangent = 0;
-  std::vector<dealii::types::global_dof_index> unknowns(18);
-  dealii::FullMatrix<double> matrix(18, 18);
   p.each_response(displacement, true, [&](int cell, const CellResponse& response, const int*) {
-    std::copy(p.elements.unknowns(cell).begin(), p.elements.unknowns(cell).end(), unknowns.begin());
-    for (int a = 0; a < 18; ++a)
-      for (int b = 0; b < 18; ++b) matrix(a, b) = response.stiffness(a, b);
-    p.tangent.add(unknowns, matrix, false);
+    p.add_to_tangent(cell, response.stiffness);
   });
   p.tangent.compress(dealii::VectorOperation::add);
   if (p.bends) p.tangent.add(1, p.bending);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "base/text.h"
 #include "solver/block_rows.h"
@@ -98,9 +99,10 @@ bool NewtonSolver::predict(int frame, const Block& start, Block& displacement) {
   Block predicted = prediction_.predict(before_, start);
   close_what_is_closed(mesh_, system_, release_, frame, predicted);
   FinitePatch::Balance there = patch_.balance(predicted);
+  const int open = release_.released[frame];
   if (!(there.least.determinant > 0) ||
-      !(residual_of(frame, there.left_over + contact_.forces(there.left_over), predicted) <
-        residual_of(frame, left_over(), start)))
+      !(residual_of(open, there.left_over + contact_.forces(there.left_over), predicted) <
+        residual_of(open, left_over(), start)))
     return false;
   displacement = predicted;
   balance_ = std::move(there);
@@ -115,7 +117,7 @@ bool NewtonSolver::converge(int frame, const Block& tied, Block& displacement, N
   for (int i = 0;; ++i) {
     const Block acting = balance_.left_over - tied;
     const Block force = acting + contact_.forces(acting);
-    report.residual = residual_of(frame, force, displacement);
+    report.residual = residual_of(open, force, displacement);
     if (i == most_steps + most_revisions || !std::isfinite(report.residual)) return false;
     // As far as the residual lets pulls and overlaps be told.
     const double least = std::max(report.residual, converged);
@@ -143,15 +145,18 @@ bool NewtonSolver::close_gaps(int open, Block& displacement) {
   return balance_.least.determinant > 0;
 }
 
-/// Conjugate gradients: the tangent's step, to `enough` in the norm of the preconditioner. At a negative
-/// curvature what is reached so far is a direction of descent.
+/// Conjugate gradients: the tangent's step, to `enough` of the residual. At a negative curvature what is
+/// reached so far is a direction of descent.
 NewtonSolver::Direction NewtonSolver::direction(const Block& force, int open, double enough) {
   Direction d;
   d.step = Block::Zero(force.rows(), 1);
-  Block r = force, z = precondition(r, open), along = z;
-  double rz = dot(system_, r.col(0), z.col(0));
-  const double first = rz;
-  while (d.iterations < most_iterations_of_step && rz > enough * enough * first) {
+  const auto size = [&](const Block& r) { return residual_of(open, r + contact_.forces(r), d.step); };
+  Block r = force, along;
+  const double first = size(r);
+  for (double rz = 0; d.iterations < most_iterations_of_step && size(r) > enough * first; ++d.iterations) {
+    const Block z = precondition(r, open);
+    const double before = std::exchange(rz, dot(system_, r.col(0), z.col(0)));
+    along = d.iterations == 0 ? z : Block(z + rz / before * along);
     const Block product = patch_.multiply(along);
     const double curvature = dot(system_, along.col(0), product.col(0));
     if (!(curvature > 0)) {
@@ -159,13 +164,8 @@ NewtonSolver::Direction NewtonSolver::direction(const Block& force, int open, do
       if (d.iterations == 0) d.step = along;
       break;
     }
-    ++d.iterations;
     d.step += rz / curvature * along;
     r -= rz / curvature * product;
-    z = precondition(r, open);
-    const double before = rz;
-    rz = dot(system_, r.col(0), z.col(0));
-    along = z + rz / before * along;
   }
   return d;
 }
@@ -193,9 +193,8 @@ double NewtonSolver::line_search(const Block& step, const Block& tied, Block& di
   return 0;
 }
 
-double NewtonSolver::residual_of(int frame, const Block& force, const Block& displacement) const {
-  return residual_
-      .figures(release_, {{0, release_.released[frame], false, 0}}, displacement, force, largest_load_)
+double NewtonSolver::residual_of(int open, const Block& force, const Block& displacement) const {
+  return residual_.figures(release_, {{0, open, false, 0}}, displacement, force, largest_load_)
       .front()
       .residual_equilibrium;
 }
@@ -209,19 +208,20 @@ Block NewtonSolver::precondition(const Block& force, int open) {
 /// definite with all pairs open that of the reference state does.
 bool NewtonSolver::is_stable(int open, const Block& displacement) {
   patch_.set_tangent(displacement);
-  factor_.reset();
+  has_factor_ = false;
   bool stable = false;
   try {
-    factor_ = std::make_unique<DirectSolver>(mesh_, system_, patch_.lower_triangle());
+    if (factor_)
+      factor_->replace(patch_.lower_triangle());
+    else
+      factor_ = std::make_unique<DirectSolver>(mesh_, system_, patch_.lower_triangle());
     factor_->factorize();
     stable = factor_->is_definite(release_, open, contact_.sliding().places);
+    factor_->set_release(release_);
+    has_factor_ = true;
   } catch (const IndefiniteError&) {
     factor_.reset();
-  }
-  try {
-    if (factor_) factor_->set_release(release_);
-  } catch (const SolveError&) {
-    factor_.reset();
+  } catch (const SolveError&) {  // not definite with all pairs open
   }
   saddle_ = saddle_ || !stable;
   return stable;

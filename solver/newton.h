@@ -51,9 +51,9 @@ class NewtonSolver {
   bool close_gaps(int open, Block& displacement);
   Direction direction(const Block& force, int open, double enough);
   double line_search(const Block& step, const Block& tied, Block& displacement);
-  double residual_of(int frame, const Block& force, const Block& displacement) const;
+  double residual_of(int open, const Block& force, const Block& displacement) const;
   Block precondition(const Block& force, int open);
-  FrameSolver& factor() { return factor_ ? *factor_ : reference_; }
+  FrameSolver& factor() { return has_factor_ ? *factor_ : reference_; }
   bool is_stable(int open, const Block& displacement);
   [[noreturn]] void fail(int frame, double fraction, const NewtonFrame& report) const;
 
@@ -67,7 +67,8 @@ class NewtonSolver {
   Prediction prediction_;
   LipContact contact_;
   Block before_;                          // the frame before the last
-  std::unique_ptr<DirectSolver> factor_;  // of a later tangent
+  std::unique_ptr<DirectSolver> factor_;  // of later tangents, one after another
+  bool has_factor_ = false;               // whether it is that of a definite one
   bool saddle_ = false;                   // whether the frame has come to an equilibrium that is not stable
   FinitePatch::Balance balance_;          // at the displacement reached
 };

@@ -9,6 +9,8 @@
 #include <functional>
 #include <span>
 
+#include "solver/material/outer_products.h"
+
 namespace cleft {
 
 /// The gradients of a cell's six shape functions in the reference state, 1/mm, and the weight, mm^3, of a
@@ -38,15 +40,23 @@ struct VolumeEnergy {
   double energy = 0, first = 0, second = 0;
 };
 
-/// A law makes a value `at` of a deformation, with its energy, MPa, the force P G at a vertex and the
-/// stiffness between two vertices, MPa/mm and MPa/mm^2; these have all of the energy but the part `volume`,
-/// a function of J alone, which may be taken of an element's mean J. `has_volume` says whether there is such
-/// a part.
+/// The stiffness between vertices a and b at a point, MPa/mm^2, by the products of their gradients:
+///   spatial g_a g_b^T + mixed (g_a h_b^T + h_a g_b^T) + carried h_a h_b^T
+///   + crossed_spatial g_b g_a^T + crossed_carried h_b h_a^T + even (G_a . G_b) I.
+struct PointTangent {
+  double spatial = 0, mixed = 0, carried = 0;                 // MPa
+  double crossed_spatial = 0, crossed_carried = 0, even = 0;  // MPa
+};
+
+/// A law makes a value `at` of a deformation, with its energy, MPa, the force P G at a vertex, MPa/mm, and
+/// the tangent; these have all of the energy but the part `volume`, a function of J alone, which may be taken
+/// of an element's mean J. `has_volume` says whether there is such a part. What of the stiffness between two
+/// vertices has another form is a function `rest` of these, MPa/mm^2.
 template <class Law>
 concept FiniteTissueLaw = requires(const Law& law, const Deformation& f) {
   { law.at(f).energy } -> std::convertible_to<double>;
   { law.at(f).force(0) } -> std::convertible_to<Eigen::Vector3d>;
-  { law.at(f).stiffness(0, 0) } -> std::convertible_to<Eigen::Matrix3d>;
+  { law.at(f).tangent() } -> std::convertible_to<PointTangent>;
   { law.volume(1.) } -> std::convertible_to<VolumeEnergy>;
   { Law::has_volume } -> std::convertible_to<bool>;
 };
@@ -112,6 +122,8 @@ void FiniteTissue::respond(const Law& law, std::span<const ReferencePoint> point
   const VolumeEnergy of_mean = mean ? law.volume(volume / reference_volume) : VolumeEnergy{};
   if (mean) out.energy += reference_volume * of_mean.energy;
   const bool has_initial = !initial.isZero(0);
+  OuterProducts straight, crossed;  // of the tangent: blocks (a, b) as they are, and those of (b, a)
+  Eigen::Matrix<double, 6, 6> even = Eigen::Matrix<double, 6, 6>::Zero();
   for (const ReferencePoint& point : points) {
     const Deformation f(point, displacements);
     out.least_determinant = std::min(out.least_determinant, f.determinant);
@@ -131,22 +143,29 @@ void FiniteTissue::respond(const Law& law, std::span<const ReferencePoint> point
       if (mean) mean_slope.segment<3>(3 * a) += w * j * f.spatial.col(a);
     }
     if (!tangent) continue;
-    const double pressure = w * j * of_point.first;
-    const double stiffening = mean ? 0 : w * j * j * of_point.second;
-    for (int a = 0; a < 6; ++a)
-      for (int b = a; b < 6; ++b) {
-        Eigen::Matrix3d k = w * state.stiffness(a, b);
-        k.noalias() += (pressure + stiffening) * f.spatial.col(a) * f.spatial.col(b).transpose();
-        k.noalias() -= pressure * f.spatial.col(b) * f.spatial.col(a).transpose();
-        if (has_initial) k.diagonal().array() += w * f.reference.col(a).dot(pulled.col(b));
-        out.stiffness.template block<3, 3>(3 * a, 3 * b) += k;
-      }
+    PointTangent k = state.tangent();
+    k.spatial += j * of_point.first + (mean ? 0 : j * j * of_point.second);
+    k.crossed_spatial -= j * of_point.first;
+    const Eigen::Map<const OuterProducts::Vector> g(f.spatial.data()), h(f.carried.data());
+    straight.add(g, w * (k.spatial * g + k.mixed * h));
+    straight.add(h, w * (k.mixed * g + k.carried * h));
+    crossed.add(g, w * k.crossed_spatial * g);
+    if (k.crossed_carried != 0) crossed.add(h, w * k.crossed_carried * h);
+    even.noalias() += w * k.even * f.reference.transpose() * f.reference;
+    if (has_initial) even.noalias() += w * f.reference.transpose() * pulled;
+    if constexpr (requires { state.rest(0, 0); })
+      for (int a = 0; a < 6; ++a)
+        for (int b = 0; b < 6; ++b) out.stiffness.template block<3, 3>(3 * a, 3 * b) += w * state.rest(a, b);
   }
   if (!tangent) return;
+  out.stiffness += straight.sum();
+  const OuterProducts::Matrix of_crossed = crossed.sum();
   for (int a = 0; a < 6; ++a)
-    for (int b = 0; b < a; ++b)
-      out.stiffness.template block<3, 3>(3 * a, 3 * b) =
-          out.stiffness.template block<3, 3>(3 * b, 3 * a).transpose();
+    for (int b = 0; b < 6; ++b) {
+      out.stiffness.template block<3, 3>(3 * a, 3 * b) +=
+          of_crossed.template block<3, 3>(3 * a, 3 * b).transpose();
+      out.stiffness.template block<3, 3>(3 * a, 3 * b).diagonal().array() += even(a, b);
+    }
   if (mean)
     out.stiffness.noalias() += of_mean.second / reference_volume * mean_slope * mean_slope.transpose();
 }

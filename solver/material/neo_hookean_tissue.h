@@ -24,18 +24,17 @@ struct NeoHookeanTissue {
 
     Eigen::Vector3d force(int a) const { return factor * (f.carried.col(a) - trace / 3 * f.spatial.col(a)); }
 
-    Eigen::Matrix3d stiffness(int a, int b) const {
-      const auto g_a = f.spatial.col(a), g_b = f.spatial.col(b);
-      Eigen::Matrix3d k = (2. / 9 * trace * g_a - 2. / 3 * f.carried.col(a)) * g_b.transpose();
-      k.noalias() -= 2. / 3 * g_a * f.carried.col(b).transpose();
-      k.noalias() += trace / 3 * g_b * g_a.transpose();
-      k.diagonal().array() += f.reference.col(a).dot(f.reference.col(b));
-      return factor * k;
+    PointTangent tangent() const {
+      return {.spatial = 2. / 9 * trace * factor,
+              .mixed = -2. / 3 * factor,
+              .crossed_spatial = trace / 3 * factor,
+              .even = factor};
     }
   };
 
   State at(const Deformation& f) const {
-    const double factor = moduli.shear * std::pow(f.determinant, -2. / 3), trace = f.gradient.squaredNorm();
+    const double root = std::cbrt(f.determinant), factor = moduli.shear / (root * root);
+    const double trace = f.gradient.squaredNorm();
     return {f, factor, trace, (factor * trace - 3 * moduli.shear) / 2};
   }
 };

@@ -23,11 +23,10 @@ struct StVenantKirchhoffTissue {
 
     Eigen::Vector3d force(int a) const { return f.gradient * pulled.col(a); }
 
-    Eigen::Matrix3d stiffness(int a, int b) const {
-      const auto h_a = f.carried.col(a), h_b = f.carried.col(b);
-      Eigen::Matrix3d k = moduli.lame * h_a * h_b.transpose();
-      k.noalias() += moduli.shear * h_b * h_a.transpose();
-      k.noalias() += moduli.shear * f.reference.col(a).dot(f.reference.col(b)) * left;
+    PointTangent tangent() const { return {.carried = moduli.lame, .crossed_carried = moduli.shear}; }
+
+    Eigen::Matrix3d rest(int a, int b) const {
+      Eigen::Matrix3d k = moduli.shear * f.reference.col(a).dot(f.reference.col(b)) * left;
       k.diagonal().array() += f.reference.col(a).dot(pulled.col(b));
       return k;
     }

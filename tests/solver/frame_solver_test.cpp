@@ -250,4 +250,26 @@ TEST(FrameSolver, WhatCannotBeAssembledIsRefusedBefore) {
   }
 }
 
+/// As tangents follow one another; each factor uses the analysis and the memory of the first.
+TEST(FrameSolver, FactorsOfFurtherMatricesAreTheirOwn) {
+  const DensePatch patch(dense_patch_case());
+  DirectSolver solver(patch.mesh, patch.system);
+  solver.factorize();
+  const Eigen::MatrixXd load = two_loads(patch).col(1);
+  const int open = patch.release.released[1];
+  for (const double factor : {3., 0.2, 1.}) {
+    PatchSystem::Entries entries = patch.system.lower_triangle();
+    for (std::size_t i = 0; i < entries.value.size(); ++i)
+      entries.value[i] = factor * entries.value[i] + (entries.row[i] == entries.column[i] ? 0.1 : 0);
+    const Eigen::MatrixXd k = factor * patch.stiffness +
+                              0.1 * Eigen::MatrixXd::Identity(patch.stiffness.rows(), patch.stiffness.rows());
+    solver.replace(std::move(entries));
+    solver.factorize();
+    solver.set_release(patch.release);
+    const Eigen::MatrixXd expected = solve_with_multipliers(k, patch.closure(patch.release, open), load);
+    const Eigen::MatrixXd found = patch.whole(solver.solve_once(patch.own(load), open));
+    EXPECT_LT((found - expected).norm(), direct_tolerance * expected.norm()) << factor;
+  }
+}
+
 }  // namespace cleft
