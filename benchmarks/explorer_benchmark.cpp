@@ -158,6 +158,10 @@ void shadings(MainWindow& window, const std::function<void(int)>& open_it) {
     QApplication::processEvents();
     std::printf("shading %s: first picture after %.0f ms\n", shading, 1e3 * watch.seconds());
     time_calls(" the wound opens: whole pictures", 40, open_it);
+    window.scene().set_slowest(0);
+    time_calls(" scenes at half the resolution", 40, open_it);
+    window.scene().set_slowest(HUGE_VAL);
+    window.scene().rest();
   }
 }
 

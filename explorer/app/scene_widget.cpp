@@ -84,16 +84,8 @@ void SceneWidget::rest() {
 }
 
 void SceneWidget::set_coarse(bool coarse) {
-  if (coarse == coarse_) return;
   coarse_ = coarse;
-  setCustomDevicePixelRatio(coarse ? 0.5 * devicePixelRatioF() : 0);  // 0: the screen's
-  const int size[] = {static_cast<int>(pixel_ratio() * width()),  // VTK takes it at the next resizing only
-                      static_cast<int>(pixel_ratio() * height())};
-  renderWindow()->SetSize(size[0], size[1]);
-  interactor()->UpdateSize(size[0], size[1]);
-  stage_->set_samples(coarse ? 0.5 : 1);  // details stay as they are
-  last_x_ = static_cast<int>(coarse ? 0.5 * last_x_ : 2 * last_x_);
-  last_y_ = static_cast<int>(coarse ? 0.5 * last_y_ : 2 * last_y_);
+  stage_->set_coarse(coarse);
 }
 
 void SceneWidget::set_picking(const std::string& command) {
@@ -184,7 +176,7 @@ bool SceneWidget::handle(QEvent* event) {
     return false;
   auto* mouse = static_cast<QMouseEvent*>(event);
   const auto [x, y] = pixel(*mouse);
-  const PicturePlace at{x, y, pixel_ratio()};
+  const PicturePlace at{x, y, devicePixelRatioF()};
   if (type == QEvent::MouseButtonPress && mouse->button() == Qt::LeftButton) {
     view_ = stage_->view_at(x, y);
     if (view_ < 0 || session_.views()[static_cast<std::size_t>(view_)] != session_.state().shown)
@@ -209,10 +201,10 @@ bool SceneWidget::handle(QEvent* event) {
   return true;
 }
 
-/// Where a mouse is in the picture as it is drawn now, from its lower left corner.
+/// Where a mouse is in the picture, from its lower left corner.
 std::pair<int, int> SceneWidget::pixel(const QMouseEvent& mouse) const {
-  return {static_cast<int>(mouse.x() * pixel_ratio()),
-          static_cast<int>((height() - 1 - mouse.y()) * pixel_ratio())};
+  return {static_cast<int>(mouse.x() * devicePixelRatioF()),
+          static_cast<int>((height() - 1 - mouse.y()) * devicePixelRatioF())};
 }
 
 /// A device that is the mouse: over the skin it is the scalpel's, else it turns the picture.

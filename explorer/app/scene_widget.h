@@ -43,8 +43,8 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   std::function<void(double)> too_short;
   std::function<void()> missed;  ///< called where such a click is not on the skin
   /// In a motion (turning, scrubbing, sliders, a cut) pictures that take longer than half of this time are
-  /// drawn without smoothed edges, and at half the resolution if that is not sufficient. At rest the picture
-  /// has full quality again.
+  /// drawn without smoothed edges, and at half the resolution if that is not sufficient; labels keep theirs.
+  /// At rest the picture has full quality again.
   void set_slowest(double seconds) { slowest_ = seconds; }
   bool coarse() const { return coarse_; }
   /// Draws the picture in full quality now, if the last one was not.
@@ -78,7 +78,6 @@ class SceneWidget : public QVTKOpenGLNativeWidget, public Panel {
   void hurry(double last_seconds);
   void set_coarse(bool coarse);
   std::pair<int, int> pixel(const QMouseEvent& mouse) const;
-  double pixel_ratio() const { return (coarse_ ? 0.5 : 1) * devicePixelRatioF(); }
   bool press(int x, int y);
   void drag(int x, int y);
   void release();

@@ -89,8 +89,9 @@ OverlayView::~OverlayView() {
   if (legend_) renderer_->RemoveViewProp(legend_);
 }
 
-void OverlayView::show(const Overlay& overlay, bool dark) {
-  const double scale = renderer_->GetRenderWindow() ? renderer_->GetRenderWindow()->GetDPI() / 72. : 1;
+void OverlayView::show(const Overlay& overlay, bool dark, double pixels) {
+  const double scale =
+      pixels * (renderer_->GetRenderWindow() ? renderer_->GetRenderWindow()->GetDPI() / 72. : 1);
   dots_->GetProperty()->SetPointSize(static_cast<float>(6 * scale));
   lines_->GetProperty()->SetLineWidth(static_cast<float>(1.4 * scale));
   handles_->GetProperty()->SetPointSize(static_cast<float>(handle_pixels * scale));

@@ -20,8 +20,9 @@ class OverlayView {
   OverlayView(const OverlayView&) = delete;
   OverlayView& operator=(const OverlayView&) = delete;
 
-  /// `dark`: whether the background of the legend is dark.
-  void show(const Overlay& overlay, bool dark);
+  /// `dark`: whether the background of the legend is dark. `pixels`: the scene's in one of the window, 1, or
+  /// 0.5 where it is drawn at half the resolution.
+  void show(const Overlay& overlay, bool dark, double pixels = 1);
 
  private:
   void explain(const std::optional<Overlay::Scale>& scale, bool dark);

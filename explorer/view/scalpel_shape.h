@@ -7,7 +7,8 @@
 
 namespace cleft {
 
-/// 30 mm long and 0.4 mm thick, ground to nothing along its edge. A closed surface, outward seen from outside.
+/// 30 mm long and 0.4 mm thick, ground to nothing along its edge. A closed surface, outward seen from
+/// outside.
 vtkSmartPointer<vtkPolyData> scalpel_blade();
 
 /// From the fitting, over which the blade slides, to its end 140 mm above the tip; grooves for the fingers.

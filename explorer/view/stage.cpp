@@ -23,6 +23,7 @@ void Stage::make_views(std::size_t count) {
   if (count == views_.size()) return;
   scalpel_view_.reset();
   for (View& v : views_) {
+    v.view->set_coarse(false);
     v.overlay.reset();
     v.furniture.reset();
     window_->RemoveRenderer(v.view->renderer());
@@ -33,6 +34,7 @@ void Stage::make_views(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     views_.push_back({std::make_unique<WoundView>(), nullptr});
     views_.back().view->set_smooth(smooth_);
+    views_.back().view->set_coarse(coarse_);
     vtkRenderer* renderer = views_.back().view->renderer();
     const int column = static_cast<int>(i) % columns, row = rows - 1 - static_cast<int>(i) / columns;
     renderer->SetViewport(double(column) / columns, double(row) / rows, double(column + 1) / columns,
@@ -163,13 +165,18 @@ void Stage::lay_over(Session& session) {
       continue;
     }
     if (!views_[i].overlay) views_[i].overlay = std::make_unique<OverlayView>(views_[i].view->renderer());
-    views_[i].overlay->show(overlay, session.state().dark);
+    views_[i].overlay->show(overlay, session.state().dark, coarse_ ? 0.5 : 1);
   }
 }
 
 void Stage::set_smooth(bool smooth) {
   smooth_ = smooth;
   for (View& v : views_) v.view->set_smooth(smooth);
+}
+
+void Stage::set_coarse(bool coarse) {
+  coarse_ = coarse;
+  for (View& v : views_) v.view->set_coarse(coarse);
 }
 
 void Stage::set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel) {

@@ -29,7 +29,8 @@ class Stage {
   /// Draws a scene instead of that of the shown case, with a scalpel if one is given; null: the case again.
   void set_live(std::shared_ptr<const WoundScene> scene, const HapticState* scalpel);
 
-  void set_samples(double samples) { samples_ = samples; }
+  /// Whether what is in space is drawn at half the resolution; off but in motions with slow pictures.
+  void set_coarse(bool coarse);
   /// Whether edges are smoothed; off during motions with slow pictures.
   void set_smooth(bool smooth);
 
@@ -85,7 +86,7 @@ class Stage {
   std::optional<Detail> detail_;
   double warp_ = 1;
   unsigned long camera_observer_;
-  bool smooth_ = true;
+  bool smooth_ = true, coarse_ = false;
   double samples_;
 };
 

@@ -204,6 +204,12 @@ bool WoundView::paint_skin() {
   return true;
 }
 
+void WoundView::set_coarse(bool coarse) {
+  if (coarse == (renderer_->GetPass() != nullptr)) return;
+  if (!coarse) coarse_->ReleaseGraphicsResources(renderer_->GetRenderWindow());
+  renderer_->SetPass(coarse ? coarse_.Get() : nullptr);
+}
+
 void WoundView::set_opacity(double opacity) {
   if (opacity == opacity_) return;
   opacity_ = opacity;

@@ -15,6 +15,7 @@
 
 #include "explorer/scene/wound_scene.h"
 #include "explorer/session/session_state.h"
+#include "explorer/view/coarse_pass.h"
 #include "explorer/view/open_sky.h"
 #include "explorer/view/section_line.h"
 #include "explorer/view/surface_part.h"
@@ -60,6 +61,8 @@ class WoundView {
   void set_dark(bool dark);
   /// Whether edges are smoothed, which takes a fifth of a picture's time in software.
   void set_smooth(bool smooth) { renderer_->SetUseFXAA(smooth); }
+  /// Whether the scene is drawn at half the resolution; labels never are.
+  void set_coarse(bool coarse);
   /// Whether the legend is shown: in one of several views with the same colours.
   void set_legend(bool visible) { has_legend_ = visible; }
   /// The ends of the colours where no range is given: from 0 to the largest value of all times, for strain
@@ -93,6 +96,7 @@ class WoundView {
   void add_prop(vtkProp* prop);
 
   vtkNew<vtkRenderer> renderer_;
+  vtkNew<CoarsePass> coarse_;
   std::vector<vtkSmartPointer<vtkProp>> props_;                      // what the scene put into the renderer
   vtkSmartPointer<vtkActor> skin_actor_, still_actor_, wall_actor_;  // still: the skin that never moves
   std::shared_ptr<const WoundScene> scene_;

@@ -132,11 +132,58 @@ TEST_F(CloserWindow, ASlowPictureIsCoarseWhileItIsTurned) {
   const int width = scene.renderWindow()->GetSize()[0];
   press_and_move();
   EXPECT_TRUE(scene.coarse());
-  EXPECT_NEAR(scene.renderWindow()->GetSize()[0], width / 2, 1);
+  EXPECT_EQ(scene.renderWindow()->GetSize()[0], width) << "the window's size stays";
   if (const char* file = std::getenv("COARSE_PICTURE")) window_.grab().save(file);
   mouse(scene, QEvent::MouseButtonRelease, {120, 110});
   EXPECT_FALSE(scene.coarse());
   EXPECT_EQ(scene.renderWindow()->GetSize()[0], width);
+}
+
+/// The largest difference of a colour in a part of two pictures, of 255, and the sum of all over their
+/// number.
+std::pair<int, double> differences(const QImage& a, const QImage& b, const QRect& part) {
+  int most = 0;
+  double sum = 0;
+  for (int y = part.top(); y <= part.bottom(); ++y)
+    for (int x = part.left(); x <= part.right(); ++x) {
+      const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+      for (const int d : {qRed(p) - qRed(q), qGreen(p) - qGreen(q), qBlue(p) - qBlue(q)})
+        most = std::max(most, std::abs(d)), sum += std::abs(d);
+    }
+  return {most, sum / (3. * part.width() * part.height())};
+}
+
+TEST_F(CloserWindow, LabelsOfACoarsePictureAreWhole) {
+  tell("open " + study());
+  tell("camera 0 -60 0.5");  // the patch is far from the labels
+  settle(400);
+  SceneWidget& scene = window_.scene();
+  const auto picture = [&] {
+    scene.renderWindow()->Render();
+    return scene.grabFramebuffer().convertToFormat(QImage::Format_RGB888);
+  };
+  scene.set_slowest(1000);
+  const QImage whole = picture();
+  scene.set_slowest(0);
+  for (const int value : {1000, 1500, 2000}) widget<QSlider>("time").setValue(value);
+  tell("end");
+  ASSERT_TRUE(scene.coarse());
+  const QImage coarse = picture();
+  ASSERT_EQ(coarse.size(), whole.size());
+  const QRect title(0, 0, 300, 40), ruler(whole.width() - 250, whole.height() - 60, 250, 60);
+  for (const QRect& part : {title, ruler}) {
+    const auto [most, mean] = differences(whole, coarse, part);
+    EXPECT_LT(most, 8) << "of 255: the background is stretched, the letters are not";
+    EXPECT_GT(differences(whole, QImage(whole.scaled(whole.size() / 2)).scaled(whole.size()), part).first, 60)
+        << "letters at half the resolution would be seen";
+  }
+  EXPECT_GT(differences(whole, coarse, whole.rect()).first, 20) << "edges of the patch are coarse";
+  EXPECT_LT(differences(whole, coarse, whole.rect()).second, 2) << "and where they are in the whole picture";
+  settle(600);
+  EXPECT_FALSE(scene.coarse());
+  EXPECT_EQ(differences(whole, picture(), whole.rect()).first, 0) << "and all is as before";
+  for (const char* line : {"time 3", "compare 1 2 3", "time 5", "single", "time 9"}) window_.say(line);
+  EXPECT_TRUE(scene.coarse()) << "views come and go while it is";
 }
 
 TEST_F(CloserWindow, ASlowPictureIsCoarseWhileTimeIsDraggedAndWholeWhenItRests) {
