@@ -119,7 +119,8 @@ void light_as_skin(vtkActor* actor) {
 )"));
 }
 
-/// Its grain breaks the highlights; where it is finer than pixels it fades.
+/// Its grain breaks the highlights; where it is finer than pixels it fades, and with it the single
+/// highlights.
 void light_as_wound(vtkActor* actor) {
   take_code(actor, R"(
   vec4 coarse = grain(1.1 * restVSOutput), fine = grain(3.1 * restVSOutput);
@@ -127,7 +128,7 @@ void light_as_wound(vtkActor* actor) {
   float grainy = 1.0 - smoothstep(0.15, 0.6, widths.x + widths.y + widths.z);
   diffuseColor *= 1.0 + grainy * (0.11 * coarse.w + 0.08 * fine.w);
   normalVCVSOutput = normalize(normalVCVSOutput + grainy * (0.12 * coarse.xyz + 0.06 * fine.xyz));
-)" + light_code("vec3(0.30, 0.10, 0.08)", "0.12 * pow(h, 18.0) + 0.9 * pow(h, 110.0)", R"(
+)" + light_code("vec3(0.30, 0.10, 0.08)", "0.05 * pow(h, 18.0) + (0.15 + 0.75 * grainy) * pow(h, 110.0)", R"(
   vec3 color = albedo * light + open * (shine + 0.10 * edge * edge * edge);
 )"));
 }
