@@ -116,10 +116,10 @@ void MainWindow::make_middle() {
   scene_->missed = [this] {
     const std::string& what = scene_->picking();
     message_->tell(tr("There is no skin at this place to %1: click on the %2 (Esc: no more).")
-                       .arg(what == measuring_picks ? "measure"
+                       .arg(what == measuring_picks ? tr("measure")
                             : what == "zoom"        ? tr("zoom to")
-                                                    : "probe",
-                            session_.mesh() ? "mesh" : "patch"));
+                                                    : tr("probe"),
+                            session_.mesh() ? tr("mesh") : tr("patch")));
   };
   auto* time = new TimeBar(session_, say_line);
   message_ = new MessageBar;
