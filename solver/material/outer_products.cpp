@@ -4,7 +4,7 @@ namespace cleft {
 
 namespace {
 
-using Four = double __attribute__((vector_size(32)));
+using Four __attribute__((vector_size(32), may_alias)) = double;
 
 /// Column after column of the sum, which stays in registers meanwhile.
 inline __attribute__((always_inline)) void sum_of(int count, const double (*left)[20],
