@@ -7,6 +7,7 @@ namespace cleft {
 void GuardMoments::hold(int vertex, std::size_t cut, const Moment& moment) {
   if (of_cut_.size() <= cut) of_cut_.resize(cut + 1);
   of_cut_[cut][vertex].push_back(moment);
+  ++count_;
 }
 
 double GuardMoments::least(std::span<const Moment> moments, double s) {

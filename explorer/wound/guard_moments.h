@@ -28,7 +28,7 @@ class GuardMoments {
   /// The part of its displacement that a vertex keeps with the blade at s mm of a cut: the least of its
   /// moments. 1 at both ends of each cut.
   double part(int vertex, std::size_t cut, double s) const;
-  bool empty() const { return of_cut_.empty(); }
+  std::size_t count() const { return count_; }  ///< of calls of hold()
   /// Those whose displacements are reduced at any time; some perhaps twice.
   std::vector<int> vertices() const;
   /// Multiplies the displacements of all vertices. Allocates no memory.
@@ -46,6 +46,7 @@ class GuardMoments {
   std::vector<std::unordered_map<int, std::vector<Moment>>> of_cut_;
   std::vector<std::vector<Held>> held_;  // [cut], by the first place
   std::vector<Moment> moments_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace cleft

@@ -24,7 +24,7 @@ constexpr double passed = 1e-9;
 /// Where less than this is left of a triangle, the least is searched for, in so many thirds. Where more of it
 /// changes between two positions, it is looked at between them, so many times.
 constexpr double little = 0.6, much = 0.3;
-constexpr int searches = 5, halves = 5;
+constexpr int searches = 5, halves = 4;
 }  // namespace
 
 GuardPassage::GuardPassage(const Wound& wound, const std::vector<std::pair<int, double>>& vertices,

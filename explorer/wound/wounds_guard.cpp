@@ -20,8 +20,10 @@ constexpr int looks_between = 8;
 constexpr int passage_rounds = 20, quiet_rounds = 2;
 /// Of the way over which displacements next to the tip change quickly: a moment begins and ends in it.
 constexpr double fade_part = 0.25;
-/// Of the largest opening: what the field of a single cut turns itself in its own flat patch is not worth
-/// lips that are held back by more for good.
+/// Of vertices, in all: more are not worth the time and the memory.
+constexpr std::size_t most_moments = 30000;
+/// Of the largest opening: what a field turns itself in its own flat patch is not worth lips that are held
+/// back by more for good, but where cuts meet.
 constexpr double worth_an_excuse = 0.02;
 }  // namespace
 
@@ -72,8 +74,7 @@ class Wounds::GuardLooks {
     if (search_.is_excused()) {
       search_.hold_excused();
       Guard strict = search_.result();
-      if (wounds_.size() > 1 || held_back(strict) <= held_back(guard) + worth_an_excuse)
-        guard = std::move(strict);
+      if (meet() || held_back(strict) <= held_back(guard) + worth_an_excuse) guard = std::move(strict);
     }
     if (!moments) return guard;
     hold_remaining(guard);
@@ -84,6 +85,15 @@ class Wounds::GuardLooks {
   }
 
  private:
+  /// Whether cuts cross or meet each other.
+  bool meet() const {
+    for (std::size_t k = 0; k < wounds_.size(); ++k)
+      for (const Incision::ChainVertex& c : wounds_[k].incision->chain())
+        for (std::size_t j = 0; j < wounds_.size(); ++j)
+          if (j != k && mesh_.vertex(c.left).cut == wounds_[j].incision->cut()) return true;
+    return false;
+  }
+
   Relief::At relief_at(const Blade& blade) const {
     const double reached = wounds_[blade.cut].reached();
     return relief_[blade.cut].at(reached > 0 ? blade.s / reached : 1);
@@ -156,13 +166,18 @@ class Wounds::GuardLooks {
     }
   }
 
+  /// What is not sound either when the cut is complete is left as it is: the field's doing, for which the
+  /// wound is not held back.
   std::vector<int> hold(int one, const Blade& blade, double first, double last, Guard& guard) {
+    const double end = wounds_[blade.cut].reached();
+    if (guard.moments().count() > most_moments) return {};
+    if (one >= 0 && left(one, {blade.cut, end}, guard) == GuardPassage::unsound) return {};
     const Relief::At now = relief_at(blade);
     const auto own = [&](int v) { return this->own(v, blade, now); };
     return search_.hold_for_a_moment(
         {one},
-        {blade.cut, blade.s, first, last, wounds_[blade.cut].reached(),
-         fade_part * passages_[blade.cut].near_tip(), [&](int v) { return guard.displacement(v, own); }},
+        {blade.cut, blade.s, first, last, end, fade_part * passages_[blade.cut].near_tip(),
+         [&](int v) { return guard.displacement(v, own); }},
         guard);
   }
 
