@@ -30,10 +30,12 @@ class GuardSearch {
     std::function<bool(int left, std::size_t time)> closes;    ///< lips: moves them into each other
   };
 
-  /// The mesh must outlive it. Neighbours may always move apart by `least_jump`, mesh units. `poll`, if any, is
-  /// called for each triangle that is looked at.
+  /// The mesh must outlive it. Neighbours may always move apart by `least_jump`, mesh units. `poll`, if any,
+  /// is called for each triangle that is looked at.
   GuardSearch(const CutMesh& mesh, double least_jump, ByField field, std::function<void()> poll = {})
       : mesh_(mesh), least_jump_(least_jump), field_(std::move(field)), poll_(std::move(poll)) {}
+  /// Several fields together may stretch the skin less than any alone is excused for.
+  void limit_stretch() { limited_ = true; }
 
   /// The vertices that have moved at one time, each once, and their displacements, mesh units. `lasting`:
   /// with the cuts complete.
@@ -142,6 +144,7 @@ class GuardSearch {
   double least_jump_;
   ByField field_;
   std::function<void()> poll_;
+  bool limited_ = false;                                  // stretches of fields
   std::vector<std::vector<std::pair<int, Vec3>>> moved_;  // [time]: vertices and their displacements
   std::vector<bool> lasting_;                             // [time]
   bool only_lasting_ = false, excused_ = true;            // what offends

@@ -44,6 +44,7 @@ class Wounds::GuardLooks {
                  [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); }},
                 poll),
         place_(mesh_.vertices().size(), -1) {
+    if (wounds.size() > 1) search_.limit_stretch();
     for (std::size_t k = 0; k < wounds.size(); ++k) {
       const Wound& wound = wounds[k];
       for (const Incision::ChainVertex& c : wound.incision->chain())
