@@ -31,7 +31,7 @@ void MainWindow::make_look_menu(QMenu* menu) {
   checkable("trim", tr("Colours from 2 to 98 % of the values"), [this] {
     say(session_.state().percentiles ? std::string("range auto") : std::string("range ") + trimmed);
   });
-  checkable("shading", "Light as on skin and &wounds",
+  checkable("shading", tr("Light as on skin and &wounds"),
             [this] { say(session_.state().lifelike ? "shading plain" : "shading skin"); });
   checkable(
       "edges", tr("&Edges of triangles"), [this] { say(session_.state().edges ? "edges off" : "edges on"); },
