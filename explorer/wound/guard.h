@@ -20,7 +20,8 @@ class Guard {
     int vertex;
     double part;  ///< of its displacement
   };
-  /// By how much the displacement of a vertex differs from that without the guard at most, mesh units.
+  /// By how much the displacement of a vertex differs from that without the guard at most with the cuts
+  /// complete, mesh units.
   struct Change {
     int vertex;
     double by;

@@ -267,7 +267,7 @@ Guard GuardSearch::result() const {
     if (mean_[n].empty() && factor_[n] == 1) continue;
     double change = 0;
     for (std::size_t k = 0; k < times(); ++k)
-      change = std::max(change, norm(with_[n * times() + k] - own_[n * times() + k]));
+      if (lasting_[k]) change = std::max(change, norm(with_[n * times() + k] - own_[n * times() + k]));
     shares.clear();
     if (mean_[n].empty()) shares.push_back({vertex_[n], factor_[n]});
     for (const Part& p : mean_[n]) shares.push_back({vertex_[p.number], factor_[n] * p.part});

@@ -25,7 +25,7 @@ struct Validity {
   /// not pass through each other where the path bends or comes back.
   double held_back = 0, held_back_at = 0;
   /// Vertices that move otherwise than the fields say, because the skin would turn over or tear: how many
-  /// there are, by how much at most, and where along the path, mm.
+  /// there are, by how much at most with the cuts complete, and where along the path, mm.
   int guarded_vertices = 0;
   double guarded = 0, guarded_at = 0;
   /// The expected error of the opening against a simulation of the body, over the largest opening: along the
