@@ -252,6 +252,7 @@ FigureModel::Function FigureModel::function_of(const std::vector<Told>& list) co
 
 FigureModel::Function FigureModel::values() const {
   std::vector<Told> list;
+  list.reserve(figures_.size());
   for (int f = 0; f < std::ssize(figures_); ++f) list.push_back({f, displacements_of_figure(f)});
   return function_of(list);
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -148,7 +149,7 @@ void GltfData::open_buffers(std::string binary) {
     if (one.contains("uri"))
       buffers_.push_back(resource(one.at("uri").get<std::string>(), where));
     else
-      buffers_.push_back(i == 0 ? std::move(binary) : "");
+      buffers_.push_back(i == 0 ? std::exchange(binary, {}) : "");
     if (buffers_.back().size() < length)
       refuse("its " + where + " has " + std::to_string(buffers_.back().size()) + " bytes; " +
              std::to_string(length) + " are promised");

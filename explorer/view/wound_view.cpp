@@ -6,6 +6,7 @@
 #include <vtkLight.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 
 #include <algorithm>
 #include <cmath>

@@ -189,7 +189,7 @@ TEST_F(Access, RightToLeftThePanelsAreMirroredAndThePictureIsNot) {
   EXPECT_LT(slider, play) << "the buttons are on the right";
   EXPECT_LT(norm(mirrored.position - before.position), 1e-9);
   EXPECT_EQ(error.at(0), QChar(0x202a)) << "signs of numbers stay beside them";
-  EXPECT_NEAR(at_ten, widget<QSlider>("time").maximum() / 3, 2);
+  EXPECT_NEAR(at_ten, widget<QSlider>("time").maximum() / 3., 2);
 }
 
 }  // namespace

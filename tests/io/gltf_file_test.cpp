@@ -121,7 +121,9 @@ TEST_F(Gltf, TrianglesOfEveryKindOfIndexAreRead) {
   }
   GltfBuffer strip;  // zigzag over 2 x 5 points
   std::vector<Vec3> points;
-  for (int i = 0; i < 10; ++i) points.push_back({double(i / 2), double(1 - i % 2), 0});
+  points.reserve(10);
+  for (int column = 0; column < 5; ++column)
+    for (const double y : {1, 0}) points.push_back({double(column), y, 0});
   strip.add(floats_of(points), 3);
   strip.add(std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, 1);
   const SurfaceMesh band = read(strip.glb(entries(",\"mode\":5")));
