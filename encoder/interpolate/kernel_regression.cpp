@@ -104,13 +104,23 @@ Covariance tuned(const TrainingCases& cases, Covariance covariance, bool one_len
 
 }  // namespace
 
+namespace {
+
+/// Of squared distances: numbers, or arrays of them.
+template <class Values>
+Values correlated(Covariance::Correlation correlation, const Values& squared) {
+  using std::exp, std::sqrt;
+  if (correlation == Covariance::Correlation::gaussian) return exp(-0.5 * squared);
+  const Values r = sqrt(5 * squared);
+  return (1 + r + r * r / 3) * exp(-r);
+}
+
+}  // namespace
+
 double Covariance::operator()(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const {
   double value = trend * std::pow(1 + x.dot(y), degree);
   if (correlation == Correlation::none) return value;
-  const double squared = (x - y).cwiseQuotient(lengths).squaredNorm();
-  if (correlation == Correlation::gaussian) return value + std::exp(-0.5 * squared);
-  const double r = std::sqrt(5 * squared);
-  return value + (1 + r + r * r / 3) * std::exp(-r);
+  return value + correlated(correlation, (x - y).cwiseQuotient(lengths).squaredNorm());
 }
 
 Eigen::ArrayXd Covariance::of_rows(const Eigen::MatrixXd& x, const Eigen::RowVectorXd& y) const {
@@ -119,9 +129,7 @@ Eigen::ArrayXd Covariance::of_rows(const Eigen::MatrixXd& x, const Eigen::RowVec
   if (correlation == Correlation::none) return values;
   Eigen::ArrayXd squared = Eigen::ArrayXd::Zero(x.rows());
   for (Eigen::Index k = 0; k < x.cols(); ++k) squared += ((x.col(k).array() - y[k]) / lengths[k]).square();
-  if (correlation == Correlation::gaussian) return values + (-0.5 * squared).exp();
-  const Eigen::ArrayXd r = (5 * squared).sqrt();
-  return values + (1 + r + r * r / 3) * (-r).exp();
+  return values + correlated(correlation, squared);
 }
 
 Covariance::Jet Covariance::along(const Eigen::VectorXd& x, const Eigen::VectorXd& dx,

@@ -176,8 +176,7 @@ void Plots::add_band(vtkChartXY* chart, const Curve& curve, const std::vector<do
 }
 
 void Plots::draw() {
-  const bool imported = session_.has_scene() && session_.is_imported();
-  const QString time = imported ? tr("time from the first frame") : tr("length cut, mm");
+  const QString time = session_.is_imported() ? tr("time from the first frame") : tr("length cut, mm");
   for (const Plot* plot : {&over_time_, &probe_})
     plot->chart->GetAxis(vtkAxis::BOTTOM)->SetTitle(time.toStdString());
   if (pages_->currentIndex() == 0) draw_opening();

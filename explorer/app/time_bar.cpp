@@ -126,7 +126,7 @@ void TimeBar::follow(const Changes& changes) {
   const QSignalBlocker no_slider(slider_), no_loop(loop_), no_speed(speed_);
   const double duration = session_.has_scene() ? session_.duration() : 0;
   slider_->setValue(duration > 0 ? static_cast<int>(std::lround(time_steps * s.time / duration)) : 0);
-  label_->setText(session_.has_scene() && session_.is_imported()
+  label_->setText(session_.is_imported()
                       ? QString::fromStdString(session_.progress_text(s.time, duration))
                       : tr("%1 of %2 mm cut").arg(s.time, 0, 'f', 1).arg(duration, 0, 'f', 1));
   loop_->setChecked(s.loop);

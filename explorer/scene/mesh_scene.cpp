@@ -123,9 +123,7 @@ void MeshScene::values(const Coloring& coloring, const Field* reference, double 
     const VaryingField& field = (*wounds_)[k].field;
     const double s = k == now.cut ? now.s : (*wounds_)[k].complete();
     for (const ActiveVertex& a : wounds_->active(k)) {
-      const bool closed = a.on_cut && a.s >= s;
-      const double own_time = std::clamp(s + a.time_offset, 0., field.shape().cut().length);
-      const Place place{a.uvw, closed ? Side::both : a.side, own_time};
+      const Place place{a.uvw, a.side_at(s), a.time_at(s, field.shape().cut().length)};
       double& value = out[a.vertex];
       const double here =
           a.weight * wounds_->amplitude(k, a.s, now) * color_value(coloring, field, reference, place, a.s);

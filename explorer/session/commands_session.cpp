@@ -101,8 +101,8 @@ void info(Session& session, CommandWords&) {
                    " error of what is drawn: " + rounded(100 * field->report.spline_error) +
                    " % of the largest displacement, " + rounded(field->report.largest_displacement) + " mm");
     const std::optional<double> error = error_of_gape(*field);
-    session.answer("widest gape at " + std::string(session.is_imported() ? "t = " : "") + shortest(s.time) +
-                   (session.is_imported() ? ": " : " mm cut: ") +
+    const std::string when = session.is_imported() ? "t = " + shortest(s.time) : shortest(s.time) + " mm cut";
+    session.answer("widest gape at " + when + ": " +
                    rounded(widest_gape(*field, std::min(s.time, field->duration()))) + " mm" +
                    (error ? ", off by at most " + rounded(*error) + " mm" : ""));
   }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/body/extrusion.h"
 
 namespace cleft {
 
@@ -77,21 +78,13 @@ void lean(CutState& cut, double tilt, const Skin& skin) {
 
 }  // namespace
 
-Skin::Skin(const SurfaceMesh& mesh) : index_(mesh), normals_(mesh.points.size()) {
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(i)]; };
-    const Vec3 normal = cross(at(b) - at(a), at(c) - at(a));  // as large as twice the area
-    for (const int i : {a, b, c}) normals_[static_cast<std::size_t>(i)] += normal;
-  }
-}
+Skin::Skin(const SurfaceMesh& mesh) : index_(mesh), normals_(normals_of(mesh)) {}
 
 Skin::Place Skin::place_of(const SurfacePlace& found) const {
   const auto& corners = index_.surface().triangles[static_cast<std::size_t>(found.triangle)];
   Vec3 outward;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& normal = normals_[static_cast<std::size_t>(corners[i])];
-    if (norm(normal) > 0) outward += found.weights[i] * normalized(normal);
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    outward += found.weights[i] * normals_[static_cast<std::size_t>(corners[i])];
   return {found.position, norm(outward) > 0 ? normalized(outward) : Vec3{0, 0, 1}};
 }
 

@@ -13,6 +13,7 @@
 // vertex depend on its side of the wound, not on the position of the blade.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -34,6 +35,11 @@ struct ActiveVertex {
       1;  ///< 1 in the patch, falling to 0 over a quarter of its width outside it, and inside bends
   bool on_cut = false;  ///< a vertex of lips or walls: closed (Side::both) until the blade passes s
 
+  /// With the blade at `blade`, mm: the side, and the time of a field of a cut so long.
+  Side side_at(double blade) const { return on_cut && s >= blade ? Side::both : side; }
+  double time_at(double blade, double cut_length) const {
+    return std::clamp(blade + time_offset, 0., cut_length);
+  }
   /// A canonical displacement here, weighted, in the directions of the mesh's space; in the same unit.
   Vec3 in_mesh(const Vec3& d) const { return weight * (d.x * along + d.y * across + d.z * outward); }
 };

@@ -44,7 +44,7 @@ Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, st
     // Ahead of the blade nothing has two sides yet, though the cell may have been split.
     if (at && at->s >= s) at = wound.volume.locate_below(place, depth, nearest, Side::both);
     if (!at) continue;
-    const double own_time = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
+    const double own_time = at->time_at(s, wound.field.shape().cut().length);
     sum += amplitude(k, at->s, blade) / wound.scale() *
            at->in_mesh(wound.field.displacement(at->uvw, at->side, own_time, at->s));
   }
@@ -60,10 +60,9 @@ Vec3 Wounds::changed_by_guard(int vertex, const Blade& blade) const {
       const auto at = wound.volume.locate(v);
       if (!at) continue;
       const double s = k == blade.cut ? blade.s : wound.complete(),
-                   t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
-      const Side side = at->on_cut && at->s >= s ? Side::both : at->side;
+                   t = at->time_at(s, wound.field.shape().cut().length);
       sum += amplitude(k, at->s, blade) / wound.scale() *
-             at->in_mesh(wound.field.displacement(at->uvw, side, t, at->s));
+             at->in_mesh(wound.field.displacement(at->uvw, at->side_at(s), t, at->s));
     }
     return sum;
   };

@@ -34,8 +34,8 @@ bool Wounds::turned_by_field(int triangle, const Blade& blade) const {
       const double s = k == blade.cut ? blade.s : wound.complete();
       const auto at = wound.volume.locate(v);
       if (!at) continue;
-      const Side side = at->on_cut && at->s >= s ? Side::both : at->side;
-      const double t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
+      const Side side = at->side_at(s);
+      const double t = at->time_at(s, wound.field.shape().cut().length);
       const Derivatives d = wound.field.derivatives(at->uvw, side, t, at->s);
       const double area = cross(Vec3{1, 0, 0} + d.by_u, Vec3{0, 1, 0} + d.by_v).z;
       together += amplitude(k, at->s, blade) * (area - 1);
@@ -58,8 +58,8 @@ bool Wounds::turned_between_corners(int triangle, const Blade& blade) const {
   for (int i = 0; i < 3; ++i) {
     const auto at = wound.volume.locate(corners[i]);
     if (!at || !(std::abs(at->s - blade.s) < tip_part * wound.field.shape().cut().depth)) return false;
-    const Side side = at->on_cut && at->s >= blade.s ? Side::both : at->side;
-    const double t = std::clamp(blade.s + at->time_offset, 0., wound.field.shape().cut().length);
+    const Side side = at->side_at(blade.s);
+    const double t = at->time_at(blade.s, wound.field.shape().cut().length);
     space[i] = wound.scale() * mesh.position(corners[i]);
     rest[i] = {at->s, at->uvw.y, 0};
     moved[i] = amplitude(blade.cut, at->s, blade) * wound.field.displacement(at->uvw, side, t, at->s);
@@ -102,7 +102,7 @@ bool Wounds::closed_by_field(int lip, const Blade& blade) const {
     const double s = k == blade.cut ? blade.s : wound.complete();
     const auto at = wound.volume.locate(lip);
     if (!at || !at->on_cut || at->s >= s) continue;
-    const double t = std::clamp(s + at->time_offset, 0., wound.field.shape().cut().length);
+    const double t = at->time_at(s, wound.field.shape().cut().length);
     const auto moved = [&](Side side) {
       return wound.field.displacement({at->uvw.x, 0, at->uvw.z}, side, t, at->s).y;
     };

@@ -17,6 +17,20 @@ namespace cleft::testing {
 
 using Height = double (*)(double x, double y);
 
+/// Every third triangle is divided at a place that is next to nothing beside one of its edges.
+inline SurfaceMesh with_slivers(SurfaceMesh plate) {
+  for (std::size_t t = 0, count = plate.triangles.size(); t < count; t += 3) {
+    const auto [a, b, c] = plate.triangles[t];
+    const Vec3 middle = 0.5 * (plate.points[a] + plate.points[b]);
+    const int at = static_cast<int>(plate.points.size());
+    plate.points.push_back(middle + 1e-4 * (plate.points[c] - middle));
+    plate.triangles[t] = {a, b, at};
+    plate.triangles.push_back({b, c, at});
+    plate.triangles.push_back({c, a, at});
+  }
+  return plate;
+}
+
 /// nx x ny squares of the given size, from (x0, y0), each cut along one diagonal.
 inline SurfaceMesh grid(int nx, int ny, double x0, double y0, double h, Height height = nullptr) {
   SurfaceMesh mesh;

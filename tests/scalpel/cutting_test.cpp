@@ -174,15 +174,13 @@ TEST(Cutting, TheHandCutsTheWholePathOfSoftAndStiffTissue) {
     }
 }
 
+Field taut_field() {
+  return testing::in_tension(testing::opening_field({-15, 30, 3}, 50, 50, 6, 3),
+                             {{"skin.prestress_v", 0.03}});
+}
+
 TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
-  Field opens = testing::opening_field({-15, 30, 3}, 50, 50, 6, 3);
-  opens.parameters = recorded({{"skin.prestress_v", 0.03},
-                               {"skin.thickness", 1.5},
-                               {"skin.young_modulus", 0.2},
-                               {"skin.poisson_ratio", 0.4},
-                               {"tissue.young_modulus", 0.02},
-                               {"tissue.poisson_ratio", 0.4}});
-  const auto field = std::make_shared<const Field>(opens);
+  const auto field = std::make_shared<const Field>(taut_field());
   const SurfaceMesh mesh = testing::grid(40, 40, -30, -30, 1.5);
   const auto at = [](double y) { return testing::path_through({{-15, y, 0}, {15, y, 0}}, testing::up, 2); };
   ScalpelCutting cutting(mesh, {at(4), {at(-4)}, CutFields(field), 1, 0});
@@ -213,31 +211,8 @@ TEST(ScalpelCutting, ASecondWoundOpensInTheTensionThatTheFirstLeaves) {
   EXPECT_LT(apart, 5e-3);  // what is not felt, 0.002, once before the blade came and once after it
 }
 
-/// A plate whose triangles at the path are slivers, so that the wound needs a guard.
-SurfaceMesh plate_with_slivers() {
-  SurfaceMesh plate = testing::grid(40, 30, -20, -15, 1);
-  for (std::size_t t = 0, count = plate.triangles.size(); t < count; t += 3) {
-    const auto [a, b, c] = plate.triangles[t];
-    const Vec3 middle = 0.5 * (plate.points[a] + plate.points[b]);
-    const int at = static_cast<int>(plate.points.size());
-    plate.points.push_back(middle + 1e-4 * (plate.points[c] - middle));
-    plate.triangles[t] = {a, b, at};
-    plate.triangles.push_back({b, c, at});
-    plate.triangles.push_back({c, a, at});
-  }
-  return plate;
-}
-
-Field taut_field() {
-  Field field = testing::opening_field({-15, 30, 3}, 50, 50, 6, 3);
-  field.parameters = recorded({{"skin.prestress_v", 0.03},
-                               {"skin.thickness", 1.5},
-                               {"skin.young_modulus", 0.2},
-                               {"skin.poisson_ratio", 0.4},
-                               {"tissue.young_modulus", 0.02},
-                               {"tissue.poisson_ratio", 0.4}});
-  return field;
-}
+/// The wound needs a guard where the triangles at its path are slivers.
+SurfaceMesh plate_with_slivers() { return testing::with_slivers(testing::grid(40, 30, -20, -15, 1)); }
 
 /// The step that ends a cut begins the search for its guard on another thread; the next one takes it over.
 /// Then the mesh is, to the last bit, that of the replay of these cuts and of the same motion once more.

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "encoder/field/field.h"
+#include "tests/support/recorded.h"
 
 namespace cleft::testing {
 
@@ -37,6 +41,17 @@ inline Field opening_field(const CanonicalCut& cut, double length, double width,
           c.push_back({0.1 * g, side * g, 0.2 * g});
         }
   return {u, v, w, t, std::move(c), cut};
+}
+
+/// The field of a skin with such prestresses, MPa.
+inline Field in_tension(Field field, std::map<std::string, double> prestress) {
+  prestress.insert({{"skin.thickness", 1.5},
+                    {"skin.young_modulus", 0.2},
+                    {"skin.poisson_ratio", 0.4},
+                    {"tissue.young_modulus", 0.02},
+                    {"tissue.poisson_ratio", 0.4}});
+  field.parameters = recorded(prestress);
+  return field;
 }
 
 }  // namespace cleft::testing

@@ -13,7 +13,6 @@
 #include "explorer/wound/mean_value.h"
 #include "explorer/wound/replayed_wounds.h"
 #include "tests/incision/meshes.h"
-#include "tests/support/recorded.h"
 #include "tests/wound/fields.h"
 
 namespace cleft {
@@ -89,20 +88,7 @@ TEST(GuardMoments, ReduceADisplacementWhileTheBladePasses) {
   }
 }
 
-/// A plate, where every third triangle is divided at a place that is next to nothing beside one of its edges.
-SurfaceMesh plate_with_slivers() {
-  SurfaceMesh plate = grid(60, 40, -30, -20, 1);
-  for (std::size_t t = 0, count = plate.triangles.size(); t < count; t += 3) {
-    const auto [a, b, c] = plate.triangles[t];
-    const Vec3 middle = 0.5 * (plate.points[a] + plate.points[b]);
-    const int at = static_cast<int>(plate.points.size());
-    plate.points.push_back(middle + 1e-4 * (plate.points[c] - middle));
-    plate.triangles[t] = {a, b, at};
-    plate.triangles.push_back({b, c, at});
-    plate.triangles.push_back({c, a, at});
-  }
-  return plate;
-}
+SurfaceMesh plate_with_slivers() { return with_slivers(grid(60, 40, -30, -20, 1)); }
 
 /// Skin triangles that have turned over or shrunk to a fifth, and edges whose ends have moved apart by more
 /// than twice their length, at many times.
@@ -142,16 +128,8 @@ double widest(const ReplayedWounds& wounds, std::size_t cut) {
 }
 
 Field pulled() {
-  Field field = opening_field({-15, 30, 3}, 60, 40, 6, 3);
-  field.parameters = recorded({{"skin.prestress_u", 0.01},
-                               {"skin.prestress_v", 0.03},
-                               {"skin.prestress_uv", 0},
-                               {"skin.thickness", 1.5},
-                               {"skin.young_modulus", 0.2},
-                               {"skin.poisson_ratio", 0.4},
-                               {"tissue.young_modulus", 0.02},
-                               {"tissue.poisson_ratio", 0.4}});
-  return field;
+  return in_tension(opening_field({-15, 30, 3}, 60, 40, 6, 3),
+                    {{"skin.prestress_u", 0.01}, {"skin.prestress_v", 0.03}, {"skin.prestress_uv", 0}});
 }
 
 /// Several cuts in one mesh, opened.

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "tests/incision/meshes.h"
-#include "tests/support/recorded.h"
 #include "tests/wound/fields.h"
 
 namespace cleft::stress {
@@ -97,15 +96,8 @@ TEST(Opening, OfRandomCutsOnRegularMeshes) {
 /// millimetre between the lips of a crossing turned over while the blade passed it: nothing had looked there,
 /// or the lips would have been held back for good for it.
 TEST(Opening, OfPairsThatCrossTurnsNothing) {
-  Field pulled = *wide();
-  pulled.parameters = recorded({{"skin.prestress_u", 0.01},
-                                {"skin.prestress_v", 0.03},
-                                {"skin.prestress_uv", 0},
-                                {"skin.thickness", 1.5},
-                                {"skin.young_modulus", 0.2},
-                                {"skin.poisson_ratio", 0.4},
-                                {"tissue.young_modulus", 0.02},
-                                {"tissue.poisson_ratio", 0.4}});
+  Field pulled = testing::in_tension(
+      *wide(), {{"skin.prestress_u", 0.01}, {"skin.prestress_v", 0.03}, {"skin.prestress_uv", 0}});
   const CutFields fields(std::make_shared<const Field>(std::move(pulled)));
   const FieldLimits limits(fields.shape());
   OpeningPlan plan;
