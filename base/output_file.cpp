@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "base/error.h"
 #include "base/unfinished.h"
@@ -14,6 +15,23 @@
 namespace cleft {
 
 namespace fs = std::filesystem;
+
+std::vector<std::string> outputs_of(const std::vector<std::string>& inputs, const std::string& out,
+                                    const std::string& ending, const std::string& kind) {
+  if (inputs.size() == 1 && !fs::is_directory(out)) return {out};
+  if (!fs::is_directory(out))
+    throw InputError("--out " + out + ": must be a folder that exists, for " + std::to_string(inputs.size()) +
+                     " " + kind + "s");
+  std::vector<std::string> files;
+  std::set<std::string> names;
+  for (const std::string& file : inputs) {
+    const std::string name = fs::path(file).stem().string() + ending;
+    if (!names.insert(name).second)
+      throw InputError(file + ": another " + kind + " is called " + name + " too; rename one");
+    files.push_back((fs::path(out) / name).string());
+  }
+  return files;
+}
 
 void check_output_folder(const std::string& folder, const std::string& output) {
   if (!fs::is_directory(folder))

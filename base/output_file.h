@@ -28,6 +28,12 @@ class OutputFile {
 /// Throws InputError if an output is also an input, which would be lost.
 void refuse_to_overwrite(const std::string& out, const std::vector<std::string>& inputs);
 
+/// Where the results of `inputs` go: to `out` for one, which may be a folder; for several to files of a
+/// folder `out`, each under its input's name with another `ending`. `kind`: what an input is, in messages.
+/// Throws InputError if there is no such folder, or two inputs have one name.
+std::vector<std::string> outputs_of(const std::vector<std::string>& inputs, const std::string& out,
+                                    const std::string& ending, const std::string& kind);
+
 /// Throws InputError about `output` if `folder` does not exist or cannot be written.
 void check_output_folder(const std::string& folder, const std::string& output);
 

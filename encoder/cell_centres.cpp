@@ -29,7 +29,7 @@ CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& sa
   return centres;
 }
 
-Eigen::MatrixX3d CellCentres::mean(const Eigen::MatrixX3d& frame) const {
+Eigen::MatrixX3d CellCentres::mean(const Eigen::Ref<const Eigen::MatrixX3d>& frame) const {
   Eigen::MatrixX3d means = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(samples.size()), 3);
   for (std::size_t c = 0; c < samples.size(); ++c) {
     for (std::size_t k = first[c]; k < first[c + 1]; ++k)

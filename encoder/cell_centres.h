@@ -19,7 +19,7 @@ struct CellCentres {
   std::vector<std::size_t> first;   ///< M + 1: where each begins there
 
   /// M x 3, of a frame's N x 3.
-  Eigen::MatrixX3d mean(const Eigen::MatrixX3d& frame) const;
+  Eigen::MatrixX3d mean(const Eigen::Ref<const Eigen::MatrixX3d>& frame) const;
   /// The centroids with the given numbers.
   CellCentres only(const std::vector<std::size_t>& some) const;
 };

@@ -26,11 +26,10 @@ constexpr int most_tries = 6;           // of finer knots for an arm of a break
 class Encoder {
  public:
   Encoder(const Series& series, const EncodeOptions& options,
-          const std::function<void(const std::string&)>& progress,
+          const std::function<void(const std::string&)>& progress, std::shared_ptr<FitStore> store,
           SeriesFit::Start start = SeriesFit::Start::zero, const std::string& name = "displacement")
-      : series_(series), options_(options), progress_(progress), start_(start) {
-    const bool cut = series.geometry.cut.length > 0;
-    parametrization_ = make_parametrization(cut ? options.parametrization : "fixed", series.geometry);
+      : series_(series), options_(options), progress_(progress), store_(std::move(store)), start_(start) {
+    parametrization_ = store_->parametrization();
     scale_ = series.largest_displacement > 0 ? series.largest_displacement : 1;
     limit_ = options.tolerance_of(name).limit(scale_);
   }
@@ -78,18 +77,16 @@ class Encoder {
 
  private:
   SeriesFit fit_of(const Rung& rung) const {
-    return {series_, parametrization_,
-            bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())), start_};
+    return {series_, store_, bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())),
+            start_};
   }
 
   std::unique_ptr<SeriesFit> fitted_on(const Rung& rung) const {
-    return std::make_unique<SeriesFit>(
-        series_, parametrization_, bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())),
-        start_);
+    return std::make_unique<SeriesFit>(fit_of(rung));
   }
 
   std::size_t first_within(const std::vector<Rung>& rungs) const {
-    return first_rung_within(share_of_space * limit_, rungs, series_, *parametrization_, progress_);
+    return first_rung_within(share_of_space * limit_, rungs, series_, *store_, progress_);
   }
 
   Field with_derivatives(Field field, const SeriesFit& fit) const {
@@ -122,6 +119,7 @@ class Encoder {
   const Series& series_;
   const EncodeOptions& options_;
   const std::function<void(const std::string&)>& progress_;
+  std::shared_ptr<FitStore> store_;
   SeriesFit::Start start_;
   std::shared_ptr<const Parametrization> parametrization_;
   double scale_ = 1, limit_ = 0;
@@ -138,7 +136,8 @@ std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions
     for (int first = 0; first < quantity.frames.front().cols(); first += 3) {
       const Series part = series_of(series, quantity, first);
       const Rung rung =
-          Encoder(part, options, progress, SeriesFit::Start::any, quantity.name).smallest_rung();
+          Encoder(part, options, progress, fit_store(part, options), SeriesFit::Start::any, quantity.name)
+              .smallest_rung();
       if (!largest || size(rung) > size(*largest)) largest = rung;
     }
   return largest;
@@ -146,13 +145,20 @@ std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions
 
 }  // namespace
 
+std::shared_ptr<FitStore> fit_store(const Series& series, const EncodeOptions& options, double bytes) {
+  const bool cut = series.geometry.cut.length > 0;
+  return std::make_shared<FitStore>(
+      series, make_parametrization(cut ? options.parametrization : "fixed", series.geometry), bytes);
+}
+
 Encoded encode(const Series& series, const EncodeOptions& options,
-               const std::function<void(const std::string&)>& progress) {
+               const std::function<void(const std::string&)>& progress, std::shared_ptr<FitStore> store) {
   const Stopwatch watch;
+  if (!store) store = fit_store(series, options);
   EncodeOptions chosen = options;
   if (series.largest_displacement == 0 && !options.rung)
     chosen.rung = rung_of_quantities(series, options, progress);
-  Encoded encoded = Encoder(series, chosen, progress).run();
+  Encoded encoded = Encoder(series, chosen, progress, std::move(store)).run();
   for (const SeriesQuantity& data : series.quantities) {
     progress("fitting " + data.name);
     std::optional<double> limit;

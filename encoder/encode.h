@@ -4,11 +4,13 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "encoder/field/field.h"
 #include "encoder/field/node_residual.h"
+#include "encoder/fit_store.h"
 #include "encoder/ladder.h"
 #include "encoder/series.h"
 
@@ -50,8 +52,14 @@ struct Encoded {
 /// field.quantum. Further quantities of the series are fitted on the knots of the displacement, or on knots
 /// of their own if nothing moves; the tolerance bounds each relative to its own largest value. Derivatives by
 /// parameters are fitted on the same knots, without a bound. Without a cut there is no break, and the
-/// parametrisation is "fixed". `progress` is called with the current step.
+/// parametrisation is "fixed". `progress` is called with the current step. `store`: made with the same
+/// options for series of these places and times, so that what depends on them alone is computed once.
 Encoded encode(const Series& series, const EncodeOptions& options,
-               const std::function<void(const std::string&)>& progress);
+               const std::function<void(const std::string&)>& progress,
+               std::shared_ptr<FitStore> store = nullptr);
+
+/// Matrices for series of the same places and times as this one, which must live as long; at most `bytes` of
+/// factors are kept.
+std::shared_ptr<FitStore> fit_store(const Series& series, const EncodeOptions& options, double bytes = 0);
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// cleft encode: a snapshot to its field.
+// cleft encode: snapshots to their fields.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <optional>
 #include <sstream>
 
@@ -250,16 +251,27 @@ void write_encoded(const std::string& out, const std::vector<Encoded>& all, std:
   write_pieces(out, pieces, nodes);
 }
 
+constexpr double most_kept = 4e8;      // bytes of matrices that several snapshots share
+constexpr double share_of_kept = 0.1;  // of the memory that may be used
+
+/// Of each piece of a body, the first series of its places, without its values, and what was computed for it.
+struct KeptFit {
+  std::unique_ptr<Series> series;
+  std::shared_ptr<FitStore> store;
+};
+
 struct Task {
-  std::string snapshot, out;
+  std::vector<std::string> snapshots, outs;
   EncodeOptions options;
-  double memory = 0;  ///< bytes that may be used
+  double memory = 0;          ///< bytes that may be used
+  std::vector<KeptFit> kept;  ///< of the last snapshot, where there are several
 };
 
 /// Tells how far the encoder is, which names its steps.
 class EncoderProgress {
  public:
-  explicit EncoderProgress(Progress& progress) : progress_(progress) {}
+  EncoderProgress(Progress& progress, std::size_t files) : progress_(progress), files_(files) {}
+  void begin_file(std::size_t file) { file_ = file, piece_ = 0, part_ = 0; }
   /// The pieces of the body, and further quantities of each.
   void expect(std::size_t pieces, std::size_t quantities) { pieces_ = pieces, quantities_ = quantities; }
   void begin_piece(std::size_t piece) { piece_ = piece, quantity_ = 0; }
@@ -273,7 +285,7 @@ class EncoderProgress {
                                                       {"choosing the coefficients' steps", 0.9},
                                                       {"measuring", 0.91},
                                                       {"coding what the spline leaves", 0.93}};
-    if (state == "writing") return progress_(state, 0.97);
+    if (state == "writing") return tell(state, 0.97);
     const double whole = 1 + static_cast<double>(quantities_) / 3;
     if (const auto found = begins.find(state); found != begins.end() && quantity_ == 0)
       part_ = found->second / whole;
@@ -281,13 +293,19 @@ class EncoderProgress {
       part_ = (1 + static_cast<double>(quantity_++) / 3) / whole;
     const std::string of =
         pieces_ > 1 ? "piece " + std::to_string(piece_ + 1) + " of " + std::to_string(pieces_) + ": " : "";
-    progress_(of + state,
-              0.97 * (static_cast<double>(piece_) + std::min(part_, 1.)) / static_cast<double>(pieces_));
+    tell(of + state,
+         0.97 * (static_cast<double>(piece_) + std::min(part_, 1.)) / static_cast<double>(pieces_));
   }
 
  private:
+  void tell(const std::string& state, double part) {
+    const std::string of =
+        files_ > 1 ? "snapshot " + std::to_string(file_ + 1) + " of " + std::to_string(files_) + ": " : "";
+    progress_(of + state, (static_cast<double>(file_) + part) / static_cast<double>(files_));
+  }
+
   Progress& progress_;
-  std::size_t pieces_ = 1, quantities_ = 0, piece_ = 0, quantity_ = 0;
+  std::size_t files_, file_ = 0, pieces_ = 1, quantities_ = 0, piece_ = 0, quantity_ = 0;
   double part_ = 0;
 };
 
@@ -298,13 +316,29 @@ std::string spill_folder(const std::string& out) {
   return parent.empty() ? "." : parent.string();
 }
 
+/// What the last snapshot's piece of this number has left for one of the same places and times; made anew
+/// where that is another.
+std::shared_ptr<FitStore> store_for(const Series& series, std::size_t piece, Task& task) {
+  if (task.snapshots.size() == 1) return nullptr;
+  task.kept.resize(std::max(task.kept.size(), piece + 1));
+  KeptFit& kept = task.kept[piece];
+  if (kept.store && kept.store->serves(series)) return kept.store;
+  kept.store.reset();
+  kept.series = std::make_unique<Series>(series);
+  kept.series->frames.clear(), kept.series->quantities.clear(), kept.series->derivatives.clear();
+  kept.store = fit_store(*kept.series, task.options, std::min(most_kept, share_of_kept * task.memory));
+  return kept.store;
+}
+
 /// The figures of what was written, with warnings.
-Json encode_file(const Task& task, EncoderProgress& progress) {
-  const std::vector<SnapshotReader> readers = readers_of(task.snapshot);
-  const std::string folder = spill_folder(task.out);
+Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
+  const std::string &snapshot = task.snapshots[file], &out = task.outs[file];
+  progress.begin_file(file);
+  const std::vector<SnapshotReader> readers = readers_of(snapshot);
+  const std::string folder = spill_folder(out);
   MemoryNeed need;
   for (const SnapshotReader& reader : readers) need = need + memory_need(reader);
-  need.fit_into(task.memory, folder, task.snapshot);
+  need.fit_into(task.memory, folder, snapshot);
   progress("reading: up to " + gigabytes(need.in_memory()) + " of memory are needed" +
            (need.spilled ? ", and " + gigabytes(need.values) + " of disk" : ""));
   std::vector<Series> series;
@@ -321,7 +355,7 @@ Json encode_file(const Task& task, EncoderProgress& progress) {
         series.size() > 1 ? "piece " + std::to_string(p + 1) + " of " + std::to_string(series.size()) + ": "
                           : "";
     progress.begin_piece(p);
-    all.push_back(encode(series[p], task.options, std::ref(progress)));
+    all.push_back(encode(series[p], task.options, std::ref(progress), store_for(series[p], p, task)));
     Field& field = all.back().field;
     const Snapshot& s = readers[p].snapshot();
     field.parameters = s.parameters, field.case_hash = s.case_hash, field.source = source_of(s);
@@ -329,16 +363,16 @@ Json encode_file(const Task& task, EncoderProgress& progress) {
       warnings.push_back(of + warning);
   }
   progress("writing");
-  const std::size_t nodes = series.size() > 1 ? SnapshotReader(task.snapshot).snapshot().points.size()
+  const std::size_t nodes = series.size() > 1 ? SnapshotReader(snapshot).snapshot().points.size()
                                               : readers.front().snapshot().points.size(),
                     measured = series.size() > 1 ? nodes : series.front().nodes;
   series.clear();
-  write_encoded(task.out, all, nodes);
-  verify_written(task.out, all);
+  write_encoded(out, all, nodes);
+  verify_written(out, all);
   std::vector<Field> fields;
   fields.reserve(all.size());
   for (Encoded& one : all) fields.push_back(std::move(one.field));
-  Json figures = figures_of(fields, measured, task.out);
+  Json figures = figures_of(fields, measured, out);
   figures["memory_mb"] = {{"expected", std::round(need.in_memory() / 1e6)},
                           {"disk", need.spilled ? std::round(need.values / 1e6) : 0},
                           {"peak", std::round(peak_memory() / 1e6)}};
@@ -346,17 +380,29 @@ Json encode_file(const Task& task, EncoderProgress& progress) {
   return figures;
 }
 
+void warn_of(const Json& figures) {
+  const std::string of = figures.contains("out") ? figures["out"].get<std::string>() + ": " : "";
+  for (const Json& warning : figures.value("warnings", Json::array()))
+    std::cerr << "cleft encode: warning: " << of << warning.get<std::string>() << "\n";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   keep_freed_blocks();
-  CommandLine app("Fits a discontinuous free-form deformation to a snapshot.", "cleft encode");
-  std::string snapshot, out;
+  CommandLine app(
+      "Fits a discontinuous free-form deformation to a snapshot. Of several on the same mesh it computes "
+      "what "
+      "they share once.",
+      "cleft encode");
+  std::vector<std::string> snapshots;
+  std::string out;
   std::vector<int> counts;
   bool json = false;
   EncodeOptions options;
-  app.add_option("CASE.h5", snapshot, "snapshot")->required();
-  app.add_option("--out", out, "field to write, case.dffd")->required();
+  app.add_option("CASE.h5", snapshots, "snapshots")->required();
+  app.add_option("--out", out, "field to write, case.dffd; for several snapshots a folder: DIR/CASE.dffd")
+      ->required();
   std::vector<std::string> tolerances;
   auto* tolerance =
       app.add_option(
@@ -382,22 +428,31 @@ int main(int argc, char** argv) {
                  "GB that may be used (default: nine tenths of what is free); the values of larger snapshots "
                  "are kept in a temporary file, in TMPDIR or beside the field")
       ->check(at_least(0.001));
-  app.add_flag("--json", json, "print the figures as JSON");
+  app.add_flag("--json", json, "print the figures as JSON; several snapshots: a list");
 
   return run_command(app, argc, argv, [&] {
     for (const std::string& text : tolerances) parse_tolerance(text, options);
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
-    refuse_to_overwrite(out, {snapshot});
-    const OutputFile probe(out);  // reports a bad name before the work
-    Json figures;
-    const double allowed = memory > 0 ? 1e9 * memory : 0.9 * available_memory();
+    Task task{snapshots,
+              outputs_of(snapshots, out, ".dffd", "snapshot"),
+              options,
+              memory > 0 ? 1e9 * memory : 0.9 * available_memory(),
+              {}};
+    for (const std::string& file : task.outs) {
+      refuse_to_overwrite(file, snapshots);
+      const OutputFile probe(file);  // reports a bad name before the work
+    }
+    Json list = Json::array();
     {
       Progress bar("encoding");
-      EncoderProgress progress(bar);
-      figures = encode_file({snapshot, out, options, allowed}, progress);
+      EncoderProgress progress(bar, snapshots.size());
+      for (std::size_t file = 0; file < snapshots.size(); ++file)
+        list.push_back(encode_file(task, file, progress));
     }
-    for (const Json& warning : figures.value("warnings", Json::array()))
-      std::cerr << "cleft encode: warning: " << warning.get<std::string>() << "\n";
-    print_figures(figures, json);
+    if (snapshots.size() > 1)
+      for (std::size_t file = 0; file < snapshots.size(); ++file) list[file]["out"] = task.outs[file];
+    for (const Json& figures : list) warn_of(figures);
+    if (json && snapshots.size() > 1) return print_figures(list, true);
+    for (const Json& figures : list) print_figures(figures, json);
   });
 }

@@ -78,13 +78,14 @@ void FrameFit::add_group(const std::vector<std::size_t>& cells, std::vector<bool
 
 SpaceFit::Normal FrameFit::normal(std::size_t frame, double strength) const {
   const double t = series_.times[frame];
-  SpaceFit::Normal sum = nodes_.normal(t, strength);
+  SpaceFit::Normal sum = nodes_.normal(t, 0);
   for (const Group& group : groups_)
     if (group.of_frame[frame]) sum.add(1, group.fit.normal(t, 0));
+  nodes_.roughen(sum, strength);
   return sum;
 }
 
-Eigen::MatrixX3d FrameFit::project(std::size_t frame, const Eigen::MatrixX3d& d) const {
+Eigen::MatrixX3d FrameFit::project(std::size_t frame, const Eigen::Ref<const Eigen::MatrixX3d>& d) const {
   const double t = series_.times[frame];
   Eigen::MatrixX3d sum = nodes_.project(d, t);
   for (const Group& group : groups_)
@@ -92,8 +93,14 @@ Eigen::MatrixX3d FrameFit::project(std::size_t frame, const Eigen::MatrixX3d& d)
   return sum;
 }
 
-Eigen::MatrixX3d FrameFit::misfit(const Eigen::MatrixX3d& x, std::size_t frame) const {
-  return nodes_.values(x, series_.times[frame]) - series_.frames[frame];
+Eigen::MatrixX3d FrameFit::values(const Eigen::MatrixX3d& x, std::size_t frame) const {
+  return nodes_.values(x, series_.times[frame]);
+}
+
+double FrameFit::bytes() const {
+  double sum = nodes_.bytes();
+  for (const Group& group : groups_) sum += group.fit.bytes();
+  return sum;
 }
 
 }  // namespace cleft

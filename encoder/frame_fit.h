@@ -16,18 +16,19 @@ namespace cleft {
 /// with the weight of nodes.
 class FrameFit {
  public:
-  /// Keeps references to `series` and `parametrization`.
+  /// Of the places and times of `series`, not of its displacements. Keeps references to `series` and
+  /// `parametrization`.
   FrameFit(const Series& series, const Parametrization& parametrization,
            const std::array<BSplineBasis, 3>& bases);
 
   const ControlTies& ties() const { return nodes_.ties(); }
   const SpaceFit& space() const { return nodes_; }
-  /// B^T B + strength R, and ties^T B^T d, of a frame.
+  /// B^T B + strength R of a frame, and ties^T B^T d for its displacements d.
   SpaceFit::Normal normal(std::size_t frame, double strength) const;
-  Eigen::MatrixX3d project(std::size_t frame) const { return project(frame, series_.frames[frame]); }
-  Eigen::MatrixX3d project(std::size_t frame, const Eigen::MatrixX3d& d) const;
-  /// B ties x - d at the nodes.
-  Eigen::MatrixX3d misfit(const Eigen::MatrixX3d& x, std::size_t frame) const;
+  Eigen::MatrixX3d project(std::size_t frame, const Eigen::Ref<const Eigen::MatrixX3d>& d) const;
+  /// B ties x at the nodes.
+  Eigen::MatrixX3d values(const Eigen::MatrixX3d& x, std::size_t frame) const;
+  double bytes() const;  ///< that the spaces take
 
  private:
   struct Group {

@@ -15,13 +15,9 @@ constexpr double few = 5e-5;       // share of nodes for which a residual costs 
 
 class KnotSearch {
  public:
-  KnotSearch(double limit, const std::vector<Rung>& rungs, const Series& series,
-             const Parametrization& parametrization, const std::function<void(const std::string&)>& progress)
-      : limit_(limit),
-        rungs_(rungs),
-        series_(series),
-        parametrization_(parametrization),
-        progress_(progress) {
+  KnotSearch(double limit, const std::vector<Rung>& rungs, const Series& series, FitStore& store,
+             const std::function<void(const std::string&)>& progress)
+      : limit_(limit), rungs_(rungs), series_(series), store_(store), progress_(progress) {
     const std::size_t frames = series.times.size();
     for (std::size_t i = probes; i-- > 0;) frames_.push_back(1 + (frames - 2) * i / (probes - 1));
     frames_.erase(std::unique(frames_.begin(), frames_.end()), frames_.end());
@@ -62,16 +58,16 @@ class KnotSearch {
   }
   /// What these frames add to the share of nodes that are off; no longer exact once it is above `most`.
   double beyond(std::size_t rung, const std::vector<std::size_t>& frames, double most) const {
-    const auto bases = bases_of(rungs_[rung], parametrization_, static_cast<int>(series_.times.size()));
+    const auto bases =
+        bases_of(rungs_[rung], *store_.parametrization(), static_cast<int>(series_.times.size()));
     const double part = 1 / static_cast<double>(frames_.size());
-    return part * space_misfit(series_, parametrization_, {bases[0], bases[1], bases[2]}, frames, limit_,
-                               most / part);
+    return part * space_misfit(series_, store_, {bases[0], bases[1], bases[2]}, frames, limit_, most / part);
   }
 
   double limit_;
   const std::vector<Rung>& rungs_;
   const Series& series_;
-  const Parametrization& parametrization_;
+  FitStore& store_;
   const std::function<void(const std::string&)>& progress_;
   std::vector<std::size_t> frames_;             // the last first
   std::vector<std::optional<double>> in_last_;  // of every rung, where known
@@ -80,9 +76,8 @@ class KnotSearch {
 }  // namespace
 
 std::size_t first_rung_within(double limit, const std::vector<Rung>& rungs, const Series& series,
-                              const Parametrization& parametrization,
-                              const std::function<void(const std::string&)>& progress) {
-  KnotSearch search(limit, rungs, series, parametrization, progress);
+                              FitStore& store, const std::function<void(const std::string&)>& progress) {
+  KnotSearch search(limit, rungs, series, store, progress);
   const std::size_t nearly = search.first(0, few);
   if (nearly == rungs.size()) return nearly;
   const std::size_t wholly = search.first(nearly, 0);

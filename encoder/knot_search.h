@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "encoder/fit_store.h"
 #include "encoder/ladder.h"
 #include "encoder/series.h"
 
@@ -14,7 +15,6 @@ namespace cleft {
 /// nodes, or, if there is no such rung, at all but a few nodes; the number of rungs if there is none. Rungs
 /// are nested and assumed to improve.
 std::size_t first_rung_within(double limit, const std::vector<Rung>& rungs, const Series& series,
-                              const Parametrization& parametrization,
-                              const std::function<void(const std::string&)>& progress);
+                              FitStore& store, const std::function<void(const std::string&)>& progress);
 
 }  // namespace cleft

@@ -15,6 +15,7 @@ namespace {
 // Strengths of the regularisation: the candidates, from the strongest to the weakest, and the first one
 // tried; one that does not affect the fit; the one for the search of knots; the one for refinement.
 constexpr double strengths[] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+constexpr int weakest = std::size(strengths) - 1;
 constexpr int usual = 1;
 constexpr double hardly_any = 1e-10, of_search = 1e-6, weakest_strength = 1e-8;
 constexpr double regularisation_cost = 1.05;  // of the data's error, at most
@@ -43,17 +44,17 @@ Misfit misfit_of(const Eigen::MatrixX3d& errors, const Series& series, double li
 
 }  // namespace
 
-double space_misfit(const Series& series, const Parametrization& parametrization,
-                    const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
-                    double limit, double most) {
+double space_misfit(const Series& series, FitStore& store, const std::array<BSplineBasis, 3>& bases,
+                    const std::vector<std::size_t>& frames, double limit, double most) {
   one_thread_a_product();
-  const FrameFit fit(series, parametrization, bases);
+  const auto fit = store.fit(bases);
   std::atomic<double> sum = 0;
   parallel_for(static_cast<int>(frames.size()), [&](int i) {
     if (sum > most) return;
     const std::size_t frame = frames[i];
-    const auto factor = fit.space().factorize(fit.normal(frame, of_search));
-    sum += misfit_of(fit.misfit(factor.solve(fit.project(frame)), frame), series, limit).beyond;
+    const auto factor = store.factor(bases, frame, of_search, [&] { return fit->normal(frame, of_search); });
+    const Eigen::MatrixX3d x = factor->solve(fit->project(frame, series.frames[frame]));
+    sum += misfit_of(fit->values(x, frame) - series.frames[frame], series, limit).beyond;
     series.frames.forget(frame);
   });
   return sum;
@@ -61,10 +62,15 @@ double space_misfit(const Series& series, const Parametrization& parametrization
 
 SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
                      const std::array<BSplineBasis, 4>& bases, Start start)
+    : SeriesFit(series, std::make_shared<FitStore>(series, std::move(parametrization)), bases, start) {}
+
+SeriesFit::SeriesFit(const Series& series, std::shared_ptr<FitStore> store,
+                     const std::array<BSplineBasis, 4>& bases, Start start)
     : series_(series),
-      parametrization_(std::move(parametrization)),
+      store_(std::move(store)),
+      parametrization_(store_->parametrization()),
       bases_(bases),
-      fit_(series, *parametrization_, in_space(bases)),
+      fit_(store_->fit(in_space(bases))),
       first_(start == Start::zero ? 1 : 0) {
   one_thread_a_product();
   const auto frames = static_cast<Eigen::Index>(series.times.size());
@@ -80,54 +86,73 @@ SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization
   refine();
 }
 
-/// The strongest regularisation that costs the first, an early and the last frame next to nothing.
+/// The strongest regularisation that costs the last, the first and an early frame next to nothing. The last
+/// one, whose cut is longest, nearly always decides: of the others it is only asked whether they need a
+/// weaker one.
 void SeriesFit::choose_strength() {
-  const std::size_t frames = series_.times.size(), some[] = {1, 1 + frames / 8, frames - 1};
-  int chosen[3];
-  double reached[3];
-  parallel_for(3, [&](int i) {
-    const std::size_t j = some[i];
-    const Eigen::MatrixX3d right = fit_.project(j);
-    const auto cost = [&](double of) {
-      return fit_.misfit(fit_.space().factorize(fit_.normal(j, of)).solve(right), j).norm();
-    };
-    const double least = cost(hardly_any), all = series_.frames[j].norm();
-    reached[i] = least / std::max(all, 1e-300);
-    const double most = regularisation_cost * least + (j == 1 ? of_first : 1e-9) * all;
-    int strength = usual;
-    if (cost(strengths[strength]) <= most)
-      while (strength > 0 && cost(strengths[strength - 1]) <= most) --strength;
-    else
-      do ++strength;
-      while (strength + 1 < static_cast<int>(std::size(strengths)) && cost(strengths[strength]) > most);
-    chosen[i] = strength;
-    series_.frames.forget(j);
-  });
-  strength_ = strengths[*std::max_element(chosen, chosen + 3)];
-  reached_ = *std::max_element(reached, reached + 3);
+  const std::size_t last = series_.times.size() - 1, others[] = {1, 1 + (last + 1) / 8};
+  Chosen chosen = strength_of(last, usual, Stronger::too), of_other[2];
+  parallel_for(2, [&](int i) { of_other[i] = strength_of(others[i], chosen.strength, Stronger::never); });
+  for (const Chosen& other : of_other) {
+    chosen.strength = std::max(chosen.strength, other.strength);
+    chosen.reached = std::max(chosen.reached, other.reached);
+  }
+  strength_ = strengths[chosen.strength];
+  reached_ = chosen.reached;
+}
+
+/// Of a frame, from a first strength on.
+SeriesFit::Chosen SeriesFit::strength_of(std::size_t frame, int first, Stronger stronger) const {
+  const Eigen::MatrixX3d right = fit_->project(frame, series_.frames[frame]);
+  std::optional<SpaceFit::Normal> without;
+  const auto cost = [&](double strength) {
+    const auto factor = store_->factor(in_space(bases_), frame, strength, [&] {
+      if (!without) without = fit_->normal(frame, 0);
+      SpaceFit::Normal normal = *without;
+      fit_->space().roughen(normal, strength);
+      return normal;
+    });
+    return (fit_->values(factor->solve(right), frame) - series_.frames[frame]).norm();
+  };
+  const double least = cost(hardly_any), all = series_.frames[frame].norm();
+  const double most = regularisation_cost * least + (frame == 1 ? of_first : 1e-9) * all;
+  int strength = first;
+  while (strength < weakest && cost(strengths[strength]) > most) ++strength;
+  if (strength == first && stronger == Stronger::too)
+    while (strength > 0 && cost(strengths[strength - 1]) <= most) --strength;
+  series_.frames.forget(frame);
+  return {strength, least / std::max(all, 1e-300)};
 }
 
 void SeriesFit::solve() {
   const int frames = static_cast<int>(in_time_.rows());
   std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(frames));
-  std::vector<SpaceFit::Normal> normals(same_in_all_frames() ? 1 : projected.size());
   parallel_for(frames, [&](int j) {
     const std::size_t frame = j + first_;
-    projected[j] = fit_.project(frame);
+    projected[j] = fit_->project(frame, series_.frames[frame]);
     series_.frames.forget(frame);
-    if (static_cast<std::size_t>(j) < normals.size()) normals[j] = fit_.normal(frame, strength_);
   });
-  system_.emplace(fit_.space(), in_time_, first_ > 0, std::move(normals));
+  system_ = system_of(strength_);
   control_points_ = Eigen::MatrixXd::Zero(in_time_.cols(), 3 * ties().size());
-  add(system_->solve(system_->over_frames(projected), residual_bound));
-  condition_ = system_->condition(), iterations_ = system_->iterations();
+  add(system_->solve(system_->over_frames(projected), residual_bound, iterations_));
+  condition_ = system_->condition();
+}
+
+std::shared_ptr<const SeriesSystem> SeriesFit::system_of(double strength) const {
+  return store_->system(bases_, first_, strength, [&] {
+    std::vector<SpaceFit::Normal> normals(same_in_all_frames() ? 1
+                                                               : static_cast<std::size_t>(in_time_.rows()));
+    parallel_for(static_cast<int>(normals.size()),
+                 [&](int j) { normals[j] = fit_->normal(static_cast<std::size_t>(j + first_), strength); });
+    return SeriesSystem(fit_->space(), in_time_, first_ > 0, std::move(normals));
+  });
 }
 
 Eigen::MatrixXd SeriesFit::control_points_of(const std::vector<Eigen::MatrixX3d>& frames) const {
   std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(in_time_.rows()));
   parallel_for(static_cast<int>(projected.size()), [&](int j) {
     const std::size_t frame = j + first_;
-    projected[j] = fit_.project(frame, frames[frame]);
+    projected[j] = fit_->project(frame, frames[frame]);
   });
   const SeriesSystem::Blocks blocks = system_->solve(system_->over_frames(projected), residual_bound);
   Eigen::MatrixXd points(control_points_.rows(), control_points_.cols());
@@ -142,14 +167,15 @@ void SeriesFit::add(const std::vector<Eigen::MatrixXd>& blocks) {
 
 Eigen::MatrixX3d SeriesFit::errors(Eigen::Index j) const {
   const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
-  return fit_.misfit(x.reshaped(ties().size(), 3), static_cast<std::size_t>(j + first_));
+  const std::size_t frame = static_cast<std::size_t>(j + first_);
+  return fit_->values(x.reshaped(ties().size(), 3), frame) - series_.frames[frame];
 }
 
 /// Regularised solutions for what the last one left tend to the one without regularisation that is nearest to
 /// the first (the proximal point method). Worth it only where that has no misfit at all.
 void SeriesFit::refine() {
   const int frames = static_cast<int>(in_time_.rows());
-  const SpaceFit& space = fit_.space();
+  const SpaceFit& space = fit_->space();
   std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(frames));
   double data = 0;
   for (int j = 0; j < frames; ++j) {
@@ -193,10 +219,8 @@ Misfit SeriesFit::misfit(double limit) const {
   const int frames = static_cast<int>(in_time_.rows());
   std::vector<Misfit> misfits(static_cast<std::size_t>(frames));
   parallel_for(frames, [&](int j) {
-    const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
-    const std::size_t frame = j + first_;
-    misfits[j] = misfit_of(fit_.misfit(x.reshaped(ties().size(), 3), frame), series_, limit);
-    series_.frames.forget(frame);
+    misfits[j] = misfit_of(errors(j), series_, limit);
+    series_.frames.forget(static_cast<std::size_t>(j + first_));
   });
   Misfit all;
   for (const Misfit& one : misfits) {

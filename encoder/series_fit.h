@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "encoder/field/field.h"
-#include "encoder/frame_fit.h"
+#include "encoder/fit_store.h"
 #include "encoder/series.h"
 #include "encoder/series_system.h"
 
@@ -22,9 +22,8 @@ struct Misfit {
 
 /// A bound on the quality of knots in space: each of `frames` is fitted separately, and their shares of nodes
 /// whose residual exceeds `limit`, mm, are summed until the sum is above `most`.
-double space_misfit(const Series& series, const Parametrization& parametrization,
-                    const std::array<BSplineBasis, 3>& bases, const std::vector<std::size_t>& frames,
-                    double limit, double most);
+double space_misfit(const Series& series, FitStore& store, const std::array<BSplineBasis, 3>& bases,
+                    const std::vector<std::size_t>& frames, double limit, double most);
 
 /// The least-squares spline in all four variables (see SeriesSystem). Data that are a spline of the space are
 /// reproduced to rounding, by repeating the fit on its residual.
@@ -36,7 +35,9 @@ class SeriesFit {
   /// Keeps references to `series`. `bases` over along, across, height and time.
   SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
             const std::array<BSplineBasis, 4>& bases, Start start = Start::zero);
-  SeriesFit(const SeriesFit&) = delete;  // the system refers to the fit's space
+  /// With matrices of a store that serves the series.
+  SeriesFit(const Series& series, std::shared_ptr<FitStore> store, const std::array<BSplineBasis, 4>& bases,
+            Start start = Start::zero);
 
   /// Control points in t of every unknown, column axis n + unknown: T x 3 n, or (T - 1) x 3 n where the first
   /// are 0 and left out.
@@ -51,7 +52,7 @@ class SeriesFit {
   Field field(const Eigen::MatrixXd& control_points) const {
     return {parametrization_, bases_, coefficients(control_points)};
   }
-  const ControlTies& ties() const { return fit_.ties(); }
+  const ControlTies& ties() const { return fit_->ties(); }
   double condition() const { return condition_; }  ///< of the preconditioner's matrices, the largest estimate
   int iterations() const { return iterations_; }
   double strength() const {
@@ -59,21 +60,29 @@ class SeriesFit {
   }  ///< of the regularisation, relative to the mean of B^T B's diagonal
 
  private:
+  struct Chosen {
+    int strength = 0;    // of the candidates
+    double reached = 0;  // misfit of the frame that is hardly regularised, over its data
+  };
+  enum class Stronger { never, too };
   void choose_strength();
+  Chosen strength_of(std::size_t frame, int first, Stronger stronger) const;
   void solve();
+  std::shared_ptr<const SeriesSystem> system_of(double strength) const;
   void refine();
   void add(const std::vector<Eigen::MatrixXd>& blocks);  ///< n x 3 for every control point in t
   Eigen::MatrixX3d errors(Eigen::Index j) const;         ///< at the nodes, of the frame of in_time_'s row
   bool same_in_all_frames() const;
 
   const Series& series_;
+  std::shared_ptr<FitStore> store_;
   std::shared_ptr<const Parametrization> parametrization_;
   std::array<BSplineBasis, 4> bases_;
-  FrameFit fit_;
+  std::shared_ptr<const FrameFit> fit_;
   int first_;                // frame and control point in t; before it all is 0
   Eigen::MatrixXd in_time_;  // frames by control points in t, both from the first on
   Eigen::MatrixXd control_points_;
-  std::optional<SeriesSystem> system_;
+  std::shared_ptr<const SeriesSystem> system_;
   double strength_ = 0, condition_ = 1;
   double reached_ = 0;  // misfit of fits of single frames that are hardly regularised, over the data
   int iterations_ = 0;

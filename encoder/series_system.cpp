@@ -92,6 +92,13 @@ double SeriesSystem::condition() const {
   return condition;
 }
 
+double SeriesSystem::bytes() const {
+  double sum = mean_.bytes();
+  for (const SpaceFit::Normal& normal : normals_) sum += normal.bytes();
+  for (const auto& factor : factors_) sum += factor->bytes();
+  return sum;
+}
+
 SeriesSystem::Blocks SeriesSystem::over_frames(const Blocks& of_frames) const {
   Blocks sums(static_cast<std::size_t>(in_time_.cols()));
   parallel_for(static_cast<int>(sums.size()), [&](int l) {
@@ -145,9 +152,9 @@ SeriesSystem::Blocks SeriesSystem::precondition(const Blocks& x) const {
   return mixed(inverse_root_, y);
 }
 
-SeriesSystem::Blocks SeriesSystem::solve(const Blocks& right, double bound) const {
+SeriesSystem::Blocks SeriesSystem::solve(const Blocks& right, double bound, int& iterations) const {
   Blocks x = precondition(right);
-  iterations_ = 0;
+  iterations = 0;
   if (same()) return x;  // the matrix is the product
   const auto add = [](Blocks& to, const Blocks& block, const Eigen::RowVector3d& factors) {
     for (std::size_t l = 0; l < to.size(); ++l) to[l] += block[l] * factors.asDiagonal();
@@ -158,7 +165,7 @@ SeriesSystem::Blocks SeriesSystem::solve(const Blocks& right, double bound) cons
   // Three right-hand sides side by side.
   Blocks z = precondition(residual), direction = z;
   Eigen::RowVector3d rz = products(residual, z);
-  while (iterations_ < most_iterations &&
+  while (iterations < most_iterations &&
          (products(residual, residual).array() / all.array()).maxCoeff() > bound * bound) {
     const Blocks applied = multiply(direction);
     const Eigen::RowVector3d step = ratio(rz, products(direction, applied));
@@ -170,7 +177,7 @@ SeriesSystem::Blocks SeriesSystem::solve(const Blocks& right, double bound) cons
     add(turned, direction, ratio(next, rz));
     direction = std::move(turned);
     rz = next;
-    ++iterations_;
+    ++iterations;
   }
   return x;
 }

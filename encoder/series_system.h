@@ -30,12 +30,17 @@ class SeriesSystem {
                std::vector<SpaceFit::Normal> normals);
 
   /// Solves to a residual of `bound` times the right-hand side, for each component separately.
-  Blocks solve(const Blocks& right, double bound) const;
+  Blocks solve(const Blocks& right, double bound) const {
+    int iterations = 0;
+    return solve(right, bound, iterations);
+  }
+  /// `iterations`: how many it took.
+  Blocks solve(const Blocks& right, double bound, int& iterations) const;
   /// Sum over the frames of b x block.
   Blocks over_frames(const Blocks& of_frames) const;
 
-  double condition() const;                       ///< of the preconditioner's matrices, the largest estimate
-  int iterations() const { return iterations_; }  ///< that the last solution took
+  double condition() const;  ///< of the preconditioner's matrices, the largest estimate
+  double bytes() const;
 
  private:
   bool same() const { return normals_.size() == 1; }
@@ -43,14 +48,13 @@ class SeriesSystem {
   Blocks precondition(const Blocks& x) const;
   Blocks mixed(const Eigen::MatrixXd& factors, const Blocks& x) const;
 
-  const SpaceFit& space_;
+  SpaceFit space_;
   Eigen::MatrixXd in_time_;
   std::vector<SpaceFit::Normal> normals_;
   SpaceFit::Normal mean_;         // of several
   Eigen::MatrixXd hold_;          // what time_roughness adds in t
   Eigen::MatrixXd inverse_root_;  // R of the matrix in t: R R^T is its inverse
   std::vector<std::optional<SpaceFit::Factor>> factors_;
-  mutable int iterations_ = 0;
 };
 
 }  // namespace cleft

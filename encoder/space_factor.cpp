@@ -15,7 +15,7 @@ Eigen::MatrixXd upper_cholesky_factor(const Eigen::MatrixXd& A) {
 
 /// The Cholesky factor of a fit in space.
 struct SpaceFit::Factor::Parts {
-  const ControlTies* ties;
+  std::shared_ptr<const SpaceFit::Parts> space;
   std::vector<Eigen::MatrixXd> diagonal;              // L of the diagonal blocks
   std::vector<std::array<Eigen::MatrixXd, 3>> lower;  // L of rows i + 1 .. i + 3 in column i
 };
@@ -48,7 +48,7 @@ Eigen::MatrixXd SpaceFit::Parts::tie(const Stencil& stencil, int row, int column
 SpaceFit::Factor SpaceFit::factorize(const Normal& normal) const {
   const Parts& p = *parts_;
   const int rows = p.bases[0].size();
-  auto factor = std::make_unique<Factor::Parts>(Factor::Parts{&p.ties, {}, {}});
+  auto factor = std::make_unique<Factor::Parts>(Factor::Parts{parts_, {}, {}});
   std::vector<std::array<Eigen::MatrixXd, order>> blocks(rows);
   for (int i = 0; i < rows; ++i)
     for (int d = 0; d < order && i + d < rows; ++d)
@@ -73,7 +73,7 @@ SpaceFit::Factor SpaceFit::factorize(const Normal& normal) const {
 }
 
 Eigen::MatrixXd SpaceFit::Factor::solve(Eigen::MatrixXd x) const {
-  const ControlTies& ties = *parts_->ties;
+  const ControlTies& ties = parts_->space->ties;
   const int rows = ties.rows();
   const auto part = [&](int i) { return x.middleRows(ties.first(i), ties.row_size(i)); };
   for (int i = 0; i < rows; ++i) {
@@ -96,6 +96,14 @@ double SpaceFit::Factor::condition() const {
     greatest = std::max(greatest, block.diagonal().maxCoeff());
   }
   return (greatest / least) * (greatest / least);
+}
+
+double SpaceFit::Factor::bytes() const {
+  double entries = 0;
+  for (const Eigen::MatrixXd& block : parts_->diagonal) entries += static_cast<double>(block.size());
+  for (const auto& of_column : parts_->lower)
+    for (const Eigen::MatrixXd& block : of_column) entries += static_cast<double>(block.size());
+  return entries * sizeof(double);
 }
 
 }  // namespace cleft

@@ -34,8 +34,6 @@ std::vector<SpaceFit::Parts::Difference> differences(const std::vector<double>& 
 
 }  // namespace
 
-SpaceFit::~SpaceFit() = default;
-SpaceFit::SpaceFit(SpaceFit&&) noexcept = default;
 const ControlTies& SpaceFit::ties() const { return parts_->ties; }
 
 SpaceFit::SpaceFit(const Parametrization& parametrization, const std::array<BSplineBasis, 3>& bases,
@@ -108,17 +106,39 @@ SpaceFit::Normal SpaceFit::normal(double t, double strength) const {
       for (int d = 0; d < order; ++d)
         if (factors[i][d] != 0) p.add_section(stencils[i][d], section, factors[i][d]);
   }
-  // Roughness, and a little of the identity.
+  for (auto& of_row : stencils) Parts::add_to_diagonal(of_row[0], diagonal_strength * p.scale);
+  roughen(result, strength);
+  return result;
+}
+
+void SpaceFit::roughen(Normal& normal, double strength) const {
+  const Parts& p = *parts_;
   strength *= p.scale;
-  for (int i = 0; i < rows; ++i) p.add_roughness_in_row(stencils[i][0], strength);
-  const auto add_diagonal = [&](Parts::Stencil& stencil, double value) {
-    for (std::size_t at = Parts::offset(0, 0); at < stencil.size(); at += reach * reach) stencil[at] += value;
-  };
+  for (auto& of_row : normal.stencils_) p.add_roughness_in_row(of_row[0], strength);
   for (const auto& [first, weight] : differences(greville(p.bases[0])))
     for (int a = 0; a < 3; ++a)
-      for (int b = a; b < 3; ++b) add_diagonal(stencils[first + a][b - a], strength * weight[a] * weight[b]);
-  for (int i = 0; i < rows; ++i) add_diagonal(stencils[i][0], diagonal_strength * p.scale);
-  return result;
+      for (int b = a; b < 3; ++b)
+        Parts::add_to_diagonal(normal.stencils_[first + a][b - a], strength * weight[a] * weight[b]);
+}
+
+void SpaceFit::Parts::add_to_diagonal(Stencil& stencil, double value) {
+  for (std::size_t at = offset(0, 0); at < stencil.size(); at += reach * reach) stencil[at] += value;
+}
+
+double SpaceFit::Normal::bytes() const {
+  double sum = 0;
+  for (const auto& of_row : stencils_)
+    for (const auto& stencil : of_row) sum += static_cast<double>(stencil.size() * sizeof(double));
+  return sum;
+}
+
+double SpaceFit::bytes() const {
+  const Parts& p = *parts_;
+  double cells = 0, samples = 0;
+  for (const Parts::Section& section : p.sections) cells += static_cast<double>(section.cells.size());
+  for (const Parts::Plane& plane : p.planes) samples += static_cast<double>(plane.samples.size());
+  return cells * sizeof(Parts::Cell) + static_cast<double>(p.places.size()) * sizeof(Parts::Weights) +
+         samples * sizeof(int);
 }
 
 void SpaceFit::Normal::add(double factor, const Normal& other) {
@@ -196,7 +216,7 @@ std::vector<SpaceFit::Grid> SpaceFit::multiplied(const Parts& p, const Normal& n
   return to;
 }
 
-Eigen::MatrixX3d SpaceFit::project(const Eigen::MatrixX3d& values, double t) const {
+Eigen::MatrixX3d SpaceFit::project(const Eigen::Ref<const Eigen::MatrixX3d>& values, double t) const {
   const Parts& p = *parts_;
   std::vector<Grid> sums(p.bases[0].size(), Grid::Zero(p.V * p.W, 4));
   Grid of_plane(p.V * p.W, 4);

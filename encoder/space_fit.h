@@ -16,14 +16,12 @@ namespace cleft {
 /// points tied where the tissue is uncut. The samples' parameters across and in height are constant, and
 /// samples of equal u move together along the cut. Their contributions to the normal matrix are therefore
 /// summed once (for all planes u = const with nodes at the same places), and a frame only weights the sums
-/// along u. Matrices have one row for each sample or for each unknown (ties().size()). All functions may be
-/// called from several threads at once.
+/// along u. Matrices have one row for each sample or for each unknown (ties().size()). Copies share what they
+/// hold. All functions may be called from several threads at once.
 class SpaceFit {
  public:
   SpaceFit(const Parametrization& parametrization, const std::array<BSplineBasis, 3>& bases,
            const std::vector<Sample>& samples);
-  ~SpaceFit();
-  SpaceFit(SpaceFit&&) noexcept;
 
   const ControlTies& ties() const;
 
@@ -35,6 +33,7 @@ class SpaceFit {
    public:
     /// Adds `factor` times another matrix.
     void add(double factor, const Normal& other);
+    double bytes() const;
 
    private:
     friend class SpaceFit;
@@ -42,6 +41,8 @@ class SpaceFit {
         stencils_;  // of rows i and i + d: by control, by difference
   };
   Normal normal(double t, double strength) const;
+  /// Adds strength R, so that the matrix is that of a strength larger by this.
+  void roughen(Normal& normal, double strength) const;
   /// ties^T normal ties x.
   Eigen::MatrixXd multiply(const Normal& normal, const Eigen::MatrixXd& x) const;
 
@@ -52,6 +53,7 @@ class SpaceFit {
     Factor(Factor&&) noexcept;
     Eigen::MatrixXd solve(Eigen::MatrixXd x) const;
     double condition() const;  ///< of the matrix, estimated from below by its factor's diagonal
+    double bytes() const;
 
    private:
     friend class SpaceFit;
@@ -62,9 +64,11 @@ class SpaceFit {
   Factor factorize(const Normal& normal) const;
 
   /// ties^T B^T values: the right-hand side for values at the samples at time t.
-  Eigen::MatrixX3d project(const Eigen::MatrixX3d& values, double t) const;
+  Eigen::MatrixX3d project(const Eigen::Ref<const Eigen::MatrixX3d>& values, double t) const;
   /// B ties x: the spline's values at the samples.
   Eigen::MatrixX3d values(const Eigen::MatrixX3d& x, double t) const;
+
+  double bytes() const;
 
   struct Parts;
 
@@ -72,7 +76,7 @@ class SpaceFit {
   /// A row a control point: three components and a 0, so that all four are one operation.
   using Grid = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
   static std::vector<Grid> multiplied(const Parts& parts, const Normal& normal, const std::vector<Grid>& x);
-  std::unique_ptr<const Parts> parts_;
+  std::shared_ptr<const Parts> parts_;
 };
 
 }  // namespace cleft

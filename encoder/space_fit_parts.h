@@ -66,6 +66,7 @@ struct SpaceFit::Parts {
   void add_section(Stencil& stencil, const Section& section, double factor) const;
   void add_cells(Section& section, const std::vector<int>& sorted) const;
   Eigen::MatrixXd tie(const Stencil& stencil, int row, int column) const;
+  static void add_to_diagonal(Stencil& stencil, double value);
   void add_roughness_in_row(Stencil& stencil, double strength) const;
   std::vector<Grid> controls(
       const Eigen::Ref<const Eigen::MatrixXd>& x) const;       // ties x, row after row along

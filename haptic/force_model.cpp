@@ -8,6 +8,7 @@ namespace cleft {
 namespace {
 constexpr double most_side_depth = 1;  // mm: how deep a blade's side is looked for
 constexpr double near = 0.5;           // mm: how far the skin is looked for where it was a moment ago
+constexpr double most_over_skin = 5;   // mm: how far above a tip skin is looked for that it may be under
 constexpr double touching = 1e-6;      // mm: nearer than that a tip is neither in nor out, to rounding
 double smooth_step(double x) {
   x = std::clamp(x, 0., 1.);
@@ -137,9 +138,12 @@ void ForceModel::follow_skin(const Vec3& tip) {
 }
 
 /// Whether the tip is in tissue after all the skin that it has passed since the last tick. Walls do not
-/// count: those of a nearly closed wound coincide, and the blade has just made them.
+/// count: those of a nearly closed wound coincide, and the blade has just made them. Through an open wound a
+/// tip passes no skin: over the skin that was followed, with none above it, it is out.
 double ForceModel::after_leap(const Vec3& tip) const {
   constexpr int most = 8;
+  if (depth_ == 0 && !reader_.first_contact(tip, tip + most_over_skin * proxy_.normal, Facing::back))
+    return 0;
   const Vec3 way = tip - last_tip_;
   const double on = 2 * touching / std::max(norm(way), touching);
   double inside = engaged_, passed = 0;

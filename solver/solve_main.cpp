@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <set>
 
 #include "base/command/command.h"
 #include "base/error.h"
@@ -129,24 +128,6 @@ void warn_of_error(const SolveReport& r) {
       << "): make mesh.element_size smaller, or patch.length and patch.width larger; cleft advise chooses\n";
 }
 
-/// --out FILE for one case; --out FOLDER for several, each under its file's name.
-std::vector<std::string> outputs(const std::vector<std::string>& cases, const std::string& out) {
-  namespace fs = std::filesystem;
-  if (cases.size() == 1 && !fs::is_directory(out)) return {out};
-  if (!fs::is_directory(out))
-    throw InputError("--out " + out + ": must be a folder that exists, for " + std::to_string(cases.size()) +
-                     " cases");
-  std::vector<std::string> files;
-  std::set<std::string> names;
-  for (const std::string& file : cases) {
-    const std::string name = fs::path(file).stem().string() + ".h5";
-    if (!names.insert(name).second)
-      throw InputError(file + ": another case is called " + name + " too; rename one");
-    files.push_back((fs::path(out) / name).string());
-  }
-  return files;
-}
-
 /// Of cases that are not solved.
 void write_meshes(const std::vector<CaseToSolve>& cases, const SolveOptions& options, bool as_json) {
   if (options.body) throw InputError("--unsolved: is for patches; the body's file is its mesh");
@@ -218,7 +199,7 @@ int main(int argc, char** argv) {
   const int code = run_command(app, argc, argv, [&] {
     options.method = methods.at(method), options.estimate = !no_estimate;
     options.discretization.partitioner = partitioners.at(partitioner);
-    const std::vector<std::string> outs = outputs(case_files, out);
+    const std::vector<std::string> outs = outputs_of(case_files, out, ".h5", "case");
     if (!body.empty()) options.body = std::make_shared<const Body>(read_body(body));
     std::vector<CaseToSolve> cases;
     std::string taken_body;

@@ -229,7 +229,41 @@ bool CaseWork::reuse(CaseOnItsWay& one, const std::string& published) const {
   return true;
 }
 
-void CaseWork::encode(CaseOnItsWay& one) const {
+void CaseWork::encode(const std::vector<CaseOnItsWay*>& cases) const {
+  if (cases.size() > 1 && encode_together(cases)) return;
+  for (CaseOnItsWay* one : cases) encode_alone(*one);
+}
+
+/// False if the process has not encoded them all: then each is encoded by itself.
+bool CaseWork::encode_together(const std::vector<CaseOnItsWay*>& cases) const {
+  const CaseOnItsWay& first = *cases.front();
+  const Stopwatch watch;
+  const std::string group = first.file("group");
+  fs::remove_all(group);
+  make_shared_folder(first.attempt.folder, "group");
+  std::vector<std::string> arguments;
+  for (const CaseOnItsWay* one : cases) {
+    const std::string snapshot = group + "/" + one->hash + ".h5";
+    fs::create_symlink(fs::absolute(one->file("case.h5")), snapshot);
+    arguments.push_back(snapshot);
+  }
+  arguments.insert(arguments.end(), {"--out", group, "--json"});
+  for (const std::string& argument : first.one->encode.arguments()) arguments.push_back(argument);
+  const ProcessResult result = child("encode", arguments, first, "encode");
+  const Json list = figures_in(first.file("encode.json"));
+  const bool all = result.success() && list.is_array() && list.size() == cases.size();
+  for (std::size_t c = 0; all && c < cases.size(); ++c) {
+    CaseOnItsWay& one = *cases[c];
+    fs::rename(group + "/" + one.hash + ".dffd", one.file("case.dffd"));
+    one.manifest["encoder"] = list[c];
+    one.manifest["encoder"].erase("out");
+  }
+  fs::remove_all(group);
+  for (CaseOnItsWay* one : cases) one->seconds += watch.seconds() / static_cast<double>(cases.size());
+  return all;
+}
+
+void CaseWork::encode_alone(CaseOnItsWay& one) const {
   const Stopwatch watch;
   std::vector<std::string> arguments = {one.file("case.h5"), "--out", one.file("case.dffd"), "--json"};
   for (const std::string& argument : one.one->encode.arguments()) arguments.push_back(argument);

@@ -44,7 +44,8 @@ class CaseWork {
   /// Solves cases with the same stiffness matrix in one process. Sets `failure` of those that have no
   /// snapshot afterwards.
   void solve(const std::vector<CaseOnItsWay*>& cases) const;
-  void encode(CaseOnItsWay& one) const;
+  /// Encodes cases with the same options in one process.
+  void encode(const std::vector<CaseOnItsWay*>& cases) const;
   void check(const std::vector<CaseOnItsWay*>& cases) const;
   /// False if another run has published it first.
   bool publish(CaseOnItsWay& one) const;
@@ -58,6 +59,8 @@ class CaseWork {
                       const CaseOnItsWay& teller, const std::string& name) const;
   Failure failure_of(const std::string& command, const ProcessResult& result, const std::string& log) const;
   void solve_together(const std::vector<CaseOnItsWay*>& cases) const;
+  bool encode_together(const std::vector<CaseOnItsWay*>& cases) const;
+  void encode_alone(CaseOnItsWay& one) const;
 
   const StudyFolder& folder_;
   const Study& study_;

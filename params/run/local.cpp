@@ -26,7 +26,8 @@ namespace {
 StopCount stop_count = 0, stop_signal = 0;
 
 constexpr std::size_t check_together = 8;  // cases
-constexpr double longest_wait = 5;         // seconds of an encoded case for others to be checked with
+constexpr std::size_t encode_together = 16;
+constexpr double longest_wait = 5;  // seconds of an encoded case for others to be checked with
 
 using CasePointer = std::unique_ptr<CaseOnItsWay>;
 
@@ -155,9 +156,7 @@ class LocalRun {
       take_checks(task);
     } else if (!to_encode_.empty()) {
       if (!fits(estimates_.encoder_memory(size(to_encode_.front()->number)))) return false;
-      task.kind = Task::encode;
-      task.cases.push_back(std::move(to_encode_.front()));
-      to_encode_.pop_front();
+      take_to_encode(task);
     } else if (!groups_.empty()) {
       if (!fits(estimates_.solver_memory(size(groups_.front().front())))) return false;
       task.kind = Task::solve;
@@ -165,6 +164,21 @@ class LocalRun {
       groups_.pop_front();
     }
     return task.kind != Task::none;
+  }
+
+  /// The next case, and those after it that are small too, as far as other workers have as many.
+  void take_to_encode(Task& task) {
+    task.kind = Task::encode;
+    const auto may_be_with_first = [&](const CaseOnItsWay& one) {
+      const Case& first = *task.cases.front()->one;
+      return is_small(first) && is_small(*one.one) && one.one->encode.arguments() == first.encode.arguments();
+    };
+    const std::size_t workers = static_cast<std::size_t>(options_.jobs),
+                      most = std::min(encode_together, (to_encode_.size() + workers - 1) / workers);
+    do {
+      task.cases.push_back(std::move(to_encode_.front()));
+      to_encode_.pop_front();
+    } while (task.cases.size() < most && may_be_with_first(*to_encode_.front()));
   }
 
   void take_checks(Task& task) {
@@ -234,12 +248,18 @@ class LocalRun {
   }
 
   void encode(Task& task) {
-    CasePointer& one = task.cases.front();
-    work_.encode(*one);
-    if (one->failure) return fail(*one, *one->failure);
-    const std::lock_guard guard(mutex_);
-    if (to_check_.empty()) oldest_to_check_ = Stopwatch();
-    to_check_.push_back(std::move(one));
+    std::vector<CaseOnItsWay*> cases;
+    for (const CasePointer& one : task.cases) cases.push_back(one.get());
+    work_.encode(cases);
+    for (CasePointer& one : task.cases) {
+      if (one->failure) {
+        fail(*one, *one->failure);
+        continue;
+      }
+      const std::lock_guard guard(mutex_);
+      if (to_check_.empty()) oldest_to_check_ = Stopwatch();
+      to_check_.push_back(std::move(one));
+    }
   }
 
   void check_and_publish(Task& task) {

@@ -13,11 +13,6 @@ namespace {
 
 using Groups = std::vector<std::vector<std::size_t>>;
 
-bool is_small(const Case& one) {
-  return one.body.empty() && one.parameters.model == Model::small &&
-         estimated_nodes(one.parameters) <= most_small_nodes;
-}
-
 /// Joins groups of small cases, to at most so many cases.
 Groups joined(Groups groups, const std::vector<Case>& cases, std::size_t workers, std::size_t most) {
   constexpr std::size_t groups_a_worker = 4;
@@ -36,6 +31,11 @@ Groups joined(Groups groups, const std::vector<Case>& cases, std::size_t workers
 }
 
 }  // namespace
+
+bool is_small(const Case& one) {
+  return one.body.empty() && one.parameters.model == Model::small &&
+         estimated_nodes(one.parameters) <= most_small_nodes;
+}
 
 std::vector<std::vector<std::size_t>> solve_groups(const std::vector<Case>& cases, int workers,
                                                    std::size_t most) {

@@ -15,6 +15,9 @@ inline constexpr std::size_t most_solved_together = 32;
 /// libraries of deal.II and Trilinos).
 inline constexpr double most_small_nodes = 5000;
 
+/// Whether a case is that small, with the small model in a patch.
+bool is_small(const Case& one);
+
 /// Groups of cases (by index) with one stiffness matrix, which share its factorisation; groups are smaller if
 /// this keeps all `workers` busy. Small cases of several stiffness matrices are in one group, where enough
 /// groups are left for all workers to end at about the same time.

@@ -86,7 +86,7 @@ TEST(BetweenNodes, CentresJoinTheSumsWhereNodesAreFew) {
     // But for the identity that is added, 1e-11 of the mean of the diagonal, once for each group.
     EXPECT_LT((sum - expected).norm(), 1e-9 * expected.norm());
     const Eigen::MatrixX3d right = all.project(data, t);
-    EXPECT_LT((fit.project(j) - right).norm(), 1e-12 * right.norm());
+    EXPECT_LT((fit.project(j, series.frames[j]) - right).norm(), 1e-12 * right.norm());
   }
 }
 
