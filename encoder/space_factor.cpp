@@ -72,19 +72,27 @@ SpaceFit::Factor SpaceFit::factorize(const Normal& normal) const {
   return Factor(std::move(factor));
 }
 
+/// Columns are few, and the library would copy every block for products with matrices: it multiplies one
+/// column after another, while a block is in the cache.
 Eigen::MatrixXd SpaceFit::Factor::solve(Eigen::MatrixXd x) const {
   const ControlTies& ties = parts_->space->ties;
   const int rows = ties.rows();
-  const auto part = [&](int i) { return x.middleRows(ties.first(i), ties.row_size(i)); };
+  const auto part = [&](int i, Eigen::Index column) {
+    return x.col(column).segment(ties.first(i), ties.row_size(i));
+  };
   for (int i = 0; i < rows; ++i) {
-    parts_->diagonal[i].triangularView<Eigen::Lower>().solveInPlace(part(i));
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+      parts_->diagonal[i].triangularView<Eigen::Lower>().solveInPlace(part(i, c));
     for (int d = 1; d < order && i + d < rows; ++d)
-      part(i + d).noalias() -= parts_->lower[i][d - 1] * part(i);
+      for (Eigen::Index c = 0; c < x.cols(); ++c)
+        part(i + d, c).noalias() -= parts_->lower[i][d - 1] * part(i, c);
   }
   for (int i = rows - 1; i >= 0; --i) {
     for (int d = 1; d < order && i + d < rows; ++d)
-      part(i).noalias() -= parts_->lower[i][d - 1].transpose() * part(i + d);
-    parts_->diagonal[i].transpose().triangularView<Eigen::Upper>().solveInPlace(part(i));
+      for (Eigen::Index c = 0; c < x.cols(); ++c)
+        part(i, c).noalias() -= parts_->lower[i][d - 1].transpose() * part(i + d, c);
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+      parts_->diagonal[i].transpose().triangularView<Eigen::Upper>().solveInPlace(part(i, c));
   }
   return x;
 }

@@ -26,7 +26,7 @@ namespace {
 StopCount stop_count = 0, stop_signal = 0;
 
 constexpr std::size_t check_together = 8;  // cases
-constexpr std::size_t encode_together = 16;
+constexpr std::size_t encode_together = 32;
 constexpr double longest_wait = 5;  // seconds of an encoded case for others to be checked with
 
 using CasePointer = std::unique_ptr<CaseOnItsWay>;

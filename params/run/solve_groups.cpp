@@ -20,7 +20,7 @@ Groups joined(Groups groups, const std::vector<Case>& cases, std::size_t workers
       groups.begin(), groups.end(), [&](const auto& group) { return is_small(cases[group.front()]); });
   std::size_t small = 0;
   for (auto group = groups.begin(); group != end_of_small; ++group) small += group->size();
-  most = std::min(most, small / (groups_a_worker * workers));
+  most = std::min({most, most_small_together, small / (groups_a_worker * workers)});
   Groups result;
   for (auto group = groups.begin(); group != groups.end(); ++group)
     if (group > groups.begin() && group < end_of_small && result.back().size() + group->size() <= most)
@@ -39,7 +39,6 @@ bool is_small(const Case& one) {
 
 std::vector<std::vector<std::size_t>> solve_groups(const std::vector<Case>& cases, int workers,
                                                    std::size_t most) {
-  most = std::min(most, most_solved_together);
   std::vector<std::vector<std::size_t>> of_one_stiffness;
   std::unordered_map<std::string, std::size_t> group;
   for (std::size_t c = 0; c < cases.size(); ++c) {
@@ -52,7 +51,9 @@ std::vector<std::vector<std::size_t>> solve_groups(const std::vector<Case>& case
       (idle + of_one_stiffness.size() - 1) / std::max<std::size_t>(1, of_one_stiffness.size());
   std::vector<std::vector<std::size_t>> groups;
   for (const auto& members : of_one_stiffness) {
-    const std::size_t needed = (members.size() + most - 1) / most;
+    const std::size_t bound =
+        std::min(most, is_small(cases[members.front()]) ? most_small_together : most_solved_together);
+    const std::size_t needed = (members.size() + bound - 1) / bound;
     const std::size_t count = std::min(members.size(), std::max(parts, needed));
     for (std::size_t part = 0; part < count; ++part)
       groups.emplace_back(members.begin() + static_cast<std::ptrdiff_t>(part * members.size() / count),

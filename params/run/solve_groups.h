@@ -8,8 +8,8 @@
 
 namespace cleft {
 
-/// Largest number of cases in a group, which bounds the loss if a process is killed.
-inline constexpr std::size_t most_solved_together = 32;
+/// Largest numbers of cases in a group, which bound the loss if a process is killed.
+inline constexpr std::size_t most_solved_together = 32, most_small_together = 128;
 
 /// Cases of at most so many nodes are solved in less time than a process takes to start (0.2 s, for the
 /// libraries of deal.II and Trilinos).
@@ -22,6 +22,6 @@ bool is_small(const Case& one);
 /// this keeps all `workers` busy. Small cases of several stiffness matrices are in one group, where enough
 /// groups are left for all workers to end at about the same time.
 std::vector<std::vector<std::size_t>> solve_groups(const std::vector<Case>& cases, int workers,
-                                                   std::size_t most = most_solved_together);
+                                                   std::size_t most = most_small_together);
 
 }  // namespace cleft

@@ -36,6 +36,29 @@ TEST(Encode, KeepsAJumpAcrossTheCutSharp) {
             8);
 }
 
+/// Two series on one mesh, and one on another mesh between them.
+TEST(Encode, AFieldDoesNotDependOnTheMatricesThatWereKept) {
+  const auto moved = [](double bend) {
+    return [bend](const Vec3& p, Side side, double t) {
+      return Vec3{0.1 * std::sin(bend * p.x) * t, sign_of(p, side) * t * (1 + bend * p.z),
+                  bend * t * p.y / 9};
+    };
+  };
+  const SyntheticSnapshot one(moved(0.2)), other(moved(0.7)), later(moved(0.7), {0, 1, 2, 3, 4, 5, 6, 9});
+  const Series first = one.series(), second = other.series(), third = later.series();
+  EncodeOptions options;
+  options.tolerance = 0.02;
+  const auto store = fit_store(first, options, 1e9);
+  EXPECT_TRUE(store->serves(second));
+  EXPECT_FALSE(store->serves(third)) << "its last frame is at another time";
+  for (const Series* series : {&first, &second, &first}) {
+    const Field alone = encode(*series, options, silent).field,
+                kept = encode(*series, options, silent, store).field;
+    EXPECT_EQ(kept.coefficients(), alone.coefficients());
+    EXPECT_EQ(kept.report.condition, alone.report.condition);
+  }
+}
+
 TEST(Encode, ReportsTheErrorsOfBruteForce) {
   for (const char* parametrization : {"fixed", "tip"}) {
     SCOPED_TRACE(parametrization);

@@ -175,6 +175,27 @@ TEST_F(EndToEnd, EveryNodeIsWithinTheToleranceInEveryFrame) {
   EXPECT_NEAR(worst / largest, read_field(field).report.node_error, 1e-9);
 }
 
+TEST_F(EndToEnd, SeveralSnapshotsAreEncodedAsEachAlone) {
+  const std::string first = *folder / "case.h5", second = *folder / "pulled.h5", both = *folder / "both";
+  expect_success(
+      run_cleft("solve", {*folder / "case.toml", "--set", "skin.prestress_v=0.05", "--out", second}));
+  std::filesystem::create_directory(both);
+  const Outcome encoded = run_cleft("encode", {first, second, "--out", both, "--json"});
+  expect_success(encoded);
+  for (const std::string name : {"case", "pulled"}) {
+    EXPECT_NE(encoded.output.find(both + "/" + name + ".dffd"), std::string::npos);
+    expect_success(run_cleft("encode", {*folder / (name + ".h5"), "--out", *folder / "alone.dffd"}));
+    EXPECT_EQ(read_field(both + "/" + name + ".dffd").coefficients(),
+              read_field(*folder / "alone.dffd").coefficients());
+  }
+  const Outcome twice = run_cleft("encode", {first, first, "--out", both});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_NE(twice.output.find("another snapshot is called case.dffd too"), std::string::npos) << twice.output;
+  const Outcome nowhere = run_cleft("encode", {first, second, "--out", *folder / "absent"});
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_NE(nowhere.output.find("must be a folder that exists, for 2 snapshots"), std::string::npos);
+}
+
 TEST_F(EndToEnd, OneAndTwoRanksGiveTheSameSnapshot) {
   expect_success(solve_on_ranks(2, {*folder / "case.toml", "--out", *folder / "two.h5"}));
   const SnapshotReader one(*folder / "case.h5"), two(*folder / "two.h5");
