@@ -239,23 +239,26 @@ TEST(Force, ALeapThroughAClosedWoundStaysInTheTissue) {
 }
 
 TEST(Force, ALeapOutThroughAnOpenWoundIsOut) {
-  // A wound 8 mm wide and 8 mm deep along y.
-  const std::vector<Vec3> points{{-20, -20, 0}, {-4, -20, 0}, {-4, 20, 0}, {-20, 20, 0}, {4, -20, 0},
-                                 {20, -20, 0},  {20, 20, 0},  {4, 20, 0},  {0, -20, -8}, {0, 20, -8}};
-  const std::vector<std::array<int, 3>> triangles{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7},
-                                                  {1, 8, 9}, {1, 9, 2}, {8, 4, 7}, {8, 7, 9}};
-  ContactSurface surface(points, triangles);
-  std::vector<ContactSurface::Changed> walls;
-  for (int t = 4; t < 8; ++t) walls.push_back({t, {triangles[static_cast<std::size_t>(t)], true}});
-  surface.update({}, walls);
-  Led led(surface);
-  led.to({-7.3, 0.2, 1});
-  led.go({-7.3, 0.2, -4}, 20);
-  led.rest(100);
-  ASSERT_EQ(led.loop.state().phase, Phase::cutting);
-  led.to({0, 0.2, -4});  // through a wall into the wound, far from both
-  led.to({0, 0.2, 4});
-  EXPECT_EQ(led.rest(50).phase, Phase::free);
+  for (const double half : {4., 0.1}) {  // of the width of a wound along y, 8 mm deep
+    SCOPED_TRACE(half);
+    const std::vector<Vec3> points{{-20, -20, 0},  {-half, -20, 0}, {-half, 20, 0}, {-20, 20, 0},
+                                   {half, -20, 0}, {20, -20, 0},    {20, 20, 0},    {half, 20, 0},
+                                   {0, -20, -8},   {0, 20, -8}};
+    const std::vector<std::array<int, 3>> triangles{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7},
+                                                    {1, 8, 9}, {1, 9, 2}, {8, 4, 7}, {8, 7, 9}};
+    ContactSurface surface(points, triangles);
+    std::vector<ContactSurface::Changed> walls;
+    for (int t = 4; t < 8; ++t) walls.push_back({t, {triangles[static_cast<std::size_t>(t)], true}});
+    surface.update({}, walls);
+    Led led(surface);
+    led.to({-7.3, 0.2, 1});
+    led.go({-7.3, 0.2, -4}, 20);
+    led.rest(100);
+    ASSERT_EQ(led.loop.state().phase, Phase::cutting);
+    led.to({0, 0.2, -4});  // through a wall into the wound
+    led.to({0, 0.2, 4});
+    EXPECT_EQ(led.rest(50).phase, Phase::free);
+  }
 }
 
 TEST(Force, WithoutTheButtonNothingIsPunctured) {
