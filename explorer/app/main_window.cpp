@@ -142,7 +142,11 @@ void MainWindow::make_middle() {
   column->addWidget(time);
   column->addWidget(command_line_);
   setCentralWidget(middle);
-  device_ = std::make_unique<DeviceControl>(session_, *scene_, say_line, [this](const std::string& text) {
+  const Say say_cut = [this](const std::string& line) {
+    say_when_free(line);
+    return true;
+  };
+  device_ = std::make_unique<DeviceControl>(session_, *scene_, say_cut, [this](const std::string& text) {
     message_->tell(QString::fromStdString(text));
   });
   panels_ = {scene_, time, device_.get()};
@@ -266,6 +270,15 @@ bool MainWindow::say(const std::string& line) {
     follow(all);
     return false;
   }
+}
+
+/// At once, or when the line that is being done is done.
+void MainWindow::say_when_free(const std::string& line) {
+  constexpr int again = 50;  // ms
+  if (saying_)
+    QTimer::singleShot(again, this, [this, line] { say_when_free(line); });
+  else
+    say(line);
 }
 
 /// What takes longer than a moment is shown, and can be cancelled.

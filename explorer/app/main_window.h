@@ -68,6 +68,7 @@ class MainWindow : public QMainWindow {
   void pick(const std::string& command);
   void measure();
   void follow_picking();
+  void say_when_free(const std::string& line);
   bool show_progress(const std::string& what, double part);
   QAction* add_action(QMenu* menu, const char* name, const QString& text, const QKeySequence& key,
                       std::function<void()> run);

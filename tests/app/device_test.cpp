@@ -140,6 +140,22 @@ TEST_F(DeviceTest, TheMouseSinksTheBladeWhereItIsPressed) {
   EXPECT_FALSE(window_.device().on());
 }
 
+TEST_F(DeviceTest, ACutUnderWayIsKeptWhenTheDeviceIsPutAway) {
+  tell("open " + study());
+  settle(20);
+  tell("device mouse");
+  auto& scene = window_.scene();
+  const auto at = [&](double x) { return QPointF(scene.width() * x, scene.height() * 0.5); };
+  mouse(scene, QEvent::MouseButtonPress, at(0.4));
+  ASSERT_TRUE(soon([&] { return window_.device().state().phase == Phase::cutting; }));
+  for (double x = 0.4; x < 0.6; x += 0.01) {
+    mouse(scene, QEvent::MouseMove, at(x));
+    settle(40);
+  }
+  tell("device off");
+  EXPECT_TRUE(soon([&] { return now().cuts.size() == 1; })) << window_.message().toStdString();
+}
+
 TEST_F(DeviceTest, WhatIsMissingIsTold) {
   tell("open " + study());
   setenv("SPNAV_SOCKET", (folder_ / "nobody.sock").c_str(), 1);
