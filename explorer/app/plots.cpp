@@ -44,12 +44,15 @@ Curve gape_of(const WoundScene& scene) {
   return gape;
 }
 
+/// mm: ahead of the blade the guard may part lips by a few thousandths.
+constexpr double closed = 0.02;
+
 /// mm, at each place of a cut: the expected error is one over the largest opening. What is not cut is closed.
 std::vector<double> error_of(const WoundScene::Opening& opening, const OpeningError& expected) {
   const double widest = widest_of({opening});
   std::vector<double> error;
   for (std::size_t i = 0; i < opening.places.size(); ++i)
-    error.push_back(opening.values[i] > 0 ? widest * expected.value_at(opening.places[i]) : 0);
+    error.push_back(opening.values[i] > closed ? widest * expected.value_at(opening.places[i]) : 0);
   return error;
 }
 
