@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "encoder/space_fit_parts.h"
+#include "encoder/stencil_product.h"
 
 namespace cleft {
 
@@ -195,24 +196,9 @@ std::vector<SpaceFit::Grid> SpaceFit::multiplied(const Parts& p, const Normal& n
   const int rows = p.bases[0].size();
   std::vector<Grid> to(rows, Grid::Zero(p.V * p.W, 4));
   for (int i = 0; i < rows; ++i)
-    for (int d = 0; d < order && i + d < rows; ++d) {
-      const Parts::Stencil& stencil = normal.stencils_[i][d];
-      for (int j = 0; j < p.V; ++j)
-        for (int k = 0; k < p.W; ++k) {
-          const int c = j * p.W + k, k_from = std::max(0, k - order + 1),
-                    k_to = std::min(p.W - 1, k + order - 1);
-          const Eigen::RowVector4d left = from[i].row(c);
-          Eigen::RowVector4d sum = Eigen::RowVector4d::Zero();
-          for (int jj = std::max(0, j - order + 1); jj <= std::min(p.V - 1, j + order - 1); ++jj) {
-            const double* value = &stencil[p.at(j, k) + Parts::offset(jj - j, k_from - k)];
-            for (int other = jj * p.W + k_from; other <= jj * p.W + k_to; ++other, ++value) {
-              sum += *value * from[i + d].row(other);
-              if (d > 0) to[i + d].row(other) += *value * left;
-            }
-          }
-          to[i].row(c) += sum;
-        }
-    }
+    for (int d = 0; d < order && i + d < rows; ++d)
+      add_product({normal.stencils_[i][d].data(), p.V, p.W}, from[i + d].data(), to[i].data(), from[i].data(),
+                  d > 0 ? to[i + d].data() : nullptr);
   return to;
 }
 
