@@ -103,6 +103,20 @@ double layer_compliance(const SkinLayer& layer) {
   return layer_compliances(layer, std::span(&middle, 1)).front();
 }
 
+double punch_stiffness(const SkinLayer& layer, double radius) {
+  // The punch sinks by the work of its pressure, P / (2 pi a sqrt(a^2 - r^2)), over P: P / (2 pi) times the
+  // integral of sinking(x) (sin(a x) / (a x))^2. Of short waves as above.
+  constexpr int pieces = 100;
+  constexpr double farthest = 20;  // over a
+  const double near = sinking(layer, 1e5 / radius);
+  double sum = near * std::numbers::pi / 2;
+  for (int i = 0; i < pieces; ++i) {
+    const double part = (i + 0.5) / pieces, x = farthest * part * part, wave = std::sin(x) / x;
+    sum += (sinking(layer, x / radius) - near) * wave * wave * 2 * farthest * part / pieces;
+  }
+  return 2 * std::numbers::pi * radius / sum;
+}
+
 double stiffness_from_compliance(double compliance) {
   if (!(compliance > 0))
     throw InputError("a compliance of " + std::to_string(compliance) + " mm/MPa is none");
@@ -124,8 +138,9 @@ double surface_stiffness(const Field& field) {
   return stiffness_from_compliance(layer ? layer_compliance(*layer) : 2 * radius * (1 - nu * nu) / modulus);
 }
 
-std::optional<SkinLayer> skin_layer(const Field& field) {
-  const Parameters& p = *field.parameters;  // what is not recorded is NaN
+std::optional<SkinLayer> skin_layer(const Field& field) { return skin_layer(*field.parameters); }
+
+std::optional<SkinLayer> skin_layer(const Parameters& p) {
   const double skin_nu = p.skin.poisson_ratio;
   const SkinLayer layer{p.tissue.young_modulus, p.tissue.poisson_ratio, p.patch.height,
                         p.foundation.stiffness,

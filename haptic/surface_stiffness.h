@@ -29,6 +29,12 @@ struct SkinLayer {
 std::vector<double> layer_compliances(const SkinLayer& layer, std::span<const double> distances);
 double layer_compliance(const SkinLayer& layer);  ///< in the disc's middle
 
+/// N/mm: the force, over the depth, of a rigid flat punch of this radius (mm) without friction. Under its
+/// pressure on a half space, which it keeps, and by the work of that pressure: exact there (Sneddon, The
+/// relation between load and penetration, 1965), elsewhere too low by the square of what the pressure
+/// differs.
+double punch_stiffness(const SkinLayer& layer, double radius);
+
 /// The profile of a half space relative to its middle (Johnson, Contact Mechanics, 3.4).
 double half_space_profile(double distance);
 
@@ -40,5 +46,7 @@ double surface_stiffness(const Field& field);
 
 /// A field's skin, tissue and foundation, if it has all their parameters.
 std::optional<SkinLayer> skin_layer(const Field& field);
+/// The same of parameters, of which those that are not known are NaN.
+std::optional<SkinLayer> skin_layer(const Parameters& parameters);
 
 }  // namespace cleft

@@ -80,8 +80,10 @@ class FigureModel {
   /// Distance of a point from the study, over its spread; 0 between the cases.
   double outside(const Eigen::VectorXd& point) const;
 
- private:
+  /// All parameters of the cases at points.
   std::vector<RecordedParameters> parameters_at(const Eigen::MatrixXd& points) const;
+
+ private:
   /// Calls work(first, count) for pieces of so many points.
   static void for_pieces(Eigen::Index points,
                          const std::function<void(Eigen::Index first, Eigen::Index count)>& work);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <openturns/ChiSquare.hxx>
 
+#include "base/parallel.h"
 #include "base/quantiles.h"
 
 namespace cleft {
@@ -76,16 +77,37 @@ Eigen::MatrixXd MeasurementFit::values_at(const Eigen::MatrixXd& points) const {
   return values;
 }
 
+FigureModel::Answers MeasurementFit::answers_at(const Eigen::MatrixXd& values) const {
+  const Eigen::Index figures = std::ssize(measurements_.figures), forces = std::ssize(measurements_.forces);
+  FigureModel::Answers answers{Eigen::MatrixXd(figures + forces, values.cols()),
+                               Eigen::MatrixXd(figures + forces, values.cols())};
+  if (figures > 0) {
+    const FigureModel::Answers found = model_.at(values);
+    answers.values.topRows(figures) = found.values, answers.errors.topRows(figures) = found.errors;
+  }
+  if (forces == 0) return answers;
+  const std::vector<RecordedParameters> parameters = model_.parameters_at(values);
+  parallel_for(static_cast<int>(values.cols()), [&](int j) {
+    for (Eigen::Index f = 0; f < forces; ++f) {
+      const SkinForce& force = measurements_.forces[static_cast<std::size_t>(f)];
+      const double value = force.of(parameters[static_cast<std::size_t>(j)]);
+      answers.values(figures + f, j) = value;
+      answers.errors(figures + f, j) = force.relative_error() * std::abs(value);
+    }
+  });
+  return answers;
+}
+
 Eigen::MatrixXd MeasurementFit::variances(const FigureModel::Answers& answers) const {
   Eigen::VectorXd own = measurements_.deviations.cwiseAbs2();
-  for (Eigen::Index f = 0; f < own.size(); ++f)
+  for (Eigen::Index f = 0; f < std::ssize(measurements_.figures); ++f)
     if (const double fit = model_.fit_error(static_cast<int>(f)); std::isfinite(fit))
       own[f] += std::pow(fit / of_largest, 2);
   return (answers.errors / interval_over_deviation).cwiseAbs2().colwise() + own;
 }
 
 Eigen::VectorXd MeasurementFit::log_density(const Eigen::MatrixXd& points) const {
-  const FigureModel::Answers answers = model_.at(values_at(points));
+  const FigureModel::Answers answers = answers_at(values_at(points));
   const Eigen::ArrayXXd variance = variances(answers).array();
   const Eigen::ArrayXXd residuals = (-answers.values).array().colwise() + measurements_.values.array();
   return -0.5 * (residuals.square() / variance + variance.log()).colwise().sum().transpose();
@@ -112,7 +134,7 @@ ParameterFit MeasurementFit::find(const PosteriorSettings& settings) const {
   }
   fit.open = left_open(in_cube, distributions_);
 
-  const FigureModel::Answers at_best = model_.at(best);
+  const FigureModel::Answers at_best = answers_at(best);
   fit.residuals = measurements_.values - at_best.values.col(0);
   const double squares = (fit.residuals.array().square() / variances(at_best).col(0).array()).sum();
   const auto count = static_cast<double>(fit.residuals.size());
@@ -121,7 +143,7 @@ ParameterFit MeasurementFit::find(const PosteriorSettings& settings) const {
 
   // A simulation tells most where what is possible is predicted worst.
   const Eigen::MatrixXd some = some_of(values);
-  const Eigen::MatrixXd errors = model_.at(some).errors;
+  const Eigen::MatrixXd errors = answers_at(some).errors;
   Eigen::Index worst = 0;
   (measurements_.deviations.cwiseInverse().asDiagonal() * errors).colwise().squaredNorm().maxCoeff(&worst);
   fit.next_case = some.col(worst);

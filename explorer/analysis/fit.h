@@ -26,7 +26,7 @@ struct ParameterFit {
   std::vector<std::string> open;  ///< what the measurements do not tell, as sentences
   double misfit = 0;  ///< of the most likely values: root mean square of the residuals, over their deviations
   double misfit_probability = 0;  ///< that measurements of a case are off by as much
-  Eigen::VectorXd residuals;      ///< measured less fitted, mm
+  Eigen::VectorXd residuals;      ///< measured less fitted, in the units of the measurements
   Posterior posterior;            ///< in the cube of the distributions
   Eigen::VectorXd next_case;      ///< values of the parameters at which a simulation would tell most
 };
@@ -35,7 +35,8 @@ struct ParameterFit {
 /// interpolation, and of the fields of the cases.
 class MeasurementFit {
  public:
-  /// All must outlive it. The model's figures are those of the measurements.
+  /// All must outlive it. The model's figures are those of the measurements (any, where these are forces
+  /// alone).
   MeasurementFit(const FigureModel& model, const Measurements& measurements,
                  const std::vector<InputDistribution>& distributions);
 
@@ -45,6 +46,8 @@ class MeasurementFit {
   ParameterFit find(const PosteriorSettings& settings = {}) const;
 
  private:
+  /// Of the measurements, in their order.
+  FigureModel::Answers answers_at(const Eigen::MatrixXd& values) const;
   Eigen::MatrixXd variances(const FigureModel::Answers& answers) const;
 
   const FigureModel& model_;

@@ -1,6 +1,7 @@
 // cleft fit: the parameters of a study that explain measurements.
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -10,6 +11,7 @@
 #include "base/text.h"
 #include "explorer/analysis/fit.h"
 #include "explorer/commands/analysis_options.h"
+#include "params/run/chosen_cases.h"
 
 using namespace cleft;
 
@@ -19,12 +21,20 @@ constexpr double unlikely = 0.01;  // that measurements of a case are off by as 
 constexpr int candidates_along = 9;
 
 struct Options {
-  std::string study, measured, out;
-  std::vector<std::string> given;
+  std::string study, out;
+  std::vector<std::string> measured, given;
   double deviation = 0;
   std::uint64_t seed = 1;
   bool json = false;
 };
+
+void refuse_forces_of_bodies(const std::string& study) {
+  if (!std::filesystem::is_directory(study)) return;
+  if (!read_study(StudyFolder(study).study_file()).base.body.empty())
+    throw InputError(study +
+                     ": columns force and tension are known of boxes of tissue, not of a body; leave out "
+                     "their files");
+}
 
 /// Openings along the cut of the first case, when half and all of it is cut.
 std::vector<Figure> candidates(const PublishedStudy& study) {
@@ -42,7 +52,7 @@ std::vector<Figure> candidates(const PublishedStudy& study) {
 }
 
 Json to_json(const ParameterFit& fit, const FigureModel& model, const Measurements& measured) {
-  Json json = {{"measurements", measured.figures.size()},
+  Json json = {{"measurements", measured.size()},
                {"cases", model.cases()},
                {"method", model.method()},
                {"misfit", fit.misfit},
@@ -60,7 +70,8 @@ Json to_json(const ParameterFit& fit, const FigureModel& model, const Measuremen
   }
   json["open"] = fit.open;
   for (Eigen::Index i = 0; i < fit.residuals.size(); ++i)
-    json["residuals"].push_back({{"figure", measured.figures[static_cast<std::size_t>(i)].text()},
+    json["residuals"].push_back({{"figure", measured.text(i)},
+                                 {"unit", measured.unit(i)},
                                  {"measured", measured.values[i]},
                                  {"residual", fit.residuals[i]},
                                  {"deviation", measured.deviations[i]}});
@@ -106,18 +117,21 @@ void print(const Json& found) {
 
 int main(int argc, char** argv) {
   CommandLine app(
-      "Finds the parameters of a study whose openings and motions fit measurements, and how surely.",
+      "Finds the parameters of a study whose openings, motions and forces fit measurements, and how surely.",
       "cleft fit");
   Options o;
   app.add_option("STUDY", o.study, "a study folder or a study.dffd")->required();
-  app.add_option("--to", o.measured,
-                 "CSV file of measurements, mm: columns u and gape along the cut; or u, v, w and "
-                 "displacement, du, dv "
-                 "or dw of points; t, the length cut (default: all); deviation, the standard deviation of "
-                 "their errors")
+  app.add_option(
+         "--to", o.measured,
+         "CSV file of measurements, once for each file. Of lengths, mm: columns u and gape along the "
+         "cut; or u, v, w and displacement, du, dv or dw of points; t, the length cut (default: all). "
+         "Of a flat punch pressed into the uncut skin: force (N), dent (how deep, mm) and radius (mm). "
+         "Of the pull that holds the cut closed: tension (N/mm). deviation: the standard deviation of "
+         "their errors, in the unit of the values")
+      ->allow_extra_args(false)
       ->required();
   app.add_option("--deviation", o.deviation,
-                 "standard deviation of the measurements' errors, mm, without such a column")
+                 "standard deviation of the errors of lengths, mm, without such a column")
       ->check(above(0));
   app.add_option("--given", o.given, help_of_given)->allow_extra_args(false);
   app.add_option("--out", o.out, "CSV file of possible values of all parameters, drawn by their probability");
@@ -125,13 +139,18 @@ int main(int argc, char** argv) {
   app.add_flag("--json", o.json, "as JSON");
   return run_command(app, argc, argv, [&] {
     const Measurements measured = read_measurements(o.measured, o.deviation);
-    if (!o.out.empty()) refuse_to_overwrite(o.out, {o.study, o.measured});
+    std::vector<std::string> inputs = o.measured;
+    inputs.push_back(o.study);
+    if (!o.out.empty()) refuse_to_overwrite(o.out, inputs);
+    if (!measured.forces.empty()) refuse_forces_of_bodies(o.study);
     const PublishedStudy study(o.study);
     warn_of_left_out(study, "fit");
     Json found;
     {
       Progress progress("fitting");
-      const FigureModel model(study, measured.figures, report_cases(progress, study.size()));
+      const std::vector<Figure> any{Figure("gape")};
+      const FigureModel model(study, measured.figures.empty() ? any : measured.figures,
+                              report_cases(progress, study.size()));
       const std::vector<InputDistribution> distributions = distributions_of(model, o.given);
       progress("drawing values of the parameters");
       const MeasurementFit fit_of(model, measured, distributions);

@@ -129,6 +129,12 @@ TEST_F(QuestionsToAStudy, WithoutSenseAreRefused) {
   expect_refused("analyze", {folder_ / "case0.dffd"}, "holds 1 case;");
   expect_refused("fit", {study(), "--to", folder_.write("a.csv", "u,gape\n0,3\n")}, "--deviation");
   expect_refused("fit", {study(), "--to", folder_.write("b.csv", "u,gap\n0,3\n")}, "did you mean 'gape'?");
+  const std::string gapes = folder_.write("d.csv", "u,gape,deviation\n0,3,0.1\n");
+  expect_refused("fit", {study(), "--to", gapes, "--to", folder_.write("e.csv", "force,dent\n1,2\n")},
+                 "needs the column radius");
+  expect_refused("fit",
+                 {study(), "--to", gapes, "--to", folder_.write("f.csv", "tension,deviation\n1,0.1\n")},
+                 "skin.edges");
   expect_refused(
       "fit", {study(), "--to", folder_.write("c.csv", "u,gape\n0,3\n"), "--deviation", "1", "--out", study()},
       "study.dffd");

@@ -37,6 +37,7 @@ inline FigureModel::Cases cases_with(const std::vector<CaseParameters>& list,
     cases.displacements.rightCols(1) = Eigen::Map<Eigen::VectorXd>(flat.data(), std::ssize(flat));
     cases.parameters.push_back(field.parameters);
     cases.parameters.back().set("cut.contact", "false");
+    cases.parameters.back().set("skin.edges", "held");
   }
   cases.fit_errors.setZero(std::ssize(figures), cases.displacements.cols());
   return cases;
