@@ -8,6 +8,8 @@ namespace cleft {
 
 namespace {
 
+constexpr double hardly_left = 1e-9;  // of the variance: what is left of it at a place that is chosen
+
 double nearest(const Eigen::VectorXd& point, const Eigen::MatrixXd& places, const Eigen::VectorXd& lengths) {
   double least = HUGE_VAL;
   for (Eigen::Index i = 0; i < places.cols(); ++i)
@@ -41,14 +43,21 @@ NextCases next_cases(const FigureModel& model, const Eigen::MatrixXd& candidates
   const Eigen::Index chosen = std::min<Eigen::Index>(count, points.cols());
   next.points.resize(points.rows(), chosen), next.errors.resize(chosen);
   Eigen::MatrixXd covariance = model.covariance(points);
+  const Eigen::VectorXd weights = (errors / std::max(next.error, 1e-300))
+                                      .cwiseAbs2()
+                                      .cwiseQuotient(covariance.diagonal().cwiseMax(1e-300));
   const Eigen::VectorXd before = covariance.diagonal();
   for (Eigen::Index k = 0; k < chosen; ++k) {
     Eigen::Index best = 0;
-    errors.cwiseProduct(covariance.diagonal().cwiseMax(0.).cwiseQuotient(before).cwiseSqrt()).maxCoeff(&best);
+    // Of the variance everywhere what a case takes away.
+    Eigen::VectorXd told = covariance.cwiseAbs2().transpose() * weights;
+    for (Eigen::Index j = 0; j < told.size(); ++j)
+      told[j] = covariance(j, j) > hardly_left * before[j] ? told[j] / covariance(j, j) : 0;
+    told.maxCoeff(&best);
     next.points.col(k) = points.col(best), next.errors[k] = errors[best];
     const Eigen::VectorXd column = covariance.col(best);
     covariance -= column * column.transpose() / column[best];
-    covariance(best, best) = 0;  // up to rounding
+    covariance.row(best).setZero(), covariance.col(best).setZero();  // up to rounding
   }
   return next;
 }

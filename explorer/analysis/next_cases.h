@@ -13,8 +13,10 @@ struct NextCases {
   Eigen::VectorXd errors;  ///< estimated there, before any of them is simulated
 };
 
-/// Chosen one after another: each where the error is largest after those before it, by how much these reduce
-/// the variance there (Kriging). `candidates`: values of the model's parameters, a column for each.
+/// Chosen one after another: each where a case lowers the variance at all candidates most (Kriging: it is
+/// known before the case is simulated), which counts by the square of the error that is estimated there:
+/// active learning by Cohn, Neural network exploration using optimal experiment design, 1996, with weights.
+/// `candidates`: values of the model's parameters, a column for each.
 /// `lengths`: of the ranges, by which distances are measured. Candidates that lie nearer to a place in
 /// `avoided` (a case that failed) than to any case are left out.
 NextCases next_cases(const FigureModel& model, const Eigen::MatrixXd& candidates,

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t most_values = 100'000;  // of one parameter
 constexpr std::int64_t most_level = 12;
-constexpr std::size_t first_cases = 16, cases_of_range = 4;  // of adaptive sampling, if the file does not say
+constexpr std::size_t first_cases = 12, cases_of_range = 3;  // of adaptive sampling, if the file does not say
 constexpr std::int64_t most_adaptive = 10'000;
 
 class SamplingReader {

@@ -82,7 +82,7 @@ TEST(NextCases, OfABatchAreApart) {
   for (Eigen::Index a = 0; a < 8; ++a)
     for (Eigen::Index b = 0; b < a; ++b)
       EXPECT_GT((next.points.col(a) - next.points.col(b)).cwiseQuotient(lengths).norm(), 0.15);
-  EXPECT_EQ(next.errors[0], next.error);
+  EXPECT_LE(next.errors.maxCoeff(), next.error);
 }
 
 TEST(NextCases, KeepAwayFromCasesThatFailed) {
