@@ -97,7 +97,7 @@ TEST(AdaptiveSampling, RefusesWhatItCannotUse) {
     return read_study(folder.write("s.toml", text)).sampling.count;
   };
   const std::string settings = "[sampling]\nmethod = 'adaptive'\nerror = 0.1\nmost = ";
-  EXPECT_EQ(first("[vary]\n" + one_range + settings + "40\n"), 16u);
+  EXPECT_EQ(first("[vary]\n" + one_range + settings + "40\n"), 12u);
   EXPECT_EQ(first("[vary]\n" + one_range + settings + "8\n"), 8u);
   expect(adaptive(""), "draws from ranges");
   expect(adaptive(one_range, "count = 7\n"), "takes start and most; remove count");
