@@ -11,6 +11,8 @@ namespace {
 
 /// The part that a vertex keeps from one round to the next, and the least that is worth keeping.
 constexpr double kept_a_round = 0.75, least_part = 0.05;
+/// Of the parts of those that are tied: less is rounding.
+constexpr double least_change = 1e-6;
 /// Each lowers what offends; more than this only where displacements are no numbers.
 constexpr int most_rounds = 100;
 /// The strain that reduced displacements add at most.
@@ -45,7 +47,33 @@ std::vector<int> GuardSearch::hold_for_a_moment(std::vector<int> ones, const Pas
     return one < 0 ? !is_passed(pairs_[-1 - one], now(corner[0]), now(corner[1]))
                    : is_sound(one, {now(corner[0]), now(corner[1]), now(corner[2])});
   };
-  // Those that are tied to others or joined with one stay so.
+  std::priority_queue<std::pair<double, int>> queue;  // the least part first
+  std::vector<int> around;                            // those whose displacements have changed
+  const auto reduce = [&](int n, double part) {
+    at(n).part = part;
+    queue.emplace(-part, n);
+    around.insert(around.end(), around_[n].begin(), around_[n].end());
+  };
+  // Neighbours follow, and what these are tied to or joined with.
+  const auto spread = [&] {
+    while (!queue.empty()) {
+      const auto [negative, n] = queue.top();
+      queue.pop();
+      const Held from = at(n);
+      if (-negative > from.part) continue;
+      for (const int next : next_[n]) {
+        const double moves = std::max(norm(from.own), norm(at(next).own)),
+                     length = norm(mesh_.position(vertex_[n]) - mesh_.position(vertex_[next])),
+                     most = from.part + most_strain * length / moves;
+        if (most < at(next).part) reduce(next, most);
+      }
+      if (leader_[n] >= 0 && from.part < at(leader_[n]).part) reduce(leader_[n], from.part);
+      for (const Part& p : tie_[n])
+        if (p.number >= 0 && from.part < at(p.number).part) reduce(p.number, from.part);
+    }
+  };
+  // Those that are tied to others or joined with one stay so; neighbours of those that move less for it
+  // follow.
   const auto keep_tied = [&] {
     std::vector<int> tied;
     for (const auto& [n, h] : held)
@@ -56,18 +84,15 @@ std::vector<int> GuardSearch::hold_for_a_moment(std::vector<int> ones, const Pas
         part = at(leader_[n]).part;
       else
         for (const Part& p : tie_[n]) part += p.part * (p.number < 0 ? 1 : at(p.number).part);
+      if (part < at(n).part - least_change) reduce(n, part);
+      if (part == at(n).part) continue;
       at(n).part = part;
+      around.insert(around.end(), around_[n].begin(), around_[n].end());
     }
   };
   std::erase_if(ones, is_sound_now);
   for (int round = 0; round < most_rounds && !ones.empty(); ++round) {
-    std::priority_queue<std::pair<double, int>> queue;  // the least part first
-    std::vector<int> around;
-    const auto reduce = [&](int n, double part) {
-      at(n).part = part;
-      queue.emplace(-part, n);
-      around.insert(around.end(), around_[n].begin(), around_[n].end());
-    };
+    around.clear();
     std::vector<int> lowered;  // and what these are tied to or joined with
     for (const int one : ones)
       for (const int v : corners(one)) {
@@ -84,19 +109,10 @@ std::vector<int> GuardSearch::hold_for_a_moment(std::vector<int> ones, const Pas
       const double part = kept_a_round * at(n).least();
       reduce(n, part < least_part ? 0 : part);
     }
-    while (!queue.empty()) {
-      const auto [negative, n] = queue.top();
-      queue.pop();
-      const Held from = at(n);
-      if (-negative > from.part) continue;
-      for (const int next : next_[n]) {
-        const double moves = std::max(norm(from.own), norm(at(next).own)),
-                     length = norm(mesh_.position(vertex_[n]) - mesh_.position(vertex_[next])),
-                     most = from.part + most_strain * length / moves;
-        if (most < at(next).part) reduce(next, most);
-      }
-    }
-    keep_tied();
+    do {
+      spread();
+      keep_tied();
+    } while (!queue.empty());
     ones.insert(ones.end(), around.begin(), around.end());
     std::sort(ones.begin(), ones.end());
     ones.erase(std::unique(ones.begin(), ones.end()), ones.end());
