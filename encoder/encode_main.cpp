@@ -23,6 +23,7 @@
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/field_record.h"
 #include "encoder/memory_need.h"
+#include "encoder/tissue_below.h"
 #include "params/encode_limits.h"
 
 using namespace cleft;
@@ -51,6 +52,13 @@ Json figures_of(const std::vector<Field>& pieces, std::size_t nodes, const std::
                   {"parametrization", field.parametrization().name()},
                   {"bytes", bytes},
                   {"ratio_to_32_bit", raw / bytes}});
+  if (field.tissue) {
+    figures["tissue_below_cut"]["foundation_n_per_mm3"] = field.tissue->foundation;
+    for (const TissueLayerBelow& layer : field.tissue->layers)
+      figures["tissue_below_cut"]["layers"].push_back({{"young_modulus_mpa", layer.young_modulus},
+                                                       {"poisson_ratio", layer.poisson_ratio},
+                                                       {"height_mm", layer.height}});
+  }
   for (std::size_t p = 0; p < pieces.size() && pieces.size() > 1; ++p)
     figures["pieces"].push_back({{"nodes", pieces[p].report.nodes},
                                  {"control_points", control_points_of(pieces[p])},
@@ -359,6 +367,7 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
     Field& field = all.back().field;
     const Snapshot& s = readers[p].snapshot();
     field.parameters = s.parameters, field.case_hash = s.case_hash, field.source = source_of(s);
+    field.tissue = tissue_below(readers[p]);
     if (const std::string warning = warning_of(field, series[p], task.options); !warning.empty())
       warnings.push_back(of + warning);
   }

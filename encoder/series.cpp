@@ -91,7 +91,9 @@ void check_cut(const Snapshot& s) {
           ? "cut.radius, cut.count and cut.branch make snapshots to measure against, not to encode "
             "(cut.curvature makes a curved cut to encode); a tilted cut: solve it again, which writes its "
             "coordinates"
-          : "a field holds one cut that does not cross itself; cleft cut --simulate opens several";
+          : "a field holds one cut that does not cross itself; cleft cut --simulate opens several, and cleft "
+            "import CASE.h5 --field displacement --out pieces.h5 divides the body so that cleft encode "
+            "pieces.h5 gives each cut a field of its own";
   for (const auto& [left, right] : s.pairs) {
     const Vec3& at = s.points[left];
     if (std::abs(at.y) > 1e-6 * s.cut_length)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "base/error.h"
 
@@ -14,56 +16,75 @@ namespace {
 constexpr double radius = stiffness_radius;
 
 /// One of the four solutions in a layer for the wave number x: displacements U sin(x r), W cos(x r) in a
-/// plane (J1 and J0 about an axis), their derivatives in z, and lambda times the divergence.
+/// plane (J1 and J0 about an axis), and the stresses on a plane of the layer, across it and along it.
 struct Mode {
-  double u, w, du, dw, lambda_div;
+  double u, w, normal, shear;
 };
 
 /// Two that decay downward from z = 0, two that decay upward from z = -height.
-std::array<Mode, 4> modes(const SkinLayer& layer, double x, double z) {
+std::array<Mode, 4> modes(const TissueLayerBelow& layer, double x, double z) {
   const double nu = layer.poisson_ratio, kappa = 3 - 4 * nu;
   const double mu = layer.young_modulus / (2 * (1 + nu)), s = x * z;
   const double down = std::exp(s), up = std::exp(-s - x * layer.height);
-  return {{{-down, down, -x * down, x * down, 0},
-           {-s * down, (s - kappa) * down, -x * (s + 1) * down, x * (s - kappa + 1) * down,
-            -4 * mu * nu * x * down},
-           {-up, -up, x * up, x * up, 0},
-           {s * up, (s + kappa) * up, x * (1 - s) * up, x * (1 - s - kappa) * up, -4 * mu * nu * x * up}}};
+  const auto mode = [&](double u, double w, double du, double dw, double lambda_div) {
+    return Mode{u, w, lambda_div + 2 * mu * dw, mu * (du - x * w)};
+  };
+  return {mode(-down, down, -x * down, x * down, 0),
+          mode(-s * down, (s - kappa) * down, -x * (s + 1) * down, x * (s - kappa + 1) * down,
+               -4 * mu * nu * x * down),
+          mode(-up, -up, x * up, x * up, 0),
+          mode(s * up, (s + kappa) * up, x * (1 - s) * up, x * (1 - s - kappa) * up, -4 * mu * nu * x * up)};
 }
 
 /// Gaussian elimination with pivots; the last column is the right-hand side.
-std::array<double, 4> solved(std::array<std::array<double, 5>, 4> a) {
-  for (std::size_t i = 0; i < 4; ++i) {
+std::vector<double> solved(std::vector<std::vector<double>> a) {
+  const std::size_t n = a.size();
+  for (std::size_t i = 0; i < n; ++i) {
     std::size_t pivot = i;
-    for (std::size_t r = i + 1; r < 4; ++r)
+    for (std::size_t r = i + 1; r < n; ++r)
       if (std::abs(a[r][i]) > std::abs(a[pivot][i])) pivot = r;
     std::swap(a[i], a[pivot]);
-    for (std::size_t r = i + 1; r < 4; ++r)
-      for (std::size_t c = 5; c-- > i;) a[r][c] -= a[r][i] / a[i][i] * a[i][c];
+    for (std::size_t r = i + 1; r < n; ++r)
+      if (a[r][i] != 0)
+        for (std::size_t c = n + 1; c-- > i;) a[r][c] -= a[r][i] / a[i][i] * a[i][c];
   }
-  std::array<double, 4> x{};
-  for (std::size_t i = 4; i-- > 0;) {
-    x[i] = a[i][4];
-    for (std::size_t c = i + 1; c < 4; ++c) x[i] -= a[i][c] * x[c];
+  std::vector<double> x(n);
+  for (std::size_t i = n; i-- > 0;) {
+    x[i] = a[i][n];
+    for (std::size_t c = i + 1; c < n; ++c) x[i] -= a[i][c] * x[c];
     x[i] /= a[i][i];
   }
   return x;
 }
 
-/// x times how far the skin sinks under the pressure cos(x r), or J0.
-double sinking(const SkinLayer& layer, double x) {
-  const double mu = layer.young_modulus / (2 * (1 + layer.poisson_ratio));
-  const auto top = modes(layer, x, 0), bottom = modes(layer, x, -layer.height);
-  std::array<std::array<double, 5>, 4> a{};
+/// x times how far the skin sinks under the pressure cos(x r), or J0. Between layers displacements and
+/// stresses are the same on both sides.
+double sinking(const SkinLayer& skin, double x) {
+  std::vector<TissueLayerBelow> layers = {{skin.young_modulus, skin.poisson_ratio, skin.height}};
+  layers.insert(layers.end(), skin.below.begin(), skin.below.end());
+  const std::size_t n = 4 * layers.size();
+  // Stresses in units that make all rows alike.
+  const double unit = x * skin.young_modulus / (2 * (1 + skin.poisson_ratio));
+  std::vector<std::vector<double>> a(n, std::vector<double>(n + 1));
+  const auto top = modes(layers.front(), x, 0), bottom = modes(layers.back(), x, -layers.back().height);
   for (std::size_t i = 0; i < 4; ++i) {
     const Mode &t = top[i], &b = bottom[i];
-    a[0][i] = t.lambda_div + 2 * mu * t.dw;
-    a[1][i] = mu * (t.du - x * t.w) + layer.membrane * x * x * t.u;
-    a[2][i] = b.lambda_div + 2 * mu * b.dw - layer.foundation * b.w;
-    a[3][i] = mu * (b.du - x * b.w) - layer.foundation * b.u;
+    a[0][i] = t.normal / unit;
+    a[1][i] = (t.shear + skin.membrane * x * x * t.u) / unit;
+    a[n - 2][n - 4 + i] = (b.normal - skin.foundation * b.w) / unit;
+    a[n - 1][n - 4 + i] = (b.shear - skin.foundation * b.u) / unit;
   }
-  a[0][4] = -1;
-  const auto part = solved(a);
+  a[0][n] = -1 / unit;
+  for (std::size_t k = 0; k + 1 < layers.size(); ++k) {
+    const auto above = modes(layers[k], x, -layers[k].height), below = modes(layers[k + 1], x, 0);
+    for (std::size_t i = 0; i < 4; ++i)
+      for (const auto& [mode, column, sign] :
+           {std::tuple(above[i], 4 * k + i, 1.), std::tuple(below[i], 4 * k + 4 + i, -1.)}) {
+        a[4 * k + 2][column] = sign * mode.u, a[4 * k + 3][column] = sign * mode.w;
+        a[4 * k + 4][column] = sign * mode.normal / unit, a[4 * k + 5][column] = sign * mode.shear / unit;
+      }
+  }
+  const std::vector<double> part = solved(std::move(a));
   double w = 0;
   for (std::size_t i = 0; i < 4; ++i) w += part[i] * top[i].w;
   return -x * w;
@@ -142,9 +163,15 @@ std::optional<SkinLayer> skin_layer(const Field& field) { return skin_layer(*fie
 
 std::optional<SkinLayer> skin_layer(const Parameters& p) {
   const double skin_nu = p.skin.poisson_ratio;
-  const SkinLayer layer{p.tissue.young_modulus, p.tissue.poisson_ratio, p.patch.height,
-                        p.foundation.stiffness,
-                        p.skin.young_modulus * p.skin.thickness / (1 - skin_nu * skin_nu)};
+  const double membrane = p.skin.young_modulus * p.skin.thickness / (1 - skin_nu * skin_nu);
+  SkinLayer layer{p.tissue.young_modulus, p.tissue.poisson_ratio, p.patch.height, p.foundation.stiffness,
+                  membrane};
+  if (field.tissue) {
+    const std::vector<TissueLayerBelow>& all = field.tissue->layers;
+    layer = {
+        all[0].young_modulus,        all[0].poisson_ratio, all[0].height, field.tissue->foundation, membrane,
+        {all.begin() + 1, all.end()}};
+  }
   const bool known = layer.young_modulus > 0 && !std::isnan(layer.poisson_ratio) && layer.height > 0 &&
                      layer.foundation > 0 && !std::isnan(layer.membrane);
   return known ? std::optional(layer) : std::nullopt;

@@ -15,13 +15,14 @@ constexpr double stiffness_radius = 2;  ///< mm, of the disc: docs/formats.md
 /// holds: the force pi a^2 p sinks the disc by c p.
 double stiffness_from_compliance(double compliance);
 
-/// A layer of tissue under a membrane, on springs that act in all directions: the solver's patch without
-/// sides.
+/// A layer of tissue, or several, under a membrane, on springs that act in all directions: the solver's patch
+/// without sides.
 struct SkinLayer {
-  double young_modulus, poisson_ratio;  ///< of the tissue, MPa
-  double height;                        ///< mm
-  double foundation;                    ///< N/mm^3, above 0
-  double membrane;                      ///< of the skin, E t / (1 - nu^2), N/mm
+  double young_modulus, poisson_ratio;       ///< of the tissue, MPa
+  double height;                             ///< mm
+  double foundation;                         ///< N/mm^3, above 0
+  double membrane;                           ///< of the skin, E t / (1 - nu^2), N/mm
+  std::vector<TissueLayerBelow> below = {};  ///< further layers of other tissue, from above, on the springs
 };
 
 /// Compliances, mm/MPa, for the same disc at distances from its middle: the Hankel transform of the layer's
@@ -44,7 +45,8 @@ double half_space_profile(double distance);
 /// the field has none of these parameters.
 double surface_stiffness(const Field& field);
 
-/// A field's skin, tissue and foundation, if it has all their parameters.
+/// A field's skin, tissue and foundation, if it has all their parameters; of a body the tissue below the
+/// middle of its cut (Field::tissue).
 std::optional<SkinLayer> skin_layer(const Field& field);
 /// The same of parameters, of which those that are not known are NaN.
 std::optional<SkinLayer> skin_layer(const Parameters& parameters);

@@ -16,6 +16,7 @@
 #include "encoder/field/collapsed_field.h"
 #include "encoder/field/control_grid.h"
 #include "encoder/field/field_source.h"
+#include "encoder/field/tissue_below_cut.h"
 #include "encoder/field/fit_report.h"
 #include "encoder/field/history.h"
 #include "encoder/field/kernels.h"
@@ -119,6 +120,7 @@ class Field {
   FitReport report;
   std::optional<Interpolation> interpolation;
   std::optional<FieldSource> source;
+  std::optional<TissueBelow> tissue;  ///< of a body: below the middle of the cut
 
  private:
   friend class CollapsedField;

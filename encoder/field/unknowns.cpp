@@ -103,6 +103,7 @@ Field quantised(const Field& field, double quantum, double farthest) {
   result.parameters = field.parameters, result.case_hash = field.case_hash, result.report = field.report;
   result.quantities = field.quantities, result.by_parameter = field.by_parameter;
   result.interpolation = field.interpolation, result.source = field.source;
+  result.tissue = field.tissue;
   result.quantum = quantum;
   return result;
 }

@@ -38,6 +38,37 @@ TEST(Stiffness, SkinThatCannotSlipIsAsStiffAsTheory) {
   EXPECT_LT(held, free);
 }
 
+TEST(Stiffness, OfOneTissueInSeveralLayersIsThatOfTheWhole) {
+  const double whole = layer_compliance({0.02, 0.4, 8, 0.005, 0.23});
+  EXPECT_NEAR(layer_compliance({0.02, 0.4, 3, 0.005, 0.23, {{0.02, 0.4, 1}, {0.02, 0.4, 4}}}) / whole, 1,
+              1e-9);
+}
+
+TEST(Stiffness, OfThinLayersOnARigidBedIsTheirSum) {
+  // As that of a thin layer on a rigid bed: columns H / M one on the other.
+  const auto column = [](double e, double nu, double h) {
+    return h * (1 + nu) * (1 - 2 * nu) / (e * (1 - nu));
+  };
+  const double sum = column(0.02, 0.25, 0.05) + column(0.1, 0.3, 0.04);
+  EXPECT_NEAR(layer_compliance({0.02, 0.25, 0.05, 1e6, 0, {{0.1, 0.3, 0.04}}}) / sum, 1, 0.01);
+}
+
+TEST(Stiffness, OfABodyIsThatOfItsTissue) {
+  Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
+  field.parameters = recorded(std::map<std::string, double>{{"tissue.young_modulus", 0.02},
+                                                            {"tissue.poisson_ratio", 0.4},
+                                                            {"patch.height", 8},
+                                                            {"foundation.stiffness", 0.005},
+                                                            {"skin.young_modulus", 0.13},
+                                                            {"skin.poisson_ratio", 0.4},
+                                                            {"skin.thickness", 1.5}});
+  const double of_case = surface_stiffness(field);
+  field.tissue = TissueBelow{{{0.02, 0.4, 8}}, 0.005};
+  EXPECT_NEAR(surface_stiffness(field), of_case, 1e-9);
+  field.tissue = TissueBelow{{{0.02, 0.4, 5}}, 2.5};  // on bone
+  EXPECT_GT(surface_stiffness(field), 1.2 * of_case);
+}
+
 TEST(Stiffness, OfAFieldGrowsWithTheSkinAndTheBed) {
   Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
   EXPECT_THROW(surface_stiffness(field), InputError);

@@ -114,6 +114,21 @@ std::optional<FieldSource> source_of(const Json& header) {
   return source;
 }
 
+std::optional<TissueBelow> tissue_of(const Json& header) {
+  if (!header.contains("tissue")) return {};
+  const Json& entry = header.at("tissue");
+  TissueBelow below{{}, entry.at("foundation").get<double>()};
+  bool good = below.foundation > 0 && std::isfinite(below.foundation) && !entry.at("layers").empty();
+  for (const Json& one : entry.at("layers")) {
+    const TissueLayerBelow layer{one.at(0).get<double>(), one.at(1).get<double>(), one.at(2).get<double>()};
+    good = good && layer.young_modulus > 0 && layer.height > 0 && layer.poisson_ratio > -1 &&
+           layer.poisson_ratio <= 0.5;
+    below.layers.push_back(layer);
+  }
+  if (!good) throw InputError("the layers of tissue below the cut are none");
+  return below;
+}
+
 Json header_of(const Field& field, int slices) {
   Json header{{"case", field.case_hash},
               {"parametrization", field.parametrization().name()},
@@ -131,6 +146,11 @@ Json header_of(const Field& field, int slices) {
   for (const auto& [name, value] : field.parameters.texts()) header["choices"][name] = value;
   for (const Figure& figure : figures) header["report"][figure.name] = field.report.*figure.value;
   if (field.source) put_source(header, *field.source);
+  if (field.tissue) {
+    header["tissue"]["foundation"] = field.tissue->foundation;
+    for (const TissueLayerBelow& layer : field.tissue->layers)
+      header["tissue"]["layers"].push_back({layer.young_modulus, layer.poisson_ratio, layer.height});
+  }
   if (field.interpolation) {
     header["interpolation"]["method"] = field.interpolation->method;
     for (const auto& figure : interpolation_figures)
@@ -277,6 +297,7 @@ Field field_of(const Json& header, Points&& points_of) {
     field.report = report_of(header);
     field.interpolation = interpolation_of(header);
     field.source = source_of(header);
+    field.tissue = tissue_of(header);
     return field;
   });
 }
