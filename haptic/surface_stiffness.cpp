@@ -159,19 +159,20 @@ double surface_stiffness(const Field& field) {
   return stiffness_from_compliance(layer ? layer_compliance(*layer) : 2 * radius * (1 - nu * nu) / modulus);
 }
 
-std::optional<SkinLayer> skin_layer(const Field& field) { return skin_layer(*field.parameters); }
+std::optional<SkinLayer> skin_layer(const Field& field) {
+  auto layer = skin_layer(*field.parameters);
+  if (!layer || !field.tissue) return layer;
+  const std::vector<TissueLayerBelow>& all = field.tissue->layers;
+  const TissueLayerBelow& top = all.front();
+  return SkinLayer{top.young_modulus,        top.poisson_ratio, top.height,
+                   field.tissue->foundation, layer->membrane,   {all.begin() + 1, all.end()}};
+}
 
 std::optional<SkinLayer> skin_layer(const Parameters& p) {
   const double skin_nu = p.skin.poisson_ratio;
-  const double membrane = p.skin.young_modulus * p.skin.thickness / (1 - skin_nu * skin_nu);
-  SkinLayer layer{p.tissue.young_modulus, p.tissue.poisson_ratio, p.patch.height, p.foundation.stiffness,
-                  membrane};
-  if (field.tissue) {
-    const std::vector<TissueLayerBelow>& all = field.tissue->layers;
-    layer = {
-        all[0].young_modulus,        all[0].poisson_ratio, all[0].height, field.tissue->foundation, membrane,
-        {all.begin() + 1, all.end()}};
-  }
+  const SkinLayer layer{p.tissue.young_modulus, p.tissue.poisson_ratio, p.patch.height,
+                        p.foundation.stiffness,
+                        p.skin.young_modulus * p.skin.thickness / (1 - skin_nu * skin_nu)};
   const bool known = layer.young_modulus > 0 && !std::isnan(layer.poisson_ratio) && layer.height > 0 &&
                      layer.foundation > 0 && !std::isnan(layer.membrane);
   return known ? std::optional(layer) : std::nullopt;
