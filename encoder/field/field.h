@@ -16,12 +16,12 @@
 #include "encoder/field/collapsed_field.h"
 #include "encoder/field/control_grid.h"
 #include "encoder/field/field_source.h"
-#include "encoder/field/tissue_below_cut.h"
 #include "encoder/field/fit_report.h"
 #include "encoder/field/history.h"
 #include "encoder/field/kernels.h"
 #include "encoder/field/parametrization.h"
 #include "encoder/field/place.h"
+#include "encoder/field/tissue_below_cut.h"
 #include "params/parameters/recorded.h"
 
 namespace cleft {
