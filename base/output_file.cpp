@@ -27,7 +27,9 @@ std::vector<std::string> outputs_of(const std::vector<std::string>& inputs, cons
   for (const std::string& file : inputs) {
     const std::string name = fs::path(file).stem().string() + ending;
     if (!names.insert(name).second)
-      throw InputError(file + ": another " + kind + " is called " + name + " too; rename one");
+      throw InputError(
+          std::string(file).append(": another ").append(kind).append(" is called ").append(name) +
+          " too; rename one");
     files.push_back((fs::path(out) / name).string());
   }
   return files;

@@ -143,7 +143,7 @@ std::shared_ptr<const SeriesSystem> SeriesFit::system_of(double strength) const 
     std::vector<SpaceFit::Normal> normals(same_in_all_frames() ? 1
                                                                : static_cast<std::size_t>(in_time_.rows()));
     parallel_for(static_cast<int>(normals.size()),
-                 [&](int j) { normals[j] = fit_->normal(static_cast<std::size_t>(j + first_), strength); });
+                 [&](int j) { normals[j] = fit_->normal(frame_of(j), strength); });
     return SeriesSystem(fit_->space(), in_time_, first_ > 0, std::move(normals));
   });
 }
@@ -167,7 +167,7 @@ void SeriesFit::add(const std::vector<Eigen::MatrixXd>& blocks) {
 
 Eigen::MatrixX3d SeriesFit::errors(Eigen::Index j) const {
   const Eigen::RowVectorXd x = in_time_.row(j) * control_points_;
-  const std::size_t frame = static_cast<std::size_t>(j + first_);
+  const std::size_t frame = frame_of(j);
   return fit_->values(x.reshaped(ties().size(), 3), frame) - series_.frames[frame];
 }
 
@@ -179,7 +179,7 @@ void SeriesFit::refine() {
   std::vector<Eigen::MatrixXd> projected(static_cast<std::size_t>(frames));
   double data = 0;
   for (int j = 0; j < frames; ++j) {
-    const std::size_t frame = static_cast<std::size_t>(j) + static_cast<std::size_t>(first_);
+    const std::size_t frame = frame_of(j);
     data += series_.frames[frame].squaredNorm();
     series_.frames.forget(frame);
   }
@@ -189,7 +189,7 @@ void SeriesFit::refine() {
       const Eigen::MatrixX3d left = errors(j);
       squares(j) = left.squaredNorm();
       projected[j] = space.project(-left, series_.times[j + first_]);
-      series_.frames.forget(static_cast<std::size_t>(j) + static_cast<std::size_t>(first_));
+      series_.frames.forget(frame_of(j));
     });
     return std::sqrt(squares.sum() / std::max(data, 1e-300));
   };
@@ -220,7 +220,7 @@ Misfit SeriesFit::misfit(double limit) const {
   std::vector<Misfit> misfits(static_cast<std::size_t>(frames));
   parallel_for(frames, [&](int j) {
     misfits[j] = misfit_of(errors(j), series_, limit);
-    series_.frames.forget(static_cast<std::size_t>(j + first_));
+    series_.frames.forget(frame_of(j));
   });
   Misfit all;
   for (const Misfit& one : misfits) {

@@ -73,6 +73,10 @@ class SeriesFit {
   void add(const std::vector<Eigen::MatrixXd>& blocks);  ///< n x 3 for every control point in t
   Eigen::MatrixX3d errors(Eigen::Index j) const;         ///< at the nodes, of the frame of in_time_'s row
   bool same_in_all_frames() const;
+  /// Of a row of in_time_.
+  std::size_t frame_of(Eigen::Index j) const {
+    return static_cast<std::size_t>(j) + static_cast<std::size_t>(first_);
+  }
 
   const Series& series_;
   std::shared_ptr<FitStore> store_;

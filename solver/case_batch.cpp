@@ -53,7 +53,7 @@ void CaseBatch::solve() {
     const int count = std::min(at_once, frames - first);
     const double spent = watch.seconds();
     shared_.job().progress(
-        "frame " + std::to_string(first) + " of " + std::to_string(frames) +
+        "frame " + std::to_string(first + 1) + " of " + std::to_string(frames) +
         (first > 0 ? ", " + std::to_string(std::lround(spent / first * (frames - first))) + " s left"
                    : std::string()));
     solve_block(first, count);

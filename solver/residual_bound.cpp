@@ -123,7 +123,7 @@ SnapshotBound ResidualBound::of(const SnapshotReader& reader, bool solve, const 
   const Work work{reader, system, release, load, own.solver.get()};
   const auto frames = static_cast<Eigen::Index>(s.frames());
   for (Eigen::Index first = 0; first < frames; first += columns_at_once) {
-    progress_("frame " + std::to_string(first) + " of " + std::to_string(frames));
+    progress_("frame " + std::to_string(first + 1) + " of " + std::to_string(frames));
     add_frames(work, first, std::min(columns_at_once, frames - first), result);
   }
   return result;

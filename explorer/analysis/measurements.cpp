@@ -96,14 +96,17 @@ void check_force_columns(const std::string& file, const NumberTable& table, cons
         file + ": column " + *other + " cannot stand beside " + name + ", which has the columns " +
         (punch ? "force, dent, radius" : "tension") +
         " and deviation; put other measurements into a file of their own, and give --to for each");
-  for (const std::string& column : known)
-    if (table.column(column) < 0)
-      throw InputError(file + ": column " + name + " needs the column " + column + ": " +
-                       (column == "dent"     ? "how deep the punch is pressed in, mm"
-                        : column == "radius" ? "of the punch, mm"
-                                             : std::string("the standard deviation of the ") +
-                                                   (punch ? "force's errors, N" : "tension's errors, N/mm") +
-                                                   " (--deviation is that of lengths)"));
+  for (const std::string& column : known) {
+    if (table.column(column) >= 0) continue;
+    std::string message = file + ": column " + name;
+    message.append(" needs the column ").append(column).append(": ");
+    message += column == "dent"     ? "how deep the punch is pressed in, mm"
+               : column == "radius" ? "of the punch, mm"
+               : punch
+                   ? "the standard deviation of the force's errors, N (--deviation is that of lengths)"
+                   : "the standard deviation of the tension's errors, N/mm (--deviation is that of lengths)";
+    throw InputError(message);
+  }
 }
 
 void read_force(const Row& row, bool punch, Reading& all) {

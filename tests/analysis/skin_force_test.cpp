@@ -26,8 +26,8 @@ namespace {
 std::vector<double> disc_compliances(const SkinLayer& layer, double radius,
                                      const std::vector<double>& distances) {
   const double s = stiffness_radius / radius;
-  std::vector<double> scaled;
-  for (const double distance : distances) scaled.push_back(distance * s);
+  std::vector<double> scaled = distances;
+  for (double& distance : scaled) distance *= s;
   std::vector<double> sunk = layer_compliances(
       {layer.young_modulus, layer.poisson_ratio, layer.height * s, layer.foundation / s, layer.membrane * s},
       scaled);
