@@ -98,8 +98,8 @@ void check_force_columns(const std::string& file, const NumberTable& table, cons
         " and deviation; put other measurements into a file of their own, and give --to for each");
   for (const std::string& column : known) {
     if (table.column(column) >= 0) continue;
-    std::string message = file + ": column " + name;
-    message.append(" needs the column ").append(column).append(": ");
+    std::string message = file;
+    message.append(": column ").append(name).append(" needs the column ").append(column).append(": ");
     message += column == "dent"     ? "how deep the punch is pressed in, mm"
                : column == "radius" ? "of the punch, mm"
                : punch
