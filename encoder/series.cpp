@@ -57,6 +57,8 @@ FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
   g.domain[3] = {s.times.front(), s.times.back()};
   const BreakEnds ends = break_ends(s, parts, {g.domain[0], g.domain[1], g.domain[2]});
   g.cut = ends.cut;
+  // A closed cut ends where it begins, at nodes whose u is that of its start.
+  if (!s.body.empty()) g.domain[0].back = std::max(g.domain[0].back, g.cut.start + g.cut.length);
   if (g.cut.length > 0 && !(g.domain[1].front < 0 && g.domain[1].back > 0))
     throw InputError("the nodes reach from v = " + shortest(g.domain[1].front) + " to " +
                      shortest(g.domain[1].back) + " mm: the cut plane v = 0 does not divide them");

@@ -1,10 +1,15 @@
 // Shaped patches from a case file to a field, through the commands.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
+#include "base/text.h"
 #include "encoder/field/file/field_file.h"
+#include "explorer/io/mesh_file.h"
 #include "tests/pipeline/commands.h"
+#include "tests/support/flat_plate.h"
 #include "tests/support/temporary_folder.h"
 
 namespace cleft {
@@ -85,6 +90,25 @@ TEST(Shapes, WithoutCoordinatesAreRefused) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.output.find("cut.curvature makes a curved cut to encode"), std::string::npos)
       << refused.output;
+}
+
+/// The last nodes of a closed cut are its first ones: it ends beyond the largest u of any node.
+TEST(ClosedCut, IsEncodedToTheToleranceAtEveryNode) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "plate.stl", flat_plate(41, 41));
+  std::string path = "x,y,z,nx,ny,nz\n";
+  for (int i = 0; i <= 36; ++i) {
+    const double angle = 2 * std::numbers::pi * (i % 36) / 36;
+    path += shortest(15 * std::cos(angle)) + "," + shortest(7 * std::sin(angle)) + ",0,0,0,1\n";
+  }
+  folder.write("path.csv", path);
+  folder.write("case.toml", "[case]\nmesh.element_size = 2.5\n");
+  const std::string body = folder / "body.h5", snapshot = folder / "case.h5", field = folder / "case.dffd";
+  expect_success(
+      run_cleft("body", {"--mesh", folder / "plate.stl", "--path", folder / "path.csv", "--out", body}));
+  expect_success(run_cleft("solve", {folder / "case.toml", "--mesh", body, "--out", snapshot}));
+  expect_success(run_cleft("encode", {snapshot, "--out", field, "--tolerance", "0.05"}));
+  EXPECT_LE(read_field(field).report.node_error, 0.05);
 }
 
 }  // namespace cleft
