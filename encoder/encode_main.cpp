@@ -400,9 +400,8 @@ void warn_of(const Json& figures) {
 int main(int argc, char** argv) {
   keep_freed_blocks();
   CommandLine app(
-      "Fits a discontinuous free-form deformation to a snapshot. Of several on the same mesh it computes "
-      "what "
-      "they share once.",
+      "Fits a discontinuous free-form deformation to a snapshot. What several snapshots on one mesh share is "
+      "computed once.",
       "cleft encode");
   std::vector<std::string> snapshots;
   std::string out;

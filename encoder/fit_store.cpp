@@ -68,9 +68,8 @@ std::shared_ptr<const FrameFit> FitStore::fit(const std::array<BSplineBasis, 3>&
 
 std::shared_ptr<const SpaceFit::Factor> FitStore::factor(const std::array<BSplineBasis, 3>& bases,
                                                          std::size_t frame, double strength,
-                                                         const std::function<SpaceFit::Normal()>& normal) {
-  return find(factors_, knots_of(bases, {static_cast<double>(frame), strength}),
-              [&] { return fit(bases)->space().factorize(normal()); });
+                                                         const std::function<SpaceFit::Factor()>& make) {
+  return find(factors_, knots_of(bases, {static_cast<double>(frame), strength}), make);
 }
 
 std::shared_ptr<const SeriesSystem> FitStore::system(const std::array<BSplineBasis, 4>& bases, int first,

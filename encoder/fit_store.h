@@ -27,10 +27,10 @@ class FitStore {
   const std::shared_ptr<const Parametrization>& parametrization() const { return parametrization_; }
 
   std::shared_ptr<const FrameFit> fit(const std::array<BSplineBasis, 3>& bases);
-  /// The Cholesky factor of the normal matrix of a frame, which `normal` makes.
+  /// The Cholesky factor of the normal matrix of a frame, which `make` makes.
   std::shared_ptr<const SpaceFit::Factor> factor(const std::array<BSplineBasis, 3>& bases, std::size_t frame,
                                                  double strength,
-                                                 const std::function<SpaceFit::Normal()>& normal);
+                                                 const std::function<SpaceFit::Factor()>& make);
   /// The system of all frames from `first` on, 0 or 1, which `make` makes.
   std::shared_ptr<const SeriesSystem> system(const std::array<BSplineBasis, 4>& bases, int first,
                                              double strength, const std::function<SeriesSystem()>& make);

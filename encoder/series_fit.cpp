@@ -52,7 +52,8 @@ double space_misfit(const Series& series, FitStore& store, const std::array<BSpl
   parallel_for(static_cast<int>(frames.size()), [&](int i) {
     if (sum > most) return;
     const std::size_t frame = frames[i];
-    const auto factor = store.factor(bases, frame, of_search, [&] { return fit->normal(frame, of_search); });
+    const auto factor = store.factor(bases, frame, of_search,
+                                     [&] { return fit->space().factorize(fit->normal(frame, of_search)); });
     const Eigen::MatrixX3d x = factor->solve(fit->project(frame, series.frames[frame]));
     sum += misfit_of(fit->values(x, frame) - series.frames[frame], series, limit).beyond;
     series.frames.forget(frame);
@@ -110,7 +111,7 @@ SeriesFit::Chosen SeriesFit::strength_of(std::size_t frame, int first, Stronger 
       if (!without) without = fit_->normal(frame, 0);
       SpaceFit::Normal normal = *without;
       fit_->space().roughen(normal, strength);
-      return normal;
+      return fit_->space().factorize(normal);
     });
     return (fit_->values(factor->solve(right), frame) - series_.frames[frame]).norm();
   };

@@ -70,6 +70,14 @@ Json figures_in(const std::string& file) {
   return figures.is_discarded() ? Json() : figures;
 }
 
+/// A folder for files that a process makes of several cases.
+std::string empty_group(const CaseOnItsWay& first) {
+  const std::string group = first.file("group");
+  fs::remove_all(group);
+  make_shared_folder(first.attempt.folder, "group");
+  return group;
+}
+
 std::string time_now() {
   const std::time_t now = std::time(nullptr);
   char text[40];
@@ -180,9 +188,7 @@ void CaseWork::solve(const std::vector<CaseOnItsWay*>& cases) const {
 void CaseWork::solve_together(const std::vector<CaseOnItsWay*>& cases) const {
   const CaseOnItsWay& first = *cases.front();
   const Stopwatch watch;
-  const std::string group = first.file("group");
-  fs::remove_all(group);
-  make_shared_folder(first.attempt.folder, "group");
+  const std::string group = empty_group(first);
   std::vector<std::string> arguments;
   for (const CaseOnItsWay* one : cases) {
     write_case_file(one->file("case.toml"), *one->one);
@@ -238,9 +244,7 @@ void CaseWork::encode(const std::vector<CaseOnItsWay*>& cases) const {
 bool CaseWork::encode_together(const std::vector<CaseOnItsWay*>& cases) const {
   const CaseOnItsWay& first = *cases.front();
   const Stopwatch watch;
-  const std::string group = first.file("group");
-  fs::remove_all(group);
-  make_shared_folder(first.attempt.folder, "group");
+  const std::string group = empty_group(first);
   std::vector<std::string> arguments;
   for (const CaseOnItsWay* one : cases) {
     const std::string snapshot = group + "/" + one->hash + ".h5";

@@ -37,6 +37,17 @@ class DeviceTest : public WindowTest {
     for (int tries = 0; tries < 1000 && !condition(); ++tries) settle(20);
     return condition();
   }
+  /// In the picture, at half its height.
+  QPointF at(double x) { return {window_.scene().width() * x, window_.scene().height() * 0.5}; }
+  /// Presses until the blade cuts, and goes on across a fifth of the picture.
+  void cut_by_mouse() {
+    mouse(window_.scene(), QEvent::MouseButtonPress, at(0.4));
+    ASSERT_TRUE(soon([&] { return window_.device().state().phase == Phase::cutting; }));
+    for (double x = 0.4; x < 0.6; x += 0.01) {
+      mouse(window_.scene(), QEvent::MouseMove, at(x));
+      settle(40);
+    }
+  }
   std::string status() { return widget<QLabel>("status").text().toStdString(); }
   const WoundView& picture() { return window_.scene().stage().view(0); }
 
@@ -124,17 +135,10 @@ TEST_F(DeviceTest, TheMouseSinksTheBladeWhereItIsPressed) {
   settle(20);
   widget<QAction>("device_mouse").trigger();
   ASSERT_TRUE(window_.device().on());
-  auto& scene = window_.scene();
-  const auto at = [&](double x) { return QPointF(scene.width() * x, scene.height() * 0.5); };
-  mouse(scene, QEvent::MouseButtonPress, at(0.4));
-  ASSERT_TRUE(soon([&] { return window_.device().state().phase == Phase::cutting; }));
-  for (double x = 0.4; x < 0.6; x += 0.01) {
-    mouse(scene, QEvent::MouseMove, at(x));
-    settle(40);
-  }
+  cut_by_mouse();
   EXPECT_TRUE(now().cuts.empty()) << "it is one when the blade is out";
   EXPECT_GT(picture().duration(), 5) << "and drawn before";
-  mouse(scene, QEvent::MouseButtonRelease, at(0.6));
+  mouse(window_.scene(), QEvent::MouseButtonRelease, at(0.6));
   ASSERT_TRUE(soon([&] { return now().cuts.size() == 1; })) << window_.message().toStdString();
   widget<QAction>("device_off").trigger();
   EXPECT_FALSE(window_.device().on());
@@ -144,14 +148,7 @@ TEST_F(DeviceTest, ACutUnderWayIsKeptWhenTheDeviceIsPutAway) {
   tell("open " + study());
   settle(20);
   tell("device mouse");
-  auto& scene = window_.scene();
-  const auto at = [&](double x) { return QPointF(scene.width() * x, scene.height() * 0.5); };
-  mouse(scene, QEvent::MouseButtonPress, at(0.4));
-  ASSERT_TRUE(soon([&] { return window_.device().state().phase == Phase::cutting; }));
-  for (double x = 0.4; x < 0.6; x += 0.01) {
-    mouse(scene, QEvent::MouseMove, at(x));
-    settle(40);
-  }
+  cut_by_mouse();
   tell("device off");
   EXPECT_TRUE(soon([&] { return now().cuts.size() == 1; })) << window_.message().toStdString();
 }
