@@ -72,7 +72,7 @@ Json figures_in(const std::string& file) {
 
 /// A folder for files that a process makes of several cases.
 std::string empty_group(const CaseOnItsWay& first) {
-  const std::string group = first.file("group");
+  std::string group = first.file("group");
   fs::remove_all(group);
   make_shared_folder(first.attempt.folder, "group");
   return group;
