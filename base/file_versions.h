@@ -8,5 +8,7 @@ namespace cleft {
 inline constexpr int field_version = 3;
 /// Version of a field of several pieces.
 inline constexpr int field_version_of_pieces = 4;
+/// Version of either where a residual is in several blocks.
+inline constexpr int field_version_of_blocks = 5;
 
 }  // namespace cleft

@@ -46,7 +46,7 @@ class Encoder {
   Encoded run() {
     if (options_.rung) {
       const SeriesFit fit = fit_of(*options_.rung);
-      return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit), {}};
+      return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit)};
     }
     const std::vector<Rung> rungs =
         supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
@@ -66,7 +66,7 @@ class Encoder {
       if (of_finer.largest < misfit.largest) fitted = std::move(finer), misfit = of_finer;
     }
     const SeriesFit& fit = *fitted;
-    Encoded encoded{with_steps(fit, misfit.beyond == 0 ? limit_ : above(misfit)), {}};
+    Encoded encoded{with_steps(fit, misfit.beyond == 0 ? limit_ : above(misfit))};
     if (encoded.field.report.spline_error * scale_ > limit_) {
       progress_("coding what the spline leaves");
       encoded.residual = residual_of(encoded.field, series_, limit_);
@@ -107,6 +107,9 @@ class Encoder {
     double step = share_of_steps * 2 / std::sqrt(3.) * bound;
     const Field exact =
         with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest_move * step, bound);
+    // At nodes that were not fitted the spline may be off by more.
+    if (series_.all_nodes)
+      bound = std::max(bound, above({scale_ * measure(exact, series_).spline_error, 0}));
     for (int halvings = 0;; ++halvings, step /= 1.5) {
       Field field = quantised(exact, step, farthest_move);
       field.report.condition = fit.condition();

@@ -8,8 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "encoder/field/field.h"
-#include "encoder/field/node_residual.h"
+#include "encoder/field/encoded.h"
 #include "encoder/fit_store.h"
 #include "encoder/ladder.h"
 #include "encoder/series.h"
@@ -39,12 +38,6 @@ struct EncodeOptions {
   /// Instead of a tolerance: spans of the bases. Rounding of the coefficients then costs about a hundredth of
   /// the error.
   std::optional<Rung> rung;
-};
-
-struct Encoded {
-  Field field;                           ///< with its report
-  std::optional<NodeResidual> residual;  ///< if the spline alone does not satisfy the tolerance
-  std::vector<std::optional<NodeResidual>> of_quantities = {};  ///< the same of field.quantities
 };
 
 /// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the

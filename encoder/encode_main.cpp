@@ -138,7 +138,7 @@ std::string warning_of(const Field& field, const Series& series, const EncodeOpt
   const double scale = report.largest_displacement,
                limit = options.tolerance_of("displacement").limit(scale > 0 ? scale : 1);
   if (options.rung || report.spline_error * scale <= 2 * limit) return "";
-  const Vec3& at = series.samples[static_cast<std::size_t>(report.worst_node)].uvw;
+  const Vec3& at = series.node_samples()[static_cast<std::size_t>(report.worst_node)].uvw;
   const CanonicalCut& cut = field.cut();
   const double tip = field.parametrization().geometry().tip.at(report.worst_time);
   const bool beside_front = std::min(std::abs(at.x - tip), std::abs(at.x - cut.start)) < 0.1 * cut.length;
@@ -182,58 +182,30 @@ Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
   return rung;
 }
 
-/// Tells whether values are the same without keeping them: two sums that depend on every value and its place.
-struct Fingerprint {
-  double quantum = 0;
-  std::size_t count = 0;
-  std::uint64_t first = 14695981039346656037u, second = 0;
+bool same(const std::optional<CodedResidual>& a, const std::optional<CodedResidual>& b) {
+  return a.has_value() == b.has_value() && (!a || (a->quantum == b->quantum && a->nodes == b->nodes &&
+                                                   a->frames == b->frames && a->blocks == b->blocks));
+}
 
-  explicit Fingerprint(const std::optional<NodeResidual>& residual) {
-    if (!residual) return;
-    quantum = residual->quantum, count = residual->values.size();
-    for (const std::int32_t value : residual->values) {
-      first = (first ^ static_cast<std::uint32_t>(value)) * 1099511628211u;
-      second = (second + static_cast<std::uint32_t>(value) + 1) * 0x9E3779B97F4A7C15u;
-      second ^= second >> 29;
-    }
-  }
-  friend bool operator==(const Fingerprint&, const Fingerprint&) = default;
-};
+bool same(const Encoded& a, const Encoded& b) {
+  bool good = a.field.coefficients() == b.field.coefficients() && same(a.residual, b.residual) &&
+              a.field.quantities.size() == b.field.quantities.size() &&
+              a.field.by_parameter.size() == b.field.by_parameter.size() &&
+              a.of_quantities.size() == b.of_quantities.size();
+  for (std::size_t q = 0; good && q < a.field.quantities.size(); ++q)
+    good = a.field.quantities[q].coefficients == b.field.quantities[q].coefficients &&
+           same(a.of_quantities[q], b.of_quantities[q]);
+  for (std::size_t d = 0; good && d < a.field.by_parameter.size(); ++d)
+    good = a.field.by_parameter[d].control_points == b.field.by_parameter[d].control_points;
+  return good;
+}
 
-/// The report is that of the file's content; otherwise no file is written. Residuals in memory end here.
-void verify_written(const std::string& out, std::vector<Encoded>& all) {
-  std::vector<std::vector<Fingerprint>> residuals;
-  for (Encoded& one : all) {
-    auto& of_one = residuals.emplace_back();
-    of_one.emplace_back(one.residual);
-    for (const auto& residual : one.of_quantities) of_one.emplace_back(residual);
-    one.residual.reset(), one.of_quantities.clear();
-  }
-  const auto as_written = [&](const FieldPiece& kept, const Encoded& encoded,
-                              const std::vector<Fingerprint>& left) {
-    const Field& field = encoded.field;
-    bool good = kept.field.coefficients() == field.coefficients() && Fingerprint(kept.residual) == left[0] &&
-                kept.field.quantities.size() == field.quantities.size() &&
-                kept.field.by_parameter.size() == field.by_parameter.size() &&
-                kept.of_quantities.size() + 1 == left.size();
-    for (std::size_t q = 0; good && q < field.quantities.size(); ++q)
-      good = kept.field.quantities[q].coefficients == field.quantities[q].coefficients &&
-             Fingerprint(kept.of_quantities[q]) == left[q + 1];
-    for (std::size_t d = 0; good && d < field.by_parameter.size(); ++d)
-      good = kept.field.by_parameter[d].control_points == field.by_parameter[d].control_points;
-    return good;
-  };
-  std::vector<FieldPiece> kept;
-  if (all.size() > 1) {
-    kept = read_pieces(out);
-  } else {
-    kept.push_back({read_field(out), read_residual(out), {}});
-    for (std::size_t q = 0; q < kept.front().field.quantities.size(); ++q)
-      kept.front().of_quantities.push_back(read_quantity_residual(out, q));
-  }
-  bool good = kept.size() == all.size();
-  for (std::size_t p = 0; good && p < all.size(); ++p) good = as_written(kept[p], all[p], residuals[p]);
-  if (good) return;
+/// The report is that of the file's content; otherwise no file is written.
+void verify_written(const std::string& out, const std::vector<Encoded>& all) {
+  const std::vector<Encoded> kept = read_encoded(out);
+  if (std::equal(kept.begin(), kept.end(), all.begin(), all.end(),
+                 [](const Encoded& a, const Encoded& b) { return same(a, b); }))
+    return;
   std::filesystem::remove(out);
   throw std::runtime_error(out + ": reads back as something else than was written, and was removed");
 }
@@ -249,14 +221,10 @@ std::vector<SnapshotReader> readers_of(const std::string& path) {
 }
 
 void write_encoded(const std::string& out, const std::vector<Encoded>& all, std::size_t nodes) {
-  const Encoded& first = all.front();
   if (all.size() == 1)
-    return write_field(out, first.field, first.residual ? &*first.residual : nullptr, {},
-                       first.of_quantities);
-  std::vector<FieldPiece> pieces;
-  pieces.reserve(all.size());
-  for (const Encoded& one : all) pieces.push_back({one.field, one.residual, one.of_quantities});
-  write_pieces(out, pieces, nodes);
+    write_field(out, all.front());
+  else
+    write_pieces(out, all, nodes);
 }
 
 constexpr double most_kept = 4e8;      // bytes of matrices that several snapshots share
@@ -334,6 +302,7 @@ std::shared_ptr<FitStore> store_for(const Series& series, std::size_t piece, Tas
   kept.store.reset();
   kept.series = std::make_unique<Series>(series);
   kept.series->frames.clear(), kept.series->quantities.clear(), kept.series->derivatives.clear();
+  kept.series->all_nodes.reset(), kept.series->read = {};
   kept.store = fit_store(*kept.series, task.options, std::min(most_kept, share_of_kept * task.memory));
   return kept.store;
 }
@@ -352,7 +321,8 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
   std::vector<Series> series;
   series.reserve(readers.size());
   for (const SnapshotReader& reader : readers)
-    series.emplace_back(reader, need.spilled ? std::make_shared<SpillFile>(folder) : nullptr);
+    series.emplace_back(
+        reader, SeriesStorage{need.spilled ? std::make_shared<SpillFile>(folder) : nullptr, most_fitted});
   check_names(task.options, series.front());
   if (series.size() > 1) share_scales(series);
   progress.expect(series.size(), series.front().quantities.size());
@@ -374,7 +344,7 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
   progress("writing");
   const std::size_t nodes = series.size() > 1 ? SnapshotReader(snapshot).snapshot().points.size()
                                               : readers.front().snapshot().points.size(),
-                    measured = series.size() > 1 ? nodes : series.front().nodes;
+                    measured = series.size() > 1 ? nodes : series.front().node_samples().size();
   series.clear();
   write_encoded(out, all, nodes);
   verify_written(out, all);

@@ -7,27 +7,59 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "encoder/residual_coding.h"
 
 namespace cleft {
 
 namespace {
 
-/// Figures of one frame; errors squared.
-struct Frame {
-  double squared_error = 0, squared_data = 0, spline = 0, gape = 0, false_gap = 0;
-  double crease = 0, overlap = 0, least_volume = 1;
-  int worst_node = 0;
+/// Errors at nodes, squared.
+struct NodeErrors {
+  double error = 0, data = 0;  ///< sums
+  double largest = 0;
+  std::size_t worst_node = 0;
 };
 
-std::span<const Sample> nodes_of(const Series& series) { return {series.samples.data(), series.nodes}; }
+/// Other figures of one frame, at the samples that are fitted.
+struct Frame {
+  double gape = 0, false_gap = 0;
+  double crease = 0, overlap = 0, least_volume = 1;
+};
 
-std::vector<Vec3> spline_at(const Field& field, const Series& series, double t) {
-  std::vector<Place> places;
-  places.reserve(series.nodes);
-  for (const Sample& sample : nodes_of(series)) places.push_back({sample.uvw, sample.side, t});
-  std::vector<Vec3> values(places.size());
-  field.displacements(places, values);
-  return values;
+std::span<const Sample> fitted_nodes_of(const Series& series) { return {series.samples.data(), series.nodes}; }
+
+NodeErrors node_errors(const Field& field, const Series& series, std::size_t frame, std::size_t first) {
+  const auto all = series.node_samples();
+  const auto nodes = all.subspan(first, std::min(nodes_at_once, all.size() - first));
+  const std::vector<Vec3> spline = spline_at(field, nodes, series.times[frame]);
+  const Eigen::MatrixXd data = series.node_values(frame, first, nodes.size());
+  NodeErrors errors;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const auto row = static_cast<Eigen::Index>(n);
+    const Vec3 at_node{data(row, 0), data(row, 1), data(row, 2)};
+    const double squared = squared_norm(spline[n] - at_node);
+    errors.error += squared, errors.data += squared_norm(at_node);
+    if (squared > errors.largest) errors.largest = squared, errors.worst_node = first + n;
+  }
+  return errors;
+}
+
+/// Of each frame, of all nodes.
+std::vector<NodeErrors> node_errors(const Field& field, const Series& series) {
+  const std::size_t nodes = series.node_samples().size(), ranges = (nodes - 1) / nodes_at_once + 1;
+  std::vector<NodeErrors> parts(ranges * series.times.size()), frames(series.times.size());
+  parallel_for(static_cast<int>(parts.size()), [&](int i) {
+    const std::size_t part = i;
+    parts[part] = node_errors(field, series, part / ranges, part % ranges * nodes_at_once);
+    series.frames.forget(part / ranges);
+  });
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    NodeErrors& frame = frames[part / ranges];
+    frame.error += parts[part].error, frame.data += parts[part].data;
+    if (parts[part].largest > frame.largest)
+      frame.largest = parts[part].largest, frame.worst_node = parts[part].worst_node;
+  }
+  return frames;
 }
 
 Vec3 data_at(const Series& series, std::size_t frame, std::size_t node) {
@@ -50,7 +82,7 @@ void add_shape(Frame& f, const Field& field, const Series& series, std::size_t f
   const double t = series.times[frame], top = series.geometry.domain[2].back;
   const double start = series.geometry.cut.start, tip = series.geometry.tip.at(t);
   const double tiny = 1e-9 * (series.geometry.domain[0].back - series.geometry.domain[0].front);
-  for (const Sample& sample : nodes_of(series)) {
+  for (const Sample& sample : fitted_nodes_of(series)) {
     const bool uncut_plane = sample.uvw.y == 0 && sample.side == Side::both && series.geometry.cut.length > 0;
     const bool end = std::abs(sample.uvw.x - start) <= tiny || std::abs(sample.uvw.x - tip) <= tiny;
     if (uncut_plane && !end && sample.uvw.z == top)
@@ -60,30 +92,34 @@ void add_shape(Frame& f, const Field& field, const Series& series, std::size_t f
   }
 }
 
+/// Of a pair's nodes.
+struct Gap {
+  Vec3 of_spline, of_data;
+};
+Gap gap_of(const Field& field, const Series& series, std::size_t left, std::size_t right, std::size_t frame) {
+  const double t = series.times[frame];
+  const auto spline = [&](std::size_t n) {
+    return field.displacement(series.samples[n].uvw, series.samples[n].side, t);
+  };
+  return {spline(right) - spline(left), data_at(series, frame, right) - data_at(series, frame, left)};
+}
+
 Frame measure_frame(const Field& field, const Series& series, std::size_t j) {
   Frame f;
   const double t = series.times[j];
-  const std::vector<Vec3> spline = spline_at(field, series, t);
-  const auto off = [&](std::size_t n) { return spline[n] - data_at(series, j, n); };
-  for (std::size_t n = 0; n < spline.size(); ++n) {
-    const double squared = squared_norm(off(n));
-    f.squared_error += squared, f.squared_data += squared_norm(data_at(series, j, n));
-    if (squared > f.spline) f.spline = squared, f.worst_node = static_cast<int>(n);
-    const Sample& sample = series.samples[n];
+  for (const Sample& sample : fitted_nodes_of(series))
     if (sample.uvw.y == 0 && sample.side == Side::both)
       f.false_gap = std::max(f.false_gap, norm(field.displacement(sample.uvw, Side::right, t) -
                                                field.displacement(sample.uvw, Side::left, t)));
-  }
   for (std::size_t p = 0; p < series.pairs.size(); ++p) {
     const auto left = static_cast<std::size_t>(series.pairs[p][0]),
                right = static_cast<std::size_t>(series.pairs[p][1]);
     if (std::max(left, right) >= series.nodes) continue;
     const bool open = static_cast<std::int32_t>(p) < series.released[j];
     double& kind = open ? f.gape : f.false_gap;
-    kind = std::max(kind, norm(off(right) - off(left)));
-    const double gap = spline[right].y - spline[left].y,
-                 of_data = data_at(series, j, right).y - data_at(series, j, left).y;
-    if (open) f.overlap = std::max(f.overlap, std::max(0., -gap) - std::max(0., -of_data));
+    const Gap gap = gap_of(field, series, left, right, j);
+    kind = std::max(kind, norm(gap.of_spline - gap.of_data));
+    if (open) f.overlap = std::max(f.overlap, std::max(0., -gap.of_spline.y) - std::max(0., -gap.of_data.y));
   }
   if (j % 4 == 0 || j + 1 == series.times.size()) add_shape(f, field, series, j);
   series.frames.forget(j);
@@ -94,55 +130,60 @@ Frame measure_frame(const Field& field, const Series& series, std::size_t j) {
 
 FitReport measure(const Field& field, const Series& series) {
   const Stopwatch watch;
-  std::vector<Frame> frames(series.times.size());
-  parallel_for(static_cast<int>(frames.size()),
-               [&](int j) { frames[j] = measure_frame(field, series, static_cast<std::size_t>(j)); });
   FitReport report;
   report.condition = field.report.condition, report.fit_seconds = field.report.fit_seconds;
-  report.nodes = static_cast<double>(series.nodes);
+  report.nodes = static_cast<double>(series.node_samples().size());
   report.frames = static_cast<double>(series.times.size());
   const double scale = report.largest_displacement = series.largest_displacement;
   if (scale == 0) return report;  // nothing moves: every figure is 0
-  double squared_error = 0, squared_data = 0, spline = 0;
+  const std::vector<NodeErrors> at_nodes = node_errors(field, series);
+  std::vector<Frame> frames(series.times.size());
+  parallel_for(static_cast<int>(frames.size()),
+               [&](int j) { frames[j] = measure_frame(field, series, static_cast<std::size_t>(j)); });
+  double error = 0, data = 0, largest = 0;
   for (std::size_t j = 0; j < frames.size(); ++j) {
+    const NodeErrors& errors = at_nodes[j];
+    error += errors.error, data += errors.data;
+    if (errors.largest > largest) {
+      largest = errors.largest;
+      report.worst_node = static_cast<int>(errors.worst_node), report.worst_time = series.times[j];
+    }
+    if (series.largest[j] > 0)
+      report.frame_error = std::max(report.frame_error, std::sqrt(errors.largest) / series.largest[j]);
     const Frame& f = frames[j];
-    squared_error += f.squared_error, squared_data += f.squared_data;
-    if (f.spline > spline)
-      spline = f.spline, report.worst_node = f.worst_node, report.worst_time = series.times[j];
     report.gape_error = std::max(report.gape_error, f.gape / scale);
     report.false_gap = std::max(report.false_gap, f.false_gap / scale);
     report.crease = std::max(report.crease, f.crease);
     report.overlap = std::max(report.overlap, f.overlap);
     report.least_volume = std::min(report.least_volume, f.least_volume);
-    if (series.largest[j] > 0)
-      report.frame_error = std::max(report.frame_error, std::sqrt(f.spline) / series.largest[j]);
   }
-  report.relative_l2 = std::sqrt(squared_error / squared_data);
-  report.node_error = report.spline_error = std::sqrt(spline) / scale;
+  report.relative_l2 = std::sqrt(error / data);
+  report.node_error = report.spline_error = std::sqrt(largest) / scale;
   report.measure_seconds = watch.seconds();
   return report;
 }
 
-NodeResidual residual_of(Field& field, const Series& series, double bound) {
-  NodeResidual residual;
+CodedResidual residual_of(Field& field, const Series& series, double bound) {
+  CodedResidual kind;
   // Half a step each way is sqrt(3) / 2 steps together; a little less for rounding.
-  residual.quantum = (1 - 1e-9) * 2 / std::sqrt(3.) * bound;
-  residual.nodes = static_cast<int>(series.nodes);
-  residual.frames = static_cast<int>(series.times.size()) - 1;
-  residual.values.resize(series.nodes * 3 * static_cast<std::size_t>(residual.frames));
-  std::vector<double> largest(series.times.size());
-  parallel_for(static_cast<int>(largest.size()), [&](int frame) {
-    const std::size_t j = frame;
-    const std::vector<Vec3> spline = spline_at(field, series, series.times[j]);
-    for (std::size_t n = 0; n < spline.size(); ++n) {
-      const Vec3 left = data_at(series, j, n) - spline[n];
-      for (int axis = 0; j > 0 && axis < 3; ++axis)
-        residual.value(n, axis, j) = static_cast<std::int32_t>(std::lround(left[axis] / residual.quantum));
-      largest[j] = std::max(largest[j], norm(residual.at(n, j) - left));
-    }
-    series.frames.forget(j);
-  });
-  field.report.node_error = *std::max_element(largest.begin(), largest.end()) / series.largest_displacement;
+  kind.quantum = (1 - 1e-9) * 2 / std::sqrt(3.) * bound;
+  kind.nodes = static_cast<int>(series.node_samples().size());
+  kind.frames = static_cast<int>(series.times.size()) - kind.first_frame;
+  double largest = 0;
+  CodedResidual residual = code_residual(
+      kind,
+      [&](std::size_t frame, std::size_t first, std::size_t count) {
+        Eigen::MatrixXd left = series.node_values(frame, first, count);
+        const auto nodes = series.node_samples().subspan(first, count);
+        const std::vector<Vec3> spline = spline_at(field, nodes, series.times[frame]);
+        for (std::size_t n = 0; n < count; ++n)
+          left.row(static_cast<Eigen::Index>(n)) -=
+              Eigen::RowVector3d(spline[n].x, spline[n].y, spline[n].z);
+        if (count == series.nodes) series.frames.forget(frame);
+        return left;
+      },
+      largest);
+  field.report.node_error = largest / series.largest_displacement;
   return residual;
 }
 

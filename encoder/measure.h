@@ -13,6 +13,6 @@ FitReport measure(const Field& field, const Series& series);
 
 /// The residual of the field at the nodes, quantised such that no node differs by more than `bound`, mm. Sets
 /// the field's node_error to that of field and residual together.
-NodeResidual residual_of(Field& field, const Series& series, double bound);
+CodedResidual residual_of(Field& field, const Series& series, double bound);
 
 }  // namespace cleft

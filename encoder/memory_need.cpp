@@ -5,13 +5,16 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "encoder/field/node_residual.h"
 
 namespace cleft {
 
 namespace {
 
 // Bytes, measured on meshes of 10^5 and 10^6 hexahedra with 40 frames: docs/size.md.
-constexpr double of_program = 150e6, of_node = 400, of_residual = 4;  // a component, node and frame
+constexpr double of_program = 150e6, of_node = 400, of_other_node = 250;
+// A component, node and frame of what is left at the nodes: coded, and in the blocks at work.
+constexpr double of_coded = 0.25, of_block = 9;
 
 }  // namespace
 
@@ -34,8 +37,11 @@ MemoryNeed memory_need(const SnapshotReader& reader) {
       need.components += static_cast<double>(array.components);
   // Of further quantities three components are copied at a time.
   const double copied = need.components > 3 ? 3 : 0;
-  need.values = sizeof(double) * (need.components + copied) * need.nodes * need.frames;
-  need.others = need.nodes * (of_node + of_residual * need.components * need.frames);
+  const double fitted = std::min(need.nodes, static_cast<double>(most_fitted));
+  need.values = sizeof(double) * (need.components + copied) * fitted * need.frames;
+  const double numbers = need.components * need.frames;
+  need.others = fitted * of_node + (need.nodes - fitted) * of_other_node + of_coded * numbers * need.nodes +
+                of_block * numbers * std::min(need.nodes, 2. * CodedResidual::most_nodes);
   return need;
 }
 

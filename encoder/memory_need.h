@@ -7,6 +7,9 @@
 
 namespace cleft {
 
+/// Samples that a fit uses, about, of snapshots with more: fitted_nodes.h.
+inline constexpr std::size_t most_fitted = 1500000;
+
 struct MemoryNeed {
   double values = 0;  ///< bytes of all fields at all nodes and frames: in memory, or in a temporary file
   double others = 0;  ///< bytes of all else, at most: the mesh, what splines leave at nodes, the fit

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "encoder/field/unknowns.h"
+#include "encoder/residual_coding.h"
 #include "encoder/series_fit.h"
 #include "encoder/tolerance_shares.h"
 
@@ -24,14 +25,11 @@ class Spline {
   int components() const { return static_cast<int>(data_.frames.front().cols()); }
 
   /// Nodes x components: the data less the spline.
-  Eigen::MatrixXd left(std::size_t frame) const {
-    std::vector<Place> places;
-    for (std::size_t n = 0; n < series_.nodes; ++n)
-      places.push_back({series_.samples[n].uvw, series_.samples[n].side, series_.times[frame]});
-    std::vector<Vec3> values(places.size());
-    Eigen::MatrixXd left = data_.frames[frame].topRows(static_cast<Eigen::Index>(series_.nodes));
+  Eigen::MatrixXd left(std::size_t frame, std::size_t first_node, std::size_t nodes) const {
+    Eigen::MatrixXd left = data_.node_values(frame, first_node, nodes);
+    const auto samples = series_.node_samples().subspan(first_node, nodes);
     for (int first = 0; first < components(); first += at_once) {
-      parts_[first / at_once].displacements(places, values);
+      const std::vector<Vec3> values = spline_at(parts_[first / at_once], samples, series_.times[frame]);
       for (std::size_t n = 0; n < values.size(); ++n)
         for (int c = first; c < std::min(first + at_once, components()); ++c)
           left(static_cast<Eigen::Index>(n), c) -= values[n][c - first];
@@ -41,10 +39,11 @@ class Spline {
 
   /// The largest distance from the data at any node and frame.
   double error() const {
-    std::vector<double> errors(data_.frames.size());
-    parallel_for(static_cast<int>(errors.size()), [&](int j) {
-      const std::size_t frame = j;
-      errors[frame] = norms_of(left(frame)).maxCoeff();
+    const std::size_t nodes = series_.node_samples().size(), ranges = (nodes - 1) / nodes_at_once + 1;
+    std::vector<double> errors(data_.frames.size() * ranges);
+    parallel_for(static_cast<int>(errors.size()), [&](int i) {
+      const std::size_t part = i, frame = part / ranges, first = part % ranges * nodes_at_once;
+      errors[part] = norms_of(left(frame, first, std::min(nodes_at_once, nodes - first))).maxCoeff();
       data_.frames.forget(frame);
     });
     return *std::max_element(errors.begin(), errors.end());
@@ -98,29 +97,17 @@ Spline fitted(const Series& series, const SeriesQuantity& data, const Field& fie
 }
 
 /// What `spline` leaves, so that nothing is off by more than `bound`; and how far the worst then is.
-NodeResidual residual_of(const Spline& spline, const Series& series, double bound, double& largest) {
-  NodeResidual residual;
-  residual.components = spline.components(), residual.first_frame = 0;
+CodedResidual residual_of(const Spline& spline, const Series& series, double bound, double& largest) {
+  CodedResidual kind;
+  kind.components = spline.components(), kind.first_frame = 0;
   // Half a step each way; a little less for rounding.
-  residual.quantum = (1 - 1e-9) * 2 / norm_of_ones(residual.components) * bound;
-  residual.nodes = static_cast<int>(series.nodes);
-  residual.frames = static_cast<int>(series.times.size());
-  residual.values.resize(series.nodes * static_cast<std::size_t>(residual.components) * series.times.size());
-  std::vector<double> errors(series.times.size());
-  parallel_for(residual.frames, [&](int j) {
-    const std::size_t frame = j;
-    Eigen::MatrixXd left = spline.left(frame);
-    for (Eigen::Index n = 0; n < left.rows(); ++n)
-      for (int c = 0; c < residual.components; ++c) {
-        const std::size_t node = n;
-        residual.value(node, c, frame) =
-            static_cast<std::int32_t>(std::lround(left(n, c) / residual.quantum));
-        left(n, c) -= residual.at(node, c, frame);
-      }
-    errors[frame] = norms_of(left).maxCoeff();
-  });
-  largest = *std::max_element(errors.begin(), errors.end());
-  return residual;
+  kind.quantum = (1 - 1e-9) * 2 / norm_of_ones(kind.components) * bound;
+  kind.nodes = static_cast<int>(series.node_samples().size());
+  kind.frames = static_cast<int>(series.times.size());
+  return code_residual(
+      kind,
+      [&](std::size_t frame, std::size_t first, std::size_t count) { return spline.left(frame, first, count); },
+      largest);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ Series series_of(const Series& series, const SeriesQuantity& quantity, int compo
 
 struct FittedQuantity {
   Quantity quantity;
-  std::optional<NodeResidual> residual;  ///< if the spline alone does not satisfy the tolerance
+  std::optional<CodedResidual> residual;  ///< if the spline alone does not satisfy the tolerance
 };
 
 /// Fits a quantity of the series over the bases of the field. `limit` bounds the norm of its error at any

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,20 +15,29 @@
 
 namespace cleft {
 
+/// Values at nodes first .. first + count - 1 in a frame, count x components, read from the snapshot. May be
+/// called from several threads at once.
+using ReadNodes =
+    std::function<Eigen::MatrixXd(std::size_t frame, std::size_t first, std::size_t count)>;
+
 /// A further quantity at the nodes: its own values, not from frame 0.
 struct SeriesQuantity {
   std::string name;
   StoredFrames<Eigen::Dynamic> frames;  ///< F: N x components
+  ReadNodes read;                       ///< of all nodes, where the series has a part of them
   double largest = 0;                   ///< largest norm (norms_of), at any node and frame
   /// What a tolerance is relative to: `largest`, or the range of the values where they vary about something
   /// else than 0 and that is less (a pressure of 101325 +- 10 Pa has 20). Of a vector or tensor, twice the
   /// largest norm of its difference from its mean.
   double scale = 0;
   Eigen::RowVectorXd middle;  ///< what the values vary about; 0 where `scale` is `largest`
+
+  /// At nodes of the snapshot, of all.
+  Eigen::MatrixXd node_values(std::size_t frame, std::size_t first, std::size_t count) const;
 };
 
-/// Sets scale and middle from the frames and `largest`.
-void set_scale(SeriesQuantity& quantity);
+/// Sets scale and middle from `largest` and the values. `nodes`: of the snapshot.
+void set_scale(SeriesQuantity& quantity, std::size_t nodes);
 
 /// Norms of the rows: Euclidean; of six components, of the symmetric tensor XX YY ZZ XY YZ XZ, whose norm
 /// does not depend on the axes.
@@ -38,12 +50,23 @@ struct SeriesDerivative {
   double largest = 0;                    ///< Euclidean norm, of all
 };
 
+/// How a series is held.
+struct SeriesStorage {
+  std::shared_ptr<SpillFile> file = {};  ///< where the values are; none: in memory
+  /// Samples that are fitted, about, where there are more (fitted_nodes.h); then the snapshot's reader must
+  /// live as long as the series.
+  std::size_t most = static_cast<std::size_t>(-1);
+};
+
 struct Series {
   std::vector<double> times;    ///< F, mm
   std::vector<Sample> samples;  ///< N
-  /// Of the samples, the first ones: nodes of the snapshot, at which errors are measured. Further ones are
-  /// places at which a shaped patch's displacements are known too; they are fitted alike.
+  /// Of the samples, the first ones: nodes of the snapshot. Further ones are places at which a shaped patch's
+  /// displacements are known too; they are fitted alike.
   std::size_t nodes = 0;
+  /// All nodes of the snapshot, at which errors are measured, where the samples are a part of them.
+  std::shared_ptr<const std::vector<Sample>> all_nodes;
+  ReadNodes read;                   ///< of these, the displacement from frame 0, mm
   StoredFrames<3> frames;           ///< F: N x 3, displacement from frame 0, mm; frame 0 is zero
   std::vector<double> largest;      ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;  ///< mm, of all
@@ -59,10 +82,17 @@ struct Series {
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: number of open pairs
 
-  /// Reads all frames, 24 N F bytes, into memory or into a file. Throws InputError if there are fewer than
-  /// two frames, or the cut is not in the plane v = 0; FileError that names frame and node if a displacement
-  /// is not finite.
-  explicit Series(const SnapshotReader& reader, const std::shared_ptr<SpillFile>& file = nullptr);
+  /// Reads all frames; 24 N F bytes are in memory or in a file. Throws InputError if there are fewer than two
+  /// frames, or the cut is not in the plane v = 0; FileError that names frame and node if a displacement is
+  /// not finite.
+  explicit Series(const SnapshotReader& reader, const SeriesStorage& storage = {});
+
+  /// All nodes of the snapshot.
+  std::span<const Sample> node_samples() const {
+    return all_nodes ? std::span(*all_nodes) : std::span(samples.data(), nodes);
+  }
+  /// Their displacement from frame 0, mm.
+  Eigen::MatrixXd node_values(std::size_t frame, std::size_t first, std::size_t count) const;
 };
 
 /// Tolerances of the pieces of one body are relative to the body's largest values, not to each piece's.

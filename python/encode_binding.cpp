@@ -89,8 +89,7 @@ SharedField encoded(const Dense<double>& points, const Dense<std::int32_t>& pair
   }
   Field& field = result->field;
   field.parameters = s.parameters;
-  if (!out.empty())
-    write_field(out, field, result->residual ? &*result->residual : nullptr, {}, result->of_quantities);
+  if (!out.empty()) write_field(out, *result);
   return {std::make_shared<const Field>(std::move(field))};
 }
 

@@ -50,10 +50,9 @@ void add_ours(EncoderPanels& panels, const Series& series, const ChartedCase& ch
     Stopwatch watch;
     const Encoded encoded = encode(series, options, [](const std::string&) {});
     const Field& field = encoded.field;
-    const std::optional<NodeResidual>& residual = encoded.residual;
     const double seconds = watch.lap();
     double bytes = static_cast<double>(record_of(field).coefficients.size());
-    if (residual) bytes += static_cast<double>(encode_residual(*residual).size());
+    if (encoded.residual) bytes += static_cast<double>(encoded.residual->bytes());
     const bool standard = tolerance == charted.tolerance && parametrization == charted.parametrization;
     const std::string setting = "tolerance " + shortest(tolerance);
     panels.size.points.push_back({parametrization, setting, bytes, field.report.node_error, standard});

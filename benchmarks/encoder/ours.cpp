@@ -50,17 +50,16 @@ OurRun run_ours(const Series& series, const Snapshot& snapshot, const NodeData& 
   Stopwatch watch;
   const Encoded encoded = encode(series, options, [](const std::string&) {});
   const Field& field = encoded.field;
-  const std::optional<NodeResidual>& residual = encoded.residual;
   run.fit = watch.lap();
   const std::string file =
       (fs::temp_directory_path() / ("cleft-benchmark-encoder-" + std::to_string(getpid()))).string();
-  write_field(file, field, residual ? &*residual : nullptr);
+  write_field(file, encoded);
   run.write = watch.lap();
   run.errors = errors_of(data, decoded(file, series, data));
   run.verify = watch.lap();
   run.peak_bytes = peak_memory();
   run.coefficient_bytes = static_cast<double>(record_of(field).coefficients.size());
-  if (residual) run.residual_bytes = static_cast<double>(encode_residual(*residual).size());
+  if (encoded.residual) run.residual_bytes = static_cast<double>(encoded.residual->bytes());
   run.file_bytes = static_cast<double>(fs::file_size(file));
   fs::remove(file);
   run.centroid_error = error_at_centroids(field, series, snapshot);

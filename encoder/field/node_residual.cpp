@@ -1,9 +1,13 @@
 #include "encoder/field/node_residual.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "encoder/field/range_coder.h"
 
 namespace cleft {
@@ -111,45 +115,93 @@ class Model {
   std::array<Mixer<3>, 16 * 14> mixers_;
 };
 
-/// `code`(model, first number of a node), node by node in their order.
-template <class Coder, class Code>
-void for_each_node(Coder& coder, int nodes, int components, int frames, std::span<const std::int32_t> order,
-                   const Code& code) {
-  Model<Coder> model(coder, components, frames);
-  for (int n = 0; n < nodes; ++n) {
-    const std::size_t node = static_cast<std::size_t>(order.empty() ? n : order[n]);
-    code(model, node * static_cast<std::size_t>(components) * static_cast<std::size_t>(frames));
-  }
-}
-
 }  // namespace
 
-std::vector<std::uint8_t> encode_residual(const NodeResidual& residual, std::span<const std::int32_t> order) {
-  CLEFT_CHECK(residual.values.size(), ==,
-              static_cast<std::size_t>(residual.components) * residual.nodes *
-                  static_cast<std::size_t>(residual.frames));
+void SmallIntegers::set(std::size_t i, std::int32_t number) {
+  if (auto* bytes = std::get_if<std::vector<std::int8_t>>(&numbers_)) {
+    if (std::in_range<std::int8_t>(number)) {
+      (*bytes)[i] = static_cast<std::int8_t>(number);
+      return;
+    }
+    numbers_ = std::vector<std::int32_t>(bytes->begin(), bytes->end());
+  }
+  std::get<std::vector<std::int32_t>>(numbers_)[i] = number;
+}
+
+SmallIntegers SmallIntegers::joined(std::vector<SmallIntegers> parts) {
+  if (parts.size() == 1) return std::move(parts.front());
+  std::size_t count = 0;
+  for (const SmallIntegers& part : parts) count += part.size();
+  SmallIntegers all(count);
+  std::size_t at = 0;
+  for (SmallIntegers& part : parts) {
+    for (std::size_t i = 0; i < part.size(); ++i) all.set(at++, part[i]);
+    part = {};
+  }
+  return all;
+}
+
+bool operator==(const SmallIntegers& a, const SmallIntegers& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i] != b[i]) return false;
+  return true;
+}
+
+std::size_t CodedResidual::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& block_bytes : blocks) sum += block_bytes.size();
+  return sum;
+}
+
+std::vector<std::uint8_t> encode_block(std::span<const std::int32_t> values, int components, int frames) {
   code::Encoder coder;
-  std::vector<std::int32_t> of_node(static_cast<std::size_t>(residual.components) *
-                                    static_cast<std::size_t>(residual.frames));
-  for_each_node(coder, residual.nodes, residual.components, residual.frames, order,
-                [&](Model<code::Encoder>& model, std::size_t first) {
-                  std::copy_n(residual.values.begin() + static_cast<std::ptrdiff_t>(first), of_node.size(),
-                              of_node.begin());
-                  model.code_node(of_node.data(), residual.frames);  // returns its input
-                });
+  Model<code::Encoder> model(coder, components, frames);
+  std::vector<std::int32_t> of_node(static_cast<std::size_t>(components) * static_cast<std::size_t>(frames));
+  for (std::size_t first = 0; first < values.size(); first += of_node.size()) {
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), of_node.size(), of_node.begin());
+    model.code_node(of_node.data(), frames);  // returns its input
+  }
   return coder.finish();
 }
 
-std::vector<std::int32_t> decode_residual(int nodes, int frames, std::span<const std::uint8_t> bytes,
-                                          std::span<const std::int32_t> order, int components) {
-  std::vector<std::int32_t> values(static_cast<std::size_t>(components) * nodes *
-                                   static_cast<std::size_t>(frames));
+SmallIntegers decode_block(std::span<const std::uint8_t> bytes, int nodes, int components, int frames) {
+  std::vector<std::int32_t> of_node(static_cast<std::size_t>(components) * static_cast<std::size_t>(frames));
+  SmallIntegers values(of_node.size() * static_cast<std::size_t>(nodes));
   code::Decoder coder(bytes);
-  for_each_node(coder, nodes, components, frames, order, [&](Model<code::Decoder>& model, std::size_t first) {
-    model.code_node(values.data() + first, frames);
-  });
+  Model<code::Decoder> model(coder, components, frames);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(nodes); ++n) {
+    model.code_node(of_node.data(), frames);
+    for (std::size_t i = 0; i < of_node.size(); ++i) values.set(n * of_node.size() + i, of_node[i]);
+  }
   coder.finish();
   return values;
+}
+
+CodedResidual coded(const NodeResidual& residual, int block) {
+  CodedResidual result{residual.quantum,    residual.nodes, residual.frames, residual.components,
+                       residual.first_frame, block,          {}};
+  result.blocks.resize(static_cast<std::size_t>(std::max(1, (result.nodes - 1) / result.block + 1)));
+  parallel_for(static_cast<int>(result.blocks.size()), [&](int b) {
+    const std::size_t of_node =
+        static_cast<std::size_t>(residual.components) * static_cast<std::size_t>(residual.frames);
+    std::vector<std::int32_t> values(of_node * static_cast<std::size_t>(result.nodes_of(b)));
+    const std::size_t first = of_node * static_cast<std::size_t>(result.first_of(b));
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = residual.values[first + i];
+    result.blocks[b] = encode_block(values, residual.components, residual.frames);
+  });
+  return result;
+}
+
+NodeResidual decoded(const CodedResidual& residual) {
+  NodeResidual result{residual.quantum, residual.nodes,      residual.frames,
+                      {},               residual.components, residual.first_frame};
+  std::vector<SmallIntegers> blocks(residual.blocks.size());
+  parallel_for(static_cast<int>(blocks.size()), [&](int b) {
+    blocks[b] = decode_block(residual.blocks[b], residual.nodes_of(b), residual.components, residual.frames);
+  });
+  result.values = SmallIntegers::joined(std::move(blocks));
+  return result;
 }
 
 }  // namespace cleft

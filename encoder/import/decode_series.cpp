@@ -18,6 +18,7 @@
 #include "base/output_folder.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
+#include "encoder/import/decoded_vtkhdf.h"
 
 namespace cleft {
 
@@ -94,6 +95,30 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const SourceMesh& mesh) {
   return grid;
 }
 
+/// The mesh once, and every frame's values beside each other.
+void write_vtkhdf(const DecodedNodes& decoded, const SourceMesh& mesh, const FieldSource& source,
+                  const std::vector<double>& times, const std::string& out,
+                  const std::function<void(const std::string&)>& progress) {
+  OutputFile file(out);
+  DecodedVtkHdf series(file.path(), mesh, times);
+  for (std::size_t j = 0; j < times.size(); ++j) {
+    progress("writing frame " + std::to_string(j + 1) + " of " + std::to_string(times.size()));
+    for (const Values& values : values_at(decoded, source, j, times[j] - times.front()))
+      series.write(j, values.name, values.components, values.numbers);
+  }
+  series.close();
+  file.commit();
+}
+
+/// Times of the frames, in the source.
+std::vector<double> times_of(const Field& field, const FieldSource& source) {
+  if (!source.times.empty()) return source.times;
+  std::vector<double> times;
+  const auto frames = static_cast<int>(std::max(2., field.report.frames));
+  for (int j = 0; j < frames; ++j) times.push_back(field.duration() * j / (frames - 1));
+  return times;
+}
+
 void write_frame(vtkUnstructuredGrid* grid, const std::vector<Values>& all, const std::string& path) {
   for (const Values& values : all) {
     vtkNew<vtkDoubleArray> array;
@@ -104,6 +129,7 @@ void write_frame(vtkUnstructuredGrid* grid, const std::vector<Values>& all, cons
     grid->GetPointData()->AddArray(array);
   }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetCompressionLevel(1);  // most of the time is the compressor's
   write_text_file(path, xml_of(writer.Get(), grid, path));
 }
 
@@ -213,15 +239,13 @@ DecodedNodes decoded_at(const PiecesAtNodes& pieces) {
 
 void write_decoded(const DecodedNodes& decoded, const SourceMesh& mesh, const std::string& out,
                    const std::function<void(const std::string&)>& progress) {
-  const fs::path pvd = fs::path(out).replace_extension(".pvd"), folder = fs::path(out).replace_extension("");
-  for (const fs::path& path : {pvd, folder})
-    if (fs::exists(path)) throw InputError(path.string() + " exists: remove it, or give another name");
   const FieldSource source = source_of(*decoded.first);
-  std::vector<double> times = source.times;
-  if (times.empty()) {
-    const auto frames = static_cast<int>(std::max(2., decoded.first->report.frames));
-    for (int j = 0; j < frames; ++j) times.push_back(decoded.first->duration() * j / (frames - 1));
-  }
+  const std::vector<double> times = times_of(*decoded.first, source);
+  const bool one_file = fs::path(out).extension() == ".vtkhdf";
+  const fs::path pvd = fs::path(out).replace_extension(".pvd"), folder = fs::path(out).replace_extension("");
+  for (const fs::path& path : one_file ? std::vector<fs::path>{out} : std::vector<fs::path>{pvd, folder})
+    if (fs::exists(path)) throw InputError(path.string() + " exists: remove it, or give another name");
+  if (one_file) return write_vtkhdf(decoded, mesh, source, times, out, progress);
   const std::string name = folder.filename().string();
   OutputFolder place(folder.has_parent_path() ? folder.parent_path().string() : ".", name);
   const fs::path frames = fs::path(place.path()) / name;

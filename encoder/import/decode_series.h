@@ -37,8 +37,9 @@ struct KeptField {
 DecodedNodes decoded_at(const KeptField& kept, const std::vector<Place>& nodes);
 DecodedNodes decoded_at(const PiecesAtNodes& pieces);
 
-/// Writes OUT.pvd and OUT/frame_0000.vtu, ...: the displacement with what it was in frame 0, and all
-/// quantities, in the source's axes, names and times. Throws InputError if one of them exists.
+/// Writes OUT.pvd and OUT/frame_0000.vtu, ..., or OUT.vtkhdf where `out` ends so: the displacement with what
+/// it was in frame 0, and all quantities, in the source's axes, names and times. Throws InputError if one of
+/// them exists.
 void write_decoded(const DecodedNodes& decoded, const SourceMesh& mesh, const std::string& out,
                    const std::function<void(const std::string&)>& progress);
 

@@ -330,19 +330,27 @@ SnapshotReader::SnapshotReader(const std::string& path, std::size_t number) : Sn
   SnapshotCheck(file_.path(), s).run();
 }
 
-std::vector<double> SnapshotReader::rows(const std::string& dataset, std::size_t row,
-                                         std::size_t components) const {
-  std::vector<double> all(components * stored_points_);
-  file_.read_rows<double>(dataset, row, stored_points_, all);
-  if (!taken_) return all;
-  std::vector<double> some;
-  some.reserve(components * taken_->nodes.size());
-  for (const std::int32_t n : taken_->nodes) {
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(components) * n;
-    some.insert(some.end(), first, first + static_cast<std::ptrdiff_t>(components));
+std::vector<double> SnapshotReader::rows(const std::string& dataset, std::size_t row, std::size_t components,
+                                         std::size_t first, std::size_t count) const {
+  std::vector<double> numbers;
+  if (!taken_) {
+    numbers.resize(components * count);
+    file_.read_rows<double>(dataset, row + first, count, numbers);
+    return numbers;
   }
-  turn(some, static_cast<int>(components), taken_->axes);
-  return some;
+  const std::span nodes(taken_->nodes.data() + first, count);
+  if (nodes.empty()) return numbers;
+  const auto [least, greatest] = std::minmax_element(nodes.begin(), nodes.end());
+  const auto from = static_cast<std::size_t>(*least), to = static_cast<std::size_t>(*greatest) + 1;
+  std::vector<double> all(components * (to - from));
+  file_.read_rows<double>(dataset, row + from, to - from, all);
+  numbers.reserve(components * count);
+  for (const std::int32_t n : nodes) {
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(components * (n - from));
+    numbers.insert(numbers.end(), at, at + static_cast<std::ptrdiff_t>(components));
+  }
+  turn(numbers, static_cast<int>(components), taken_->axes);
+  return numbers;
 }
 
 std::vector<Vec3> SnapshotReader::displacement(std::size_t frame) const {
@@ -352,16 +360,7 @@ std::vector<Vec3> SnapshotReader::displacement(std::size_t frame) const {
 std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t first,
                                                std::size_t count) const {
   CLEFT_CHECK(frame, <, snapshot_.frames());
-  std::vector<Vec3> vectors;
-  if (taken_) {
-    vectors = as_vectors(rows(displacements, frame * stored_points_, 3));
-    vectors = {vectors.begin() + static_cast<std::ptrdiff_t>(first),
-               vectors.begin() + static_cast<std::ptrdiff_t>(first + count)};
-  } else {
-    std::vector<double> numbers(3 * count);
-    file_.read_rows<double>(displacements, frame * stored_points_ + first, count, numbers);
-    vectors = as_vectors(numbers);
-  }
+  const std::vector<Vec3> vectors = as_vectors(rows(displacements, frame * stored_points_, 3, first, count));
   for (std::size_t n = 0; n < count; ++n)
     if (!std::isfinite(squared_norm(vectors[n])))
       throw FileError(file_.path(), "frame " + std::to_string(frame) + ", node " + std::to_string(first + n) +
@@ -389,15 +388,23 @@ std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
 }
 
 std::vector<double> SnapshotReader::point_array(const SnapshotArray& array, std::size_t frame) const {
+  return point_array(array, frame, 0, snapshot_.points.size());
+}
+
+std::vector<double> SnapshotReader::point_array(const SnapshotArray& array, std::size_t frame,
+                                                std::size_t first, std::size_t count) const {
   CLEFT_CHECK(frame, <, snapshot_.frames());
-  if (taken_ && !taken_->canonical.empty() && array.name == canonical_array.name) return taken_->canonical;
+  if (taken_ && !taken_->canonical.empty() && array.name == canonical_array.name) {
+    const auto begin = taken_->canonical.begin() + static_cast<std::ptrdiff_t>(3 * first);
+    return {begin, begin + static_cast<std::ptrdiff_t>(3 * count)};
+  }
   if (taken_ && !taken_->canonical.empty() && array.name == frame_array.name) {
     std::vector<double> numbers;
-    for (std::size_t n = 0; n < taken_->nodes.size(); ++n)
-      numbers.insert(numbers.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
+    for (std::size_t n = 0; n < count; ++n) numbers.insert(numbers.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
     return numbers;
   }
-  return rows(point_data + "/" + array.name, array.varies ? frame * stored_points_ : 0, array.components);
+  return rows(point_data + "/" + array.name, array.varies ? frame * stored_points_ : 0, array.components,
+              first, count);
 }
 
 void check_snapshot(const std::string& path) {

@@ -151,6 +151,9 @@ class SnapshotReader {
   std::vector<SnapshotArray> point_arrays() const;
   /// N times the components, point by point; those of `frame` if the array varies.
   std::vector<double> point_array(const SnapshotArray& array, std::size_t frame) const;
+  /// The same of the nodes first .. first + count - 1.
+  std::vector<double> point_array(const SnapshotArray& array, std::size_t frame, std::size_t first,
+                                  std::size_t count) const;
 
  private:
   struct Taken {
@@ -158,7 +161,9 @@ class SnapshotReader {
     std::vector<double> canonical;  // empty: those are the points
     AxesInSpace axes;               // of the piece, along those of the whole
   };
-  std::vector<double> rows(const std::string& dataset, std::size_t first, std::size_t components) const;
+  /// Of nodes, in a dataset whose row `row` is that of the file's first node.
+  std::vector<double> rows(const std::string& dataset, std::size_t row, std::size_t components,
+                           std::size_t first, std::size_t count) const;
 
   h5::File file_;
   Snapshot snapshot_;

@@ -47,7 +47,7 @@ void add_quantity(Series& series, const std::string& name, int components, const
     quantity.largest = std::max(quantity.largest, norms_of(frame).maxCoeff());
     quantity.frames.push_back(std::move(frame));
   }
-  set_scale(quantity);
+  set_scale(quantity, static_cast<std::size_t>(quantity.frames.front().rows()));
 }
 
 /// Warm from the start, where a displacement would be 0.
@@ -100,8 +100,7 @@ TEST(Quantities, AStressKeepsTheToleranceAtEveryNodeAndFrameAsItIsWritten) {
       EXPECT_EQ(encoded.field.coefficients(), alone.coefficients()) << "the displacement does not change";
     }
     const TemporaryFolder folder;
-    write_field(folder / "case.dffd", encoded.field, encoded.residual ? &*encoded.residual : nullptr, {},
-                encoded.of_quantities);
+    write_field(folder / "case.dffd", encoded);
     const Field field = read_field(folder / "case.dffd");
     ASSERT_EQ(field.quantities.size(), 2u);
     for (std::size_t q = 0; q < 2; ++q) {

@@ -50,7 +50,7 @@ TEST_P(Tolerance, IsKeptAtEveryNodeAndFrameOfTheFile) {
   bool with_residual = false;
   for (const double tolerance : {0.05, 0.01, 1e-3, 1e-5}) {
     const Encoded encoded = encoded_within(series, tolerance, GetParam());
-    write_field(folder / "case.dffd", encoded.field, encoded.residual ? &*encoded.residual : nullptr);
+    write_field(folder / "case.dffd", encoded);
     const double found = node_error_of(folder / "case.dffd", data.reader());
     EXPECT_LE(found, tolerance);
     EXPECT_GT(found, tolerance / 20) << "more than was asked for";
@@ -71,7 +71,7 @@ TEST_P(Tolerance, TighterOnesDoNotCostFewerBytes) {
     for (double tolerance = loosest; tolerance > 2e-5; tolerance /= 10) {
       const Encoded encoded = encoded_within(series, tolerance, GetParam());
       const std::string path = folder / std::to_string(tolerance);
-      write_field(path, encoded.field, encoded.residual ? &*encoded.residual : nullptr);
+      write_field(path, encoded);
       EXPECT_GE(std::filesystem::file_size(path), before) << tolerance;
       before = std::filesystem::file_size(path);
     }

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <thread>
 
 #include "base/error.h"
+#include "base/file_versions.h"
 #include "base/h5/h5.h"
 #include "base/text.h"
 #include "encoder/field/file/field_record.h"
@@ -34,9 +34,10 @@ bool same(const Field& a, const Field& b) {
 }
 
 NodeResidual random_residual() {
-  NodeResidual residual{0.003, 50, 7, std::vector<std::int32_t>(50 * 3 * 7)};
+  NodeResidual residual{0.003, 50, 7, SmallIntegers(50 * 3 * 7)};
   std::mt19937 random(4);
-  for (auto& value : residual.values) value = random() % 4 ? 0 : static_cast<int>(random() % 5) - 2;
+  for (std::size_t i = 0; i < residual.values.size(); ++i)
+    if (random() % 4 == 0) residual.values.set(i, static_cast<int>(random() % 5) - 2);
   return residual;
 }
 
@@ -89,7 +90,8 @@ TEST(FieldFile, DamageIsNoticed) {
   for (const Field& sound : {random_field(), following_field()}) {
     const TemporaryFolder folder;
     const NodeResidual residual = random_residual();
-    write_field(folder / "a.dffd", sound, &residual);
+    const CodedResidual code = coded(residual);
+    write_field(folder / "a.dffd", sound, &code);
     std::optional<Field> found;
     std::optional<NodeResidual> left;
     EXPECT_EQ(unnoticed_damages(
@@ -252,15 +254,47 @@ TEST(FieldFile, CodedQuantitiesAndDerivativesComeBack) {
 TEST(FieldFile, TheResidualComesBack) {
   const TemporaryFolder folder;
   const NodeResidual residual = random_residual();
-  std::vector<std::int32_t> order(static_cast<std::size_t>(residual.nodes));
-  std::iota(order.rbegin(), order.rend(), 0);
-  write_field(folder / "a.dffd", following_field(), &residual, order);
-  const auto found = read_residual(folder / "a.dffd", order);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->values, residual.values);
-  EXPECT_EQ(found->quantum, residual.quantum);
-  EXPECT_TRUE(same(read_field(folder / "a.dffd"), following_field()));
-  EXPECT_THROW(read_residual(folder / "a.dffd", std::vector<std::int32_t>(3)), FileError);
+  for (const int block : {CodedResidual::most_nodes, 50, 17}) {
+    const CodedResidual code = coded(residual, block);
+    write_field(folder / "a.dffd", following_field(), &code);
+    const auto found = read_residual(folder / "a.dffd");
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->values, residual.values);
+    EXPECT_EQ(found->quantum, residual.quantum);
+    EXPECT_TRUE(same(read_field(folder / "a.dffd"), following_field()));
+    EXPECT_EQ(h5::File::open(folder / "a.dffd").read_number("/", "version"),
+              block == 17 ? field_version_of_blocks : field_version);
+  }
+}
+
+TEST(FieldFile, DamagedBlocksOfAResidualAreNoticed) {
+  const TemporaryFolder folder;
+  const NodeResidual residual = random_residual();
+  const CodedResidual code = coded(residual, 17);
+  write_field(folder / "a.dffd", following_field(), &code);
+  std::optional<NodeResidual> left;
+  EXPECT_EQ(unnoticed_damages(
+                folder / "a.dffd", 300, [&](const std::string& file) { left = read_residual(file); },
+                [&] { return left && left->values == residual.values; }),
+            0);
+  const auto refused = [&](const std::vector<std::uint64_t>& sizes) {
+    CodedResidual other = code;
+    std::vector<std::uint8_t> all;
+    for (const auto& block : code.blocks) all.insert(all.end(), block.begin(), block.end());
+    other.blocks.clear();
+    std::size_t at = 0;
+    for (const std::uint64_t size : sizes) {
+      const std::size_t end = std::min<std::size_t>(at + size, all.size());
+      other.blocks.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(at),
+                                all.begin() + static_cast<std::ptrdiff_t>(end));
+      at = end;
+    }
+    write_field(folder / "b.dffd", following_field(), &other);
+    EXPECT_THROW(read_residual(folder / "b.dffd"), FileError);
+  };
+  const std::uint64_t first = code.blocks[0].size(), second = code.blocks[1].size();
+  refused({first, second});
+  refused({first + 3, second - 3, code.blocks[2].size()});
 }
 
 TEST(FieldFile, OtherFilesAreRefused) {

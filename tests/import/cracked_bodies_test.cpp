@@ -375,8 +375,10 @@ TEST_F(FieldsOfASeries, IsDecodedAsItWas) {
     EXPECT_EQ(unit_of(*field.source, "displacement"), "");
     expect_success(run_cleft("decode", {dffd, "--on", place / "series_0.vtu", "--out", place / "on.pvd"}));
     expect_success(run_cleft("decode", {dffd, "--nodes", h5, "--out", place / "at_nodes"}));
-    for (const bool on : {true, false}) {
-      const ImportedSeries decoded(place / (on ? "on.pvd" : "at_nodes.pvd"), parse_fields({"U", "S"}));
+    expect_success(run_cleft("decode", {dffd, "--nodes", h5, "--out", place / "at_nodes.vtkhdf"}));
+    for (const std::string out : {"on.pvd", "at_nodes.pvd", "at_nodes.vtkhdf"}) {
+      const bool on = out == "on.pvd";
+      const ImportedSeries decoded(place / out, parse_fields({"U", "S"}));
       EXPECT_EQ(decoded.times(), series.times);
       EXPECT_LE(largest_difference(decoded.mesh().points, series.mesh.points), 1e-9 * 30);
       double of_u = 0, of_s = 0;
@@ -395,9 +397,9 @@ TEST_F(FieldsOfASeries, IsDecodedAsItWas) {
       const Quantity& tensor =
           field.quantities[0].name == "stress" ? field.quantities[0] : field.quantities[1];
       EXPECT_LE(of_u, (on ? 4 : 2) * 0.01 * field.report.largest_displacement)
-          << name << (on ? " on" : " nodes");
+          << name << " " << out;
       EXPECT_LE(of_s, (on ? std::max(0.01, tensor.spline_error) : 0.01) * 1.001 * tensor.scale)
-          << name << (on ? " on" : " nodes");
+          << name << " " << out;
     }
   }
 }

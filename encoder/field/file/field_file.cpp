@@ -13,8 +13,10 @@ namespace cleft {
 
 namespace {
 
-const FileFormat field_format{"cleft-field", field_version, "field file", "cleft encode"};
-const FileFormat pieces_format{"cleft-field", field_version_of_pieces, "field file", "cleft encode"};
+const FileFormat field_format{"cleft-field", field_version, "field file", "cleft encode",
+                              field_version_of_blocks};
+const FileFormat pieces_format{"cleft-field", field_version_of_pieces, "field file", "cleft encode",
+                               field_version_of_blocks};
 
 /// A file of one field, open.
 h5::File open_field(const std::string& path) {
@@ -38,38 +40,71 @@ std::string residual_of_quantity(std::size_t index) {
   return "/residual_of_quantity_" + std::to_string(index);
 }
 
-void write_residual(h5::File& file, const std::string& name, const NodeResidual& residual,
-                    std::span<const std::int32_t> order) {
-  const std::vector<std::uint8_t> bytes = encode_residual(residual, order);
+constexpr const char* sizes_of_blocks = "_block_sizes";  // after the residual's name
+constexpr double most_values = 1e11;                     // of a residual that is read
+
+int count_in(const h5::File& file, const std::string& name, const char* attribute) {
+  const double value = file.read_number(name, attribute);
+  if (!(value >= 0 && value < 1e9 && value == std::floor(value)))
+    throw FileError(file.path(), std::string("attribute ") + attribute + " of " + name + " is no count");
+  return static_cast<int>(value);
+}
+
+void write_residual(h5::File& file, const std::string& name, const CodedResidual& residual) {
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::int64_t> sizes;
+  bytes.reserve(residual.bytes());
+  for (const auto& block : residual.blocks)
+    bytes.insert(bytes.end(), block.begin(), block.end()), sizes.push_back(static_cast<std::int64_t>(block.size()));
   file.write<std::uint8_t>(name, bytes, {bytes.size()}, h5::Packing::deflate);
   file.write_number(name, "quantum", residual.quantum);
   file.write_number(name, "nodes", residual.nodes);
   file.write_number(name, "frames", residual.frames);
+  if (sizes.size() == 1) return;
+  file.write_number(name, "block", residual.block);
+  file.write<std::int64_t>(name + sizes_of_blocks, sizes, {sizes.size()});
 }
 
-std::optional<NodeResidual> residual_in(const h5::File& file, const std::string& name,
-                                        const NodeResidual& kind, std::span<const std::int32_t> order) {
-  if (!file.has(name)) return std::nullopt;
-  const auto count = [&](const char* attribute) {
-    const double value = file.read_number(name, attribute);
-    if (!(value >= 0 && value < 1e9 && value == std::floor(value)))
-      throw FileError(file.path(), std::string("attribute ") + attribute + " of " + name + " is no count");
-    return static_cast<int>(value);
+/// The blocks of coded bytes.
+void divide(CodedResidual& residual, const h5::File& file, const std::string& name,
+            std::vector<std::uint8_t> bytes) {
+  const auto damaged = [&] {
+    return FileError(file.path(), name + sizes_of_blocks + " does not divide the bytes of " + name);
   };
-  NodeResidual residual = kind;
+  if (!file.has_attribute(name, "block")) {
+    residual.block = std::max(residual.nodes, 1);
+    residual.blocks.push_back(std::move(bytes));
+    return;
+  }
+  residual.block = count_in(file, name, "block");
+  const auto sizes = file.read<std::int64_t>(name + sizes_of_blocks, {0});
+  if (residual.block < 1 || residual.nodes < 1 ||
+      sizes.size() != static_cast<std::size_t>((residual.nodes - 1) / residual.block + 1))
+    throw damaged();
+  auto at = bytes.begin();
+  for (const std::int64_t size : sizes) {
+    if (size < 0 || size > bytes.end() - at) throw damaged();
+    residual.blocks.emplace_back(at, at + size);
+    at += size;
+  }
+  if (at != bytes.end()) throw damaged();
+}
+
+std::optional<CodedResidual> residual_in(const h5::File& file, const std::string& name, int components = 3,
+                                         int first_frame = 1) {
+  if (!file.has(name)) return std::nullopt;
+  CodedResidual residual;
+  residual.components = components, residual.first_frame = first_frame;
   residual.quantum = file.read_number(name, "quantum");
-  residual.nodes = count("nodes"), residual.frames = count("frames");
+  residual.nodes = count_in(file, name, "nodes"), residual.frames = count_in(file, name, "frames");
   const double values = static_cast<double>(residual.components) * residual.nodes * residual.frames;
-  if (values > 4e9) throw FileError(file.path(), name + " is too large");
+  if (values > most_values) throw FileError(file.path(), name + " is too large");
   if (!(residual.quantum > 0 && std::isfinite(residual.quantum)))
     throw FileError(file.path(), "attribute quantum of " + name + " is not above 0");
-  if (!order.empty() && order.size() != static_cast<std::size_t>(residual.nodes))
-    throw FileError(file.path(), name + " is of " + std::to_string(residual.nodes) + " nodes, not " +
-                                     std::to_string(order.size()));
-  const auto bytes = file.read<std::uint8_t>(name, {0});
+  auto bytes = file.read<std::uint8_t>(name, {0});
   if (values > most_values_of(bytes.size()))
     throw FileError(file.path(), name + " has fewer bytes than its nodes and frames take");
-  residual.values = decode_residual(residual.nodes, residual.frames, bytes, order, residual.components);
+  divide(residual, file, name, std::move(bytes));
   return residual;
 }
 
@@ -77,20 +112,35 @@ std::optional<NodeResidual> residual_in(const h5::File& file, const std::string&
 
 namespace {
 
+using Residuals = std::span<const std::optional<CodedResidual>>;
+
+bool in_blocks(const std::optional<CodedResidual>& residual) { return residual && residual->blocks.size() > 1; }
+
+bool any_in_blocks(const CodedResidual* residual, Residuals of_quantities) {
+  return (residual && residual->blocks.size() > 1) ||
+         std::any_of(of_quantities.begin(), of_quantities.end(), in_blocks);
+}
+
+h5::File created(const std::string& path, FileFormat format, bool blocks) {
+  h5::File file = h5::File::create(path, h5::Growth::none);
+  if (blocks) format.version = field_version_of_blocks;
+  write_format(file, format);
+  file.write_text("/", "units", "mm N MPa");
+  return file;
+}
+
 /// `group`: "" for a file of one field.
-void write_into(h5::File& file, const std::string& group, const Field& field, const NodeResidual* residual,
-                std::span<const std::int32_t> residual_order,
-                std::span<const std::optional<NodeResidual>> of_quantities) {
+void write_into(h5::File& file, const std::string& group, const Field& field, const CodedResidual* residual,
+                Residuals of_quantities) {
   const FieldRecord record = record_of(field);
   const auto write = [&](const char* name, const std::vector<std::uint8_t>& bytes) {
     file.write<std::uint8_t>(group + name, bytes, {bytes.size()}, h5::Packing::deflate);
   };
   write("/header", header_bytes(record.header));
   write("/coefficients", record.coefficients);
-  if (residual) write_residual(file, group + "/residual", *residual, residual_order);
+  if (residual) write_residual(file, group + "/residual", *residual);
   for (std::size_t q = 0; q < of_quantities.size(); ++q)
-    if (of_quantities[q])
-      write_residual(file, group + residual_of_quantity(q), *of_quantities[q], residual_order);
+    if (of_quantities[q]) write_residual(file, group + residual_of_quantity(q), *of_quantities[q]);
 }
 
 FieldRecord record_in(const h5::File& file, const std::string& group) {
@@ -98,43 +148,56 @@ FieldRecord record_in(const h5::File& file, const std::string& group) {
           file.read<std::uint8_t>(group + "/coefficients", {0})};
 }
 
-std::optional<NodeResidual> quantity_residual_in(const h5::File& file, const std::string& group,
-                                                 const Json& header, std::size_t index,
-                                                 std::span<const std::int32_t> order) {
+std::optional<CodedResidual> quantity_residual_in(const h5::File& file, const std::string& group,
+                                                  const Json& header, std::size_t index) {
   const std::string name = group + residual_of_quantity(index);
   if (!file.has(name)) return std::nullopt;
   const Json list = header.value("quantities", Json::array());
   if (index >= list.size() || !list[index].contains("components"))
     throw FileError(file.path(), name + " is of no quantity");
-  NodeResidual kind;
-  kind.components = std::clamp(count_from(list[index]["components"]), 1, 100), kind.first_frame = 0;
-  return residual_in(file, name, kind, order);
+  return residual_in(file, name, std::clamp(count_from(list[index]["components"]), 1, 100), 0);
+}
+
+Encoded encoded_in(const h5::File& file, const std::string& group) {
+  const FieldRecord record = record_in(file, group);
+  Encoded result{field_of(record)};
+  result.residual = residual_in(file, group + "/residual");
+  for (std::size_t q = 0; q < result.field.quantities.size(); ++q)
+    result.of_quantities.push_back(quantity_residual_in(file, group, record.header, q));
+  return result;
+}
+
+std::optional<NodeResidual> decoded_if_any(const std::optional<CodedResidual>& residual) {
+  if (!residual) return std::nullopt;
+  return decoded(*residual);
 }
 
 }  // namespace
 
-void write_field(const std::string& path, const Field& field, const NodeResidual* residual,
-                 std::span<const std::int32_t> residual_order,
-                 std::span<const std::optional<NodeResidual>> of_quantities) {
+void write_field(const std::string& path, const Field& field, const CodedResidual* residual,
+                 Residuals of_quantities) {
   OutputFile out(path);
-  h5::File file = h5::File::create(out.path(), h5::Growth::none);
-  write_format(file, field_format);
-  file.write_text("/", "units", "mm N MPa");
-  write_into(file, "", field, residual, residual_order, of_quantities);
+  h5::File file = created(out.path(), field_format, any_in_blocks(residual, of_quantities));
+  write_into(file, "", field, residual, of_quantities);
   file.close();
   out.commit();
 }
 
-void write_pieces(const std::string& path, const std::vector<FieldPiece>& pieces, std::size_t nodes) {
+void write_field(const std::string& path, const Encoded& encoded) {
+  write_field(path, encoded.field, encoded.residual ? &*encoded.residual : nullptr, encoded.of_quantities);
+}
+
+void write_pieces(const std::string& path, const std::vector<Encoded>& pieces, std::size_t nodes) {
   OutputFile out(path);
-  h5::File file = h5::File::create(out.path(), h5::Growth::none);
-  write_format(file, pieces_format);
-  file.write_text("/", "units", "mm N MPa");
+  const bool blocks = std::any_of(pieces.begin(), pieces.end(), [](const Encoded& piece) {
+    return any_in_blocks(piece.residual ? &*piece.residual : nullptr, piece.of_quantities);
+  });
+  h5::File file = created(out.path(), pieces_format, blocks);
   file.write_number("/", "pieces", static_cast<double>(pieces.size()));
   file.write_number("/", "nodes", static_cast<double>(nodes));
   for (std::size_t p = 0; p < pieces.size(); ++p)
     write_into(file, piece_folder(p), pieces[p].field, pieces[p].residual ? &*pieces[p].residual : nullptr,
-               {}, pieces[p].of_quantities);
+               pieces[p].of_quantities);
   file.close();
   out.commit();
 }
@@ -157,19 +220,24 @@ std::size_t nodes_in(const std::string& path) {
   return static_cast<std::size_t>(nodes);
 }
 
-std::vector<FieldPiece> read_pieces(const std::string& path) {
-  const std::size_t count = pieces_in(path);
+std::vector<Encoded> read_encoded(const std::string& path) {
+  const std::size_t pieces = pieces_in(path);
   return told_of_file(path, [&] {
-    const h5::File file = h5::File::open(path);
+    const h5::File file = pieces > 0 ? h5::File::open(path) : open_field(path);
+    std::vector<Encoded> all;
+    for (std::size_t p = 0; p < std::max<std::size_t>(pieces, 1); ++p)
+      all.push_back(encoded_in(file, pieces > 0 ? piece_folder(p) : ""));
+    return all;
+  });
+}
+
+std::vector<FieldPiece> read_pieces(const std::string& path) {
+  return told_of_file(path, [&] {
     std::vector<FieldPiece> pieces;
-    for (std::size_t p = 0; p < count; ++p) {
-      const std::string group = piece_folder(p);
-      const FieldRecord record = record_in(file, group);
-      FieldPiece piece{field_of(record)};
-      piece.residual = residual_in(file, group + "/residual", {}, {});
-      for (std::size_t q = 0; q < piece.field.quantities.size(); ++q)
-        piece.of_quantities.push_back(quantity_residual_in(file, group, record.header, q, {}));
-      pieces.push_back(std::move(piece));
+    for (Encoded& one : read_encoded(path)) {
+      FieldPiece& piece = pieces.emplace_back(FieldPiece{std::move(one.field)});
+      piece.residual = decoded_if_any(one.residual);
+      for (const auto& residual : one.of_quantities) piece.of_quantities.push_back(decoded_if_any(residual));
     }
     return pieces;
   });
@@ -197,18 +265,16 @@ FitReport read_field_report(const std::string& path) {
   return told_of_file(path, [&] { return report_of(read_header(path)); });
 }
 
-std::optional<NodeResidual> read_residual(const std::string& path,
-                                          std::span<const std::int32_t> residual_order) {
-  return told_of_file(path, [&] { return residual_in(open_field(path), "/residual", {}, residual_order); });
+std::optional<NodeResidual> read_residual(const std::string& path) {
+  return told_of_file(path, [&] { return decoded_if_any(residual_in(open_field(path), "/residual")); });
 }
 
-std::optional<NodeResidual> read_quantity_residual(const std::string& path, std::size_t index,
-                                                   std::span<const std::int32_t> residual_order) {
+std::optional<NodeResidual> read_quantity_residual(const std::string& path, std::size_t index) {
   return told_of_file(path, [&]() -> std::optional<NodeResidual> {
     const h5::File file = open_field(path);
     if (!file.has(residual_of_quantity(index))) return std::nullopt;
-    return quantity_residual_in(file, "", header_from(file.read<std::uint8_t>("/header", {0})), index,
-                                residual_order);
+    return decoded_if_any(
+        quantity_residual_in(file, "", header_from(file.read<std::uint8_t>("/header", {0})), index));
   });
 }
 

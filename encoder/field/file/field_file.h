@@ -5,16 +5,15 @@
 #include <span>
 #include <string>
 
-#include "encoder/field/field.h"
-#include "encoder/field/node_residual.h"
+#include "encoder/field/encoded.h"
 
 namespace cleft {
 
 /// Writes the field, completely or not at all: coefficients as multiples of its quantum, or as 32-bit floats
 /// if it has none; and the residuals of the displacement and of the quantities, if any.
-void write_field(const std::string& path, const Field& field, const NodeResidual* residual = nullptr,
-                 std::span<const std::int32_t> residual_order = {},
-                 std::span<const std::optional<NodeResidual>> of_quantities = {});
+void write_field(const std::string& path, const Field& field, const CodedResidual* residual = nullptr,
+                 std::span<const std::optional<CodedResidual>> of_quantities = {});
+void write_field(const std::string& path, const Encoded& encoded);
 
 /// Reads and checks a field file; throws FileError naming what is missing, damaged or out of range, or
 /// InputError if it has several pieces.
@@ -29,7 +28,9 @@ struct FieldPiece {
 /// The number of pieces of a field of several; 0 of any other. Throws FileError if it is no field.
 std::size_t pieces_in(const std::string& path);
 /// Writes a field of several pieces. `nodes`: of the whole body.
-void write_pieces(const std::string& path, const std::vector<FieldPiece>& pieces, std::size_t nodes);
+void write_pieces(const std::string& path, const std::vector<Encoded>& pieces, std::size_t nodes);
+/// What was written: of a field with one break, one. Throws FileError as read_field() does.
+std::vector<Encoded> read_encoded(const std::string& path);
 /// All pieces. Throws FileError as read_field() does.
 std::vector<FieldPiece> read_pieces(const std::string& path);
 /// The nodes of the whole body of a field of several pieces.
@@ -44,12 +45,9 @@ RecordedParameters read_field_parameters(const std::string& path);
 /// Only the report of the fit, likewise.
 FitReport read_field_report(const std::string& path);
 
-/// The residual of the field at the nodes of its snapshot, in the order of writing; none if the file holds
-/// none.
-std::optional<NodeResidual> read_residual(const std::string& path,
-                                          std::span<const std::int32_t> residual_order = {});
+/// The residual of the field at the nodes of its snapshot; none if the file holds none.
+std::optional<NodeResidual> read_residual(const std::string& path);
 /// The same for the field's quantities[index].
-std::optional<NodeResidual> read_quantity_residual(const std::string& path, std::size_t index,
-                                                   std::span<const std::int32_t> residual_order = {});
+std::optional<NodeResidual> read_quantity_residual(const std::string& path, std::size_t index);
 
 }  // namespace cleft

@@ -1,0 +1,137 @@
+#include "encoder/own_coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+#include "encoder/curved_places.h"
+
+namespace cleft {
+
+namespace {
+
+/// Of a cut that curves; none where its snapshot does not say that it does.
+std::optional<CutCurve> curve_of(const RecordedParameters& recorded) {
+  Parameters parameters = *recorded;
+  for (double* member : {&parameters.cut.curvature, &parameters.cut.curvature_rate})
+    if (std::isnan(*member)) *member = 0;  // not recorded
+  if (!is_curved(parameters)) return std::nullopt;
+  return CutCurve(parameters);
+}
+
+bool within(const Interval& range, double x) {
+  const double slack = 1e-9 * (range.back - range.front);
+  return range.front - slack <= x && x <= range.back + slack;
+}
+
+}  // namespace
+
+std::optional<std::array<Interval, 2>> own_domain(const Snapshot& s) {
+  const auto& patch = s.parameters->patch;
+  if (!s.coordinates || s.source || !s.parameters.has(patch.length) || !s.parameters.has(patch.width))
+    return {};
+  return {{{{-patch.length / 2, patch.length / 2}, {-patch.width / 2, patch.width / 2}}}};
+}
+
+OwnCoordinates::OwnCoordinates(const SnapshotReader& reader) {
+  const std::vector<double> at = reader.point_array(canonical_array, 0);
+  const std::vector<double> axes = reader.point_array(frame_array, 0);
+  places.resize(at.size() / 3), frames.resize(axes.size() / 9);
+  for (std::size_t i = 0; i < at.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = at[i];
+  for (std::size_t i = 0; i < axes.size(); ++i) frames[i / 9][i % 9 / 3][static_cast<int>(i % 3)] = axes[i];
+  node.resize(places.size());
+  std::iota(node.begin(), node.end(), std::size_t{0});
+  const auto domain = own_domain(reader.snapshot());
+  const auto curve = curve_of(reader.snapshot().parameters);
+  if (domain && curve) add_further_places(*curve);
+  if (const auto& source = reader.snapshot().source; source && !source->break_map.empty())
+    add_turned_places(BreakMap::from(source->break_map));
+  for (std::size_t n = 0; n < places.size(); ++n)
+    if (!domain || (within((*domain)[0], places[n].x) && within((*domain)[1], places[n].y)))
+      kept.push_back(n), nodes += node[n] == n;
+  if (domain && curve) fill_gaps(*domain);
+}
+
+/// Around a front, the angle of a node near its ends is known with a turn more or less.
+void OwnCoordinates::add_turned_places(const BreakMap& map) {
+  round = map.round().has_value();
+  turn = round && map.round()->whole_circle() ? 2 * std::numbers::pi * map.round()->radius : 0;
+  for (std::size_t n = 0, count = places.size(); n < count; ++n)
+    if (const auto again = map.again(places[n]))
+      places.push_back(*again), frames.push_back(frames[n]), node.push_back(n);
+}
+
+/// Frames depend on the place along the cut alone.
+void OwnCoordinates::add_further_places(const CutCurve& cut) {
+  std::vector<std::size_t> along(places.size());
+  std::iota(along.begin(), along.end(), std::size_t{0});
+  std::sort(along.begin(), along.end(),
+            [this](std::size_t a, std::size_t b) { return places[a].x < places[b].x; });
+  for (std::size_t n = 0, count = places.size(); n < count; ++n)
+    for (const Vec3& place : further_places(cut, places[n])) {
+      const auto after = std::lower_bound(along.begin(), along.end(), place.x,
+                                          [this](std::size_t a, double u) { return places[a].x < u; });
+      if (after == along.begin() || after == along.end()) continue;
+      const std::size_t a = *(after - 1), b = *after;
+      const double part = (place.x - places[a].x) / (places[b].x - places[a].x);
+      std::array<Vec3, 3> frame;
+      for (int k = 0; k < 3; ++k) frame[k] = normalized(lerp(frames[a][k], frames[b][k], part));
+      places.push_back(place), frames.push_back(frame), node.push_back(n);
+    }
+}
+
+/// Beyond the patch's edges, which are no lines of these coordinates, displacements are as at the nearest
+/// column of nodes: what a fit would have there is neither known nor bounded.
+void OwnCoordinates::fill_gaps(const std::array<Interval, 2>& domain) {
+  constexpr int gaps = 24;  // that the domain is divided into, along and across
+  std::map<std::pair<double, double>, std::vector<std::size_t>> columns;
+  for (const std::size_t n : kept) columns[{places[n].x, places[n].y}].push_back(n);
+  const double along = (domain[0].back - domain[0].front) / gaps,
+               across = (domain[1].back - domain[1].front) / gaps;
+  for (int i = 0; i <= gaps; ++i)
+    for (int j = 0; j <= gaps; ++j) {
+      const double u = domain[0].front + i * along, v = domain[1].front + j * across;
+      const std::vector<std::size_t>* nearest = nullptr;
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto& [at, column] : columns)
+        if (const double off = std::hypot((at.first - u) / along, (at.second - v) / across); off < least)
+          least = off, nearest = &column;
+      if (!nearest || least < 1) continue;
+      for (const std::size_t n : *nearest) {
+        kept.push_back(places.size());
+        places.push_back({u, v, places[n].z}), frames.push_back(frames[n]), node.push_back(node[n]);
+      }
+    }
+}
+
+Snapshot OwnCoordinates::of(const Snapshot& s) const {
+  constexpr double most_stretched = 4;
+  Snapshot moved = s;
+  std::vector<std::int64_t> number(places.size(), -1);
+  for (std::size_t i = 0; i < kept.size(); ++i) number[kept[i]] = static_cast<std::int64_t>(i);
+  moved.points.clear(), moved.cell_types.clear(), moved.connectivity.clear(), moved.cell_offsets = {0};
+  for (const std::size_t n : kept) moved.points.push_back(places[n]);
+  const auto jumps = [&](std::int64_t a, std::int64_t b) {
+    return norm(places[a] - places[b]) > most_stretched * norm(s.points[a] - s.points[b]) ||
+           (turn > 0 && std::abs(places[a].z - places[b].z) > turn / 2);
+  };
+  for (std::size_t c = 0; c + 1 < s.cell_offsets.size(); ++c) {
+    const std::span cell(s.connectivity.begin() + s.cell_offsets[c],
+                         s.connectivity.begin() + s.cell_offsets[c + 1]);
+    if (std::any_of(cell.begin(), cell.end(),
+                    [&](std::int64_t n) { return number[n] < 0 || (s.coordinates && jumps(n, cell[0])); }))
+      continue;
+    for (const std::int64_t n : cell) moved.connectivity.push_back(number[n]);
+    moved.cell_types.push_back(s.cell_types[c]);
+    moved.cell_offsets.push_back(static_cast<std::int64_t>(moved.connectivity.size()));
+  }
+  for (auto& pair : moved.pairs)
+    for (std::int32_t& end : pair) end = static_cast<std::int32_t>(number[end]);
+  return moved;
+}
+
+}  // namespace cleft

@@ -1,0 +1,46 @@
+// Nodes in the coordinates of their cut, of a body or a shaped patch.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/vec3.h"
+#include "encoder/field/break_map.h"
+#include "encoder/field/parametrization.h"
+#include "params/cut_curve.h"
+#include "solver/snapshot/snapshot.h"
+
+namespace cleft {
+
+/// Of a patch along u and v: its grid's, whatever its shape; of others, what the nodes take up.
+std::optional<std::array<Interval, 2>> own_domain(const Snapshot& snapshot);
+
+/// The nodes of a body or a shaped patch in the coordinates of its cut, and the directions of these there. A
+/// node beside a curved cut may have several places (curved_places.h): the first ones are those of all nodes.
+struct OwnCoordinates {
+  std::vector<Vec3> places;
+  std::vector<std::array<Vec3, 3>> frames;  ///< of all places
+  std::vector<std::size_t> node;            ///< of all places
+  std::vector<std::size_t> kept;            ///< the places of the series
+  std::size_t nodes = 0;                    ///< of these, the first ones: of nodes, one for each
+  bool round = false;                       ///< whether w is an angle around a front
+  double turn = 0;                          ///< a whole turn of it, in mm; 0: it has none
+
+  explicit OwnCoordinates(const SnapshotReader& reader);
+
+  /// Of a displacement at a place.
+  Vec3 components(std::size_t place, const Vec3& d) const {
+    return {dot(frames[place][0], d), dot(frames[place][1], d), dot(frames[place][2], d)};
+  }
+  /// The snapshot in these coordinates, of the nodes that are kept. Cells are left out where the coordinates
+  /// jump, as they do beyond the middle of a curved cut's circle.
+  Snapshot of(const Snapshot& s) const;
+
+ private:
+  void add_turned_places(const BreakMap& map);
+  void add_further_places(const CutCurve& cut);
+  void fill_gaps(const std::array<Interval, 2>& domain);
+};
+
+}  // namespace cleft
