@@ -1,10 +1,10 @@
 // A frame of a patch, its whole cut open, in elements of several kinds: what it costs and how far it opens.
 //   cleft-benchmark-elements KIND ALONG DOWN GROWTH TOWARDS END BOTTOM [PARAMETER=VALUE...]
-// KIND: linear, quadratic, quarter or enriched; solver: the linear ones by `cleft solve`'s own code, whose settings are
-// PARAMETER=VALUE then. ALONG, DOWN: elements between the closed nodes at the ends, and down to those at the bottom.
-// GROWTH: of elements away from the cut. TOWARDS: of elements within it, from the fronts. END, BOTTOM: parts of the
-// outermost elements by which the cut ends inside its closed nodes.
-// Prints JSON: unknowns, processor seconds, and the opening by millimetres along the skin.
+// KIND: linear, quadratic, quarter or enriched; solver: the linear ones by `cleft solve`'s own code, whose
+// settings are PARAMETER=VALUE then. ALONG, DOWN: elements between the closed nodes at the ends, and down to
+// those at the bottom. GROWTH: of elements away from the cut. TOWARDS: of elements within it, from the
+// fronts. END, BOTTOM: parts of the outermost elements by which the cut ends inside its closed nodes. Prints
+// JSON: unknowns, processor seconds, and the opening by millimetres along the skin.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -46,7 +46,8 @@ void print_list(const char* name, const std::vector<double>& list) {
 
 int run(int argc, char** argv) {
   if (argc < 8) {
-    std::fprintf(stderr, "cleft-benchmark-elements KIND ALONG DOWN GROWTH TOWARDS END BOTTOM [PARAMETER=VALUE...]\n");
+    std::fprintf(stderr,
+                 "cleft-benchmark-elements KIND ALONG DOWN GROWTH TOWARDS END BOTTOM [PARAMETER=VALUE...]\n");
     return 2;
   }
   const Parameters p = parameters_of(argc, argv);
@@ -55,10 +56,15 @@ int run(int argc, char** argv) {
     std::printf("{\"gape\": %.9g, \"seconds\": %.4g}\n", gape, processor_seconds() - begin);
     return 0;
   }
+  const auto kind = kinds.find(argv[1]);
+  if (kind == kinds.end()) {
+    std::fprintf(stderr, "KIND = %s: give linear, quadratic, quarter, enriched or solver\n", argv[1]);
+    return 2;
+  }
   Division division{std::atoi(argv[2]), std::atoi(argv[3])};
   division.growth = std::atof(argv[4]), division.towards_fronts = std::atof(argv[5]);
   division.end = std::atof(argv[6]), division.bottom = std::atof(argv[7]);
-  const Opened opened = open_patch(p, cut_lines(p, division), kinds.at(argv[1]));
+  const Opened opened = open_patch(p, cut_lines(p, division), kind->second);
   std::printf("{\"unknowns\": %d, \"assembly\": %.4g, \"solution\": %.4g", opened.unknowns, opened.assembly,
               opened.solution);
   print_list("along", opened.along);

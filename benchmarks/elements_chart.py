@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""elements_chart.py PROGRAM OUT: errors of the opening over processor seconds, of elements of several kinds.
+"""elements_chart.py OUT [PROGRAM]: errors of the opening over processor seconds, of elements of several kinds.
 
-Runs cleft-benchmark-elements for three cases; writes OUT.csv, and the chart OUT.svg and OUT.png (ten minutes). A point
-is one frame, the whole cut open: assembly, factor and solution. The error is the largest one of the opening but for the
+Runs PROGRAM, cleft-benchmark-elements, for three cases, and writes OUT.csv (20 minutes); without it, reads that. Draws
+the chart OUT.svg and OUT.png, and prints which time keeps an error, as tables in Markdown. A point is one frame, the whole cut open: assembly, factor and solution. The error is the largest one of the opening but for the
 outermost fifteenths of the cut, over the largest opening; between nodes the opening over sqrt(s (L - s)) is interpolated
 linearly. The converged answer is the mean of two kinds in elements of L / 40, whose difference is printed: quadratic
 ones with and without quarter points.
@@ -93,7 +93,7 @@ def measure(program):
 def cheapest(rows):
     """Prints a table in Markdown: by variant the seconds from which on all finer meshes keep the error."""
     for name in CASES:
-        print(f"\n| {name} | " + " | ".join(f"{100 * aim:g} %" for aim in AIMS) + " |\n|---" * 1 + "|---" * len(AIMS) + "|")
+        print(f"\n| {name} | " + " | ".join(f"{100 * aim:g} %" for aim in AIMS) + " |\n|---" + "|---" * len(AIMS) + "|")
         for variant in VARIANTS:
             own = [(float(r["processor_s"]), float(r["error"])) for r in rows if (r["case"], r["variant"]) == (name, variant)]
             cells = []
@@ -123,9 +123,9 @@ def draw(rows, out):
 
 
 def main():
-    program, out = sys.argv[1:]
-    if not os.path.exists(f"{out}.csv"):
-        rows = measure(program)
+    out, *program = sys.argv[1:]
+    if program:
+        rows = measure(program[0])
         with open(f"{out}.csv", "w", newline="") as file:
             table = csv.DictWriter(file, rows[0], lineterminator="\n")
             table.writeheader()

@@ -16,8 +16,8 @@ void add_growing(std::vector<double>& lines, double to, double step, double grow
   for (std::size_t k = 1; k < sums.size(); ++k) lines.push_back(from + (to - from) * sums[k] / sums.back());
 }
 
-/// Lengths of `count` elements, of which the first and last (or the last alone) are `ratio` times shorter than their
-/// neighbours, and so on; as long in sum as `length` and the given part of each outermost one.
+/// Lengths of `count` elements, of which the first and last (or the last alone) are `ratio` times shorter
+/// than their neighbours, and so on; as long in sum as `length` and the given part of each outermost one.
 std::vector<double> lengths(int count, double ratio, bool both, double length, double part) {
   std::vector<double> found(count);
   double sum = 0;

@@ -12,7 +12,8 @@ constexpr std::array<std::array<double, 2>, 3> corner_at = {{{0, 0}, {1, 0}, {0,
 constexpr int dense = 6, densest = 10;  // points of rules along each direction
 
 /// 3 n x 3 n products of slopes become the matrix of an isotropic material, in the first `axes` of three.
-void add_isotropic(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& products, double lambda, double mu, int axes) {
+void add_isotropic(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& products, double lambda, double mu,
+                   int axes) {
   const Eigen::Index n = products.rows() / axes;
   const auto block = [&](int i, int j) { return products.block(i * n, j * n, n, n); };
   Eigen::MatrixXd trace = block(0, 0);
@@ -50,7 +51,8 @@ Element::Element(const PatchNodes& nodes, std::array<Place, 6> corners, int side
     Place middle;
     for (int axis = 0; axis < 3; ++axis) middle[axis] = (corners_[a][axis] + corners_[b][axis]) / 2;
     numbers_.push_back(nodes.at(middle, side));
-    const bool moved = nodes.kind == Kind::quarter_points && nodes.is_front(corners_[a]) != nodes.is_front(corners_[b]);
+    const bool moved =
+        nodes.kind == Kind::quarter_points && nodes.is_front(corners_[a]) != nodes.is_front(corners_[b]);
     const double part = !moved ? 0.5 : nodes.is_front(corners_[a]) ? 0.25 : 0.75;
     points_.push_back((1 - part) * points_[a] + part * points_[b]);
     special_ = special_ || moved;
@@ -84,7 +86,9 @@ Element::Functions Element::functions(const WedgePoint& point) const {
     const double root = std::sqrt(r), s = std::sin(angle), k = std::cos(angle), s2 = std::sin(angle / 2),
                  k2 = std::cos(angle / 2);
     // sqrt(r) g(angle), with g and its derivative
-    for (const auto& [g, dg] : {std::pair{s2, k2 / 2}, {k2, -s2 / 2}, {s2 * s, k2 * s / 2 + s2 * k},
+    for (const auto& [g, dg] : {std::pair{s2, k2 / 2},
+                                {k2, -s2 / 2},
+                                {s2 * s, k2 * s / 2 + s2 * k},
                                 {k2 * s, -s2 * s / 2 + k2 * k}}) {
       const double by_r = g / (2 * root), by_angle = dg / root;  // the second over r
       Eigen::RowVector3d slope = Eigen::RowVector3d::Zero();
@@ -103,7 +107,7 @@ bool Element::is_on(const std::array<int, 2>& edge, int axis, int line) const {
 
 Eigen::MatrixXd Element::stiffness(const Parameters& p) const {
   const auto n = static_cast<Eigen::Index>(numbers_.size());
-  const WedgeRules rules = special_ ? dense_rules(singular_.empty() ? dense : densest)
+  const WedgeRules rules = special_              ? dense_rules(singular_.empty() ? dense : densest)
                            : points_.size() == 6 ? linear_rules()
                                                  : quadratic_rules();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * n, 3 * n), mass = Eigen::MatrixXd::Zero(n, n);

@@ -10,14 +10,16 @@
 
 namespace cleft::elements {
 
-/// What springs, skin and loads add to a wedge, by its place in the patch.
+/// With its share of the skin, of the springs and of the load, by its place in the patch.
 class Element {
  public:
   /// `corners`: places of the lower triangle, then of the upper one. `side` of the cut: -1 or 1.
   Element(const PatchNodes& nodes, std::array<Place, 6> corners, int side);
 
   const std::vector<int>& nodes() const { return numbers_; }
-  const std::vector<Vec3>& points() const { return points_; }  ///< of the nodes that are no singular functions'
+  const std::vector<Vec3>& points() const {
+    return points_;
+  }  ///< of the nodes that are no singular functions'
 
   Eigen::MatrixXd stiffness(const Parameters& parameters) const;
   /// Forces along v at the nodes, of the skin's tension that the cut releases (1 N/mm).
@@ -26,7 +28,7 @@ class Element {
  private:
   struct Functions {
     Eigen::VectorXd value;
-    Eigen::MatrixX3d slope;  ///< by u, v, w
+    Eigen::MatrixX3d slope;    ///< by u, v, w
     Eigen::Matrix3d jacobian;  ///< columns: by the reference coordinates
   };
   Functions functions(const WedgePoint& point) const;

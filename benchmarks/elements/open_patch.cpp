@@ -29,10 +29,11 @@ std::vector<Element> elements_of(const PatchNodes& nodes) {
         const Corner a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
         using Triangle = std::array<Corner, 3>;
         const bool rises = diagonal_rises(TissueFormulation::displacement, i - lines.first, j - lines.plane);
-        for (const Triangle& triangle :
-             rises ? std::array{Triangle{a, b, c}, Triangle{a, c, d}} : std::array{Triangle{a, b, d}, Triangle{b, c, d}}) {
+        for (const Triangle& triangle : rises ? std::array{Triangle{a, b, c}, Triangle{a, c, d}}
+                                              : std::array{Triangle{a, b, d}, Triangle{b, c, d}}) {
           std::array<Place, 6> corners;
-          for (int n = 0; n < 6; ++n) corners[n] = {2 * triangle[n % 3][0], 2 * triangle[n % 3][1], 2 * (n < 3 ? k + 1 : k)};
+          for (int n = 0; n < 6; ++n)
+            corners[n] = {2 * triangle[n % 3][0], 2 * triangle[n % 3][1], 2 * (n < 3 ? k + 1 : k)};
           elements.emplace_back(nodes, corners, j == lines.plane ? 1 : -1);
         }
       }
@@ -63,7 +64,8 @@ class Stiffness {
       for (Eigen::Index b = 0; b < count; ++b) {
         if (nodes[b] < nodes[a]) continue;
         const auto& list = below_[nodes[a]];
-        const int place = static_cast<int>(std::lower_bound(list.begin(), list.end(), nodes[b]) - list.begin());
+        const int place =
+            static_cast<int>(std::lower_bound(list.begin(), list.end(), nodes[b]) - list.begin());
         for (int i = 0; i < 3; ++i)
           for (int j = place == 0 ? i : 0; j < 3; ++j)
             values_[column(nodes[a], i) + 3 * place + j - i] += matrix(j * count + b, i * count + a);
@@ -80,7 +82,8 @@ class Stiffness {
     for (int n = 0; n < static_cast<int>(below_.size()); ++n)
       for (int i = 0; i < 3; ++i)
         for (const int m : below_[n])
-          for (int j = m == n ? i : 0; j < 3; ++j) e.row.push_back(3 * m + j + 1), e.column.push_back(3 * n + i + 1);
+          for (int j = m == n ? i : 0; j < 3; ++j)
+            e.row.push_back(3 * m + j + 1), e.column.push_back(3 * n + i + 1);
     e.value = std::move(values_);
     return e;
   }
@@ -97,7 +100,8 @@ class Stiffness {
   std::vector<double> values_;
 };
 
-/// Solves for the displacements in place of the forces, by MUMPS in the order of the unknowns, as `cleft solve` does.
+/// Solves for the displacements in place of the forces, by MUMPS in the order of the unknowns, as `cleft
+/// solve` does.
 void solve(Stiffness::Entries& k, Eigen::VectorXd& forces) {
   DMUMPS_STRUC_C mumps{};
   const auto run = [&](int job) {

@@ -12,11 +12,13 @@ PatchNodes::PatchNodes(const CutLines& cut_lines, Kind k)
 }
 
 bool PatchNodes::is_open(const Place& p) const {
-  return p[1] == 2 * lines.plane && p[0] > 2 * lines.first && p[0] < 2 * lines.last && p[2] < 2 * lines.bottom;
+  return p[1] == 2 * lines.plane && p[0] > 2 * lines.first && p[0] < 2 * lines.last &&
+         p[2] < 2 * lines.bottom;
 }
 
 bool PatchNodes::is_end(const Place& p) const {
-  return p[1] == 2 * lines.plane && p[2] <= 2 * lines.bottom && (p[0] == 2 * lines.first || p[0] == 2 * lines.last);
+  return p[1] == 2 * lines.plane && p[2] <= 2 * lines.bottom &&
+         (p[0] == 2 * lines.first || p[0] == 2 * lines.last);
 }
 
 bool PatchNodes::is_front(const Place& p) const {
@@ -24,7 +26,9 @@ bool PatchNodes::is_front(const Place& p) const {
                        p[0] <= 2 * lines.last);
 }
 
-Vec3 PatchNodes::point(const Place& p) const { return {lines.u[p[0] / 2], lines.v[p[1] / 2], lines.w[p[2] / 2]}; }
+Vec3 PatchNodes::point(const Place& p) const {
+  return {lines.u[p[0] / 2], lines.v[p[1] / 2], lines.w[p[2] / 2]};
+}
 
 bool PatchNodes::is_node(const Place& p) const {
   const bool between = p[0] % 2 != 0 || p[1] % 2 != 0, below = p[2] % 2 != 0;

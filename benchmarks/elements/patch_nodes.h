@@ -19,7 +19,9 @@ class PatchNodes {
 
   int count() const { return count_; }
   /// The node at a place, of the copy at a side of the cut: -1 or 1.
-  int at(const Place& place, int side) const { return first_[index(place)] + (side > 0 && is_open(place) ? 1 : 0); }
+  int at(const Place& place, int side) const {
+    return first_[index(place)] + (side > 0 && is_open(place) ? 1 : 0);
+  }
   /// Of an enriched node at a front: the first of four whose unknowns belong to the singular functions.
   int singular(const Place& place) const { return first_[index(place)] + 1; }
 

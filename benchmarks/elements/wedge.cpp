@@ -60,7 +60,8 @@ std::vector<std::array<double, 2>> gauss_rule(int n) {
     double x = std::cos(std::numbers::pi * (k + 0.75) / (n + 0.5)), slope = 0;
     for (int step = 0; step < 50; ++step) {
       double before = 1, value = x;
-      for (int m = 2; m <= n; ++m) before = std::exchange(value, ((2 * m - 1) * x * value - (m - 1) * before) / m);
+      for (int m = 2; m <= n; ++m)
+        before = std::exchange(value, ((2 * m - 1) * x * value - (m - 1) * before) / m);
       slope = n * (x * value - before) / (x * x - 1);
       x -= value / slope;
     }

@@ -7,8 +7,8 @@
 
 namespace cleft::elements {
 
-/// Corners: lower triangle, then upper. Middles of edges (of quadratic wedges): of the lower triangle's edges 01, 12,
-/// 20, of the upper triangle's, then of the vertical ones.
+/// Corners: lower triangle, then upper. Middles of edges (of quadratic wedges): of the lower triangle's edges
+/// 01, 12, 20, of the upper triangle's, then of the vertical ones.
 inline constexpr std::array<std::array<int, 2>, 9> edges_of_wedge = {
     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
 
@@ -32,8 +32,8 @@ struct WedgeRules {
   std::vector<InTriangle> triangle;
   std::vector<std::array<double, 2>> axis;
 };
-WedgeRules linear_rules();     ///< three points by two
-WedgeRules quadratic_rules();  ///< six by three
+WedgeRules linear_rules();      ///< three points by two
+WedgeRules quadratic_rules();   ///< six by three
 WedgeRules dense_rules(int n);  ///< n by n by n, in the triangle denser toward its first corner
 
 /// Points of a Gauss rule from -1 to 1, with weights.
