@@ -45,8 +45,9 @@ and of a short and deep cut (20 x 5 mm): the largest error of the opening over t
 the outermost fifteenths of the cut, over the processor time of assembly, factor and solution
 ([accuracy/elements.csv](accuracy/elements.csv); \`benchmarks/elements_chart.py\`). All kinds share one assembly
 and MUMPS; of the linear elements it gives the opening of \`cleft solve\` to nine digits. The converged answer
-is the mean of quadratic elements with and without quarter points, which differ by 0.0009 to 0.0013. An error
-counts as kept from the mesh on from which no finer one exceeds it:
+is the mean of quadratic elements with and without quarter points, which differ by 0.0009 to 0.0013. The
+machine did other work meanwhile: times may be a fifth off. An error counts as kept from the mesh on from
+which no finer one exceeds it:
 
 | processor s: default, stiff skin, short and deep | 5 % | 2 % | 1 % | 0.5 % |
 |---|---|---|---|---|
