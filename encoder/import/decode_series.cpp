@@ -19,6 +19,7 @@
 #include "base/text.h"
 #include "base/vtk_listener.h"
 #include "encoder/import/decoded_vtkhdf.h"
+#include "encoder/import/vtk_frames.h"
 
 namespace cleft {
 
@@ -78,21 +79,6 @@ std::vector<Values> values_at(const DecodedNodes& decoded, const FieldSource& so
     values.name = name_there(source, values.name);
   }
   return all;
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> grid_of(const SourceMesh& mesh) {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (const Vec3& p : mesh.points) points->InsertNextPoint(p.x, p.y, p.z);
-  grid->SetPoints(points);
-  grid->Allocate(static_cast<vtkIdType>(mesh.cell_types.size()));
-  for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {
-    const std::vector<vtkIdType> corners(mesh.connectivity.begin() + mesh.cell_offsets[c],
-                                         mesh.connectivity.begin() + mesh.cell_offsets[c + 1]);
-    grid->InsertNextCell(mesh.cell_types[c], static_cast<vtkIdType>(corners.size()), corners.data());
-  }
-  return grid;
 }
 
 /// The mesh once, and every frame's values beside each other.

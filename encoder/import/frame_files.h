@@ -42,6 +42,9 @@ class FrameFiles {
   virtual SourceFrame read(std::size_t frame, const WantedArrays& wanted) const = 0;
 };
 
+/// Throws InputError about `where` if a mesh is damaged, has no cells, or cells that snapshots cannot hold.
+void check_cells(const std::string& where, const SourceMesh& mesh);
+
 /// Appends another piece of the mesh, and the values there. Throws FileError about `path` if an array has
 /// other components there.
 void append(SourceFrame& all, const SourceFrame& piece, const std::string& path);

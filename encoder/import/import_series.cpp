@@ -147,6 +147,7 @@ ImportReport import_series(const ImportOptions& o, const std::function<void(cons
       report.arrays.push_back({field.name, static_cast<std::size_t>(field.components), true});
   write_frames(series, placement, o.out, placed.canonical, report, progress);
   report.notes = std::move(found.notes);
+  report.notes.insert(report.notes.end(), series.notes().begin(), series.notes().end());
   if (found.list.size() > 1)
     report.notes.push_back(std::to_string(found.list.size()) +
                            " breaks, or arms of such: the body around each gets a field of its own");

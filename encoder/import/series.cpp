@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "encoder/field/field_source.h"
+#include "encoder/import/remeshed_files.h"
 
 namespace cleft {
 
@@ -30,6 +31,19 @@ void check_times(const std::string& path, const std::vector<double>& times) {
                                                  : "; sort the frames"));
   }
 }
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+template <class T>
+std::string listed(const std::vector<T>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
 
 void check_cells(const std::string& where, const SourceMesh& mesh) {
   const auto refuse = [&](const std::string& what) { throw InputError(where + ": " + what); };
@@ -53,19 +67,6 @@ void check_cells(const std::string& where, const SourceMesh& mesh) {
     if (!std::isfinite(squared_norm(mesh.points[i])))
       refuse("the place of node " + std::to_string(i) + " is not finite");
 }
-
-bool among(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-template <class T>
-std::string listed(const std::vector<T>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
-
-}  // namespace
 
 double diagonal(const std::vector<Vec3>& points) {
   if (points.empty()) return 0;
@@ -97,6 +98,12 @@ ImportedSeries::ImportedSeries(const std::vector<std::string>& paths, const std:
     : path_(paths.front()), files_(open_series(paths)), fields_(fields) {
   check_times(path_, times());
   find_fields();
+  if (is_remeshed(*files_)) {
+    const WantedArrays wanted = sources_there(0);
+    auto remeshed = std::make_unique<RemeshedFiles>(std::move(files_), wanted);
+    notes_.push_back(remeshed->note());
+    files_ = std::move(remeshed);
+  }
   SourceFrame first = files_->read(0, sources_there(0));
   check_cells(where(0), first.mesh);
   describe_fields(first);
@@ -156,7 +163,7 @@ void ImportedSeries::describe_fields(SourceFrame& first) {
 
 void ImportedSeries::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(where(frame) + ": " + what + "; all frames must have the mesh of the first");
+    throw InputError(where(frame) + ": " + what + "; all frames must have the mesh of the first, or the last one another, too");
   };
   if (mesh.points.size() != mesh_as_read_.points.size())
     refuse("has " + std::to_string(mesh.points.size()) + " nodes, where frame 0 has " +

@@ -39,7 +39,8 @@ class ImportedSeries {
   const std::vector<double>& times() const { return files_->times(); }
   std::size_t frames() const { return times().size(); }
   const std::vector<SeriesField>& fields() const { return fields_; }
-  /// The mesh of the first frame, without the nodes that no cell has, unless there are no cells.
+  /// The mesh of the first frame, or the last where that is another (remeshed_files.h), without the nodes that
+  /// no cell has, unless there are no cells.
   const SourceMesh& mesh() const { return mesh_; }
 
   /// Throws FileError if the frame has other nodes or cells than the first, lacks a field, or holds a value
@@ -49,6 +50,8 @@ class ImportedSeries {
   double farthest_moved() const { return farthest_moved_; }
 
   bool in_pieces() const { return files_->in_pieces(); }  ///< see FrameFiles
+  /// What was done to bring frames to one mesh, for people.
+  const std::vector<std::string>& notes() const { return notes_; }
   /// Nodes that were left out because no cell has them.
   std::size_t loose_nodes() const { return loose_; }
 
@@ -74,6 +77,7 @@ class ImportedSeries {
   SourceMesh mesh_as_read_, mesh_;
   std::vector<std::int32_t> kept_;  ///< nodes as read, one for each node; empty: all
   std::size_t loose_ = 0;
+  std::vector<std::string> notes_;
   mutable double farthest_moved_ = 0;
 };
 

@@ -135,6 +135,21 @@ SourceFrame frame_of(vtkDataObject* data, const WantedArrays& wanted, const std:
   return frame;
 }
 
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const SourceMesh& mesh) {
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vec3& p : mesh.points) points->InsertNextPoint(p.x, p.y, p.z);
+  grid->SetPoints(points);
+  grid->Allocate(static_cast<vtkIdType>(mesh.cell_types.size()));
+  for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {
+    const std::vector<vtkIdType> corners(mesh.connectivity.begin() + mesh.cell_offsets[c],
+                                         mesh.connectivity.begin() + mesh.cell_offsets[c + 1]);
+    grid->InsertNextCell(mesh.cell_types[c], static_cast<vtkIdType>(corners.size()), corners.data());
+  }
+  return grid;
+}
+
 bool has_pieces(vtkDataObject* data) { return blocks_of(data).size() > 1; }
 
 }  // namespace cleft

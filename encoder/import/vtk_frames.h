@@ -6,7 +6,10 @@
 
 #include "encoder/import/frame_files.h"
 
+#include <vtkSmartPointer.h>
+
 class vtkDataObject;
+class vtkUnstructuredGrid;
 
 namespace cleft {
 
@@ -17,6 +20,8 @@ std::vector<std::string> cell_array_names(vtkDataObject* data);
 /// The grids and surfaces of all blocks, one after another, with the wanted arrays. Throws FileError about
 /// `path` where there are no points, or a block lacks an array.
 SourceFrame frame_of(vtkDataObject* data, const WantedArrays& wanted, const std::string& path);
+
+vtkSmartPointer<vtkUnstructuredGrid> grid_of(const SourceMesh& mesh);
 
 /// Whether it has more than one block with points: each then has its own nodes where blocks meet.
 bool has_pieces(vtkDataObject* data);

@@ -1,0 +1,247 @@
+#include "encoder/import/remeshed_files.h"
+
+#include <vtkGenericCell.h>
+#include <vtkNew.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "encoder/field/field_source.h"
+#include "encoder/import/coincident.h"
+#include "encoder/import/vtk_frames.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double most_lost = 1e-3;     // of the largest value, before a node is added
+constexpr double farthest_off = 0.02;  // of the body's diagonal, of a node from another frame's mesh
+constexpr double no_weight = 1e-6;     // of a cell's corner
+
+/// Values at places in the cells of a mesh.
+class MeshValues {
+ public:
+  struct At {
+    std::vector<std::int64_t> corners;
+    std::vector<double> weights;
+    double off = 0;  ///< distance of the place from the cell
+  };
+
+  explicit MeshValues(const SourceMesh& mesh) : grid_(grid_of(mesh)) {
+    locator_->SetDataSet(grid_);
+    locator_->BuildLocator();
+    weights_.resize(static_cast<std::size_t>(grid_->GetMaxCellSize()));
+  }
+
+  /// In the cell at `inside`, which is next to the place.
+  At at(Vec3 place, Vec3 inside) {
+    double parametric[3], closest[3], squared = 0;
+    int part = 0;
+    vtkIdType cell = locator_->FindCell(&inside.x, 0, cell_, parametric, weights_.data());
+    if (cell < 0) {
+      locator_->FindClosestPoint(&inside.x, closest, cell_, cell, part, squared);
+      if (cell < 0) throw InputError("no cell is near");
+    }
+    grid_->GetCell(cell, cell_);
+    At at;
+    if (cell_->EvaluatePosition(&place.x, closest, part, parametric, squared, weights_.data()) == 0) {
+      at.off = std::sqrt(squared);
+      double again[3];
+      cell_->EvaluatePosition(closest, again, part, parametric, squared, weights_.data());
+    }
+    for (vtkIdType i = 0; i < cell_->GetNumberOfPoints(); ++i) {
+      at.corners.push_back(cell_->GetPointId(i));
+      at.weights.push_back(weights_[static_cast<std::size_t>(i)]);
+    }
+    return at;
+  }
+
+  static void add(const At& at, const SourceArray& array, double* sum) {
+    for (std::size_t i = 0; i < at.corners.size(); ++i)
+      for (int c = 0; c < array.components; ++c)
+        sum[c] += at.weights[i] * array.values[static_cast<std::size_t>(at.corners[i] * array.components + c)];
+  }
+
+ private:
+  vtkSmartPointer<vtkUnstructuredGrid> grid_;
+  vtkNew<vtkStaticCellLocator> locator_;
+  vtkNew<vtkGenericCell> cell_;
+  std::vector<double> weights_;
+};
+
+std::vector<Vec3> inside_cells(const SourceMesh& mesh) {
+  return places_inside_cells(mesh.points, mesh.cell_offsets, mesh.connectivity);
+}
+
+/// Throws InputError about the frame's file if it is damaged, or its arrays are others than those before.
+SourceFrame checked(const FrameFiles& files, std::size_t frame, const WantedArrays& wanted,
+                    std::vector<int>* components = nullptr) {
+  SourceFrame found = files.read(frame, wanted);
+  const std::string where = files.file(frame) + " (frame " + std::to_string(frame) + ")";
+  check_cells(where, found.mesh);
+  for (std::size_t a = 0; a < found.arrays.size(); ++a) {
+    const SourceArray& array = found.arrays[a];
+    if (components && components->size() == a) components->push_back(array.components);
+    if (array.values.size() != found.mesh.points.size() * static_cast<std::size_t>(array.components) ||
+        (components && array.components != components->at(a)))
+      throw InputError(where + ": field '" + wanted.points[a] + "' has another shape than in frame 0");
+  }
+  return found;
+}
+
+/// Arrays at places of `values`' mesh.
+std::vector<SourceArray> interpolated(MeshValues& values, const std::vector<SourceArray>& arrays,
+                                      const std::vector<Vec3>& places, const std::vector<Vec3>& inside,
+                                      double most_off, const std::string& where) {
+  std::vector<SourceArray> result;
+  for (const SourceArray& array : arrays)
+    result.push_back({array.components, array.single,
+                      std::vector<double>(places.size() * static_cast<std::size_t>(array.components), 0)});
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const MeshValues::At at = values.at(places[n], inside[n]);
+    if (at.off > most_off)
+      throw InputError(where + ": its mesh ends " + shortest(at.off) + " from node " + std::to_string(n) +
+                       " of the last frame's; frames with other meshes must be of one body, in its places "
+                       "before it moves");
+    for (std::size_t a = 0; a < arrays.size(); ++a)
+      MeshValues::add(at, arrays[a], &result[a].values[n * static_cast<std::size_t>(arrays[a].components)]);
+  }
+  return result;
+}
+
+double distance_at(const SourceArray& a, std::size_t i, const SourceArray& b, std::size_t j) {
+  const auto components = static_cast<std::size_t>(a.components);
+  double squared = 0;
+  for (std::size_t c = 0; c < components; ++c)
+    squared += std::pow(a.values[i * components + c] - b.values[j * components + c], 2);
+  return std::sqrt(squared);
+}
+
+/// The largest norm of a row.
+double largest_of(const SourceArray& array) {
+  const SourceArray zero{array.components, false,
+                         std::vector<double>(static_cast<std::size_t>(array.components), 0)};
+  double largest = 0;
+  for (std::size_t n = 0; n < array.values.size() / static_cast<std::size_t>(array.components); ++n)
+    largest = std::max(largest, distance_at(array, n, zero, 0));
+  return largest;
+}
+
+bool same_mesh(const SourceMesh& a, const SourceMesh& b) {
+  return a.points.size() == b.points.size() && same_cells(a, b);
+}
+
+}  // namespace
+
+bool is_remeshed(const FrameFiles& files) {
+  return !same_mesh(files.read(0, {}).mesh, files.read(files.times().size() - 1, {}).mesh);
+}
+
+RemeshedFiles::RemeshedFiles(std::unique_ptr<FrameFiles> files, const WantedArrays& wanted)
+    : files_(std::move(files)) {
+  if (!wanted.cells.empty())
+    throw InputError("--field " + wanted.cells.front() +
+                     ": the mesh changes, and values of cells have no place in another mesh; average them at "
+                     "the nodes first (ParaView: Cell Data to Point Data)");
+  const std::size_t frames = times().size();
+  mesh_ = checked(*files_, frames - 1, {}).mesh;
+  inside_ = inside_cells(mesh_);
+  own_ = mesh_.points.size();
+  const double extent = diagonal(mesh_.points), grain = same_place(mesh_);
+  std::vector<char> paired(own_, 0);
+  for (const auto& group : coincident_groups(mesh_.points, grain))
+    for (const std::int32_t n : group) paired[n] = 1;
+  std::vector<double> largest(wanted.points.size(), 0);
+  std::vector<int> components;
+  for (std::size_t j = 0; j < frames; ++j) {
+    const SourceFrame frame = checked(*files_, j, wanted, &components);
+    for (std::size_t a = 0; a < largest.size(); ++a)
+      largest[a] = std::max(largest[a], largest_of(frame.arrays[a]));
+  }
+  SourceMesh last = mesh_;
+  MeshValues of_last(last);
+  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> added;
+  const auto cell_of = [&](const Vec3& p) {
+    return std::tuple{std::llround(p.x / (10 * grain)), std::llround(p.y / (10 * grain)),
+                      std::llround(p.z / (10 * grain))};
+  };
+  for (std::size_t j = 0; j < frames; ++j) {
+    const SourceFrame frame = checked(*files_, j, wanted);
+    if (same_mesh(frame.mesh, last)) continue;
+    ++remeshed_;
+    const std::vector<Vec3> inside = inside_cells(frame.mesh);
+    MeshValues of_frame(frame.mesh);
+    const std::vector<Vec3> own_inside(inside_.begin(), inside_.begin() + static_cast<std::ptrdiff_t>(own_));
+    const auto there = interpolated(of_frame, frame.arrays, last.points, own_inside, farthest_off * extent,
+                                    files_->file(j));
+    for (std::size_t n = 0; n < frame.mesh.points.size(); ++n) {
+      const MeshValues::At at = of_last.at(frame.mesh.points[n], inside[n]);
+      double lost = 0;
+      for (std::size_t a = 0; a < there.size(); ++a) {
+        if (largest[a] == 0) continue;
+        SourceArray back{there[a].components, false,
+                         std::vector<double>(static_cast<std::size_t>(there[a].components), 0)};
+        MeshValues::add(at, there[a], back.values.data());
+        lost = std::max(lost, distance_at(back, 0, frame.arrays[a], n) / largest[a]);
+      }
+      if (lost <= most_lost) continue;
+      bool on_break = true;
+      for (std::size_t i = 0; i < at.corners.size(); ++i)
+        on_break = on_break && (std::abs(at.weights[i]) < no_weight || paired[at.corners[i]]);
+      if (on_break) {
+        most_lost_ = std::max(most_lost_, lost);
+        continue;
+      }
+      if (!added.insert(cell_of(frame.mesh.points[n])).second) continue;
+      mesh_.cell_types.push_back(1);  // VTK_VERTEX
+      mesh_.connectivity.push_back(static_cast<std::int64_t>(mesh_.points.size()));
+      mesh_.cell_offsets.push_back(static_cast<std::int64_t>(mesh_.connectivity.size()));
+      mesh_.points.push_back(frame.mesh.points[n]), inside_.push_back(inside[n]);
+    }
+  }
+}
+
+bool RemeshedFiles::has_own_mesh(const SourceMesh& mesh) const {
+  return mesh.points.size() == own_ && mesh.cell_types.size() + mesh_.points.size() - own_ == mesh_.cell_types.size() &&
+         std::equal(mesh.cell_types.begin(), mesh.cell_types.end(), mesh_.cell_types.begin()) &&
+         std::equal(mesh.cell_offsets.begin(), mesh.cell_offsets.end(), mesh_.cell_offsets.begin()) &&
+         std::equal(mesh.connectivity.begin(), mesh.connectivity.end(), mesh_.connectivity.begin());
+}
+
+SourceFrame RemeshedFiles::read(std::size_t frame, const WantedArrays& wanted) const {
+  SourceFrame found = checked(*files_, frame, wanted);
+  MeshValues values(found.mesh);
+  const double most_off = farthest_off * diagonal(mesh_.points);
+  SourceFrame result;
+  if (has_own_mesh(found.mesh)) {
+    const std::vector<Vec3> places(mesh_.points.begin() + static_cast<std::ptrdiff_t>(own_), mesh_.points.end()),
+        inside(inside_.begin() + static_cast<std::ptrdiff_t>(own_), inside_.end());
+    const auto more = interpolated(values, found.arrays, places, inside, most_off, file(frame));
+    result.arrays = std::move(found.arrays);
+    for (std::size_t a = 0; a < more.size(); ++a)
+      result.arrays[a].values.insert(result.arrays[a].values.end(), more[a].values.begin(),
+                                     more[a].values.end());
+  } else {
+    result.arrays = interpolated(values, found.arrays, mesh_.points, inside_, most_off, file(frame));
+  }
+  result.mesh = mesh_;
+  return result;
+}
+
+std::string RemeshedFiles::note() const {
+  return std::to_string(remeshed_) + " frames have another mesh than the last one; their values were interpolated "
+         "at its nodes, and at " + std::to_string(mesh_.points.size() - own_) +
+         " of their own where more than 0.1 % of the largest would be lost" +
+         (most_lost_ > 0 ? "; on the break, where no nodes are added, up to " +
+                               shortest(std::round(1e4 * most_lost_) / 100) + " % are"
+                         : "");
+}
+
+}  // namespace cleft
