@@ -8,7 +8,7 @@
 namespace cleft {
 
 /// Samples that a fit uses, about, of snapshots with more: fitted_nodes.h.
-inline constexpr std::size_t most_fitted = 1500000;
+inline constexpr std::size_t most_fitted = 1000000;
 
 struct MemoryNeed {
   double values = 0;  ///< bytes of all fields at all nodes and frames: in memory, or in a temporary file
