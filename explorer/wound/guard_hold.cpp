@@ -1,134 +1,134 @@
-// Displacements that are reduced for a moment, around triangles that are not sound while the blade passes.
-#include <algorithm>
-#include <queue>
-#include <unordered_map>
+#include "explorer/wound/guard_hold.h"
 
-#include "explorer/wound/guard_search.h"
+#include <algorithm>
 
 namespace cleft {
 
 namespace {
 
-/// The part that a vertex keeps from one round to the next, and the least that is worth keeping.
-constexpr double kept_a_round = 0.75, least_part = 0.05;
-/// Of the parts of those that are tied: less is rounding.
-constexpr double least_change = 1e-6;
-/// Each lowers what offends; more than this only where displacements are no numbers.
+/// The part that a vertex keeps where that is reduced, and the least that is worth keeping.
+constexpr double kept_at_once = 0.75, least_part = 0.05;
+/// Each lowers what is not sound; more than this only where displacements are no numbers.
 constexpr int most_rounds = 100;
 /// The strain that reduced displacements add at most.
 constexpr double most_strain = 0.25;
 
-struct Held {
-  Vec3 own;         // its displacement
-  double before;    // the part of it that other moments leave
-  double part = 1;  // and this one, which rises from vertex to vertex whatever others do: they end elsewhere
-  double least() const { return std::min(before, part); }
-};
-
 }  // namespace
 
-std::vector<int> GuardSearch::hold_for_a_moment(std::vector<int> ones, const Passing& passing,
-                                                Guard& guard) const {
-  std::unordered_map<int, Held> held;
-  const auto at = [&](int n) -> Held& {
-    const auto [place, is_new] = held.try_emplace(n);
-    if (is_new)
-      place->second = {passing.displacement(vertex_[n]),
-                       guard.moments().part(vertex_[n], passing.cut, passing.s)};
-    return place->second;
+GuardHold::GuardHold(const GuardSearch& search)
+    : search_(search),
+      linked_(search.vertex_.size()),
+      held_(search.vertex_.size()),
+      seen_(search.mesh_.triangles().size() + search.pairs_.size()) {
+  const auto link = [this](int a, int b) {
+    if (b < 0 || b == a) return;
+    linked_[a].push_back(b), linked_[b].push_back(a);
   };
-  const auto now = [&](int v) {
-    if (number_[v] < 0) return Vec3{};
-    const Held& h = at(number_[v]);
-    return h.least() * h.own;
-  };
-  const auto is_sound_now = [&](int one) {
-    const auto corner = corners(one);
-    return one < 0 ? !is_passed(pairs_[-1 - one], now(corner[0]), now(corner[1]))
-                   : is_sound(one, {now(corner[0]), now(corner[1]), now(corner[2])});
-  };
-  std::priority_queue<std::pair<double, int>> queue;  // the least part first
-  std::vector<int> around;                            // those whose displacements have changed
-  const auto reduce = [&](int n, double part) {
-    at(n).part = part;
-    queue.emplace(-part, n);
-    around.insert(around.end(), around_[n].begin(), around_[n].end());
-  };
-  // Neighbours follow, and what these are tied to or joined with.
-  const auto spread = [&] {
-    while (!queue.empty()) {
-      const auto [negative, n] = queue.top();
-      queue.pop();
-      const Held from = at(n);
-      if (-negative > from.part) continue;
-      for (const int next : next_[n]) {
-        const double moves = std::max(norm(from.own), norm(at(next).own)),
-                     length = norm(mesh_.position(vertex_[n]) - mesh_.position(vertex_[next])),
-                     most = from.part + most_strain * length / moves;
-        if (most < at(next).part) reduce(next, most);
-      }
-      if (leader_[n] >= 0 && from.part < at(leader_[n]).part) reduce(leader_[n], from.part);
-      for (const Part& p : tie_[n])
-        if (p.number >= 0 && from.part < at(p.number).part) reduce(p.number, from.part);
-    }
-  };
-  // Those that are tied to others or joined with one stay so; neighbours of those that move less for it
-  // follow.
-  const auto keep_tied = [&] {
-    std::vector<int> tied;
-    for (const auto& [n, h] : held)
-      if (leader_[n] >= 0 || !tie_[n].empty()) tied.push_back(n);
-    for (const int n : tied) {
-      double part = 0;
-      if (leader_[n] >= 0)
-        part = at(leader_[n]).part;
-      else
-        for (const Part& p : tie_[n]) part += p.part * (p.number < 0 ? 1 : at(p.number).part);
-      if (part < at(n).part - least_change) reduce(n, part);
-      if (part == at(n).part) continue;
-      at(n).part = part;
-      around.insert(around.end(), around_[n].begin(), around_[n].end());
-    }
-  };
-  std::erase_if(ones, is_sound_now);
+  for (std::size_t n = 0; n < linked_.size(); ++n) {
+    link(static_cast<int>(n), search.leader_[n]);
+    for (const GuardSearch::Part& p : search.tie_[n]) link(static_cast<int>(n), p.number);
+  }
+}
+
+std::vector<int> GuardHold::hold(int one, const Passing& passing, Guard& guard) {
+  passing_ = &passing, moments_ = &guard.moments();
+  ++moment_, asked_.clear();
+  std::vector<int> ones;
+  if (!is_sound(one)) ones.push_back(one);
   for (int round = 0; round < most_rounds && !ones.empty(); ++round) {
-    around.clear();
-    std::vector<int> lowered;  // and what these are tied to or joined with
-    for (const int one : ones)
-      for (const int v : corners(one)) {
-        const int n = number_[v];
-        if (n < 0) continue;
-        lowered.push_back(n);
-        if (leader_[n] >= 0) lowered.push_back(leader_[n]);
-        for (const Part& p : tie_[n])
-          if (p.number >= 0) lowered.push_back(p.number);
-      }
-    std::sort(lowered.begin(), lowered.end());
-    lowered.erase(std::unique(lowered.begin(), lowered.end()), lowered.end());
+    around_.clear(), ++round_;
+    for (const int each : ones) add(each);
+    for (const int each : ones) lower(each);
+    spread();
+    ones = around_;
+    std::erase_if(ones, [this](int each) { return is_sound(each); });
+  }
+  around_.clear(), ++round_;
+  for (const int n : asked_) {
+    if (at(n).part == 1) continue;
+    guard.hold(search_.vertex_[n], passing.cut,
+               {passing.first, passing.last, at(n).part, std::min(passing.fade, passing.first),
+                std::min(passing.fade, passing.end - passing.last)});
+    add_around(n);
+  }
+  return around_;
+}
+
+/// Reduces the displacements of its corners, and of what these are tied to or joined with, until it is sound.
+void GuardHold::lower(int one) {
+  std::vector<int> lowered;
+  for (const int v : search_.corners(one)) {
+    const int n = search_.number_[v];
+    if (n < 0) continue;
+    lowered.push_back(n);
+    lowered.insert(lowered.end(), linked_[n].begin(), linked_[n].end());
+  }
+  std::sort(lowered.begin(), lowered.end());
+  lowered.erase(std::unique(lowered.begin(), lowered.end()), lowered.end());
+  for (bool moves = true; moves && !is_sound(one);) {
+    moves = false;
     for (const int n : lowered) {
-      const double part = kept_a_round * at(n).least();
+      const double part = kept_at_once * at(n).least();
+      moves = moves || part > 0;
       reduce(n, part < least_part ? 0 : part);
     }
-    do {
-      spread();
-      keep_tied();
-    } while (!queue.empty());
-    ones.insert(ones.end(), around.begin(), around.end());
-    std::sort(ones.begin(), ones.end());
-    ones.erase(std::unique(ones.begin(), ones.end()), ones.end());
-    std::erase_if(ones, is_sound_now);
   }
-  std::vector<int> touched;
-  for (const auto& [n, h] : held) {
-    if (h.part == 1) continue;
-    guard.hold(vertex_[n], passing.cut,
-               {passing.first, passing.last, h.part, std::min(passing.fade, passing.first),
-                std::min(passing.fade, passing.end - passing.last)});
-    touched.insert(touched.end(), around_[n].begin(), around_[n].end());
+}
+
+GuardHold::Held& GuardHold::at(int n) {
+  Held& held = held_[n];
+  if (held.moment == moment_) return held;
+  const Vec3 own = passing_->displacement(search_.vertex_[n]);
+  held = {moment_, own, norm(own), moments_->part(search_.vertex_[n], passing_->cut, passing_->s), 1};
+  asked_.push_back(n);
+  return held;
+}
+
+Vec3 GuardHold::now(int v) {
+  const int n = search_.number_[v];
+  if (n < 0) return {};
+  const Held& held = at(n);
+  return held.least() * held.own;
+}
+
+bool GuardHold::is_sound(int one) {
+  const auto corner = search_.corners(one);
+  if (one < 0) return !search_.is_passed(search_.pairs_[-1 - one], now(corner[0]), now(corner[1]));
+  return search_.is_sound(one, {now(corner[0]), now(corner[1]), now(corner[2])});
+}
+
+void GuardHold::reduce(int n, double part) {
+  at(n).part = part;
+  queue_.emplace(-part, n);
+  add_around(n);
+}
+
+void GuardHold::add_around(int n) {
+  for (const int one : search_.around_[n]) add(one);
+}
+
+void GuardHold::add(int one) {
+  const std::size_t place = one >= 0 ? static_cast<std::size_t>(one)
+                                     : search_.mesh_.triangles().size() + static_cast<std::size_t>(-1 - one);
+  if (std::exchange(seen_[place], round_) != round_) around_.push_back(one);
+}
+
+/// Neighbours follow. Those that are tied to each other or joined keep the same part: with another the middle
+/// vertex of a sliver would leave its edge.
+void GuardHold::spread() {
+  while (!queue_.empty()) {
+    const auto [negative, n] = queue_.top();
+    queue_.pop();
+    const Held from = at(n);
+    if (-negative > from.part) continue;
+    for (const auto& [next, length] : search_.next_[n]) {
+      const double moves = std::max(from.length, at(next).length),
+                   most = from.part + most_strain * length / moves;
+      if (most < at(next).part) reduce(next, most);
+    }
+    for (const int other : linked_[n])
+      if (from.part < at(other).part) reduce(other, from.part);
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  return touched;
 }
 
 }  // namespace cleft

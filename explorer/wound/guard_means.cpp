@@ -96,7 +96,7 @@ bool GuardSearch::grow(std::vector<int>& group) {
     if (group.size() > size) continue;
     for (const int v : corner)
       if (number_[v] >= 0 && in_group_[number_[v]])
-        for (const int next : next_[number_[v]]) add(next);
+        for (const Neighbor& next : next_[number_[v]]) add(next.number);
   }
   return grown;
 }

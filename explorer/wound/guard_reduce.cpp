@@ -54,9 +54,8 @@ std::vector<int> GuardSearch::even_out(std::vector<int> reduced) {
     const auto [negative, n] = queue.top();
     queue.pop();
     if (-negative > factor_[n]) continue;
-    for (const int next : next_[n]) {
+    for (const auto& [next, length] : next_[n]) {
       const double moves = std::max(largest_[n], largest_[next]),
-                   length = norm(mesh_.position(vertex_[n]) - mesh_.position(vertex_[next])),
                    most = factor_[n] + most_strain * length / moves;
       if (!(most < factor_[next])) continue;
       factor_[next] = most;

@@ -116,17 +116,24 @@ void GuardSearch::find_neighbors() {
       const int n = number_[corner[i]];
       if (n < 0) continue;
       if (mesh_.is_skin(static_cast<int>(t))) around_[n].push_back(static_cast<int>(t));
-      for (const int other : {corner[(i + 1) % 3], corner[(i + 2) % 3]})
-        if (number_[other] >= 0) next_[n].push_back(number_[other]);
+      add_neighbor(n, corner[(i + 1) % 3]), add_neighbor(n, corner[(i + 2) % 3]);
       const int twin = mesh_.twin(static_cast<int>(t));
       if (twin < 0) continue;
       const int opposite = mesh_.triangle(twin).vertex[CutMesh::twin_corner(i)];
-      if (opposite != corner[i] && number_[opposite] >= 0) next_[n].push_back(number_[opposite]);
+      if (opposite != corner[i]) add_neighbor(n, opposite);
     }
   }
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     for (const int v : pairs_[i].vertex)
       if (number_[v] >= 0) around_[number_[v]].push_back(-1 - static_cast<int>(i));
+}
+
+void GuardSearch::add_neighbor(int n, int vertex) {
+  const int other = number_[vertex];
+  auto& all = next_[n];
+  if (other < 0 || std::any_of(all.begin(), all.end(), [other](const auto& one) { return one.number == other; }))
+    return;
+  all.push_back({other, norm(mesh_.position(vertex_[n]) - mesh_.position(vertex))});
 }
 
 /// With the edges a and b from the first corner, and corners that move against it by x at most, the cross

@@ -73,24 +73,18 @@ class GuardSearch {
     return hardly_moves(triangle, moved) || (!is_torn(triangle, moved) && is_kept(triangle, moved));
   }
 
-  /// The blade at s mm of a cut that ends at `end`. A moment lasts while it goes from `first` to `last`, and
-  /// begins and ends over `fade` mm of its way. The displacement of a vertex is that at s, with what the
-  /// guard replaces for good and without its moments.
-  struct Passing {
-    std::size_t cut;
-    double s, first, last, end, fade;
-    std::function<Vec3(int vertex)> displacement;
-  };
-  /// Reduces displacements for a moment, so that the given ones (as in Remaining) and all around them are
-  /// sound. Returns the triangles around those that are reduced.
-  std::vector<int> hold_for_a_moment(std::vector<int> ones, const Passing& passing, Guard& guard) const;
   /// Its area then, seen along its normal at rest, over that at rest; 1 where that is 0.
   double left_of(int triangle, const std::array<Vec3, 3>& moved) const;
 
  private:
+  friend class GuardHold;
   struct Part {
     int number;
     double part;
+  };
+  struct Neighbor {
+    int number;
+    double length;  // of the edge at rest, mesh units
   };
   struct Pair {
     std::array<int, 2> vertex;
@@ -99,6 +93,7 @@ class GuardSearch {
 
   void number_vertices();
   void find_neighbors();
+  void add_neighbor(int number, int vertex);
   void measure_triangles();
   Vec3& with(int number, std::size_t time) {
     return with_[static_cast<std::size_t>(number) * times() + time];
@@ -157,7 +152,8 @@ class GuardSearch {
   std::vector<std::vector<Part>> tie_;  // [number]: of those that are tied to the ends of an edge
   std::vector<int> leader_;             // [number]: that moves like it; itself; -1: none
   /// [number]: triangles of the skin, and -1 - i for pair i; neighbours, over walls and across them, too.
-  std::vector<std::vector<int>> around_, next_;
+  std::vector<std::vector<int>> around_;
+  std::vector<std::vector<Neighbor>> next_;
   std::vector<Pair> pairs_;
   /// [triangle]: mesh units, squared: corners that move by less against the first leave it sound.
   std::vector<double> harmless_;

@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
+#include "explorer/wound/guard_hold.h"
 #include "explorer/wound/guard_passage.h"
 #include "explorer/wound/wounds.h"
 
@@ -175,8 +177,9 @@ class Wounds::GuardLooks {
     if (one >= 0 && left(one, {blade.cut, end}, guard) == GuardPassage::unsound) return {};
     const Relief::At now = relief_at(blade);
     const auto own = [&](int v) { return this->own(v, blade, now); };
-    return search_.hold_for_a_moment(
-        {one},
+    if (!hold_) hold_.emplace(search_);
+    return hold_->hold(
+        one,
         {blade.cut, blade.s, first, last, end, fade_part * passages_[blade.cut].near_tip(),
          [&](int v) { return guard.displacement(v, own); }},
         guard);
@@ -229,6 +232,7 @@ class Wounds::GuardLooks {
   const std::function<void()>& poll_;
   std::vector<Blade> blades_;  // of all looks
   GuardSearch search_;
+  std::optional<GuardHold> hold_;
   std::vector<Relief> relief_;                // while each cut is made
   std::vector<std::vector<Moved>> complete_;  // by each cut
   std::vector<std::vector<int>> number_;      // of a vertex in that
