@@ -24,11 +24,9 @@ struct Net {
   const double* points;  // [along][time], 4 doubles each
 
   Vec3 at(double t) const {
-    const Place place{{u, 0, 0}, Side::both, t};
-    BasisPlace parameters;
-    parametrization.map({&place, 1}, &parameters);
+    const Parametrization::Moving place = parametrization.moving(u, t);
     double a[4], b[4];
-    const int i = along.evaluate(parameters.at[0], a), l = time.evaluate(parameters.at[3], b);
+    const int i = along.evaluate(place.along, a), l = time.evaluate(place.time, b);
     Vec3 sum;
     for (int r = 0; r < 4; ++r) {
       const double* c = points + 4 * (static_cast<std::ptrdiff_t>(i + r) * time.size() + l);
@@ -42,10 +40,11 @@ struct Net {
 
 /// The cubic through four values, of which the inner ones are where its error to a quartic is least among all
 /// cubics that keep the ends: s = (1 -+ (sqrt(2) - 1)) / 2. Its error there is h^4 f'''' / 2237.
-Piece through(const Net& net, double from, double to) {
+/// `first` is the value at `from`.
+Piece through(const Net& net, const Vec3& first, double from, double to) {
   constexpr double q = 0.41421356237309504880 / 2;
   const double h = to - from, middle = from + h / 2;
-  const Vec3 a = net.at(from), b = net.at(middle - q * h), c = net.at(middle + q * h), d = net.at(to);
+  const Vec3 a = first, b = net.at(middle - q * h), c = net.at(middle + q * h), d = net.at(to);
   // Halves of the sum and the difference of the inner controls follow from those of the inner values.
   const double s = 0.5 - q, r = 0.5 + q, even = 3 * r * s, odd = 3 * r * s * (r - s);
   const Vec3 sum = (1 / even) * (0.5 * (b + c) - (r * r * r + s * s * s) * (0.5 * (a + d))),
@@ -73,12 +72,13 @@ void fit(const Net& net, double from, const double to, double tolerance, History
   const double aim = 0.6 * tolerance;  // between the sampled points, next to knots, it may be larger
   const double shortest = 1e-14 * std::max(std::abs(from), std::abs(to));
   double length = to - from;
+  Vec3 first = from < to ? net.at(from) : Vec3{};
   while (from < to) {
     const double left = to - from, pieces = std::ceil(left / length);
     double end = pieces <= 1 ? to : from + left / std::min(pieces, std::max(2., left / length));
     while (true) {
       const double h = end - from;
-      const Piece piece = through(net, from, end);
+      const Piece piece = through(net, first, from, end);
       const double error = error_of(piece, net, from, end, aim);
       const double next = error > 0 ? h * std::clamp(0.95 * std::pow(aim / error, 0.25), 0.1, 4.) : 4 * h;
       const bool too_many = out.controls.size() >= most_pieces;
@@ -86,7 +86,7 @@ void fit(const Net& net, double from, const double to, double tolerance, History
         out.error = std::max(out.error, error);
         out.breaks.push_back(from);
         out.controls.push_back(piece);
-        from = end;
+        from = end, first = piece[3];
         length = std::max(next, shortest);
         break;
       }
@@ -134,20 +134,22 @@ void Field::contract(const Vec3& uvw, Side side, double tolerance, History& out)
   contract(uvw, side, tolerance, {}, out);
 }
 
-void Field::contract(const Vec3& uvw, Side side, double tolerance, std::span<const double> stops,
-                     History& out) const {
+void Field::contract(const Vec3& uvw, Side side, double tolerance, std::span<const double> stops, History& out,
+                     double until) const {
   out.breaks.clear(), out.controls.clear(), out.error = 0;
   const Parametrization& p = *parametrization_;
   const BasisPlace place = mapped(uvw, side, domain(3).front);
+  const double back = std::min(domain(3).back, until);
   if (p.moves_at(p.inside(uvw.x, 0)))
-    contract_moving(uvw, place, std::max(tolerance, 1e-12 * largest_coefficient_), stops, out);
+    contract_moving(uvw, place, back, std::max(tolerance, 1e-12 * largest_coefficient_), stops, out);
   else
-    contract_fixed(place, stops, out);
-  out.breaks.push_back(domain(3).back);
+    contract_fixed(place, back, stops, out);
+  out.breaks.push_back(back);
 }
 
 /// One coefficient for each function of time, and from them the Bezier controls of each span.
-void Field::contract_fixed(const BasisPlace& place, std::span<const double> stops, History& out) const {
+void Field::contract_fixed(const BasisPlace& place, double until, std::span<const double> stops,
+                           History& out) const {
   Stencil s;
   kernels_->locate(*axes_, place, s);
   Rows rows;
@@ -161,7 +163,7 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
   out.scratch.resize(grid_.stride[2]);
   kernels_->combine(rows, grid_.stride[2], out.scratch.data());
 
-  const auto [front, back] = domain(3);
+  const double front = domain(3).front;
   const SpanTable& axis = (*axes_)[3];
   auto stop = stops.begin();
   for (int i = 0; i < axis.span_count(); ++i) {
@@ -175,7 +177,7 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
     const double begin = parametrization_->time_at(span.begin),
                  end = i + 1 < axis.span_count() ? parametrization_->time_at(axis.spans()[i + 1].begin)
                                                  : parametrization_->time_at(bases_[3].back()),
-                 last = std::min(end, back);
+                 last = std::min(end, until);
     for (double from = std::max(begin, front); from < last;) {
       while (stop != stops.end() && *stop <= from) ++stop;
       const double to = stop != stops.end() && *stop < last ? *stop : last;
@@ -187,7 +189,7 @@ void Field::contract_fixed(const BasisPlace& place, std::span<const double> stop
   }
 }
 
-void Field::contract_moving(const Vec3& uvw, const BasisPlace& place, double tolerance,
+void Field::contract_moving(const Vec3& uvw, const BasisPlace& place, double until, double tolerance,
                             std::span<const double> stops, History& out) const {
   Stencil s;
   kernels_->locate(*axes_, place, s);
@@ -212,11 +214,10 @@ void Field::contract_moving(const Vec3& uvw, const BasisPlace& place, double tol
   double passes = tip.passes(u);
   if (passes <= domain(3).back) passes = last_not_beyond(tip, u, passes);
   const Net net{p, (*axes_)[0], (*axes_)[3], u, out.scratch.data()};
-  const auto [front, back] = domain(3);
   auto stop = stops.begin();
-  for (double from = front; from < back;) {
+  for (double from = domain(3).front; from < until;) {
     while (stop != stops.end() && *stop <= from) ++stop;
-    double to = stop != stops.end() && *stop < back ? *stop : back;
+    double to = stop != stops.end() && *stop < until ? *stop : until;
     if (from < passes && passes < to) to = passes;
     fit(net, from, to, tolerance, out);
     from = to;

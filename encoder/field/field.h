@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -82,9 +83,9 @@ class Field {
   /// t. Else pieces break where the tip passes, and are as long as `tolerance`, mm, permits (or 1e-12 of the
   /// largest control point, if that is more); pieces meet at their ends.
   void contract(const Vec3& uvw, Side side, double tolerance, History& out) const;
-  /// The same with further breaks at all `stops`, which are sorted.
-  void contract(const Vec3& uvw, Side side, double tolerance, std::span<const double> stops,
-                History& out) const;
+  /// The same with further breaks at all `stops`, which are sorted, and no further than to t = `until`.
+  void contract(const Vec3& uvw, Side side, double tolerance, std::span<const double> stops, History& out,
+                double until = std::numeric_limits<double>::infinity()) const;
   /// A tolerance for contract(), mm, that adds a tenth to the error of the fit.
   double contraction_tolerance() const;
   /// The times of the knots of the basis in time, including the first and last t.
@@ -126,8 +127,9 @@ class Field {
   friend class CollapsedField;
 
   BasisPlace mapped(const Vec3& uvw, Side side, double t) const;
-  void contract_fixed(const BasisPlace& place, std::span<const double> stops, History& out) const;
-  void contract_moving(const Vec3& uvw, const BasisPlace& place, double tolerance,
+  void contract_fixed(const BasisPlace& place, double until, std::span<const double> stops,
+                      History& out) const;
+  void contract_moving(const Vec3& uvw, const BasisPlace& place, double until, double tolerance,
                        std::span<const double> stops, History& out) const;
 
   std::shared_ptr<const Parametrization> parametrization_;

@@ -75,6 +75,12 @@ class Parametrization {
   /// for speed only: map_each(*this, ...) in a final class calls no virtual function.
   virtual void map(std::span<const Place> places, BasisPlace* out) const { map_each(*this, places, out); }
 
+  /// The two parameters that may move with t, of a place within the domain. Overridden for speed only.
+  struct Moving {
+    double along, time;
+  };
+  virtual Moving moving(double u, double t) const { return {along(u, t).value, time(t).value}; }
+
   const FieldGeometry& geometry() const { return geometry_; }
   const std::array<Interval, 4>& domain() const { return geometry_.domain; }
 

@@ -16,8 +16,16 @@ void Contractor::sort(std::vector<ActiveVertex>& active) {
   });
 }
 
-void Contractor::history(const ActiveVertex& a, Side side, History& out) const {
-  field_.contract(a.uvw, side, a.s, times_, out);
+/// The times as far as to the first one beyond `last`.
+std::vector<double> Contractor::times_to(double last) const {
+  auto end = std::upper_bound(times_.begin() + 1, times_.end(), last);
+  if (end != times_.end()) ++end;
+  return {times_.begin(), end};
+}
+
+void Contractor::history(const ActiveVertex& a, Side side, std::span<const double> times,
+                         History& out) const {
+  field_.contract(a.uvw, side, a.s, times, out);
   for (auto& piece : out.controls)
     for (Vec3& d : piece) d = 1 / scale_ * a.in_mesh(d);
 }
@@ -26,12 +34,13 @@ ReplayPieces Contractor::contract(const std::vector<ActiveVertex>& sorted, int s
   std::vector<double> offsets;
   std::vector<int> vertices;
   for (const ActiveVertex& a : sorted) offsets.push_back(a.time_offset), vertices.push_back(a.vertex + shift);
-  ReplayPieces pieces(times_, std::move(offsets), std::move(vertices), reach);
+  const std::vector<double> times = times_to(offsets.empty() ? 0 : reach + offsets.back());
+  ReplayPieces pieces(times, std::move(offsets), std::move(vertices), reach);
   History open, closed;
   for (const ActiveVertex& a : sorted) {
-    history(a, a.side, open);
+    history(a, a.side, times, open);
     if (a.on_cut && a.side != Side::both) {
-      history(a, Side::both, closed);
+      history(a, Side::both, times, closed);
       pieces.append(closed, open, a.s);
     } else {
       pieces.append(open);

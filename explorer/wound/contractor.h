@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "explorer/wound/ipv.h"
@@ -22,12 +23,14 @@ class Contractor {
 
   /// The histories in the mesh's space, weighted and in its units, to within the field's
   /// contraction_tolerance(). A vertex of the cut has a second history for the time before the blade passes
-  /// it. The displacement of vertex v is written to number v + `shift`. `reach`: that of ReplayPieces.
+  /// it. The displacement of vertex v is written to number v + `shift`. `reach`: that of ReplayPieces, beyond
+  /// which there may be no history.
   ReplayPieces contract(const std::vector<ActiveVertex>& sorted, int shift = 0,
                         double reach = std::numeric_limits<double>::infinity()) const;
 
  private:
-  void history(const ActiveVertex& vertex, Side side, History& out) const;
+  std::vector<double> times_to(double last) const;
+  void history(const ActiveVertex& vertex, Side side, std::span<const double> times, History& out) const;
 
   VaryingField field_;
   double scale_;

@@ -104,12 +104,12 @@ void VaryingField::contract(const Vec3& uvw, Side side, double s, std::span<cons
   parts_at(s, parts);
   if (parts.size() == 1) {
     const Field& field = *parts.front().field;
-    return field.contract(place_in(field, uvw), side, tolerance, stops, out);
+    return field.contract(place_in(field, uvw), side, tolerance, stops, out, stops.back());
   }
   histories.resize(parts.size()), weights.clear();
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const auto& [field, weight] = parts[k];
-    field->contract(place_in(*field, uvw), side, tolerance, stops, histories[k]);
+    field->contract(place_in(*field, uvw), side, tolerance, stops, histories[k], stops.back());
     weights.push_back(weight);
   }
   combine(histories, weights, out);

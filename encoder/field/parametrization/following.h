@@ -89,6 +89,10 @@ class FollowingParametrization final : public Parametrization {
   bool resolves_front() const override { return Measure::resolves_front; }
   bool moves_at(double u) const override { return u > geometry().cut.start && u < domain()[0].back; }
 
+  Moving moving(double u, double t) const override {
+    return {along_at(u, geometry().tip.at(t), 0).value, FollowingParametrization::time(t).value};
+  }
+
   void map(std::span<const Place> places, BasisPlace* out) const override {
     // Neighbours in a list are mostly of one time: the tip is looked up where t changes.
     double t = std::numeric_limits<double>::quiet_NaN(), tip = t;
