@@ -34,8 +34,6 @@ class GuardSearch {
   /// is called for each triangle that is looked at.
   GuardSearch(const CutMesh& mesh, double least_jump, ByField field, std::function<void()> poll = {})
       : mesh_(mesh), least_jump_(least_jump), field_(std::move(field)), poll_(std::move(poll)) {}
-  /// Several fields together may stretch the skin less than any alone is excused for.
-  void limit_stretch() { limited_ = true; }
 
   /// The vertices that have moved at one time, each once, and their displacements, mesh units. `lasting`:
   /// with the cuts complete.
@@ -139,7 +137,6 @@ class GuardSearch {
   double least_jump_;
   ByField field_;
   std::function<void()> poll_;
-  bool limited_ = false;                                  // stretches of fields
   std::vector<std::vector<std::pair<int, Vec3>>> moved_;  // [time]: vertices and their displacements
   std::vector<bool> lasting_;                             // [time]
   bool only_lasting_ = false, excused_ = true;            // what offends

@@ -23,7 +23,7 @@ constexpr int passage_rounds = 20, quiet_rounds = 2;
 /// Of the way over which displacements next to the tip change quickly: a moment begins and ends in it.
 constexpr double fade_part = 0.25;
 /// Of vertices, in all: more are not worth the time and the memory.
-constexpr std::size_t most_moments = 30000;
+constexpr std::size_t most_moments = 200000;
 /// Of the largest opening: what a field turns itself in its own flat patch is not worth lips that are held
 /// back by more for good, but where cuts meet.
 constexpr double worth_an_excuse = 0.02;
@@ -46,7 +46,6 @@ class Wounds::GuardLooks {
                  [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); }},
                 poll),
         place_(mesh_.vertices().size(), -1) {
-    if (wounds.size() > 1) search_.limit_stretch();
     for (std::size_t k = 0; k < wounds.size(); ++k) {
       const Wound& wound = wounds[k];
       for (const Incision::ChainVertex& c : wound.incision->chain())

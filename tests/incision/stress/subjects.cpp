@@ -38,6 +38,41 @@ SurfaceMesh lamella(double thickness) {
   return mesh;
 }
 
+/// Each place moved by a map of the space.
+template <class Map>
+SurfaceMesh mapped(SurfaceMesh mesh, const Map& map) {
+  for (Vec3& p : mesh.points) p = map(p);
+  return mesh;
+}
+
+/// Regular meshes bent, sheared and drawn out.
+void add_mapped(std::vector<Subject>& subjects) {
+  using namespace testing;
+  const auto plane = [] { return grid(40, 40, -10, -10, 0.5); };
+  subjects.push_back({"coarse plane", grid(8, 8, -12, -12, 3)});
+  subjects.push_back({"sheared plane", mapped(plane(), [](Vec3 p) { return Vec3{p.x + 2 * p.y, p.y, 0}; })});
+  subjects.push_back({"graded plane", mapped(plane(), [](Vec3 p) {
+                        return Vec3{5 * std::exp(0.2 * p.x), 5 * std::exp(0.2 * p.y), 0};
+                      })});
+  subjects.push_back({"saddle", mapped(plane(), [](Vec3 p) {
+                        return Vec3{p.x, p.y, 0.05 * (p.x * p.x - p.y * p.y)};
+                      })});
+  subjects.push_back({"bowl", mapped(plane(), [](Vec3 p) {
+                        return Vec3{p.x, p.y, 0.05 * (p.x * p.x + p.y * p.y)};
+                      })});
+  subjects.push_back({"waves", mapped(plane(), [](Vec3 p) { return Vec3{p.x, p.y, std::sin(2 * p.x)}; })});
+  subjects.push_back({"jittered sphere", jittered(sphere(4, 10), 0.2)});
+  subjects.push_back({"ellipsoid", mapped(sphere(4, 10), [](Vec3 p) { return Vec3{2 * p.x, p.y, p.z / 2}; })});
+  subjects.push_back({"thin torus", ring(80, 12, 10, 1.5, true)});
+  subjects.push_back({"flat torus", mapped(ring(60, 24, 10, 4, true), [](Vec3 p) {
+                        return Vec3{p.x, p.y, 0.3 * p.z};
+                      })});
+  subjects.push_back({"bellows", mapped(ring(40, 20, 10, 3, false), [](Vec3 p) {
+                        const double wide = 1 + 0.15 * std::sin(2 * p.z);
+                        return Vec3{wide * p.x, wide * p.y, p.z};
+                      })});
+}
+
 SurfaceMesh with_holes(SurfaceMesh mesh) {
   std::mt19937_64 random(2);
   std::erase_if(mesh.triangles, [&](const auto&) { return random() % 40 == 0; });
@@ -62,6 +97,7 @@ std::vector<Subject> generated_subjects(bool difficult) {
   subjects.push_back({"spikes", grid(60, 60, -12, -12, 0.4, spikes), false});
   subjects.push_back({"folded sheet", grid(80, 40, -8, -8, 0.2, folds), false});
   subjects.push_back({"holes", with_holes(jittered(grid(40, 40, -20, -20, 1), 0.2)), false});
+  add_mapped(subjects);
   return subjects;
 }
 

@@ -92,6 +92,24 @@ TEST(Opening, OfRandomCutsOnRegularMeshes) {
   }
 }
 
+/// A plate whose triangles are slivers. What the guard makes of some may stretch others: by three times their
+/// length at most, and a little more between the positions that it looks at.
+TEST(Opening, OfRandomCutsThroughSliversStretchesNoEdgeByMuchMoreThanThreeTimes) {
+  const CutFields fields(wide());
+  FieldLimits limits(fields.shape());
+  limits.strain = 3.3 / 3;
+  OpeningPlan plan;
+  plan.cuts = 40;
+  plan.cuts_at_once = 1;
+  for (const Subject& subject : generated_subjects(false)) {
+    if (subject.name != "stretched plane") continue;
+    const OpeningTally tally = open_random_cuts(
+        subject, [&] { return CutFields(fields); }, limits, plan);
+    const Opened& o = tally.sum;
+    EXPECT_EQ(o.turned + o.torn + o.stretched + o.torn_by_field + o.spikes + o.crossed, 0) << text_of(o);
+  }
+}
+
 /// A second cut across the first, at many positions of the blade. A triangle of a few hundredths of a
 /// millimetre between the lips of a crossing turned over while the blade passed it: nothing had looked there,
 /// or the lips would have been held back for good for it.
