@@ -134,8 +134,8 @@ void Field::contract(const Vec3& uvw, Side side, double tolerance, History& out)
   contract(uvw, side, tolerance, {}, out);
 }
 
-void Field::contract(const Vec3& uvw, Side side, double tolerance, std::span<const double> stops, History& out,
-                     double until) const {
+void Field::contract(const Vec3& uvw, Side side, double tolerance, std::span<const double> stops,
+                     History& out, double until) const {
   out.breaks.clear(), out.controls.clear(), out.error = 0;
   const Parametrization& p = *parametrization_;
   const BasisPlace place = mapped(uvw, side, domain(3).front);

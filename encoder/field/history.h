@@ -12,7 +12,7 @@ namespace cleft {
 /// Cubic Bezier pieces, one after the other in t. Reusing a History for many points allocates no memory once
 /// it is large enough.
 struct History {
-  std::vector<double> breaks;  ///< n + 1, increasing: the first and the last t of the field included, or of what was asked for
+  std::vector<double> breaks;  ///< n + 1, increasing: from the field's first t to its last, or that asked for
   std::vector<std::array<Vec3, 4>> controls;  ///< n: of the piece between two breaks
   double error = 0;  ///< largest distance from the field found at points between, mm; 0 if it is exact
 

@@ -51,11 +51,11 @@ class GuardHold {
   const Passing* passing_ = nullptr;
   const GuardMoments* moments_ = nullptr;
   int moment_ = 0, round_ = 0;
-  std::vector<std::vector<int>> linked_;               // by numbers: tied to each other, or joined
-  std::vector<Held> held_;                             // by numbers
-  std::vector<int> asked_;                             // numbers: those of this moment
-  std::vector<int> seen_;                              // [triangle, pair]: the last round in which it was added
-  std::vector<int> around_;                            // those whose displacements have changed, each once
+  std::vector<std::vector<int>> linked_;  // by numbers: tied to each other, or joined
+  std::vector<Held> held_;                // by numbers
+  std::vector<int> asked_;                // numbers: those of this moment
+  std::vector<int> seen_;                 // [triangle, pair]: the last round in which it was added
+  std::vector<int> around_;               // those whose displacements have changed, each once
   std::priority_queue<std::pair<double, int>> queue_;  // the least part first
 };
 

@@ -131,7 +131,8 @@ void GuardSearch::find_neighbors() {
 void GuardSearch::add_neighbor(int n, int vertex) {
   const int other = number_[vertex];
   auto& all = next_[n];
-  if (other < 0 || std::any_of(all.begin(), all.end(), [other](const auto& one) { return one.number == other; }))
+  if (other < 0 ||
+      std::any_of(all.begin(), all.end(), [other](const auto& one) { return one.number == other; }))
     return;
   all.push_back({other, norm(mesh_.position(vertex_[n]) - mesh_.position(vertex))});
 }

@@ -58,7 +58,8 @@ class VaryingField {
   bool follows_shape() const { return along_ != nullptr; }
   double contraction_tolerance() const;
 
-  /// Field::contract at s mm of the path, to the last of the stops. Memory of `out` is reused from call to call.
+  /// Field::contract at s mm of the path, to the last of the stops. Memory of `out` is reused from call to
+  /// call.
   void contract(const Vec3& uvw, Side side, double s, std::span<const double> stops, History& out) const;
   /// Field::displacement at s mm of the path.
   Vec3 displacement(const Vec3& uvw, Side side, double t, double s) const;

@@ -177,11 +177,10 @@ class Wounds::GuardLooks {
     const Relief::At now = relief_at(blade);
     const auto own = [&](int v) { return this->own(v, blade, now); };
     if (!hold_) hold_.emplace(search_);
-    return hold_->hold(
-        one,
-        {blade.cut, blade.s, first, last, end, fade_part * passages_[blade.cut].near_tip(),
-         [&](int v) { return guard.displacement(v, own); }},
-        guard);
+    return hold_->hold(one,
+                       {blade.cut, blade.s, first, last, end, fade_part * passages_[blade.cut].near_tip(),
+                        [&](int v) { return guard.displacement(v, own); }},
+                       guard);
   }
 
   /// The displacement of a vertex without the guard.

@@ -91,6 +91,21 @@ TEST(Contraction, FollowsTheTipWithinItsTolerance) {
   }
 }
 
+/// What is asked for to a stop is the beginning of the whole, bit for bit.
+TEST(Contraction, EndsWhereNoMoreIsAskedFor) {
+  const std::vector<double> stops{1, 7.3, 12, 23.999};
+  History whole, part;
+  for (const Field& field : {random_field(), tip_field(1)})
+    for (const Place& p : all_kinds_of_places(field, 60)) {
+      field.contract(p.uvw, p.side, 1e-4, stops, whole);
+      field.contract(p.uvw, p.side, 1e-4, stops, part, 12);
+      ASSERT_EQ(part.breaks.back(), 12);
+      ASSERT_LT(part.breaks.size(), whole.breaks.size());
+      ASSERT_TRUE(std::equal(part.breaks.begin(), part.breaks.end(), whole.breaks.begin()));
+      ASSERT_TRUE(std::equal(part.controls.begin(), part.controls.end(), whole.controls.begin()));
+    }
+}
+
 TEST(Contraction, ZeroToleranceEnds) {
   const Field field = tip_field();
   History history;

@@ -62,7 +62,9 @@ void add_mapped(std::vector<Subject>& subjects) {
                       })});
   subjects.push_back({"waves", mapped(plane(), [](Vec3 p) { return Vec3{p.x, p.y, std::sin(2 * p.x)}; })});
   subjects.push_back({"jittered sphere", jittered(sphere(4, 10), 0.2)});
-  subjects.push_back({"ellipsoid", mapped(sphere(4, 10), [](Vec3 p) { return Vec3{2 * p.x, p.y, p.z / 2}; })});
+  subjects.push_back({"ellipsoid", mapped(sphere(4, 10), [](Vec3 p) {
+                        return Vec3{2 * p.x, p.y, p.z / 2};
+                      })});
   subjects.push_back({"thin torus", ring(80, 12, 10, 1.5, true)});
   subjects.push_back({"flat torus", mapped(ring(60, 24, 10, 4, true), [](Vec3 p) {
                         return Vec3{p.x, p.y, 0.3 * p.z};

@@ -15,7 +15,7 @@ struct Subject {
 };
 
 /// Plates, regular and jittered, hills, spheres, a torus, a cylinder; with `difficult` thin plates, ridges,
-/// spikes, folded sheets, many outlines, and plates, spheres and tori that are bent, sheared or drawn out, too.
+/// spikes, folded sheets, many outlines, and such shapes bent, sheared or drawn out, too.
 std::vector<Subject> generated_subjects(bool difficult);
 
 /// Hills of a million triangles.
