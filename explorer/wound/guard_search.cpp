@@ -21,6 +21,8 @@ constexpr double most_by_field = 3;
 constexpr double torn_length = 10, torn_jump = 19;
 /// Of the triangles that move: a field that turns more of them in its own patch is left to do so.
 constexpr double most_turned = 0.05;
+/// Of its area: a triangle with less is looked at between times, however little it moves from one to the next.
+constexpr double little = 0.6;
 /// How often triangles whose corners have no means are joined.
 constexpr int join_rounds = 4;
 
@@ -82,7 +84,9 @@ std::vector<GuardSearch::Remaining> GuardSearch::sudden() const {
       const std::array<Vec3, 3> now = moved(one, k);
       const Vec3 a = (now[1] - now[0]) - (before[1] - before[0]),
                  b = (now[2] - now[0]) - (before[2] - before[0]);
-      if (std::max(squared_norm(a), squared_norm(b)) > harmless_[t]) found.push_back({one, k});
+      if (std::max(squared_norm(a), squared_norm(b)) > harmless_[t] ||
+          std::min(left_of(one, now), left_of(one, before)) < little)
+        found.push_back({one, k});
       before = now;
     }
   }
