@@ -21,7 +21,8 @@ constexpr double most_by_field = 3;
 constexpr double torn_length = 10, torn_jump = 19;
 /// Of the triangles that move: a field that turns more of them in its own patch is left to do so.
 constexpr double most_turned = 0.05;
-/// Of its area: a triangle with less is looked at between times, however little it moves from one to the next.
+/// Of its area: a triangle with less is looked at between times, however little it moves from one to the
+/// next.
 constexpr double little = 0.6;
 /// How often triangles whose corners have no means are joined.
 constexpr int join_rounds = 4;
