@@ -1,6 +1,8 @@
 // Displacements that are reduced for a moment, around triangles that are not sound while the blade passes.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <queue>
 #include <utility>
