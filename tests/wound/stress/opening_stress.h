@@ -27,10 +27,10 @@ struct OpeningPlan {
 /// Cuts made one after the other in one mesh and opened together count as one group.
 struct OpeningTally {
   long cuts = 0, refused = 0, groups = 0, unsound = 0;
-  double slowest = 0;  ///< s, of a group
+  double slowest = 0;  ///< s of the processor, of a group
   Opened sum;
   std::array<long, path_kinds> of{}, unsound_of{};  ///< by the kind of a group's last path
-  std::vector<std::string> listed;                  ///< groups that are unsound, or take more than 10 s
+  std::vector<std::string> listed;                  ///< groups that are unsound, or take more than 10 s of it
   void add(const OpeningTally& other);
 };
 
