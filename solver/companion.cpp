@@ -17,6 +17,7 @@ namespace cleft {
 namespace {
 
 constexpr double least_grading = 1.3;     // of companions' patches, so that they cost no more than the case
+constexpr double greatest_grading = 2;
 constexpr double near = 2;                // patch around a short cut, over the cut's length or depth
 constexpr double most_finer_nodes = 2e4;  // of a companion with finer elements: a few seconds
 
@@ -36,6 +37,13 @@ Parameters with_elements(Parameters p, double times) {
   return p;
 }
 
+/// Every element twice as long: those that grow by g away from the cut then grow by its square.
+Parameters with_elements_twice_as_long(Parameters p) {
+  p = with_elements(p, 2);
+  p.mesh.grading = std::min(greatest_grading, p.mesh.grading * p.mesh.grading);
+  return p;
+}
+
 /// In a patch in which the mesh errs as in the whole one. Cuts other than a single straight, upright one keep
 /// theirs.
 Parameters near_the_cut(Parameters p) {
@@ -51,7 +59,7 @@ Parameters near_the_cut(Parameters p) {
 double change(double from, double to) { return std::abs(to - from) / from; }
 
 ExpectedError against_coarser(const Parameters& p, double gape, MPI_Comm communicator) {
-  const Parameters coarse = with_elements(p, 2);
+  const Parameters coarse = with_elements_twice_as_long(p);
   const double coarser = gape_of(coarse, communicator), wider = gape_of(in_wider_patch(coarse), communicator);
   return {std::abs(coarser - gape) / gape, std::abs(wider - coarser) / gape};
 }

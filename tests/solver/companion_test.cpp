@@ -57,7 +57,7 @@ TEST(Companion, TheFiniteModelErrsByTheSamePartOfTheOpening) {
   const SolveReport report = solved(p, true);
   ASSERT_TRUE(report.estimate.expected) << report.failure << report.estimate.obstacle;
   Parameters other = p;
-  other.mesh.element_size *= 2;
+  other.mesh.element_size *= 2, other.mesh.grading *= other.mesh.grading;
   const double coarse = solved(other, false).gape;
   other.patch.length *= 2, other.patch.width *= 2;
   const double wide = solved(other, false).gape;
