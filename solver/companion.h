@@ -17,7 +17,9 @@ double gape_of(const Parameters& parameters, MPI_Comm communicator);
 
 /// Expected errors of the largest opening of the whole cut, relative to it.
 struct ExpectedError {
-  double mesh = 0;   ///< what elements twice as long change, or twice what elements half as long change
+  /// What elements twice as long change, or twice what elements half as long change, and a third of what
+  /// elements change that grow by the square of the mesh's grading.
+  double mesh = 0;
   double patch = 0;  ///< what a patch twice as long and wide changes, in the coarser of these elements
   double total() const { return mesh + patch; }
 };

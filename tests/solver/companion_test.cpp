@@ -57,13 +57,29 @@ TEST(Companion, TheFiniteModelErrsByTheSamePartOfTheOpening) {
   const SolveReport report = solved(p, true);
   ASSERT_TRUE(report.estimate.expected) << report.failure << report.estimate.obstacle;
   Parameters other = p;
-  other.mesh.element_size *= 2, other.mesh.grading *= other.mesh.grading;
+  other.mesh.element_size *= 2;
   const double coarse = solved(other, false).gape;
   other.patch.length *= 2, other.patch.width *= 2;
   const double wide = solved(other, false).gape;
   EXPECT_NEAR(report.estimate.expected->mesh, change(report.gape, coarse), 0.02);
   EXPECT_NEAR(report.estimate.expected->patch, std::abs(wide - coarse) / report.gape, 0.02);
   EXPECT_GT(report.estimate.expected->patch, 0.04);
+}
+
+/// Fine at the cut and coarse away from it: elements half as long alone would leave most of the error.
+TEST(Companion, ElementsThatGrowAreSeen) {
+  Parameters p;
+  p.cut.length = 20, p.cut.depth = 3, p.patch = {60, 50, 8};
+  p.mesh.element_size = 0.8, p.mesh.grading = 1.4;
+  const double gape = gape_of(p, MPI_COMM_WORLD);
+  const ErrorEstimate estimate = expected_error(p, gape, MPI_COMM_WORLD);
+  ASSERT_TRUE(estimate.expected) << estimate.obstacle;
+  Parameters fine = p;
+  fine.mesh.element_size = 0.5, fine.mesh.grading = 1.1;
+  const double error = change(gape_of(fine, MPI_COMM_WORLD), gape);
+  EXPECT_GT(error, 0.01);
+  EXPECT_GT(estimate.expected->mesh, least * error) << error;
+  EXPECT_LT(estimate.expected->mesh, 2 * error) << error << " " << estimate.expected->mesh;
 }
 
 /// A branch of one and a half elements on a long cut.
