@@ -76,9 +76,9 @@ which no finer one exceeds it:
   and singular functions, which need unknowns of their own for each, gain hardly anything over that.
 - Elements that grow by 1.3 away from the cut keep an error of 0.6 to 1 % however small they are at the cut:
   the largest opening of the default case is 5.513 mm, and 5.463 with the defaults (0.9 % less). Finer
-  elements at the cut do not see this part; a companion of \`cleft solve\`'s estimate, whose elements grow faster, does:
-  it expects 1.2 % (0.6 % without). With elements of 0.5 to 2.5 mm that grow by 1.3 and 1.15 it expects 0.6 to
-  3.3 times the error, and less than it only once (1.3 for 2.0 %).
+  elements at the cut do not see this part; a companion of \`cleft solve\`'s estimate, whose elements grow
+  faster, does: it expects 1.2 % (0.6 % without). With elements of 0.5 to 2.5 mm that grow by 1.3 and 1.15
+  it expects 0.6 to 3.3 times the error, and less than it only once (1.3 for 2.0 %).
 
 So the defaults, and what \`cleft advise\` chooses from (linear elements that grow by 1.3), are right for errors
 of 2 % and more. Below 1 %, \`mesh.grading = 1.15\` is needed. Quadratic elements would be worth their while

@@ -108,8 +108,7 @@ class Encoder {
     const Field exact =
         with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest_move * step, bound);
     // At nodes that were not fitted the spline may be off by more.
-    if (series_.all_nodes)
-      bound = std::max(bound, above({scale_ * measure(exact, series_).spline_error, 0}));
+    if (series_.all_nodes) bound = std::max(bound, above({scale_ * measure(exact, series_).spline_error, 0}));
     for (int halvings = 0;; ++halvings, step /= 1.5) {
       Field field = quantised(exact, step, farthest_move);
       field.report.condition = fit.condition();

@@ -43,9 +43,9 @@ std::uint64_t lot_of(const Sample& sample) {
   return hash;
 }
 
-constexpr int each = 2;               // samples of a cell
-constexpr double along_to_deep = 6;   // cells along u for each one in height
-constexpr double across_to_deep = 3;  // and across
+constexpr int each = 2;                                      // samples of a cell
+constexpr double along_to_deep = 6;                          // cells along u for each one in height
+constexpr double across_to_deep = 3;                         // and across
 constexpr double near_break = 1. / 16, near_front = 1. / 8;  // of the extent across, and in height
 
 }  // namespace
@@ -81,8 +81,8 @@ std::vector<std::int32_t> fitted_nodes(const Snapshot& snapshot, const std::vect
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Vec3& at = samples[i].uvw;
     if (cut && at.y == 0) chosen[i] = 1;
-    auto& drawn = cells[static_cast<std::size_t>((u.cell(at.x) * v.cells() + v.cell(at.y)) * w.cells() +
-                                                 w.cell(at.z))];
+    auto& drawn =
+        cells[static_cast<std::size_t>((u.cell(at.x) * v.cells() + v.cell(at.y)) * w.cells() + w.cell(at.z))];
     const Drawn one{lot_of(samples[i]), static_cast<std::int32_t>(i)};
     if (!(one < drawn.back())) continue;
     drawn.back() = one;

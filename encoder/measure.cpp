@@ -26,7 +26,9 @@ struct Frame {
   double crease = 0, overlap = 0, least_volume = 1;
 };
 
-std::span<const Sample> fitted_nodes_of(const Series& series) { return {series.samples.data(), series.nodes}; }
+std::span<const Sample> fitted_nodes_of(const Series& series) {
+  return {series.samples.data(), series.nodes};
+}
 
 NodeErrors node_errors(const Field& field, const Series& series, std::size_t frame, std::size_t first) {
   const auto all = series.node_samples();
@@ -177,8 +179,7 @@ CodedResidual residual_of(Field& field, const Series& series, double bound) {
         const auto nodes = series.node_samples().subspan(first, count);
         const std::vector<Vec3> spline = spline_at(field, nodes, series.times[frame]);
         for (std::size_t n = 0; n < count; ++n)
-          left.row(static_cast<Eigen::Index>(n)) -=
-              Eigen::RowVector3d(spline[n].x, spline[n].y, spline[n].z);
+          left.row(static_cast<Eigen::Index>(n)) -= Eigen::RowVector3d(spline[n].x, spline[n].y, spline[n].z);
         if (count == series.nodes) series.frames.forget(frame);
         return left;
       },

@@ -106,7 +106,9 @@ CodedResidual residual_of(const Spline& spline, const Series& series, double bou
   kind.frames = static_cast<int>(series.times.size());
   return code_residual(
       kind,
-      [&](std::size_t frame, std::size_t first, std::size_t count) { return spline.left(frame, first, count); },
+      [&](std::size_t frame, std::size_t first, std::size_t count) {
+        return spline.left(frame, first, count);
+      },
       largest);
 }
 

@@ -32,7 +32,9 @@ class Block {
     largest_[frame] = norms_of(rest).maxCoeff();
   }
 
-  double largest() const { return largest_.empty() ? 0 : *std::max_element(largest_.begin(), largest_.end()); }
+  double largest() const {
+    return largest_.empty() ? 0 : *std::max_element(largest_.begin(), largest_.end());
+  }
 
   /// Throws std::logic_error if they do not come back.
   std::vector<std::uint8_t> coded() const {

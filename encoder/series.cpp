@@ -150,8 +150,9 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader, const Se
 }
 
 /// What the displacements from frame 0 leave out. Its error is as large as theirs may be.
-void add_start(std::vector<SeriesQuantity>& quantities, std::shared_ptr<const NodeRows> start, std::size_t frames,
-               double largest_displacement, const SeriesSamples& taken, std::size_t nodes) {
+void add_start(std::vector<SeriesQuantity>& quantities, std::shared_ptr<const NodeRows> start,
+               std::size_t frames, double largest_displacement, const SeriesSamples& taken,
+               std::size_t nodes) {
   const double largest = start->rowwise().norm().maxCoeff();
   if (largest == 0) return;
   SeriesQuantity quantity{Series::at_start, StoredFrames<Eigen::Dynamic>(), {}, largest, 0, {}};
@@ -179,8 +180,8 @@ std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader, const
       if (j == 0) closed = frame;
       frame -= closed;
       for (Eigen::Index n = 0; taken.has_axes() && n < frame.rows(); ++n) {
-        const Vec3 d = taken.in_axes(taken.place(static_cast<std::size_t>(n)),
-                                     {frame(n, 0), frame(n, 1), frame(n, 2)});
+        const Vec3 d =
+            taken.in_axes(taken.place(static_cast<std::size_t>(n)), {frame(n, 0), frame(n, 1), frame(n, 2)});
         frame.row(n) << d.x, d.y, d.z;
       }
       for (Eigen::Index n = 0; n < frame.rows(); ++n)
@@ -272,8 +273,8 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage) : fra
   largest_displacement = *std::max_element(largest.begin(), largest.end());
   pairs = taken.pairs_of(s.pairs);
   if (taken.in_part()) {
-    all_nodes = std::make_shared<const std::vector<Sample>>(samples.begin(),
-                                                            samples.begin() + static_cast<std::ptrdiff_t>(nodes));
+    all_nodes = std::make_shared<const std::vector<Sample>>(
+        samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(nodes));
     read = taken.reading_displacements(
         [&reader, closed](std::size_t frame, std::size_t first, std::size_t count) -> NodeRows {
           return rows_of(numbers_of(reader.displacement(frame, first, count)), 3) -
@@ -305,7 +306,7 @@ void share_scales(std::vector<Series>& pieces) {
       if (!has_start(piece)) {
         const Eigen::MatrixXd none =
             Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(piece.samples.size()), 3);
-        SeriesQuantity quantity{Series::at_start, StoredFrames<Eigen::Dynamic>(), {}, 0, 0,
+        SeriesQuantity quantity{Series::at_start,           StoredFrames<Eigen::Dynamic>(), {}, 0, 0,
                                 Eigen::RowVectorXd::Zero(3)};
         quantity.frames.assign(piece.times.size(), none);
         if (piece.read)

@@ -17,8 +17,7 @@ namespace cleft {
 
 /// Values at nodes first .. first + count - 1 in a frame, count x components, read from the snapshot. May be
 /// called from several threads at once.
-using ReadNodes =
-    std::function<Eigen::MatrixXd(std::size_t frame, std::size_t first, std::size_t count)>;
+using ReadNodes = std::function<Eigen::MatrixXd(std::size_t frame, std::size_t first, std::size_t count)>;
 
 /// A further quantity at the nodes: its own values, not from frame 0.
 struct SeriesQuantity {

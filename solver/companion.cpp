@@ -16,7 +16,7 @@ namespace cleft {
 
 namespace {
 
-constexpr double least_grading = 1.3;     // of companions' patches, so that they cost no more than the case
+constexpr double least_grading = 1.3;  // of companions' patches, so that they cost no more than the case
 constexpr double greatest_grading = 2;
 constexpr double near = 2;                // patch around a short cut, over the cut's length or depth
 constexpr double most_finer_nodes = 2e4;  // of a companion with finer elements: a few seconds

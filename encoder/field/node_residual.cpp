@@ -179,8 +179,13 @@ SmallIntegers decode_block(std::span<const std::uint8_t> bytes, int nodes, int c
 }
 
 CodedResidual coded(const NodeResidual& residual, int block) {
-  CodedResidual result{residual.quantum,    residual.nodes, residual.frames, residual.components,
-                       residual.first_frame, block,          {}};
+  CodedResidual result{residual.quantum,
+                       residual.nodes,
+                       residual.frames,
+                       residual.components,
+                       residual.first_frame,
+                       block,
+                       {}};
   result.blocks.resize(static_cast<std::size_t>(std::max(1, (result.nodes - 1) / result.block + 1)));
   parallel_for(static_cast<int>(result.blocks.size()), [&](int b) {
     const std::size_t of_node =
@@ -194,8 +199,8 @@ CodedResidual coded(const NodeResidual& residual, int block) {
 }
 
 NodeResidual decoded(const CodedResidual& residual) {
-  NodeResidual result{residual.quantum, residual.nodes,      residual.frames,
-                      {},               residual.components, residual.first_frame};
+  NodeResidual result{residual.quantum,    residual.nodes,      residual.frames, {},
+                      residual.components, residual.first_frame};
   std::vector<SmallIntegers> blocks(residual.blocks.size());
   parallel_for(static_cast<int>(blocks.size()), [&](int b) {
     blocks[b] = decode_block(residual.blocks[b], residual.nodes_of(b), residual.components, residual.frames);

@@ -88,7 +88,8 @@ void decode_field(const Task& task, const std::function<void(const std::string&)
 
 int main(int argc, char** argv) {
   CommandLine app(
-      "Writes a field as a series of .vtu files, or as one VTKHDF file, in the axes, names and times of the one "
+      "Writes a field as a series of .vtu files, or as one VTKHDF file, in the axes, names and times of the "
+      "one "
       "it was made from.",
       "cleft decode");
   Task task;
@@ -102,8 +103,10 @@ int main(int argc, char** argv) {
          "instead of --on: the snapshot the field was made from; its nodes, with what the file keeps of "
          "them beside the spline")
       ->excludes(on_option);
-  app.add_option("--out", task.out, "series to write: OUT.pvd, and the folder OUT; or OUT.vtkhdf, one file, which "
-                 "large series are written to in a tenth of the time")->required();
+  app.add_option("--out", task.out,
+                 "series to write: OUT.pvd, and the folder OUT; or OUT.vtkhdf, one file, which "
+                 "large series are written to in a tenth of the time")
+      ->required();
   return run_command(app, argc, argv, [&] {
     if (task.on.empty() && task.nodes.empty())
       throw InputError("cleft decode needs a mesh: --on MESH.vtu, or --nodes CASE.h5");

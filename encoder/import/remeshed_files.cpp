@@ -66,7 +66,8 @@ class MeshValues {
   static void add(const At& at, const SourceArray& array, double* sum) {
     for (std::size_t i = 0; i < at.corners.size(); ++i)
       for (int c = 0; c < array.components; ++c)
-        sum[c] += at.weights[i] * array.values[static_cast<std::size_t>(at.corners[i] * array.components + c)];
+        sum[c] +=
+            at.weights[i] * array.values[static_cast<std::size_t>(at.corners[i] * array.components + c)];
   }
 
  private:
@@ -179,8 +180,8 @@ RemeshedFiles::RemeshedFiles(std::unique_ptr<FrameFiles> files, const WantedArra
     const std::vector<Vec3> inside = inside_cells(frame.mesh);
     MeshValues of_frame(frame.mesh);
     const std::vector<Vec3> own_inside(inside_.begin(), inside_.begin() + static_cast<std::ptrdiff_t>(own_));
-    const auto there = interpolated(of_frame, frame.arrays, last.points, own_inside, farthest_off * extent,
-                                    files_->file(j));
+    const auto there =
+        interpolated(of_frame, frame.arrays, last.points, own_inside, farthest_off * extent, files_->file(j));
     for (std::size_t n = 0; n < frame.mesh.points.size(); ++n) {
       const MeshValues::At at = of_last.at(frame.mesh.points[n], inside[n]);
       double lost = 0;
@@ -209,7 +210,8 @@ RemeshedFiles::RemeshedFiles(std::unique_ptr<FrameFiles> files, const WantedArra
 }
 
 bool RemeshedFiles::has_own_mesh(const SourceMesh& mesh) const {
-  return mesh.points.size() == own_ && mesh.cell_types.size() + mesh_.points.size() - own_ == mesh_.cell_types.size() &&
+  return mesh.points.size() == own_ &&
+         mesh.cell_types.size() + mesh_.points.size() - own_ == mesh_.cell_types.size() &&
          std::equal(mesh.cell_types.begin(), mesh.cell_types.end(), mesh_.cell_types.begin()) &&
          std::equal(mesh.cell_offsets.begin(), mesh.cell_offsets.end(), mesh_.cell_offsets.begin()) &&
          std::equal(mesh.connectivity.begin(), mesh.connectivity.end(), mesh_.connectivity.begin());
@@ -221,7 +223,8 @@ SourceFrame RemeshedFiles::read(std::size_t frame, const WantedArrays& wanted) c
   const double most_off = farthest_off * diagonal(mesh_.points);
   SourceFrame result;
   if (has_own_mesh(found.mesh)) {
-    const std::vector<Vec3> places(mesh_.points.begin() + static_cast<std::ptrdiff_t>(own_), mesh_.points.end()),
+    const std::vector<Vec3> places(mesh_.points.begin() + static_cast<std::ptrdiff_t>(own_),
+                                   mesh_.points.end()),
         inside(inside_.begin() + static_cast<std::ptrdiff_t>(own_), inside_.end());
     const auto more = interpolated(values, found.arrays, places, inside, most_off, file(frame));
     result.arrays = std::move(found.arrays);
@@ -236,8 +239,10 @@ SourceFrame RemeshedFiles::read(std::size_t frame, const WantedArrays& wanted) c
 }
 
 std::string RemeshedFiles::note() const {
-  return std::to_string(remeshed_) + " frames have another mesh than the last one; their values were interpolated "
-         "at its nodes, and at " + std::to_string(mesh_.points.size() - own_) +
+  return std::to_string(remeshed_) +
+         " frames have another mesh than the last one; their values were interpolated "
+         "at its nodes, and at " +
+         std::to_string(mesh_.points.size() - own_) +
          " of their own where more than 0.1 % of the largest would be lost" +
          (most_lost_ > 0 ? "; on the break, where no nodes are added, up to " +
                                shortest(std::round(1e4 * most_lost_) / 100) + " % are"

@@ -34,10 +34,10 @@ class RemeshedFiles : public FrameFiles {
   bool has_own_mesh(const SourceMesh& mesh) const;
 
   std::unique_ptr<FrameFiles> files_;
-  SourceMesh mesh_;            // of the last frame, then the nodes that were added
-  std::vector<Vec3> inside_;   // of each node a place inside its cells
-  std::size_t own_ = 0;        // nodes of the last frame
-  std::size_t remeshed_ = 0;   // frames with another mesh
+  SourceMesh mesh_;           // of the last frame, then the nodes that were added
+  std::vector<Vec3> inside_;  // of each node a place inside its cells
+  std::size_t own_ = 0;       // nodes of the last frame
+  std::size_t remeshed_ = 0;  // frames with another mesh
   double most_lost_ = 0;
 };
 

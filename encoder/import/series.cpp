@@ -163,7 +163,8 @@ void ImportedSeries::describe_fields(SourceFrame& first) {
 
 void ImportedSeries::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(where(frame) + ": " + what + "; all frames must have the mesh of the first, or the last one another, too");
+    throw InputError(where(frame) + ": " + what +
+                     "; all frames must have the mesh of the first, or the last one another, too");
   };
   if (mesh.points.size() != mesh_as_read_.points.size())
     refuse("has " + std::to_string(mesh.points.size()) + " nodes, where frame 0 has " +

@@ -39,8 +39,8 @@ class ImportedSeries {
   const std::vector<double>& times() const { return files_->times(); }
   std::size_t frames() const { return times().size(); }
   const std::vector<SeriesField>& fields() const { return fields_; }
-  /// The mesh of the first frame, or the last where that is another (remeshed_files.h), without the nodes that
-  /// no cell has, unless there are no cells.
+  /// The mesh of the first frame, or the last where that is another (remeshed_files.h), without the nodes
+  /// that no cell has, unless there are no cells.
   const SourceMesh& mesh() const { return mesh_; }
 
   /// Throws FileError if the frame has other nodes or cells than the first, lacks a field, or holds a value

@@ -1,12 +1,12 @@
 // Data of VTK's readers as frames. For .cpp files that include VTK.
 #pragma once
 
+#include <vtkSmartPointer.h>
+
 #include <string>
 #include <vector>
 
 #include "encoder/import/frame_files.h"
-
-#include <vtkSmartPointer.h>
 
 class vtkDataObject;
 class vtkUnstructuredGrid;

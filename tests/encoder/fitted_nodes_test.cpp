@@ -85,7 +85,12 @@ TEST(FittedNodes, AreAboutAsManyAsAskedWithTheBreakAndThoseNextToIt) {
   // Every eighth of the body has its share, on each axis.
   for (int axis = 0; axis < 3; ++axis)
     for (int part = 0; part < 8; ++part) {
-      const double front = axis == 0 ? -6 : axis == 1 ? -5 : -2.5, extent = axis == 0 ? 12 : axis == 1 ? 10 : 2.5;
+      const double front = axis == 0   ? -6
+                           : axis == 1 ? -5
+                                       : -2.5,
+                   extent = axis == 0   ? 12
+                            : axis == 1 ? 10
+                                        : 2.5;
       const auto within = std::count_if(some.begin(), some.end(), [&](std::int32_t n) {
         const double x = (samples[n].uvw[axis] - front) / extent * 8;
         return part <= x && x <= part + 1;
@@ -112,8 +117,9 @@ TEST(FittedNodes, ErrorsAreThoseOfAllNodes) {
     const auto rows = static_cast<Eigen::Index>(500);
     EXPECT_EQ(part.node_values(3, first, 500),
               Eigen::MatrixXd(all.frames[3].middleRows(static_cast<Eigen::Index>(first), rows)));
-    EXPECT_EQ(part.quantities[0].node_values(3, first, 500),
-              Eigen::MatrixXd(all.quantities[0].frames[3].middleRows(static_cast<Eigen::Index>(first), rows)));
+    EXPECT_EQ(
+        part.quantities[0].node_values(3, first, 500),
+        Eigen::MatrixXd(all.quantities[0].frames[3].middleRows(static_cast<Eigen::Index>(first), rows)));
   }
   bool with_residual = false;
   for (const double tolerance : {0.05, 0.005}) {

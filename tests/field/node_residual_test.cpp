@@ -29,7 +29,8 @@ NodeResidual smooth(const std::vector<int>& nodes, int frames) {
   for (const int n : nodes)
     for (int c = 0; c < 3; ++c)
       for (int f = 0; f < frames; ++f)
-        values.push_back(static_cast<std::int32_t>(std::lround(1.4 * std::sin(0.05 * n + c) * std::cos(0.2 * f))));
+        values.push_back(
+            static_cast<std::int32_t>(std::lround(1.4 * std::sin(0.05 * n + c) * std::cos(0.2 * f))));
   return {0.01, static_cast<int>(nodes.size()), frames, values};
 }
 

@@ -396,8 +396,7 @@ TEST_F(FieldsOfASeries, IsDecodedAsItWas) {
       // Displacement and what it was in frame 0 each have the tolerance.
       const Quantity& tensor =
           field.quantities[0].name == "stress" ? field.quantities[0] : field.quantities[1];
-      EXPECT_LE(of_u, (on ? 4 : 2) * 0.01 * field.report.largest_displacement)
-          << name << " " << out;
+      EXPECT_LE(of_u, (on ? 4 : 2) * 0.01 * field.report.largest_displacement) << name << " " << out;
       EXPECT_LE(of_s, (on ? std::max(0.01, tensor.spline_error) : 0.01) * 1.001 * tensor.scale)
           << name << " " << out;
     }

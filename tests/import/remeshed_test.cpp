@@ -65,7 +65,8 @@ TEST(Remeshed, ACrackOpensAsInOneMesh) {
     for (double a = 0.5; a < 40; a += 1)
       for (const double c : {-6., -2.5, 0.}) {
         const Vec3 place{a, 0, c};
-        const Vec3 there = a < 2 * t ? body.displacement(place, 1, t) - body.displacement(place, -1, t) : Vec3{};
+        const Vec3 there =
+            a < 2 * t ? body.displacement(place, 1, t) - body.displacement(place, -1, t) : Vec3{};
         const Vec3 uvw = field.source->canonical(place);
         const Vec3 d = field.displacement(uvw, Side::right, t) - field.displacement(uvw, Side::left, t);
         const double sign = field.source->axes[1].y;

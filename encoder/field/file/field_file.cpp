@@ -55,7 +55,8 @@ void write_residual(h5::File& file, const std::string& name, const CodedResidual
   std::vector<std::int64_t> sizes;
   bytes.reserve(residual.bytes());
   for (const auto& block : residual.blocks)
-    bytes.insert(bytes.end(), block.begin(), block.end()), sizes.push_back(static_cast<std::int64_t>(block.size()));
+    bytes.insert(bytes.end(), block.begin(), block.end()),
+        sizes.push_back(static_cast<std::int64_t>(block.size()));
   file.write<std::uint8_t>(name, bytes, {bytes.size()}, h5::Packing::deflate);
   file.write_number(name, "quantum", residual.quantum);
   file.write_number(name, "nodes", residual.nodes);
@@ -114,7 +115,9 @@ namespace {
 
 using Residuals = std::span<const std::optional<CodedResidual>>;
 
-bool in_blocks(const std::optional<CodedResidual>& residual) { return residual && residual->blocks.size() > 1; }
+bool in_blocks(const std::optional<CodedResidual>& residual) {
+  return residual && residual->blocks.size() > 1;
+}
 
 bool any_in_blocks(const CodedResidual* residual, Residuals of_quantities) {
   return (residual && residual->blocks.size() > 1) ||
