@@ -35,7 +35,7 @@ class Divided {
 
 /// The same for all samples of a column along u; as if drawn by lot for others.
 std::uint64_t lot_of(const Sample& sample) {
-  std::uint64_t hash = static_cast<std::uint64_t>(static_cast<int>(sample.side) + 2);
+  std::uint64_t hash = sample.side == Side::left ? 1 : sample.side == Side::right ? 3 : 2;
   for (const double x : {sample.uvw.y, sample.uvw.z}) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
     hash ^= hash >> 29;
@@ -81,8 +81,8 @@ std::vector<std::int32_t> fitted_nodes(const Snapshot& snapshot, const std::vect
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Vec3& at = samples[i].uvw;
     if (cut && at.y == 0) chosen[i] = 1;
-    auto& drawn =
-        cells[static_cast<std::size_t>((u.cell(at.x) * v.cells() + v.cell(at.y)) * w.cells() + w.cell(at.z))];
+    const int cell = (u.cell(at.x) * v.cells() + v.cell(at.y)) * w.cells() + w.cell(at.z);
+    auto& drawn = cells[static_cast<std::size_t>(cell)];
     const Drawn one{lot_of(samples[i]), static_cast<std::int32_t>(i)};
     if (!(one < drawn.back())) continue;
     drawn.back() = one;

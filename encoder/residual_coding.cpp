@@ -22,7 +22,8 @@ class Block {
 
   /// `frame`: of those that are kept.
   void quantise(int frame, const Left& left) {
-    Eigen::MatrixXd rest = left(static_cast<std::size_t>(frame + kind_.first_frame), first_, nodes_);
+    const int of_series = frame + kind_.first_frame;
+    Eigen::MatrixXd rest = left(static_cast<std::size_t>(of_series), first_, nodes_);
     for (Eigen::Index n = 0; n < rest.rows(); ++n)
       for (int c = 0; c < kind_.components; ++c) {
         const auto number = static_cast<std::int32_t>(std::lround(rest(n, c) / kind_.quantum));

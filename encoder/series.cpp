@@ -150,7 +150,7 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader, const Se
 }
 
 /// What the displacements from frame 0 leave out. Its error is as large as theirs may be.
-void add_start(std::vector<SeriesQuantity>& quantities, std::shared_ptr<const NodeRows> start,
+void add_start(std::vector<SeriesQuantity>& quantities, const std::shared_ptr<const NodeRows>& start,
                std::size_t frames, double largest_displacement, const SeriesSamples& taken,
                std::size_t nodes) {
   const double largest = start->rowwise().norm().maxCoeff();
@@ -283,8 +283,10 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage) : fra
     std::vector<Sample> some;
     for (std::size_t i = 0; i < taken.size(); ++i) some.push_back(samples[taken.place(i)]);
     samples = std::move(some), nodes = taken.nodes();
+    centres = cell_centres(taken.cells_of(s), samples);
+  } else {
+    centres = cell_centres(s, samples);
   }
-  centres = cell_centres(taken.in_part() ? taken.cells_of(s) : s, samples);
   if (s.source && s.source->break_extent.size() >= 8)
     arm = std::any_of(s.source->break_extent.begin() + 4, s.source->break_extent.begin() + 8,
                       [](double joined) { return joined != 0; });

@@ -101,6 +101,7 @@ std::vector<double> times_of(const Field& field, const FieldSource& source) {
   if (!source.times.empty()) return source.times;
   std::vector<double> times;
   const auto frames = static_cast<int>(std::max(2., field.report.frames));
+  times.reserve(static_cast<std::size_t>(frames));
   for (int j = 0; j < frames; ++j) times.push_back(field.duration() * j / (frames - 1));
   return times;
 }

@@ -102,6 +102,7 @@ std::vector<SourceArray> interpolated(MeshValues& values, const std::vector<Sour
                                       const std::vector<Vec3>& places, const std::vector<Vec3>& inside,
                                       double most_off, const std::string& where) {
   std::vector<SourceArray> result;
+  result.reserve(arrays.size());
   for (const SourceArray& array : arrays)
     result.push_back({array.components, array.single,
                       std::vector<double>(places.size() * static_cast<std::size_t>(array.components), 0)});

@@ -14,10 +14,10 @@ namespace {
 constexpr double least_area = 0.25, least_cosine = 0.05;
 /// Neighbours that move apart by more than this many times their distance are torn from each other.
 constexpr double most_stretch = 1.5;
-/// Likewise, beyond the least jump, whatever the fields do.
+/// Likewise, beyond the least jump, unless the field of a single cut draws them apart itself.
 constexpr double most_by_field = 3;
-/// Of the least jump: neighbours nearer than this that move further apart than that are torn whatever the
-/// fields do. With a least jump of 0.05 mm, those below 0.5 mm that move by 1 mm, or nearly.
+/// Of the least jump: neighbours nearer than this that move further apart than that are torn likewise. With a
+/// least jump of 0.05 mm, those below 0.5 mm that move by 1 mm, or nearly.
 constexpr double torn_length = 10, torn_jump = 19;
 /// Of the triangles that move: a field that turns more of them in its own patch is left to do so.
 constexpr double most_turned = 0.05;
@@ -193,8 +193,9 @@ bool GuardSearch::is_torn(int t, const std::array<Vec3, 3>& moved) const {
     const int a = corner[i], b = corner[(i + 1) % 3];
     const double jump = norm(moved[(i + 1) % 3] - moved[i]);
     const double length = norm(mesh_.position(b) - mesh_.position(a));
-    if (jump > torn_jump * least_jump_ && length < torn_length * least_jump_) return true;
-    if (jump > least_jump_ + most_by_field * length) return true;
+    const bool far = (jump > torn_jump * least_jump_ && length < torn_length * least_jump_) ||
+                     jump > least_jump_ + most_by_field * length;
+    if (far && !field_.draws_apart(a, b, jump)) return true;
     if (jump > least_jump_ && jump > most_stretch * length && !field_.stretches(a, b, jump / most_stretch))
       return true;
   }

@@ -26,8 +26,9 @@ class GuardSearch {
   /// back for it for good. Times are numbers of calls of add(), from 0.
   struct ByField {
     std::function<bool(int triangle, std::size_t time)> turns;
-    std::function<bool(int a, int b, double jump)> stretches;  ///< an edge; jump in mesh units
-    std::function<bool(int left, std::size_t time)> closes;    ///< lips: moves them into each other
+    std::function<bool(int a, int b, double jump)> stretches;    ///< an edge; jump in mesh units
+    std::function<bool(int a, int b, double jump)> draws_apart;  ///< by nearly as much, where it lies alike
+    std::function<bool(int left, std::size_t time)> closes;      ///< lips: moves them into each other
   };
 
   /// The mesh must outlive it. Neighbours may always move apart by `least_jump`, mesh units. `poll`, if any,

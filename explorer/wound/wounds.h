@@ -88,6 +88,7 @@ class Wounds {
   bool turned_by_field(int triangle, const Blade& blade) const;
   bool turned_between_corners(int triangle, const Blade& blade) const;
   bool stretched_by_field(int a, int b, double jump) const;
+  bool drawn_apart_by_field(int a, int b, double jump) const;
   bool closed_by_field(int lip, const Blade& blade) const;
 
   std::deque<Wound> wounds_;

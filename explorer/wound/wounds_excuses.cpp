@@ -95,6 +95,24 @@ bool Wounds::stretched_by_field(int a, int b, double jump) const {
   return moved;
 }
 
+/// Whether the field of the only cut moves two vertices apart by about as much as `jump`, mesh units, once
+/// the cut is complete, where they are about as near to each other in its flat patch as in space.
+bool Wounds::drawn_apart_by_field(int a, int b, double jump) const {
+  if (wounds_.size() != 1) return false;
+  const Wound& wound = wounds_.front();
+  std::array<Vec3, 2> rest, moved;
+  for (int i = 0; i < 2; ++i) {
+    const auto at = wound.volume.locate(i == 0 ? a : b);
+    if (!at) return false;
+    const double s = wound.complete(), t = at->time_at(s, wound.field.shape().cut().length);
+    rest[i] = {at->s, at->uvw.y, at->uvw.z};
+    moved[i] = wound.field.displacement(at->uvw, at->side_at(s), t, at->s);
+  }
+  const CutMesh& mesh = wound.incision->mesh();
+  const double length = wound.scale() * norm(mesh.position(b) - mesh.position(a));
+  return norm(rest[1] - rest[0]) < about * length && about * norm(moved[1] - moved[0]) > jump * wound.scale();
+}
+
 /// Whether the field of a cut moves its lips into each other.
 bool Wounds::closed_by_field(int lip, const Blade& blade) const {
   for (std::size_t k = 0; k <= blade.cut; ++k) {

@@ -43,6 +43,7 @@ class Wounds::GuardLooks {
         search_(mesh_, Wounds::least_jump / wounds[0].scale(),
                 {[this](int t, std::size_t time) { return wounds_.turned_by_field(t, blades_[time]); },
                  [this](int a, int b, double jump) { return wounds_.stretched_by_field(a, b, jump); },
+                 [this](int a, int b, double jump) { return wounds_.drawn_apart_by_field(a, b, jump); },
                  [this](int left, std::size_t time) { return wounds_.closed_by_field(left, blades_[time]); }},
                 poll),
         place_(mesh_.vertices().size(), -1) {

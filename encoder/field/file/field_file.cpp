@@ -79,9 +79,8 @@ void divide(CodedResidual& residual, const h5::File& file, const std::string& na
   }
   residual.block = count_in(file, name, "block");
   const auto sizes = file.read<std::int64_t>(name + sizes_of_blocks, {0});
-  if (residual.block < 1 || residual.nodes < 1 ||
-      sizes.size() != static_cast<std::size_t>((residual.nodes - 1) / residual.block + 1))
-    throw damaged();
+  const int count = residual.block < 1 ? 0 : (residual.nodes - 1) / residual.block + 1;
+  if (residual.nodes < 1 || sizes.size() != static_cast<std::size_t>(count)) throw damaged();
   auto at = bytes.begin();
   for (const std::int64_t size : sizes) {
     if (size < 0 || size > bytes.end() - at) throw damaged();
