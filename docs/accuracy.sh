@@ -81,8 +81,9 @@ which no finer one exceeds it:
   it expects 0.6 to 3.3 times the error, and less than it only once (1.3 for 2.0 %).
 
 So the defaults, and what \`cleft advise\` chooses from (linear elements that grow by 1.3), are right for errors
-of 2 % and more. Below 1 %, \`mesh.grading = 1.15\` is needed. Quadratic elements would be worth their while
-there, and are not in the solver: its multigrid, bodies, finite strains and snapshots are of linear ones.
+of 2 % and more. For less \`cleft advise\` takes elements that grow by 1.15. Quadratic elements would be worth
+their while there, and are not in the solver: its multigrid, bodies, finite strains and snapshots are of
+linear ones.
 Singular functions were tried at the nodes of the front alone, not within a radius of it; frames in the middle
 of the cut were not compared.
 PAGE

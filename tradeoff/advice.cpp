@@ -39,7 +39,7 @@ double expected_seconds(const std::vector<ChainCost>& costs, double nodes) {
 
 Parameters applied(const Setting& setting, Parameters p) {
   p.model = setting.model.value_or(p.model);
-  p.mesh.element_size = setting.element_size, p.mesh.grading = advised_grading;
+  p.mesh.element_size = setting.element_size, p.mesh.grading = setting.grading;
   // A frame for every pair costs 1.2 to 2.2 times as much, and takes 3 to 9 % off the error: a finer mesh
   // takes off more.
   p.cut.frames = FrameEvery::column;
@@ -255,7 +255,7 @@ Setting advise(const std::vector<CaseModel>& models, const Goals& goals) {
   bool fits_at_all = false;
   for (Setting setting : models.front().settings()) {
     if (setting.tolerance > most_tolerance || (goals.model && setting.model != goals.model)) continue;
-    setting.detail = detail;
+    setting.detail = detail, setting.grading = advised_grading(goals.error);
     const Expectation e = expectation(models, setting);
     if (goals.megabytes > 0 && 1e-6 * goals.cases * e.bytes > goals.megabytes) continue;
     if (!fits_at_all || e.total < nearest.total) nearest = e;

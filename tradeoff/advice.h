@@ -36,13 +36,16 @@ namespace cleft {
 
 /// A setting of mesh, patch, encoder and replay.
 struct Setting {
-  double element_size = 0;          ///< mm, at the cut; elements grow away from it by mesh_grading
+  double element_size = 0;          ///< mm, at the cut
   double margin = 0;                ///< mm of patch around the cut, on all four sides
   double tolerance = 0;             ///< of the encoder
   double detail = 0;                ///< mm: vertices that never move by more stay at rest in replays
   std::optional<Model> model = {};  ///< none: the case's own
+  double grading = 1.3;             ///< by which elements grow away from the cut
 };
-inline constexpr double advised_grading = 1.3;
+/// By which elements grow for an error of the opening: those that grow by 1.3 keep 0.6 to 1 % of it however
+/// small they are at the cut (docs/accuracy.md).
+constexpr double advised_grading(double error) { return error < 0.02 ? 1.15 : 1.3; }
 Parameters applied(const Setting& setting, Parameters parameters);
 
 /// Estimates for a setting. Errors are relative to the largest opening.

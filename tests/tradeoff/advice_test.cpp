@@ -73,6 +73,9 @@ TEST(Advice, LessErrorCostsMore) {
     }
   };
   refused({.error = 1e-3}, "--error 0.001: out of reach");
+  EXPECT_EQ(advise(models, {.error = 0.2}).grading, 1.3);
+  EXPECT_EQ(applied({.element_size = 1, .grading = 1.15}, p).mesh.grading, 1.15);
+  EXPECT_LT(advised_grading(0.01), advised_grading(0.02));
   refused({.error = 0.2, .frame_ms = 1e-6}, "--frame-ms");
   // What replays leave alone counts for both lips.
   const CaseModel& model = models.front();
