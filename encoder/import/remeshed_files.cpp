@@ -142,8 +142,8 @@ bool same_mesh(const SourceMesh& a, const SourceMesh& b) {
 
 }  // namespace
 
-bool is_remeshed(const FrameFiles& files) {
-  return !same_mesh(files.read(0, {}).mesh, files.read(files.times().size() - 1, {}).mesh);
+bool is_remeshed(const FrameFiles& files, const SourceMesh& first) {
+  return !same_mesh(first, files.read(files.times().size() - 1, {}).mesh);
 }
 
 RemeshedFiles::RemeshedFiles(std::unique_ptr<FrameFiles> files, const WantedArrays& wanted)

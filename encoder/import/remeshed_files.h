@@ -5,8 +5,8 @@
 
 namespace cleft {
 
-/// Whether the last frame has another mesh than the first.
-bool is_remeshed(const FrameFiles& files);
+/// Whether the last frame has another mesh than the first, `first`.
+bool is_remeshed(const FrameFiles& files, const SourceMesh& first);
 
 /// A series whose frames have the mesh of the last one, in which the break is longest. Values of other meshes
 /// are interpolated in their own cells, on the side of the break on which a node's cells are. Where values in

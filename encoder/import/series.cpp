@@ -98,13 +98,14 @@ ImportedSeries::ImportedSeries(const std::vector<std::string>& paths, const std:
     : path_(paths.front()), files_(open_series(paths)), fields_(fields) {
   check_times(path_, times());
   find_fields();
-  if (is_remeshed(*files_)) {
-    const WantedArrays wanted = sources_there(0);
+  const WantedArrays wanted = sources_there(0);
+  SourceFrame first = files_->read(0, wanted);
+  if (is_remeshed(*files_, first.mesh)) {
     auto remeshed = std::make_unique<RemeshedFiles>(std::move(files_), wanted);
     notes_.push_back(remeshed->note());
     files_ = std::move(remeshed);
+    first = files_->read(0, wanted);
   }
-  SourceFrame first = files_->read(0, sources_there(0));
   check_cells(where(0), first.mesh);
   describe_fields(first);
   mesh_ = mesh_as_read_ = std::move(first.mesh);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/h5/vtkhdf.h"
 #include "base/text.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -26,51 +27,13 @@ void write_list(h5::File& file, const std::string& name, const std::vector<T>& v
   file.write<T>(name, values, {values.size()});
 }
 
-void write_vtk_mesh(h5::File& file, const Snapshot& s) {
-  file.create_group("/VTKHDF");
-  file.write_integers("/VTKHDF", "Version", std::array<std::int64_t, 2>{2, 0});
-  file.write_text("/VTKHDF", "Type", "UnstructuredGrid");
-  const auto write_count = [&file](const std::string& name, std::size_t count) {
-    const auto number = static_cast<std::int64_t>(count);
-    file.write<std::int64_t>(name, {&number, 1}, {1});
-  };
-  write_count("/VTKHDF/NumberOfPoints", s.points.size());
-  write_count("/VTKHDF/NumberOfCells", s.cell_types.size());
-  write_count("/VTKHDF/NumberOfConnectivityIds", s.connectivity.size());
-  file.write<double>("/VTKHDF/Points", as_numbers(s.points), {s.points.size(), 3});
-  write_list(file, "/VTKHDF/Types", s.cell_types);
-  write_list(file, "/VTKHDF/Offsets", s.cell_offsets);
-  write_list(file, "/VTKHDF/Connectivity", s.connectivity);
-}
-
-/// One mesh for all steps: every geometric offset is 0, and the displacements of step j begin at row j N.
-void write_vtk_steps(h5::File& file, const Snapshot& s, const std::vector<SnapshotArray>& arrays) {
-  const hsize_t frames = s.frames(), points = s.points.size();
-  std::vector<std::int64_t> zeros, ones, rows;
-  for (hsize_t j = 0; j < frames; ++j) {
-    zeros.push_back(0);
-    ones.push_back(1);
-    rows.push_back(static_cast<std::int64_t>(j * points));
-  }
-  file.create_group("/VTKHDF/Steps");
-  file.write_integers("/VTKHDF/Steps", "NSteps",
-                      std::array<std::int64_t, 1>{static_cast<std::int64_t>(frames)});
-  write_list(file, "/VTKHDF/Steps/Values", s.times);
-  write_list(file, "/VTKHDF/Steps/PartOffsets", zeros);
-  write_list(file, "/VTKHDF/Steps/NumberOfParts", ones);
-  write_list(file, "/VTKHDF/Steps/PointOffsets", zeros);
-  file.write<std::int64_t>("/VTKHDF/Steps/CellOffsets", zeros, {frames, 1});
-  file.write<std::int64_t>("/VTKHDF/Steps/ConnectivityIdOffsets", zeros, {frames, 1});
+void write_vtk(h5::File& file, const Snapshot& s, const std::vector<SnapshotArray>& arrays) {
+  h5::write_vtk_mesh(file, as_numbers(s.points), s.cell_types, s.cell_offsets, s.connectivity);
+  h5::write_vtk_steps(file, s.times);
   std::vector<SnapshotArray> all = {{"displacement", 3, true}};
   all.insert(all.end(), arrays.begin(), arrays.end());
-  for (const SnapshotArray& array : all) {
-    write_list(file, "/VTKHDF/Steps/PointDataOffsets/" + array.name, array.varies ? rows : zeros);
-    constexpr hsize_t chunk_rows = 32768;  // 0.75 MB: one chunk is read to get one node's neighbourhood
-    const hsize_t length = array.varies ? frames * points : points;
-    h5::Shape shape = {length};
-    if (array.components > 1) shape.push_back(array.components);
-    file.create_dataset<double>("/VTKHDF/PointData/" + array.name, shape, std::min(points, chunk_rows));
-  }
+  for (const SnapshotArray& array : all)
+    h5::create_vtk_point_array(file, array.name, array.components, s.points.size(), s.frames(), array.varies);
 }
 
 void write_cut(h5::File& file, const Snapshot& s) {
@@ -134,8 +97,7 @@ SnapshotWriter::SnapshotWriter(const std::string& path, const Snapshot& s,
   file_.write_text("/", "producer", producer());
   if (!s.body.empty()) file_.write_text("/", "body", s.body);
   if (s.coordinates) file_.write_text("/", "coordinates", "canonical");
-  write_vtk_mesh(file_, s);
-  write_vtk_steps(file_, s, arrays);
+  write_vtk(file_, s, arrays);
   write_table(file_, "/foundation/triangles", s.foundation_triangles);
   write_table(file_, "/foundation/quads", s.foundation_quads);
   if (!s.body.empty() || !s.tension.empty())
