@@ -30,31 +30,30 @@ std::span<const Sample> fitted_nodes_of(const Series& series) {
   return {series.samples.data(), series.nodes};
 }
 
-NodeErrors node_errors(const Field& field, const Series& series, std::size_t frame, std::size_t first) {
-  const auto all = series.node_samples();
-  const auto nodes = all.subspan(first, std::min(nodes_at_once, all.size() - first));
-  const std::vector<Vec3> spline = spline_at(field, nodes, series.times[frame]);
-  const Eigen::MatrixXd data = series.node_values(frame, first, nodes.size());
+NodeErrors node_errors(const Field& field, const Series& series, std::size_t frame, std::size_t first,
+                       std::size_t count) {
+  const std::vector<Vec3> spline =
+      spline_at(field, series.node_samples().subspan(first, count), series.times[frame]);
+  const Eigen::MatrixXd data = series.node_values(frame, first, count);
   NodeErrors errors;
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
+  for (std::size_t n = 0; n < count; ++n) {
     const auto row = static_cast<Eigen::Index>(n);
     const Vec3 at_node{data(row, 0), data(row, 1), data(row, 2)};
     const double squared = squared_norm(spline[n] - at_node);
     errors.error += squared, errors.data += squared_norm(at_node);
     if (squared > errors.largest) errors.largest = squared, errors.worst_node = first + n;
   }
+  series.frames.forget(frame);
   return errors;
 }
 
 /// Of each frame, of all nodes.
 std::vector<NodeErrors> node_errors(const Field& field, const Series& series) {
-  const std::size_t nodes = series.node_samples().size(), ranges = (nodes - 1) / nodes_at_once + 1;
-  std::vector<NodeErrors> parts(ranges * series.times.size()), frames(series.times.size());
-  parallel_for(static_cast<int>(parts.size()), [&](int i) {
-    const std::size_t part = i;
-    parts[part] = node_errors(field, series, part / ranges, part % ranges * nodes_at_once);
-    series.frames.forget(part / ranges);
+  const auto parts = of_node_ranges(series, [&](std::size_t frame, std::size_t first, std::size_t count) {
+    return node_errors(field, series, frame, first, count);
   });
+  std::vector<NodeErrors> frames(series.times.size());
+  const std::size_t ranges = parts.size() / frames.size();
   for (std::size_t part = 0; part < parts.size(); ++part) {
     NodeErrors& frame = frames[part / ranges];
     frame.error += parts[part].error, frame.data += parts[part].data;

@@ -39,12 +39,10 @@ class Spline {
 
   /// The largest distance from the data at any node and frame.
   double error() const {
-    const std::size_t nodes = series_.node_samples().size(), ranges = (nodes - 1) / nodes_at_once + 1;
-    std::vector<double> errors(data_.frames.size() * ranges);
-    parallel_for(static_cast<int>(errors.size()), [&](int i) {
-      const std::size_t part = i, frame = part / ranges, first = part % ranges * nodes_at_once;
-      errors[part] = norms_of(left(frame, first, std::min(nodes_at_once, nodes - first))).maxCoeff();
+    const auto errors = of_node_ranges(series_, [&](std::size_t frame, std::size_t first, std::size_t count) {
+      const double largest = norms_of(left(frame, first, count)).maxCoeff();
       data_.frames.forget(frame);
+      return largest;
     });
     return *std::max_element(errors.begin(), errors.end());
   }

@@ -1,17 +1,30 @@
 // What splines leave at the nodes, coded.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "encoder/field/encoded.h"
 #include "encoder/series.h"
 
 namespace cleft {
 
-/// Ranges of nodes that are worked on at a time.
-inline constexpr std::size_t nodes_at_once = CodedResidual::most_nodes;
+/// What work(frame, first, count) returns for ranges of all nodes in all frames of a series, on all cores: of
+/// each frame as many, one frame after another.
+template <class Work>
+auto of_node_ranges(const Series& series, const Work& work) {
+  constexpr std::size_t at_once = CodedResidual::most_nodes;
+  const std::size_t nodes = series.node_samples().size(), ranges = (nodes - 1) / at_once + 1;
+  std::vector<decltype(work(0, 0, 0))> results(series.times.size() * ranges);
+  parallel_for(static_cast<int>(results.size()), [&](int i) {
+    const std::size_t part = i, first = part % ranges * at_once;
+    results[part] = work(part / ranges, first, std::min(at_once, nodes - first));
+  });
+  return results;
+}
 
 /// The spline at the nodes.
 std::vector<Vec3> spline_at(const Field& field, std::span<const Sample> nodes, double t);
