@@ -161,11 +161,12 @@ Encoded encode(const Series& series, const EncodeOptions& options,
   if (series.largest_displacement == 0 && !options.rung)
     chosen.rung = rung_of_quantities(series, options, progress);
   Encoded encoded = Encoder(series, chosen, progress, std::move(store)).run();
-  for (const SeriesQuantity& data : series.quantities) {
+  for (int number = 0; number < static_cast<int>(series.quantities.size()); ++number) {
+    const SeriesQuantity& data = series.quantities[number];
     progress("fitting " + data.name);
     std::optional<double> limit;
     if (!options.rung) limit = options.tolerance_of(data.name).limit(data.scale > 0 ? data.scale : 1);
-    FittedQuantity fitted = fit_quantity(series, data, encoded.field, limit);
+    FittedQuantity fitted = fit_quantity(series, number, encoded.field, limit);
     encoded.field.quantities.push_back(std::move(fitted.quantity));
     encoded.of_quantities.push_back(std::move(fitted.residual));
   }

@@ -7,18 +7,11 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "encoder/residual_coding.h"
+#include "encoder/at_nodes.h"
 
 namespace cleft {
 
 namespace {
-
-/// Errors at nodes, squared.
-struct NodeErrors {
-  double error = 0, data = 0;  ///< sums
-  double largest = 0;
-  std::size_t worst_node = 0;
-};
 
 /// Other figures of one frame, at the samples that are fitted.
 struct Frame {
@@ -30,38 +23,7 @@ std::span<const Sample> fitted_nodes_of(const Series& series) {
   return {series.samples.data(), series.nodes};
 }
 
-NodeErrors node_errors(const Field& field, const Series& series, std::size_t frame, std::size_t first,
-                       std::size_t count) {
-  const std::vector<Vec3> spline =
-      spline_at(field, series.node_samples().subspan(first, count), series.times[frame]);
-  const Eigen::MatrixXd data = series.node_values(frame, first, count);
-  NodeErrors errors;
-  for (std::size_t n = 0; n < count; ++n) {
-    const auto row = static_cast<Eigen::Index>(n);
-    const Vec3 at_node{data(row, 0), data(row, 1), data(row, 2)};
-    const double squared = squared_norm(spline[n] - at_node);
-    errors.error += squared, errors.data += squared_norm(at_node);
-    if (squared > errors.largest) errors.largest = squared, errors.worst_node = first + n;
-  }
-  series.frames.forget(frame);
-  return errors;
-}
-
-/// Of each frame, of all nodes.
-std::vector<NodeErrors> node_errors(const Field& field, const Series& series) {
-  const auto parts = of_node_ranges(series, [&](std::size_t frame, std::size_t first, std::size_t count) {
-    return node_errors(field, series, frame, first, count);
-  });
-  std::vector<NodeErrors> frames(series.times.size());
-  const std::size_t ranges = parts.size() / frames.size();
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    NodeErrors& frame = frames[part / ranges];
-    frame.error += parts[part].error, frame.data += parts[part].data;
-    if (parts[part].largest > frame.largest)
-      frame.largest = parts[part].largest, frame.worst_node = parts[part].worst_node;
-  }
-  return frames;
-}
+NodeSpline spline_of(const Field& field) { return {NodeSpline::displacement, 3, {field}}; }
 
 Vec3 data_at(const Series& series, std::size_t frame, std::size_t node) {
   const auto row = series.frames[frame].row(static_cast<Eigen::Index>(node));
@@ -137,7 +99,7 @@ FitReport measure(const Field& field, const Series& series) {
   report.frames = static_cast<double>(series.times.size());
   const double scale = report.largest_displacement = series.largest_displacement;
   if (scale == 0) return report;  // nothing moves: every figure is 0
-  const std::vector<NodeErrors> at_nodes = node_errors(field, series);
+  const std::vector<NodeErrors> at_nodes = node_errors(series, spline_of(field));
   std::vector<Frame> frames(series.times.size());
   parallel_for(static_cast<int>(frames.size()),
                [&](int j) { frames[j] = measure_frame(field, series, static_cast<std::size_t>(j)); });
@@ -150,7 +112,7 @@ FitReport measure(const Field& field, const Series& series) {
       report.worst_node = static_cast<int>(errors.worst_node), report.worst_time = series.times[j];
     }
     if (series.largest[j] > 0)
-      report.frame_error = std::max(report.frame_error, std::sqrt(errors.largest) / series.largest[j]);
+      report.frame_error = std::max(report.frame_error, errors.largest / series.largest[j]);
     const Frame& f = frames[j];
     report.gape_error = std::max(report.gape_error, f.gape / scale);
     report.false_gap = std::max(report.false_gap, f.false_gap / scale);
@@ -159,30 +121,14 @@ FitReport measure(const Field& field, const Series& series) {
     report.least_volume = std::min(report.least_volume, f.least_volume);
   }
   report.relative_l2 = std::sqrt(error / data);
-  report.node_error = report.spline_error = std::sqrt(largest) / scale;
+  report.node_error = report.spline_error = largest / scale;
   report.measure_seconds = watch.seconds();
   return report;
 }
 
 CodedResidual residual_of(Field& field, const Series& series, double bound) {
-  CodedResidual kind;
-  // Half a step each way is sqrt(3) / 2 steps together; a little less for rounding.
-  kind.quantum = (1 - 1e-9) * 2 / std::sqrt(3.) * bound;
-  kind.nodes = static_cast<int>(series.node_samples().size());
-  kind.frames = static_cast<int>(series.times.size()) - kind.first_frame;
   double largest = 0;
-  CodedResidual residual = code_residual(
-      kind,
-      [&](std::size_t frame, std::size_t first, std::size_t count) {
-        Eigen::MatrixXd left = series.node_values(frame, first, count);
-        const auto nodes = series.node_samples().subspan(first, count);
-        const std::vector<Vec3> spline = spline_at(field, nodes, series.times[frame]);
-        for (std::size_t n = 0; n < count; ++n)
-          left.row(static_cast<Eigen::Index>(n)) -= Eigen::RowVector3d(spline[n].x, spline[n].y, spline[n].z);
-        if (count == series.nodes) series.frames.forget(frame);
-        return left;
-      },
-      largest);
+  CodedResidual residual = code_left(series, spline_of(field), 1, bound, largest);
   field.report.node_error = largest / series.largest_displacement;
   return residual;
 }

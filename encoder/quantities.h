@@ -18,10 +18,10 @@ struct FittedQuantity {
   std::optional<CodedResidual> residual;  ///< if the spline alone does not satisfy the tolerance
 };
 
-/// Fits a quantity of the series over the bases of the field. `limit` bounds the norm of its error at any
-/// node and frame, in its own unit; without one there is no bound and no residual. Control points are
+/// Fits quantity `number` of the series over the bases of the field. `limit` bounds the norm of its error at
+/// any node and frame, in its own unit; without one there is no bound and no residual. Control points are
 /// multiples of a quantum that costs a small part of the limit, or of the error.
-FittedQuantity fit_quantity(const Series& series, const SeriesQuantity& data, const Field& field,
+FittedQuantity fit_quantity(const Series& series, int number, const Field& field,
                             std::optional<double> limit);
 
 }  // namespace cleft

@@ -93,19 +93,16 @@ void check_cut(const Snapshot& s) {
   }
 }
 
-/// Calls work(values) for each frame: those at all nodes, or at the samples where these are all.
-template <class Work>
-void over_frames(const SeriesQuantity& quantity, std::size_t nodes, const Work& work) {
-  for (std::size_t j = 0; j < quantity.frames.size(); ++j)
-    quantity.read ? work(quantity.read(j, 0, nodes)) : work(quantity.frames[j]);
-}
+/// Of a frame, at all nodes or at the samples.
+using ValuesOf = std::function<Eigen::MatrixXd(std::size_t frame)>;
 
 /// Least and greatest of a scalar.
-std::array<double, 2> range_of(const SeriesQuantity& quantity, std::size_t nodes) {
+std::array<double, 2> range_of(std::size_t frames, const ValuesOf& values) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  over_frames(quantity, nodes, [&](const auto& frame) {
+  for (std::size_t j = 0; j < frames; ++j) {
+    const Eigen::MatrixXd frame = values(j);
     low = std::min(low, frame.minCoeff()), high = std::max(high, frame.maxCoeff());
-  });
+  }
   return {low, high};
 }
 
@@ -121,15 +118,24 @@ NodeRows rows_of(const std::vector<double>& numbers, std::size_t components) {
                                     static_cast<Eigen::Index>(components));
 }
 
+/// Those of imported data; a simulation's own are about its solver.
+std::vector<SnapshotArray> quantity_arrays(const SnapshotReader& reader) {
+  if (!reader.snapshot().source) return {};
+  std::vector<SnapshotArray> arrays = reader.point_arrays();
+  if (reader.snapshot().coordinates)
+    std::erase_if(arrays, [](const SnapshotArray& array) {
+      return array.name == canonical_array.name || array.name == frame_array.name;
+    });
+  return arrays;
+}
+
 std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader, const SeriesSamples& taken,
-                                          std::size_t nodes, const std::shared_ptr<SpillFile>& file) {
+                                          const std::vector<SnapshotArray>& arrays,
+                                          const NodeValues* at_nodes, std::size_t nodes,
+                                          const std::shared_ptr<SpillFile>& file) {
   std::vector<SeriesQuantity> quantities;
-  if (!reader.snapshot().source) return quantities;  // a simulation's own arrays are about its solver
-  for (const SnapshotArray& array : reader.point_arrays()) {
-    if (reader.snapshot().coordinates &&
-        (array.name == canonical_array.name || array.name == frame_array.name))
-      continue;
-    SeriesQuantity quantity{array.name, StoredFrames<Eigen::Dynamic>(file), {}, 0, 0, {}};
+  for (const SnapshotArray& array : arrays) {
+    SeriesQuantity quantity{array.name, StoredFrames<Eigen::Dynamic>(file), 0, 0, {}};
     for (std::size_t j = 0; j < reader.snapshot().frames(); ++j) {
       const Eigen::MatrixXd frame = rows_of(reader.point_array(array, j), array.components);
       const Eigen::VectorXd sizes = norms_of(frame);
@@ -140,27 +146,27 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader, const Se
       quantity.largest = std::max(quantity.largest, sizes.maxCoeff());
       quantity.frames.push_back(taken.at_samples(frame));  // the places of a node all have its values
     }
-    quantity.read = taken.reading([&reader, array](std::size_t frame, std::size_t first, std::size_t count) {
-      return rows_of(reader.point_array(array, frame, first, count), array.components);
+    set_scale(quantity, [&](std::size_t frame) -> Eigen::MatrixXd {
+      if (at_nodes) return at_nodes->quantity(quantities.size(), frame, 0, nodes);
+      return quantity.frames[frame];
     });
-    set_scale(quantity, nodes);
     quantities.push_back(std::move(quantity));
   }
   return quantities;
 }
 
 /// What the displacements from frame 0 leave out. Its error is as large as theirs may be.
-void add_start(std::vector<SeriesQuantity>& quantities, const std::shared_ptr<const NodeRows>& start,
-               std::size_t frames, double largest_displacement, const SeriesSamples& taken,
+void add_start(std::vector<SeriesQuantity>& quantities, const NodeRows& start, std::size_t frames,
+               double largest_displacement, const SeriesSamples& taken, const NodeValues* at_nodes,
                std::size_t nodes) {
-  const double largest = start->rowwise().norm().maxCoeff();
+  const double largest = start.rowwise().norm().maxCoeff();
   if (largest == 0) return;
-  SeriesQuantity quantity{Series::at_start, StoredFrames<Eigen::Dynamic>(), {}, largest, 0, {}};
-  quantity.frames.assign(frames, taken.at_samples(*start));
-  quantity.read = taken.reading([start](std::size_t, std::size_t first, std::size_t count) -> NodeRows {
-    return start->middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
+  SeriesQuantity quantity{Series::at_start, StoredFrames<Eigen::Dynamic>(), largest, 0, {}};
+  quantity.frames.assign(frames, taken.at_samples(start));
+  set_scale(quantity, [&](std::size_t frame) -> Eigen::MatrixXd {
+    if (at_nodes) return at_nodes->quantity(quantities.size(), frame, 0, nodes);
+    return quantity.frames[frame];
   });
-  set_scale(quantity, nodes);
   if (largest_displacement > 0) quantity.scale = largest_displacement;
   quantities.push_back(std::move(quantity));
 }
@@ -198,43 +204,42 @@ std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader, const
 
 }  // namespace
 
-Eigen::MatrixXd SeriesQuantity::node_values(std::size_t frame, std::size_t first, std::size_t count) const {
-  if (read) return read(frame, first, count);
-  return frames[frame].middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
+Eigen::MatrixXd Series::values(int field, std::size_t frame, std::size_t first, std::size_t count) const {
+  const auto from = static_cast<Eigen::Index>(first), rows = static_cast<Eigen::Index>(count);
+  if (field == NodeSpline::displacement) {
+    if (node_values) return node_values->displacement(frame, first, count);
+    Eigen::MatrixXd some = frames[frame].middleRows(from, rows);
+    frames.forget(frame);
+    return some;
+  }
+  const auto number = static_cast<std::size_t>(field);
+  if (node_values) return node_values->quantity(number, frame, first, count);
+  Eigen::MatrixXd some = quantities[number].frames[frame].middleRows(from, rows);
+  quantities[number].frames.forget(frame);
+  return some;
 }
 
-Eigen::MatrixXd Series::node_values(std::size_t frame, std::size_t first, std::size_t count) const {
-  if (read) return read(frame, first, count);
-  return frames[frame].middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
-}
-
-void set_scale(SeriesQuantity& quantity, std::size_t nodes) {
+void set_scale(SeriesQuantity& quantity, const std::function<Eigen::MatrixXd(std::size_t)>& values) {
+  const std::size_t frames = quantity.frames.size();
   const Eigen::Index components = quantity.frames.front().cols();
   Eigen::RowVectorXd middle = Eigen::RowVectorXd::Zero(components);
   if (components == 1) {
-    const auto [low, high] = range_of(quantity, nodes);
+    const auto [low, high] = range_of(frames, values);
     middle(0) = (low + high) / 2;
   } else {
-    over_frames(quantity, nodes, [&](const auto& frame) {
-      middle += frame.colwise().mean() / static_cast<double>(quantity.frames.size());
-    });
+    for (std::size_t j = 0; j < frames; ++j)
+      middle += values(j).colwise().mean() / static_cast<double>(frames);
   }
   double farthest = 0;
-  over_frames(quantity, nodes, [&](const auto& frame) {
-    farthest = std::max(farthest, norms_of(frame.rowwise() - middle).maxCoeff());
-  });
+  for (std::size_t j = 0; j < frames; ++j)
+    farthest = std::max(farthest, norms_of(values(j).rowwise() - middle).maxCoeff());
   const bool about_middle = 2 * farthest < quantity.largest;
   quantity.middle = about_middle ? middle : Eigen::RowVectorXd::Zero(components);
   quantity.scale = about_middle && farthest > 0 ? 2 * farthest : quantity.largest;
 }
 
-Eigen::VectorXd norms_of(const Eigen::MatrixXd& rows) {
-  if (rows.cols() != 6) return rows.rowwise().norm();
-  return (rows.leftCols<3>().rowwise().squaredNorm() + 2 * rows.rightCols<3>().rowwise().squaredNorm())
-      .cwiseSqrt();
-}
-
-Series::Series(const SnapshotReader& reader, const SeriesStorage& storage) : frames(storage.file) {
+Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
+    : block(storage.block), frames(storage.file) {
   std::shared_ptr<const OwnCoordinates> own;
   std::optional<Snapshot> moved;
   if (!reader.snapshot().body.empty() || reader.snapshot().coordinates) {
@@ -252,7 +257,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage) : fra
   for (std::size_t i = nodes; own && i < samples.size(); ++i)
     if (samples[i].uvw.y == 0) samples[i].side = samples[own->node[own->kept[i]]].side;
   const SeriesSamples taken(s, samples, own, nodes, storage.most);
-  const auto closed = std::make_shared<const NodeRows>(rows_of(numbers_of(reader.displacement(0)), 3));
+  const NodeRows closed = rows_of(numbers_of(reader.displacement(0)), 3);
   for (std::size_t j = 0; j < s.frames(); ++j) {
     const std::vector<Vec3> d = reader.displacement(j);
     Eigen::MatrixX3d frame(static_cast<Eigen::Index>(taken.size()), 3);
@@ -261,7 +266,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage) : fra
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const std::size_t n = taken.node_of(i);
       const auto row = static_cast<Eigen::Index>(n);
-      const Vec3 change = d[n] - Vec3{(*closed)(row, 0), (*closed)(row, 1), (*closed)(row, 2)};
+      const Vec3 change = d[n] - Vec3{closed(row, 0), closed(row, 1), closed(row, 2)};
       const Vec3 along = taken.in_axes(i, change);
       squared = std::max(squared, squared_norm(along));
       if (sample == taken.size() || taken.place(sample) != i) continue;
@@ -272,14 +277,12 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage) : fra
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
   pairs = taken.pairs_of(s.pairs);
+  const std::vector<SnapshotArray> arrays = quantity_arrays(reader);
   if (taken.in_part()) {
     all_nodes = std::make_shared<const std::vector<Sample>>(
         samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(nodes));
-    read = taken.reading_displacements(
-        [&reader, closed](std::size_t frame, std::size_t first, std::size_t count) -> NodeRows {
-          return rows_of(numbers_of(reader.displacement(frame, first, count)), 3) -
-                 closed->middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
-        });
+    node_values = std::make_shared<const NodeValues>(taken.nodes_in_file(reader.values(), arrays));
+    if (storage.spread) elsewhere = storage.spread(node_values, *all_nodes, times, block);
     std::vector<Sample> some;
     for (std::size_t i = 0; i < taken.size(); ++i) some.push_back(samples[taken.place(i)]);
     samples = std::move(some), nodes = taken.nodes();
@@ -290,8 +293,10 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage) : fra
   if (s.source && s.source->break_extent.size() >= 8)
     arm = std::any_of(s.source->break_extent.begin() + 4, s.source->break_extent.begin() + 8,
                       [](double joined) { return joined != 0; });
-  quantities = quantities_of(reader, taken, node_samples().size(), storage.file);
-  if (s.source) add_start(quantities, closed, s.frames(), largest_displacement, taken, node_samples().size());
+  const NodeValues* at_nodes = node_values.get();
+  quantities = quantities_of(reader, taken, arrays, at_nodes, node_samples().size(), storage.file);
+  if (s.source)
+    add_start(quantities, closed, s.frames(), largest_displacement, taken, at_nodes, node_samples().size());
   derivatives = derivatives_of(reader, taken);
   geometry = geometry_of(s, parted(pairs, frames, largest_displacement));
 }
@@ -308,13 +313,9 @@ void share_scales(std::vector<Series>& pieces) {
       if (!has_start(piece)) {
         const Eigen::MatrixXd none =
             Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(piece.samples.size()), 3);
-        SeriesQuantity quantity{Series::at_start,           StoredFrames<Eigen::Dynamic>(), {}, 0, 0,
+        SeriesQuantity quantity{Series::at_start, StoredFrames<Eigen::Dynamic>(), 0, 0,
                                 Eigen::RowVectorXd::Zero(3)};
         quantity.frames.assign(piece.times.size(), none);
-        if (piece.read)
-          quantity.read = [](std::size_t, std::size_t, std::size_t count) -> Eigen::MatrixXd {
-            return Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), 3);
-          };
         piece.quantities.push_back(std::move(quantity));
       }
   for (std::size_t q = 0; q < pieces.front().quantities.size(); ++q) {
@@ -323,7 +324,10 @@ void share_scales(std::vector<Series>& pieces) {
       const SeriesQuantity& quantity = piece.quantities[q];
       most = std::max(most, quantity.largest), scale = std::max(scale, quantity.scale);
       if (quantity.frames.front().cols() != 1) continue;
-      const auto [least, greatest] = range_of(quantity, piece.node_samples().size());
+      const auto [least, greatest] = range_of(piece.times.size(), [&](std::size_t frame) -> Eigen::MatrixXd {
+        if (piece.node_values) return piece.node_values->quantity(q, frame, 0, piece.node_samples().size());
+        return quantity.frames[frame];
+      });
       low = std::min(low, least), high = std::max(high, greatest);
     }
     if (low < high) scale = std::min(most, high - low);

@@ -10,37 +10,28 @@
 
 #include "encoder/cell_centres.h"
 #include "encoder/field/parametrization.h"
+#include "encoder/node_values.h"
+#include "encoder/node_work.h"
+#include "encoder/norms.h"
 #include "encoder/stored_frames.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft {
 
-/// Values at nodes first .. first + count - 1 in a frame, count x components, read from the snapshot. May be
-/// called from several threads at once.
-using ReadNodes = std::function<Eigen::MatrixXd(std::size_t frame, std::size_t first, std::size_t count)>;
-
 /// A further quantity at the nodes: its own values, not from frame 0.
 struct SeriesQuantity {
   std::string name;
   StoredFrames<Eigen::Dynamic> frames;  ///< F: N x components
-  ReadNodes read;                       ///< of all nodes, where the series has a part of them
   double largest = 0;                   ///< largest norm (norms_of), at any node and frame
   /// What a tolerance is relative to: `largest`, or the range of the values where they vary about something
   /// else than 0 and that is less (a pressure of 101325 +- 10 Pa has 20). Of a vector or tensor, twice the
   /// largest norm of its difference from its mean.
   double scale = 0;
   Eigen::RowVectorXd middle;  ///< what the values vary about; 0 where `scale` is `largest`
-
-  /// At nodes of the snapshot, of all.
-  Eigen::MatrixXd node_values(std::size_t frame, std::size_t first, std::size_t count) const;
 };
 
-/// Sets scale and middle from `largest` and the values. `nodes`: of the snapshot.
-void set_scale(SeriesQuantity& quantity, std::size_t nodes);
-
-/// Norms of the rows: Euclidean; of six components, of the symmetric tensor XX YY ZZ XY YZ XZ, whose norm
-/// does not depend on the axes.
-Eigen::VectorXd norms_of(const Eigen::MatrixXd& rows);
+/// Sets scale and middle from `largest` and the values of each frame, at all nodes.
+void set_scale(SeriesQuantity& quantity, const std::function<Eigen::MatrixXd(std::size_t frame)>& values);
 
 /// The derivative of the displacement from frame 0 by a parameter, mm per unit of the parameter.
 struct SeriesDerivative {
@@ -52,9 +43,14 @@ struct SeriesDerivative {
 /// How a series is held.
 struct SeriesStorage {
   std::shared_ptr<SpillFile> file = {};  ///< where the values are; none: in memory
-  /// Samples that are fitted, about, where there are more (fitted_nodes.h); then the snapshot's reader must
-  /// live as long as the series.
+  /// Samples that are fitted, about, where there are more (fitted_nodes.h).
   std::size_t most = static_cast<std::size_t>(-1);
+  std::size_t block = CodedResidual::most_nodes;  ///< nodes that are worked on together
+  /// Then makes the work over all nodes; none: it is done in this process.
+  std::function<std::shared_ptr<const NodeWork>(std::shared_ptr<const NodeValues> values,
+                                                std::span<const Sample> nodes, std::span<const double> times,
+                                                std::size_t block)>
+      spread = {};
 };
 
 struct Series {
@@ -65,7 +61,9 @@ struct Series {
   std::size_t nodes = 0;
   /// All nodes of the snapshot, at which errors are measured, where the samples are a part of them.
   std::shared_ptr<const std::vector<Sample>> all_nodes;
-  ReadNodes read;                   ///< of these, the displacement from frame 0, mm
+  std::shared_ptr<const NodeValues> node_values;  ///< and their values
+  std::shared_ptr<const NodeWork> elsewhere;      ///< where work over them is done; none: here
+  std::size_t block = CodedResidual::most_nodes;  ///< nodes that are worked on together
   StoredFrames<3> frames;           ///< F: N x 3, displacement from frame 0, mm; frame 0 is zero
   std::vector<double> largest;      ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;  ///< mm, of all
@@ -90,8 +88,8 @@ struct Series {
   std::span<const Sample> node_samples() const {
     return all_nodes ? std::span(*all_nodes) : std::span(samples.data(), nodes);
   }
-  /// Their displacement from frame 0, mm.
-  Eigen::MatrixXd node_values(std::size_t frame, std::size_t first, std::size_t count) const;
+  /// Values of a field (NodeSpline::field) at count of them from `first` on.
+  Eigen::MatrixXd values(int field, std::size_t frame, std::size_t first, std::size_t count) const;
 };
 
 /// Tolerances of the pieces of one body are relative to the body's largest values, not to each piece's.

@@ -1,7 +1,6 @@
 #include "encoder/series_samples.h"
 
 #include <algorithm>
-#include <mutex>
 #include <span>
 
 #include "encoder/fitted_nodes.h"
@@ -52,38 +51,23 @@ Snapshot SeriesSamples::cells_of(const Snapshot& s) const {
   return part;
 }
 
-ReadNodes SeriesSamples::reading(ReadRows read) const {
-  if (!in_part()) return {};
-  const auto one_at_a_time = [read = std::move(read), lock = std::make_shared<std::mutex>()](
-                                 std::size_t frame, std::size_t first, std::size_t count) {
-    const std::lock_guard held(*lock);  // HDF5 serves one thread at a time
-    return read(frame, first, count);
-  };
-  if (!own_) return one_at_a_time;
+NodesInFile SeriesSamples::nodes_in_file(const SnapshotValues& values,
+                                         std::vector<SnapshotArray> quantities) const {
+  quantities.emplace_back(SnapshotArray{"", 3, false});
+  NodesInFile all{values.file().path(), values.points(), values.taken(), {}, std::move(quantities)};
+  if (!own_ && !all.taken) return all;
   // The places of nodes are in the order of the nodes, some of which have none.
-  return [one_at_a_time, own = own_](std::size_t frame, std::size_t first, std::size_t count) {
-    const std::size_t from = own->kept[first], to = own->kept[first + count - 1] + 1;
-    const NodeRows all = one_at_a_time(frame, from, to - from);
-    Eigen::MatrixXd values(static_cast<Eigen::Index>(count), all.cols());
-    for (std::size_t i = 0; i < count; ++i)
-      values.row(static_cast<Eigen::Index>(i)) =
-          all.row(static_cast<Eigen::Index>(own->kept[first + i] - from));
-    return values;
-  };
-}
-
-ReadNodes SeriesSamples::reading_displacements(ReadRows read) const {
-  ReadNodes along_axes = reading(std::move(read));
-  if (!own_ || !along_axes) return along_axes;
-  return [along_axes, own = own_](std::size_t frame, std::size_t first, std::size_t count) {
-    Eigen::MatrixXd values = along_axes(frame, first, count);
-    for (Eigen::Index i = 0; i < values.rows(); ++i) {
-      const Vec3 d = own->components(own->kept[first + static_cast<std::size_t>(i)],
-                                     {values(i, 0), values(i, 1), values(i, 2)});
-      values.row(i) << d.x, d.y, d.z;
-    }
-    return values;
-  };
+  NodesInFile some{all.file,
+                   all.points,
+                   TakenNodes{{}, all.taken ? all.taken->axes : same_axes},
+                   {},
+                   std::move(all.quantities)};
+  for (std::size_t i = 0; i < nodes_; ++i) {
+    const std::size_t n = own_ ? own_->kept[i] : i;
+    some.taken->nodes.push_back(all.taken ? all.taken->nodes[n] : static_cast<std::int32_t>(n));
+    if (own_) some.axes.push_back(own_->frames[n]);
+  }
+  return some;
 }
 
 }  // namespace cleft

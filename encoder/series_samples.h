@@ -4,14 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "encoder/node_values.h"
 #include "encoder/own_coordinates.h"
 #include "encoder/samples.h"
 #include "encoder/series.h"
 
 namespace cleft {
-
-/// A row a node.
-using NodeRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Samples are nodes of the snapshot or, with coordinates of their own, places at which a node is seen; all
 /// of them, or a part (fitted_nodes.h).
@@ -41,11 +39,8 @@ class SeriesSamples {
   /// Connectivity of the cells whose nodes are all samples.
   Snapshot cells_of(const Snapshot& s) const;
 
-  using ReadRows = std::function<NodeRows(std::size_t frame, std::size_t first, std::size_t count)>;
-  /// Values at the series' nodes, of `read`, which reads those of the snapshot's. None if all are samples.
-  ReadNodes reading(ReadRows read) const;
-  /// The same of displacements, in the field's axes.
-  ReadNodes reading_displacements(ReadRows read) const;
+  /// Where the nodes of the series are in its file, with the quantities, and the displacement of frame 0.
+  NodesInFile nodes_in_file(const SnapshotValues& values, std::vector<SnapshotArray> quantities) const;
 
  private:
   std::shared_ptr<const OwnCoordinates> own_;

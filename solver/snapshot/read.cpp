@@ -10,7 +10,7 @@ namespace cleft {
 
 namespace {
 
-const std::string point_data = "/VTKHDF/PointData", displacements = point_data + "/displacement";
+const std::string displacements = point_data_group + "/displacement";
 
 std::vector<Vec3> as_vectors(const std::vector<double>& numbers) {
   std::vector<Vec3> vectors(numbers.size() / 3);
@@ -280,21 +280,20 @@ std::vector<Vec3> Snapshot::points_in_source() const {
   return list;
 }
 
-SnapshotReader::SnapshotReader(const std::string& path)
-    : file_(h5::File::open(path)),
-      snapshot_(read_all_but_displacements(file_)),
-      stored_points_(snapshot_.points.size()) {}
+SnapshotReader::SnapshotReader(const std::string& path) : SnapshotReader(h5::File::open(path)) {}
+
+SnapshotReader::SnapshotReader(h5::File file)
+    : snapshot_(read_all_but_displacements(file)), values_(std::move(file), snapshot_.points.size()) {}
 
 SnapshotReader::SnapshotReader(const std::string& path, std::size_t number) : SnapshotReader(path) {
   Snapshot whole = std::move(snapshot_);
   CLEFT_CHECK(number, <, whole.pieces.size());
   SnapshotPiece piece = std::move(whole.pieces[number]);
-  taken_ = Taken{std::move(piece.nodes), {}, axes_between(whole.source->axes, piece.axes)};
+  const std::vector<std::int32_t> nodes = std::move(piece.nodes);
   const std::string file_name = whole.source->file;
   Snapshot& s = snapshot_ = Snapshot();
   std::vector<std::int64_t> local(whole.points.size(), -1);
-  for (std::size_t i = 0; i < taken_->nodes.size(); ++i)
-    local[taken_->nodes[i]] = static_cast<std::int64_t>(i);
+  for (std::size_t i = 0; i < nodes.size(); ++i) local[nodes[i]] = static_cast<std::int64_t>(i);
   s.cell_offsets = {0};
   for (std::size_t c = 0; c < whole.cell_types.size(); ++c) {
     const auto first = whole.connectivity.begin() + whole.cell_offsets[c],
@@ -307,10 +306,9 @@ SnapshotReader::SnapshotReader(const std::string& path, std::size_t number) : Sn
   s.counting = static_cast<std::size_t>(piece.counting);
   s.coordinates = !piece.break_map.empty();
   if (s.coordinates) {
-    for (const Vec3& p : piece.places) taken_->canonical.insert(taken_->canonical.end(), {p.x, p.y, p.z});
+    for (const Vec3& p : piece.places) canonical_.insert(canonical_.end(), {p.x, p.y, p.z});
     const std::vector<Vec3> in_source = whole.points_in_source();
-    for (const std::int32_t n : taken_->nodes)
-      s.points.push_back(turned(in_source[n] - piece.origin, piece.axes));
+    for (const std::int32_t n : nodes) s.points.push_back(turned(in_source[n] - piece.origin, piece.axes));
   } else {
     s.points = std::move(piece.places);
   }
@@ -327,30 +325,8 @@ SnapshotReader::SnapshotReader(const std::string& path, std::size_t number) : Sn
                             std::move(piece.break_map),
                             std::move(whole.source->fields)};
   s.source->break_extent = std::move(piece.break_extent);
-  SnapshotCheck(file_.path(), s).run();
-}
-
-std::vector<double> SnapshotReader::rows(const std::string& dataset, std::size_t row, std::size_t components,
-                                         std::size_t first, std::size_t count) const {
-  std::vector<double> numbers;
-  if (!taken_) {
-    numbers.resize(components * count);
-    file_.read_rows<double>(dataset, row + first, count, numbers);
-    return numbers;
-  }
-  const std::span nodes(taken_->nodes.data() + first, count);
-  if (nodes.empty()) return numbers;
-  const auto [least, greatest] = std::minmax_element(nodes.begin(), nodes.end());
-  const auto from = static_cast<std::size_t>(*least), to = static_cast<std::size_t>(*greatest) + 1;
-  std::vector<double> all(components * (to - from));
-  file_.read_rows<double>(dataset, row + from, to - from, all);
-  numbers.reserve(components * count);
-  for (const std::int32_t n : nodes) {
-    const auto at = all.begin() + static_cast<std::ptrdiff_t>(components * (n - from));
-    numbers.insert(numbers.end(), at, at + static_cast<std::ptrdiff_t>(components));
-  }
-  turn(numbers, static_cast<int>(components), taken_->axes);
-  return numbers;
+  values_.take({nodes, axes_between(whole.source->axes, piece.axes)});
+  SnapshotCheck(values_.file().path(), s).run();
 }
 
 std::vector<Vec3> SnapshotReader::displacement(std::size_t frame) const {
@@ -360,28 +336,24 @@ std::vector<Vec3> SnapshotReader::displacement(std::size_t frame) const {
 std::vector<Vec3> SnapshotReader::displacement(std::size_t frame, std::size_t first,
                                                std::size_t count) const {
   CLEFT_CHECK(frame, <, snapshot_.frames());
-  const std::vector<Vec3> vectors = as_vectors(rows(displacements, frame * stored_points_, 3, first, count));
-  for (std::size_t n = 0; n < count; ++n)
-    if (!std::isfinite(squared_norm(vectors[n])))
-      throw FileError(file_.path(), "frame " + std::to_string(frame) + ", node " + std::to_string(first + n) +
-                                        " holds a displacement that is not finite");
-  return vectors;
+  return values_.displacement(frame, first, count);
 }
 
 std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
-  const hsize_t points = stored_points_, frames = snapshot_.frames();
+  const h5::File& file = values_.file();
+  const hsize_t points = values_.points(), frames = snapshot_.frames();
   std::vector<SnapshotArray> arrays;
-  for (const std::string& name : file_.members(point_data)) {
+  for (const std::string& name : file.members(point_data_group)) {
     if (name == "displacement") continue;
-    const std::string dataset = point_data + "/" + name;
-    const h5::Shape shape = file_.shape(dataset);
+    const std::string dataset = point_data_group + "/" + name;
+    const h5::Shape shape = file.shape(dataset);
     constexpr hsize_t most_components = 1000;
     const bool table =
         shape.size() == 1 || (shape.size() == 2 && shape[1] > 0 && shape[1] <= most_components);
     if (!table || (shape[0] != points && shape[0] != frames * points))
-      throw FileError(file_.path(), dataset + " must have a row a point (" + std::to_string(points) +
-                                        "), or a row a frame and point (" + std::to_string(frames * points) +
-                                        ")");
+      throw FileError(file.path(), dataset + " must have a row a point (" + std::to_string(points) +
+                                       "), or a row a frame and point (" + std::to_string(frames * points) +
+                                       ")");
     arrays.push_back({name, shape.size() == 1 ? 1 : shape[1], shape[0] != points});
   }
   return arrays;
@@ -394,17 +366,16 @@ std::vector<double> SnapshotReader::point_array(const SnapshotArray& array, std:
 std::vector<double> SnapshotReader::point_array(const SnapshotArray& array, std::size_t frame,
                                                 std::size_t first, std::size_t count) const {
   CLEFT_CHECK(frame, <, snapshot_.frames());
-  if (taken_ && !taken_->canonical.empty() && array.name == canonical_array.name) {
-    const auto begin = taken_->canonical.begin() + static_cast<std::ptrdiff_t>(3 * first);
+  if (!canonical_.empty() && array.name == canonical_array.name) {
+    const auto begin = canonical_.begin() + static_cast<std::ptrdiff_t>(3 * first);
     return {begin, begin + static_cast<std::ptrdiff_t>(3 * count)};
   }
-  if (taken_ && !taken_->canonical.empty() && array.name == frame_array.name) {
+  if (!canonical_.empty() && array.name == frame_array.name) {
     std::vector<double> numbers;
     for (std::size_t n = 0; n < count; ++n) numbers.insert(numbers.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
     return numbers;
   }
-  return rows(point_data + "/" + array.name, array.varies ? frame * stored_points_ : 0, array.components,
-              first, count);
+  return values_.array(array, frame, first, count);
 }
 
 void check_snapshot(const std::string& path) {

@@ -14,6 +14,7 @@
 #include "base/output_file.h"
 #include "base/turned.h"
 #include "params/parameters/recorded.h"
+#include "solver/snapshot/snapshot_values.h"
 
 namespace cleft {
 
@@ -95,13 +96,6 @@ struct Snapshot {
   std::vector<std::array<int, 3>> skin() const;
 };
 
-/// A further array of the points: /VTKHDF/PointData/<name>, one for all frames or one for each frame.
-struct SnapshotArray {
-  std::string name;
-  std::size_t components = 1;  ///< numbers for each point
-  bool varies = false;         ///< F N rows instead of N
-};
-
 /// Where `coordinates` is set, or of a body: every node's coordinates of the cut, and their unit vectors.
 inline const SnapshotArray canonical_array{"canonical", 3, false}, frame_array{"frame", 9, false};
 
@@ -141,6 +135,7 @@ class SnapshotReader {
   SnapshotReader(const std::string& path, std::size_t piece);
 
   const Snapshot& snapshot() const { return snapshot_; }
+  const SnapshotValues& values() const { return values_; }
   /// Displacements from `points` in a frame, N of them.
   std::vector<Vec3> displacement(std::size_t frame) const;
   /// Displacements of the nodes first .. first + count - 1 in a frame.
@@ -156,19 +151,11 @@ class SnapshotReader {
                                   std::size_t count) const;
 
  private:
-  struct Taken {
-    std::vector<std::int32_t> nodes;
-    std::vector<double> canonical;  // empty: those are the points
-    AxesInSpace axes;               // of the piece, along those of the whole
-  };
-  /// Of nodes, in a dataset whose row `row` is that of the file's first node.
-  std::vector<double> rows(const std::string& dataset, std::size_t row, std::size_t components,
-                           std::size_t first, std::size_t count) const;
+  explicit SnapshotReader(h5::File file);
 
-  h5::File file_;
   Snapshot snapshot_;
-  std::size_t stored_points_;
-  std::optional<Taken> taken_;  // of a piece
+  SnapshotValues values_;
+  std::vector<double> canonical_;  // of a piece over a map
 };
 
 /// Reads every byte of a snapshot and throws FileError at the first fault.

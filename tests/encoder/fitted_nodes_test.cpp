@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "encoder/residual_coding.h"
 #include "tests/encoder/bent_snapshot.h"
+#include "tests/encoder/fine_snapshot.h"
 #include "tests/encoder/synthetic_snapshot.h"
 #include "tests/support/temporary_folder.h"
 
@@ -16,36 +16,6 @@ namespace cleft {
 namespace {
 
 constexpr std::size_t most = 3000;
-
-/// 20,000 nodes of an imported series with a temperature.
-class FineSnapshot {
- public:
-  FineSnapshot() {
-    Snapshot s = cut_in(grid(48, 40, 9), eight_times);
-    s.source = SnapshotSource{"series.pvd", {}, same_axes, 0, "0,1,0,0"};
-    s.residual_equilibrium.clear(), s.residual_closure.clear();
-    const SnapshotArray array{"T", 1, true};
-    SnapshotWriter writer(folder_ / "case.h5", s, {array});
-    const std::vector<Sample> samples = samples_of(s);
-    for (std::size_t j = 0; j < s.frames(); ++j) {
-      std::vector<Vec3> d;
-      std::vector<double> temperature;
-      for (const Sample& sample : samples) {
-        d.push_back(opening(sample.uvw, sample.side, s.times[j]));
-        temperature.push_back(300 + sample.uvw.x * s.times[j] + (sample.uvw.y == 1.25 ? 4 : 0));
-      }
-      writer.write_frames(j, d);
-      writer.write_array(array, j, temperature);
-    }
-    writer.finish(s);
-    reader_.emplace(folder_ / "case.h5");
-  }
-  const SnapshotReader& reader() const { return *reader_; }
-
- private:
-  TemporaryFolder folder_;
-  std::optional<SnapshotReader> reader_;
-};
 
 /// At all nodes and frames, by evaluation one by one, over the largest displacement.
 double error_at_nodes(const Encoded& encoded, const Series& all) {
@@ -115,10 +85,10 @@ TEST(FittedNodes, ErrorsAreThoseOfAllNodes) {
   EXPECT_EQ(part.quantities[0].scale, all.quantities[0].scale);
   for (const std::size_t first : {std::size_t{0}, std::size_t{777}}) {
     const auto rows = static_cast<Eigen::Index>(500);
-    EXPECT_EQ(part.node_values(3, first, 500),
+    EXPECT_EQ(part.values(NodeSpline::displacement, 3, first, 500),
               Eigen::MatrixXd(all.frames[3].middleRows(static_cast<Eigen::Index>(first), rows)));
     EXPECT_EQ(
-        part.quantities[0].node_values(3, first, 500),
+        part.values(0, 3, first, 500),
         Eigen::MatrixXd(all.quantities[0].frames[3].middleRows(static_cast<Eigen::Index>(first), rows)));
   }
   bool with_residual = false;
@@ -164,7 +134,7 @@ TEST(FittedNodes, ValuesOfABentSeriesAreReadInItsAxes) {
   ASSERT_LT(part.samples.size(), all.samples.size());
   ASSERT_EQ(part.node_samples().size(), all.nodes);
   for (std::size_t n = 0; n < all.nodes; ++n) EXPECT_EQ(part.node_samples()[n].uvw, all.samples[n].uvw);
-  const auto values = part.node_values(5, 10, all.nodes - 10);
+  const auto values = part.values(NodeSpline::displacement, 5, 10, all.nodes - 10);
   const auto rows = static_cast<Eigen::Index>(all.nodes - 10);
   EXPECT_LT((values - Eigen::MatrixXd(all.frames[5].middleRows(10, rows))).cwiseAbs().maxCoeff(), 1e-12);
 }

@@ -47,7 +47,7 @@ void add_quantity(Series& series, const std::string& name, int components, const
     quantity.largest = std::max(quantity.largest, norms_of(frame).maxCoeff());
     quantity.frames.push_back(std::move(frame));
   }
-  set_scale(quantity, static_cast<std::size_t>(quantity.frames.front().rows()));
+  set_scale(quantity, [&](std::size_t frame) { return Eigen::MatrixXd(quantity.frames[frame]); });
 }
 
 /// Warm from the start, where a displacement would be 0.

@@ -25,14 +25,14 @@ Outcome run_cleft(const std::string& command, const std::vector<std::string>& ar
   return run(argv);
 }
 
-Outcome solve_on_ranks(int ranks, const std::vector<std::string>& arguments) {
+Outcome cleft_on_ranks(const std::string& command, int ranks, const std::vector<std::string>& arguments) {
   std::vector<std::string> argv = {"mpirun",
                                    "--oversubscribe",
                                    "--bind-to",
                                    "none",
                                    "-n",
                                    std::to_string(ranks),
-                                   CLEFT_BIN "/cleft-solve"};
+                                   CLEFT_BIN "/cleft-" + command};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
   return run(argv);
 }

@@ -13,8 +13,8 @@ struct Outcome {
 /// Runs a program of the build, e.g. run_cleft("solve", {"a.toml", "--out", "a.h5"}).
 Outcome run_cleft(const std::string& command, const std::vector<std::string>& arguments);
 
-/// The same of `cleft solve` under mpirun.
-Outcome solve_on_ranks(int ranks, const std::vector<std::string>& arguments);
+/// The same of so many processes under mpirun.
+Outcome cleft_on_ranks(const std::string& command, int ranks, const std::vector<std::string>& arguments);
 
 /// `command` of the shell.
 Outcome in_shell(const std::string& command);

@@ -198,7 +198,7 @@ TEST_F(EndToEnd, SeveralSnapshotsAreEncodedAsEachAlone) {
 }
 
 TEST_F(EndToEnd, OneAndTwoRanksGiveTheSameSnapshot) {
-  expect_success(solve_on_ranks(2, {*folder / "case.toml", "--out", *folder / "two.h5"}));
+  expect_success(cleft_on_ranks("solve", 2, {*folder / "case.toml", "--out", *folder / "two.h5"}));
   const SnapshotReader one(*folder / "case.h5"), two(*folder / "two.h5");
   EXPECT_EQ(one.snapshot().points, two.snapshot().points);
   EXPECT_EQ(one.snapshot().connectivity, two.snapshot().connectivity);

@@ -76,7 +76,7 @@ TEST(Shapes, RanksGiveTheSameSnapshot) {
     return {folder / "case.toml", "--out", folder / out, "--json", "--no-estimate"};
   };
   const auto one = figures_of(expect_success(run_cleft("solve", solve("one.h5"))));
-  const auto two = figures_of(expect_success(solve_on_ranks(2, solve("two.h5"))));
+  const auto two = figures_of(expect_success(cleft_on_ranks("solve", 2, solve("two.h5"))));
   EXPECT_NEAR(two["gape_mm"].get<double>(), one["gape_mm"].get<double>(), 1e-9);
   expect_success(run_cleft("check", {folder / "two.h5"}));
 }

@@ -42,7 +42,7 @@ class SolveCommand : public testing::Test {
                                           "--partitioner",
                                           way.partitioner};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_success(way.ranks == 1 ? run_cleft("solve", arguments) : solve_on_ranks(way.ranks, arguments));
+    expect_success(way.ranks == 1 ? run_cleft("solve", arguments) : cleft_on_ranks("solve", way.ranks, arguments));
     check_snapshot(out);
     return out;
   }
@@ -145,14 +145,14 @@ TEST_F(SolveCommand, EveryRunOnAsManyRanksWritesTheSameBytes) {
       folder.write("finite.toml", "case.mesh.element_size = 3\ncase.model = \"finite\"\n");
   for (const int ranks : {2, 3, 4}) {
     if (ranks == 3) {
-      expect_success(solve_on_ranks(ranks, {finite, "--out", folder / "finite.h5"}));
+      expect_success(cleft_on_ranks("solve", ranks, {finite, "--out", folder / "finite.h5"}));
       const std::string first = read_text_file(folder / "finite.h5");
-      expect_success(solve_on_ranks(ranks, {finite, "--out", folder / "finite.h5"}));
+      expect_success(cleft_on_ranks("solve", ranks, {finite, "--out", folder / "finite.h5"}));
       EXPECT_TRUE(read_text_file(folder / "finite.h5") == first);
     }
     std::string first;
     for (int again = 0; again < 2; ++again) {
-      expect_success(solve_on_ranks(ranks, {file, "--out", folder / "again.h5"}));
+      expect_success(cleft_on_ranks("solve", ranks, {file, "--out", folder / "again.h5"}));
       const std::string bytes = read_text_file(folder / "again.h5");
       if (again == 0) first = bytes;
       EXPECT_TRUE(bytes == first) << "on " << ranks << " ranks";

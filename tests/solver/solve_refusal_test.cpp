@@ -130,7 +130,7 @@ TEST_F(SolveRefuses, APatchThatNothingHolds) {
   const std::vector<std::string> parts = {"x.h5", "not positive definite",
                                           "are the springs and moduli large enough"};
   expect(1, run_cleft("solve", arguments), parts);
-  expect(1, solve_on_ranks(2, arguments), parts);
+  expect(1, cleft_on_ranks("solve", 2, arguments), parts);
 }
 
 /// Skin that is pulled fifteen times as hard as it is stiff, on next to nothing.
@@ -151,5 +151,5 @@ TEST_F(SolveRefuses, DisplacementsThatRoundingWouldChange) {
   const std::vector<std::string> parts = {"x.h5", "rounding would change the displacements by",
                                           "too many orders of magnitude", "bring the moduli"};
   expect(1, run_cleft("solve", arguments), parts);
-  expect(1, solve_on_ranks(2, arguments), parts);
+  expect(1, cleft_on_ranks("solve", 2, arguments), parts);
 }

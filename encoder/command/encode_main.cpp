@@ -1,25 +1,22 @@
 // cleft encode: snapshots to their fields.
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <iomanip>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
-#include <sstream>
 
 #include "base/command/command.h"
 #include "base/error.h"
-#include "base/h5/h5.h"
 #include "base/memory.h"
 #include "base/output_file.h"
 #include "base/text.h"
+#include "encoder/command/encoder_progress.h"
+#include "encoder/command/figures.h"
+#include "encoder/command/spread_nodes.h"
 #include "encoder/encode.h"
-#include "encoder/field/blended_field.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/field_record.h"
 #include "encoder/memory_need.h"
@@ -29,55 +26,6 @@
 using namespace cleft;
 
 namespace {
-
-Json control_points_of(const Field& field) {
-  return {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()};
-}
-
-/// Of several pieces errors are the largest, and times those of all. `nodes`: of the whole body.
-Json figures_of(const std::vector<Field>& pieces, std::size_t nodes, const std::string& out) {
-  const Field& field = pieces.front();
-  const double bytes = static_cast<double>(std::filesystem::file_size(out));
-  FitReport report = report_of(pieces);
-  const double raw = raw_bytes(field) * static_cast<double>(nodes) / report.nodes;
-  report.nodes = static_cast<double>(nodes);
-  Json figures = shown(report);
-  double fit_seconds = 0, measure_seconds = 0;
-  for (const Field& piece : pieces)
-    fit_seconds += piece.report.fit_seconds, measure_seconds += piece.report.measure_seconds;
-  figures.update({{"control_points", control_points_of(field)},
-                  {"fit_seconds", fit_seconds},
-                  {"measure_seconds", measure_seconds},
-                  {"quantum_mm", field.quantum},
-                  {"parametrization", field.parametrization().name()},
-                  {"bytes", bytes},
-                  {"ratio_to_32_bit", raw / bytes}});
-  if (field.tissue) {
-    figures["tissue_below_cut"]["foundation_n_per_mm3"] = field.tissue->foundation;
-    for (const TissueLayerBelow& layer : field.tissue->layers)
-      figures["tissue_below_cut"]["layers"].push_back({{"young_modulus_mpa", layer.young_modulus},
-                                                       {"poisson_ratio", layer.poisson_ratio},
-                                                       {"height_mm", layer.height}});
-  }
-  for (std::size_t p = 0; p < pieces.size() && pieces.size() > 1; ++p)
-    figures["pieces"].push_back({{"nodes", pieces[p].report.nodes},
-                                 {"control_points", control_points_of(pieces[p])},
-                                 {"spline_error", pieces[p].report.spline_error},
-                                 {"gape_error", pieces[p].report.gape_error}});
-  figures["versions"] = {
-      {"cleft", producer()},
-      {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
-                    std::to_string(EIGEN_MINOR_VERSION)},
-      {"HDF5", h5::version()}};
-  for (const Quantity& quantity : field.quantities)
-    figures["quantities"].push_back({{"name", quantity.name},
-                                     {"scale", quantity.scale},
-                                     {"error", quantity.error},
-                                     {"spline_error", quantity.spline_error}});
-  for (const ParameterDerivative& one : field.by_parameter)
-    figures["by_parameter"].push_back({{"parameter", one.parameter}, {"error", one.error}});
-  return figures;
-}
 
 std::optional<FieldSource> source_of(const Snapshot& s) {
   if (!s.source) return {};
@@ -130,38 +78,6 @@ void check_names(const EncodeOptions& options, const Series& series) {
   if (wrong == options.tolerances.end()) return;
   throw InputError("--tolerance " + wrong->first +
                    ": the snapshot has no such field; there are: " + listed(names));
-}
-
-/// A warning where the spline, which is what is drawn, is off by more than twice the tolerance.
-std::string warning_of(const Field& field, const Series& series, const EncodeOptions& options) {
-  const FitReport& report = field.report;
-  const double scale = report.largest_displacement,
-               limit = options.tolerance_of("displacement").limit(scale > 0 ? scale : 1);
-  if (options.rung || report.spline_error * scale <= 2 * limit) return "";
-  const Vec3& at = series.node_samples()[static_cast<std::size_t>(report.worst_node)].uvw;
-  const CanonicalCut& cut = field.cut();
-  const double tip = field.parametrization().geometry().tip.at(report.worst_time);
-  const bool beside_front = std::min(std::abs(at.x - tip), std::abs(at.x - cut.start)) < 0.1 * cut.length;
-  const auto digits = [](double x) {
-    std::ostringstream text;
-    text << std::setprecision(3) << x;
-    return text.str();
-  };
-  const std::string cause =
-      cut.length == 0 ? "the field has no break; where the data jump, import them with the plane of the jump "
-                        "(cleft import "
-                        "--break), or with a smaller --open-at"
-      : beside_front
-          ? "beside the front of the break the knots are as dense as the nodes allow; refine the mesh "
-            "there, or write more frames"
-      : at.y == 0 ? "on the break, away from its ends; see whether all of it opens as one (cleft info, cleft "
-                    "import --open-at)"
-                  : "away from the break the nodes do not determine more knots; refine the mesh there";
-  return "the spline, which is what is drawn between the nodes, is off by " +
-         digits(100 * report.spline_error) + " % of the largest displacement, " +
-         digits(report.spline_error * scale / limit) + " times the tolerance, at node " +
-         shortest(report.worst_node) + " (u = " + digits(at.x) + ", v = " + digits(at.y) +
-         ", w = " + digits(at.z) + " mm) and t = " + digits(report.worst_time) + ": " + cause;
 }
 
 /// Spans of bases with about so many control points: as many as requested if nothing is tied.
@@ -239,50 +155,9 @@ struct KeptFit {
 struct Task {
   std::vector<std::string> snapshots, outs;
   EncodeOptions options;
-  double memory = 0;          ///< bytes that may be used
-  std::vector<KeptFit> kept;  ///< of the last snapshot, where there are several
-};
-
-/// Tells how far the encoder is, which names its steps.
-class EncoderProgress {
- public:
-  EncoderProgress(Progress& progress, std::size_t files) : progress_(progress), files_(files) {}
-  void begin_file(std::size_t file) { file_ = file, piece_ = 0, part_ = 0; }
-  /// The pieces of the body, and further quantities of each.
-  void expect(std::size_t pieces, std::size_t quantities) { pieces_ = pieces, quantities_ = quantities; }
-  void begin_piece(std::size_t piece) { piece_ = piece, quantity_ = 0; }
-
-  void operator()(const std::string& state) {
-    // Where the steps of a displacement begin, of its time on the default case; a quantity takes a third of
-    // it.
-    static const std::map<std::string, double> begins{{"reading", 0},
-                                                      {"trying knots", 0.05},
-                                                      {"fitting all frames", 0.18},
-                                                      {"choosing the coefficients' steps", 0.9},
-                                                      {"measuring", 0.91},
-                                                      {"coding what the spline leaves", 0.93}};
-    if (state == "writing") return tell(state, 0.97);
-    const double whole = 1 + static_cast<double>(quantities_) / 3;
-    if (const auto found = begins.find(state); found != begins.end() && quantity_ == 0)
-      part_ = found->second / whole;
-    else if (state.starts_with("fitting ") && state != "fitting derivatives")
-      part_ = (1 + static_cast<double>(quantity_++) / 3) / whole;
-    const std::string of =
-        pieces_ > 1 ? "piece " + std::to_string(piece_ + 1) + " of " + std::to_string(pieces_) + ": " : "";
-    tell(of + state,
-         0.97 * (static_cast<double>(piece_) + std::min(part_, 1.)) / static_cast<double>(pieces_));
-  }
-
- private:
-  void tell(const std::string& state, double part) {
-    const std::string of =
-        files_ > 1 ? "snapshot " + std::to_string(file_ + 1) + " of " + std::to_string(files_) + ": " : "";
-    progress_(of + state, (static_cast<double>(file_) + part) / static_cast<double>(files_));
-  }
-
-  Progress& progress_;
-  std::size_t files_, file_ = 0, pieces_ = 1, quantities_ = 0, piece_ = 0, quantity_ = 0;
-  double part_ = 0;
+  double memory = 0;             ///< bytes that may be used
+  const Ranks* ranks = nullptr;  ///< over which large snapshots are spread
+  std::vector<KeptFit> kept;     ///< of the last snapshot, where there are several
 };
 
 /// Where values that do not fit into memory are kept.
@@ -302,7 +177,7 @@ std::shared_ptr<FitStore> store_for(const Series& series, std::size_t piece, Tas
   kept.store.reset();
   kept.series = std::make_unique<Series>(series);
   kept.series->frames.clear(), kept.series->quantities.clear(), kept.series->derivatives.clear();
-  kept.series->all_nodes.reset(), kept.series->read = {};
+  kept.series->all_nodes.reset(), kept.series->node_values.reset(), kept.series->elsewhere.reset();
   kept.store = fit_store(*kept.series, task.options, std::min(most_kept, share_of_kept * task.memory));
   return kept.store;
 }
@@ -320,14 +195,21 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
            (need.spilled ? ", and " + gigabytes(need.values) + " of disk" : ""));
   std::vector<Series> series;
   series.reserve(readers.size());
-  for (const SnapshotReader& reader : readers)
-    series.emplace_back(
-        reader, SeriesStorage{need.spilled ? std::make_shared<SpillFile>(folder) : nullptr, most_fitted});
+  for (const SnapshotReader& reader : readers) {
+    SeriesStorage storage{need.spilled ? std::make_shared<SpillFile>(folder) : nullptr, most_fitted};
+    if (task.ranks->count() > 1) storage.spread = spread_over(*task.ranks);
+    series.emplace_back(reader, storage);
+  }
   check_names(task.options, series.front());
   if (series.size() > 1) share_scales(series);
   progress.expect(series.size(), series.front().quantities.size());
   std::vector<Encoded> all;
   Json warnings = Json::array();
+  if (task.ranks->count() > 1 &&
+      std::none_of(series.begin(), series.end(), [](const Series& one) { return one.elsewhere; }))
+    warnings.push_back("one of the " + std::to_string(task.ranks->count()) +
+                       " processes encodes this snapshot, and the others wait: only snapshots of more than " +
+                       std::to_string(most_fitted) + " nodes are spread over processes");
   for (std::size_t p = 0; p < series.size(); ++p) {
     const std::string of =
         series.size() > 1 ? "piece " + std::to_string(p + 1) + " of " + std::to_string(series.size()) + ": "
@@ -369,9 +251,16 @@ void warn_of(const Json& figures) {
 
 int main(int argc, char** argv) {
   keep_freed_blocks();
+  const Ranks ranks(argc, argv);
+  if (ranks.rank() > 0) {
+    serve(ranks);
+    return 0;
+  }
+  const OtherRanks others(ranks);
   CommandLine app(
       "Fits a discontinuous free-form deformation to a snapshot. What several snapshots on one mesh share is "
-      "computed once.",
+      "computed once. Under mpirun or srun, snapshots of more than a million nodes are spread over the "
+      "processes, which read, measure and code their parts.",
       "cleft encode");
   std::vector<std::string> snapshots;
   std::string out;
@@ -411,11 +300,10 @@ int main(int argc, char** argv) {
   return run_command(app, argc, argv, [&] {
     for (const std::string& text : tolerances) parse_tolerance(text, options);
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
-    Task task{snapshots,
-              outputs_of(snapshots, out, ".dffd", "snapshot"),
-              options,
-              memory > 0 ? 1e9 * memory : 0.9 * available_memory(),
-              {}};
+    Task task{snapshots, outputs_of(snapshots, out, ".dffd", "snapshot"),
+              options,   memory > 0 ? 1e9 * memory : 0.9 * available_memory(),
+              &ranks,    {}};
+    ranks.check();
     for (const std::string& file : task.outs) {
       refuse_to_overwrite(file, snapshots);
       const OutputFile probe(file);  // reports a bad name before the work
