@@ -35,7 +35,8 @@ std::vector<double> SnapshotValues::rows(const std::string& dataset, std::size_t
 
 std::vector<Vec3> SnapshotValues::displacement(std::size_t frame, std::size_t first,
                                                std::size_t count) const {
-  const std::vector<double> numbers = rows(point_data_group + "/displacement", frame * points_, 3, first, count);
+  const std::vector<double> numbers =
+      rows(point_data_group + "/displacement", frame * points_, 3, first, count);
   std::vector<Vec3> vectors(count);
   for (std::size_t n = 0; n < count; ++n) {
     vectors[n] = {numbers[3 * n], numbers[3 * n + 1], numbers[3 * n + 2]};
@@ -48,8 +49,8 @@ std::vector<Vec3> SnapshotValues::displacement(std::size_t frame, std::size_t fi
 
 std::vector<double> SnapshotValues::array(const SnapshotArray& array, std::size_t frame, std::size_t first,
                                           std::size_t count) const {
-  return rows(point_data_group + "/" + array.name, array.varies ? frame * points_ : 0, array.components, first,
-              count);
+  return rows(point_data_group + "/" + array.name, array.varies ? frame * points_ : 0, array.components,
+              first, count);
 }
 
 }  // namespace cleft

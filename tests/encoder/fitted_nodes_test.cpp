@@ -87,9 +87,8 @@ TEST(FittedNodes, ErrorsAreThoseOfAllNodes) {
     const auto rows = static_cast<Eigen::Index>(500);
     EXPECT_EQ(part.values(NodeSpline::displacement, 3, first, 500),
               Eigen::MatrixXd(all.frames[3].middleRows(static_cast<Eigen::Index>(first), rows)));
-    EXPECT_EQ(
-        part.values(0, 3, first, 500),
-        Eigen::MatrixXd(all.quantities[0].frames[3].middleRows(static_cast<Eigen::Index>(first), rows)));
+    EXPECT_EQ(part.values(0, 3, first, 500), Eigen::MatrixXd(all.quantities[0].frames[3].middleRows(
+                                                 static_cast<Eigen::Index>(first), rows)));
   }
   bool with_residual = false;
   for (const double tolerance : {0.05, 0.005}) {

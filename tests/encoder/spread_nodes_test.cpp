@@ -1,5 +1,5 @@
-// Nodes spread over processes: the same fields as in one, byte for byte. The first rank runs the tests, and the
-// others serve it.
+// Nodes spread over processes: the same fields as in one, byte for byte. The first rank runs the tests, and
+// the others serve it.
 #include "encoder/command/spread_nodes.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,8 @@ TEST(SpreadNodes, ThereMayBeFewerBlocksThanProcesses) {
 TEST(SpreadNodes, NodesOfABentSeriesAreReadInItsAxes) {
   const BentSnapshot bent([](const Vec3& p, Side side, double t) {
     const double open = std::max(0., t - 4 - p.x) * std::max(0., 1 + p.z / 1.5);
-    return Vec3{0.01 * t * p.y, 0.1 * sign_of(p, side) * std::sqrt(open) * std::exp(-std::abs(p.y)), 0.02 * t};
+    return Vec3{0.01 * t * p.y, 0.1 * sign_of(p, side) * std::sqrt(open) * std::exp(-std::abs(p.y)),
+                0.02 * t};
   });
   const SnapshotReader reader(bent.file);
   const SeriesStorage blocks = in_blocks(300, 64);

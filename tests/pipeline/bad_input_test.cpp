@@ -219,8 +219,9 @@ TEST_F(BadInput, AFullDiskIsTold) {
 TEST_F(BadInput, AFailureOnOneOfTwoRanksEndsBoth) {
   solved();
   const Outcome floating =
-      cleft_on_ranks("solve", 2, {in / "good.toml", "--out", out / "x.h5", "--set", "foundation.stiffness=1e-300",
-                         "--set", "foundation.side_stiffness=0"});
+      cleft_on_ranks("solve", 2,
+                     {in / "good.toml", "--out", out / "x.h5", "--set", "foundation.stiffness=1e-300",
+                      "--set", "foundation.side_stiffness=0"});
   EXPECT_NE(floating.exit_code, 0);
   EXPECT_NE(floating.output.find("not positive definite"), std::string::npos) << floating.output;
   EXPECT_EQ(out.entries(), 0);

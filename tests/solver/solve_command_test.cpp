@@ -42,7 +42,8 @@ class SolveCommand : public testing::Test {
                                           "--partitioner",
                                           way.partitioner};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_success(way.ranks == 1 ? run_cleft("solve", arguments) : cleft_on_ranks("solve", way.ranks, arguments));
+    expect_success(way.ranks == 1 ? run_cleft("solve", arguments)
+                                  : cleft_on_ranks("solve", way.ranks, arguments));
     check_snapshot(out);
     return out;
   }
