@@ -139,7 +139,7 @@ std::vector<double> rounding_of(const ImportedSeries& series) {
   }
   std::vector<double> rounding;
   for (std::size_t f = 0; f < sizes.size(); ++f)
-    rounding.push_back(series.fields()[f].of_cells ? std::numeric_limits<double>::infinity()
+    rounding.push_back(series.fields()[f].of_means ? std::numeric_limits<double>::infinity()
                                                    : sizes[f].rounding(series.fields()[f]));
   return rounding;
 }
@@ -150,7 +150,7 @@ std::size_t telling_field(const ImportedSeries& series) {
     return static_cast<std::size_t>(std::find_if(fields.begin(), fields.end(), is_it) - fields.begin());
   };
   std::size_t found = first_that([](const SeriesField& field) { return field.name == "displacement"; });
-  if (found == fields.size()) found = first_that([](const SeriesField& field) { return !field.of_cells; });
+  if (found == fields.size()) found = first_that([](const SeriesField& field) { return !field.of_means; });
   return found == fields.size() ? 0 : found;
 }
 
@@ -181,7 +181,7 @@ Partings partings(const ImportedSeries& series, const Groups& groups, const std:
     size.see(values, series.fields()[field].components);
     jumps.see(values);
   }
-  const double rounding = series.fields()[field].of_cells ? std::numeric_limits<double>::infinity()
+  const double rounding = series.fields()[field].of_means ? std::numeric_limits<double>::infinity()
                                                           : size.rounding(series.fields()[field]);
   result.open_at = rounding, result.largest_jump = jumps.largest();
   if (given) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -21,9 +22,11 @@ namespace cleft {
 
 namespace {
 
-constexpr double most_lost = 1e-3;     // of the largest value, before a node is added
-constexpr double farthest_off = 0.02;  // of the body's diagonal, of a node from another frame's mesh
-constexpr double no_weight = 1e-6;     // of a cell's corner
+constexpr double most_lost = 1e-3;            // of the largest value, before a node is added
+constexpr double farthest_off = 0.02;         // of the body's diagonal, of a node from another frame's mesh
+constexpr double no_weight = 1e-6;            // of a cell's corner
+constexpr double inward = 0.01;               // of the way to a cell's centroid
+constexpr std::uint8_t vertex = 1, line = 3;  // VTK's cell types
 
 /// Values at places in the cells of a mesh.
 class MeshValues {
@@ -81,19 +84,28 @@ std::vector<Vec3> inside_cells(const SourceMesh& mesh) {
   return places_inside_cells(mesh.points, mesh.cell_offsets, mesh.connectivity);
 }
 
-/// Throws InputError about the frame's file if it is damaged, or its arrays are others than those before.
+/// Arrays of the points, then those of the cells as means at the points. Throws InputError about the frame's
+/// file if it is damaged, or its arrays are others than those before.
 SourceFrame checked(const FrameFiles& files, std::size_t frame, const WantedArrays& wanted,
                     std::vector<int>* components = nullptr) {
   SourceFrame found = files.read(frame, wanted);
   const std::string where = files.file(frame) + " (frame " + std::to_string(frame) + ")";
   check_cells(where, found.mesh);
-  for (std::size_t a = 0; a < found.arrays.size(); ++a) {
-    const SourceArray& array = found.arrays[a];
+  const auto check = [&](const SourceArray& array, std::size_t rows, const std::string& name, std::size_t a) {
     if (components && components->size() == a) components->push_back(array.components);
-    if (array.values.size() != found.mesh.points.size() * static_cast<std::size_t>(array.components) ||
+    if (array.values.size() != rows * static_cast<std::size_t>(array.components) ||
         (components && array.components != components->at(a)))
-      throw InputError(where + ": field '" + wanted.points[a] + "' has another shape than in frame 0");
+      throw InputError(where + ": field '" + name + "' has another shape than in frame 0");
+  };
+  for (std::size_t a = 0; a < wanted.points.size(); ++a)
+    check(found.arrays.at(a), found.mesh.points.size(), wanted.points[a], a);
+  for (std::size_t a = 0; a < wanted.cells.size(); ++a) {
+    SourceArray& array = found.cell_arrays.at(a);
+    check(array, found.mesh.cell_types.size(), wanted.cells[a], found.arrays.size());
+    array.values = mean_of_cells(found.mesh, array.values, static_cast<std::size_t>(array.components));
+    found.arrays.push_back(std::move(array));
   }
+  found.cell_arrays.clear();
   return found;
 }
 
@@ -136,6 +148,30 @@ double largest_of(const SourceArray& array) {
   return largest;
 }
 
+/// Where a place on the break is in the cell of one of its lips.
+struct OnLip {
+  Vec3 inside;                    ///< next to the place, in the cell
+  std::int64_t behind = -1;       ///< a corner of the cell that is not on the break; -1: it has none
+  std::set<std::int64_t> around;  ///< the corners on the break between which the place is
+};
+
+/// None where the place is not between corners on the break, which are `paired`.
+std::optional<OnLip> lip_of(const MeshValues::At& at, const Vec3& place, const SourceMesh& mesh,
+                            const std::vector<char>& paired) {
+  OnLip lip;
+  Vec3 centroid;
+  for (std::size_t i = 0; i < at.corners.size(); ++i) {
+    const std::int64_t corner = at.corners[i];
+    centroid += (1 / static_cast<double>(at.corners.size())) * mesh.points[corner];
+    if (std::abs(at.weights[i]) >= no_weight) lip.around.insert(corner);
+    if (!paired[corner]) lip.behind = corner;
+  }
+  if (!std::all_of(lip.around.begin(), lip.around.end(), [&](std::int64_t n) { return paired[n]; }))
+    return {};
+  lip.inside = lerp(place, centroid, inward);
+  return lip;
+}
+
 bool same_mesh(const SourceMesh& a, const SourceMesh& b) {
   return a.points.size() == b.points.size() && same_cells(a, b);
 }
@@ -148,10 +184,6 @@ bool is_remeshed(const FrameFiles& files, const SourceMesh& first) {
 
 RemeshedFiles::RemeshedFiles(std::unique_ptr<FrameFiles> files, const WantedArrays& wanted)
     : files_(std::move(files)) {
-  if (!wanted.cells.empty())
-    throw InputError("--field " + wanted.cells.front() +
-                     ": the mesh changes, and values of cells have no place in another mesh; average them at "
-                     "the nodes first (ParaView: Cell Data to Point Data)");
   const std::size_t frames = times().size();
   mesh_ = checked(*files_, frames - 1, {}).mesh;
   inside_ = inside_cells(mesh_);
@@ -160,7 +192,7 @@ RemeshedFiles::RemeshedFiles(std::unique_ptr<FrameFiles> files, const WantedArra
   std::vector<char> paired(own_, 0);
   for (const auto& group : coincident_groups(mesh_.points, grain))
     for (const std::int32_t n : group) paired[n] = 1;
-  std::vector<double> largest(wanted.points.size(), 0);
+  std::vector<double> largest(wanted.points.size() + wanted.cells.size(), 0);
   std::vector<int> components;
   for (std::size_t j = 0; j < frames; ++j) {
     const SourceFrame frame = checked(*files_, j, wanted, &components);
@@ -194,20 +226,29 @@ RemeshedFiles::RemeshedFiles(std::unique_ptr<FrameFiles> files, const WantedArra
         lost = std::max(lost, distance_at(back, 0, frame.arrays[a], n) / largest[a]);
       }
       if (lost <= most_lost) continue;
-      bool on_break = true;
-      for (std::size_t i = 0; i < at.corners.size(); ++i)
-        on_break = on_break && (std::abs(at.weights[i]) < no_weight || paired[at.corners[i]]);
-      if (on_break) {
-        most_lost_ = std::max(most_lost_, lost);
+      const Vec3& place = frame.mesh.points[n];
+      const auto lip = lip_of(at, place, last, paired);
+      if (!lip) {
+        if (added.insert(cell_of(place)).second) add(place, inside[n], {});
         continue;
       }
-      if (!added.insert(cell_of(frame.mesh.points[n])).second) continue;
-      mesh_.cell_types.push_back(1);  // VTK_VERTEX
-      mesh_.connectivity.push_back(static_cast<std::int64_t>(mesh_.points.size()));
-      mesh_.cell_offsets.push_back(static_cast<std::int64_t>(mesh_.connectivity.size()));
-      mesh_.points.push_back(frame.mesh.points[n]), inside_.push_back(inside[n]);
+      const Vec3 across = place + (place - lip->inside);
+      const auto other = lip_of(of_last.at(place, across), place, last, paired);
+      if (!other || other->around == lip->around || lip->behind < 0 || other->behind < 0)
+        most_lost_ = std::max(most_lost_, lost);
+      else if (added.insert(cell_of(place)).second)
+        add(place, lip->inside, lip->behind), add(place, other->inside, other->behind);
     }
   }
+}
+
+/// A line to a node of its side tells on which lip a node is.
+void RemeshedFiles::add(const Vec3& place, const Vec3& inside, std::optional<std::int64_t> behind) {
+  mesh_.cell_types.push_back(behind ? line : vertex);
+  mesh_.connectivity.push_back(static_cast<std::int64_t>(mesh_.points.size()));
+  if (behind) mesh_.connectivity.push_back(*behind);
+  mesh_.cell_offsets.push_back(static_cast<std::int64_t>(mesh_.connectivity.size()));
+  mesh_.points.push_back(place), inside_.push_back(inside);
 }
 
 bool RemeshedFiles::has_own_mesh(const SourceMesh& mesh) const {
@@ -218,8 +259,25 @@ bool RemeshedFiles::has_own_mesh(const SourceMesh& mesh) const {
          std::equal(mesh.connectivity.begin(), mesh.connectivity.end(), mesh_.connectivity.begin());
 }
 
-SourceFrame RemeshedFiles::read(std::size_t frame, const WantedArrays& wanted) const {
+std::vector<std::string> RemeshedFiles::point_arrays(std::size_t frame) const {
+  std::vector<std::string> names = files_->point_arrays(frame);
+  for (const std::string& name : files_->cell_arrays(frame))
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+SourceFrame RemeshedFiles::read(std::size_t frame, const WantedArrays& all) const {
+  const std::vector<std::string> of_points = files_->point_arrays(frame);
+  WantedArrays wanted;
+  std::vector<std::size_t> place;  // of each array that is read, points first, among those wanted
+  for (const bool cells : {false, true})
+    for (std::size_t a = 0; a < all.points.size(); ++a)
+      if ((std::find(of_points.begin(), of_points.end(), all.points[a]) == of_points.end()) == cells)
+        (cells ? wanted.cells : wanted.points).push_back(all.points[a]), place.push_back(a);
   SourceFrame found = checked(*files_, frame, wanted);
+  std::vector<SourceArray> in_order(found.arrays.size());
+  for (std::size_t a = 0; a < place.size(); ++a) in_order[place[a]] = std::move(found.arrays[a]);
+  found.arrays = std::move(in_order);
   MeshValues values(found.mesh);
   const double most_off = farthest_off * diagonal(mesh_.points);
   SourceFrame result;
@@ -245,7 +303,7 @@ std::string RemeshedFiles::note() const {
          "at its nodes, and at " +
          std::to_string(mesh_.points.size() - own_) +
          " of their own where more than 0.1 % of the largest would be lost" +
-         (most_lost_ > 0 ? "; on the break, where no nodes are added, up to " +
+         (most_lost_ > 0 ? "; on the break, where the last mesh has no cell on either side, up to " +
                                shortest(std::round(1e4 * most_lost_) / 100) + " % are"
                          : "");
 }

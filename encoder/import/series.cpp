@@ -104,7 +104,8 @@ ImportedSeries::ImportedSeries(const std::vector<std::string>& paths, const std:
     auto remeshed = std::make_unique<RemeshedFiles>(std::move(files_), wanted);
     notes_.push_back(remeshed->note());
     files_ = std::move(remeshed);
-    first = files_->read(0, wanted);
+    for (SeriesField& field : fields_) field.of_cells = false;
+    first = files_->read(0, sources_there(0));
   }
   check_cells(where(0), first.mesh);
   describe_fields(first);
@@ -120,7 +121,7 @@ std::string ImportedSeries::where(std::size_t frame) const {
 void ImportedSeries::find_fields() {
   const std::vector<std::string> points = files_->point_arrays(0), cells = files_->cell_arrays(0);
   for (SeriesField& field : fields_)
-    field.of_cells = !among(points, field.source) && among(cells, field.source);
+    field.of_cells = field.of_means = !among(points, field.source) && among(cells, field.source);
 }
 
 WantedArrays ImportedSeries::sources_there(std::size_t frame) const {
@@ -197,13 +198,13 @@ void ImportedSeries::check_values(std::size_t frame, SourceFrame& found) const {
   }
 }
 
-std::vector<double> ImportedSeries::mean_of_cells(const std::vector<double>& values,
-                                                  std::size_t components) const {
-  std::vector<double> sums(mesh_.points.size() * components, 0);
-  std::vector<int> cells(mesh_.points.size(), 0);
-  for (std::size_t c = 0; c < mesh_.cell_types.size(); ++c)
-    for (std::int64_t i = mesh_.cell_offsets[c]; i < mesh_.cell_offsets[c + 1]; ++i) {
-      const auto node = static_cast<std::size_t>(mesh_.connectivity[static_cast<std::size_t>(i)]);
+std::vector<double> mean_of_cells(const SourceMesh& mesh, const std::vector<double>& values,
+                                  std::size_t components) {
+  std::vector<double> sums(mesh.points.size() * components, 0);
+  std::vector<int> cells(mesh.points.size(), 0);
+  for (std::size_t c = 0; c < mesh.cell_types.size(); ++c)
+    for (std::int64_t i = mesh.cell_offsets[c]; i < mesh.cell_offsets[c + 1]; ++i) {
+      const auto node = static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(i)]);
       for (std::size_t k = 0; k < components; ++k) sums[components * node + k] += values[components * c + k];
       ++cells[node];
     }
@@ -236,7 +237,7 @@ std::vector<double> ImportedSeries::at_nodes(std::size_t frame, std::size_t f,
   const SeriesField& field = fields_[f];
   const auto components = static_cast<std::size_t>(field.all_nine ? 9 : field.components);
   if (field.of_cells) {
-    values = mean_of_cells(values, components);
+    values = mean_of_cells(mesh_, values, components);
   } else if (!kept_.empty()) {
     std::vector<double> some;
     some.reserve(kept_.size() * components);

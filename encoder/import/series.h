@@ -16,8 +16,13 @@ struct SeriesField {
   int components = 1;        ///< 1, 3 (a vector) or 6 (a symmetric tensor: XX YY ZZ XY YZ XZ)
   bool single = false;       ///< stored in single precision
   bool of_cells = false;     ///< values of cells; a node gets the mean of its cells
+  bool of_means = false;     ///< of such means, which part nowhere exactly
   bool all_nine = false;     ///< stored as the nine components of a tensor, row by row
 };
+
+/// At every node the mean over its cells; 0 where it has none.
+std::vector<double> mean_of_cells(const SourceMesh& mesh, const std::vector<double>& values,
+                                  std::size_t components);
 
 /// "stress", "U:displacement" or "S:stress[MPa]": SourceName. Throws InputError if a name is invalid or
 /// repeated.
@@ -69,7 +74,6 @@ class ImportedSeries {
   void check_mesh(std::size_t frame, const SourceMesh& mesh) const;
   void check_values(std::size_t frame, SourceFrame& values) const;
   std::vector<double> at_nodes(std::size_t frame, std::size_t field, std::vector<double> values) const;
-  std::vector<double> mean_of_cells(const std::vector<double>& values, std::size_t components) const;
 
   std::string path_;
   std::unique_ptr<FrameFiles> files_;

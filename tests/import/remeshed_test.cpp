@@ -47,6 +47,21 @@ struct RemeshedSeries {
   }
 };
 
+/// Of nodes with b = 0, by the other corners of their cells; 0 where they are on both sides.
+std::vector<int> sides_at_break(const SourceMesh& mesh) {
+  std::vector<std::array<bool, 2>> has(mesh.points.size(), {false, false});
+  for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {
+    double y = 0;
+    for (auto i = mesh.cell_offsets[c]; i < mesh.cell_offsets[c + 1]; ++i)
+      y += mesh.points[mesh.connectivity[i]].y;
+    for (auto i = mesh.cell_offsets[c]; i < mesh.cell_offsets[c + 1] && y != 0; ++i)
+      has[mesh.connectivity[i]][y > 0] = true;
+  }
+  std::vector<int> sides;
+  for (const auto& [left, right] : has) sides.push_back(left == right ? 0 : right ? 1 : -1);
+  return sides;
+}
+
 }  // namespace
 
 TEST(Remeshed, ACrackOpensAsInOneMesh) {
@@ -77,27 +92,84 @@ TEST(Remeshed, ACrackOpensAsInOneMesh) {
   EXPECT_LT(worst, 0.04 * largest) << "at half a unit from the front, where meshes have nodes of one frame";
 }
 
-/// Values at nodes of the earlier meshes, which the last one does not have.
+/// Values at nodes of the earlier meshes, which the last one does not have: on both lips where it is cut.
 TEST(Remeshed, NodesAtEarlierFrontsAreAdded) {
   const RemeshedSeries series;
   const ImportedSeries imported(series.pvd, parse_fields({"displacement"}));
+  const SourceMesh& mesh = imported.mesh();
   const std::size_t own = at_time(12).series().mesh.points.size();
-  ASSERT_GT(imported.mesh().points.size(), own + 300);
-  EXPECT_LT(imported.mesh().points.size(), own + 3000);
+  ASSERT_GT(mesh.points.size(), own + 300);
+  EXPECT_LT(mesh.points.size(), own + 3000);
+  const std::vector<int> sides = sides_at_break(mesh);
   double worst = 0;
+  int on_lips = 0;
   for (const std::size_t j : {2, 7, 11}) {
     const FieldValues values = imported.frame(j);
     const CrackedBody body = at_time(static_cast<double>(j));
     const double front = 2. * static_cast<double>(j);
-    for (std::size_t n = own; n < imported.mesh().points.size(); ++n) {
-      const Vec3 p = imported.mesh().points[n];
+    for (std::size_t n = own; n < mesh.points.size(); ++n) {
+      const Vec3 p = mesh.points[n];
       if (std::abs(p.x - front) > 0.51) continue;  // nodes of this frame's own mesh
-      const Vec3 exact = body.displacement(p, 0, static_cast<double>(j));
+      const bool open = p.y == 0 && p.x < front;
+      ASSERT_TRUE(!open || sides[n] != 0);
+      on_lips += open ? sides[n] : 0;
+      const Vec3 exact = body.displacement(p, open ? sides[n] : 0, static_cast<double>(j));
       const Vec3 found{values[0][3 * n], values[0][3 * n + 1], values[0][3 * n + 2]};
       worst = std::max(worst, norm(found - exact));
+      on_lips += open ? 100 : 0;
     }
   }
+  EXPECT_EQ(on_lips, 100 * 2 * 2 * 5 * 3) << "five nodes a line across the front, two lines, both lips";
   EXPECT_LT(worst, 1e-9);
+}
+
+TEST(Remeshed, NothingIsLostOnTheBreak) {
+  const RemeshedSeries series;
+  const auto imported =
+      run_cleft("import", {series.pvd, "--field", "displacement", "--out", series.folder / "case.h5"});
+  expect_success(imported);
+  EXPECT_NE(imported.output.find("of their own where more than 0.1 % of the largest would be lost"),
+            std::string::npos)
+      << imported.output;
+  EXPECT_EQ(imported.output.find("on the break"), std::string::npos) << imported.output;
+}
+
+/// In each frame's mesh the mean of a node's cells, which are those of its side where the crack is open.
+TEST(Remeshed, ValuesOfCellsAreMeansAtNodes) {
+  const RemeshedSeries series;
+  for (int j = 0; j <= 12; ++j) {
+    const SourceSeries frame = at_time(j).series();
+    std::string text = frame.vtu(0), numbers;
+    for (std::size_t c = 0; c < frame.mesh.cell_types.size(); ++c) {
+      double y = 0;
+      for (auto i = frame.mesh.cell_offsets[c]; i < frame.mesh.cell_offsets[c + 1]; ++i)
+        y += frame.mesh.points[frame.mesh.connectivity[i]].y;
+      numbers += y > 0 ? "4 " : "2 ";
+    }
+    text.insert(text.find("<Points>"),
+                "<CellData>\n<DataArray type=\"Float64\" Name=\"heat\" format=\"ascii\">\n" + numbers +
+                    "\n</DataArray>\n</CellData>\n");
+    series.folder.write("frame_" + std::to_string(j) + ".vtu", text);
+  }
+  const ImportedSeries imported(series.pvd, parse_fields({"heat", "displacement"}));
+  EXPECT_TRUE(imported.fields()[0].of_means);
+  EXPECT_FALSE(imported.fields()[1].of_means);
+  const SourceMesh& mesh = imported.mesh();
+  const std::vector<int> sides = sides_at_break(mesh);
+  for (const std::size_t j : {3, 8, 12}) {
+    const FieldValues values = imported.frame(j);
+    ASSERT_EQ(values[0].size(), mesh.points.size());
+    ASSERT_EQ(values[1].size(), 3 * mesh.points.size());
+    int seen = 0;
+    for (std::size_t n = 0; n < mesh.points.size(); ++n) {
+      const Vec3& p = mesh.points[n];
+      const double front = 2. * static_cast<double>(j);
+      if (p.y != 0 || std::abs(p.x - front) < 1.01) continue;
+      EXPECT_NEAR(values[0][n], p.x < front ? 3 + sides[n] : 3, 1e-9) << j << " " << p.x;
+      ++seen;
+    }
+    EXPECT_GT(seen, 200);
+  }
 }
 
 TEST(Remeshed, AnotherBodyIsRefusedWithTheFrame) {
