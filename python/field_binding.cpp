@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "encoder/field/file/field_file.h"
+#include "encoder/field/quantity_fields.h"
 #include "encoder/interpolate/compact.h"
 #include "explorer/scene/patch_scene.h"
 #include "explorer/study/case_figures.h"
@@ -100,14 +101,13 @@ py::array_t<double> quantity(const SharedField& self, const std::string& name, c
                      (names.empty() ? "no further quantities" : "only " + names));
   }
   const BroadcastPlaces places(u, v, w, t, side);
-  const auto components = static_cast<std::size_t>(found->components);
+  const QuantityFields fields(*self.field, static_cast<std::size_t>(found - all.begin()));
+  const std::size_t components = fields.components();
   py::array_t<double> result =
       new_array(places.shape(), components > 1 ? static_cast<py::ssize_t>(components) : 0);
   const std::span<double> out(result.mutable_data(), static_cast<std::size_t>(result.size()));
   for_all(places, checked(*self.field, outside), threads, [&](std::size_t first, std::span<Place> part) {
-    for (std::size_t i = 0; i < part.size(); ++i)
-      self.field->quantity(static_cast<std::size_t>(found - all.begin()), part[i].uvw, part[i].side,
-                           part[i].t, out.subspan((first + i) * components, components));
+    fields.at(part, out.subspan(first * components, part.size() * components));
   });
   return result;
 }

@@ -8,6 +8,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -16,8 +17,10 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/output_folder.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
+#include "encoder/field/quantity_fields.h"
 #include "encoder/import/decoded_vtkhdf.h"
 #include "encoder/import/vtk_frames.h"
 
@@ -120,6 +123,16 @@ void write_frame(vtkUnstructuredGrid* grid, const std::vector<Values>& all, cons
   write_text_file(path, xml_of(writer.Get(), grid, path));
 }
 
+/// Calls work(first, last) for ranges of so many nodes, on all cores.
+template <class Work>
+void in_ranges(std::size_t nodes, const Work& work) {
+  constexpr std::size_t at_once = 1 << 16;
+  parallel_for(static_cast<int>((nodes + at_once - 1) / at_once), [&](int range) {
+    const std::size_t first = static_cast<std::size_t>(range) * at_once;
+    work(first, std::min(nodes, first + at_once));
+  });
+}
+
 double clamped(const Field& field, int axis, double value) {
   const auto [front, back] = field.domain(axis);
   return value < front ? front : value > back ? back : value;
@@ -196,24 +209,32 @@ std::vector<NodesOfPiece> nodes_in_pieces(const SourceMesh& mesh, const BlendedF
 }
 
 DecodedNodes decoded_at(const KeptField& kept, const std::vector<Place>& nodes) {
-  const auto displacement = [&](double t, std::size_t frame) {
-    std::vector<Place> places = nodes;
+  const auto places_at = [&nodes](std::size_t first, std::size_t last, double t) {
+    std::vector<Place> places(nodes.begin() + static_cast<std::ptrdiff_t>(first),
+                              nodes.begin() + static_cast<std::ptrdiff_t>(last));
     for (Place& place : places) place.t = t;
-    std::vector<Vec3> d(places.size());
-    kept.field->displacements(places, d);
-    for (std::size_t n = 0; kept.residual && n < d.size(); ++n) d[n] += kept.residual->at(n, frame);
+    return places;
+  };
+  const auto displacement = [&, places_at](double t, std::size_t frame) {
+    std::vector<Vec3> d(nodes.size());
+    in_ranges(nodes.size(), [&](std::size_t first, std::size_t last) {
+      kept.field->displacements(places_at(first, last, t), std::span(d).subspan(first, last - first));
+      for (std::size_t n = first; kept.residual && n < last; ++n) d[n] += kept.residual->at(n, frame);
+    });
     return d;
   };
-  const auto quantity = [&](std::size_t q, double t, std::size_t frame) {
-    const std::size_t components = static_cast<std::size_t>(kept.field->quantities[q].components);
+  const auto quantity = [&, places_at](std::size_t q, double t, std::size_t frame) {
+    const QuantityFields fields(*kept.field, q);
+    const std::size_t components = fields.components();
+    const bool has = q < kept.of_quantities.size() && kept.of_quantities[q];
     std::vector<double> numbers(components * nodes.size());
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const std::span<double> at(&numbers[components * n], components);
-      kept.field->quantity(q, nodes[n].uvw, nodes[n].side, t, at);
-      if (q < kept.of_quantities.size() && kept.of_quantities[q])
+    in_ranges(nodes.size(), [&](std::size_t first, std::size_t last) {
+      fields.at(places_at(first, last, t),
+                std::span(numbers).subspan(components * first, components * (last - first)));
+      for (std::size_t n = first; has && n < last; ++n)
         for (std::size_t c = 0; c < components; ++c)
-          at[c] += kept.of_quantities[q]->at(n, static_cast<int>(c), frame);
-    }
+          numbers[components * n + c] += kept.of_quantities[q]->at(n, static_cast<int>(c), frame);
+    });
     return numbers;
   };
   return {kept.field, displacement, quantity};

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/pieces_at_nodes.h"
+#include "encoder/field/quantity_fields.h"
 
 namespace cleft {
 
@@ -30,11 +31,16 @@ struct FieldOnMesh::Values {
 
   std::vector<double> quantity(std::size_t index, double t) const {
     if (pieces) return pieces->quantity(index, t, 0);
-    const auto components = static_cast<std::size_t>(field->quantities[index].components);
-    std::vector<double> all(components * places.size());
-    for (std::size_t n = 0; n < places.size(); ++n)
-      field->quantity(index, places[n].uvw, places[n].side, t, {&all[components * n], components});
+    const QuantityFields fields(*field, index);
+    std::vector<double> all(fields.components() * places.size());
+    fields.at(places_at(t), all);
     return all;
+  }
+
+  std::vector<Place> places_at(double t) const {
+    std::vector<Place> moved = places;
+    for (Place& place : moved) place.t = t;
+    return moved;
   }
 };
 
@@ -84,8 +90,7 @@ std::vector<Vec3> FieldOnMesh::displacement(double t) const {
   if (values_->pieces) {
     moved = values_->pieces->displacement(t, 0);
   } else {
-    std::vector<Place> places = values_->places;
-    for (Place& place : places) place.t = t;
+    const std::vector<Place> places = values_->places_at(t);
     moved.resize(places.size());
     values_->field->displacements(places, moved);
   }

@@ -1,4 +1,5 @@
 #include "encoder/field/field.h"
+#include "encoder/field/quantity_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -104,7 +105,18 @@ TEST(Field, QuantitiesStandOnTheSameBases) {
       temperature.coefficients[i] = 37 - field.coefficients()[i].y;
     }
     field.quantities = {same, stress, temperature};
-    for (const Place& p : all_kinds_of_places(field, 100)) {
+    const std::vector<Place> places = all_kinds_of_places(field, 100);
+    for (std::size_t q = 0; q < field.quantities.size(); ++q) {
+      const QuantityFields at_once(field, q);
+      std::vector<double> all(places.size() * at_once.components()), one(at_once.components());
+      at_once.at(places, all);
+      for (std::size_t n = 0; n < places.size(); ++n) {
+        field.quantity(q, places[n].uvw, places[n].side, places[n].t, one);
+        for (std::size_t c = 0; c < one.size(); ++c)
+          EXPECT_NEAR(all[n * one.size() + c], one[c], 40 * rounding) << q << " " << c;
+      }
+    }
+    for (const Place& p : places) {
       const Vec3 d = field.displacement(p.uvw, p.side, p.t);
       double three[3], six[6], one[1];
       field.quantity(0, p.uvw, p.side, p.t, three);
