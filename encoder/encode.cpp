@@ -38,7 +38,7 @@ class Encoder {
   Rung smallest_rung() const {
     const std::vector<Rung> rungs =
         supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
-    std::size_t i = first_within(rungs);
+    std::size_t i = sufficient(rungs);
     while (i + 1 < rungs.size() && fit_of(rungs[i]).misfit(limit_).beyond > 0) ++i;
     return rungs[std::min(i, rungs.size() - 1)];
   }
@@ -50,11 +50,8 @@ class Encoder {
     }
     const std::vector<Rung> rungs =
         supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
-    // The smallest rung that is sufficient for single frames; if there is none, a good rung with a residual.
-    const std::size_t good = parametrization_->moves() ? rungs.size() / 2 : rungs.size() - 1;
-    const std::size_t within = first_within(rungs);
+    std::size_t rung = sufficient(rungs);
     progress_("fitting all frames");
-    std::size_t rung = within < rungs.size() ? within : good;
     auto fitted = fitted_on(rungs[rung]);
     Misfit misfit = fitted->misfit(share_of_fit * limit_);
     // What other arms do passes the ends of an arm in few frames, between those that the search for knots has
@@ -85,8 +82,9 @@ class Encoder {
     return std::make_unique<SeriesFit>(fit_of(rung));
   }
 
-  std::size_t first_within(const std::vector<Rung>& rungs) const {
-    return first_rung_within(share_of_space * limit_, rungs, series_, *store_, progress_);
+  /// For single frames; if there is none, one that leaves little to a residual.
+  std::size_t sufficient(const std::vector<Rung>& rungs) const {
+    return sufficient_rung(share_of_space * limit_, rungs, series_, *store_, progress_);
   }
 
   Field with_derivatives(Field field, const SeriesFit& fit) const {

@@ -1,6 +1,8 @@
 #include "encoder/knot_search.h"
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
 #include <optional>
 
 #include "base/parallel.h"
@@ -10,8 +12,9 @@ namespace cleft {
 
 namespace {
 
-constexpr std::size_t probes = 6;  // frames that represent all
-constexpr double few = 5e-5;       // share of nodes for which a residual costs less than the next rung
+constexpr std::size_t probes = 6;       // frames that represent all
+constexpr double few = 5e-5;            // share of nodes for which a residual costs less than the next rung
+constexpr double hardly_further = 1.1;  // than the best rung, where none is sufficient
 
 class KnotSearch {
  public:
@@ -51,17 +54,39 @@ class KnotSearch {
     return low;
   }
 
- private:
-  double beyond_in_last(std::size_t rung) {
-    if (!in_last_[rung]) in_last_[rung] = beyond(rung, {frames_[0]}, 1);
-    return *in_last_[rung];
+  /// The smallest that is hardly further off in the last frame than the best, at nodes and in the opening.
+  std::size_t nearly_best() {
+    parallel_for(static_cast<int>(rungs_.size()), [&](int rung) { in_last(static_cast<std::size_t>(rung)); });
+    const auto off = [](const std::optional<SpaceMisfit>& one) { return std::max(one->largest, one->gape); };
+    double best = std::numeric_limits<double>::infinity();
+    for (const auto& one : in_last_) best = std::min(best, off(one));
+    std::size_t rung = 0;
+    while (off(in_last_[rung]) > hardly_further * best) ++rung;
+    return rung;
   }
-  /// What these frames add to the share of nodes that are off; no longer exact once it is above `most`.
-  double beyond(std::size_t rung, const std::vector<std::size_t>& frames, double most) const {
+
+ private:
+  SpaceMisfit misfit(std::size_t rung, std::size_t frame) const {
     const auto bases =
         bases_of(rungs_[rung], *store_.parametrization(), static_cast<int>(series_.times.size()));
+    return space_misfit(series_, store_, {bases[0], bases[1], bases[2]}, frame, limit_);
+  }
+  const SpaceMisfit& in_last(std::size_t rung) {
+    if (!in_last_[rung]) in_last_[rung] = misfit(rung, frames_[0]);
+    return *in_last_[rung];
+  }
+  /// What a frame adds to the share of nodes that are off.
+  double beyond_in_last(std::size_t rung) {
+    return in_last(rung).beyond / static_cast<double>(frames_.size());
+  }
+  /// The same of frames; no longer exact once it is above `most`.
+  double beyond(std::size_t rung, const std::vector<std::size_t>& frames, double most) const {
     const double part = 1 / static_cast<double>(frames_.size());
-    return part * space_misfit(series_, store_, {bases[0], bases[1], bases[2]}, frames, limit_, most / part);
+    std::atomic<double> sum = 0;
+    parallel_for(static_cast<int>(frames.size()), [&](int i) {
+      if (sum <= most) sum += part * misfit(rung, frames[i]).beyond;
+    });
+    return sum;
   }
 
   double limit_;
@@ -69,17 +94,17 @@ class KnotSearch {
   const Series& series_;
   FitStore& store_;
   const std::function<void(const std::string&)>& progress_;
-  std::vector<std::size_t> frames_;             // the last first
-  std::vector<std::optional<double>> in_last_;  // of every rung, where known
+  std::vector<std::size_t> frames_;                  // the last first
+  std::vector<std::optional<SpaceMisfit>> in_last_;  // of every rung, where known
 };
 
 }  // namespace
 
-std::size_t first_rung_within(double limit, const std::vector<Rung>& rungs, const Series& series,
-                              FitStore& store, const std::function<void(const std::string&)>& progress) {
+std::size_t sufficient_rung(double limit, const std::vector<Rung>& rungs, const Series& series,
+                            FitStore& store, const std::function<void(const std::string&)>& progress) {
   KnotSearch search(limit, rungs, series, store, progress);
   const std::size_t nearly = search.first(0, few);
-  if (nearly == rungs.size()) return nearly;
+  if (nearly == rungs.size()) return search.nearly_best();
   const std::size_t wholly = search.first(nearly, 0);
   return wholly < rungs.size() ? wholly : nearly;
 }

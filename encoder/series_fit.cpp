@@ -1,7 +1,6 @@
 #include "encoder/series_fit.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -44,21 +43,19 @@ Misfit misfit_of(const Eigen::MatrixX3d& errors, const Series& series, double li
 
 }  // namespace
 
-double space_misfit(const Series& series, FitStore& store, const std::array<BSplineBasis, 3>& bases,
-                    const std::vector<std::size_t>& frames, double limit, double most) {
+SpaceMisfit space_misfit(const Series& series, FitStore& store, const std::array<BSplineBasis, 3>& bases,
+                         std::size_t frame, double limit) {
   one_thread_a_product();
   const auto fit = store.fit(bases);
-  std::atomic<double> sum = 0;
-  parallel_for(static_cast<int>(frames.size()), [&](int i) {
-    if (sum > most) return;
-    const std::size_t frame = frames[i];
-    const auto factor = store.factor(bases, frame, of_search,
-                                     [&] { return fit->space().factorize(fit->normal(frame, of_search)); });
-    const Eigen::MatrixX3d x = factor->solve(fit->project(frame, series.frames[frame]));
-    sum += misfit_of(fit->values(x, frame) - series.frames[frame], series, limit).beyond;
-    series.frames.forget(frame);
-  });
-  return sum;
+  const auto factor = store.factor(bases, frame, of_search,
+                                   [&] { return fit->space().factorize(fit->normal(frame, of_search)); });
+  const Eigen::MatrixX3d x = factor->solve(fit->project(frame, series.frames[frame]));
+  const Eigen::MatrixX3d left = fit->values(x, frame) - series.frames[frame];
+  SpaceMisfit misfit{misfit_of(left, series, limit)};
+  for (const auto& [a, b] : series.pairs)
+    misfit.gape = std::max(misfit.gape, (left.row(b) - left.row(a)).norm());
+  series.frames.forget(frame);
+  return misfit;
 }
 
 SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,

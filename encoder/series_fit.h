@@ -20,10 +20,12 @@ struct Misfit {
   double beyond = 0;   ///< share of the nodes and frames whose residual exceeds a limit
 };
 
-/// A bound on the quality of knots in space: each of `frames` is fitted separately, and their shares of nodes
-/// whose residual exceeds `limit`, mm, are summed until the sum is above `most`.
-double space_misfit(const Series& series, FitStore& store, const std::array<BSplineBasis, 3>& bases,
-                    const std::vector<std::size_t>& frames, double limit, double most);
+/// A bound on the quality of knots in space: the residual of a frame that is fitted alone; `limit` in mm.
+struct SpaceMisfit : Misfit {
+  double gape = 0;  ///< largest difference of the residual's vectors at the two nodes of a pair, mm
+};
+SpaceMisfit space_misfit(const Series& series, FitStore& store, const std::array<BSplineBasis, 3>& bases,
+                         std::size_t frame, double limit);
 
 /// The least-squares spline in all four variables (see SeriesSystem). Data that are a spline of the space are
 /// reproduced to rounding, by repeating the fit on its residual.
