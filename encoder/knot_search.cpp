@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <optional>
 
 #include "base/parallel.h"
@@ -14,7 +13,7 @@ namespace {
 
 constexpr std::size_t probes = 6;       // frames that represent all
 constexpr double few = 5e-5;            // share of nodes for which a residual costs less than the next rung
-constexpr double hardly_further = 1.1;  // than the best rung, where none is sufficient
+constexpr double hardly_further = 1.1;  // than the largest rung, where none is sufficient
 
 class KnotSearch {
  public:
@@ -54,15 +53,17 @@ class KnotSearch {
     return low;
   }
 
-  /// The smallest that is hardly further off in the last frame than the best, at nodes and in the opening.
+  /// The smallest that is hardly further off in the last frame than the largest, at nodes and in the opening.
   std::size_t nearly_best() {
-    parallel_for(static_cast<int>(rungs_.size()), [&](int rung) { in_last(static_cast<std::size_t>(rung)); });
-    const auto off = [](const std::optional<SpaceMisfit>& one) { return std::max(one->largest, one->gape); };
-    double best = std::numeric_limits<double>::infinity();
-    for (const auto& one : in_last_) best = std::min(best, off(one));
-    std::size_t rung = 0;
-    while (off(in_last_[rung]) > hardly_further * best) ++rung;
-    return rung;
+    const auto off = [this](std::size_t rung) { return std::max(in_last(rung).largest, in_last(rung).gape); };
+    std::size_t low = 0, high = rungs_.size() - 1;
+    const double most = hardly_further * off(high);
+    while (low < high) {
+      progress_("trying knots");
+      const std::size_t middle = (low + high) / 2;
+      off(middle) <= most ? high = middle : low = middle + 1;
+    }
+    return high;
   }
 
  private:

@@ -12,8 +12,8 @@
 namespace cleft {
 
 /// Index of the first rung whose fits in space of a few frames have residuals of at most `limit`, mm, at all
-/// nodes, or, if there is no such rung, at all but a few nodes; if there is none, of the first one that
-/// leaves hardly more in the last frame than the best. Rungs are nested and assumed to improve.
+/// nodes, or, if there is no such rung, at all but a few nodes; if there is none, of one that leaves
+/// hardly more in the last frame than the last. Rungs are nested and assumed to improve.
 std::size_t sufficient_rung(double limit, const std::vector<Rung>& rungs, const Series& series,
                             FitStore& store, const std::function<void(const std::string&)>& progress);
 
