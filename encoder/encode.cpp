@@ -37,7 +37,7 @@ class Encoder {
   /// The smallest rung whose spline alone keeps the tolerance; the largest there is where none does.
   Rung smallest_rung() const {
     const std::vector<Rung> rungs =
-        supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
+        supported(ladder_of(*parametrization_, series_.round, series_.kinks), series_, *parametrization_);
     std::size_t i = first_within(rungs);
     while (i + 1 < rungs.size() && fit_of(rungs[i]).misfit(limit_).beyond > 0) ++i;
     return rungs[std::min(i, rungs.size() - 1)];
@@ -49,7 +49,7 @@ class Encoder {
       return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit)};
     }
     const std::vector<Rung> rungs =
-        supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
+        supported(ladder_of(*parametrization_, series_.round, series_.kinks), series_, *parametrization_);
     // The smallest rung that is sufficient for single frames; if there is none, a good rung with a residual.
     const std::size_t good = parametrization_->moves() ? rungs.size() / 2 : rungs.size() - 1;
     const std::size_t within = first_within(rungs);

@@ -7,6 +7,7 @@
 
 #include "encoder/field/bspline.h"
 #include "encoder/field/parametrization.h"
+#include "encoder/front_kinks.h"
 
 namespace cleft {
 
@@ -15,6 +16,7 @@ namespace cleft {
 /// has no spans before, after and below.
 struct Rung {
   int before = 1, along = 1, after = 1, across = 1, above = 1, below = 1, time = 1;
+  std::vector<TimeKink> kinks = {};  ///< ascending; of a parametrisation that follows the tip
 
   friend bool operator==(const Rung&, const Rung&) = default;
 };
@@ -30,6 +32,7 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
 
 /// Rungs of growing size, each contained in the next. The order of refinement that follows the tip comes from
 /// trials on a few cuts. `round`: the height is an angle around the front, over which the whole body changes.
-std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round = false);
+std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round = false,
+                            const std::vector<TimeKink>& kinks = {});
 
 }  // namespace cleft

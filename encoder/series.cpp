@@ -299,6 +299,15 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     add_start(quantities, closed, s.frames(), largest_displacement, taken, at_nodes, node_samples().size());
   derivatives = derivatives_of(reader, taken);
   geometry = geometry_of(s, parted(pairs, frames, largest_displacement));
+  if (s.counting) front_kinks = cleft::front_kinks(geometry, s.source->break_extent, times);
+}
+
+void share_kinks(std::vector<Series>& pieces) {
+  std::vector<FrontKinks> all;
+  all.reserve(pieces.size());
+  for (const Series& piece : pieces) all.push_back(piece.front_kinks);
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    pieces[p].kinks = kinks_of_all(all, p, pieces[p].times.size());
 }
 
 void share_scales(std::vector<Series>& pieces) {

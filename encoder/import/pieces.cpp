@@ -58,13 +58,31 @@ OwnPlace own_place(const ImportedSeries& series, Break& found, const std::option
   return own;
 }
 
+/// Nodes beyond an end at which other arms begin, and beyond all nodes there that count: knots are densest
+/// where the domain begins.
+std::vector<char> beyond_joined_ends(const SourceMesh& mesh, const std::vector<char>& counts,
+                                     const FieldSource& source) {
+  const BreakExtent& extent = *source.extent;
+  std::vector<Vec3> places;
+  for (const Vec3& x : mesh.points) places.push_back(source.canonical(x));
+  Interval within = extent.along;
+  for (std::size_t n = 0; n < places.size(); ++n)
+    if (counts[n]) within = {std::min(within.front, places[n].x), std::max(within.back, places[n].x)};
+  const double slack = in_plane(mesh);
+  std::vector<char> beyond(places.size());
+  for (std::size_t n = 0; n < places.size(); ++n)
+    beyond[n] = (extent.joined[0] && places[n].x < within.front - slack) ||
+                (extent.joined[1] && places[n].x > within.back + slack);
+  return beyond;
+}
+
 /// The nodes of a piece: those that count, and the others of their cells, where no break of another piece
 /// would have two sides in it.
 std::vector<char> nodes_of_piece(const SourceMesh& mesh, const std::vector<char>& counts,
-                                 const std::vector<Break>& breaks, std::size_t piece, std::size_t frames,
-                                 const std::string& series) {
+                                 const std::vector<Break>& breaks, std::size_t piece, const FieldSource& source,
+                                 std::size_t frames, const std::string& series) {
   constexpr int layers = 2;  // of cells: so many nodes that bases of three functions more are determined
-  std::vector<char> refused(mesh.points.size());
+  std::vector<char> refused = beyond_joined_ends(mesh, counts, source);
   std::vector<char> own(mesh.points.size());
   std::vector<std::vector<NodePair>> parting(breaks.size());
   for (std::size_t b = 0; b < breaks.size(); ++b)
@@ -278,7 +296,7 @@ std::vector<SnapshotPiece> pieces_of(const ImportedSeries& series, std::vector<B
   std::vector<SnapshotPiece> pieces;
   for (std::size_t p = 0; p < breaks.size(); ++p)
     pieces.push_back(piece_of(series, breaks, p, own[p], counts[p],
-                              nodes_of_piece(mesh, counts[p], breaks, p, series.frames(), series.path()),
+                              nodes_of_piece(mesh, counts[p], breaks, p, own[p].source, series.frames(), series.path()),
                               on_lips, flat.has_value()));
   return pieces;
 }
