@@ -30,6 +30,12 @@ FrontKinks front_kinks(const FieldGeometry& geometry, const std::vector<double>&
   return kinks;
 }
 
+bool waits(const TipPath& tip) {
+  constexpr double part = 0.1;
+  const double begins = tip.passes(std::nextafter(tip.positions.front(), HUGE_VAL));
+  return begins > tip.times.front() + part * (tip.times.back() - tip.times.front());
+}
+
 std::vector<TimeKink> kinks_of_all(const std::vector<FrontKinks>& of_breaks, std::size_t own,
                                    std::size_t frames) {
   constexpr int least = 4;  // steps from frame to frame

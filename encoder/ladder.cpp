@@ -22,13 +22,6 @@ const std::vector<double> below_order = {0.25};
 // Ahead of a front that waits while others move there: at nearly even distances.
 const std::vector<double> waiting_order = {0.5, 0.75, 0.875, 0.25, 0.625, 0.9375, 0.8125};
 
-/// Whether the front of one of several breaks stands where its cut begins for a tenth of the time and more.
-bool waits(const Rung& rung, const TipPath& tip) {
-  constexpr double part = 0.1;
-  const double begins = tip.passes(std::nextafter(tip.positions.front(), HUGE_VAL));
-  return !rung.kinks.empty() && begins > tip.times.front() + part * (tip.times.back() - tip.times.front());
-}
-
 /// The first `count` of an order, which continues with all halves, quarters, eighths, ... that it lacks;
 /// sorted.
 std::vector<double> first_of(std::vector<double> order, int count) {
@@ -91,7 +84,7 @@ std::array<BSplineBasis, 4> following_tip(const Rung& rung, const Parametrizatio
   for (const double s : first_of(along_order, rung.along - 1)) along.list.push_back(1 + s);
   if (geometry.tip.positions.front() < back) {
     along.repeat(2, degree);
-    const auto& order = waits(rung, geometry.tip) ? waiting_order : front_resolved ? beyond_front_order : after_order;
+    const auto& order = rung.waits ? waiting_order : front_resolved ? beyond_front_order : after_order;
     for (const double s : first_of(order, rung.after - 1)) along.list.push_back(2 + s);
     along.repeat(3, degree + 1);
   } else {
@@ -146,8 +139,7 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
                                  : fixed(rung, parametrization.geometry(), frames);
 }
 
-std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round,
-                            const std::vector<TimeKink>& kinks) {
+std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round, bool waits) {
   std::vector<Rung> rungs;
   if (parametrization.moves()) {
     // Where lengths next to the front are measured as displacements grow, six spans along the cut are needed
@@ -156,8 +148,8 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round,
     Rung r = front ? Rung{2, 4, 2, 3, 2, 1, 8} : Rung{1, 3, 2, 3, 2, 1, 8};
     constexpr int around = 3;  // spans of an angle for each of a height
     if (round) r.above *= around;
-    r.kinks = kinks;
-    if (waits(r, parametrization.geometry().tip)) r.after = static_cast<int>(waiting_order.size()) + 1;
+    r.waits = waits;
+    if (waits) r.after = static_cast<int>(waiting_order.size()) + 1;
     rungs.push_back(r);
     using Steps = std::vector<int Rung::*>;
     const Steps of_tip = {&Rung::across, &Rung::across, &Rung::along,  &Rung::across, &Rung::along,
