@@ -12,7 +12,8 @@ FrontKinks front_kinks(const FieldGeometry& geometry, const std::vector<double>&
   const bool joined_first = extent[4] != 0, joined_last = extent[5] != 0;
   FrontKinks kinks;
   const auto add = [&](double t, bool felt) {
-    const auto after = static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), t) - times.begin());
+    const auto after =
+        static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), t) - times.begin());
     if (after == 0 || after > last) return;
     const std::size_t frame = t - times[after - 1] < times[after] - t ? after - 1 : after;
     if (frame == 0 || frame == last) return;

@@ -28,8 +28,8 @@ FrontKinks front_kinks(const FieldGeometry& geometry, const std::vector<double>&
 /// Whether a front stands where it begins for a tenth of the time and more.
 bool waits(const TipPath& tip);
 
-/// For one of several breaks: its own and those that it feels. Between two there are as many frames as a cubic
-/// needs and one more: of several that are closer the first one counts.
+/// For one of several breaks: its own and those that it feels. Between two there are as many frames as a
+/// cubic needs and one more: of several that are closer the first one counts.
 std::vector<TimeKink> kinks_of_all(const std::vector<FrontKinks>& of_breaks, std::size_t own,
                                    std::size_t frames);
 

@@ -34,7 +34,6 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
 /// Rungs of growing size, each contained in the next. The order of refinement that follows the tip comes from
 /// trials on a few cuts. `round`: the height is an angle around the front, over which the whole body changes.
 /// `waits`: the front waits while others move.
-std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round = false,
-                            bool waits = false);
+std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round = false, bool waits = false);
 
 }  // namespace cleft

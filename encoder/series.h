@@ -76,8 +76,8 @@ struct Series {
   std::vector<SeriesDerivative> derivatives;  ///< of a simulation: those that the snapshot holds
   FieldGeometry geometry;
   bool arm = false;                                ///< whether the break ends at others
-  FrontKinks front_kinks;       ///< of one of several breaks
-  std::vector<TimeKink> kinks;  ///< and those of all, once they are shared
+  FrontKinks front_kinks;                          ///< of one of several breaks
+  std::vector<TimeKink> kinks;                     ///< and those of all, once they are shared
   bool round = false;                              ///< whether w is an angle around a round front
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: number of open pairs

@@ -28,8 +28,8 @@ double rounded(double x) {
 
 using Distance = std::function<double(const Vec3&)>;  // of a point from the break, with a sign
 
-/// Of the nodes of groups: the sum of their cells' centroids' distances from the break. Where arms meet, cells
-/// between other arms are on no side of this one.
+/// Of the nodes of groups: the sum of their cells' centroids' distances from the break. Where arms meet,
+/// cells between other arms are on no side of this one.
 std::vector<double> sides(const SourceMesh& mesh, const Groups& groups, const Break& found, double tolerance,
                           const std::vector<char>& kept = {}) {
   std::vector<char> asked(mesh.points.size());

@@ -79,8 +79,8 @@ std::vector<char> beyond_joined_ends(const SourceMesh& mesh, const std::vector<c
 /// The nodes of a piece: those that count, and the others of their cells, where no break of another piece
 /// would have two sides in it.
 std::vector<char> nodes_of_piece(const SourceMesh& mesh, const std::vector<char>& counts,
-                                 const std::vector<Break>& breaks, std::size_t piece, const FieldSource& source,
-                                 std::size_t frames, const std::string& series) {
+                                 const std::vector<Break>& breaks, std::size_t piece,
+                                 const FieldSource& source, std::size_t frames, const std::string& series) {
   constexpr int layers = 2;  // of cells: so many nodes that bases of three functions more are determined
   std::vector<char> refused = beyond_joined_ends(mesh, counts, source);
   std::vector<char> own(mesh.points.size());
@@ -160,8 +160,8 @@ void put_on_sides(std::vector<Vec3>& places, const SourceMesh& part, const std::
       places[n].y = std::copysign(beside * (across.back - across.front), inside[n].y);
 }
 
-/// Where another arm leaves this one: u at the shared junction, and whether that is the end of this arm rather
-/// than its start. None where it turns back or aside.
+/// Where another arm leaves this one: u at the shared junction, and whether that is the end of this arm
+/// rather than its start. None where it turns back or aside.
 struct Onward {
   Vec3 from;
   bool at_end;
@@ -185,8 +185,8 @@ std::optional<Onward> onward(const SourceMesh& mesh, const Break& other, const B
   return {};
 }
 
-/// Pairs of other arms that lie on the surface of this one, or on arms that leave it onward: as far beyond its
-/// end as they are from there.
+/// Pairs of other arms that lie on the surface of this one, or on arms that leave it onward: as far beyond
+/// its end as they are from there.
 BeyondArm beyond(const SourceMesh& mesh, const std::vector<Break>& breaks, std::size_t arm,
                  const OwnPlace& own) {
   const Break& found = breaks[arm];
@@ -199,8 +199,8 @@ BeyondArm beyond(const SourceMesh& mesh, const std::vector<Break>& breaks, std::
     for (std::size_t p = 0; p < breaks[b].pairs.size(); ++p) {
       const Vec3 at = own.source.canonical(mesh.points[breaks[b].pairs[p][0]]);
       const bool is_beyond = at.x <= extent.along.front - slack || at.x >= extent.along.back + slack,
-                 on_surface = is_beyond && std::abs(at.y) <= near &&
-                              at.z >= extent.height.front - slack && at.z <= extent.height.back + slack;
+                 on_surface = is_beyond && std::abs(at.y) <= near && at.z >= extent.height.front - slack &&
+                              at.z <= extent.height.back + slack;
       if (!on_surface && !on) continue;
       const double way = on ? std::hypot(at.x - on->from.x, at.y - on->from.y) : 0;
       if (!on_surface && way <= slack) continue;
@@ -295,9 +295,10 @@ std::vector<SnapshotPiece> pieces_of(const ImportedSeries& series, std::vector<B
         on_lips[found.pairs[p][0]] = on_lips[found.pairs[p][1]] = 1;
   std::vector<SnapshotPiece> pieces;
   for (std::size_t p = 0; p < breaks.size(); ++p)
-    pieces.push_back(piece_of(series, breaks, p, own[p], counts[p],
-                              nodes_of_piece(mesh, counts[p], breaks, p, own[p].source, series.frames(), series.path()),
-                              on_lips, flat.has_value()));
+    pieces.push_back(
+        piece_of(series, breaks, p, own[p], counts[p],
+                 nodes_of_piece(mesh, counts[p], breaks, p, own[p].source, series.frames(), series.path()),
+                 on_lips, flat.has_value()));
   return pieces;
 }
 
