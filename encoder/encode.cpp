@@ -20,9 +20,9 @@ namespace cleft {
 
 namespace {
 
-constexpr double share_of_space = 0.9;  // of the tolerance, for fits of single frames
-constexpr int most_tries = 6;           // of finer knots for an arm of a break
-constexpr double worth_of_kinks = 0.7;  // what they must make of an error, since they take more bytes
+constexpr double share_of_space = 0.9;   // of the tolerance, for fits of single frames
+constexpr int most_tries = 6;            // of finer knots for an arm of a break
+constexpr double worth_of_kinks = 0.75;  // what they must make of an error, since they take more bytes
 
 class Encoder {
  public:
