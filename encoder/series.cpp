@@ -308,7 +308,8 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     add_start(quantities, closed, s.frames(), largest_displacement, taken, at_nodes, node_samples().size());
   derivatives = derivatives_of(reader, taken);
   geometry = geometry_of(s, parted(pairs, frames, largest_displacement));
-  if (s.counting) front_kinks = cleft::front_kinks(geometry, s.source->break_extent, times);
+  if (s.counting && s.source && s.source->break_extent.size() >= 8)
+    front_kinks = cleft::front_kinks(geometry, s.source->break_extent, times);
 }
 
 void share_kinks(std::vector<Series>& pieces) {
