@@ -88,8 +88,13 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
     }
     if (tip > domain[0].back - slack) tip = domain[0].back;
   }
-  // A front that is closed in frame 0 grows with the blade from where the cut begins.
-  if (!at_once && before > -far) ends.tip.front() = ends.cut.start;
+  // Next to the edge of the domain there is no room for a front that comes from another arm.
+  if (joined.first && first - domain[0].front < ends.cut.depth)
+    for (double& tip : ends.tip) tip = std::max(tip, first);
+  // A front grows with the blade from where the cut begins, and waits there while all is closed.
+  if (!at_once && before > -far)
+    for (std::size_t j = 0; j < ends.tip.size() && (j == 0 || s.released[j] == 0); ++j)
+      ends.tip[j] = ends.cut.start;
   ends.cut.length = ends.tip.back() - ends.cut.start;
   return ends;
 }

@@ -20,8 +20,9 @@ namespace cleft {
 
 namespace {
 
-constexpr double share_of_space = 0.9;  // of the tolerance, for fits of single frames
-constexpr int most_tries = 6;           // of finer knots for an arm of a break
+constexpr double share_of_space = 0.9;   // of the tolerance, for fits of single frames
+constexpr int most_tries = 6;            // of finer knots for an arm of a break
+constexpr double worth_of_kinks = 0.75;  // what they must make of an error, since they take more bytes
 
 class Encoder {
  public:
@@ -36,8 +37,7 @@ class Encoder {
 
   /// The smallest rung whose spline alone keeps the tolerance; the largest there is where none does.
   Rung smallest_rung() const {
-    const std::vector<Rung> rungs =
-        supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
+    const std::vector<Rung> rungs = supported_rungs();
     std::size_t i = sufficient(rungs);
     while (i + 1 < rungs.size() && fit_of(rungs[i]).misfit(limit_).beyond > 0) ++i;
     return rungs[std::min(i, rungs.size() - 1)];
@@ -48,19 +48,27 @@ class Encoder {
       const SeriesFit fit = fit_of(*options_.rung);
       return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit)};
     }
-    const std::vector<Rung> rungs =
-        supported(ladder_of(*parametrization_, series_.round), series_, *parametrization_);
+    const std::vector<Rung> rungs = supported_rungs();
     std::size_t rung = sufficient(rungs);
     progress_("fitting all frames");
     auto fitted = fitted_on(rungs[rung]);
     Misfit misfit = fitted->misfit(share_of_fit * limit_);
+    Rung chosen = rungs[rung];
+    const auto try_instead = [&](const Rung& other, double worth) {
+      auto another = fitted_on(other);
+      const Misfit of_another = another->misfit(share_of_fit * limit_);
+      if (!(of_another.largest < worth * misfit.largest)) return;
+      fitted = std::move(another), misfit = of_another, chosen = other;
+    };
     // What other arms do passes the ends of an arm in few frames, between those that the search for knots has
     // looked at.
     for (int more = 0; series_.arm && more < most_tries && misfit.largest > limit_ && rung + 1 < rungs.size();
-         ++more) {
-      auto finer = fitted_on(rungs[++rung]);
-      const Misfit of_finer = finer->misfit(share_of_fit * limit_);
-      if (of_finer.largest < misfit.largest) fitted = std::move(finer), misfit = of_finer;
+         ++more)
+      try_instead(rungs[++rung], 1);
+    if (!series_.kinks.empty() && parametrization_->moves() && misfit.largest > limit_) {
+      Rung bent = chosen;
+      bent.kinks = series_.kinks;
+      try_instead(bent, worth_of_kinks);
     }
     const SeriesFit& fit = *fitted;
     Encoded encoded{with_steps(fit, misfit.beyond == 0 ? limit_ : above(misfit))};
@@ -80,6 +88,11 @@ class Encoder {
 
   std::unique_ptr<SeriesFit> fitted_on(const Rung& rung) const {
     return std::make_unique<SeriesFit>(fit_of(rung));
+  }
+
+  std::vector<Rung> supported_rungs() const {
+    const bool waiting = !series_.kinks.empty() && waits(series_.geometry.tip);
+    return supported(ladder_of(*parametrization_, series_.round, waiting), series_, *parametrization_);
   }
 
   /// For single frames; if there is none, one that leaves little to a residual.

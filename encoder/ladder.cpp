@@ -20,6 +20,9 @@ const std::vector<double> across_order = {0.5, 0.25, 0.875, 0.625, 0.1875, 0.968
 const std::vector<double> above_order = {0.5, 0.25, 0.75};
 const std::vector<double> below_order = {0.25};
 
+// Ahead of a front that waits while others move there: at nearly even distances.
+const std::vector<double> waiting_order = {0.5, 0.75, 0.875, 0.25, 0.625, 0.9375, 0.8125};
+
 /// The first `count` of an order, which continues with all halves, quarters, eighths, ... that it lacks;
 /// sorted.
 std::vector<double> first_of(std::vector<double> order, int count) {
@@ -44,13 +47,23 @@ struct Knots {
   BSplineBasis basis(int p = degree) { return {p, std::move(list)}; }
 };
 
-BSplineBasis time_basis(int spans, double front, double back, int frames) {
+/// Each kink divides it; spans are shared out by the time between them.
+BSplineBasis time_basis(int spans, double front, double back, int frames,
+                        const std::vector<TimeKink>& kinks = {}) {
   const int p = std::min(degree, frames - 1);
   Knots knots;
   knots.repeat(front, p + 1);
-  for (const double s : halved(std::clamp(spans, 1, frames - p)))
-    knots.list.push_back(front + (back - front) * s);
-  knots.repeat(back, p + 1);
+  std::vector<TimeKink> ends = kinks;
+  ends.push_back({frames - 1, back});
+  TimeKink from{0, front};
+  for (const TimeKink& to : ends) {
+    const double share = (to.parameter - from.parameter) / (back - front);
+    const int wanted = kinks.empty() ? spans : static_cast<int>(std::ceil(spans * share));
+    for (const double s : halved(std::clamp(wanted, 1, to.frame - from.frame + 1 - p)))
+      knots.list.push_back(from.parameter + (to.parameter - from.parameter) * s);
+    knots.repeat(to.parameter, &to == &ends.back() ? p + 1 : p);
+    from = to;
+  }
   return knots.basis(p);
 }
 
@@ -72,8 +85,8 @@ std::array<BSplineBasis, 4> following_tip(const Rung& rung, const Parametrizatio
   for (const double s : first_of(along_order, rung.along - 1)) along.list.push_back(1 + s);
   if (geometry.tip.positions.front() < back) {
     along.repeat(2, degree);
-    for (const double s : first_of(front_resolved ? beyond_front_order : after_order, rung.after - 1))
-      along.list.push_back(2 + s);
+    const auto& order = rung.waits ? waiting_order : front_resolved ? beyond_front_order : after_order;
+    for (const double s : first_of(order, rung.after - 1)) along.list.push_back(2 + s);
     along.repeat(3, degree + 1);
   } else {
     along.repeat(2, degree + 1);
@@ -96,7 +109,7 @@ std::array<BSplineBasis, 4> following_tip(const Rung& rung, const Parametrizatio
   }
   for (const double s : first_of(above_order, rung.above - 1)) height.list.push_back(-1 + s);
   height.repeat(0, degree + 1);
-  return {along.basis(), across.basis(), height.basis(), time_basis(rung.time, 0, 1, frames)};
+  return {along.basis(), across.basis(), height.basis(), time_basis(rung.time, 0, 1, frames, rung.kinks)};
 }
 
 std::array<BSplineBasis, 4> fixed(const Rung& rung, const FieldGeometry& geometry, int frames) {
@@ -127,7 +140,7 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
                                  : fixed(rung, parametrization.geometry(), frames);
 }
 
-std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round) {
+std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round, bool waits) {
   std::vector<Rung> rungs;
   if (parametrization.moves()) {
     // Where lengths next to the front are measured as displacements grow, six spans along the cut are needed
@@ -136,6 +149,8 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round) 
     Rung r = front ? Rung{2, 4, 2, 3, 2, 1, 8} : Rung{1, 3, 2, 3, 2, 1, 8};
     constexpr int around = 3;  // spans of an angle for each of a height
     if (round) r.above *= around;
+    r.waits = waits;
+    if (waits) r.after = static_cast<int>(waiting_order.size()) + 1;
     rungs.push_back(r);
     using Steps = std::vector<int Rung::*>;
     const Steps of_tip = {&Rung::across, &Rung::across, &Rung::along,  &Rung::across, &Rung::along,

@@ -7,6 +7,7 @@
 
 #include "encoder/field/bspline.h"
 #include "encoder/field/parametrization.h"
+#include "encoder/front_kinks.h"
 
 namespace cleft {
 
@@ -15,6 +16,8 @@ namespace cleft {
 /// has no spans before, after and below.
 struct Rung {
   int before = 1, along = 1, after = 1, across = 1, above = 1, below = 1, time = 1;
+  std::vector<TimeKink> kinks = {};  ///< ascending; of a parametrisation that follows the tip
+  bool waits = false;                ///< whether knots ahead of the tip serve what happens far from it
 
   friend bool operator==(const Rung&, const Rung&) = default;
 };
@@ -30,6 +33,7 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
 
 /// Rungs of growing size, each contained in the next. The order of refinement that follows the tip comes from
 /// trials on a few cuts. `round`: the height is an angle around the front, over which the whole body changes.
-std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round = false);
+/// `waits`: the front waits while others move.
+std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round = false, bool waits = false);
 
 }  // namespace cleft

@@ -30,6 +30,14 @@ std::vector<bool> parted(const Pairs& pairs, const StoredFrames<3>& frames, doub
   return parts;
 }
 
+/// Whether the front of an arm passes its end to go on as those of others there do. A front that comes late
+/// meets what is open already.
+bool goes_on(const Snapshot& s) {
+  constexpr std::size_t late = 10;  // of the frames, one in
+  return s.source && s.source->break_extent.size() >= 8 && s.source->break_extent[5] != 0 &&
+         s.released[s.frames() / late] > 0;
+}
+
 FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
   FieldGeometry g;
   for (int axis = 0; axis < 3; ++axis) {
@@ -44,6 +52,7 @@ FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
   if (s.cut_length > 0 && plane) g.domain[2] = {-s.cut_length / 3, 0};
   if (const auto own = own_domain(s)) g.domain[0] = (*own)[0], g.domain[1] = (*own)[1];
   g.domain[3] = {s.times.front(), s.times.back()};
+  if (goes_on(s)) g.domain[0].back = std::max(g.domain[0].back, s.source->break_extent[1] + s.cut_depth);
   const BreakEnds ends = break_ends(s, parts, {g.domain[0], g.domain[1], g.domain[2]});
   g.cut = ends.cut;
   // A closed cut ends where it begins, at nodes whose u is that of its start.
@@ -299,6 +308,16 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     add_start(quantities, closed, s.frames(), largest_displacement, taken, at_nodes, node_samples().size());
   derivatives = derivatives_of(reader, taken);
   geometry = geometry_of(s, parted(pairs, frames, largest_displacement));
+  if (s.counting && s.source && s.source->break_extent.size() >= 8)
+    front_kinks = cleft::front_kinks(geometry, s.source->break_extent, times);
+}
+
+void share_kinks(std::vector<Series>& pieces) {
+  std::vector<FrontKinks> all;
+  all.reserve(pieces.size());
+  for (const Series& piece : pieces) all.push_back(piece.front_kinks);
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    pieces[p].kinks = kinks_of_all(all, p, pieces[p].times.size());
 }
 
 void share_scales(std::vector<Series>& pieces) {

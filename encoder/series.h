@@ -10,6 +10,7 @@
 
 #include "encoder/cell_centres.h"
 #include "encoder/field/parametrization.h"
+#include "encoder/front_kinks.h"
 #include "encoder/node_values.h"
 #include "encoder/node_work.h"
 #include "encoder/norms.h"
@@ -75,6 +76,8 @@ struct Series {
   std::vector<SeriesDerivative> derivatives;  ///< of a simulation: those that the snapshot holds
   FieldGeometry geometry;
   bool arm = false;                                ///< whether the break ends at others
+  FrontKinks front_kinks;                          ///< of one of several breaks
+  std::vector<TimeKink> kinks;                     ///< and those of all, once they are shared
   bool round = false;                              ///< whether w is an angle around a round front
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: number of open pairs
@@ -91,6 +94,9 @@ struct Series {
   /// Values of a field (NodeSpline::field) at count of them from `first` on.
   Eigen::MatrixXd values(int field, std::size_t frame, std::size_t first, std::size_t count) const;
 };
+
+/// What the front of one break does, the pieces of others feel.
+void share_kinks(std::vector<Series>& pieces);
 
 /// Tolerances of the pieces of one body are relative to the body's largest values, not to each piece's.
 void share_scales(std::vector<Series>& pieces);

@@ -201,7 +201,7 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
     series.emplace_back(reader, storage);
   }
   check_names(task.options, series.front());
-  if (series.size() > 1) share_scales(series);
+  if (series.size() > 1) share_scales(series), share_kinks(series);
   progress.expect(series.size(), series.front().quantities.size());
   std::vector<Encoded> all;
   Json warnings = Json::array();

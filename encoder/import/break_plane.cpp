@@ -28,9 +28,10 @@ double rounded(double x) {
 
 using Distance = std::function<double(const Vec3&)>;  // of a point from the break, with a sign
 
-/// Of the nodes of groups: the sum of their cells' centroids' distances from the break.
-std::vector<double> sides(const SourceMesh& mesh, const Groups& groups, const Distance& distance,
-                          double tolerance, const std::vector<char>& kept = {}) {
+/// Of the nodes of groups: the sum of their cells' centroids' distances from the break. Where arms meet,
+/// cells between other arms are on no side of this one.
+std::vector<double> sides(const SourceMesh& mesh, const Groups& groups, const Break& found, double tolerance,
+                          const std::vector<char>& kept = {}) {
   std::vector<char> asked(mesh.points.size());
   for (const auto& group : groups)
     for (const std::int32_t node : group) asked[node] = 1;
@@ -41,10 +42,13 @@ std::vector<double> sides(const SourceMesh& mesh, const Groups& groups, const Di
     if (std::none_of(first, last, [&](std::int64_t i) { return asked[i]; })) continue;
     if (!kept.empty() && !std::all_of(first, last, [&](std::int64_t i) { return kept[i]; })) continue;
     double sum = 0;
-    for (const auto* i = first; i != last; ++i) sum += distance(mesh.points[*i]);
+    for (const auto* i = first; i != last; ++i) sum += found.distance(mesh.points[*i]);
     const double centroid = sum / static_cast<double>(last - first);
     if (std::abs(centroid) <= tolerance) continue;  // an interface element, between the two sides
-    for (const auto* i = first; i != last; ++i) side[*i] += centroid;
+    const auto is = [&](InArm part) { return [&, part](std::int64_t i) { return found.in_arm[i] == part; }; };
+    const bool beside = found.in_arm.empty() || std::any_of(first, last, is(InArm::between_junctions));
+    for (const auto* i = first; i != last; ++i)
+      if (beside || !is(InArm::at_junction)(*i)) side[*i] += centroid;
   }
   return side;
 }
@@ -95,6 +99,16 @@ class Search {
       asked_[g] =
           std::none_of(groups_[g].begin(), groups_[g].end(), [&](std::int32_t n) { return parts[n]; });
     for (const std::size_t g : component.groups) asked_[g] = 1;
+  }
+  /// Of all nodes, where the component has junctions.
+  std::vector<InArm> in_arm(const BreakComponent& component) const {
+    if (component.junctions.empty()) return {};
+    std::vector<InArm> parts(mesh_.points.size(), InArm::no);
+    for (const auto& [groups, part] : {std::pair(&component.groups, InArm::between_junctions),
+                                       std::pair(&component.junctions, InArm::at_junction)})
+      for (const std::size_t g : *groups)
+        for (const std::int32_t node : groups_[g]) parts[node] = part;
+    return parts;
   }
   std::vector<Vec3> places_of(const std::vector<std::size_t>& groups) const {
     std::vector<Vec3> places;
@@ -213,7 +227,7 @@ class Search {
 
   void pair_where(Break& found, Distance distance, std::vector<std::string>& notes) const {
     found.distance = std::move(distance);
-    const std::vector<double> side = sides(mesh_, groups_, found.distance, tolerance_);
+    const std::vector<double> side = sides(mesh_, groups_, found, tolerance_);
     // A surface through places is as near to others of the break as its curvature between them lets it be.
     const double near = found.curved ? 100 * tolerance_ : tolerance_;
     for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
@@ -342,6 +356,7 @@ Breaks find_breaks(ImportedSeries& series, const std::optional<std::string>& giv
   result.list.resize(components.size());
   for (std::size_t i = 0; i < components.size(); ++i) {
     search.look_at(components[i]);
+    result.list[i].in_arm = search.in_arm(components[i]);
     find(result.list[i]);
     result.list[i].junctions = search.places_of(components[i].junctions);
   }
@@ -364,7 +379,7 @@ void pair_among(Break& found, const SourceMesh& mesh, const std::vector<char>& k
   Groups groups = coincident_groups(places, same_place(mesh));
   for (auto& group : groups)
     for (std::int32_t& node : group) node = nodes[node];
-  const std::vector<double> side = sides(mesh, groups, found.distance, in_plane(mesh), kept);
+  const std::vector<double> side = sides(mesh, groups, found, in_plane(mesh), kept);
   found.pairs.clear(), found.first_frame.clear();
   for (const auto& group : groups)
     for (const auto& [l, r] : NodesBySide(group, side).pairs()) {

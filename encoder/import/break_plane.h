@@ -12,6 +12,9 @@
 
 namespace cleft {
 
+/// Where a node is on an arm of a break.
+enum class InArm : char { no, between_junctions, at_junction };
+
 struct Break {
   std::optional<Plane> plane;             ///< none if there is no break; of a curved one the best
   bool curved = false;                    ///< whether the pairs lie in no common plane
@@ -20,6 +23,7 @@ struct Break {
   std::function<double(const Vec3&)> distance = {};  ///< of a point from the break; right is positive
   std::map<NodePair, std::int32_t> parting = {};  ///< first_frame of all coincident nodes, lower node first
   std::vector<Vec3> junctions = {};               ///< of an arm of a break: where further arms begin
+  std::vector<InArm> in_arm = {};                 ///< of each node of the mesh, where there are junctions
 };
 
 /// The breaks of a series, and messages for the user. Without any there is one without a plane.

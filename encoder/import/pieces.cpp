@@ -58,13 +58,31 @@ OwnPlace own_place(const ImportedSeries& series, Break& found, const std::option
   return own;
 }
 
+/// Nodes beyond an end at which other arms begin, and beyond all nodes there that count: knots are densest
+/// where the domain begins.
+std::vector<char> beyond_joined_ends(const SourceMesh& mesh, const std::vector<char>& counts,
+                                     const FieldSource& source) {
+  const BreakExtent& extent = *source.extent;
+  std::vector<Vec3> places;
+  for (const Vec3& x : mesh.points) places.push_back(source.canonical(x));
+  Interval within = extent.along;
+  for (std::size_t n = 0; n < places.size(); ++n)
+    if (counts[n]) within = {std::min(within.front, places[n].x), std::max(within.back, places[n].x)};
+  const double slack = in_plane(mesh);
+  std::vector<char> beyond(places.size());
+  for (std::size_t n = 0; n < places.size(); ++n)
+    beyond[n] = (extent.joined[0] && places[n].x < within.front - slack) ||
+                (extent.joined[1] && places[n].x > within.back + slack);
+  return beyond;
+}
+
 /// The nodes of a piece: those that count, and the others of their cells, where no break of another piece
 /// would have two sides in it.
 std::vector<char> nodes_of_piece(const SourceMesh& mesh, const std::vector<char>& counts,
-                                 const std::vector<Break>& breaks, std::size_t piece, std::size_t frames,
-                                 const std::string& series) {
+                                 const std::vector<Break>& breaks, std::size_t piece,
+                                 const FieldSource& source, std::size_t frames, const std::string& series) {
   constexpr int layers = 2;  // of cells: so many nodes that bases of three functions more are determined
-  std::vector<char> refused(mesh.points.size());
+  std::vector<char> refused = beyond_joined_ends(mesh, counts, source);
   std::vector<char> own(mesh.points.size());
   std::vector<std::vector<NodePair>> parting(breaks.size());
   for (std::size_t b = 0; b < breaks.size(); ++b)
@@ -142,7 +160,33 @@ void put_on_sides(std::vector<Vec3>& places, const SourceMesh& part, const std::
       places[n].y = std::copysign(beside * (across.back - across.front), inside[n].y);
 }
 
-/// Pairs of other arms that lie on the surface of this one.
+/// Where another arm leaves this one: u at the shared junction, and whether that is the end of this arm
+/// rather than its start. None where it turns back or aside.
+struct Onward {
+  Vec3 from;
+  bool at_end;
+};
+std::optional<Onward> onward(const SourceMesh& mesh, const Break& other, const Break& found,
+                             const FieldSource& source) {
+  constexpr double least_cosine = 0.2;
+  for (const Vec3& x : found.junctions)
+    for (const Vec3& y : other.junctions) {
+      if (norm(x - y) > same_place(mesh)) continue;
+      const Vec3 from = source.canonical(x);
+      const bool at_end = 2 * from.x > source.extent->along.front + source.extent->along.back;
+      double ahead = 0, aside = 0;
+      for (const auto& [left, right] : other.pairs) {
+        const Vec3 way = source.canonical(mesh.points[left]) - from;
+        ahead += at_end ? way.x : -way.x, aside += way.y;
+      }
+      if (ahead < least_cosine * std::hypot(ahead, aside)) return {};
+      return Onward{from, at_end};
+    }
+  return {};
+}
+
+/// Pairs of other arms that lie on the surface of this one, or on arms that leave it onward: as far beyond
+/// its end as they are from there.
 BeyondArm beyond(const SourceMesh& mesh, const std::vector<Break>& breaks, std::size_t arm,
                  const OwnPlace& own) {
   const Break& found = breaks[arm];
@@ -151,12 +195,17 @@ BeyondArm beyond(const SourceMesh& mesh, const std::vector<Break>& breaks, std::
   BeyondArm result{extent.joined[1]};
   for (std::size_t b = 0; b < breaks.size(); ++b) {
     if (b == arm || found.junctions.empty() || breaks[b].junctions.empty()) continue;
+    const std::optional<Onward> on = onward(mesh, breaks[b], found, own.source);
     for (std::size_t p = 0; p < breaks[b].pairs.size(); ++p) {
       const Vec3 at = own.source.canonical(mesh.points[breaks[b].pairs[p][0]]);
-      if (std::abs(at.y) > near || at.z < extent.height.front - slack || at.z > extent.height.back + slack ||
-          (at.x > extent.along.front - slack && at.x < extent.along.back + slack))
-        continue;
-      result.u.push_back(at.x), result.first_frame.push_back(breaks[b].first_frame[p]);
+      const bool is_beyond = at.x <= extent.along.front - slack || at.x >= extent.along.back + slack,
+                 on_surface = is_beyond && std::abs(at.y) <= near && at.z >= extent.height.front - slack &&
+                              at.z <= extent.height.back + slack;
+      if (!on_surface && !on) continue;
+      const double way = on ? std::hypot(at.x - on->from.x, at.y - on->from.y) : 0;
+      if (!on_surface && way <= slack) continue;
+      result.u.push_back(on_surface ? at.x : on->from.x + (on->at_end ? way : -way));
+      result.first_frame.push_back(breaks[b].first_frame[p]);
     }
   }
   return result;
@@ -246,9 +295,10 @@ std::vector<SnapshotPiece> pieces_of(const ImportedSeries& series, std::vector<B
         on_lips[found.pairs[p][0]] = on_lips[found.pairs[p][1]] = 1;
   std::vector<SnapshotPiece> pieces;
   for (std::size_t p = 0; p < breaks.size(); ++p)
-    pieces.push_back(piece_of(series, breaks, p, own[p], counts[p],
-                              nodes_of_piece(mesh, counts[p], breaks, p, series.frames(), series.path()),
-                              on_lips, flat.has_value()));
+    pieces.push_back(
+        piece_of(series, breaks, p, own[p], counts[p],
+                 nodes_of_piece(mesh, counts[p], breaks, p, own[p].source, series.frames(), series.path()),
+                 on_lips, flat.has_value()));
   return pieces;
 }
 

@@ -56,6 +56,7 @@ class Opening {
     double end = high_.x;
     if (beyond_.ends_at_others)
       for (const Vec3& at : s_.points) end = std::max(end, at.x);
+    for (const double u : beyond_.u) end = std::max(end, u);
     std::vector<double> position;
     for (int j = 0; j < never_; ++j) {
       double front = -std::numeric_limits<double>::infinity(), next = std::numeric_limits<double>::infinity();
