@@ -1,9 +1,9 @@
 #include "encoder/field/field.h"
-#include "encoder/field/quantity_fields.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "encoder/field/quantity_fields.h"
 #include "tests/field/random_field.h"
 
 namespace cleft {
