@@ -38,7 +38,7 @@ class EndToEnd : public testing::Test {
     folder->write("case.toml", coarse_case);
     expect_success(run_cleft("solve", {*folder / "case.toml", "--out", *folder / "case.h5"}));
     expect_success(run_cleft(
-        "encode", {*folder / "case.h5", "--out", *folder / "case.dffd", "--control-points", "20,14,8,9"}));
+        "encode", {*folder / "case.h5", "--out", *folder / "case.dffd", "--control-points", "18,14,8,9"}));
   }
   static void TearDownTestSuite() { delete folder; }
   static TemporaryFolder* folder;
