@@ -95,7 +95,8 @@ std::vector<CodedBlock> NodeWorkHere::code(const NodeSpline& spline, const Coded
     const auto number = static_cast<std::size_t>(i);
     QuantisedBlock block(kind, size_of(number));
     const auto quantise = [&](int frame) {
-      const auto of_series = static_cast<std::size_t>(frame + kind.first_frame);
+      const std::size_t of_series =
+          static_cast<std::size_t>(frame) + static_cast<std::size_t>(kind.first_frame);
       block.add(frame, left(spline, of_series, number, read(spline, of_series, number)));
     };
     if (coded.size() == 1)

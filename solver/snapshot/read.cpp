@@ -345,7 +345,7 @@ std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
   std::vector<SnapshotArray> arrays;
   for (const std::string& name : file.members(point_data_group)) {
     if (name == "displacement") continue;
-    const std::string dataset = point_data_group + "/" + name;
+    const std::string dataset = std::string(point_data_group).append("/").append(name);
     const h5::Shape shape = file.shape(dataset);
     constexpr hsize_t most_components = 1000;
     const bool table =

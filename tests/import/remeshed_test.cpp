@@ -58,6 +58,7 @@ std::vector<int> sides_at_break(const SourceMesh& mesh) {
       has[mesh.connectivity[i]][y > 0] = true;
   }
   std::vector<int> sides;
+  sides.reserve(has.size());
   for (const auto& [left, right] : has) sides.push_back(left == right ? 0 : right ? 1 : -1);
   return sides;
 }
