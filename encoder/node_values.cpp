@@ -1,5 +1,7 @@
 #include "encoder/node_values.h"
 
+#include "encoder/node_work.h"
+
 namespace cleft {
 
 namespace {
@@ -28,6 +30,11 @@ NodeValues::NodeValues(NodesInFile nodes)
     : nodes_(std::move(nodes)),
       values_(h5::File::open(nodes_.file), nodes_.points, nodes_.taken),
       closed_(rows_of(values_.displacement(0, 0, nodes_.size()))) {}
+
+NodeRows NodeValues::values(int field, std::size_t frame, std::size_t first, std::size_t count) const {
+  return field == NodeSpline::displacement ? displacement(frame, first, count)
+                                           : quantity(static_cast<std::size_t>(field), frame, first, count);
+}
 
 NodeRows NodeValues::displacement(std::size_t frame, std::size_t first, std::size_t count) const {
   NodeRows rows;

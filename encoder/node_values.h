@@ -38,12 +38,15 @@ class NodeValues {
   explicit NodeValues(NodesInFile nodes);
 
   const NodesInFile& nodes() const { return nodes_; }
-  /// Of nodes first .. first + count - 1: the displacement from frame 0 along the field's axes, mm.
-  NodeRows displacement(std::size_t frame, std::size_t first, std::size_t count) const;
+  /// Of nodes first .. first + count - 1: of NodeSpline::displacement that from frame 0 along the field's
+  /// axes, mm; else of the further quantity of this number.
+  NodeRows values(int field, std::size_t frame, std::size_t first, std::size_t count) const;
   /// A further quantity's own values.
   NodeRows quantity(std::size_t number, std::size_t frame, std::size_t first, std::size_t count) const;
 
  private:
+  NodeRows displacement(std::size_t frame, std::size_t first, std::size_t count) const;
+
   NodesInFile nodes_;
   SnapshotValues values_;
   mutable std::mutex one_at_a_time_;  // HDF5 serves one thread

@@ -105,6 +105,15 @@ void check_cut(const Snapshot& s) {
 /// Of a frame, at all nodes or at the samples.
 using ValuesOf = std::function<Eigen::MatrixXd(std::size_t frame)>;
 
+/// Of quantity `number`, to which it refers: of all nodes where `at_nodes` reads them.
+ValuesOf values_of(const SeriesQuantity& quantity, const NodeValues* at_nodes, std::size_t number,
+                   std::size_t nodes) {
+  return [&quantity, at_nodes, number, nodes](std::size_t frame) -> Eigen::MatrixXd {
+    if (at_nodes) return at_nodes->quantity(number, frame, 0, nodes);
+    return quantity.frames[frame];
+  };
+}
+
 /// Least and greatest of a scalar.
 std::array<double, 2> range_of(std::size_t frames, const ValuesOf& values) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -155,10 +164,7 @@ std::vector<SeriesQuantity> quantities_of(const SnapshotReader& reader, const Se
       quantity.largest = std::max(quantity.largest, sizes.maxCoeff());
       quantity.frames.push_back(taken.at_samples(frame));  // the places of a node all have its values
     }
-    set_scale(quantity, [&](std::size_t frame) -> Eigen::MatrixXd {
-      if (at_nodes) return at_nodes->quantity(quantities.size(), frame, 0, nodes);
-      return quantity.frames[frame];
-    });
+    set_scale(quantity, values_of(quantity, at_nodes, quantities.size(), nodes));
     quantities.push_back(std::move(quantity));
   }
   return quantities;
@@ -172,10 +178,7 @@ void add_start(std::vector<SeriesQuantity>& quantities, const NodeRows& start, s
   if (largest == 0) return;
   SeriesQuantity quantity{Series::at_start, StoredFrames<Eigen::Dynamic>(), largest, 0, {}};
   quantity.frames.assign(frames, taken.at_samples(start));
-  set_scale(quantity, [&](std::size_t frame) -> Eigen::MatrixXd {
-    if (at_nodes) return at_nodes->quantity(quantities.size(), frame, 0, nodes);
-    return quantity.frames[frame];
-  });
+  set_scale(quantity, values_of(quantity, at_nodes, quantities.size(), nodes));
   if (largest_displacement > 0) quantity.scale = largest_displacement;
   quantities.push_back(std::move(quantity));
 }
@@ -214,18 +217,14 @@ std::vector<SeriesDerivative> derivatives_of(const SnapshotReader& reader, const
 }  // namespace
 
 Eigen::MatrixXd Series::values(int field, std::size_t frame, std::size_t first, std::size_t count) const {
-  const auto from = static_cast<Eigen::Index>(first), rows = static_cast<Eigen::Index>(count);
-  if (field == NodeSpline::displacement) {
-    if (node_values) return node_values->displacement(frame, first, count);
-    Eigen::MatrixXd some = frames[frame].middleRows(from, rows);
-    frames.forget(frame);
+  if (node_values) return node_values->values(field, frame, first, count);
+  const auto rows_of = [&](const auto& stored) -> Eigen::MatrixXd {
+    Eigen::MatrixXd some =
+        stored[frame].middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
+    stored.forget(frame);
     return some;
-  }
-  const auto number = static_cast<std::size_t>(field);
-  if (node_values) return node_values->quantity(number, frame, first, count);
-  Eigen::MatrixXd some = quantities[number].frames[frame].middleRows(from, rows);
-  quantities[number].frames.forget(frame);
-  return some;
+  };
+  return field == NodeSpline::displacement ? rows_of(frames) : rows_of(quantities[field].frames);
 }
 
 void set_scale(SeriesQuantity& quantity, const std::function<Eigen::MatrixXd(std::size_t)>& values) {
@@ -343,10 +342,8 @@ void share_scales(std::vector<Series>& pieces) {
       const SeriesQuantity& quantity = piece.quantities[q];
       most = std::max(most, quantity.largest), scale = std::max(scale, quantity.scale);
       if (quantity.frames.front().cols() != 1) continue;
-      const auto [least, greatest] = range_of(piece.times.size(), [&](std::size_t frame) -> Eigen::MatrixXd {
-        if (piece.node_values) return piece.node_values->quantity(q, frame, 0, piece.node_samples().size());
-        return quantity.frames[frame];
-      });
+      const auto [least, greatest] = range_of(
+          piece.times.size(), values_of(quantity, piece.node_values.get(), q, piece.node_samples().size()));
       low = std::min(low, least), high = std::max(high, greatest);
     }
     if (low < high) scale = std::min(most, high - low);

@@ -144,9 +144,7 @@ void throw_if_failed(Unpacker& answer, int rank) {
 
 NodeWorkHere::Read reading(std::shared_ptr<const NodeValues> values) {
   return [values = std::move(values)](int field, std::size_t frame, std::size_t first, std::size_t count) {
-    return Eigen::MatrixXd(field == NodeSpline::displacement
-                               ? values->displacement(frame, first, count)
-                               : values->quantity(static_cast<std::size_t>(field), frame, first, count));
+    return Eigen::MatrixXd(values->values(field, frame, first, count));
   };
 }
 

@@ -20,6 +20,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
+#include "encoder/field/at_time.h"
 #include "encoder/field/quantity_fields.h"
 #include "encoder/import/decoded_vtkhdf.h"
 #include "encoder/import/vtk_frames.h"
@@ -210,10 +211,7 @@ std::vector<NodesOfPiece> nodes_in_pieces(const SourceMesh& mesh, const BlendedF
 
 DecodedNodes decoded_at(const KeptField& kept, const std::vector<Place>& nodes) {
   const auto places_at = [&nodes](std::size_t first, std::size_t last, double t) {
-    std::vector<Place> places(nodes.begin() + static_cast<std::ptrdiff_t>(first),
-                              nodes.begin() + static_cast<std::ptrdiff_t>(last));
-    for (Place& place : places) place.t = t;
-    return places;
+    return at_time(std::span(nodes).subspan(first, last - first), t);
   };
   const auto displacement = [&, places_at](double t, std::size_t frame) {
     std::vector<Vec3> d(nodes.size());

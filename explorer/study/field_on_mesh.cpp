@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/field/at_time.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/pieces_at_nodes.h"
 #include "encoder/field/quantity_fields.h"
@@ -33,14 +34,8 @@ struct FieldOnMesh::Values {
     if (pieces) return pieces->quantity(index, t, 0);
     const QuantityFields fields(*field, index);
     std::vector<double> all(fields.components() * places.size());
-    fields.at(places_at(t), all);
+    fields.at(at_time(places, t), all);
     return all;
-  }
-
-  std::vector<Place> places_at(double t) const {
-    std::vector<Place> moved = places;
-    for (Place& place : moved) place.t = t;
-    return moved;
   }
 };
 
@@ -90,7 +85,7 @@ std::vector<Vec3> FieldOnMesh::displacement(double t) const {
   if (values_->pieces) {
     moved = values_->pieces->displacement(t, 0);
   } else {
-    const std::vector<Place> places = values_->places_at(t);
+    const std::vector<Place> places = at_time(values_->places, t);
     moved.resize(places.size());
     values_->field->displacements(places, moved);
   }

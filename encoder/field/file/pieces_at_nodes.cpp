@@ -1,6 +1,7 @@
 #include "encoder/field/file/pieces_at_nodes.h"
 
 #include "base/error.h"
+#include "encoder/field/at_time.h"
 #include "encoder/field/quantity_fields.h"
 
 namespace cleft {
@@ -70,21 +71,11 @@ PiecesAtNodes::PiecesAtNodes(std::vector<FieldPiece> pieces, std::vector<NodesOf
     for (std::size_t i = 0; i < weights_[p].size(); ++i) weights_[p][i] /= sum[nodes_[p].nodes[i]];
 }
 
-namespace {
-
-std::vector<Place> places_at(const NodesOfPiece& nodes, double t) {
-  std::vector<Place> places = nodes.places;
-  for (Place& place : places) place.t = t;
-  return places;
-}
-
-}  // namespace
-
 std::vector<Vec3> PiecesAtNodes::displacement(double t, std::size_t frame) const {
   std::vector<Vec3> all(count_);
   for (std::size_t p = 0; p < nodes_.size(); ++p) {
     const NodesOfPiece& nodes = nodes_[p];
-    const std::vector<Place> places = places_at(nodes, t);
+    const std::vector<Place> places = at_time(nodes.places, t);
     std::vector<Vec3> values(places.size());
     field_.pieces()[p].displacements(places, values);
     const NodeResidual* residual = residuals_ && kept_[p].residual ? &*kept_[p].residual : nullptr;
@@ -104,7 +95,7 @@ std::vector<double> PiecesAtNodes::quantity(std::size_t index, double t, std::si
     const NodesOfPiece& nodes = nodes_[p];
     const bool has = residuals_ && index < kept_[p].of_quantities.size() && kept_[p].of_quantities[index];
     std::vector<double> of_piece(nodes.nodes.size() * components);
-    QuantityFields(field_.pieces()[p], index).at(places_at(nodes, t), of_piece);
+    QuantityFields(field_.pieces()[p], index).at(at_time(nodes.places, t), of_piece);
     for (std::size_t i = 0; i < nodes.nodes.size(); ++i) {
       const std::span<double> values(&of_piece[i * components], components);
       for (std::size_t c = 0; has && c < components; ++c)
