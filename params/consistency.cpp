@@ -48,12 +48,20 @@ class ConsistencyCheck {
     check_nodes();
     check_materials();
     if (p_.model == Model::finite) check_finite();
+    if (p_.mesh.elements == ElementOrder::quadratic) check_quadratic();
     return nodes();
   }
 
  private:
   void need(bool good, const std::string& message) const {
     if (!good) throw InputError(where_ + ": " + message);
+  }
+
+  /// Refuses what a member of p_ is, with the member that it does not go with.
+  template <class Member>
+  void refuse(bool present, const Member& member, const std::string& remedy, const std::string& with) const {
+    need(!present, row_of(p_, member).name + " = " + text_of(p_, member) + ": not with " + with +
+                       " so far; set " + remedy);
   }
 
   /// "cut.length = 30 mm" of a member of p_.
@@ -111,8 +119,7 @@ class ConsistencyCheck {
                                                                    : p_.patch.slope)
                                    .name;
     const auto refuse = [&](bool present, const auto& member, const std::string& remedy) {
-      need(!present, row_of(p_, member).name + " = " + text_of(p_, member) + ": not with " + shape +
-                         " so far; set " + remedy + ", or " + shape + " to 0");
+      this->refuse(present, member, remedy + ", or " + shape + " to 0", shape);
     };
     refuse(p_.model == Model::finite, p_.model, "it to small");
     refuse(skin.bending_stiffness > 0, skin.bending_stiffness, "it to 0");
@@ -178,7 +185,8 @@ class ConsistencyCheck {
     const double along_v = core_ / h + p_.cut.count + count_of_elements(room_left_ + to_right_, h, growth) +
                            count_of_elements(room_right_ + to_left_, h, growth);
     const double along_w = meshed_.depth / h + count_of_elements(p_.patch.height - meshed_.depth, h, growth);
-    return (along_u + 1) * along_v * (along_w + 1);
+    const double each = p_.mesh.elements == ElementOrder::quadratic ? 8 : 1;  // nodes halve elements
+    return each * (along_u + 1) * along_v * (along_w + 1);
   }
 
   void check_nodes() const {
@@ -212,6 +220,22 @@ class ConsistencyCheck {
     need(p_.tissue.formulation == TissueFormulation::displacement || p_.tissue.law == TissueLaw::neo_hookean,
          "tissue.formulation = \"mean-dilatation\", tissue.law = " + text_of(p_, p_.tissue.law) +
              ": this law has no part of the change of volume alone; set tissue.law to \"neo-hookean\"");
+  }
+
+  /// What quadratic elements are not made for.
+  void check_quadratic() const {
+    const auto refuse = [&](bool present, const auto& member, const std::string& remedy) {
+      this->refuse(present, member, remedy + ", or mesh.elements to linear", "mesh.elements = quadratic");
+    };
+    refuse(p_.model == Model::finite, p_.model, "it to small");
+    refuse(p_.tissue.formulation == TissueFormulation::mean_dilatation, p_.tissue.formulation,
+           "it to displacement");
+    refuse(p_.cut.frames == FrameEvery::pair, p_.cut.frames, "it to column");
+    const auto& skin = p_.skin;
+    for (const double* shape :
+         {&p_.cut.radius, &p_.cut.curvature, &p_.cut.curvature_rate, &p_.cut.tilt, &p_.patch.slope,
+          &skin.curvature_u, &skin.curvature_v, &skin.curvature_uv, &skin.bending_stiffness})
+      refuse(*shape != 0, *shape, "it to 0");
   }
 
   const Parameters& p_;

@@ -13,7 +13,7 @@ namespace cleft {
 /// front by a part of h changes. So the mesh's error is, to first order and everywhere, that of a cut which
 /// ends this part before its closed nodes. The part depends on the shape of the elements, and hardly on
 /// Poisson's ratio; measured with slits in a sheet (ends) and cuts of growing depth (bottom):
-/// tests/solver/verification_front_test.cpp.
+/// tests/solver/verification_front_test.cpp; of quadratic elements with benchmarks/elements.
 struct FrontParts {
   double end, bottom;
 };

@@ -1,7 +1,5 @@
 #include "params/solve_hash.h"
 
-#include <string_view>
-
 #include "params/hash.h"
 #include "params/parameters/table.h"
 
@@ -12,16 +10,12 @@ namespace {
 constexpr int hash_version =
     3;  // raise when the same parameters no longer give the same snapshot, or its format changes
 
-/// Of a case that does not have it, the hash is that of before.
-constexpr std::string_view added_later = "cut.curvature_rate";
-
 }  // namespace
 
 std::string solve_hash(const Parameters& parameters, const std::string& body) {
   std::string text = "cleft case " + std::to_string(hash_version) + "\n";
   for (const Parameter& row : parameter_table()) {
-    if (row.name == added_later && get_parameter(parameters, row) == get_parameter(Parameters{}, row))
-      continue;
+    if (row.added_later && get_parameter(parameters, row) == get_parameter(Parameters{}, row)) continue;
     text += row.name + "=" + to_text(get_parameter(parameters, row)) + "\n";
   }
   if (!body.empty()) text += "body=" + body + "\n";

@@ -14,6 +14,9 @@ enum class TissueFormulation { displacement, mean_dilatation };
 /// behaves as if it ended, or at these nodes.
 enum class MeshFront { effective, nodes };
 
+/// Wedges of six nodes, in which displacements are linear; or of 15 nodes, in which they are quadratic.
+enum class ElementOrder { linear, quadratic };
+
 /// What pulls at the skin's edges on the patch's sides: the surrounding skin, which holds the closed patch in
 /// equilibrium, so that only what the cut releases moves it; or nothing, as on a piece that was cut out.
 enum class SkinEdges { held, free };
@@ -49,6 +52,7 @@ struct Parameters {
   } cut;
   struct Mesh {
     double element_size = 1, grading = 1.3;
+    ElementOrder elements = ElementOrder::linear;
     MeshFront front = MeshFront::effective;
     double cut_length = 0, cut_depth = 0;
   } mesh;

@@ -109,8 +109,8 @@ Parameters RecordedParameters::whole(const std::string& where, const std::string
   Parameters parameters;
   for (const Parameter& row : parameter_table()) {
     const std::optional<Value> value = find(row.name);
-    if (!value) throw missing(row.name);
-    set_parameter(parameters, row.name, *value, where);
+    if (!value && !row.added_later) throw missing(row.name);
+    if (value) set_parameter(parameters, row.name, *value, where);
   }
   return parameters;
 }

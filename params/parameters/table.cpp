@@ -64,6 +64,10 @@ std::vector<Parameter> make_table() {
     row.choices = std::move(choices), row.help = std::move(help);
     return row;
   };
+  const auto later = [](Parameter row) {
+    row.added_later = true;
+    return row;
+  };
   const std::vector<std::string> no_or_yes = {"false", "true"};
   return {
       choice(CLEFT_MEMBER(model), {"small", "finite"},
@@ -85,7 +89,7 @@ std::vector<Parameter> make_table() {
               "curvature of the cut, positive toward +v, in a patch that bends with it, for fields; the "
               "prestress is that at the middle of the cut, and keeps its direction in the plane"),
       between(
-          CLEFT_MEMBER(cut.curvature_rate), "1/mm^2", -0.02, 0.02,
+          later(CLEFT_MEMBER(cut.curvature_rate)), "1/mm^2", -0.02, 0.02,
           "by how much cut.curvature, which is that at the middle of the cut, grows for each mm along it"),
       between(CLEFT_MEMBER(cut.tilt), "degrees", -60, 60,
               "tilt of the blade: the cut's bottom lies toward +v"),
@@ -100,6 +104,9 @@ std::vector<Parameter> make_table() {
                "largest edge of an element along u, v and w, at the cut"),
       between(CLEFT_MEMBER(mesh.grading), "", 1, 2,
               "growth from one element to the next away from the cut; 1: none"),
+      choice(later(CLEFT_MEMBER(mesh.elements)), {"linear", "quadratic"},
+             "quadratic: wedges of 15 nodes, for errors of 1 % and less: nodes are half of mesh.element_size "
+             "apart; for straight, upright cuts in small strains"),
       choice(CLEFT_MEMBER(mesh.front), {"effective", "nodes"},
              "effective: the cut ends a part of an element inside its first closed nodes, where its opening "
              "behaves as if it ended; nodes: at these nodes"),

@@ -33,6 +33,7 @@ struct Parameter {
   std::variant<Number, Switch, Choice> access;
   const void* (*address)(const Parameters&);  ///< of the member
   bool whole = false;                         ///< takes whole numbers only
+  bool added_later = false;                   ///< files that do not record it have its default
 
   /// Whether its Value is a text.
   bool is_text() const { return access.index() != 0; }
