@@ -18,36 +18,37 @@ using namespace dealii;
 
 namespace {
 
-constexpr unsigned vertices =
-    6;  // of a wedge; a shape function of vertex a in direction d has number 3 a + d
+// A shape function of node a in direction d has number 3 a + d.
 
 using Cell = DoFHandler<3>::active_cell_iterator;
 
 /// The points of a cell. With `mean` its volume changes as a whole.
 void read_points(const FEValues<3>& values, bool mean, std::vector<CellPoint>& points) {
+  const unsigned nodes = values.dofs_per_cell / 3;
   points.resize(values.n_quadrature_points);
-  std::array<Tensor<1, 3>, vertices> mean_gradient;
+  std::vector<Tensor<1, 3>> mean_gradient(nodes);
   double volume = 0;
   for (unsigned q = 0; q < points.size(); ++q) {
     points[q].volume = values.JxW(q);
+    points[q].nodes.resize(nodes);
     volume += values.JxW(q);
-    for (unsigned a = 0; a < vertices; ++a) {
+    for (unsigned a = 0; a < nodes; ++a) {
       const Tensor<1, 3>& gradient = values.shape_grad(3 * a, q);
-      points[q].vertices[a] = {gradient, gradient};
+      points[q].nodes[a] = {gradient, gradient};
       mean_gradient[a] += gradient * values.JxW(q);
     }
   }
   if (!mean) return;
   for (Tensor<1, 3>& gradient : mean_gradient) gradient = gradient / volume;
   for (CellPoint& point : points)
-    for (unsigned a = 0; a < vertices; ++a) point.vertices[a].dilatation = mean_gradient[a];
+    for (unsigned a = 0; a < nodes; ++a) point.nodes[a].dilatation = mean_gradient[a];
 }
 
 /// Loads of the unit prestresses uu, vv, uv of the tissue: minus the integral of B^T, times the share.
 void add_tissue_loads(std::span<const CellPoint> points, double share, FullMatrix<double>& cell_loads) {
   for (const CellPoint& point : points)
-    for (unsigned a = 0; a < vertices; ++a) {
-      const Tensor<1, 3> force = -share * point.volume * point.vertices[a].strain;
+    for (unsigned a = 0; a < point.nodes.size(); ++a) {
+      const Tensor<1, 3> force = -share * point.volume * point.nodes[a].strain;
       cell_loads(3 * a, 0) += force[0];
       cell_loads(3 * a + 1, 1) += force[1];
       cell_loads(3 * a, 2) += force[1];
@@ -56,23 +57,27 @@ void add_tissue_loads(std::span<const CellPoint> points, double share, FullMatri
 }
 
 void add_springs(const FEFaceValues<3>& values, double spring, FullMatrix<double>& cell_matrix) {
+  const unsigned nodes = values.dofs_per_cell / 3;
   for (const unsigned q : values.quadrature_point_indices())
-    for (unsigned a = 0; a < vertices; ++a)
-      for (unsigned b = 0; b < vertices; ++b) {
+    for (unsigned a = 0; a < nodes; ++a)
+      for (unsigned b = 0; b < nodes; ++b) {
         const double k = spring * values.shape_value(3 * a, q) * values.shape_value(3 * b, q) * values.JxW(q);
         for (unsigned d = 0; d < 3; ++d) cell_matrix(3 * a + d, 3 * b + d) += k;
       }
 }
 
-void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const Cell& cell, unsigned face,
-              const Vec3& direction, FullMatrix<double>& cell_matrix, FullMatrix<double>& cell_loads) {
-  const std::array<int, 3> corner = corners_of_face(cell, face);
+SkinTriangle triangle_of(const Cell& cell, const std::array<int, 3>& corner, const Vec3& direction) {
   std::array<Vec3, 3> at;
   for (unsigned i = 0; i < 3; ++i) {
     const Point<3>& p = cell->vertex(corner[i]);
     at[i] = {p[0], p[1], p[2]};
   }
-  const SkinTriangle triangle(at[0], at[1], at[2], direction);
+  return {at[0], at[1], at[2], direction};
+}
+
+void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const SkinTriangle& triangle,
+              const std::array<int, 3>& corner, FullMatrix<double>& cell_matrix,
+              FullMatrix<double>& cell_loads) {
   const SkinTriangle::Matrix9 k = triangle.stiffness(skin);
   const SkinTriangle::Matrix93 f = triangle.unit_loads(skin);
   for (unsigned a = 0; a < 9; ++a) {
@@ -85,6 +90,68 @@ void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const Cel
   for (unsigned a = 0; a < 3; ++a)
     for (unsigned b = 0; b < 3; ++b)
       for (unsigned d = 0; d < 3; ++d) cell_matrix(3 * corner[a] + d, 3 * corner[b] + d) += geometric(a, b);
+}
+
+/// The same of a triangle in which displacements are quadratic, with the gradients at the points of a face.
+void add_quadratic_skin(const SkinMaterial& skin, bool initial_stress_stiffness,
+                        const Eigen::Matrix<double, 3, 2>& axes, const FEFaceValues<3>& values,
+                        FullMatrix<double>& cell_matrix, FullMatrix<double>& cell_loads) {
+  const unsigned unknowns = values.dofs_per_cell;
+  Eigen::Matrix2Xd gradients(2, unknowns / 3);
+  Eigen::Matrix3Xd strain(3, unknowns);
+  for (const unsigned q : values.quadrature_point_indices()) {
+    const double volume = skin.thickness * values.JxW(q);
+    for (unsigned a = 0; a < unknowns / 3; ++a) {
+      const Tensor<1, 3>& g = values.shape_grad(3 * a, q);
+      gradients.col(a) = axes.transpose() * Eigen::Vector3d(g[0], g[1], g[2]);
+      const double u = gradients(0, a), v = gradients(1, a);
+      strain.middleCols<3>(3 * a) << u * axes.col(0).transpose(), v * axes.col(1).transpose(),
+          v * axes.col(0).transpose() + u * axes.col(1).transpose();
+    }
+    const Eigen::MatrixXd k = volume * strain.transpose() * skin.elasticity * strain;
+    const Eigen::MatrixXd geometric = volume * gradients.transpose() * skin.prestress * gradients;
+    for (unsigned a = 0; a < unknowns; ++a) {
+      for (unsigned d = 0; d < 3; ++d) cell_loads(a, d) -= volume * strain(d, a);
+      for (unsigned b = 0; b < unknowns; ++b) cell_matrix(a, b) += k(a, b);
+      if (initial_stress_stiffness)
+        for (unsigned b = a % 3; b < unknowns; b += 3) cell_matrix(a, b) += geometric(a / 3, b / 3);
+    }
+  }
+}
+
+/// Calls `share(own, other, part)` for the unknowns in the middle of a quadratic element's upright faces,
+/// those that determine them, and by which part (fill_faces).
+constexpr unsigned first_of_edges = 3 * 6, first_of_faces = 3 * 15;
+template <class Share>
+void for_shares_of_faces(const Share& share) {
+  for (unsigned f = 0; f < wedge_quads.size(); ++f)
+    for (unsigned d = 0; d < 3; ++d) {
+      const unsigned own = first_of_faces + 3 * f + d;
+      for (const int corner : wedge_quads[f]) share(own, 3 * corner + d, -0.25);
+      for (const int side : sides_of_quad[f]) share(own, first_of_edges + 3 * side + d, 0.5);
+    }
+}
+
+void distribute_face_loads(FullMatrix<double>& loads) {
+  for_shares_of_faces([&](unsigned own, unsigned other, double part) {
+    for (unsigned c = 0; c < loads.n(); ++c) loads(other, c) += part * loads(own, c);
+  });
+  for (unsigned i = first_of_faces; i < loads.m(); ++i)
+    for (unsigned c = 0; c < loads.n(); ++c) loads(i, c) = 0;
+}
+
+/// The rows in the middle of faces keep a diagonal, which has no effect.
+void distribute_face_stiffness(FullMatrix<double>& matrix) {
+  const unsigned all = matrix.m();
+  for_shares_of_faces([&](unsigned own, unsigned other, double part) {
+    for (unsigned i = 0; i < all; ++i) matrix(other, i) += part * matrix(own, i);
+  });
+  for_shares_of_faces([&](unsigned own, unsigned other, double part) {
+    for (unsigned i = 0; i < all; ++i) matrix(i, other) += part * matrix(i, own);
+  });
+  for (unsigned own = first_of_faces; own < all; ++own)
+    for (unsigned i = 0; i < all; ++i)
+      if (i != own) matrix(own, i) = matrix(i, own) = 0;
 }
 
 }  // namespace
@@ -106,15 +173,19 @@ void Assembly::add(const PatchElements& elements, const Parameters& p, double fa
   const Materials materials(p, elements.mesh.materials);
   const bool mean_dilatation = p.tissue.formulation == TissueFormulation::mean_dilatation;
   const bool initial_stress_stiffness = p.skin.initial_stress_stiffness;
-  FEValues<3> values(elements.mapping, elements.element, wedge_rule(elements.discretization.rule),
+  const bool quadratic = elements.order() == ElementOrder::quadratic;
+  FEValues<3> values(elements.mapping, elements.element,
+                     wedge_rule(elements.discretization.rule, elements.order()),
                      update_gradients | update_JxW_values);
-  FEFaceValues<3> face_values(elements.mapping, elements.element, face_rules(),
-                              update_values | update_JxW_values);
+  FEFaceValues<3> face_values(
+      elements.mapping, elements.element, face_rules(elements.order()),
+      update_values | update_JxW_values | (quadratic ? update_gradients : update_default));
   const unsigned n = elements.element.n_dofs_per_cell();
   FullMatrix<double> cell_matrix(n, n), cell_loads(n, 3);
   std::vector<types::global_dof_index> indices(n);
   std::vector<CellPoint> points;
   const auto add_loads = [&] {
+    if (quadratic) distribute_face_loads(cell_loads);
     for (std::size_t c = 0; c < loads_.size(); ++c)
       for (unsigned i = 0; i < n; ++i) {
         double sum = 0;
@@ -140,15 +211,24 @@ void Assembly::add(const PatchElements& elements, const Parameters& p, double fa
       if (!cell->face(f)->at_boundary() || boundary == BoundaryId::other) continue;
       if (boundary >= BoundaryId::skin) {
         cell_loads = 0;
-        add_skin(materials.skin[boundary - BoundaryId::skin], initial_stress_stiffness, cell, f,
-                 elements.mesh.tension_of(static_cast<int>(cell->id().get_coarse_cell_id())), cell_matrix,
-                 cell_loads);
+        const SkinMaterial& skin = materials.skin[boundary - BoundaryId::skin];
+        const std::array<int, 3> corner = corners_of_face(cell, f);
+        const SkinTriangle triangle = triangle_of(
+            cell, corner, elements.mesh.tension_of(static_cast<int>(cell->id().get_coarse_cell_id())));
+        if (quadratic) {
+          face_values.reinit(cell, f);
+          add_quadratic_skin(skin, initial_stress_stiffness, triangle.axes(), face_values, cell_matrix,
+                             cell_loads);
+        } else {
+          add_skin(skin, initial_stress_stiffness, triangle, corner, cell_matrix, cell_loads);
+        }
         add_loads();
       } else {
         face_values.reinit(cell, f);
         add_springs(face_values, spring_of(boundary, p), cell_matrix);
       }
     }
+    if (quadratic) distribute_face_stiffness(cell_matrix);
     cell_matrix *= factor;
     stiffness_.add(indices, cell_matrix);
   }

@@ -50,7 +50,7 @@ SolveReport& CaseOutput::report() const { return shared_.job().reports[number_];
 
 /// Displacements of the mesh's nodes, on rank 0.
 std::vector<Vec3> CaseOutput::at_nodes(const double* column) const {
-  return gather_nodes(shared_.system(), shared_.mesh().points.size(), column);
+  return gather_nodes(shared_.system(), shared_.mesh(), column);
 }
 
 void CaseOutput::write_frames(int first, const Block& frames) {

@@ -6,7 +6,8 @@ namespace cleft {
 
 using namespace dealii;
 
-Quadrature<3> wedge_rule(WedgeRule rule) {
+Quadrature<3> wedge_rule(WedgeRule rule, ElementOrder order) {
+  if (order == ElementOrder::quadratic) return QGaussWedge<3>(3);
   std::vector<Point<2>> triangle = {Point<2>(1. / 3, 1. / 3)};
   if (rule == WedgeRule::full) triangle = {{1. / 6, 1. / 6}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}};
   std::vector<Point<3>> points;
@@ -16,9 +17,10 @@ Quadrature<3> wedge_rule(WedgeRule rule) {
   return {points, std::vector<double>(points.size(), 0.5 / static_cast<double>(points.size()))};
 }
 
-hp::QCollection<2> face_rules() {
-  const QGaussSimplex<2> triangle(2);
-  const QGauss<2> quad(2);
+hp::QCollection<2> face_rules(ElementOrder order) {
+  const unsigned points = order == ElementOrder::quadratic ? 3 : 2;
+  const QGaussSimplex<2> triangle(points);
+  const QGauss<2> quad(points);
   return hp::QCollection<2>(triangle, triangle, quad, quad, quad);
 }
 

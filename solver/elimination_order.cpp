@@ -11,10 +11,11 @@ namespace cleft {
 namespace {
 
 /// Nested dissection of the grid under the closed mesh: a box is cut across its longest side by a plane of
-/// nodes, which comes after the two halves.
+/// nodes between elements, which comes after the two halves.
 class Dissection {
  public:
-  explicit Dissection(const std::array<int, 3>& grid) : grid_(grid) {
+  /// `lines`: from an element's line of nodes to the next.
+  Dissection(const std::array<int, 3>& grid, int lines) : grid_(grid), lines_(lines) {
     order_.reserve(static_cast<std::size_t>(grid[0]) * grid[1] * grid[2]);
     dissect({0, 0, 0}, grid);
   }
@@ -29,11 +30,11 @@ class Dissection {
     for (const int a : {1, 2})
       if (to[a] - from[a] > to[axis] - from[axis]) axis = a;
     const int length = to[axis] - from[axis];
-    if (length <= smallest) {
+    if (length <= smallest * lines_) {
       append(from, to);
       return;
     }
-    const int middle = from[axis] + length / 2;
+    const int middle = (from[axis] + length / 2) / lines_ * lines_;
     Corner before = to, after = from, plane_from = from, plane_to = to;
     before[axis] = plane_from[axis] = middle;
     after[axis] = plane_to[axis] = middle + 1;
@@ -50,6 +51,7 @@ class Dissection {
 
   static constexpr int smallest = 3;  // boxes of so many nodes a side are not divided further
   Corner grid_;
+  int lines_;
   std::vector<int> order_;
 };
 
@@ -132,7 +134,8 @@ class ColumnDissection {
 };
 
 std::vector<int> dissected(const PatchMesh& mesh) {
-  return mesh.is_body() ? ColumnDissection(mesh).order() : Dissection(mesh.grid).order();
+  return mesh.is_body() ? ColumnDissection(mesh).order()
+                        : Dissection(mesh.grid, mesh.is_quadratic() ? 2 : 1).order();
 }
 
 }  // namespace

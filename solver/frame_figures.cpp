@@ -8,7 +8,10 @@
 namespace cleft {
 
 FrameResidual::FrameResidual(const PatchMesh& mesh, const PatchSystem& system)
-    : mesh_(mesh), system_(system), cut_(mesh, system) {}
+    : mesh_(mesh), system_(system), cut_(mesh, system), in_face_(mesh.points.size(), false) {
+  for (const WedgeMiddles& middles : mesh.middles)
+    for (const int node : middles.faces) in_face_[node] = true;
+}
 
 FrameFigures FrameResidual::at_cut(const Release& release, const FrameSolver::Column& column,
                                    const Eigen::VectorXd& displacement, Eigen::VectorXd force) const {
@@ -16,6 +19,7 @@ FrameFigures FrameResidual::at_cut(const Release& release, const FrameSolver::Co
   const std::vector<bool> closed = release.closed(column.open);
   bool any_open = false;
   for (std::size_t p = mesh_.pairs.size(); p-- > 0;) {  // a right node is the left one of later pairs only
+    if (in_face_[mesh_.pairs[p].left]) continue;
     const int left = 3 * cut_.pairs[p][0], right = 3 * cut_.pairs[p][1];
     const Eigen::Vector3d jump = displacement.segment<3>(right) - displacement.segment<3>(left);
     const Eigen::Vector3d normal(mesh_.pairs[p].normal.x, mesh_.pairs[p].normal.y, mesh_.pairs[p].normal.z);

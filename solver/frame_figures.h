@@ -40,6 +40,7 @@ class FrameResidual {
   const PatchMesh& mesh_;
   const PatchSystem& system_;
   CutNodes cut_;
+  std::vector<bool> in_face_;  // by node: in the middle of a face, without unknowns
 };
 
 }  // namespace cleft

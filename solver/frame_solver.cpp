@@ -126,7 +126,7 @@ ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system,
     progress("analysing " + unknowns);
     auto direct = std::make_unique<DirectSolver>(mesh, system);
     const Memory memory = memory_on_machines(system.communicator(), direct->bytes_needed());
-    const bool quick = direct->operations() < most_operations || mesh.is_body();
+    const bool quick = direct->operations() < most_operations || mesh.is_body() || mesh.is_quadratic();
     if (memory.fits() && (quick || method == Method::direct)) {
       const double peak = expected_peak(system, direct->bytes_needed());
       progress("factorising " + unknowns + ", " + gigabytes(peak));
@@ -134,12 +134,17 @@ ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system,
       return {std::move(direct), Method::direct,
               method == Method::direct ? "forced" : "its factor fits: " + memory.text(), peak};
     }
-    if (method == Method::direct)
+    if (method == Method::direct || mesh.is_quadratic())
       throw InputError("the factor of " + unknowns + " needs " + memory.text() +
-                       ": raise mesh.element_size or mesh.grading, use more machines, or --method iterative");
+                       ": raise mesh.element_size or mesh.grading, use more machines, or --method iterative" +
+                       (mesh.is_quadratic() ? " with mesh.elements = linear" : ""));
     reason = memory.fits() ? "a factor would take longer: " + operations_of(direct->operations())
                            : "a factor does not fit: " + memory.text();
   }
+  if (mesh.is_quadratic())
+    throw InputError(
+        "mesh.elements = quadratic: is solved with a factor, not by iterations; use --method "
+        "direct, or set mesh.elements to linear");
   const double needed = iterative_bytes_needed(mesh, system);
   const double peak = expected_peak(system, needed);
   progress("setting up iterations for " + unknowns + ", " + gigabytes(peak));

@@ -10,6 +10,6 @@ namespace cleft {
 
 /// One column of unknowns (owned() entries) as displacements of the mesh's nodes, mm: on rank 0, which writes
 /// the files; empty elsewhere. Collective.
-std::vector<Vec3> gather_nodes(const PatchSystem& system, std::size_t nodes, const double* column);
+std::vector<Vec3> gather_nodes(const PatchSystem& system, const PatchMesh& mesh, const double* column);
 
 }  // namespace cleft

@@ -32,13 +32,14 @@ void partition(Triangulation<3>& triangulation, unsigned ranks, Partitioner part
 class Boundaries {
  public:
   Boundaries(const PatchMesh& mesh, const Parameters& p) {
-    for (const auto& face : mesh.skin) {
+    const WedgeCells& cells = mesh.elements();
+    for (const auto& face : cells.skin) {
       const Vec3 center = 1. / 3 * (mesh.points[face[0]] + mesh.points[face[1]] + mesh.points[face[2]]);
       add(face, BoundaryId::skin + region_at(skin_regions(), p, center));
     }
-    for (std::size_t f = 0; f < mesh.bottom.size(); ++f)
-      add(mesh.bottom[f], !mesh.on_bone.empty() && mesh.on_bone[f] ? BoundaryId::bone : BoundaryId::bottom);
-    for (const auto& face : mesh.sides) add(face, BoundaryId::side);
+    for (std::size_t f = 0; f < cells.bottom.size(); ++f)
+      add(cells.bottom[f], !mesh.on_bone.empty() && mesh.on_bone[f] ? BoundaryId::bone : BoundaryId::bottom);
+    for (const auto& face : cells.sides) add(face, BoundaryId::side);
   }
 
   template <class Face>
@@ -64,13 +65,24 @@ class Boundaries {
   std::map<std::array<int, 4>, types::boundary_id> kinds_;
 };
 
+/// The nodes of an element, in the order of deal.II: corners, middles of edges and of upright faces.
+std::array<int, 18> nodes_of(const PatchMesh& mesh, std::size_t element) {
+  std::array<int, 18> nodes{};
+  auto next = std::copy_n(mesh.elements().wedges[element].begin(), 6, nodes.begin());
+  if (!mesh.is_quadratic()) return nodes;
+  next = std::copy_n(mesh.middles[element].edges.begin(), 9, next);
+  std::copy_n(mesh.middles[element].faces.begin(), 3, next);
+  return nodes;
+}
+
 /// The whole mesh, each element with its region.
 void make_whole(const PatchMesh& mesh, const Parameters& parameters, Triangulation<3>& whole) {
   std::vector<Point<3>> vertices;
   for (const Vec3& p : mesh.points) vertices.emplace_back(p.x, p.y, p.z);
   std::vector<CellData<3>> cells;
-  for (std::size_t w = 0; w < mesh.wedges.size(); ++w) {
-    const auto& wedge = mesh.wedges[w];
+  const auto& wedges = mesh.elements().wedges;
+  for (std::size_t w = 0; w < wedges.size(); ++w) {
+    const auto& wedge = wedges[w];
     CellData<3>& cell = cells.emplace_back(6);
     Vec3 center;
     for (unsigned i = 0; i < 6; ++i) {
@@ -95,7 +107,7 @@ PatchElements::PatchElements(const PatchMesh& patch, const Parameters& parameter
       discretization(d),
       rank_of_cell(std::move(division)),
       triangulation(comm),
-      element(FE_WedgeP<3>(1), 3),
+      element(FE_WedgeP<3>(patch.is_quadratic() ? 2 : 1), 3),
       mapping(FE_WedgeP<3>(1)),
       dofs(triangulation) {
   create_triangulation(parameters);
@@ -136,14 +148,18 @@ void PatchElements::distribute_unknowns() {
   }
   rank = static_cast<int>(Utilities::MPI::this_mpi_process(communicator));
   std::vector<int> known(mesh.points.size(), -1);
+  std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+  constexpr double rounding = 1e-9;  // mm
   for (const auto& cell : dofs.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
-    const auto& wedge = mesh.wedges[cell->id().get_coarse_cell_id()];
-    for (const unsigned v : cell->vertex_indices()) {
-      const Vec3& at = mesh.points[wedge[v]];
-      CLEFT_CHECK(cell->vertex(v).distance({at.x, at.y, at.z}), ==, 0);
-      known[wedge[v]] = static_cast<int>(cell->vertex_dof_index(v, 0));
-      CLEFT_CHECK(cell->vertex_dof_index(v, 2), ==, cell->vertex_dof_index(v, 0) + 2);
+    const std::array<int, 18> nodes = nodes_of(mesh, cell->id().get_coarse_cell_id());
+    cell->get_dof_indices(indices);
+    for (int a = 0; a < nodes_of_cell(); ++a) {
+      const Vec3& at = mesh.points[nodes[a]];
+      const Point<3> place = mapping.transform_unit_to_real_cell(cell, element.unit_support_point(3 * a));
+      CLEFT_CHECK(place.distance({at.x, at.y, at.z}), <, rounding);
+      known[nodes[a]] = static_cast<int>(indices[3 * a]);
+      CLEFT_CHECK(indices[3 * a + 2], ==, indices[3 * a] + 2);
     }
   }
   first_unknown.resize(known.size());
@@ -154,10 +170,27 @@ void PatchElements::distribute_unknowns() {
 void PatchElements::make_pattern(bool bending) {
   const IndexSet& owned = dofs.locally_owned_dofs();
   pattern.reinit(owned, owned, communicator, 60);
-  DoFTools::make_sparsity_pattern(dofs, pattern, AffineConstraints<double>(), true,
-                                  triangulation.locally_owned_subdomain());
+  if (mesh.is_quadratic())
+    add_quadratic_pattern();
+  else
+    DoFTools::make_sparsity_pattern(dofs, pattern, AffineConstraints<double>(), true,
+                                    triangulation.locally_owned_subdomain());
   if (bending) add_bending_pattern(mesh, first_unknown, owned, pattern);
   pattern.compress();
+}
+
+/// The 15 nodes of an element are coupled with each other; those in its faces have entries of their own
+/// alone.
+void PatchElements::add_quadratic_pattern() {
+  constexpr unsigned coupled = 3 * 15;
+  std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+  for (const auto& cell : dofs.active_cell_iterators()) {
+    if (!cell->is_locally_owned()) continue;
+    cell->get_dof_indices(indices);
+    const auto others = indices.begin() + coupled;
+    for (auto row = indices.begin(); row != others; ++row) pattern.add_entries(*row, indices.begin(), others);
+    for (auto row = others; row != indices.end(); ++row) pattern.add(*row, *row);
+  }
 }
 
 }  // namespace cleft

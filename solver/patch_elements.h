@@ -29,6 +29,9 @@ class PatchElements {
   PatchElements(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
                 const Discretization& discretization, std::vector<unsigned> division = {});
 
+  ElementOrder order() const { return mesh.is_quadratic() ? ElementOrder::quadratic : ElementOrder::linear; }
+  int nodes_of_cell() const { return mesh.is_quadratic() ? 18 : 6; }
+
   /// Frees the elements, whose memory the factor needs. Numbers of unknowns remain.
   void forget();
 
@@ -49,6 +52,7 @@ class PatchElements {
   void create_triangulation(const Parameters& parameters);
   void distribute_unknowns();
   void make_pattern(bool bending);
+  void add_quadratic_pattern();
 };
 
 }  // namespace cleft

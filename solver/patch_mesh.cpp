@@ -18,14 +18,21 @@ constexpr double flattest = 0.05;  // area of a triangle over its area before it
 
 class PatchMesher {
  public:
-  explicit PatchMesher(const Parameters& p) : p_(p), grid_(make_patch_grid(p)) {}
+  explicit PatchMesher(const Parameters& p)
+      : p_(p),
+        lines_(p.mesh.elements == ElementOrder::quadratic ? 2 : 1),
+        grid_(lines_ == 2 ? halved(make_patch_grid(p)) : make_patch_grid(p)) {}
 
   PatchMesh mesh() {
     add_points();
     add_cuts();
     if (p_.cut.branch > 0) add_branch();
-    add_elements();
-    add_sides();
+    add_elements(1, mesh_);
+    add_sides(1, mesh_);
+    if (lines_ == 2) {
+      add_elements(2, mesh_.quadratic);
+      add_sides(2, mesh_.quadratic);
+    }
     if (p_.patch.bottom == PatchBottom::bone) mesh_.on_bone.assign(mesh_.bottom.size(), true);
     if (has_coordinates(p_)) give_shape(mesh_, grid_, grid_node_, p_);
     return std::move(mesh_);
@@ -101,27 +108,48 @@ class PatchMesher {
     return square.first == i && i == grid_.branch_u ? right_of_branch_[n] : n;
   }
 
-  void add_elements() {
-    for (int k = 0; k < layers(); ++k)
-      for (int j = 0; j + 1 < columns_v(); ++j)
-        for (int i = 0; i + 1 < columns_u(); ++i)
-          for (const auto& triangle : triangles_of_square(i, j)) {
+  /// Elements between each line and the `step`-th after it.
+  void add_elements(int step, WedgeCells& cells) {
+    for (int k = 0; k < layers(); k += step)
+      for (int j = 0; j + step < columns_v(); j += step)
+        for (int i = 0; i + step < columns_u(); i += step)
+          for (const auto& triangle : triangles_of_square(i, j, step)) {
             std::array<int, 3> upper, lower;
             for (int c = 0; c < 3; ++c) {
               upper[c] = seen(triangle[c], k, {i, j});
-              lower[c] = seen(triangle[c], k + 1, {i, j});
+              lower[c] = seen(triangle[c], k + step, {i, j});
             }
             check_area(upper, i, j);
             check_area(lower, i, j);
-            mesh_.wedges.push_back({lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]});
-            if (k == 0) mesh_.skin.push_back(upper);
-            if (k + 1 == layers()) mesh_.bottom.push_back(lower);
+            cells.wedges.push_back({lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]});
+            if (k == 0) cells.skin.push_back(upper);
+            if (k + step == layers()) cells.bottom.push_back(lower);
+            if (step == 2) add_middles(triangle, k, {i, j});
           }
   }
 
-  std::array<std::array<Place, 3>, 2> triangles_of_square(int i, int j) const {
-    const Place a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
-    if (diagonal_rises(p_.tissue.formulation, i - grid_.cut_from, j - grid_.planes[0]))
+  /// Of the quadratic wedge below a triangle.
+  void add_middles(const std::array<Place, 3>& triangle, int k, Place square) {
+    const auto between = [&](int a, int b, int layer) {
+      const auto [i, j] = triangle[a % 3];
+      const auto [m, n] = triangle[b % 3];
+      return seen({(i + m) / 2, (j + n) / 2}, layer, square);
+    };
+    const auto layer = [&](int corner) { return corner < 3 ? k + 2 : k; };
+    WedgeMiddles middles{};
+    for (std::size_t e = 0; e < wedge_edges.size(); ++e) {
+      const auto [a, b] = wedge_edges[e];
+      middles.edges[e] = between(a, b, (layer(a) + layer(b)) / 2);
+    }
+    for (std::size_t f = 0; f < wedge_quads.size(); ++f)
+      middles.faces[f] = between(wedge_quads[f][0], wedge_quads[f][1], k + 1);
+    mesh_.middles.push_back(middles);
+  }
+
+  std::array<std::array<Place, 3>, 2> triangles_of_square(int i, int j, int step) const {
+    const Place a{i, j}, b{i + step, j}, c{i + step, j + step}, d{i, j + step};
+    const auto rows = [&](int line, int first) { return (line - line % lines_ - first) / lines_; };
+    if (diagonal_rises(p_.tissue.formulation, rows(i, grid_.cut_from), rows(j, grid_.planes[0])))
       return {{{a, b, c}, {a, c, d}}};
     return {{{a, b, d}, {b, c, d}}};
   }
@@ -140,41 +168,47 @@ class PatchMesher {
                        shortest(p_.patch.width) + " mm");
   }
 
-  void add_sides() {
+  void add_sides(int step, WedgeCells& cells) {
     const int nu = columns_u(), nv = columns_v();
-    for (int k = 0; k < layers(); ++k) {
-      for (int i = 0; i + 1 < nu; ++i)
-        for (const int j : {0, nv - 1})
-          mesh_.sides.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j, k + 1), node(i, j, k + 1)});
-      for (int j = 0; j + 1 < nv; ++j)
-        for (const int i : {0, nu - 1})
-          mesh_.sides.push_back({node(i, j, k), node(i, j + 1, k), node(i, j + 1, k + 1), node(i, j, k + 1)});
+    const auto add = [&](int i, int j, int m, int n, int k) {
+      cells.sides.push_back({node(i, j, k), node(m, n, k), node(m, n, k + step), node(i, j, k + step)});
+    };
+    for (int k = 0; k < layers(); k += step) {
+      for (int i = 0; i + step < nu; i += step)
+        for (const int j : {0, nv - 1}) add(i, j, i + step, j, k);
+      for (int j = 0; j + step < nv; j += step)
+        for (const int i : {0, nu - 1}) add(i, j, i, j + step, k);
     }
   }
 
   const Parameters& p_;
+  const int lines_;  // from an element's line to the next
   const PatchGrid grid_;
   std::vector<int> right_of_, right_of_branch_;  // by node: itself where it is not doubled
   std::vector<int> grid_node_;                   // by node: that of the grid at its place
   PatchMesh mesh_;
 };
 
-std::size_t nearest(const std::vector<double>& lines, double place) {
-  return std::min_element(lines.begin(), lines.end(),
-                          [=](double a, double b) { return std::abs(a - place) < std::abs(b - place); }) -
-         lines.begin();
+/// The line nearest to a place, of every `step`-th.
+std::size_t nearest(const std::vector<double>& lines, double place, std::size_t step) {
+  std::size_t best = 0;
+  for (std::size_t n = 0; n < lines.size(); n += step)
+    if (std::abs(lines[n] - place) < std::abs(lines[best] - place)) best = n;
+  return best;
 }
 
 /// Opens the incisions of a mesh one after the other.
 class Releaser {
  public:
-  Releaser(const PatchMesh& mesh, const Parameters& p) : mesh_(mesh), p_(p) {
+  Releaser(const PatchMesh& mesh, const Parameters& p)
+      : mesh_(mesh), p_(p), lines_(mesh.is_quadratic() ? 2 : 1) {
     // If the ends of the case are half-way between nodes, rounding must not leave it without a node to open.
     const std::vector<double>& lines = mesh.lines_along[0];
     const auto& [along, depth, branch] = mesh.fronts;
-    const std::size_t skipped = std::min(nearest(lines, -p.cut.length / 2 - along), (lines.size() - 3) / 2);
+    const std::size_t most = (lines.size() - 1 - lines_) / 2 / lines_ * lines_;
+    const std::size_t skipped = std::min(nearest(lines, -p.cut.length / 2 - along, lines_), most);
     first_ = lines[skipped], last_ = lines[lines.size() - 1 - skipped];
-    lowest_ = mesh.lines_depth[std::max<std::size_t>(1, nearest(mesh.lines_depth, p.cut.depth + depth))];
+    lowest_ = mesh.lines_depth[std::max(lines_, nearest(mesh.lines_depth, p.cut.depth + depth, lines_))];
     r_.start = first_ + along;
     r_.length = last_ - along - r_.start;
     r_.depth = lowest_ - depth;
@@ -206,15 +240,16 @@ class Releaser {
          ++n)
       if (opens(mesh_.pairs[n])) column.push_back(static_cast<int>(n));
     const std::vector<double>& lines = mesh_.lines_along[first.incision];
-    const double next = *std::upper_bound(lines.begin(), lines.end(), first.along);
+    const auto next = std::upper_bound(lines.begin(), lines.end(), first.along);
+    const bool at_corner = static_cast<std::size_t>(next - lines.begin()) % lines_ == 0;
     const double front = is_branch(first) ? mesh_.fronts.branch : mesh_.fronts.along;
     const double cut_before = first.incision * r_.length;  // a branch is the second incision
     for (std::size_t m = 1; m <= column.size(); ++m) {
       r_.order.push_back(column[m - 1]);
-      if (m < column.size() && p_.cut.frames != FrameEvery::pair) continue;
+      if (!at_corner || (m < column.size() && p_.cut.frames != FrameEvery::pair)) continue;
       const double part = static_cast<double>(m) / static_cast<double>(column.size());
       r_.released.push_back(static_cast<int>(r_.order.size()));
-      r_.position.push_back(first.along + (next - first.along) * part - front);
+      r_.position.push_back(first.along + (*next - first.along) * part - front);
       r_.times.push_back(cut_before + r_.position.back() - (is_branch(first) ? 0 : r_.start));
     }
     return n;
@@ -222,6 +257,7 @@ class Releaser {
 
   const PatchMesh& mesh_;
   const Parameters& p_;
+  const std::size_t lines_;                   // from an element's line to the next
   double first_ = 0, last_ = 0, lowest_ = 0;  // the outermost nodes of the case's cut, which stay closed
   Release r_;
 };
@@ -230,6 +266,16 @@ class Releaser {
 
 bool diagonal_rises(TissueFormulation formulation, int i, int j) {
   return (formulation == TissueFormulation::mean_dilatation ? i + j : j) % 2 == 0;
+}
+
+void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values) {
+  for (std::size_t e = 0; e < mesh.middles.size(); ++e)
+    for (std::size_t f = 0; f < wedge_quads.size(); ++f) {
+      Vec3 value;
+      for (const int corner : wedge_quads[f]) value = value - 0.25 * values[mesh.quadratic.wedges[e][corner]];
+      for (const int side : sides_of_quad[f]) value = value + 0.5 * values[mesh.middles[e].edges[side]];
+      values[mesh.middles[e].faces[f]] = value;
+    }
 }
 
 PatchMesh make_patch_mesh(const Parameters& parameters) { return PatchMesher(parameters).mesh(); }

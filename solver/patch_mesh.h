@@ -23,14 +23,30 @@ struct NodePair {
   double depth = 0;  ///< mm below the skin
 };
 
-/// Node numbers index `points`. The mesh depends on the parameters alone, not on the number of ranks.
-struct PatchMesh {
-  std::vector<Vec3> points;                ///< (u, v, w), or of a body or shaped patch in space, closed, mm
+/// Wedges and their faces on the surface, by the nodes at their corners.
+struct WedgeCells {
   std::vector<std::array<int, 6>> wedges;  ///< lower triangle, then upper, both counter-clockwise from above
   std::vector<std::array<int, 3>> skin;    ///< top faces, of the first wedges; counter-clockwise from above
   std::vector<std::array<int, 3>> bottom;  ///< bottom faces
   std::vector<std::array<int, 4>> sides;   ///< side faces, cyclic
-  std::vector<int> skin_above;             ///< by node: the node of the skin in the same column
+};
+
+/// The nodes of a quadratic wedge beside its corners.
+struct WedgeMiddles {
+  std::array<int, 9> edges;  ///< of those of wedge_edges
+  std::array<int, 3> faces;  ///< of the faces between the corners of wedge_quads
+};
+inline constexpr std::array<std::array<int, 2>, 9> wedge_edges = {
+    {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+inline constexpr std::array<std::array<int, 4>, 3> wedge_quads = {{{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
+/// Of each of wedge_quads: its sides, as numbers of wedge_edges.
+inline constexpr std::array<std::array<int, 4>, 3> sides_of_quad = {
+    {{0, 7, 3, 6}, {1, 8, 4, 7}, {2, 6, 5, 8}}};
+
+/// Node numbers index `points`. The mesh depends on the parameters alone, not on the number of ranks.
+struct PatchMesh : WedgeCells {
+  std::vector<Vec3> points;     ///< (u, v, w), or of a body or shaped patch in space, closed, mm
+  std::vector<int> skin_above;  ///< by node: the node of the skin in the same column
   std::vector<NodePair>
       pairs;  ///< every duplicated node: incision by incision, along each, from the skin down
   /// Positions of the nodes of each incision, including its ends and its bottom (single nodes, except for the
@@ -43,6 +59,14 @@ struct PatchMesh {
   /// The nodes without the duplicates (the right nodes of pairs) form a grid: number (k grid[1] + j) grid[0]
   /// + i, i along u, j along v, k downward.
   std::array<int, 3> grid{};
+
+  /// Of quadratic elements; else empty: each is made of eight of the wedges, whose nodes it has as corners
+  /// and middles. Those in the middle of its three upright faces have no unknowns: the element has 15 nodes,
+  /// and there its displacement is that of fill_faces.
+  WedgeCells quadratic;
+  std::vector<WedgeMiddles> middles;  ///< by quadratic.wedges
+  bool is_quadratic() const { return !middles.empty(); }
+  const WedgeCells& elements() const { return is_quadratic() ? quadratic : *this; }
 
   /// Of a body (solver/body_mesh.h), which has no lines and no grid, and of a shaped patch; else empty.
   std::vector<Vec3> tension;  ///< by triangle of skin: the direction of skin.prestress_u
@@ -73,8 +97,14 @@ struct PatchMesh {
 /// is_shaped gets its shape (solver/shaped_mesh.h). An upright straight cut's triangles are mirrored in v = 0
 /// (several cuts: where the squares between them are even in number); those of a chess board (diagonal_rises)
 /// in u = 0 too where the squares along u are even in number. Throws InputError if moving the nodes would
-/// flatten an element.
+/// flatten an element. With quadratic elements all this is said of them: nodes lie in the middle between
+/// their lines too, and an element's squares are halved by one diagonal.
 PatchMesh make_patch_mesh(const Parameters& parameters);
+
+/// Gives the nodes in the middle of quadratic elements' upright faces the values that the other eight nodes
+/// of the face determine: half the sum of those at the middles of its sides, less a quarter of those at its
+/// corners.
+void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values);
 
 /// Whether square (i, j), counted along u and v from the first cut's start, is halved by the diagonal that
 /// rises from (i, j). With "displacement", rows of squares alternate: all columns of nodes are equally
@@ -104,7 +134,8 @@ struct Release {
 
 /// Frame 0 is closed; then a frame for each released column, or pair (cut.frames). Columns open one after the
 /// other along an incision, each from the skin down. A column of m of its M pairs released has brought the
-/// tip the fraction m / M of the way to the next column. The tip, and the ends of the cut, are inside the
+/// tip the fraction m / M of the way to the next column. Of quadratic elements, the columns between two
+/// closed corners open together. The tip, and the ends of the cut, are inside the
 /// first closed nodes by the mesh's fronts. The cut of the case ends at the places of fronts nearest to
 /// cut.length and cut.depth (the nearest ones that leave a pair to open).
 Release make_release(const PatchMesh& mesh, const Parameters& parameters);

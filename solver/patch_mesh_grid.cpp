@@ -152,6 +152,20 @@ class GridMaker {
 
 Vec3 PatchGrid::cut_normal(int n) const { return normalized({-std::tan(angle[n]), 1, std::tan(tilt)}); }
 
+PatchGrid halved(PatchGrid grid) {
+  for (auto* list :
+       {&grid.u, &grid.v, &grid.w, &grid.along, &grid.angle, &grid.shift_u, &grid.shift_w, &grid.blend}) {
+    std::vector<double> with_middles = {list->front()};
+    for (std::size_t n = 1; n < list->size(); ++n)
+      with_middles.insert(with_middles.end(), {((*list)[n - 1] + (*list)[n]) / 2, (*list)[n]});
+    *list = std::move(with_middles);
+  }
+  for (int* line : {&grid.cut_from, &grid.branch_u, &grid.branch_v, &grid.bottom})
+    if (*line > 0) *line *= 2;
+  for (int& plane : grid.planes) plane *= 2;
+  return grid;
+}
+
 PatchGrid make_patch_grid(const Parameters& parameters) { return GridMaker(parameters).grid(); }
 
 }  // namespace cleft

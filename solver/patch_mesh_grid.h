@@ -33,4 +33,8 @@ struct PatchGrid {
 
 PatchGrid make_patch_grid(const Parameters& parameters);
 
+/// The same with a line in the middle between each line and the next: those that were there have even
+/// numbers.
+PatchGrid halved(PatchGrid grid);
+
 }  // namespace cleft

@@ -144,10 +144,11 @@ TEST(FiniteTissue, TangentAtTheReferenceIsThatOfTheLinearLaw) {
     SCOPED_TRACE(tissue.name);
     for (std::size_t q = 0; q < points.size(); ++q) {
       linear[q].volume = points[q].volume;
+      linear[q].nodes.resize(6);
       for (int a = 0; a < 6; ++a)
         for (int i = 0; i < 3; ++i) {
-          linear[q].vertices[a].strain[i] = points[q].gradients(i, a);
-          linear[q].vertices[a].dilatation[i] = tissue.mean ? mean(i, a) / volume : points[q].gradients(i, a);
+          linear[q].nodes[a].strain[i] = points[q].gradients(i, a);
+          linear[q].nodes[a].dilatation[i] = tissue.mean ? mean(i, a) / volume : points[q].gradients(i, a);
         }
     }
     dealii::FullMatrix<double> expected(18, 18);
