@@ -185,8 +185,8 @@ class ConsistencyCheck {
     const double along_v = core_ / h + p_.cut.count + count_of_elements(room_left_ + to_right_, h, growth) +
                            count_of_elements(room_right_ + to_left_, h, growth);
     const double along_w = meshed_.depth / h + count_of_elements(p_.patch.height - meshed_.depth, h, growth);
-    const double each = p_.mesh.elements == ElementOrder::quadratic ? 8 : 1;  // nodes halve elements
-    return each * (along_u + 1) * along_v * (along_w + 1);
+    const double halves = p_.mesh.elements == ElementOrder::quadratic ? 2 : 1;
+    return (halves * along_u + 1) * (halves * (along_v - 1) + 1) * (halves * along_w + 1);
   }
 
   void check_nodes() const {

@@ -271,10 +271,13 @@ bool diagonal_rises(TissueFormulation formulation, int i, int j) {
 void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values) {
   for (std::size_t e = 0; e < mesh.middles.size(); ++e)
     for (std::size_t f = 0; f < wedge_quads.size(); ++f) {
-      Vec3 value;
-      for (const int corner : wedge_quads[f]) value = value - 0.25 * values[mesh.quadratic.wedges[e][corner]];
-      for (const int side : sides_of_quad[f]) value = value + 0.5 * values[mesh.middles[e].edges[side]];
-      values[mesh.middles[e].faces[f]] = value;
+      // Opposite ones are added first: elements on either side of a face get the same bits.
+      const auto sum = [&](const std::array<int, 4>& around, const auto& nodes) {
+        const auto at = [&](int k) { return values[nodes[around[k]]]; };
+        return (at(0) + at(2)) + (at(1) + at(3));
+      };
+      values[mesh.middles[e].faces[f]] = 0.5 * sum(sides_of_quad[f], mesh.middles[e].edges) -
+                                         0.25 * sum(wedge_quads[f], mesh.quadratic.wedges[e]);
     }
 }
 

@@ -36,6 +36,7 @@ struct WedgeMiddles {
   std::array<int, 9> edges;  ///< of those of wedge_edges
   std::array<int, 3> faces;  ///< of the faces between the corners of wedge_quads
 };
+/// Corners and sides of the upright faces go around them.
 inline constexpr std::array<std::array<int, 2>, 9> wedge_edges = {
     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
 inline constexpr std::array<std::array<int, 4>, 3> wedge_quads = {{{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
