@@ -23,6 +23,8 @@ constexpr double most_by_field = 3;
 constexpr double torn_length = 10, torn_jump = 19;
 /// Of the triangles that move: a field that turns more of them in its own patch is left to do so.
 constexpr double most_turned = 0.05;
+/// Whatever part of those that move they are, as many are not much.
+constexpr std::size_t few_turned = 5;
 /// Of its area: a triangle with less is looked at between times, however little it moves from one to the
 /// next.
 constexpr double little = 0.6;
@@ -280,7 +282,8 @@ bool GuardSearch::field_is_to_blame() {
     }
     turned += by_field;
   }
-  return static_cast<double>(turned) > most_turned * static_cast<double>(moving.size());
+  return turned > few_turned &&
+         static_cast<double>(turned) > most_turned * static_cast<double>(moving.size());
 }
 
 /// Those that offended before, and those around the given vertices.
