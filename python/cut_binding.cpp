@@ -135,6 +135,7 @@ py::dict dict_of(const Validity& v) {
   dict["held_back_mm"] = v.held_back;
   dict["guarded_vertices"] = v.guarded_vertices;
   dict["guarded_mm"] = v.guarded;
+  dict["unsound_triangles"] = v.unsound.size();
   dict["warnings"] = v.warnings;
   return dict;
 }

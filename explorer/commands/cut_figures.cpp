@@ -30,6 +30,21 @@ Size size_of(const CutMesh& mesh) {
 /// JSON knows no infinity.
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
+constexpr std::size_t most_named = 20;  // triangles
+
+Json named(const std::vector<Validity::Unsound>& unsound) {
+  Json all = Json::array();
+  for (std::size_t i = 0; i < std::min(unsound.size(), most_named); ++i) {
+    const auto& [at, place, blade_in, blade_at, torn] = unsound[i];
+    all.push_back({{"is", torn ? "torn" : "turned over"},
+                   {"at_mm", at},
+                   {"place", {place.x, place.y, place.z}},
+                   {"blade_in_cut", blade_in + 1},
+                   {"blade_at_mm", blade_at}});
+  }
+  return all;
+}
+
 }  // namespace
 
 Json figures_of(const MeshReport& m) {
@@ -87,6 +102,8 @@ Json figures_of(const Validity& v) {
           {"guarded_vertices", v.guarded_vertices},
           {"guarded_mm", v.guarded},
           {"guarded_at_mm", v.guarded_at},
+          {"unsound_triangles", v.unsound.size()},
+          {"unsound", named(v.unsound)},
           {"expected_opening_error", v.expected_error.largest},
           {"expected_opening_error_at_mm", v.expected_error.at},
           {"expected_opening_error_because", v.expected_error.cause},

@@ -27,6 +27,16 @@ class Guard {
     double by;
   };
 
+  /// A triangle of the skin that turns over, shrinks below a fifth of its area or tears in spite of the
+  /// guard: a corner, its middle at rest, mesh units, and where the blade is then, mm of a cut.
+  struct Unsound {
+    int vertex;
+    Vec3 place;
+    std::size_t cut;
+    double s;
+    bool torn;  ///< otherwise turned over or shrunk
+  };
+
   /// The displacement of `vertex` is the sum of the shares. Whoever takes from others must not be one of
   /// their shares; whoever takes only a part of its own may be.
   void replace(int vertex, std::span<const Share> shares, double change);
@@ -34,6 +44,7 @@ class Guard {
   void hold(int vertex, std::size_t cut, const GuardMoments::Moment& moment) {
     moments_.hold(vertex, cut, moment);
   }
+  void name(const Unsound& unsound) { unsound_.push_back(unsound); }
   /// Must be called after the last replace() or hold().
   void sort();
   /// The vertex moves again as without the guard, and so do those that take a share of it.
@@ -45,6 +56,8 @@ class Guard {
   bool empty() const { return rows_.empty(); }
   const GuardMoments& moments() const { return moments_; }
   const std::vector<Change>& changes() const { return changes_; }
+  /// Each triangle once, at one of the positions of the blade at which it is so.
+  const std::vector<Unsound>& unsound() const { return unsound_; }
   /// The vertices whose displacements are replaced or shared, sorted.
   const std::vector<int>& vertices() const { return vertices_; }
 
@@ -73,6 +86,7 @@ class Guard {
   std::vector<Row> rows_;  // in the order of apply(): those that take from others first, then by vertices
   std::vector<Share> shares_;
   std::vector<Change> changes_;
+  std::vector<Unsound> unsound_;
   GuardMoments moments_;
   std::vector<int> vertices_;
 };

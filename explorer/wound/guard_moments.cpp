@@ -6,16 +6,31 @@ namespace cleft {
 
 void GuardMoments::hold(int vertex, std::size_t cut, const Moment& moment) {
   if (of_cut_.size() <= cut) of_cut_.resize(cut + 1);
-  of_cut_[cut][vertex].push_back(moment);
+  std::vector<Moment>& all = of_cut_[cut][vertex];
+  if (std::any_of(all.begin(), all.end(), [&](const Moment& m) { return m.covers(moment); })) return;
+  count_ -= std::erase_if(all, [&](const Moment& m) { return moment.covers(m); });
+  all.push_back(moment);
   ++count_;
+}
+
+double GuardMoments::Moment::at(double s) const {
+  const double far = s < first ? (first - s) / before : s > last ? (s - last) / after : 0;
+  return far < 1 ? part + (1 - part) * far : 1;
+}
+
+/// Both are linear between the places at which either turns.
+bool GuardMoments::Moment::covers(const Moment& other) const {
+  if (part > other.part || first - before > other.first - other.before ||
+      last + after < other.last + other.after)
+    return false;
+  for (const double s : {first, last, other.first, other.last})
+    if (at(s) > other.at(s)) return false;
+  return true;
 }
 
 double GuardMoments::least(std::span<const Moment> moments, double s) {
   double least = 1;
-  for (const Moment& m : moments) {
-    const double far = s < m.first ? (m.first - s) / m.before : s > m.last ? (s - m.last) / m.after : 0;
-    if (far < 1) least = std::min(least, m.part + (1 - m.part) * far);
-  }
+  for (const Moment& m : moments) least = std::min(least, m.at(s));
   return least;
 }
 
@@ -23,6 +38,14 @@ double GuardMoments::part(int vertex, std::size_t cut, double s) const {
   if (cut >= of_cut_.size()) return 1;
   const auto found = of_cut_[cut].find(vertex);
   return found == of_cut_[cut].end() ? 1 : least(found->second, s);
+}
+
+void GuardMoments::add_turns(int vertex, std::size_t cut, std::vector<double>& turns) const {
+  if (cut >= of_cut_.size()) return;
+  const auto found = of_cut_[cut].find(vertex);
+  if (found == of_cut_[cut].end()) return;
+  for (const Moment& m : found->second)
+    turns.insert(turns.end(), {m.first - m.before, m.first, m.last, m.last + m.after});
 }
 
 void GuardMoments::sort() {

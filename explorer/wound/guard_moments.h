@@ -19,8 +19,11 @@ class GuardMoments {
   /// `before` and `after`, mm, it goes back to 1 linearly on either side.
   struct Moment {
     double first, last, part, before, after;
+    double at(double s) const;
+    bool covers(const Moment& other) const;  ///< leaves as little or less, wherever the blade is
   };
 
+  /// Leaves out what other moments of the vertex cover.
   void hold(int vertex, std::size_t cut, const Moment& moment);
   /// Must be called after the last hold(), and before apply().
   void sort();
@@ -28,7 +31,9 @@ class GuardMoments {
   /// The part of its displacement that a vertex keeps with the blade at s mm of a cut: the least of its
   /// moments. 1 at both ends of each cut.
   double part(int vertex, std::size_t cut, double s) const;
-  std::size_t count() const { return count_; }  ///< of calls of hold()
+  /// Appends the positions of the blade, mm, at which moments of a vertex begin, are full, and end.
+  void add_turns(int vertex, std::size_t cut, std::vector<double>& turns) const;
+  std::size_t count() const { return count_; }  ///< of moments that no other one covers
   /// Those whose displacements are reduced at any time; some perhaps twice.
   std::vector<int> vertices() const;
   /// Multiplies the displacements of all vertices. Allocates no memory.

@@ -12,6 +12,8 @@ namespace {
 /// A triangle is sound with this part of its area and this cosine of its turn, a little more than a fifth and
 /// a right angle: it is looked at at some times only.
 constexpr double least_area = 0.25, least_cosine = 0.05;
+/// Of its area: a triangle that keeps less counts as turned over.
+constexpr double turned_area = 0.2;
 /// Neighbours that move apart by more than this many times their distance are torn from each other.
 constexpr double most_stretch = 1.5;
 /// Likewise, beyond the least jump, unless the field of a single cut draws them apart itself.
@@ -21,6 +23,8 @@ constexpr double most_by_field = 3;
 constexpr double torn_length = 10, torn_jump = 19;
 /// Of the triangles that move: a field that turns more of them in its own patch is left to do so.
 constexpr double most_turned = 0.05;
+/// Whatever part of those that move they are, as many are not much.
+constexpr std::size_t few_turned = 5;
 /// Of its area: a triangle with less is looked at between times, however little it moves from one to the
 /// next.
 constexpr double little = 0.6;
@@ -62,11 +66,16 @@ void GuardSearch::hold_excused() {
   reduce();
 }
 
-std::vector<GuardSearch::Remaining> GuardSearch::remaining() const {
-  std::vector<Remaining> found;
+std::vector<int> GuardSearch::doubtful() const {
   std::vector<int> ones = doubtful_;
   std::sort(ones.begin(), ones.end());
   ones.erase(std::unique(ones.begin(), ones.end()), ones.end());
+  return ones;
+}
+
+std::vector<GuardSearch::Remaining> GuardSearch::remaining() const {
+  std::vector<Remaining> found;
+  const std::vector<int> ones = doubtful();
   for (std::size_t k = 0; k < times(); ++k)
     for (const int one : ones)
       if (!lasting_[k] && offends(one, k, false)) found.push_back({one, k});
@@ -165,6 +174,17 @@ std::array<Vec3, 3> GuardSearch::moved(int t, std::size_t time) const {
   return result;
 }
 
+std::array<Vec3, 3> GuardSearch::moved(int t, std::size_t first, double at) const {
+  const std::size_t next = std::min(first + static_cast<std::size_t>(at), times() - 1);
+  const double part = std::min(at - static_cast<double>(next - first), 1.);
+  std::array<Vec3, 3> result = moved(t, next);
+  for (Vec3& d : result) d *= part;
+  if (next == 0) return result;
+  const std::array<Vec3, 3> before = moved(t, next - 1);
+  for (int i = 0; i < 3; ++i) result[i] += (1 - part) * before[i];
+  return result;
+}
+
 bool GuardSearch::hardly_moves(int t, const std::array<Vec3, 3>& moved) const {
   return std::max(squared_norm(moved[1] - moved[0]), squared_norm(moved[2] - moved[0])) < harmless_[t];
 }
@@ -176,6 +196,14 @@ bool GuardSearch::is_kept(int t, const std::array<Vec3, 3>& moved) const {
   const Vec3 before = cross(a, b), after = cross(a + (moved[1] - moved[0]), b + (moved[2] - moved[0]));
   const double area = norm(before), area_now = norm(after);
   return area == 0 || (area_now >= least_area * area && dot(before, after) >= least_cosine * area * area_now);
+}
+
+bool GuardSearch::is_turned(int t, const std::array<Vec3, 3>& moved) const {
+  const auto& corner = mesh_.triangle(t).vertex;
+  const Vec3 a = mesh_.position(corner[1]) - mesh_.position(corner[0]),
+             b = mesh_.position(corner[2]) - mesh_.position(corner[0]);
+  const Vec3 before = cross(a, b), after = cross(a + (moved[1] - moved[0]), b + (moved[2] - moved[0]));
+  return dot(before, after) < 0 || norm(after) < turned_area * norm(before);
 }
 
 double GuardSearch::left_of(int t, const std::array<Vec3, 3>& moved) const {
@@ -254,7 +282,8 @@ bool GuardSearch::field_is_to_blame() {
     }
     turned += by_field;
   }
-  return static_cast<double>(turned) > most_turned * static_cast<double>(moving.size());
+  return turned > few_turned &&
+         static_cast<double>(turned) > most_turned * static_cast<double>(moving.size());
 }
 
 /// Those that offended before, and those around the given vertices.

@@ -72,6 +72,17 @@ class GuardSearch {
     return hardly_moves(triangle, moved) || (!is_torn(triangle, moved) && is_kept(triangle, moved));
   }
 
+  /// The displacements of its corners at a time between two calls of add(), linear from one to the next: `at`
+  /// from 0, before the call numbered `first`, where nothing moves if that is 0.
+  std::array<Vec3, 3> moved(int triangle, std::size_t first, double at) const;
+
+  /// Whether its normal turns by more than a right angle or its area falls below a fifth; and whether an edge
+  /// tears.
+  bool is_turned(int triangle, const std::array<Vec3, 3>& moved) const;
+  bool is_torn(int triangle, const std::array<Vec3, 3>& moved) const;
+  /// Triangles of the skin, and pairs of lips, that ever were not sound, sorted.
+  std::vector<int> doubtful() const;
+
   /// Its area then, seen along its normal at rest, over that at rest; 1 where that is 0.
   double left_of(int triangle, const std::array<Vec3, 3>& moved) const;
 
@@ -112,7 +123,6 @@ class GuardSearch {
   }
   bool hardly_moves(int triangle, const std::array<Vec3, 3>& moved) const;
   bool is_kept(int triangle, const std::array<Vec3, 3>& moved) const;
-  bool is_torn(int triangle, const std::array<Vec3, 3>& moved) const;
   void check(const std::vector<int>& numbers);
   std::vector<int> all_numbers() const;
   void check_all();

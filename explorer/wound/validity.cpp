@@ -59,19 +59,41 @@ void find_held_back(const Wound& cut, double length, Validity& v) {
   }
 }
 
-/// Each vertex counts for the cut that it is nearest to.
+/// The cut whose path a vertex is nearest to, and where along it, mm; none if no cut moves it.
+std::optional<std::pair<std::size_t, double>> nearest_path(const std::vector<const Wound*>& cuts,
+                                                           int vertex) {
+  std::optional<std::pair<std::size_t, double>> nearest;
+  double least = infinity;
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    if (const auto at = cuts[i]->volume.locate(vertex); at && std::abs(at->uvw.y) < least)
+      least = std::abs(at->uvw.y), nearest = {i, at->s};
+  return nearest;
+}
+
+/// Each vertex and triangle counts for the cut that it is nearest to.
 void find_guarded(const std::vector<const Wound*>& cuts, const Guard& guard, std::vector<Validity>& result) {
   for (const auto& [vertex, by] : guard.changes()) {
-    std::size_t nearest = cuts.size();
-    double least = infinity, s = 0;
-    for (std::size_t i = 0; i < cuts.size(); ++i)
-      if (const auto at = cuts[i]->volume.locate(vertex); at && std::abs(at->uvw.y) < least)
-        nearest = i, least = std::abs(at->uvw.y), s = at->s;
-    if (nearest == cuts.size()) continue;
-    Validity& v = result[nearest];
+    const auto nearest = nearest_path(cuts, vertex);
+    if (!nearest) continue;
+    Validity& v = result[nearest->first];
     ++v.guarded_vertices;
-    if (const double mm = by * cuts[nearest]->scale(); mm > v.guarded) v.guarded = mm, v.guarded_at = s;
+    if (const double mm = by * cuts[nearest->first]->scale(); mm > v.guarded)
+      v.guarded = mm, v.guarded_at = nearest->second;
   }
+  for (const Guard::Unsound& u : guard.unsound())
+    if (const auto nearest = nearest_path(cuts, u.vertex))
+      result[nearest->first].unsound.push_back({nearest->second, u.place, u.cut, u.s, u.torn});
+}
+
+std::string warning_of(const std::vector<Validity::Unsound>& unsound, bool several) {
+  const Validity::Unsound& first = unsound.front();
+  const auto number = [](double x) { return shortest(std::round(1000 * x) / 1000); };
+  return std::to_string(unsound.size()) +
+         (unsound.size() == 1 ? " triangle of the skin turns over or tears at "
+                              : " triangles of the skin turn over or tear, the first at ") +
+         number(first.at) + " mm of the path, in the mesh at " + number(first.place.x) + ", " +
+         number(first.place.y) + ", " + number(first.place.z) + ", with the blade at " +
+         number(first.blade_at) + " mm" + (several ? " of cut " + std::to_string(first.blade_in + 1) : "");
 }
 
 /// The opening of the canonical cut at its widest, when it has come to t, with the fields along a path's
@@ -175,10 +197,13 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
         *cuts[i], known,
         {nearest_beside, v.junction_tension.value_or(0), v.length_defect, own,
          field.interpolation.has_value(), widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
+    const bool several = cuts.size() > 1;
+    const std::string which = several ? "cut " + std::to_string(i + 1) + ": " : "";
+    if (!v.unsound.empty()) v.warnings.push_back(which + warning_of(v.unsound, several));
     if (v.expected_error.largest > greatest_expected)
-      v.warnings.push_back(
-          (cuts.size() > 1 ? "cut " + std::to_string(i + 1) + ": " : "") + "its opening may be off by " +
-          shortest(std::round(100 * v.expected_error.largest) / 100) + ": " + v.expected_error.cause);
+      v.warnings.push_back(which + "its opening may be off by " +
+                           shortest(std::round(100 * v.expected_error.largest) / 100) + ": " +
+                           v.expected_error.cause);
   }
   return result;
 }

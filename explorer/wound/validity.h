@@ -28,10 +28,22 @@ struct Validity {
   /// there are, by how much at most with the cuts complete, and where along the path, mm.
   int guarded_vertices = 0;
   double guarded = 0, guarded_at = 0;
+  /// Triangles of the skin that turn over, shrink below a fifth of their area or tear in spite of that, each
+  /// once: where along the path, mm, and where in the mesh, at rest and in its units; and where the blade is
+  /// then: mm of a cut, counted from 0. In a live cut, those with the cuts complete alone.
+  struct Unsound {
+    double at;
+    Vec3 place;
+    std::size_t blade_in;
+    double blade_at;
+    bool torn;  ///< otherwise turned over or shrunk
+  };
+  std::vector<Unsound> unsound;
   /// The expected error of the opening against a simulation of the body, over the largest opening: along the
   /// path, and its largest.
   OpeningError expected_error;
-  std::vector<std::string> warnings;  ///< one sentence where that is above a tenth
+  /// One sentence where that is above a tenth, and one where triangles are unsound.
+  std::vector<std::string> warnings;
 };
 
 /// The validity of every cut. `turned`: whether their fields follow the tension.

@@ -22,6 +22,12 @@ constexpr int looks_between = 8;
 constexpr int passage_rounds = 20, quiet_rounds = 2;
 /// Of the way over which displacements next to the tip change quickly: a moment begins and ends in it.
 constexpr double fade_part = 0.25;
+/// Likewise of triangles where moments begin and end; of the cut's length, places nearer to each other are
+/// one.
+constexpr int moment_rounds = 10;
+constexpr double least_between = 1e-4;
+/// What is left of a triangle that displacements between two looks show: where it is less it is looked at.
+constexpr double near_limit = 0.5;
 /// Of vertices, in all: more are not worth the time and the memory.
 constexpr std::size_t most_moments = 200000;
 /// Of the largest opening: what a field turns itself in its own flat patch is not worth lips that are held
@@ -62,6 +68,7 @@ class Wounds::GuardLooks {
         number_[k][one.vertex] = static_cast<int>(vertices.size());
         vertices.emplace_back(one.vertex, one.s);
       }
+      touched_.emplace_back();
       passages_.emplace_back(wound, vertices, wound.reached() / looks);
     }
   }
@@ -72,22 +79,48 @@ class Wounds::GuardLooks {
     for (std::size_t k = 0; k < wounds_.size(); ++k)
       for (int i = 1; i <= looks; ++i)
         look({k, wounds_[k].reached() * (static_cast<double>(i) / looks)}, i == looks);
-    if (!search_.find()) return {};
-    Guard guard = search_.result();
-    if (search_.is_excused()) {
-      search_.hold_excused();
-      Guard strict = search_.result();
-      if (meet() || held_back(strict) <= held_back(guard) + worth_an_excuse) guard = std::move(strict);
+    Guard guard;
+    if (search_.find()) {
+      guard = search_.result();
+      if (search_.is_excused()) {
+        search_.hold_excused();
+        Guard strict = search_.result();
+        if (meet() || held_back(strict) <= held_back(guard) + worth_an_excuse) guard = std::move(strict);
+      }
+      if (moments) hold_for_moments(guard);
+    } else if (moments) {
+      for (const auto& [one, time] : search_.remaining()) suspects_.push_back({one, blades_[time]});
     }
-    if (!moments) return guard;
-    hold_remaining(guard);
-    hold_sudden(guard);
-    for (std::size_t k = 0; k < wounds_.size(); ++k) hold_passages(k, guard);
-    guard.sort();
+    name_unsound(guard);
     return guard;
   }
 
  private:
+  void hold_for_moments(Guard& guard) {
+    hold_remaining(guard);
+    hold_sudden(guard);
+    for (std::size_t k = 0; k < wounds_.size(); ++k) hold_passages(k, guard);
+    for (std::size_t k = 0; k < wounds_.size(); ++k) hold_between_moments(k, guard);
+    guard.sort();
+  }
+
+  /// What the field turns itself, and what could not be held back.
+  void name_unsound(Guard& guard) {
+    for (const int one : search_.doubtful())
+      for (std::size_t k = 0; k < wounds_.size(); ++k) suspects_.push_back({one, {k, wounds_[k].reached()}});
+    std::vector<bool> named(mesh_.triangles().size());
+    for (const auto& [one, blade] : suspects_) {
+      if (one < 0 || named[one]) continue;
+      const std::array<Vec3, 3> moved = this->moved(one, blade, guard);
+      const bool torn = search_.is_torn(one, moved);
+      if (search_.is_sound(one, moved) || (!torn && !search_.is_turned(one, moved))) continue;
+      named[one] = true;
+      const auto& v = mesh_.triangle(one).vertex;
+      guard.name({v[0], 1. / 3 * (mesh_.position(v[0]) + mesh_.position(v[1]) + mesh_.position(v[2])),
+                  blade.cut, blade.s, torn});
+    }
+  }
+
   /// Whether cuts cross or meet each other.
   bool meet() const {
     for (std::size_t k = 0; k < wounds_.size(); ++k)
@@ -160,8 +193,7 @@ class Wounds::GuardLooks {
               return left(triangle, {cut, s}, guard);
             },
             [&](double s, double first, double last) {
-              for (const int touched : hold(one.triangle, {cut, s}, first, last, guard))
-                if (touched >= 0) next[touched] = true;
+              for (const int touched : hold(one.triangle, {cut, s}, first, last, guard)) next[touched] = true;
             });
       }
       quiet = any ? 0 : quiet + 1;
@@ -169,19 +201,72 @@ class Wounds::GuardLooks {
     }
   }
 
+  /// What is not sound where the moments of its corners begin, are full and end, and halfway between: there
+  /// displacements turn from one course to another. Then what is around it.
+  void hold_between_moments(std::size_t cut, Guard& guard) {
+    std::vector<int> wanted = touched_[cut];
+    for (int round = 0; round < moment_rounds && !wanted.empty(); ++round) {
+      std::sort(wanted.begin(), wanted.end());
+      wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+      std::vector<int> next;
+      for (const int triangle : wanted) {
+        const std::vector<double> turns = turns_of(triangle, cut, guard);
+        for (std::size_t i = 1; i + 1 < turns.size(); ++i) {
+          const double s = turns[i];
+          if (!may_be_unsound(triangle, {cut, s}, guard) ||
+              left(triangle, {cut, s}, guard) != GuardPassage::unsound)
+            continue;
+          const std::vector<int> touched =
+              hold(triangle, {cut, s}, (turns[i - 1] + s) / 2, (s + turns[i + 1]) / 2, guard);
+          next.insert(next.end(), touched.begin(), touched.end());
+        }
+      }
+      wanted = std::move(next);
+    }
+  }
+
+  /// From displacements that are linear between the even looks.
+  bool may_be_unsound(int triangle, const Blade& blade, const Guard& guard) const {
+    std::array<Vec3, 3> moved =
+        search_.moved(triangle, blade.cut * looks, looks * blade.s / wounds_[blade.cut].reached());
+    for (int i = 0; i < 3; ++i)
+      moved[i] = guard.moments().part(mesh_.triangle(triangle).vertex[i], blade.cut, blade.s) * moved[i];
+    return search_.left_of(triangle, moved) < near_limit || !search_.is_sound(triangle, moved);
+  }
+
+  /// Ascending, with both ends of the cut.
+  std::vector<double> turns_of(int triangle, std::size_t cut, const Guard& guard) const {
+    const double end = wounds_[cut].reached();
+    std::vector<double> turns{0, end};
+    for (const int v : mesh_.triangle(triangle).vertex) guard.moments().add_turns(v, cut, turns);
+    std::sort(turns.begin(), turns.end());
+    std::vector<double> all;
+    for (const double s : turns) {
+      if (!all.empty() && s < all.back() + least_between * end) continue;
+      if (!all.empty()) all.push_back((all.back() + s) / 2);
+      all.push_back(s);
+    }
+    return all;
+  }
+
   /// What is not sound either when the cut is complete is left as it is: the field's doing, for which the
   /// wound is not held back.
   std::vector<int> hold(int one, const Blade& blade, double first, double last, Guard& guard) {
     const double end = wounds_[blade.cut].reached();
+    suspects_.push_back({one, blade});
     if (guard.moments().count() > most_moments) return {};
     if (one >= 0 && left(one, {blade.cut, end}, guard) == GuardPassage::unsound) return {};
     const Relief::At now = relief_at(blade);
     const auto own = [&](int v) { return this->own(v, blade, now); };
     if (!hold_) hold_.emplace(search_);
-    return hold_->hold(one,
-                       {blade.cut, blade.s, first, last, end, fade_part * passages_[blade.cut].near_tip(),
-                        [&](int v) { return guard.displacement(v, own); }},
-                       guard);
+    std::vector<int> touched =
+        hold_->hold(one,
+                    {blade.cut, blade.s, first, last, end, fade_part * passages_[blade.cut].near_tip(),
+                     [&](int v) { return guard.displacement(v, own); }},
+                    guard);
+    std::erase_if(touched, [](int each) { return each < 0; });  // lips
+    touched_[blade.cut].insert(touched_[blade.cut].end(), touched.begin(), touched.end());
+    return touched;
   }
 
   /// The displacement of a vertex without the guard.
@@ -213,6 +298,12 @@ class Wounds::GuardLooks {
 
   /// GuardPassage::Left.
   double left(int triangle, const Blade& blade, const Guard& guard) const {
+    const std::array<Vec3, 3> moved = this->moved(triangle, blade, guard);
+    return search_.is_sound(triangle, moved) ? search_.left_of(triangle, moved) : GuardPassage::unsound;
+  }
+
+  /// The displacements of its corners.
+  std::array<Vec3, 3> moved(int triangle, const Blade& blade, const Guard& guard) const {
     const Relief::At now = relief_at(blade);
     const auto own = [&](int v) { return this->own(v, blade, now); };
     std::array<Vec3, 3> displacements;
@@ -220,8 +311,7 @@ class Wounds::GuardLooks {
       const int v = mesh_.triangle(triangle).vertex[i];
       displacements[i] = guard.moments().part(v, blade.cut, blade.s) * guard.displacement(v, own);
     }
-    return search_.is_sound(triangle, displacements) ? search_.left_of(triangle, displacements)
-                                                     : GuardPassage::unsound;
+    return displacements;
   }
 
   const Wounds& wounds_;
@@ -236,7 +326,13 @@ class Wounds::GuardLooks {
   std::vector<std::vector<Moved>> complete_;  // by each cut
   std::vector<std::vector<int>> number_;      // of a vertex in that
   std::vector<GuardPassage> passages_;
+  std::vector<std::vector<int>> touched_;  // by each cut: triangles with corners that moments hold back
   std::vector<std::array<int, 2>> lips_;   // left and right, of all cuts
+  struct Suspect {
+    int one;  // as in GuardSearch::Remaining
+    Blade blade;
+  };
+  std::vector<Suspect> suspects_;          // all that was not sound, when it was found
   std::vector<std::pair<int, Vec3>> sum_;  // of all cuts, at one look
   std::vector<int> place_;                 // of a vertex in that
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -171,6 +172,7 @@ TEST(Guard, KeepsSliversWithoutHoldingTheLips) {
   const auto wounds = opened.wounds();
   EXPECT_FALSE(wounds->guard().empty());
   EXPECT_EQ(unsound(*wounds, 17), 0);
+  EXPECT_TRUE(wounds->validity(true).front().unsound.empty());
   EXPECT_GT(widest(*wounds, 0), 0.98 * widest(*regular.wounds(), 0));
   const Validity v = wounds->validity(true).front();
   EXPECT_EQ(static_cast<std::size_t>(v.guarded_vertices), wounds->guard().changes().size());
@@ -231,6 +233,60 @@ TEST(GuardPassage, FindsWhatIsUnsoundForAMoment) {
     EXPECT_GE(found, 1) << t;
   }
   EXPECT_GT(near, 100);
+}
+
+/// A field that turns its own patch over is left to do so, and what it turns is named.
+TEST(Guard, NamesWhatTurnsOverInSpiteOfIt) {
+  Opened opened(grid(60, 40, -30, -20, 1));
+  opened.field = opening_field({-15, 30, 3}, 60, 40, 6, 60);
+  opened.cut(path_through({{-15, 0.3, 0}, {15, 0.3, 0}}, up, 3), as_it_is());
+  const auto wounds = opened.wounds();
+  const Validity v = wounds->validity(true).front();
+  const auto& rest = wounds->rest();
+  std::vector<Vec3> now(wounds->vertex_count());
+  const auto turned = [&](const Vec3& place, double t) {
+    wounds->positions(t, now);
+    for (const CutMesh::Triangle& triangle : opened.mesh.triangles()) {
+      const auto& c = triangle.vertex;
+      if (triangle.region != Region::skin ||
+          norm(1. / 3 * (rest[c[0]] + rest[c[1]] + rest[c[2]]) - place) > 1e-9)
+        continue;
+      const Vec3 before = cross(rest[c[1]] - rest[c[0]], rest[c[2]] - rest[c[0]]),
+                 after = cross(now[c[1]] - now[c[0]], now[c[2]] - now[c[0]]);
+      return dot(before, after) < 0 || norm(after) < 0.2 * norm(before);
+    }
+    return false;
+  };
+  std::size_t at_the_end = 0, named = 0;
+  for (const CutMesh::Triangle& triangle : opened.mesh.triangles()) {
+    const auto& c = triangle.vertex;
+    const Vec3 middle = 1. / 3 * (rest[c[0]] + rest[c[1]] + rest[c[2]]);
+    if (triangle.region != Region::skin || !turned(middle, wounds->duration())) continue;
+    ++at_the_end;
+    named += std::any_of(v.unsound.begin(), v.unsound.end(),
+                         [&](const Validity::Unsound& u) { return norm(u.place - middle) < 1e-9; });
+  }
+  EXPECT_GT(at_the_end, 0u);
+  EXPECT_EQ(named, at_the_end);
+  for (const Validity::Unsound& u : v.unsound) {
+    EXPECT_TRUE(u.torn || turned(u.place, u.blade_at)) << u.place.x << " " << u.place.y;
+    EXPECT_NEAR(u.at, u.place.x + 15, 1.5);
+  }
+  ASSERT_FALSE(v.warnings.empty());
+  EXPECT_NE(v.warnings[0].find(std::to_string(v.unsound.size()) + " triangles of the skin turn over"),
+            std::string::npos);
+}
+
+TEST(GuardMoments, LeaveOutWhatOthersCover) {
+  GuardMoments moments;
+  moments.hold(2, 0, {4, 5, 0.5, 2, 1});
+  moments.hold(2, 0, {4, 4.5, 0.75, 0.5, 0.5});  // covered by the first
+  EXPECT_EQ(moments.count(), 1u);
+  moments.hold(2, 0, {4, 4.5, 0.75, 2, 3});  // ends later
+  EXPECT_EQ(moments.count(), 2u);
+  moments.hold(2, 0, {3.5, 8, 0.25, 2, 1});  // covers both
+  EXPECT_EQ(moments.count(), 1u);
+  EXPECT_EQ(moments.part(2, 0, 4), 0.25);
 }
 
 TEST(Guard, LeavesOutNothingThatItMoves) {

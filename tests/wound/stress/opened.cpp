@@ -102,6 +102,7 @@ class Look {
     found_.least_determinant = std::min(found_.least_determinant, determinant(rest, moved));
     if (!turned_[t] && !kept(rest, moved)) {
       turned_[t] = true;
+      found_.unnamed += !named(t);
       if (field_turns(t, time)) {
         ++found_.turned_by_field;
       } else {
@@ -124,6 +125,13 @@ class Look {
       else
         found_.torn += torn, found_.stretched += stretched;
     }
+  }
+
+  bool named(int t) const {
+    const auto& all = wounds_.guard().unsound();
+    const auto& v = mesh_.triangle(t).vertex;
+    const Vec3 middle = 1. / 3 * (mesh_.position(v[0]) + mesh_.position(v[1]) + mesh_.position(v[2]));
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.place == middle; });
   }
 
   /// The corners of a triangle, and where the blade is.
@@ -263,7 +271,7 @@ void FieldLimits::keep_large() {
 void Opened::add(const Opened& o) {
   positions += o.positions, turned += o.turned, turned_by_field += o.turned_by_field, torn += o.torn;
   stretched += o.stretched, spikes += o.spikes, crossed += o.crossed, unsteady += o.unsteady;
-  torn_by_field += o.torn_by_field, opening += o.opening;
+  torn_by_field += o.torn_by_field, unnamed += o.unnamed, opening += o.opening;
   largest = std::max(largest, o.largest);
   least_determinant = std::min(least_determinant, o.least_determinant);
   passed = std::max(passed, o.passed);
@@ -277,12 +285,14 @@ std::string text_of(const Opened& o) {
   char text[400];
   std::snprintf(
       text, sizeof text,
-      "%ld turned (first at %.6g %.6g %.6g), %ld turned by the field, %ld torn, %ld stretched, %ld "
+      "%ld turned (first at %.6g %.6g %.6g), %ld turned by the field, %ld not named, %ld torn, %ld "
+      "stretched, %ld "
       "of either by the field, %ld spikes, %ld lips crossed (by at most %.3g mm), %ld unsteady, least "
       "determinant %.3g, largest %.3g of the "
       "field's, openings %.6g mm",
-      o.turned, o.first_turned.x, o.first_turned.y, o.first_turned.z, o.turned_by_field, o.torn, o.stretched,
-      o.torn_by_field, o.spikes, o.crossed, o.passed, o.unsteady, o.least_determinant, o.largest, o.opening);
+      o.turned, o.first_turned.x, o.first_turned.y, o.first_turned.z, o.turned_by_field, o.unnamed, o.torn,
+      o.stretched, o.torn_by_field, o.spikes, o.crossed, o.passed, o.unsteady, o.least_determinant, o.largest,
+      o.opening);
   return text + o.first_is;
 }
 

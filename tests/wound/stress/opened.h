@@ -27,6 +27,7 @@ struct Opened {
   long positions = 0;
   long turned = 0;  ///< skin triangles whose normal turns by more than 90 degrees, or that shrink to a fifth
   long turned_by_field = 0;  ///< others of them that the field turns in its own flat patch
+  long unnamed = 0;          ///< of these and the others: that the guard does not name
   long torn = 0;             ///< skin edges below 0.5 mm whose ends move apart by more than 1 mm
   long stretched = 0;        ///< skin edges stretched by more than three times the field's largest strain
   long torn_by_field = 0;    ///< others of either that the field stretches so in its own flat patch
