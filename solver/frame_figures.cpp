@@ -8,10 +8,7 @@
 namespace cleft {
 
 FrameResidual::FrameResidual(const PatchMesh& mesh, const PatchSystem& system)
-    : mesh_(mesh), system_(system), cut_(mesh, system), in_face_(mesh.points.size(), false) {
-  for (const WedgeMiddles& middles : mesh.middles)
-    for (const int node : middles.faces) in_face_[node] = true;
-}
+    : mesh_(mesh), system_(system), cut_(mesh, system), in_face_(in_faces(mesh)) {}
 
 FrameFigures FrameResidual::at_cut(const Release& release, const FrameSolver::Column& column,
                                    const Eigen::VectorXd& displacement, Eigen::VectorXd force) const {

@@ -242,11 +242,12 @@ class Releaser {
     const std::vector<double>& lines = mesh_.lines_along[first.incision];
     const auto next = std::upper_bound(lines.begin(), lines.end(), first.along);
     const bool at_corner = static_cast<std::size_t>(next - lines.begin()) % lines_ == 0;
-    const double front = is_branch(first) ? mesh_.fronts.branch : mesh_.fronts.along;
+    const double front =
+        (is_branch(first) ? mesh_.fronts.branch : mesh_.fronts.along) * (at_corner ? 1 : front_in_middle);
     const double cut_before = first.incision * r_.length;  // a branch is the second incision
     for (std::size_t m = 1; m <= column.size(); ++m) {
       r_.order.push_back(column[m - 1]);
-      if (!at_corner || (m < column.size() && p_.cut.frames != FrameEvery::pair)) continue;
+      if (m < column.size() && p_.cut.frames != FrameEvery::pair) continue;
       const double part = static_cast<double>(m) / static_cast<double>(column.size());
       r_.released.push_back(static_cast<int>(r_.order.size()));
       r_.position.push_back(first.along + (*next - first.along) * part - front);
@@ -268,6 +269,13 @@ bool diagonal_rises(TissueFormulation formulation, int i, int j) {
   return (formulation == TissueFormulation::mean_dilatation ? i + j : j) % 2 == 0;
 }
 
+std::vector<bool> in_faces(const PatchMesh& mesh) {
+  std::vector<bool> all(mesh.points.size(), false);
+  for (const WedgeMiddles& middles : mesh.middles)
+    for (const int node : middles.faces) all[node] = true;
+  return all;
+}
+
 void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values) {
   for (std::size_t e = 0; e < mesh.middles.size(); ++e)
     for (std::size_t f = 0; f < wedge_quads.size(); ++f) {
@@ -279,6 +287,14 @@ void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values) {
       values[mesh.middles[e].faces[f]] = 0.5 * sum(sides_of_quad[f], mesh.middles[e].edges) -
                                          0.25 * sum(wedge_quads[f], mesh.quadratic.wedges[e]);
     }
+  if (!mesh.is_quadratic()) return;
+  const std::vector<bool> in_face = in_faces(mesh);
+  for (std::size_t p = 1; p < mesh.pairs.size(); ++p) {
+    const auto& [left, right] = std::pair(mesh.pairs[p].left, mesh.pairs[p].right);
+    const NodePair& above = mesh.pairs[p - 1];
+    if (in_face[left] && values[above.left] == values[above.right])
+      values[left] = values[right] = 0.5 * (values[left] + values[right]);
+  }
 }
 
 PatchMesh make_patch_mesh(const Parameters& parameters) { return PatchMesher(parameters).mesh(); }

@@ -102,9 +102,12 @@ struct PatchMesh : WedgeCells {
 /// their lines too, and an element's squares are halved by one diagonal.
 PatchMesh make_patch_mesh(const Parameters& parameters);
 
+/// By node: whether it is in the middle of a quadratic element's upright face, and has no unknowns.
+std::vector<bool> in_faces(const PatchMesh& mesh);
+
 /// Gives the nodes in the middle of quadratic elements' upright faces the values that the other eight nodes
 /// of the face determine: half the sum of those at the middles of its sides, less a quarter of those at its
-/// corners.
+/// corners. Pairs in a column that is closed stay together.
 void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values);
 
 /// Whether square (i, j), counted along u and v from the first cut's start, is halved by the diagonal that
@@ -135,8 +138,7 @@ struct Release {
 
 /// Frame 0 is closed; then a frame for each released column, or pair (cut.frames). Columns open one after the
 /// other along an incision, each from the skin down. A column of m of its M pairs released has brought the
-/// tip the fraction m / M of the way to the next column. Of quadratic elements, the columns between two
-/// closed corners open together. The tip, and the ends of the cut, are inside the
+/// tip the fraction m / M of the way to the next column. The tip, and the ends of the cut, are inside the
 /// first closed nodes by the mesh's fronts. The cut of the case ends at the places of fronts nearest to
 /// cut.length and cut.depth (the nearest ones that leave a pair to open).
 Release make_release(const PatchMesh& mesh, const Parameters& parameters);

@@ -46,14 +46,13 @@ double put_together(const PatchMesh& mesh, const Release& release, int open, std
 }
 
 /// Nodes in the middle of quadratic elements' faces have no unknowns of their own: their rows are 0.
-void set_column(const PatchSystem& system, const PatchMesh& mesh, std::vector<Vec3> nodes, Block& block,
-                Eigen::Index column) {
-  for (const WedgeMiddles& middles : mesh.middles)
-    for (const int node : middles.faces) nodes[static_cast<std::size_t>(node)] = {};
+void set_column(const PatchSystem& system, const PatchMesh& mesh, const std::vector<Vec3>& nodes,
+                Block& block, Eigen::Index column) {
+  const std::vector<bool> in_face = in_faces(mesh);
   for (std::size_t n = 0; n < nodes.size(); ++n)
     for (int axis = 0; axis < 3; ++axis)
       if (const int row = system.row(system.unknown(static_cast<int>(n), axis)); row >= 0)
-        block(row, column) = nodes[n][axis];
+        block(row, column) = in_face[n] ? 0 : nodes[n][axis];
 }
 
 /// Of each column with the same one of another block, over all ranks.
@@ -142,7 +141,7 @@ void ResidualBound::add_frames(const Work& work, Eigen::Index first, Eigen::Inde
     std::vector<Vec3> nodes = work.reader.displacement(frame);
     const int open = work.release.released[frame];
     result.moved = std::max(result.moved, put_together(mesh_, work.release, open, nodes));
-    set_column(system, mesh_, std::move(nodes), shown, j);
+    set_column(system, mesh_, nodes, shown, j);
     columns.push_back({static_cast<int>(j), open, false, 1e-10});
     under_load.push_back({0, open, false, 1e-10});
   }
