@@ -20,9 +20,10 @@ namespace cleft {
 
 namespace {
 
-constexpr double share_of_space = 0.9;   // of the tolerance, for fits of single frames
-constexpr int most_tries = 6;            // of finer knots for an arm of a break
-constexpr double worth_of_kinks = 0.75;  // what they must make of an error, since they take more bytes
+constexpr double share_of_space = 0.9;      // of the tolerance, for fits of single frames
+constexpr int most_tries = 6;               // of finer knots for an arm of a break
+constexpr double worth_of_kinks = 0.75;     // what they must make of an error, since they take more bytes
+constexpr double greatest_condition = 1e5;  // of what nodes determine well; mostly 1e3 to 3e4
 
 class Encoder {
  public:
@@ -52,6 +53,8 @@ class Encoder {
     std::size_t rung = sufficient(rungs);
     progress_("fitting all frames");
     auto fitted = fitted_on(rungs[rung]);
+    // Where knots next to the front are nearer to each other than nodes, the spline is free between them.
+    while (fitted->condition() > greatest_condition && rung > 0) fitted = fitted_on(rungs[--rung]);
     Misfit misfit = fitted->misfit(share_of_fit * limit_);
     Rung chosen = rungs[rung];
     const auto try_instead = [&](const Rung& other, double worth) {
