@@ -18,14 +18,14 @@ inline int started_together() {
   return most;
 }
 
-/// Whether MPI will find a launcher to ask for the other processes, of which there may be none.
+/// Whether MPI can ask a launcher for the other processes, of which there may be none.
 inline bool has_launcher() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
     if (std::getenv(name)) return true;
   return false;
 }
 
-/// A launcher that is killed leaves this process not behind.
+/// Ends this process with its launcher, also where that is killed.
 inline void end_with_launcher() { prctl(PR_SET_PDEATHSIG, SIGKILL); }
 
 }  // namespace cleft
