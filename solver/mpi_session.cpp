@@ -3,15 +3,14 @@
 #include <deal.II/base/mpi.h>
 #include <fcntl.h>
 #include <stdlib.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 
 #include "base/memory.h"
+#include "base/ranks/launcher.h"
 
 namespace cleft {
 
@@ -21,11 +20,10 @@ namespace {
 /// a daemon for it and share a folder with other such processes, which sometimes fails when many start
 /// together.
 int& prepared(int& argc) {
-  for (const char* by_launcher : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
-    if (getenv(by_launcher)) {
-      prctl(PR_SET_PDEATHSIG, SIGKILL);  // a launcher that is killed leaves no rank behind
-      return argc;
-    }
+  if (has_launcher()) {
+    end_with_launcher();
+    return argc;
+  }
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   setenv("OMPI_MCA_btl", "self", 0);

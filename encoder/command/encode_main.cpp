@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/output_file.h"
+#include "base/ranks/other_ranks.h"
 #include "base/text.h"
 #include "encoder/command/encoder_progress.h"
 #include "encoder/command/figures.h"
@@ -207,8 +208,7 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
   Json warnings = Json::array();
   if (task.ranks->count() > 1 &&
       std::none_of(series.begin(), series.end(), [](const Series& one) { return one.elsewhere; }))
-    warnings.push_back("one of the " + std::to_string(task.ranks->count()) +
-                       " processes encodes this snapshot, and the others wait: only snapshots of more than " +
+    warnings.push_back(one_works(*task.ranks, "encodes this snapshot") + ": only snapshots of more than " +
                        std::to_string(most_fitted) + " nodes are spread over processes");
   for (std::size_t p = 0; p < series.size(); ++p) {
     const std::string of =
@@ -253,7 +253,7 @@ int main(int argc, char** argv) {
   keep_freed_blocks();
   const Ranks ranks(argc, argv);
   if (ranks.rank() > 0) {
-    serve(ranks);
+    serve_nodes(ranks);
     return 0;
   }
   const OtherRanks others(ranks);

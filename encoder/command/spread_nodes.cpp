@@ -1,20 +1,16 @@
 #include "encoder/command/spread_nodes.h"
 
-#include <exception>
 #include <filesystem>
 #include <map>
-#include <stdexcept>
 
-#include "base/error.h"
-#include "base/message.h"
-#include "encoder/command/packed.h"
+#include "base/ranks/other_ranks.h"
+#include "encoder/command/packed_field.h"
 
 namespace cleft {
 
 namespace {
 
-enum class Request : int { keep, errors, code, forget, end };
-enum class Answer : int { done, mistake, failure };
+enum class Request : int { keep, errors, code, forget };
 
 /// Those of a part, which are taken.
 void add(Packer& message, const NodesInFile& nodes) {
@@ -40,13 +36,13 @@ NodesInFile take_nodes(Unpacker& message) {
 
 void add(Packer& message, const NodeSpline& spline) {
   message.add(spline.field), message.add(spline.components), message.add(spline.parts.size());
-  for (const Field& part : spline.parts) message.add(part);
+  for (const Field& part : spline.parts) add(message, part);
 }
 
 NodeSpline take_spline(Unpacker& message) {
   NodeSpline spline{message.take<int>(), message.take<int>(), {}};
   for (std::size_t part = message.take<std::size_t>(); part > 0; --part)
-    spline.parts.push_back(message.take_field());
+    spline.parts.push_back(take_field(message));
   return spline;
 }
 
@@ -96,9 +92,8 @@ class KeptNodes {
 /// What it answers to the requests of the first rank.
 class Server {
  public:
-  Packer answer(Request request, Unpacker& message) {
-    Packer answer;
-    answer.add(Answer::done);
+  void answer(Unpacker& message, Packer& answer) {
+    const auto request = message.take<Request>();
     const int number = message.take<int>();
     if (request == Request::keep) {
       kept_.emplace(number, std::make_unique<KeptNodes>(message));
@@ -112,32 +107,16 @@ class Server {
       else
         add(answer, work.code(spline, take_kind(message)));
     }
-    return answer;
   }
 
  private:
   std::map<int, std::unique_ptr<KeptNodes>> kept_;
 };
 
-Packer told(Answer kind, const std::string& what) {
-  Packer answer;
-  answer.add(kind), answer.add(what);
-  return answer;
-}
-
 Packer request_of(Request request, int number) {
   Packer message;
   message.add(request), message.add(number);
   return message;
-}
-
-/// Throws what another rank has told instead of an answer.
-void throw_if_failed(Unpacker& answer, int rank) {
-  const auto kind = answer.take<Answer>();
-  if (kind == Answer::done) return;
-  const std::string what = "process " + std::to_string(rank) + ": " + answer.take_text();
-  if (kind == Answer::mistake) throw InputError(what);
-  throw std::runtime_error(what);
 }
 
 }  // namespace
@@ -169,8 +148,8 @@ SpreadNodes::SpreadNodes(const Ranks& ranks, std::shared_ptr<const NodeValues> v
   }
   here_ = std::make_unique<NodeWorkHere>(nodes.subspan(0, first_of(1)), times_, block,
                                          reading(std::move(values)));
-  on_all(
-      {}, [] {}, [](int, Unpacker&) {});
+  on_all_ranks(
+      ranks, {}, [] {}, [](int, Unpacker&) {});
 }
 
 SpreadNodes::~SpreadNodes() {
@@ -182,30 +161,6 @@ SpreadNodes::~SpreadNodes() {
 
 std::size_t SpreadNodes::first_block(int rank) const {
   return blocks_ * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks_.count());
-}
-
-/// Sends a request, unless it is empty, to all others, works here meanwhile, and takes their answers. What
-/// fails is thrown when all have answered.
-template <class OfRank, class Take>
-void SpreadNodes::on_all(const Bytes& request, const OfRank& here, const Take& take) const {
-  for (int rank = 1; rank < ranks_.count() && !request.empty(); ++rank) ranks_.send(rank, request);
-  std::exception_ptr failure;
-  const auto attempt = [&](const auto& work) {
-    try {
-      work();
-    } catch (...) {
-      if (!failure) failure = std::current_exception();
-    }
-  };
-  attempt(here);
-  for (int rank = 1; rank < ranks_.count(); ++rank) {
-    Unpacker answer(ranks_.receive(rank));
-    attempt([&] {
-      throw_if_failed(answer, rank);
-      take(rank, answer);
-    });
-  }
-  if (failure) std::rethrow_exception(failure);
 }
 
 std::vector<NodeErrors> SpreadNodes::errors(const NodeSpline& spline) const {
@@ -220,8 +175,8 @@ std::vector<NodeErrors> SpreadNodes::errors(const NodeSpline& spline) const {
   };
   Packer request = request_of(Request::errors, number_);
   add(request, spline);
-  on_all(
-      request.bytes(), [&] { put(0, here_->errors(spline)); },
+  on_all_ranks(
+      ranks_, request.bytes(), [&] { put(0, here_->errors(spline)); },
       [&](int rank, Unpacker& answer) { put(rank, answer.take_list<NodeErrors>()); });
   return all;
 }
@@ -233,31 +188,15 @@ std::vector<CodedBlock> SpreadNodes::code(const NodeSpline& spline, const CodedR
   };
   Packer request = request_of(Request::code, number_);
   add(request, spline), add_kind(request, kind);
-  on_all(
-      request.bytes(), [&] { put(0, here_->code(spline, kind)); },
+  on_all_ranks(
+      ranks_, request.bytes(), [&] { put(0, here_->code(spline, kind)); },
       [&](int rank, Unpacker& answer) { put(rank, take_blocks(answer)); });
   return all;
 }
 
-void serve(const Ranks& ranks) {
-  for (Server server;;) {
-    Unpacker message(ranks.receive(0));
-    const auto request = message.take<Request>();
-    if (request == Request::end) return;
-    Packer answer;
-    try {
-      answer = server.answer(request, message);
-    } catch (const std::exception& error) {
-      answer = told(is_users_mistake(error) ? Answer::mistake : Answer::failure, message_of(error));
-    }
-    ranks.send(0, answer.bytes());
-  }
-}
-
-OtherRanks::~OtherRanks() {
-  Packer message;
-  message.add(Request::end);
-  for (int rank = 1; rank < ranks_.count(); ++rank) ranks_.send(rank, message.bytes());
+void serve_nodes(const Ranks& ranks) {
+  Server server;
+  serve(ranks, [&](Unpacker& request, Packer& answer) { server.answer(request, answer); });
 }
 
 }  // namespace cleft

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "encoder/command/ranks.h"
+#include "base/ranks/ranks.h"
 #include "encoder/node_values.h"
 #include "encoder/node_work.h"
 
@@ -26,8 +26,6 @@ class SpreadNodes : public NodeWork {
 
  private:
   std::size_t first_block(int rank) const;
-  template <class OfRank, class Take>
-  void on_all(const Bytes& request, const OfRank& here, const Take& take) const;
 
   const Ranks& ranks_;
   std::size_t block_, blocks_, frames_;
@@ -45,18 +43,7 @@ inline auto spread_over(const Ranks& ranks) {
 }
 
 /// What all ranks but the first do as long as its OtherRanks live.
-void serve(const Ranks& ranks);
-
-class OtherRanks {
- public:
-  explicit OtherRanks(const Ranks& ranks) : ranks_(ranks) {}
-  ~OtherRanks();
-  OtherRanks(const OtherRanks&) = delete;
-  OtherRanks& operator=(const OtherRanks&) = delete;
-
- private:
-  const Ranks& ranks_;
-};
+void serve_nodes(const Ranks& ranks);
 
 /// Reads a series' fields for work in this process.
 NodeWorkHere::Read reading(std::shared_ptr<const NodeValues> values);

@@ -1,11 +1,13 @@
 // cleft decode: a field as the series that it was made from.
 #include <filesystem>
+#include <iostream>
 
 #include "base/command/command.h"
 #include "base/error.h"
+#include "base/ranks/other_ranks.h"
 #include "base/text.h"
 #include "encoder/field/file/field_file.h"
-#include "encoder/import/decode_series.h"
+#include "encoder/import/decoded_vtu.h"
 #include "encoder/import/frame_files.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -28,11 +30,17 @@ SourceMesh mesh_of(const Snapshot& s) {
   return {s.points_in_source(), s.cell_types, s.cell_offsets, s.connectivity};
 }
 
+FramesInTurn turn_of(const Ranks& ranks) {
+  return {static_cast<std::size_t>(ranks.rank()), static_cast<std::size_t>(ranks.count())};
+}
+
 struct Task {
   std::string file, on, nodes, out;
 };
 
-void decode_pieces(const Task& task, const std::function<void(const std::string&)>& progress) {
+using Use = std::function<void(const DecodedNodes&, const SourceMesh&)>;
+
+void decode_pieces(const Task& task, const Use& use) {
   std::vector<FieldPiece> kept = read_pieces(task.file);
   SourceMesh mesh;
   std::vector<NodesOfPiece> nodes;
@@ -51,10 +59,10 @@ void decode_pieces(const Task& task, const std::function<void(const std::string&
   }
   const PiecesAtNodes pieces(std::move(kept), std::move(nodes),
                              places_inside_cells(mesh.points, mesh.cell_offsets, mesh.connectivity), frames);
-  write_decoded(decoded_at(pieces), mesh, task.out, progress);
+  use(decoded_at(pieces), mesh);
 }
 
-void decode_field(const Task& task, const std::function<void(const std::string&)>& progress) {
+void decode_field(const Task& task, const Use& use) {
   const Field field = read_field(task.file);
   KeptField kept{&field, {}, {}};
   SourceMesh mesh;
@@ -81,16 +89,56 @@ void decode_field(const Task& task, const std::function<void(const std::string&)
     mesh = mesh_of(task.on);
     nodes = nodes_in_field(mesh, field);
   }
-  write_decoded(decoded_at(kept, nodes), mesh, task.out, progress);
+  use(decoded_at(kept, nodes), mesh);
+}
+
+void decode(const Task& task, const Use& use) {
+  (pieces_in(task.file) > 0 ? decode_pieces : decode_field)(task, use);
+}
+
+Packer request_of(const Task& task, const std::string& folder) {
+  Packer request;
+  for (const std::string& path : {task.file, task.on, task.nodes, folder})
+    request.add(path.empty() ? path : std::filesystem::absolute(path).string());
+  return request;
+}
+
+/// Its frames of the series, in a process that serves.
+void decode_in_turn(const Ranks& ranks, Unpacker& request) {
+  Task task;
+  for (std::string* path : {&task.file, &task.on, &task.nodes}) *path = request.take_text();
+  const std::string folder = request.take_text();
+  decode(task, [&](const DecodedNodes& decoded, const SourceMesh& mesh) {
+    write_frames(decoded, mesh, turn_of(ranks), folder, [](const std::string&) {});
+  });
+}
+
+void write_series(const Task& task, const Ranks& ranks,
+                  const std::function<void(const std::string&)>& progress) {
+  DecodedVtu series(task.out);
+  std::vector<double> times;
+  const auto write = [&](const DecodedNodes& decoded, const SourceMesh& mesh) {
+    write_frames(decoded, mesh, turn_of(ranks), series.folder(), progress);
+    times = times_of(*decoded.first);
+  };
+  on_all_ranks(
+      ranks, request_of(task, series.folder()).bytes(), [&] { decode(task, write); }, [](int, Unpacker&) {});
+  series.commit(times);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  const Ranks ranks(argc, argv);
+  if (ranks.rank() > 0) {
+    serve(ranks, [&](Unpacker& request, Packer&) { decode_in_turn(ranks, request); });
+    return 0;
+  }
+  const OtherRanks others(ranks);
   CommandLine app(
       "Writes a field as a series of .vtu files, or as one VTKHDF file, in the axes, names and times of the "
       "one "
-      "it was made from.",
+      "it was made from. Under mpirun or srun the processes share the .vtu files.",
       "cleft decode");
   Task task;
   app.add_option("CASE.dffd", task.file, "field")->required();
@@ -110,9 +158,17 @@ int main(int argc, char** argv) {
   return run_command(app, argc, argv, [&] {
     if (task.on.empty() && task.nodes.empty())
       throw InputError("cleft decode needs a mesh: --on MESH.vtu, or --nodes CASE.h5");
+    ranks.check();
+    const bool one_file = std::filesystem::path(task.out).extension() == ".vtkhdf";
+    if (one_file && ranks.count() > 1)
+      std::cerr << "cleft decode: warning: " << one_works(ranks, "writes " + task.out)
+                << ": only the frames of a .pvd are shared\n";
     Progress bar("decoding");
     bar("reading");
     const auto progress = [&](const std::string& state) { bar(state); };
-    (pieces_in(task.file) > 0 ? decode_pieces : decode_field)(task, progress);
+    if (!one_file) return write_series(task, ranks, progress);
+    decode(task, [&](const DecodedNodes& decoded, const SourceMesh& mesh) {
+      write_vtkhdf(decoded, mesh, task.out, progress);
+    });
   });
 }

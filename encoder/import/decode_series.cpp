@@ -1,33 +1,18 @@
 #include "encoder/import/decode_series.h"
 
-#include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/output_file.h"
-#include "base/output_folder.h"
 #include "base/parallel.h"
 #include "base/text.h"
-#include "base/vtk_listener.h"
 #include "encoder/field/at_time.h"
 #include "encoder/field/quantity_fields.h"
 #include "encoder/import/decoded_vtkhdf.h"
-#include "encoder/import/vtk_frames.h"
 
 namespace cleft {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -45,83 +30,6 @@ std::string name_there(const FieldSource& source, const std::string& name) {
   for (const std::string& field : source.fields)
     if (const SourceName one(field); one.here == name) return one.there;
   return name;
-}
-
-struct Values {
-  std::string name;
-  int components;
-  std::vector<double> numbers;
-};
-
-/// All fields at the nodes, at the time of a frame, in the source's axes.
-std::vector<Values> values_at(const DecodedNodes& decoded, const FieldSource& source, std::size_t frame,
-                              double t) {
-  const Field& field = *decoded.first;
-  std::vector<Values> all;
-  Values start;
-  for (std::size_t q = 0; q < field.quantities.size(); ++q) {
-    Values values{field.quantities[q].name, field.quantities[q].components, decoded.quantity(q, t, frame)};
-    if (values.name == at_start)
-      start = std::move(values);
-    else
-      all.push_back(std::move(values));
-  }
-  if (field.report.largest_displacement > 0 || !start.numbers.empty() || all.empty()) {
-    Values displacement{"displacement", 3, {}};
-    const std::vector<Vec3> d = decoded.displacement(t, frame);
-    displacement.numbers.reserve(3 * d.size());
-    for (std::size_t n = 0; n < d.size(); ++n)
-      for (int c = 0; c < 3; ++c) {
-        const std::size_t i = 3 * n + static_cast<std::size_t>(c);
-        displacement.numbers.push_back(d[n][c] + (start.numbers.empty() ? 0 : start.numbers[i]));
-      }
-    all.insert(all.begin(), std::move(displacement));
-  }
-  const AxesInSpace to_source = axes_between(source.axes, same_axes);
-  for (Values& values : all) {
-    turn(values.numbers, values.components, to_source);
-    values.name = name_there(source, values.name);
-  }
-  return all;
-}
-
-/// The mesh once, and every frame's values beside each other.
-void write_vtkhdf(const DecodedNodes& decoded, const SourceMesh& mesh, const FieldSource& source,
-                  const std::vector<double>& times, const std::string& out,
-                  const std::function<void(const std::string&)>& progress) {
-  OutputFile file(out);
-  DecodedVtkHdf series(file.path(), mesh, times);
-  for (std::size_t j = 0; j < times.size(); ++j) {
-    progress("writing frame " + std::to_string(j + 1) + " of " + std::to_string(times.size()));
-    for (const Values& values : values_at(decoded, source, j, times[j] - times.front()))
-      series.write(j, values.name, values.components, values.numbers);
-  }
-  series.close();
-  file.commit();
-}
-
-/// Times of the frames, in the source.
-std::vector<double> times_of(const Field& field, const FieldSource& source) {
-  if (!source.times.empty()) return source.times;
-  std::vector<double> times;
-  const auto frames = static_cast<int>(std::max(2., field.report.frames));
-  times.reserve(static_cast<std::size_t>(frames));
-  for (int j = 0; j < frames; ++j) times.push_back(field.duration() * j / (frames - 1));
-  return times;
-}
-
-void write_frame(vtkUnstructuredGrid* grid, const std::vector<Values>& all, const std::string& path) {
-  for (const Values& values : all) {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(values.name.c_str());
-    array->SetNumberOfComponents(values.components);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(values.numbers.size()) / values.components);
-    std::copy(values.numbers.begin(), values.numbers.end(), array->GetPointer(0));
-    grid->GetPointData()->AddArray(array);
-  }
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetCompressionLevel(1);  // most of the time is the compressor's
-  write_text_file(path, xml_of(writer.Get(), grid, path));
 }
 
 /// Calls work(first, last) for ranges of so many nodes, on all cores.
@@ -243,34 +151,66 @@ DecodedNodes decoded_at(const PiecesAtNodes& pieces) {
           [&](std::size_t q, double t, std::size_t frame) { return pieces.quantity(q, t, frame); }};
 }
 
-void write_decoded(const DecodedNodes& decoded, const SourceMesh& mesh, const std::string& out,
-                   const std::function<void(const std::string&)>& progress) {
-  const FieldSource source = source_of(*decoded.first);
-  const std::vector<double> times = times_of(*decoded.first, source);
-  const bool one_file = fs::path(out).extension() == ".vtkhdf";
-  const fs::path pvd = fs::path(out).replace_extension(".pvd"), folder = fs::path(out).replace_extension("");
-  for (const fs::path& path : one_file ? std::vector<fs::path>{out} : std::vector<fs::path>{pvd, folder})
-    if (fs::exists(path)) throw InputError(path.string() + " exists: remove it, or give another name");
-  if (one_file) return write_vtkhdf(decoded, mesh, source, times, out, progress);
-  const std::string name = folder.filename().string();
-  OutputFolder place(folder.has_parent_path() ? folder.parent_path().string() : ".", name);
-  const fs::path frames = fs::path(place.path()) / name;
-  fs::create_directory(frames);
-  std::ostringstream list;
-  list << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
-          "byte_order=\"LittleEndian\">\n<Collection>\n";
-  const auto grid = grid_of(mesh);
+std::vector<double> times_of(const Field& field) {
+  if (field.source && !field.source->times.empty()) return field.source->times;
+  std::vector<double> times;
+  const auto frames = static_cast<int>(std::max(2., field.report.frames));
+  times.reserve(static_cast<std::size_t>(frames));
+  for (int j = 0; j < frames; ++j) times.push_back(field.duration() * j / (frames - 1));
+  return times;
+}
+
+std::vector<DecodedValues> values_at(const DecodedNodes& decoded, std::size_t frame) {
+  const Field& field = *decoded.first;
+  const FieldSource source = source_of(field);
+  const std::vector<double> times = times_of(field);
+  const double t = times[frame] - times.front();
+  std::vector<DecodedValues> all;
+  DecodedValues start;
+  for (std::size_t q = 0; q < field.quantities.size(); ++q) {
+    DecodedValues values{field.quantities[q].name, field.quantities[q].components,
+                         decoded.quantity(q, t, frame)};
+    if (values.name == at_start)
+      start = std::move(values);
+    else
+      all.push_back(std::move(values));
+  }
+  if (field.report.largest_displacement > 0 || !start.numbers.empty() || all.empty()) {
+    DecodedValues displacement{"displacement", 3, {}};
+    const std::vector<Vec3> d = decoded.displacement(t, frame);
+    displacement.numbers.reserve(3 * d.size());
+    for (std::size_t n = 0; n < d.size(); ++n)
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t i = 3 * n + static_cast<std::size_t>(c);
+        displacement.numbers.push_back(d[n][c] + (start.numbers.empty() ? 0 : start.numbers[i]));
+      }
+    all.insert(all.begin(), std::move(displacement));
+  }
+  const AxesInSpace to_source = axes_between(source.axes, same_axes);
+  for (DecodedValues& values : all) {
+    turn(values.numbers, values.components, to_source);
+    values.name = name_there(source, values.name);
+  }
+  return all;
+}
+
+void refuse_existing(const std::string& path) {
+  if (std::filesystem::exists(path)) throw InputError(path + " exists: remove it, or give another name");
+}
+
+void write_vtkhdf(const DecodedNodes& decoded, const SourceMesh& mesh, const std::string& out,
+                  const std::function<void(const std::string&)>& progress) {
+  refuse_existing(out);
+  const std::vector<double> times = times_of(*decoded.first);
+  OutputFile file(out);
+  DecodedVtkHdf series(file.path(), mesh, times);
   for (std::size_t j = 0; j < times.size(); ++j) {
     progress("writing frame " + std::to_string(j + 1) + " of " + std::to_string(times.size()));
-    std::ostringstream frame;
-    frame << "frame_" << std::setw(4) << std::setfill('0') << j << ".vtu";
-    write_frame(grid, values_at(decoded, source, j, times[j] - times.front()), frames / frame.str());
-    list << "<DataSet timestep=\"" << shortest(times[j]) << "\" part=\"0\" file=\""
-         << (folder.filename() / frame.str()).string() << "\"/>\n";
+    for (const DecodedValues& values : values_at(decoded, j))
+      series.write(j, values.name, values.components, values.numbers);
   }
-  list << "</Collection>\n</VTKFile>\n";
-  write_text_file((fs::path(place.path()) / pvd.filename()).string(), list.str());
-  place.commit({name, pvd.filename().string()});
+  series.close();
+  file.commit();
 }
 
 }  // namespace cleft

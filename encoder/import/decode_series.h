@@ -37,10 +37,25 @@ struct KeptField {
 DecodedNodes decoded_at(const KeptField& kept, const std::vector<Place>& nodes);
 DecodedNodes decoded_at(const PiecesAtNodes& pieces);
 
-/// Writes OUT.pvd and OUT/frame_0000.vtu, ..., or OUT.vtkhdf where `out` ends so: the displacement with what
-/// it was in frame 0, and all quantities, in the source's axes, names and times. Throws InputError if one of
-/// them exists.
-void write_decoded(const DecodedNodes& decoded, const SourceMesh& mesh, const std::string& out,
-                   const std::function<void(const std::string&)>& progress);
+/// A field at the nodes: its name in the source, and numbers node by node.
+struct DecodedValues {
+  std::string name;
+  int components;
+  std::vector<double> numbers;
+};
+
+/// Times of the frames, in the source.
+std::vector<double> times_of(const Field& field);
+/// All fields in a frame, in the source's axes: the displacement with what it was in frame 0, and all
+/// quantities.
+std::vector<DecodedValues> values_at(const DecodedNodes& decoded, std::size_t frame);
+
+/// Throws InputError if there is such a file or folder.
+void refuse_existing(const std::string& path);
+
+/// Writes the series as one .vtkhdf: the mesh once, and every frame's values beside each other. Throws
+/// InputError if the file exists.
+void write_vtkhdf(const DecodedNodes& decoded, const SourceMesh& mesh, const std::string& out,
+                  const std::function<void(const std::string&)>& progress);
 
 }  // namespace cleft

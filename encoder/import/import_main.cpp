@@ -1,8 +1,10 @@
 // cleft import: another program's time series to a snapshot.
+#include <iostream>
 #include <map>
 
 #include "base/command/command.h"
 #include "base/error.h"
+#include "base/ranks/other_ranks.h"
 #include "encoder/import/import_series.h"
 
 using namespace cleft;
@@ -38,6 +40,12 @@ Json figures_of(const ImportReport& report) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const Ranks ranks(argc, argv);
+  if (ranks.rank() > 0) {
+    serve(ranks, {});
+    return 0;
+  }
+  const OtherRanks others(ranks);
   CommandLine app("Takes another program's time series as a snapshot, and finds its discontinuity.",
                   "cleft import");
   ImportOptions o;
@@ -80,6 +88,9 @@ int main(int argc, char** argv) {
   app.add_flag("--json", json, "print the figures as JSON");
 
   return run_command(app, argc, argv, [&] {
+    ranks.check();
+    if (ranks.count() > 1)
+      std::cerr << "cleft import: warning: " << one_works(ranks, "imports the series") << "\n";
     if (app.count("--break") > 0) o.break_plane = plane;
     if (app.count("--open-at") > 0) o.open_at = open_at;
     o.box = boxes.at(box);

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/ranks/other_ranks.h"
 #include "encoder/at_nodes.h"
 #include "encoder/encode.h"
 #include "tests/encoder/bent_snapshot.h"
@@ -110,7 +111,7 @@ int main(int argc, char** argv) {
   const cleft::Ranks ranks(argc, argv);
   cleft::all_ranks = &ranks;
   if (ranks.rank() > 0) {
-    cleft::serve(ranks);
+    cleft::serve_nodes(ranks);
     return 0;
   }
   const cleft::OtherRanks others(ranks);

@@ -12,6 +12,7 @@ parts=$(cat <<'PARTS'
 base:base
 base/command:base
 base/h5:base
+base/ranks:base
 params:base|params/parameters
 params/parameters:base
 params/material:base
@@ -19,13 +20,13 @@ params/run:base|base/command|params|params/parameters
 solver/snapshot:base|base/h5|params/parameters
 solver/body:base|base/h5|params
 solver/multigrid:base
-solver:base|base/command|base/h5|params|params/parameters|params/material|solver/snapshot|solver/body|solver/multigrid
+solver:base|base/command|base/h5|base/ranks|params|params/parameters|params/material|solver/snapshot|solver/body|solver/multigrid
 encoder/field:base|params/parameters
 encoder/field/file:base|base/h5|encoder/field|params/parameters
 encoder:base|base/command|base/h5|params|params/parameters|encoder/field|encoder/field/file|solver/snapshot
-encoder/import:base|base/command|base/h5|solver/snapshot|params/parameters|encoder/field|encoder/field/file
+encoder/import:base|base/command|base/h5|base/ranks|solver/snapshot|params/parameters|encoder/field|encoder/field/file
 encoder/interpolate:base|base/command|encoder/field|encoder/field/file|params|params/parameters
-encoder/command:base|base/command|base/h5|params|params/parameters|encoder|encoder/field|encoder/field/file|solver/snapshot
+encoder/command:base|base/command|base/h5|base/ranks|params|params/parameters|encoder|encoder/field|encoder/field/file|solver/snapshot
 encoder/modes:base|base/command|encoder/field|encoder/field/file|encoder/interpolate|params|params/parameters
 haptic:base|encoder/field|params/parameters
 haptic/devices:base|haptic
@@ -69,7 +70,7 @@ forbid() {
   [ -z "$found" ] || complain "$*" "$name" "$found"
 }
 forbid "deal.II or Trilinos" 'deal\.II/|Epetra|ml_|Teuchos|dmumps' base params solver/snapshot encoder haptic explorer tradeoff cli examples python
-except='encoder/command/ranks\.cpp:' forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer tradeoff cli examples python
+except='base/ranks/ranks\.cpp:' forbid "MPI" 'mpi\.h' base params solver/snapshot encoder haptic explorer tradeoff cli examples python
 except='encoder/import/|base/vtk_listener\.h:' forbid "VTK or Qt" 'vtk|Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session explorer/io/formats tradeoff cli python
 forbid "Qt" 'Q[A-Z]' base params solver encoder haptic explorer/incision explorer/study explorer/wound explorer/scalpel explorer/scene explorer/session explorer/io explorer/view tradeoff cli examples
 forbid "Eigen" 'Eigen/' base params encoder/field haptic

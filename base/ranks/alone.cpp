@@ -1,7 +1,7 @@
 // Ranks in a build without MPI: this process is the only one.
 #include <stdexcept>
 
-#include "encoder/command/ranks.h"
+#include "base/ranks/ranks.h"
 
 namespace cleft {
 

@@ -1,17 +1,15 @@
-#include "encoder/command/ranks.h"
+#include "base/ranks/ranks.h"
 
 #include <mpi.h>
-#include <sys/prctl.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <thread>
 
 #include "base/error.h"
+#include "base/ranks/launcher.h"
 
 namespace cleft {
 
@@ -19,14 +17,6 @@ namespace {
 
 constexpr std::size_t at_once = std::size_t{1} << 30;  // bytes: MPI counts with an int
 enum Tag { size_tag, bytes_tag };
-
-/// How many processes the launcher says that it has started.
-int started_together() {
-  int most = 1;
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
-    if (const char* count = std::getenv(name)) most = std::max(most, std::atoi(count));
-  return most;
-}
 
 /// MPI's own waiting would take a processor from the threads of the process that works.
 void wait_for(int from, int tag) {
@@ -45,7 +35,7 @@ void wait_for(int from, int tag) {
 Ranks::Ranks(int& argc, char**& argv) {
   started_ = started_together();
   if (started_ == 1) return;
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a launcher that is killed leaves no rank behind
+  end_with_launcher();
   MPI_Init(&argc, &argv);
   begun_ = true;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);

@@ -7,8 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "encoder/command/ranks.h"
-#include "encoder/field/field.h"
+#include "base/ranks/ranks.h"
 
 namespace cleft {
 
@@ -30,7 +29,6 @@ class Packer {
     add(std::span<const T>(values));
   }
   void add(const std::string& text) { add(std::span<const char>(text)); }
-  void add(const Field& field);
 
   const Bytes& bytes() const { return bytes_; }
 
@@ -61,8 +59,6 @@ class Unpacker {
     const std::vector<char> text = take_list<char>();
     return {text.begin(), text.end()};
   }
-  /// Its spline: without what else a field holds.
-  Field take_field();
 
  private:
   void copy(void* to, std::size_t size) {
