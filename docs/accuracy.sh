@@ -81,9 +81,10 @@ which no finer one exceeds it:
   it expects 0.6 to 3.3 times the error, and less than it only once (1.3 for 2.0 %).
 
 So the defaults, and what \`cleft advise\` chooses from (linear elements that grow by 1.3), are right for errors
-of 2 % and more. For less \`cleft advise\` takes elements that grow by 1.15. Quadratic elements would be worth
-their while there, and are not in the solver: its multigrid, bodies, finite strains and snapshots are of
-linear ones.
+of 2 % and more. For less \`cleft advise\` takes elements that grow by 1.15. Quadratic elements
+are worth their while there: \`mesh.elements = "quadratic"\` ([manual](architecture.md#22-the-growing-cut)).
+\`cleft advise\` does not choose them so far; they are for straight, upright cuts, and not for bodies, finite
+strains and iterations.
 Singular functions were tried at the nodes of the front alone, not within a radius of it; frames in the middle
-of the cut were not compared.
+of the cut were not compared with them.
 PAGE

@@ -24,8 +24,9 @@ constexpr std::size_t most_models = 3;
 /// Names that advice sets, which no study may vary.
 std::vector<std::string> advised_names() {
   const Parameters p;
-  return {row_of(p, p.mesh.element_size).name, row_of(p, p.mesh.grading).name, row_of(p, p.patch.length).name,
-          row_of(p, p.patch.width).name, row_of(p, p.cut.frames).name};
+  return {row_of(p, p.mesh.element_size).name, row_of(p, p.mesh.grading).name,
+          row_of(p, p.patch.length).name,      row_of(p, p.patch.width).name,
+          row_of(p, p.cut.frames).name,        row_of(p, p.mesh.elements).name};
 }
 
 /// The first, the middle and the last case: of a grid its corners.
@@ -183,6 +184,8 @@ int main(int argc, char** argv) {
           {row_of(p, p.patch.width).name, p.patch.width}};
       if (study.base.parameters.cut.frames != p.cut.frames)
         chosen.emplace_back(row_of(p, p.cut.frames).name, text_of(p, p.cut.frames));
+      if (study.base.parameters.mesh.elements != p.mesh.elements)
+        chosen.emplace_back(row_of(p, p.mesh.elements).name, text_of(p, p.mesh.elements));
       if (study.base.parameters.model != p.model)
         chosen.emplace_back(row_of(p, p.model).name, text_of(p, p.model));
       write_text_file(out, with_settings(study, chosen, setting.tolerance));
