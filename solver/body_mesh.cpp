@@ -47,6 +47,7 @@ void check_body_case(const Body& body, const Parameters& p, const std::string& w
   };
   if (p.skin.bending_stiffness > 0)
     refuse(p.skin.bending_stiffness, "no bending of its skin yet; set it to 0");
+  if (p.mesh.elements == ElementOrder::quadratic) refuse(p.mesh.elements, "linear ones; set it to linear");
   if (p.skin.edges == SkinEdges::free) refuse(p.skin.edges, "held edges: the skin goes on; set it to held");
   if (p.tissue.prestress_share > 0)
     refuse(p.tissue.prestress_share, "no prestress of its tissue yet; set it to 0");

@@ -156,7 +156,9 @@ void PatchElements::distribute_unknowns() {
     cell->get_dof_indices(indices);
     for (int a = 0; a < nodes_of_cell(); ++a) {
       const Vec3& at = mesh.points[nodes[a]];
-      const Point<3> place = mapping.transform_unit_to_real_cell(cell, element.unit_support_point(3 * a));
+      const Point<3> place =
+          a < 6 ? cell->vertex(a)
+                : mapping.transform_unit_to_real_cell(cell, element.unit_support_point(3 * a));
       CLEFT_CHECK(place.distance({at.x, at.y, at.z}), <, rounding);
       known[nodes[a]] = static_cast<int>(indices[3 * a]);
       CLEFT_CHECK(indices[3 * a + 2], ==, indices[3 * a] + 2);

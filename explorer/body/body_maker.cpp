@@ -66,6 +66,8 @@ class Maker {
 
  private:
   void check_size() const {
+    if (p_.mesh.elements == ElementOrder::quadratic)
+      throw InputError("mesh.elements = quadratic: a body has linear ones; set it to linear");
     double length = 0;
     for (const ScalpelPath& path : r_.paths) length += path.length();
     if (const double size = p_.mesh.element_size; length > most_columns * size)
