@@ -23,7 +23,8 @@ namespace {
 constexpr double share_of_space = 0.9;      // of the tolerance, for fits of single frames
 constexpr int most_tries = 6;               // of finer knots for an arm of a break
 constexpr double worth_of_kinks = 0.75;     // what they must make of an error, since they take more bytes
-constexpr double greatest_condition = 1e5;  // of what nodes determine well; mostly 1e3 to 3e4
+constexpr double greatest_condition = 1e6;  // of what nodes determine well; mostly 1e3 to 1e5
+constexpr std::size_t most_fewer = 2;       // rungs, for a better condition
 
 class Encoder {
  public:
@@ -54,7 +55,14 @@ class Encoder {
     progress_("fitting all frames");
     auto fitted = fitted_on(rungs[rung]);
     // Where knots next to the front are nearer to each other than nodes, the spline is free between them.
-    while (fitted->condition() > greatest_condition && rung > 0) fitted = fitted_on(rungs[--rung]);
+    // (Nodes in one plane determine no rung well.)
+    for (std::size_t fewer = 1;
+         fewer <= most_fewer && fewer <= rung && fitted->condition() > greatest_condition; ++fewer) {
+      auto coarser = fitted_on(rungs[rung - fewer]);
+      if (coarser->condition() > greatest_condition) continue;
+      rung -= fewer, fitted = std::move(coarser);
+      break;
+    }
     Misfit misfit = fitted->misfit(share_of_fit * limit_);
     Rung chosen = rungs[rung];
     const auto try_instead = [&](const Rung& other, double worth) {

@@ -25,7 +25,9 @@ class Releaser {
     // If the ends of the case are half-way between nodes, rounding must not leave it without a node to open.
     const std::vector<double>& lines = mesh.lines_along[0];
     const auto& [along, depth, branch] = mesh.fronts;
-    const std::size_t most = (lines.size() - 1 - lines_) / 2 / lines_ * lines_;
+    const std::size_t elements = (lines.size() - 1) / lines_,
+                      fewest = lines_ == 2 ? 1 : 2;  // with a node to open
+    const std::size_t most = (elements - fewest) / 2 * lines_;
     const std::size_t skipped = std::min(nearest(lines, -p.cut.length / 2 - along, lines_), most);
     first_ = lines[skipped], last_ = lines[lines.size() - 1 - skipped];
     lowest_ = mesh.lines_depth[std::max(lines_, nearest(mesh.lines_depth, p.cut.depth + depth, lines_))];

@@ -182,6 +182,19 @@ TEST(QuadraticElements, OpeningsGrowSmoothlyFromFrameToFrame) {
   }
 }
 
+TEST(QuadraticElements, AMeshOfALongerCutOpensToTheCornersNearestToItsEnds) {
+  Parameters p = quadratic();
+  p.mesh.cut_length = 6, p.mesh.cut_depth = 2;
+  for (const auto& [length, elements] : {std::pair(5.9, 6.), {4.2, 4.}, {2.1, 2.}}) {
+    p.cut.length = length;
+    const PatchMesh mesh = make_patch_mesh(p);
+    const Release release = make_release(mesh, p);
+    EXPECT_DOUBLE_EQ(release.length, elements);
+    EXPECT_DOUBLE_EQ(release.times.back(), elements);
+    EXPECT_EQ(release.released.size(), static_cast<std::size_t>(2 * elements));
+  }
+}
+
 TEST(QuadraticElements, RefuseWhatTheyAreNotMadeFor) {
   Parameters p = quadratic(Parameters());
   EXPECT_EQ(refusal_of(p), "");
