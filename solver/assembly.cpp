@@ -109,13 +109,14 @@ void add_quadratic_skin(const SkinMaterial& skin, bool initial_stress_stiffness,
           v * axes.col(0).transpose() + u * axes.col(1).transpose();
     }
     const Eigen::MatrixXd k = volume * strain.transpose() * skin.elasticity * strain;
-    const Eigen::MatrixXd geometric = volume * gradients.transpose() * skin.prestress * gradients;
     for (unsigned a = 0; a < unknowns; ++a) {
       for (unsigned d = 0; d < 3; ++d) cell_loads(a, d) -= volume * strain(d, a);
       for (unsigned b = 0; b < unknowns; ++b) cell_matrix(a, b) += k(a, b);
-      if (initial_stress_stiffness)
-        for (unsigned b = a % 3; b < unknowns; b += 3) cell_matrix(a, b) += geometric(a / 3, b / 3);
     }
+    if (!initial_stress_stiffness) continue;
+    const Eigen::MatrixXd geometric = volume * gradients.transpose() * skin.prestress * gradients;
+    for (unsigned a = 0; a < unknowns; ++a)
+      for (unsigned b = a % 3; b < unknowns; b += 3) cell_matrix(a, b) += geometric(a / 3, b / 3);
   }
 }
 
@@ -127,8 +128,8 @@ void for_shares_of_faces(const Share& share) {
   for (unsigned f = 0; f < wedge_quads.size(); ++f)
     for (unsigned d = 0; d < 3; ++d) {
       const unsigned own = first_of_faces + 3 * f + d;
-      for (const int corner : wedge_quads[f]) share(own, 3 * corner + d, -0.25);
-      for (const int side : sides_of_quad[f]) share(own, first_of_edges + 3 * side + d, 0.5);
+      for (const int corner : wedge_quads[f]) share(own, 3 * corner + d, part_of_corner);
+      for (const int side : sides_of_quad[f]) share(own, first_of_edges + 3 * side + d, part_of_side);
     }
 }
 

@@ -135,7 +135,7 @@ class ColumnDissection {
 
 std::vector<int> dissected(const PatchMesh& mesh) {
   return mesh.is_body() ? ColumnDissection(mesh).order()
-                        : Dissection(mesh.grid, mesh.is_quadratic() ? 2 : 1).order();
+                        : Dissection(mesh.grid, mesh.lines_of_element()).order();
 }
 
 }  // namespace

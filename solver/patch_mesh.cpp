@@ -203,6 +203,7 @@ std::vector<bool> in_faces(const PatchMesh& mesh) {
 }
 
 void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values) {
+  if (!mesh.is_quadratic()) return;
   for (std::size_t e = 0; e < mesh.middles.size(); ++e)
     for (std::size_t f = 0; f < wedge_quads.size(); ++f) {
       // Opposite ones are added first: elements on either side of a face get the same bits.
@@ -210,10 +211,9 @@ void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values) {
         const auto at = [&](int k) { return values[nodes[around[k]]]; };
         return (at(0) + at(2)) + (at(1) + at(3));
       };
-      values[mesh.middles[e].faces[f]] = 0.5 * sum(sides_of_quad[f], mesh.middles[e].edges) -
-                                         0.25 * sum(wedge_quads[f], mesh.quadratic.wedges[e]);
+      values[mesh.middles[e].faces[f]] = part_of_side * sum(sides_of_quad[f], mesh.middles[e].edges) +
+                                         part_of_corner * sum(wedge_quads[f], mesh.quadratic.wedges[e]);
     }
-  if (!mesh.is_quadratic()) return;
   const std::vector<bool> in_face = in_faces(mesh);
   for (std::size_t p = 1; p < mesh.pairs.size(); ++p) {
     const NodePair &pair = mesh.pairs[p], &above = mesh.pairs[p - 1];

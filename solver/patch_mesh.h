@@ -67,6 +67,7 @@ struct PatchMesh : WedgeCells {
   WedgeCells quadratic;
   std::vector<WedgeMiddles> middles;  ///< by quadratic.wedges
   bool is_quadratic() const { return !middles.empty(); }
+  int lines_of_element() const { return is_quadratic() ? 2 : 1; }  ///< from one of its sides to the opposite
   const WedgeCells& elements() const { return is_quadratic() ? quadratic : *this; }
 
   /// Of a body (solver/body_mesh.h), which has no lines and no grid, and of a shaped patch; else empty.
@@ -105,9 +106,12 @@ PatchMesh make_patch_mesh(const Parameters& parameters);
 /// By node: whether it is in the middle of a quadratic element's upright face, and has no unknowns.
 std::vector<bool> in_faces(const PatchMesh& mesh);
 
+/// What the nodes around a quadratic element's upright face give to that in its middle: each corner, and the
+/// middle of each side.
+inline constexpr double part_of_corner = -0.25, part_of_side = 0.5;
+
 /// Gives the nodes in the middle of quadratic elements' upright faces the values that the other eight nodes
-/// of the face determine: half the sum of those at the middles of its sides, less a quarter of those at its
-/// corners. Pairs in a column that is closed stay together.
+/// of the face determine. Pairs in a column that is closed stay together.
 void fill_faces(const PatchMesh& mesh, std::vector<Vec3>& values);
 
 /// Whether square (i, j), counted along u and v from the first cut's start, is halved by the diagonal that

@@ -20,8 +20,7 @@ std::size_t nearest(const std::vector<double>& lines, double place, std::size_t 
 /// Opens the incisions of a mesh one after the other.
 class Releaser {
  public:
-  Releaser(const PatchMesh& mesh, const Parameters& p)
-      : mesh_(mesh), p_(p), lines_(mesh.is_quadratic() ? 2 : 1) {
+  Releaser(const PatchMesh& mesh, const Parameters& p) : mesh_(mesh), p_(p), lines_(mesh.lines_of_element()) {
     // If the ends of the case are half-way between nodes, rounding must not leave it without a node to open.
     const std::vector<double>& lines = mesh.lines_along[0];
     const auto& [along, depth, branch] = mesh.fronts;
