@@ -46,8 +46,9 @@ FitStore::FitStore(const Series& series, std::shared_ptr<const Parametrization> 
 
 bool FitStore::serves(const Series& series) const {
   return series.nodes == series_.nodes && series.times == series_.times && series.arm == series_.arm &&
-         series.round == series_.round && equal(series.geometry, series_.geometry) &&
-         equal(series.samples, series_.samples) && equal(series.centres, series_.centres);
+         series.round == series_.round && series.quadratic == series_.quadratic &&
+         equal(series.geometry, series_.geometry) && equal(series.samples, series_.samples) &&
+         equal(series.centres, series_.centres);
 }
 
 template <class Matrix, class Make>

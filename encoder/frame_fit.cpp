@@ -73,7 +73,9 @@ void FrameFit::add_group(const std::vector<std::size_t>& cells, std::vector<bool
   if (cells.empty()) return;
   CellCentres centres = series_.centres.only(cells);
   SpaceFit fit(parametrization_, bases_, centres.samples);
-  groups_.push_back({std::move(centres), std::move(fit), std::move(of_frame)});
+  std::optional<FrontCentres> fronts;
+  if (series_.quadratic) fronts.emplace(centres, series_.samples, series_.pairs);
+  groups_.push_back({std::move(centres), std::move(fit), std::move(of_frame), std::move(fronts)});
 }
 
 SpaceFit::Normal FrameFit::normal(std::size_t frame, double strength) const {
@@ -89,7 +91,14 @@ Eigen::MatrixX3d FrameFit::project(std::size_t frame, const Eigen::Ref<const Eig
   const double t = series_.times[frame];
   Eigen::MatrixX3d sum = nodes_.project(d, t);
   for (const Group& group : groups_)
-    if (group.of_frame[frame]) sum += group.fit.project(group.centres.mean(d), t);
+    if (group.of_frame[frame]) {
+      Eigen::MatrixX3d means = group.centres.mean(d);
+      if (group.fronts) {
+        const double start = series_.geometry.cut.start;
+        group.fronts->correct(means, d, {start, start + t});
+      }
+      sum += group.fit.project(means, t);
+    }
   return sum;
 }
 

@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "encoder/front_centres.h"
 #include "encoder/series.h"
 #include "encoder/space_fit.h"
 
@@ -35,6 +37,7 @@ class FrameFit {
     CellCentres centres;
     SpaceFit fit;
     std::vector<bool> of_frame;
+    std::optional<FrontCentres> fronts;  // of quadratic elements
   };
   void add_group(const std::vector<std::size_t>& cells, std::vector<bool> of_frame);
 

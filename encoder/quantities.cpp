@@ -12,7 +12,7 @@ namespace cleft {
 
 namespace {
 
-constexpr int at_once = 3;  // components that are fitted and coded together
+constexpr int components_at_once = 3;  // components that are fitted and coded together
 
 NodeSpline stepped(const NodeSpline& spline, double step) {
   NodeSpline result{spline.field, spline.components, {}};
@@ -25,7 +25,7 @@ std::vector<double> coefficients_of(const NodeSpline& spline) {
   std::vector<double> all;
   for (std::size_t n = 0; n < spline.parts.front().coefficients().size(); ++n)
     for (int c = 0; c < spline.components; ++c)
-      all.push_back(spline.parts[c / at_once].coefficients()[n][c % at_once]);
+      all.push_back(spline.parts[c / components_at_once].coefficients()[n][c % components_at_once]);
   return all;
 }
 
@@ -40,7 +40,7 @@ double error_of(const NodeSpline& spline, const Series& series) {
 Field shifted(const Field& field, const Eigen::RowVectorXd& by, int first) {
   std::vector<Vec3> points = field.coefficients();
   for (Vec3& point : points)
-    for (int c = first; c < std::min<int>(first + at_once, static_cast<int>(by.size())); ++c)
+    for (int c = first; c < std::min<int>(first + components_at_once, static_cast<int>(by.size())); ++c)
       point[c - first] += by(c);
   return {field.shared_parametrization(),
           {field.basis(0), field.basis(1), field.basis(2), field.basis(3)},
@@ -51,7 +51,7 @@ NodeSpline fitted(const Series& series, int number, const Field& field) {
   const SeriesQuantity& data = series.quantities[number];
   const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
   NodeSpline spline{number, static_cast<int>(data.frames.front().cols()), {}};
-  for (int first = 0; first < spline.components; first += at_once) {
+  for (int first = 0; first < spline.components; first += components_at_once) {
     const Series part = series_of(series, data, first);
     const SeriesFit fit(part, field.shared_parametrization(), bases, SeriesFit::Start::any);
     spline.parts.push_back(fit.field(fit.control_points()));

@@ -298,6 +298,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
   } else {
     centres = cell_centres(s, samples);
   }
+  quadratic = s.parameters->mesh.elements == ElementOrder::quadratic;
   if (s.source && s.source->break_extent.size() >= 8)
     arm = std::any_of(s.source->break_extent.begin() + 4, s.source->break_extent.begin() + 8,
                       [](double joined) { return joined != 0; });

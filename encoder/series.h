@@ -69,6 +69,7 @@ struct Series {
   std::vector<double> largest;      ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;  ///< mm, of all
   CellCentres centres;
+  bool quadratic = false;  ///< simulated with quadratic elements, of which cells are parts
   /// Of imported data: the fields besides the displacement, and `at_start`, the displacement of frame 0 in
   /// all frames, where it is not 0.
   std::vector<SeriesQuantity> quantities;

@@ -19,11 +19,6 @@ struct FrontParts {
 };
 FrontParts front_parts(const Parameters& parameters);
 
-/// Times that at a corner: where the first closed node along a cut is in the middle of a quadratic element.
-/// Measured with the openings of the default case, frame by frame, in elements of 2 and 0.9 mm, which then
-/// agree within 0.003 mm.
-inline constexpr double front_in_middle = 2.27;
-
 /// How far inside its outermost nodes a cut ends, mm: along it, at its bottom, and along a branch.
 struct Fronts {
   double along = 0, depth = 0, branch = 0;

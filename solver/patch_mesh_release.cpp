@@ -52,7 +52,8 @@ class Releaser {
     return pair.depth < lowest_ && (is_branch(pair) || (pair.along > first_ && pair.along < last_));
   }
 
-  /// Opens the column that begins with the n-th pair; the number of the next column's first pair.
+  /// Opens the column that begins with the n-th pair; the number of the next column's first pair. In a front
+  /// in the middle of quadratic elements displacements are others than at their corners: it is no frame.
   std::size_t open_column(std::size_t n) {
     const NodePair& first = mesh_.pairs[n];
     std::vector<int> column;
@@ -62,13 +63,12 @@ class Releaser {
       if (opens(mesh_.pairs[n])) column.push_back(static_cast<int>(n));
     const std::vector<double>& lines = mesh_.lines_along[first.incision];
     const auto next = std::upper_bound(lines.begin(), lines.end(), first.along);
-    const bool at_corner = static_cast<std::size_t>(next - lines.begin()) % lines_ == 0;
-    const double front =
-        (is_branch(first) ? mesh_.fronts.branch : mesh_.fronts.along) * (at_corner ? 1 : front_in_middle);
+    const bool ends_at_element = static_cast<std::size_t>(next - lines.begin()) % lines_ == 0;
+    const double front = is_branch(first) ? mesh_.fronts.branch : mesh_.fronts.along;
     const double cut_before = first.incision * r_.length;  // a branch is the second incision
     for (std::size_t m = 1; m <= column.size(); ++m) {
       r_.order.push_back(column[m - 1]);
-      if (m < column.size() && p_.cut.frames != FrameEvery::pair) continue;
+      if (p_.cut.frames == FrameEvery::column && (m < column.size() || !ends_at_element)) continue;
       const double part = static_cast<double>(m) / static_cast<double>(column.size());
       r_.released.push_back(static_cast<int>(r_.order.size()));
       r_.position.push_back(first.along + (*next - first.along) * part - front);

@@ -14,33 +14,22 @@ namespace cleft {
 
 namespace {
 
-constexpr double elements_along_cut[] = {8, 16, 32};                    // of the cheap meshes
 constexpr double margins[] = {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 6, 8};  // over the cut's length
 constexpr double elements_in_patches = 16;                              // of the meshes of patches
-constexpr double least_tip_order = 0.5;  // of a square root that a mesh cannot follow
 constexpr double widest = 16;
-constexpr double safety = 1.05;         // measured errors were up to 8 % above estimates
+constexpr double safety = 1.1;           // measured errors were up to a tenth above estimates
 constexpr double most_of_patch = 0.05;  // its error, where meshes are compared
 // Tolerance over the error. Of displacements, about half of the opening, it bounds the error at nodes; what
 // coarse meshes show for a looser one does not hold in others, where other knots satisfy it.
 constexpr double loosest = 0.5;
 constexpr double details[] = {0, 0.01, 0.02, 0.05, 0.1, 0.25};  // over the error and the opening
-constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
-
-/// Of a mesh of so many nodes, from those of coarse ones.
-double expected_seconds(const std::vector<ChainCost>& costs, double nodes) {
-  const auto& [n0, s0] = costs.front();
-  const auto& [n1, s1] = costs.back();
-  const double exponent = std::clamp(std::log(s1 / s0) / std::log(n1 / n0), 1., 2.);
-  return s1 * std::pow(nodes / n1, nodes > n1 ? exponent : 1);
-}
 
 }  // namespace
 
 Parameters applied(const Setting& setting, Parameters p) {
   p.model = setting.model.value_or(p.model);
   p.mesh.element_size = setting.element_size, p.mesh.grading = setting.grading;
-  p.mesh.elements = ElementOrder::linear;  // whose errors are known here
+  p.mesh.elements = setting.elements;
   // A frame for every pair costs 1.2 to 2.2 times as much, and takes 3 to 9 % off the error: a finer mesh
   // takes off more.
   p.cut.frames = FrameEvery::column;
@@ -67,26 +56,31 @@ void check_advisable(const Parameters& parameters) {
 }
 
 CaseModel::CaseModel(const Parameters& parameters, std::string work,
-                     const std::function<void(const std::string&)>& progress, ModelKnowledge models)
+                     const std::function<void(const std::string&)>& progress, ModelKnowledge models,
+                     bool quadratic)
     : parameters_(parameters), models_(std::move(models)), work_(std::move(work)), progress_(progress) {
   check_advisable(parameters);
   CLEFT_CHECK(models_.error || (!models_.choose && parameters.model == Model::small), ==, true);
   parameters_.mesh.cut_length = parameters_.mesh.cut_depth = 0;
   measure_patches();
-  measure_meshes();
+  measure_meshes(quadratic && quadratic_elements_serve());
 }
 
-Parameters CaseModel::coarse(double elements, double margin) const {
-  const double length = parameters_.cut.length;
-  return applied({.element_size = length / elements, .margin = margin * length, .model = Model::small},
-                 parameters_);
+bool CaseModel::quadratic_elements_serve() const {
+  if (!models_.choose && parameters_.model == Model::finite) return false;
+  try {
+    check_consistency(coarse(parameters_, ElementOrder::quadratic, elements_in_patches, 1), "case");
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 void CaseModel::measure_patches() {
   const double length = parameters_.cut.length;
   const auto samples = [&](double margin) {
     progress_("solving in a patch of " + shortest(margin) + " cut lengths around the cut");
-    const Chain chain(coarse(elements_in_patches, margin), work_);
+    const Chain chain(coarse(parameters_, ElementOrder::linear, elements_in_patches, margin), work_);
     const Opening opening = chain.opening();
     return sampled(length, [&](double s, double t) { return opening.at(s, t); });
   };
@@ -96,84 +90,32 @@ void CaseModel::measure_patches() {
     patches_.emplace_back(margin * length, difference(samples(margin), wide));
 }
 
-void CaseModel::measure_meshes() {
-  const double length = parameters_.cut.length;
+void CaseModel::measure_meshes(bool quadratic) {
   const auto like = std::find_if(patches_.begin(), patches_.end(), [&](const auto& patch) {
     return size_of(patch.second) <= most_of_patch * largest_;
   });
-  const double margin = (like == patches_.end() ? patches_.back() : *like).first / length;
-  std::optional<Opening> before;
-  double largest = 0;
-  for (const double elements : elements_along_cut) {
-    progress_("solving with " + shortest(elements) + " elements along the cut");
-    const Chain chain(coarse(elements, margin), work_);
-    const Opening opening = chain.opening();
-    const auto at = [&](double s, double t) { return opening.at(s, t); };
-    if (before)
-      mesh_ = difference(sampled(length, [&](double s, double t) { return before->at(s, t); }),
-                         sampled(length, at));
-    before = opening;
-    largest = opening.largest();
-    const auto apart = [&](const Field& field) {
-      return difference(sampled(length, [&](double s, double t) { return cleft::opening(field, s, t); }),
-                        sampled(length, at));
-    };
-    const double tightest = tolerances[std::size(tolerances) - 1];
-    const Chain::Encoded tight = chain.encoded(tightest);
-    tips_.emplace_back(length / elements, apart(tight.field));
-    costs_.push_back({chain.nodes(), chain.solve_seconds() + tight.seconds});
-    if (elements != elements_along_cut[std::size(elements_along_cut) - 1]) continue;
-    mesh_size_ = 2 * length / elements;
-    field_ = tight.field;
-    for (const double tolerance : tolerances) {
-      const Chain::Encoded encoded = tolerance == tightest ? tight : chain.encoded(tolerance);
-      const Field& field = encoded.field;
-      codes_.push_back(
-          {tolerance,
-           std::max(0., size_of(apart(field)) - size_of(tips_.back().second)),
-           encoded.bytes,
-           {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}});
-    }
-  }
+  const double margin = (like == patches_.end() ? patches_.back() : *like).first / parameters_.cut.length;
+  meshes_.emplace_back(parameters_, ElementOrder::linear, margin, work_, progress_);
+  if (quadratic) meshes_.emplace_back(parameters_, ElementOrder::quadratic, margin, work_, progress_);
   // Against a patch in which this much opens.
+  const double largest = meshes_.front().largest_opening();
   for (auto& [narrow, samples] : patches_)
     for (Vec3& x : samples) x *= largest / largest_;
   largest_ = largest;
 }
 
-/// Of a measured size that is near, as large as it is at this size: straight in logarithms between them.
-Samples CaseModel::tip_samples(double size) const {
-  std::size_t i = 0;
-  while (i + 2 < tips_.size() && size < tips_[i + 1].first) ++i;
-  const auto& [coarse, coarse_samples] = tips_[i];
-  const auto& [fine, fine_samples] = tips_[i + 1];
-  const double fine_error = size_of(fine_samples);
-  const double order =
-      std::max(least_tip_order, std::log(size_of(coarse_samples) / fine_error) / std::log(coarse / fine));
-  Samples samples = size * size > coarse * fine ? coarse_samples : fine_samples;
-  const double factor = fine_error * std::pow(size / fine, order) / size_of(samples);
-  for (Vec3& x : samples) x *= factor;
-  return samples;
+double CaseModel::frame_ms(double detail) const {
+  return 1e3 * frame_seconds(meshes_.front().field(), detail);
 }
-
-std::array<int, 4> CaseModel::control_points(double tolerance) const {
-  const auto code =
-      std::find_if(codes_.begin(), codes_.end(), [&](const Code& one) { return one.tolerance == tolerance; });
-  CLEFT_CHECK(code != codes_.end(), ==, true);
-  return code->control_points;
-}
-
-double CaseModel::frame_ms(double detail) const { return 1e3 * frame_seconds(*field_, detail); }
 
 Expectation CaseModel::expectation(const Setting& setting) const {
   Expectation e;
-  // Against one twice as fine, the same is left there.
-  const double share = 2 * setting.element_size / mesh_size_;
+  const MeshErrors& meshes = *meshes_of(setting.elements);
   const Samples* patch = nullptr;
   for (const auto& [margin, samples] : patches_)
     if (std::abs(margin - setting.margin) < 1e-9 * margin) patch = &samples;
   CLEFT_CHECK(patch != nullptr, ==, true);
-  const Samples tip = tip_samples(setting.element_size);
+  const Samples mesh = meshes.mesh(setting.element_size), tip = meshes.tip(setting.element_size);
   const bool small = setting.model.value_or(parameters_.model) == Model::small;
   e.model_counts = setting.model.has_value();
   if (small && models_.error) e.model = size_of(models_.error->error);
@@ -184,19 +126,20 @@ Expectation CaseModel::expectation(const Setting& setting) const {
                scale = 1 / (small ? right : largest_);
   Samples sum = *patch, all = tip;
   for (std::size_t i = 0; i < sum.size(); ++i) {
-    sum[i] = scale * (sum[i] + share * mesh_[i]);
+    sum[i] = scale * (sum[i] + mesh[i]);
     if (small && e.model_counts) sum[i] += models_.error->error[i];
     all[i] = scale * all[i] + sum[i];
   }
-  e.mesh = share * scale * size_of(mesh_), e.patch = scale * size_of(*patch), e.tip = scale * size_of(tip);
-  for (const Code& code : codes_)
-    if (code.tolerance == setting.tolerance) e.code = scale * code.error, e.bytes = code.bytes;
+  e.mesh = scale * size_of(mesh), e.patch = scale * size_of(*patch);
+  e.tip = scale * std::max(size_of(tip), meshes.first_node(setting.element_size));
+  const MeshErrors::Code& code = meshes.code(setting.tolerance);
+  e.code = scale * code.error, e.bytes = code.bytes;
   e.detail = 2 * setting.detail / right;  // of both lips
   e.total = safety * std::max({size_of(all), std::hypot(size_of(sum), e.tip), e.model_counts ? e.model : 0}) +
             e.code + e.detail;
   e.frames = std::round(parameters_.cut.length / setting.element_size);
   e.nodes = estimated_nodes(applied(setting, parameters_));
-  e.seconds = expected_seconds(small ? costs_ : models_.error->finite, e.nodes);
+  e.seconds = small ? meshes.seconds(e.nodes) : expected_seconds(models_.error->finite, e.nodes);
   return e;
 }
 
@@ -205,12 +148,30 @@ std::vector<Setting> CaseModel::settings() const {
       models_.choose ? std::vector<std::optional<Model>>{Model::small, Model::finite}
                      : std::vector<std::optional<Model>>{std::nullopt};
   std::vector<Setting> all;
-  for (const std::optional<Model> model : models)
-    for (const double elements : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
-      for (const auto& [margin, samples] : patches_)
-        for (const Code& code : codes_)
-          all.push_back({parameters_.cut.length / elements, margin, code.tolerance, 0, model});
+  for (const MeshErrors& meshes : meshes_)
+    for (const std::optional<Model> model : models)
+      for (const double count : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
+        for (const auto& [margin, samples] : patches_)
+          for (const MeshErrors::Code& code : meshes.codes()) {
+            const Setting setting{.element_size = parameters_.cut.length / count,
+                                  .margin = margin,
+                                  .tolerance = code.tolerance,
+                                  .model = model,
+                                  .elements = meshes.elements()};
+            if (serves(setting)) all.push_back(setting);
+          }
   return all;
+}
+
+const MeshErrors* CaseModel::meshes_of(ElementOrder elements) const {
+  const auto meshes = std::find_if(meshes_.begin(), meshes_.end(),
+                                   [&](const MeshErrors& one) { return one.elements() == elements; });
+  return meshes == meshes_.end() ? nullptr : &*meshes;
+}
+
+bool CaseModel::serves(const Setting& setting) const {
+  const bool finite = setting.model.value_or(parameters_.model) == Model::finite;
+  return meshes_of(setting.elements) && !(finite && setting.elements == ElementOrder::quadratic);
 }
 
 Expectation expectation(const std::vector<CaseModel>& models, const Setting& setting) {
@@ -250,13 +211,15 @@ double detail_for(const std::vector<CaseModel>& models, const Goals& goals) {
 
 Setting advise(const std::vector<CaseModel>& models, const Goals& goals) {
   const double detail = goals.frame_ms > 0 ? detail_for(models, goals) : 0;
-  const double most_tolerance = std::max(loosest * goals.error, tolerances[std::size(tolerances) - 1]);
+  const double most_tolerance = std::max(loosest * goals.error, tightest_tolerance);
   std::optional<Setting> best;
   Expectation of_best, nearest;
   bool fits_at_all = false;
   for (Setting setting : models.front().settings()) {
     if (setting.tolerance > most_tolerance || (goals.model && setting.model != goals.model)) continue;
-    setting.detail = detail, setting.grading = advised_grading(goals.error);
+    const auto serves = [&](const CaseModel& model) { return model.serves(setting); };
+    if (!std::all_of(models.begin(), models.end(), serves)) continue;
+    setting.detail = detail, setting.grading = advised_grading(setting.elements, goals.error);
     const Expectation e = expectation(models, setting);
     if (goals.megabytes > 0 && 1e-6 * goals.cases * e.bytes > goals.megabytes) continue;
     if (!fits_at_all || e.total < nearest.total) nearest = e;

@@ -6,9 +6,11 @@
 //
 //   patch    against one that is far wider, in a coarse mesh
 //   mesh     nodes of two coarse meshes against each other, in a patch that errs little; it goes as the
-//            element's size, as the energy of a crack does
+//            element's size, as the energy of a crack does; of linear elements, and of quadratic ones where
+//            they may pay and serve (mesh_errors.h)
 //   tip      the field against its own mesh between nodes and frames, where the lips close as the square root
-//            of the distance from the tip, at three sizes; finer ones go on with the order of the last two
+//            of the distance from the tip, at three sizes (two of quadratic elements); finer ones go on with
+//            the order of the last two; or what the mesh's first node there is off, if that is more
 //   code     what a looser tolerance adds, at the finest of those meshes; none beyond half the error is taken
 //   model    small strains against finite ones, in a coarse mesh (model_error.h)
 //   detail   what a replay leaves alone, on both lips
@@ -27,26 +29,12 @@
 #include <utility>
 #include <vector>
 
-#include "base/vec3.h"
-#include "encoder/field/field.h"
 #include "params/parameters/parameters.h"
+#include "tradeoff/mesh_errors.h"
 #include "tradeoff/model_error.h"
+#include "tradeoff/setting.h"
 
 namespace cleft {
-
-/// A setting of mesh, patch, encoder and replay.
-struct Setting {
-  double element_size = 0;          ///< mm, at the cut
-  double margin = 0;                ///< mm of patch around the cut, on all four sides
-  double tolerance = 0;             ///< of the encoder
-  double detail = 0;                ///< mm: vertices that never move by more stay at rest in replays
-  std::optional<Model> model = {};  ///< none: the case's own
-  double grading = 1.3;             ///< by which elements grow away from the cut
-};
-/// By which elements grow for an error of the opening: those that grow by 1.3 keep 0.6 to 1 % of it however
-/// small they are at the cut (docs/accuracy.md).
-constexpr double advised_grading(double error) { return error < 0.02 ? 1.15 : 1.3; }
-Parameters applied(const Setting& setting, Parameters parameters);
 
 /// Estimates for a setting. Errors are relative to the largest opening.
 struct Expectation {
@@ -71,47 +59,47 @@ struct ModelKnowledge {
 /// A case, measured in coarse meshes.
 class CaseModel {
  public:
-  /// Takes seconds. `work`: a folder for intermediate files. Throws as check_advisable() does.
+  /// Takes seconds. `work`: a folder for intermediate files. `quadratic`: measures quadratic elements too, if
+  /// the case can have them. Throws as check_advisable() does.
   CaseModel(const Parameters& parameters, std::string work,
-            const std::function<void(const std::string&)>& progress, ModelKnowledge models = {});
+            const std::function<void(const std::string&)>& progress, ModelKnowledge models = {},
+            bool quadratic = false);
 
   Expectation expectation(const Setting& setting) const;
   double largest_opening() const { return largest_; }  ///< mm
   /// Time of a replayed frame of 10,000 vertices in the patch, without those that never move by more than
   /// `detail`, mm.
   double frame_ms(double detail) const;
-  /// Numbers of control points along u, v, w and t that the encoder takes for a tolerance of settings(), in
-  /// the finest mesh measured.
-  std::array<int, 4> control_points(double tolerance) const;
+  /// Numbers of control points along u, v, w and t that the encoder takes for a setting's tolerance, in the
+  /// finest mesh measured of its elements.
+  std::array<int, 4> control_points(const Setting& setting) const {
+    return meshes_of(setting.elements)->code(setting.tolerance).control_points;
+  }
   /// All candidate settings.
   std::vector<Setting> settings() const;
+  /// Whether the case can have a setting's elements, and they were measured.
+  bool serves(const Setting& setting) const;
 
  private:
-  void measure_meshes();
+  bool quadratic_elements_serve() const;
+  void measure_meshes(bool quadratic);
   void measure_patches();
-  Samples tip_samples(double size) const;
-  Parameters coarse(double elements, double margin) const;
+  const MeshErrors* meshes_of(ElementOrder elements) const;  // null if not measured
 
   Parameters parameters_;
   ModelKnowledge models_;
   std::string work_;
   std::function<void(const std::string&)> progress_;
-  double largest_ = 0;    // opening, mm
-  double mesh_size_ = 0;  // element size of the coarser of the two meshes compared
-  Samples mesh_;
-  std::vector<std::pair<double, Samples>> tips_;     // by element size, coarsest first
+  double largest_ = 0;                               // opening, mm
   std::vector<std::pair<double, Samples>> patches_;  // by margin
-  struct Code {
-    double tolerance, error, bytes;  // mm beyond the mesh's
-    std::array<int, 4> control_points;
-  };
-  std::vector<Code> codes_;
-  std::vector<ChainCost> costs_;  // of small strains
-  std::optional<Field> field_;
+  std::vector<MeshErrors> meshes_;                   // of linear elements first; of small strains
 };
 
 /// For several cases: the largest errors and the mean costs.
 Expectation expectation(const std::vector<CaseModel>& models, const Setting& setting);
+
+/// The largest error for which quadratic elements may be cheaper than linear ones.
+constexpr double most_of_quadratic = 0.05;
 
 struct Goals {
   double error = 0;

@@ -171,7 +171,8 @@ int main(int argc, char** argv) {
     const Comparison compared_models = compared(cases, obstacle_to_choice(study, path), work.path(), show);
     std::vector<CaseModel> models;
     for (std::size_t i = 0; i < cases.size(); ++i)
-      models.emplace_back(cases[i], work.path(), show, compared_models.knowledge[i]);
+      models.emplace_back(cases[i], work.path(), show, compared_models.knowledge[i],
+                          goals.error <= most_of_quadratic);
     goals.cases = static_cast<double>(cases_of(study).size());
     const Setting setting = advise(models, goals);
     const Expectation e = expectation(models, setting);
@@ -199,11 +200,12 @@ int main(int argc, char** argv) {
                     {"model_because", because},
                     {"mesh.element_size_mm", rounded(p.mesh.element_size)},
                     {"mesh.grading", p.mesh.grading},
+                    {"mesh.elements", text_of(p, p.mesh.elements)},
                     {"patch.length_mm", p.patch.length},
                     {"patch.width_mm", p.patch.width},
                     {"cut.frames", text_of(p, p.cut.frames)},
                     {"frames", e.frames},
-                    {"control_points", models.front().control_points(setting.tolerance)},
+                    {"control_points", models.front().control_points(setting)},
                     {"tolerance", setting.tolerance},
                     {"detail_um", rounded(1e3 * setting.detail)},
                     {"expected_error", shown(e)},

@@ -105,7 +105,7 @@ std::vector<Parameter> make_table() {
       between(CLEFT_MEMBER(mesh.grading), "", 1, 2,
               "growth from one element to the next away from the cut; 1: none"),
       choice(later(CLEFT_MEMBER(mesh.elements)), {"linear", "quadratic"},
-             "quadratic: wedges of 15 nodes, for errors of 1 % and less: nodes are half of mesh.element_size "
+             "quadratic: wedges of 15 nodes, for errors of 3 % and less: nodes are half of mesh.element_size "
              "apart; for straight, upright cuts in small strains"),
       choice(CLEFT_MEMBER(mesh.front), {"effective", "nodes"},
              "effective: the cut ends a part of an element inside its first closed nodes, where its opening "

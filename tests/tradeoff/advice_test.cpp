@@ -75,7 +75,7 @@ TEST(Advice, LessErrorCostsMore) {
   refused({.error = 1e-3}, "--error 0.001: out of reach");
   EXPECT_EQ(advise(models, {.error = 0.2}).grading, 1.3);
   EXPECT_EQ(applied({.element_size = 1, .grading = 1.15}, p).mesh.grading, 1.15);
-  EXPECT_LT(advised_grading(0.01), advised_grading(0.02));
+  EXPECT_LT(advised_grading(ElementOrder::linear, 0.01), advised_grading(ElementOrder::linear, 0.02));
   refused({.error = 0.2, .frame_ms = 1e-6}, "--frame-ms");
   // What replays leave alone counts for both lips.
   const CaseModel& model = models.front();
@@ -84,6 +84,27 @@ TEST(Advice, LessErrorCostsMore) {
   const double whole = model.expectation(setting).total;
   setting.detail = 0.01 * model.largest_opening();
   EXPECT_NEAR(model.expectation(setting).total, whole + 0.02, 1e-12);
+}
+
+/// Against a finer mesh of quadratic elements, whose front is another part of them.
+TEST(Advice, QuadraticElementsKeepErrorsThatLinearOnesReachAtMoreCost) {
+  const TemporaryFolder folder;
+  Parameters p;
+  p.cut.length = 12, p.cut.depth = 2, p.patch.height = 5, p.foundation = {0.02, 0.02};
+  const std::vector<CaseModel> models(1, CaseModel(
+                                             p, folder.path(), [](const std::string&) {}, {}, true));
+  const double asked = 0.04;
+  const Setting chosen = advise(models, {.error = asked});
+  EXPECT_EQ(chosen.elements, ElementOrder::quadratic);
+  for (const Setting& other : models.front().settings())
+    if (const Expectation e = expectation(models, other);
+        other.elements == ElementOrder::linear && e.total <= asked)
+      EXPECT_GT(e.seconds, expectation(models, chosen).seconds);
+  Setting fine = chosen;
+  fine.element_size /= 1.5, fine.margin *= 1.5;
+  const Chain chain(applied(chosen, p), folder.path());
+  const Chain::Encoded encoded = chain.encoded(chosen.tolerance);
+  EXPECT_LE(opening_error(encoded.field, Chain(applied(fine, p), folder.path()).opening()), asked);
 }
 
 /// An error of the model that is the same everywhere.
