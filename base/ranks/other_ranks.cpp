@@ -18,16 +18,16 @@ Packer told(Answer kind, const std::string& what) {
   return answer;
 }
 
-/// Throws what another rank has told instead of an answer.
-void throw_if_failed(Unpacker& answer, int rank) {
+}  // namespace
+
+Unpacker answer_of(const Ranks& ranks, int rank) {
+  Unpacker answer(ranks.receive(rank));
   const auto kind = answer.take<Answer>();
-  if (kind == Answer::done) return;
+  if (kind == Answer::done) return answer;
   const std::string what = "process " + std::to_string(rank) + ": " + answer.take_text();
   if (kind == Answer::mistake) throw InputError(what);
   throw std::runtime_error(what);
 }
-
-}  // namespace
 
 void on_all_ranks(const Ranks& ranks, const Bytes& request, const std::function<void()>& here,
                   const std::function<void(int, Unpacker&)>& take) {
@@ -41,13 +41,11 @@ void on_all_ranks(const Ranks& ranks, const Bytes& request, const std::function<
     }
   };
   attempt(here);
-  for (int rank = 1; rank < ranks.count(); ++rank) {
-    Unpacker answer(ranks.receive(rank));
+  for (int rank = 1; rank < ranks.count(); ++rank)
     attempt([&] {
-      throw_if_failed(answer, rank);
+      Unpacker answer = answer_of(ranks, rank);
       take(rank, answer);
     });
-  }
   if (failure) std::rethrow_exception(failure);
 }
 

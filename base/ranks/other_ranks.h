@@ -32,6 +32,9 @@ class OtherRanks {
 void on_all_ranks(const Ranks& ranks, const Bytes& request, const std::function<void()>& here,
                   const std::function<void(int rank, Unpacker& answer)>& take);
 
+/// Waits for the answer to what was sent to one of them. Throws what failed there, as on_all_ranks does.
+Unpacker answer_of(const Ranks& ranks, int rank);
+
 /// "one of the 3 processes encodes, and the others wait": for warnings.
 std::string one_works(const Ranks& ranks, const std::string& does);
 

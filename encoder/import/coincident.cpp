@@ -66,8 +66,7 @@ std::size_t weld(ImportedSeries& series, const Groups& groups) {
   for (const auto& group : groups)
     for (const std::int32_t node : group) stands_for[node] = group.front();
 
-  for (std::size_t j = 0; j < series.frames(); ++j) {
-    const FieldValues values = series.frame(j);
+  series.for_each_frame([&](std::size_t, const FieldValues& values) {
     const auto agree = [&](std::int32_t a, std::int32_t b) {
       for (std::size_t f = 0; f < values.size(); ++f)
         if (jump_of(values[f], series.fields()[f].components, a, b) > tolerance[f]) return false;
@@ -86,7 +85,7 @@ std::size_t weld(ImportedSeries& series, const Groups& groups) {
         if (mine == node) classes.emplace_back(before, node);
       }
     }
-  }
+  });
 
   std::vector<std::int32_t> number(points);
   std::int32_t next = 0;

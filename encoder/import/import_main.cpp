@@ -1,11 +1,11 @@
 // cleft import: another program's time series to a snapshot.
-#include <iostream>
 #include <map>
 
 #include "base/command/command.h"
 #include "base/error.h"
 #include "base/ranks/other_ranks.h"
 #include "encoder/import/import_series.h"
+#include "encoder/import/series_on_ranks.h"
 
 using namespace cleft;
 
@@ -42,12 +42,14 @@ Json figures_of(const ImportReport& report) {
 int main(int argc, char** argv) {
   const Ranks ranks(argc, argv);
   if (ranks.rank() > 0) {
-    serve(ranks, {});
+    serve_series(ranks);
     return 0;
   }
   const OtherRanks others(ranks);
-  CommandLine app("Takes another program's time series as a snapshot, and finds its discontinuity.",
-                  "cleft import");
+  CommandLine app(
+      "Takes another program's time series as a snapshot, and finds its discontinuity. Under "
+      "mpirun or srun the processes share the frames to read.",
+      "cleft import");
   ImportOptions o;
   std::string plane, open_at, box = "smaller";
   bool json = false;
@@ -89,8 +91,6 @@ int main(int argc, char** argv) {
 
   return run_command(app, argc, argv, [&] {
     ranks.check();
-    if (ranks.count() > 1)
-      std::cerr << "cleft import: warning: " << one_works(ranks, "imports the series") << "\n";
     if (app.count("--break") > 0) o.break_plane = plane;
     if (app.count("--open-at") > 0) o.open_at = open_at;
     o.box = boxes.at(box);
@@ -99,7 +99,8 @@ int main(int argc, char** argv) {
     ImportReport report;
     {
       Progress progress("importing");
-      report = import_series(o, [&](const std::string& state) { progress(state); });
+      report = import_series(
+          o, [&](const std::string& state) { progress(state); }, &ranks);
     }
     print_figures(figures_of(report), json);
   });

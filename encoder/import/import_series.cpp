@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <variant>
 
 #include "base/error.h"
@@ -14,6 +15,7 @@
 #include "encoder/import/coincident.h"
 #include "encoder/import/pieces.h"
 #include "encoder/import/placed.h"
+#include "encoder/import/series_on_ranks.h"
 
 namespace cleft {
 
@@ -70,9 +72,8 @@ void write_frames(const ImportedSeries& series, const Placement& placement, cons
   if (s.coordinates) arrays.insert(arrays.end(), {canonical_array, frame_array});
   SnapshotWriter writer(out, s, arrays);
   if (s.coordinates) write_coordinates(writer, canonical);
-  for (std::size_t j = 0; j < s.frames(); ++j) {
+  series.for_each_frame([&](std::size_t j, FieldValues& values) {
     progress("writing frame " + std::to_string(j + 1) + " of " + std::to_string(s.frames()));
-    FieldValues values = series.frame(j);
     auto array = report.arrays.begin();
     for (std::size_t f = 0; f < values.size(); ++f) {
       const SeriesField& field = series.fields()[f];
@@ -84,7 +85,7 @@ void write_frames(const ImportedSeries& series, const Placement& placement, cons
         writer.write_array(*array++, j, values[f]);
       }
     }
-  }
+  });
   writer.finish(s);
 }
 
@@ -113,7 +114,8 @@ Placed whole_of(const ImportedSeries& series, std::vector<Break>& breaks, const 
 
 }  // namespace
 
-ImportReport import_series(const ImportOptions& o, const std::function<void(const std::string&)>& progress) {
+ImportReport import_series(const ImportOptions& o, const std::function<void(const std::string&)>& progress,
+                           const Ranks* ranks) {
   // Told before the long part.
   if (o.break_plane && *o.break_plane != "none") parse_plane(*o.break_plane);
   std::optional<OpenAt> open_at;
@@ -121,7 +123,10 @@ ImportReport import_series(const ImportOptions& o, const std::function<void(cons
   auto parameters = parse_parameters(o.parameters);
   std::vector<std::string> all_series = o.more_series;
   all_series.insert(all_series.begin(), o.series);
-  ImportedSeries series(all_series, parse_fields(o.fields));
+  const std::unique_ptr<ImportedSeries> opened =
+      ranks ? SeriesOnRanks::open(*ranks, all_series, o.fields)
+            : std::make_unique<ImportedSeries>(all_series, parse_fields(o.fields));
+  ImportedSeries& series = *opened;
   refuse_to_overwrite(o.out, series.files());
   { const OutputFile probe(o.out); }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/ranks/ranks.h"
 #include "encoder/import/placement.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -29,9 +30,10 @@ struct ImportReport {
   std::vector<std::string> notes;  ///< messages: nodes that were merged or left, data that were not found
 };
 
-/// Writes a snapshot, completely or not at all. Throws InputError if the series, its fields or the break do
-/// not satisfy the requirements.
+/// Writes a snapshot, completely or not at all. `ranks`: read the frames in turn (SeriesOnRanks). Throws
+/// InputError if the series, its fields or the break do not satisfy the requirements.
 ImportReport import_series(const ImportOptions& options,
-                           const std::function<void(const std::string&)>& progress);
+                           const std::function<void(const std::string&)>& progress,
+                           const Ranks* ranks = nullptr);
 
 }  // namespace cleft

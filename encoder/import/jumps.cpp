@@ -133,10 +133,9 @@ double jump_of(const std::vector<double>& values, int components, std::int32_t a
 
 std::vector<double> rounding_of(const ImportedSeries& series) {
   std::vector<Size> sizes(series.fields().size());
-  for (std::size_t j = 0; j < series.frames(); ++j) {
-    const FieldValues values = series.frame(j);
+  series.for_each_frame([&](std::size_t, const FieldValues& values) {
     for (std::size_t f = 0; f < sizes.size(); ++f) sizes[f].see(values[f], series.fields()[f].components);
-  }
+  });
   std::vector<double> rounding;
   for (std::size_t f = 0; f < sizes.size(); ++f)
     rounding.push_back(series.fields()[f].of_means ? std::numeric_limits<double>::infinity()
@@ -175,12 +174,11 @@ Partings partings(const ImportedSeries& series, const Groups& groups, const std:
   const std::size_t field = telling_field(series);
   Jumps jumps(result.pairs, series.fields()[field].components);
   Size size;
-  for (std::size_t j = 0; j < series.frames(); ++j) {
+  series.for_each_frame([&](std::size_t j, const FieldValues& values) {
     if (progress) progress(j);
-    const std::vector<double> values = series.frame(j)[field];
-    size.see(values, series.fields()[field].components);
-    jumps.see(values);
-  }
+    size.see(values[field], series.fields()[field].components);
+    jumps.see(values[field]);
+  });
   const double rounding = series.fields()[field].of_means ? std::numeric_limits<double>::infinity()
                                                           : size.rounding(series.fields()[field]);
   result.open_at = rounding, result.largest_jump = jumps.largest();

@@ -1,6 +1,7 @@
 // A time series of another program: one mesh, and fields of its points frame by frame, checked.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ class ImportedSeries {
   ImportedSeries(const std::vector<std::string>& paths, const std::vector<SeriesField>& fields);
   ImportedSeries(const std::string& path, const std::vector<SeriesField>& fields)
       : ImportedSeries(std::vector<std::string>{path}, fields) {}
+  virtual ~ImportedSeries() = default;
 
   const std::string& path() const { return path_; }
   std::vector<std::string> files() const { return files_->files(); }
@@ -51,6 +53,9 @@ class ImportedSeries {
   /// Throws FileError if the frame has other nodes or cells than the first, lacks a field, or holds a value
   /// that is not finite, or a tensor that is not symmetric: with the file, frame, node and field.
   FieldValues frame(std::size_t frame) const;
+  using UseFrame = std::function<void(std::size_t frame, FieldValues& values)>;
+  /// Calls `use` with each frame, in their order.
+  virtual void for_each_frame(const UseFrame& use) const;
   /// The largest distance of a node from its place in the first frame, over the frames read so far.
   double farthest_moved() const { return farthest_moved_; }
 
@@ -62,7 +67,10 @@ class ImportedSeries {
 
   /// Merges nodes with equal `number`, which get the values of the first of them; the numbers are consecutive
   /// from 0.
-  void weld(const std::vector<std::int32_t>& number);
+  virtual void weld(const std::vector<std::int32_t>& number);
+
+ protected:
+  mutable double farthest_moved_ = 0;
 
  private:
   std::string where(std::size_t frame) const;
@@ -82,7 +90,6 @@ class ImportedSeries {
   std::vector<std::int32_t> kept_;  ///< nodes as read, one for each node; empty: all
   std::size_t loose_ = 0;
   std::vector<std::string> notes_;
-  mutable double farthest_moved_ = 0;
 };
 
 }  // namespace cleft

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "base/text.h"
@@ -30,6 +31,20 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
+/// The side of a node tells its cell, too.
+CrackedBody without_shared_nodes() {
+  CrackedBody body = edge_crack();
+  body.a = planes(0, 40, 20), body.b = planes(-15, 15, 10), body.c = {-6, 0};
+  body.side = [](const Vec3&, const Vec3& middle) {
+    const auto cell = static_cast<int>(middle.x + 41 * (middle.y + 16));
+    return middle.y < 0 ? -cell : cell;
+  };
+  body.displacement = [crack = body.displacement](const Vec3& abc, int side, double t) {
+    return crack(abc, side < 0 ? -1 : 1, t);
+  };
+  return body;
+}
+
 class SeriesOnRanks : public ::testing::Test {
  protected:
   SeriesOnRanks() {
@@ -38,6 +53,19 @@ class SeriesOnRanks : public ::testing::Test {
   }
   std::vector<std::string> import_arguments(const std::string& out) const {
     return {series_, "--field", "displacement", "--out", out + "/case.h5"};
+  }
+  /// By several processes as by one, which notes something.
+  void expect_import_of(const std::string& series, const std::string& note) {
+    std::vector<std::string> arguments = {series, "--field", "displacement", "--out", alone_ + "/case.h5"};
+    const std::string alone = expect_success(run_cleft("import", arguments)).output;
+    EXPECT_NE(alone.find(note), std::string::npos) << alone;
+    arguments.back() = several_ + "/case.h5";
+    for (const int ranks : {1, 2, 3}) {
+      EXPECT_EQ(expect_success(cleft_on_ranks("import", ranks, arguments)).output, alone);
+      EXPECT_TRUE(files_in(alone_) == files_in(several_)) << series << " on " << ranks;
+      fs::remove(arguments.back());
+    }
+    fs::rename(alone_ + "/case.h5", folder_ / "snapshot.h5");
   }
   /// The field of the series.
   std::string field() const {
@@ -95,12 +123,58 @@ TEST_F(SeriesOnRanks, AMistakeIsToldOnce) {
   }
 }
 
-TEST_F(SeriesOnRanks, OneOfSeveralProcessesImports) {
-  expect_success(run_cleft("import", import_arguments(alone_)));
-  const std::string said = expect_success(cleft_on_ranks("import", 3, import_arguments(several_))).output;
-  EXPECT_EQ(count_of(said, "one of the 3 processes imports the series"), 1) << said;
-  EXPECT_EQ(count_of(said, "nodes:"), 1) << said;
-  EXPECT_TRUE(files_in(alone_) == files_in(several_));
+TEST_F(SeriesOnRanks, ImportedSnapshotIsThatOfOneProcess) {
+  // Frame 1, which the second process reads, tells alone that nodes move.
+  CrackedBody moved = edge_crack();
+  moved.times = {1};
+  moved.place = [](const Vec3& abc) { return abc + Vec3{0, 0, 0.5 * abc.z}; };
+  folder_.write("series_1.vtu", moved.series().vtu(0));
+  expect_import_of(series_, "between frames");
+  expect_import_of(without_shared_nodes().series().write(folder_, "loose"), "were welded");
+  fs::rename(folder_ / "snapshot.h5", folder_ / "source.h5");
+  expect_import_of(folder_ / "source.h5", "");
+
+  CrackedBody finer = edge_crack();
+  finer.a.insert(finer.a.begin() + 1, 0.5), finer.times = {12};
+  folder_.write("series_12.vtu", finer.series().vtu(0));
+  expect_import_of(series_, "have another mesh");
+}
+
+TEST_F(SeriesOnRanks, WhatIsWrongWithAFrameEndsAllProcesses) {
+  const std::string whole = read_text_file(folder_ / "series_4.vtu");
+  std::string infinite = whole, unnamed = whole;
+  unnamed.replace(unnamed.find("displacement"), 12, "velocity____");
+  infinite.replace(infinite.find("0.", infinite.find("displacement")), 2, "inf ");
+  for (const std::string& damaged : {whole.substr(0, whole.size() / 2), unnamed, infinite}) {
+    folder_.write("series_4.vtu", damaged);
+    const Outcome alone = run_cleft("import", import_arguments(alone_));
+    EXPECT_EQ(alone.exit_code, 2);
+    EXPECT_NE(alone.output.find("series_4.vtu"), std::string::npos) << alone.output;
+    for (const int ranks : {2, 3}) {  // the fifth frame is read by the first process and by the second one
+      const Outcome several = cleft_on_ranks("import", ranks, import_arguments(several_));
+      EXPECT_EQ(several.exit_code, 2);
+      EXPECT_EQ(count_of(several.output, alone.output), 1) << several.output << alone.output;
+      EXPECT_EQ(count_of(several.output, "error:"), 1) << several.output;
+      EXPECT_TRUE(fs::is_empty(several_));
+    }
+  }
+}
+
+TEST_F(SeriesOnRanks, WhatOneProcessCannotReadIsToldOfIt) {
+  // The second process, whose folder is another one, finds its frame damaged there.
+  const std::string elsewhere = folder_ / "elsewhere";
+  fs::create_directory(elsewhere);
+  const std::string frame = "/proc/self/cwd/series_4.vtu";
+  std::string list = read_text_file(series_);
+  folder_.write("own.pvd", list.replace(list.find("series_4.vtu"), 12, frame));
+  std::ofstream(elsewhere + "/series_4.vtu") << "<VTKFile>";
+  const Outcome outcome = in_shell(
+      "cd " + folder_.path() + "; timeout 60 mpirun --oversubscribe --bind-to none -n 3 bash -c \"" +
+      "[ \\$OMPI_COMM_WORLD_RANK != 1 ] || cd " + elsewhere + "; exec " CLEFT_BIN + "/cleft-import " +
+      (folder_ / "own.pvd") + " --field displacement --out " + several_ + "/case.h5\"");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_EQ(count_of(outcome.output, "cleft import: error: process 1: " + frame), 1) << outcome.output;
+  EXPECT_TRUE(fs::is_empty(several_));
 }
 
 TEST_F(SeriesOnRanks, ProcessesThatDoNotKnowEachOtherAreRefused) {
