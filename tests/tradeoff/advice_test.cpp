@@ -54,15 +54,24 @@ TEST(Advice, LessErrorCostsMore) {
   const TemporaryFolder folder;
   Parameters p;
   p.cut.length = 12, p.cut.depth = 2, p.patch.height = 5, p.foundation = {0.02, 0.02};
-  const std::vector<CaseModel> models(1, CaseModel(p, folder.path(), [](const std::string&) {}));
+  const std::vector<CaseModel> models(1, CaseModel(
+                                             p, folder.path(), [](const std::string&) {}, {}, true));
   double nodes = 0, seconds = 0;
-  for (const double error : {0.4, 0.3, 0.2, 0.15}) {
+  for (const double error : {0.4, 0.3, 0.2, 0.15, 0.04}) {
     const Expectation e = expectation(models, advise(models, {.error = error}));
     EXPECT_LE(e.total, error);
     EXPECT_GE(e.nodes, nodes);
     EXPECT_GE(e.seconds, seconds);
     nodes = e.nodes, seconds = e.seconds;
   }
+  // The last one by quadratic elements, against finer ones in a wider patch.
+  const Setting chosen = advise(models, {.error = 0.04});
+  EXPECT_EQ(chosen.elements, ElementOrder::quadratic);
+  EXPECT_EQ(advise(models, {.error = 0.3}).elements, ElementOrder::linear);
+  Setting fine = chosen;
+  fine.element_size /= 1.5, fine.margin *= 1.5;
+  const Chain::Encoded encoded = Chain(applied(chosen, p), folder.path()).encoded(chosen.tolerance);
+  EXPECT_LE(opening_error(encoded.field, Chain(applied(fine, p), folder.path()).opening()), 0.04);
   // Every goal that cannot be had is named.
   const auto refused = [&](const Goals& goals, const std::string& why) {
     try {
@@ -84,27 +93,6 @@ TEST(Advice, LessErrorCostsMore) {
   const double whole = model.expectation(setting).total;
   setting.detail = 0.01 * model.largest_opening();
   EXPECT_NEAR(model.expectation(setting).total, whole + 0.02, 1e-12);
-}
-
-/// Against a finer mesh of quadratic elements, whose front is another part of them.
-TEST(Advice, QuadraticElementsKeepErrorsThatLinearOnesReachAtMoreCost) {
-  const TemporaryFolder folder;
-  Parameters p;
-  p.cut.length = 12, p.cut.depth = 2, p.patch.height = 5, p.foundation = {0.02, 0.02};
-  const std::vector<CaseModel> models(1, CaseModel(
-                                             p, folder.path(), [](const std::string&) {}, {}, true));
-  const double asked = 0.04;
-  const Setting chosen = advise(models, {.error = asked});
-  EXPECT_EQ(chosen.elements, ElementOrder::quadratic);
-  for (const Setting& other : models.front().settings())
-    if (const Expectation e = expectation(models, other);
-        other.elements == ElementOrder::linear && e.total <= asked)
-      EXPECT_GT(e.seconds, expectation(models, chosen).seconds);
-  Setting fine = chosen;
-  fine.element_size /= 1.5, fine.margin *= 1.5;
-  const Chain chain(applied(chosen, p), folder.path());
-  const Chain::Encoded encoded = chain.encoded(chosen.tolerance);
-  EXPECT_LE(opening_error(encoded.field, Chain(applied(fine, p), folder.path()).opening()), asked);
 }
 
 /// An error of the model that is the same everywhere.
