@@ -137,6 +137,36 @@ TEST(Opening, OfPairsThatCrossTurnsNothing) {
   }
 }
 
+/// Pairs that turned a triangle where the moments for which its corners are held back begin and end differently.
+TEST(Opening, OfPairsInDistortedPlanesTurnsNothingForAMoment) {
+  struct Pair {
+    std::string mesh;
+    std::uint64_t seed;
+    long cut;
+    double gape, length, width;  // of the field and its patch, mm
+  };
+  long groups = 0;
+  for (const Pair& pair : {Pair{"sheared plane", 1, 18, 4, 90, 60},
+                           {"graded plane", 77, 20, 5, 60, 40},
+                           {"graded plane", 77, 20, 6, 90, 60}}) {
+    const Field field = testing::opening_field({-15, 30, 3}, pair.length, pair.width, 8, pair.gape);
+    const CutFields fields(std::make_shared<const Field>(testing::in_tension(
+        field, {{"skin.prestress_u", 0.01}, {"skin.prestress_v", 0.03}, {"skin.prestress_uv", 0}})));
+    OpeningPlan plan;
+    plan.seed = pair.seed, plan.cuts = 24, plan.only = {pair.cut};
+    plan.crossing = true;
+    plan.positions = 200;
+    for (const Subject& subject : generated_subjects(true)) {
+      if (subject.name != pair.mesh) continue;
+      const OpeningTally tally = open_random_cuts(
+          subject, [&] { return CutFields(fields); }, FieldLimits(fields.shape()), plan);
+      EXPECT_EQ(tally.sum.turned, 0) << subject.name << ": " << text_of(tally.sum);
+      groups += tally.groups;
+    }
+  }
+  EXPECT_EQ(groups, 3);
+}
+
 /// What is counted is there: a skin that is pulled through itself.
 TEST(Opening, IsCountedAsTurnedWhereItIs) {
   const auto field = std::make_shared<const Field>(testing::opening_field({-15, 30, 3}, 60, 40, 8, 60));
