@@ -17,7 +17,7 @@ namespace {
 constexpr double margins[] = {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 6, 8};  // over the cut's length
 constexpr double elements_in_patches = 16;                              // of the meshes of patches
 constexpr double widest = 16;
-constexpr double safety = 1.1;           // measured errors were up to a tenth above estimates
+constexpr double safety = 1.1;          // measured errors were up to a tenth above estimates
 constexpr double most_of_patch = 0.05;  // its error, where meshes are compared
 // Tolerance over the error. Of displacements, about half of the opening, it bounds the error at nodes; what
 // coarse meshes show for a looser one does not hold in others, where other knots satisfy it.
