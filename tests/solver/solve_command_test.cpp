@@ -141,7 +141,7 @@ TEST_F(SolveCommand, TheFiniteModelReportsItsResiduals) {
 }
 
 TEST_F(SolveCommand, EveryRunOnAsManyRanksWritesTheSameBytes) {
-  const std::string file = folder.write("coarse.toml", "case.mesh.element_size = 2\n");
+  const std::string file = folder.write("coarse.toml", "case.mesh.element_size = 3\n");
   const std::string finite =
       folder.write("finite.toml", "case.mesh.element_size = 3\ncase.model = \"finite\"\n");
   for (const int ranks : {2, 3, 4}) {
