@@ -5,6 +5,8 @@
 #include <vtkDataObject.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -31,8 +33,17 @@ class VtkListener {
     if constexpr (requires { algorithm->SetParserErrorObserver(command_); })
       algorithm->SetParserErrorObserver(command_);
   }
+  ~VtkListener() {
+    if (window_) window_->RemoveObserver(command_);
+  }
   VtkListener(const VtkListener&) = delete;
   VtkListener& operator=(const VtkListener&) = delete;
+
+  /// Keeps errors of what the algorithm makes itself too: VTK tells of these in its output window alone.
+  void listen_to_output_window() {
+    window_ = vtkOutputWindow::GetInstance();
+    window_->AddObserver("ErrorEvent", command_);
+  }
 
   bool failed() const { return !message_.empty(); }
   /// The essential part of the message, on one line.
@@ -46,6 +57,7 @@ class VtkListener {
 
  private:
   vtkNew<vtkCallbackCommand> command_;
+  vtkSmartPointer<vtkOutputWindow> window_;
   std::string message_;
 };
 

@@ -86,6 +86,7 @@ class ReaderFile {
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
     reader_ = open(path);
     reading_.emplace(reader_.Get());
+    reading_->listen_to_output_window();  // EnSight's reader has others read
     reader_->UpdateInformation();
     refuse_errors();
     vtkInformation* information = reader_->GetOutputInformation(0);

@@ -131,6 +131,8 @@ def damaged(cleft, name, folder):
             done = imported(cleft, series, FORMATS[name][0], out / "case.h5")
             if done.returncode not in (0, 2):
                 wrong.append(f"{name}, {path.name}, damage {i}: exit code {done.returncode}: {done.stdout[-300:]}")
+            elif path.suffix in (".displacement", ".temperature", ".geo") and len(bytes_now) < size and done.returncode == 0:
+                wrong.append(f"{name}, {path.name}: {len(bytes_now)} of {size} bytes were taken")
             elif done.returncode == 2 and (len(done.stdout.splitlines()) != 1 or any(out.iterdir())):
                 wrong.append(f"{name}, {path.name}, damage {i}: left {list(out.iterdir())}, said {done.stdout[-500:]}")
             for left in out.iterdir():
