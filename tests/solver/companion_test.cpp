@@ -66,8 +66,8 @@ TEST(Companion, TheFiniteModelErrsByTheSamePartOfTheOpening) {
   EXPECT_GT(report.estimate.expected->patch, 0.04);
 }
 
-/// Fine at the cut and coarse away from it: elements half as long alone would leave most of the error. Against
-/// quadratic ones.
+/// Fine at the cut and coarse away from it: elements half as long alone would leave most of the error.
+/// Against quadratic ones.
 TEST(Companion, ElementsThatGrowAreSeen) {
   Parameters p;
   p.cut.length = 20, p.cut.depth = 3, p.patch = {60, 50, 8};

@@ -137,7 +137,8 @@ TEST(Opening, OfPairsThatCrossTurnsNothing) {
   }
 }
 
-/// Pairs that turned a triangle where the moments for which its corners are held back begin and end differently.
+/// Pairs that turned a triangle where the moments for which its corners are held back begin and end
+/// differently.
 TEST(Opening, OfPairsInDistortedPlanesTurnsNothingForAMoment) {
   struct Pair {
     std::string mesh;
