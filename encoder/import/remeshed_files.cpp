@@ -1,8 +1,8 @@
 #include "encoder/import/remeshed_files.h"
 
+#include <vtkCellLocator.h>
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
-#include <vtkStaticCellLocator.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -75,7 +75,9 @@ class MeshValues {
 
  private:
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
-  vtkNew<vtkStaticCellLocator> locator_;
+  // The static one sorts cells by several threads: which of two a place between them is in would change by
+  // chance.
+  vtkNew<vtkCellLocator> locator_;
   vtkNew<vtkGenericCell> cell_;
   std::vector<double> weights_;
 };
