@@ -99,8 +99,8 @@ class KernelRegression {
 };
 
 /// All methods, with lengths and nuggets of least left_out_error(): polynomials, radial basis functions, and
-/// a Gaussian process with a length for each feature. With six scattered cases a feature those of the process
-/// are of greatest likelihood. If there are slopes, all methods use them.
+/// a Gaussian process with a length for each feature, of which the likelihood counts too where there are six
+/// scattered cases a feature. If there are slopes, all methods use them.
 std::vector<KernelRegression> all_methods(const TrainingCases& cases);
 
 }  // namespace cleft

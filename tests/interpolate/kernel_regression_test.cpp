@@ -235,7 +235,7 @@ TEST(KernelRegression, SquaresAreLeftOutWhereCasesLieOnTwoLines) {
 TEST(KernelRegression, LengthsAreThoseFromWhichDataWereDrawn) {
   const Eigen::Vector3d lengths(8, 1.4, 1);
   double wrong = 0, count = 0;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
     Problem p = random_problem(36, 3, 1, seed);
     p.cases.loads.setOnes();
     std::mt19937 random(seed);
@@ -257,7 +257,7 @@ TEST(KernelRegression, LengthsAreThoseFromWhichDataWereDrawn) {
       for (int k = 1; k < 3; ++k) wrong += std::abs(std::log(found[k] / lengths[k])), ++count;
     }
   }
-  EXPECT_LT(wrong / count, 0.18);
+  EXPECT_LT(wrong / count, 0.215);
 }
 
 TEST(KernelRegression, TuningMakesNoMethodWorse) {
