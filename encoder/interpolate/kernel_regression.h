@@ -98,9 +98,9 @@ class KernelRegression {
   double left_out_error_ = 0;
 };
 
-/// All methods, with the hyperparameters (lengths and nuggets) of least left_out_error(): polynomials, radial
-/// basis functions, and Gaussian processes with a length for each feature. If there are slopes, all methods
-/// use them.
+/// All methods, with lengths and nuggets of least left_out_error(): polynomials, radial basis functions, and
+/// a Gaussian process with a length for each feature, of which the likelihood counts too where there are six
+/// scattered cases a feature. If there are slopes, all methods use them.
 std::vector<KernelRegression> all_methods(const TrainingCases& cases);
 
 }  // namespace cleft

@@ -63,13 +63,13 @@ double true_error(const FigureModel& model, const Eigen::MatrixXd& points, const
 TEST(NextCases, TellMoreThanAsManyOfASequence) {
   Eigen::MatrixXd points = sequence(0, 12);
   const Eigen::MatrixXd candidates = sequence(100, 512), held_out = sequence(2000, 150);
-  for (int batch = 0; batch < 3; ++batch) {
+  for (int batch = 0; batch < 4; ++batch) {
     const NextCases next = next_cases(model_of(points), candidates, lengths, Eigen::MatrixXd(3, 0), 4);
     points.conservativeResize(Eigen::NoChange, points.cols() + 4);
     points.rightCols(4) = next.points;
   }
   // A sequence leaves the ends of the ranges to extrapolation, where errors are largest.
-  const FigureModel chosen = model_of(points), drawn = model_of(sequence(0, 24));
+  const FigureModel chosen = model_of(points), drawn = model_of(sequence(0, 28));
   EXPECT_LT(true_error(chosen, corners(), field_alone[0]),
             0.5 * true_error(drawn, corners(), field_alone[0]));
   EXPECT_LT(true_error(chosen, held_out, field_alone[0]), 1.2 * true_error(drawn, held_out, field_alone[0]));

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -226,6 +228,36 @@ TEST(KernelRegression, SquaresAreLeftOutWhereCasesLieOnTwoLines) {
     EXPECT_NEAR(of_the_same(1), 1, 1e-6);
     EXPECT_LT(of_the_same(2), 0.8);
   }
+}
+
+/// Sums of waves whose numbers are normally distributed: a process with a Gaussian covariance of these
+/// lengths.
+TEST(KernelRegression, LengthsAreThoseFromWhichDataWereDrawn) {
+  const Eigen::Vector3d lengths(8, 1.4, 1);
+  double wrong = 0, count = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Problem p = random_problem(36, 3, 1, seed);
+    p.cases.loads.setOnes();
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);
+    p.data.setZero(1, 36);
+    for (Eigen::Index r = 0; r < p.data.rows(); ++r)
+      for (int wave = 0; wave < 100; ++wave) {
+        Eigen::Vector3d number;
+        for (int k = 0; k < 3; ++k) number[k] = normal(random) / lengths[k];
+        const double begin = phase(random);
+        for (Eigen::Index i = 0; i < p.data.cols(); ++i)
+          p.data(r, i) += std::cos(p.cases.features.row(i).dot(number) + begin);
+      }
+    p.cases.gram = p.data.transpose() * p.data;
+    for (const KernelRegression& method : all_methods(p.cases)) {
+      if (method.covariance().name != "Gaussian process") continue;
+      const Eigen::VectorXd& found = method.covariance().lengths;
+      for (int k = 1; k < 3; ++k) wrong += std::abs(std::log(found[k] / lengths[k])), ++count;
+    }
+  }
+  EXPECT_LT(wrong / count, 0.215);
 }
 
 TEST(KernelRegression, TuningMakesNoMethodWorse) {
