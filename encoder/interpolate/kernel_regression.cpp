@@ -65,27 +65,6 @@ std::vector<std::vector<Eigen::Index>> blocks_of(const TrainingCases& cases) {
   return blocks;
 }
 
-/// Of the diagonal, of cases and slopes.
-Eigen::VectorXd nuggets_of(const TrainingCases& cases, const Covariance& covariance) {
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(cases.features.cols());
-  const double own = covariance(none, none);
-  Eigen::VectorXd nuggets = Eigen::VectorXd::Constant(rows_of(cases), covariance.slope_nugget * own);
-  nuggets.head(cases.features.rows()).setConstant(covariance.nugget * own);
-  return nuggets;
-}
-
-/// The root of what the likelihood of m rows of data y, of unknown size, goes as the power -m of:
-/// sum y^T K^-1 y |K|^(1/m) (Rasmussen and Williams, 5.4.1).
-double by_likelihood(const TrainingCases& cases, const Covariance& covariance) {
-  Eigen::MatrixXd matrix = matrix_of(cases, covariance);
-  matrix.diagonal() += nuggets_of(cases, covariance);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(matrix);
-  const double sum = factor.solve(cases.gram).trace(),
-               logarithm = factor.vectorD().cwiseMax(1e-300).array().log().mean();
-  const double scale = std::sqrt(std::max(sum, 0.)) * std::exp(logarithm / 2);
-  return std::isfinite(scale) ? scale : 1e300;
-}
-
 /// Whether features take other values in most cases, as those of sequences and drawn ones do.
 bool scattered(const Eigen::MatrixXd& features) {
   for (Eigen::Index k = 0; k < features.cols(); ++k) {
@@ -104,10 +83,11 @@ bool scattered(const Eigen::MatrixXd& features) {
 /// by left_out_error() alone, with fewer 0.84 to 0.99 (tests/analysis/README.md); on grids they are not less.
 double misfit(const TrainingCases& cases, const Covariance& covariance, bool is_scattered) {
   constexpr Eigen::Index enough = 6;
-  if (!is_scattered) return KernelRegression(cases, covariance).left_out_error();
+  const KernelRegression regression(cases, covariance);
+  double own = regression.left_out_error();
+  if (!is_scattered) return own;
   const Eigen::Index n = cases.features.rows();
-  double own = KernelRegression(cases, covariance).left_out_error();
-  if (n >= enough * cases.features.cols()) own = std::sqrt(own * by_likelihood(cases, covariance));
+  if (n >= enough * cases.features.cols()) own = std::sqrt(own * regression.by_likelihood(cases.gram));
   const Eigen::ArrayXd lengths = covariance.lengths.array().log();
   return own * std::exp((lengths - lengths.mean()).square().sum() / static_cast<double>(n));
 }
@@ -157,9 +137,11 @@ KernelRegression::KernelRegression(const TrainingCases& cases, Covariance covari
     : cases_{cases.features, cases.loads, {}, cases.slopes},
       matrix_(matrix_of(cases, covariance)),
       covariance_(std::move(covariance)) {
-  const Eigen::Index n = cases.features.rows();
-  nuggets_ = nuggets_of(cases, covariance_);
-  nugget_ = nuggets_[0];
+  const Eigen::Index n = cases.features.rows(), m = rows_of(cases), d = cases.features.cols();
+  const double own = covariance_(Eigen::VectorXd::Zero(d), Eigen::VectorXd::Zero(d));
+  nugget_ = covariance_.nugget * own;
+  nuggets_ = Eigen::VectorXd::Constant(m, covariance_.slope_nugget * own);
+  nuggets_.head(n).setConstant(nugget_);
   factor_.compute(matrix_ + Eigen::MatrixXd(nuggets_.asDiagonal()));
   if (cases.gram.size() == 0) return;
   const LeftOut left_out = this->left_out();
@@ -171,6 +153,13 @@ KernelRegression::KernelRegression(const TrainingCases& cases, Covariance covari
            std::max(squares[i], least);
   left_out_error_ = std::sqrt(sum / static_cast<double>(n));
   if (!std::isfinite(left_out_error_)) left_out_error_ = 1e300;
+}
+
+double KernelRegression::by_likelihood(const Eigen::MatrixXd& gram) const {
+  const double sum = factor_.solve(gram).trace(),
+               logarithm = factor_.vectorD().cwiseMax(1e-300).array().log().mean();
+  const double scale = std::sqrt(std::max(sum, 0.)) * std::exp(logarithm / 2);
+  return std::isfinite(scale) ? scale : 1e300;
 }
 
 KernelRegression::LeftOut KernelRegression::left_out() const {

@@ -69,6 +69,9 @@ class KernelRegression {
   LeftOut left_out() const;
   /// sqrt of the mean of |r_i|^2 / |y_i|^2 (least_size).
   double left_out_error() const { return left_out_error_; }
+  /// The root of what the likelihood of m rows of data y, of unknown size, goes as the power -m of:
+  /// sum y^T K^-1 y |K|^(1/m) (Rasmussen and Williams, 5.4.1). `gram`: that of the cases.
+  double by_likelihood(const Eigen::MatrixXd& gram) const;
 
   /// Predictions at features under loads, m x d and m x k.
   struct Weights {

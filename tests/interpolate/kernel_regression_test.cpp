@@ -242,14 +242,13 @@ TEST(KernelRegression, LengthsAreThoseFromWhichDataWereDrawn) {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);
     p.data.setZero(1, 36);
-    for (Eigen::Index r = 0; r < p.data.rows(); ++r)
-      for (int wave = 0; wave < 100; ++wave) {
-        Eigen::Vector3d number;
-        for (int k = 0; k < 3; ++k) number[k] = normal(random) / lengths[k];
-        const double begin = phase(random);
-        for (Eigen::Index i = 0; i < p.data.cols(); ++i)
-          p.data(r, i) += std::cos(p.cases.features.row(i).dot(number) + begin);
-      }
+    for (int wave = 0; wave < 100; ++wave) {
+      Eigen::Vector3d number;
+      for (int k = 0; k < 3; ++k) number[k] = normal(random) / lengths[k];
+      const double begin = phase(random);
+      for (Eigen::Index i = 0; i < p.data.cols(); ++i)
+        p.data(0, i) += std::cos(p.cases.features.row(i).dot(number) + begin);
+    }
     p.cases.gram = p.data.transpose() * p.data;
     for (const KernelRegression& method : all_methods(p.cases)) {
       if (method.covariance().name != "Gaussian process") continue;
@@ -257,7 +256,7 @@ TEST(KernelRegression, LengthsAreThoseFromWhichDataWereDrawn) {
       for (int k = 1; k < 3; ++k) wrong += std::abs(std::log(found[k] / lengths[k])), ++count;
     }
   }
-  EXPECT_LT(wrong / count, 0.215);
+  EXPECT_LT(wrong / count, 0.215);  // 0.24 by left_out_error() alone
 }
 
 TEST(KernelRegression, TuningMakesNoMethodWorse) {
