@@ -41,10 +41,10 @@ std::string either(const std::vector<std::string>& names) {
 
 void check_sensitivities(const std::vector<std::string>& names, const Parameters& parameters,
                          const std::string& where) {
-  if (!names.empty() && parameters.cut.contact)
+  if (!names.empty() && parameters.cut.contact && parameters.model == Model::finite)
     throw InputError(where +
-                     ": the series has no derivative where lips begin to touch; set "
-                     "cut.contact to false");
+                     ": with contact the series is differentiated in small strains only; set cut.contact to "
+                     "false, or model to \"small\"");
   const std::vector<std::string> groups = smooth_groups();
   for (const std::string& name : names) {
     const Parameter& row = find_parameter(name, where);

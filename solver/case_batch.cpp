@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
+#include "solver/block_rows.h"
+#include "solver/cut_nodes.h"
 #include "solver/multigrid/lanes.h"
 
 namespace cleft {
@@ -126,7 +128,8 @@ void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, cons
   }
 }
 
-/// K u + C^T v = f differentiated: the same system under df/dp - dK/dp u.
+/// K u + C^T v = f differentiated: the same system under df/dp - dK/dp u. Lips that press on each other
+/// slide: where some are about to touch or to part, it is the derivative as long as they do not.
 Block CaseBatch::sensitivity(const Member& member, const std::string& name,
                              std::vector<FrameSolver::Column> columns, const Block& frames) {
   auto& derivative = derivatives_[name + "/" + std::to_string(member.number)];
@@ -134,6 +137,13 @@ Block CaseBatch::sensitivity(const Member& member, const std::string& name,
   Block loads = -derivative->multiply(frames);
   loads.colwise() += Eigen::VectorXd(derivative->load().col(0));
   Block solution(frames.rows(), frames.cols());
+  if (columns.front().contact) {
+    for (Eigen::Index c = 0; c < frames.cols(); ++c) {
+      const int open = columns[static_cast<std::size_t>(c)].open;
+      solution.col(c) = solver_.solve_once(loads.col(c), open, touching(frames.col(c), open));
+    }
+    return solution;
+  }
   constexpr Eigen::Index at_once = 16;  // these loads are full
   for (Eigen::Index c = 0; c < frames.cols(); c += at_once) {
     const Eigen::Index count = std::min(at_once, frames.cols() - c);
@@ -143,6 +153,24 @@ Block CaseBatch::sensitivity(const Member& member, const std::string& name,
     solution.middleCols(c, count) = solver_.solve(some);
   }
   return solution;
+}
+
+/// Open pairs without an opening along their normals.
+FrameSolver::Touching CaseBatch::touching(const Block& displacement, int open) const {
+  constexpr double nothing = 1e-9;  // of the largest displacement at the cut
+  const CutNodes cut(shared_.mesh(), system_);
+  const Eigen::MatrixXd at_cut = all_gather_rows(system_, displacement, cut.unknowns);
+  const double least = nothing * at_cut.cwiseAbs().maxCoeff();
+  FrameSolver::Touching found;
+  for (int i = 0; i < open; ++i) {
+    const int pair = release_.order[i];
+    const auto [left, right] = cut.pairs[pair];
+    const Vec3& n = shared_.mesh().pairs[pair].normal;
+    const Eigen::Vector3d jump = (at_cut.middleRows<3>(3 * right) - at_cut.middleRows<3>(3 * left)).col(0);
+    if (Eigen::Vector3d(n.x, n.y, n.z).dot(jump) <= least) found.places.push_back(i);
+  }
+  found.openings = Eigen::VectorXd::Zero(std::ssize(found.places));
+  return found;
 }
 
 }  // namespace cleft

@@ -39,6 +39,7 @@ class CaseBatch {
   void finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads);
   Block sensitivity(const Member& member, const std::string& name, std::vector<FrameSolver::Column> columns,
                     const Block& frames);
+  FrameSolver::Touching touching(const Block& displacement, int open) const;
 
   SharedStiffness& shared_;
   const SolveOptions& options_;

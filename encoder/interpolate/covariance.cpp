@@ -32,23 +32,28 @@ Eigen::ArrayXd Covariance::of_rows(const Eigen::MatrixXd& x, const Eigen::RowVec
   return values + correlated(correlation, squared);
 }
 
-Covariance::Jet Covariance::along(const Eigen::VectorXd& x, const Eigen::VectorXd& dx,
-                                  const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const {
-  const double s = 1 + x.dot(y), first = trend * degree * std::pow(s, degree - 1),
-               second = degree > 1 ? trend * degree * (degree - 1) * std::pow(s, degree - 2) : 0;
-  const double by_x = y.dot(dx), by_y = x.dot(dy);
-  Jet jet{trend * std::pow(s, degree), first * by_x, first * by_y, second * by_x * by_y + first * dx.dot(dy)};
-  if (correlation == Correlation::none) return jet;
-  const Eigen::VectorXd z = (x - y).cwiseQuotient(lengths), u = dx.cwiseQuotient(lengths),
-                        v = dy.cwiseQuotient(lengths);
-  const double zu = z.dot(u), zv = z.dot(v), uv = u.dot(v), squared = z.squaredNorm();
-  if (correlation == Correlation::gaussian) {
-    const double e = std::exp(-0.5 * squared);
-    return {jet.value + e, jet.by_x - e * zu, jet.by_y + e * zv, jet.by_both + e * (uv - zu * zv)};
+Covariance::Jets Covariance::along_rows(const Eigen::MatrixXd& x, const Eigen::MatrixXd& dx,
+                                        const Eigen::VectorXd& y, const Eigen::VectorXd& dy) const {
+  const Eigen::ArrayXd s = 1 + (x * y).array(), by_x = (dx * y).array(), by_y = (x * dy).array();
+  const Eigen::ArrayXd first = trend * degree * s.pow(degree - 1);
+  Jets jets{trend * s.pow(degree), first * by_x, first * by_y, first * (dx * dy).array()};
+  if (degree > 1) jets.by_both += trend * degree * (degree - 1) * s.pow(degree - 2) * by_x * by_y;
+  if (correlation == Correlation::none) return jets;
+  // Of z = (x - y) / lengths, u = dx / lengths and v = dy / lengths.
+  Eigen::ArrayXd squared = Eigen::ArrayXd::Zero(x.rows()), zu = squared, zv = squared, uv = squared;
+  for (Eigen::Index k = 0; k < x.cols(); ++k) {
+    const Eigen::ArrayXd z = (x.col(k).array() - y[k]) / lengths[k], u = dx.col(k).array() / lengths[k];
+    squared += z.square(), zu += z * u, zv += z * (dy[k] / lengths[k]), uv += u * (dy[k] / lengths[k]);
   }
-  const double r = std::sqrt(5 * squared), e = std::exp(-r), slope = 5. / 3 * (1 + r) * e;
-  return {jet.value + (1 + r + r * r / 3) * e, jet.by_x - slope * zu, jet.by_y + slope * zv,
-          jet.by_both + slope * uv - 25. / 3 * e * zu * zv};
+  if (correlation == Correlation::gaussian) {
+    const Eigen::ArrayXd e = (-0.5 * squared).exp();
+    jets.value += e, jets.by_x -= e * zu, jets.by_y += e * zv, jets.by_both += e * (uv - zu * zv);
+    return jets;
+  }
+  const Eigen::ArrayXd r = (5 * squared).sqrt(), e = (-r).exp(), slope = 5. / 3 * (1 + r) * e;
+  jets.value += (1 + r + r.square() / 3) * e, jets.by_x -= slope * zu, jets.by_y += slope * zv;
+  jets.by_both += slope * uv - 25. / 3 * e * zu * zv;
+  return jets;
 }
 
 }  // namespace cleft

@@ -99,14 +99,12 @@ DisplacementModel::DisplacementModel(const std::vector<RecordedParameters>& case
   exponents_ = exponents_of(places_(samples.cases, Eigen::all), norms.cwiseQuotient(scales_(samples.cases)));
   scales_.array() *= (places_ * exponents_).array().exp();
   add_ways(cases, samples);
-  Eigen::MatrixXd data(samples.displacements.rows(),
-                       samples.displacements.cols() + static_cast<Eigen::Index>(ways_.size()));
-  data.leftCols(samples.displacements.cols()) = normal();
-  for (std::size_t w = 0; w < ways_.size(); ++w) {  // of d / scale
-    const Way& way = ways_[w];
-    data.col(samples.displacements.cols() + static_cast<Eigen::Index>(w)) =
-        (samples.derivatives.col(way.derivative) - way.log_scale * samples.displacements.col(way.of)) /
-        (scales_[way.of] * way.size);
+  Eigen::MatrixXd data = normal();
+  if (!ways_.empty()) {
+    CLEFT_CHECK(samples.displacements.cols(), ==, n);
+    Eigen::MatrixXd all(data.rows(), n + derivatives_);
+    all << samples.displacements, samples.derivatives;
+    data = to_rows(all);
   }
   choose(samples.cases, data);
   if (plain_ && uses_derivatives() && ways_see_all_features()) plain_.reset();
@@ -222,9 +220,41 @@ Eigen::MatrixXd DisplacementModel::covariance(const std::vector<RecordedParamete
          points.scales.asDiagonal();
 }
 
+/// Columns of displacements, and of derivatives behind them, as data of the regression's rows, d / scale,
+/// whose derivative is that of d, and of the scale.
+Eigen::MatrixXd DisplacementModel::to_rows(const Eigen::MatrixXd& data) const {
+  const Eigen::Index n = places_.rows();
+  Eigen::MatrixXd rows(data.rows(), n + static_cast<Eigen::Index>(ways_.size()));
+  rows.leftCols(n) = data.leftCols(n) * scales_.cwiseInverse().asDiagonal();
+  for (std::size_t w = 0; w < ways_.size(); ++w) {
+    const Way& way = ways_[w];
+    rows.col(n + static_cast<Eigen::Index>(w)) =
+        (data.col(n + way.derivative) - way.log_scale * data.col(way.of)) / (scales_[way.of] * way.size);
+  }
+  return rows;
+}
+
+/// The transpose of that: weights of the rows as those of displacements and derivatives.
+Eigen::MatrixXd DisplacementModel::from_rows(const Eigen::MatrixXd& weights) const {
+  const Eigen::Index n = places_.rows();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + derivatives_, weights.cols());
+  all.topRows(n) = scales_.cwiseInverse().asDiagonal() * weights.topRows(n);
+  for (Eigen::Index w = 0; w < weights.rows() - n; ++w) {
+    const Way& way = ways_[static_cast<std::size_t>(w)];
+    const Eigen::RowVectorXd weight = weights.row(n + w) / (scales_[way.of] * way.size);
+    all.row(n + way.derivative) += weight;
+    all.row(way.of) -= weight * way.log_scale;
+  }
+  return all;
+}
+
 Eigen::MatrixXd DisplacementModel::coefficients_of(const Eigen::MatrixXd& data) const {
-  CLEFT_CHECK(regression_->rows(), ==, places_.rows());
-  return regression_->coefficients(data * scales_.cwiseInverse().asDiagonal());
+  return regression_->coefficients(to_rows(data).leftCols(regression_->rows()));
+}
+
+Eigen::MatrixXd DisplacementModel::inverse() const {
+  const Eigen::MatrixXd half = from_rows(regression_->inverse());
+  return from_rows(half.transpose());
 }
 
 Eigen::MatrixXd DisplacementModel::sums(const Eigen::MatrixXd& coefficients,
@@ -237,17 +267,9 @@ DisplacementModel::Predictions DisplacementModel::at(const std::vector<RecordedP
   const auto count = static_cast<Eigen::Index>(list.size()), n = places_.rows();
   const auto& [places, loads, plain_scales, scales] = points_of(list);
   const KernelRegression::Weights found = regression_->weights(places, loads);
-  const Eigen::MatrixXd weights = found.of_rows * scales.asDiagonal();
-  Predictions all{scales_.cwiseInverse().asDiagonal() * weights.topRows(n),
-                  Eigen::MatrixXd::Zero(derivatives_, count),
-                  scales.cwiseProduct(found.deviations),
-                  {}};
-  for (Eigen::Index w = 0; w < weights.rows() - n; ++w) {  // d / scale moves by that of d, and of the scale
-    const Way& way = ways_[static_cast<std::size_t>(w)];
-    const Eigen::RowVectorXd weight = weights.row(n + w) / (scales_[way.of] * way.size);
-    all.derivatives.row(way.derivative) += weight;
-    all.weights.row(way.of) -= weight * way.log_scale;
-  }
+  const Eigen::MatrixXd weights = from_rows(found.of_rows * scales.asDiagonal());
+  Predictions all{
+      weights.topRows(n), weights.bottomRows(derivatives_), scales.cwiseProduct(found.deviations), {}};
   if (plain_) {
     all.others.setZero(n, count);
     all.others(plain_->of, Eigen::all) = plain_->scales.cwiseInverse().asDiagonal() *
@@ -260,16 +282,10 @@ DisplacementModel::Predictions DisplacementModel::at(const std::vector<RecordedP
 DisplacementModel::Predictions DisplacementModel::left_out() const {
   const Eigen::Index n = places_.rows();
   const KernelRegression::LeftOut residuals = regression_->left_out();
-  Predictions all{{}, Eigen::MatrixXd::Zero(derivatives_, n), scales_.cwiseProduct(residuals.deviations), {}};
-  all.weights = -(scales_.cwiseInverse().asDiagonal() * residuals.weights.topRows(n) * scales_.asDiagonal());
+  const Eigen::MatrixXd weights = -from_rows(residuals.weights * scales_.asDiagonal());
+  Predictions all{
+      weights.topRows(n), weights.bottomRows(derivatives_), scales_.cwiseProduct(residuals.deviations), {}};
   all.weights.diagonal().array() += 1;
-  for (Eigen::Index w = 0; w < residuals.weights.rows() - n; ++w) {
-    const Way& way = ways_[static_cast<std::size_t>(w)];
-    const Eigen::RowVectorXd weight =
-        residuals.weights.row(n + w) * scales_.asDiagonal() / (scales_[way.of] * way.size);
-    all.derivatives.row(way.derivative) -= weight;
-    all.weights.row(way.of) += weight * way.log_scale;
-  }
   return all;
 }
 

@@ -41,10 +41,9 @@ class DisplacementModel {
                     Loading loading);
 
   struct Prediction {
-    Eigen::VectorXd weights;  ///< of the cases, for everything that is linear in their displacements
-    Eigen::VectorXd
-        derivatives;  ///< of the derivatives, in units of their parameter; empty without derivatives
-    double error;     ///< mm: estimate of the largest error at any place
+    Eigen::VectorXd weights;      ///< of the cases, for everything that is linear in their displacements
+    Eigen::VectorXd derivatives;  ///< of the derivatives, in units of their parameter
+    double error;                 ///< mm: estimate of the largest error at any place
   };
   Prediction at(const RecordedParameters& parameters) const;
   nlohmann::ordered_json data() const;  ///< see Features
@@ -58,8 +57,8 @@ class DisplacementModel {
   };
   Predictions at(const std::vector<RecordedParameters>& list) const;
   /// What is linear in the displacements, at many places: sums() = data * weights without errors, for the
-  /// cost of a row of coefficients in place of that of a square matrix. data: quantities x cases. Only of
-  /// models without derivatives by parameters.
+  /// cost of a row of coefficients in place of that of a square matrix. data: quantities x (cases, and
+  /// their derivatives behind them).
   Eigen::MatrixXd coefficients_of(const Eigen::MatrixXd& data) const;
   Eigen::MatrixXd sums(const Eigen::MatrixXd& coefficients,
                        const std::vector<RecordedParameters>& list) const;
@@ -68,6 +67,9 @@ class DisplacementModel {
   Eigen::MatrixXd covariance(const std::vector<RecordedParameters>& list) const;
   /// The predictions of each of all cases from those of all others.
   Predictions left_out() const;
+  /// The inverse of the covariance of the cases' displacements, and of the derivatives behind them; 0 of
+  /// those that the model does not use.
+  Eigen::MatrixXd inverse() const;
 
   /// Distance of parameters from the cases: that of the features from their convex hull, where the spread of
   /// each is 1, and that of the load's direction from the span of the cases' directions.
@@ -103,6 +105,8 @@ class DisplacementModel {
     Eigen::VectorXd plain_scales, scales;  // without the power law, and with it
   };
   Points points_of(const std::vector<RecordedParameters>& list) const;
+  Eigen::MatrixXd to_rows(const Eigen::MatrixXd& data) const;
+  Eigen::MatrixXd from_rows(const Eigen::MatrixXd& weights) const;
   void add_ways(const std::vector<RecordedParameters>& cases, const CaseSamples& samples);
   TrainingCases training(const std::vector<int>& cases, bool with_ways) const;
   void choose(const std::vector<int>& cases, const Eigen::MatrixXd& normal);

@@ -9,49 +9,58 @@ namespace cleft {
 
 namespace {
 
-/// Covariance of the data of a case, or of a slope there, with another.
-struct Row {
-  Eigen::VectorXd x, load, dx, dload;
-  bool slope = false;
-};
-
-double covariance_of(const Row& a, const Row& b, const Covariance& covariance) {
-  const double loads = a.load.dot(b.load);
-  if (!a.slope && !b.slope) return loads * covariance(a.x, b.x);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(a.x.size());
-  const Covariance::Jet k = covariance.along(a.x, a.slope ? a.dx : none, b.x, b.slope ? b.dx : none);
-  double sum = 0;
-  if (a.slope && b.slope)
-    sum = a.dload.dot(b.dload) * k.value + a.dload.dot(b.load) * k.by_y + a.load.dot(b.dload) * k.by_x +
-          loads * k.by_both;
-  else if (a.slope)
-    sum = a.dload.dot(b.load) * k.value + loads * k.by_x;
-  else
-    sum = a.load.dot(b.dload) * k.value + loads * k.by_y;
-  return sum;
-}
-
-Row row_of(const TrainingCases& cases, Eigen::Index row) {
-  const Eigen::Index n = cases.features.rows(), slope = row - n;
-  const Eigen::Index of = slope < 0 ? row : cases.slopes.of[slope];
-  Row result{cases.features.row(of).transpose(), cases.loads.row(of).transpose(), {}, {}, slope >= 0};
-  if (slope >= 0)
-    result.dx = cases.slopes.features.row(slope).transpose(),
-    result.dload = cases.slopes.loads.row(slope).transpose();
-  return result;
-}
-
 Eigen::Index rows_of(const TrainingCases& cases) {
   return cases.features.rows() + static_cast<Eigen::Index>(cases.slopes.of.size());
 }
 
+/// Covariances of all slopes of some cases with anything.
+class SlopeRows {
+ public:
+  explicit SlopeRows(const TrainingCases& cases)
+      : x_(cases.features(cases.slopes.of, Eigen::all)),
+        loads_(cases.loads(cases.slopes.of, Eigen::all)),
+        slopes_(cases.slopes) {}
+
+  /// With the data at a place under a load.
+  Eigen::VectorXd with_data(const Eigen::VectorXd& x, const Eigen::VectorXd& load,
+                            const Covariance& covariance) const {
+    const Covariance::Jets k =
+        covariance.along_rows(x_, slopes_.features, x, Eigen::VectorXd::Zero(x.size()));
+    return (slopes_.loads * load).array() * k.value + (loads_ * load).array() * k.by_x;
+  }
+  /// With those from the s-th on, each other's.
+  Eigen::VectorXd with_slope(Eigen::Index s, const Covariance& covariance) const {
+    const Eigen::Index rest = x_.rows() - s;
+    const Eigen::MatrixXd loads = loads_.bottomRows(rest), along = slopes_.loads.bottomRows(rest);
+    const Eigen::VectorXd load = loads_.row(s), dload = slopes_.loads.row(s);
+    const Covariance::Jets k =
+        covariance.along_rows(x_.bottomRows(rest), slopes_.features.bottomRows(rest), x_.row(s).transpose(),
+                              slopes_.features.row(s).transpose());
+    return (along * dload).array() * k.value + (along * load).array() * k.by_y +
+           (loads * dload).array() * k.by_x + (loads * load).array() * k.by_both;
+  }
+
+ private:
+  Eigen::MatrixXd x_, loads_;
+  const TrainingCases::Slopes& slopes_;
+};
+
 Eigen::MatrixXd matrix_of(const TrainingCases& cases, const Covariance& covariance) {
-  const Eigen::Index m = rows_of(cases);
-  std::vector<Row> rows;
-  for (Eigen::Index i = 0; i < m; ++i) rows.push_back(row_of(cases, i));
-  Eigen::MatrixXd K(m, m);
-  for (Eigen::Index i = 0; i < m; ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) K(i, j) = K(j, i) = covariance_of(rows[i], rows[j], covariance);
+  const Eigen::Index n = cases.features.rows(), q = rows_of(cases) - n;
+  Eigen::MatrixXd K(n + q, n + q);
+  std::vector<Eigen::VectorXd> x, loads;
+  for (Eigen::Index i = 0; i < n; ++i)
+    x.emplace_back(cases.features.row(i)), loads.emplace_back(cases.loads.row(i));
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) K(i, j) = K(j, i) = loads[i].dot(loads[j]) * covariance(x[i], x[j]);
+  if (q == 0) return K;
+  const SlopeRows slopes(cases);
+  for (Eigen::Index j = 0; j < n; ++j) K.col(j).tail(q) = slopes.with_data(x[j], loads[j], covariance);
+  K.topRightCorner(n, q) = K.bottomLeftCorner(q, n).transpose();
+  for (Eigen::Index s = 0; s < q; ++s) {
+    K.col(n + s).tail(q - s) = slopes.with_slope(s, covariance);
+    K.row(n + s).tail(q - s) = K.col(n + s).tail(q - s).transpose();
+  }
   return K;
 }
 
@@ -162,9 +171,13 @@ double KernelRegression::by_likelihood(const Eigen::MatrixXd& gram) const {
   return std::isfinite(scale) ? scale : 1e300;
 }
 
+Eigen::MatrixXd KernelRegression::inverse() const {
+  return factor_.solve(Eigen::MatrixXd::Identity(rows(), rows()));
+}
+
 KernelRegression::LeftOut KernelRegression::left_out() const {
   const Eigen::Index n = cases_.features.rows(), m = rows();
-  const Eigen::MatrixXd inverse = factor_.solve(Eigen::MatrixXd::Identity(m, m));
+  const Eigen::MatrixXd inverse = this->inverse();
   const auto blocks = blocks_of(cases_);
   LeftOut left_out{Eigen::MatrixXd(m, n), Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -190,13 +203,13 @@ Eigen::MatrixXd KernelRegression::against(const Eigen::MatrixXd& features,
   const Eigen::Index n = cases_.features.rows();
   Eigen::MatrixXd against(rows(), features.rows());
   against.topRows(n) = cases_.loads * loads.transpose();
-  for (Eigen::Index j = 0; j < features.rows(); ++j) {
+  for (Eigen::Index j = 0; j < features.rows(); ++j)
     against.col(j).head(n).array() *= covariance_.of_rows(cases_.features, features.row(j));
-    if (rows() == n) continue;
-    const Row wanted{features.row(j).transpose(), loads.row(j).transpose(), {}, {}, false};
-    for (Eigen::Index i = n; i < rows(); ++i)
-      against(i, j) = covariance_of(row_of(cases_, i), wanted, covariance_);
-  }
+  if (rows() == n) return against;
+  const SlopeRows slopes(cases_);
+  for (Eigen::Index j = 0; j < features.rows(); ++j)
+    against.col(j).tail(rows() - n) =
+        slopes.with_data(features.row(j).transpose(), loads.row(j).transpose(), covariance_);
   return against;
 }
 

@@ -48,12 +48,13 @@ struct Covariance {
   /// Of each row of x with y, without the loads.
   Eigen::ArrayXd of_rows(const Eigen::MatrixXd& x, const Eigen::RowVectorXd& y) const;
 
-  /// Without the loads: the value, its derivative as y moves along dy, and that as x moves along dx too.
-  struct Jet {
-    double value, by_x, by_y, by_both;
+  /// Without the loads, of each row of x with y: the value, its derivatives as x moves along the row of dx
+  /// and as y moves along dy, and that as both do.
+  struct Jets {
+    Eigen::ArrayXd value, by_x, by_y, by_both;
   };
-  Jet along(const Eigen::VectorXd& x, const Eigen::VectorXd& dx, const Eigen::VectorXd& y,
-            const Eigen::VectorXd& dy) const;
+  Jets along_rows(const Eigen::MatrixXd& x, const Eigen::MatrixXd& dx, const Eigen::VectorXd& y,
+                  const Eigen::VectorXd& dy) const;
 };
 
 class KernelRegression {
@@ -67,6 +68,8 @@ class KernelRegression {
     Eigen::VectorXd deviations;  ///< standard deviation of r_i
   };
   LeftOut left_out() const;
+  /// K^-1, of the cases and the slopes behind them.
+  Eigen::MatrixXd inverse() const;
   /// sqrt of the mean of |r_i|^2 / |y_i|^2 (least_size).
   double left_out_error() const { return left_out_error_; }
   /// The root of what the likelihood of m rows of data y, of unknown size, goes as the power -m of:

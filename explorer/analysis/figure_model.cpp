@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -17,6 +18,7 @@ constexpr std::size_t few_cases = 64;  // whose quantiles are those of a normal 
                                        // is chosen again without each part of them
 constexpr int most_parts = 8;
 constexpr int most_compared = 128;            // cases that choose the method
+constexpr Eigen::Index most_data = 512;       // with derivatives, which more cases need not
 constexpr Eigen::Index points_at_once = 256;  // their weights stay in the cache
 
 Eigen::VectorXd displacements_of(const Field& field, const std::vector<Figure>& figures) {
@@ -46,7 +48,7 @@ FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Fig
                               const ReportPart& report) {
   std::map<std::map<std::string, double>, int> of_numbers;
   FigureModel::Cases cases;
-  std::vector<Eigen::VectorXd> columns, errors;
+  std::vector<Eigen::VectorXd> columns, slopes, errors;
   for (int i = 0; i < study.size(); ++i) {
     if (report) report(1. * i / study.size());
     const Field field = study.read(i);
@@ -56,6 +58,12 @@ FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Fig
     if (!cases.parameters.empty()) check_choices(cases.parameters.front(), parameters);
     cases.parameters.push_back(parameters);
     cases.numbers.push_back(i);
+    for (const ParameterDerivative& one : field.by_parameter) {
+      const Field slope(field.shared_parametrization(),
+                        {field.basis(0), field.basis(1), field.basis(2), field.basis(3)}, one.control_points);
+      cases.derivative_of.push_back(static_cast<int>(columns.size())), cases.by.push_back(one.parameter);
+      slopes.push_back(displacements_of(slope, figures));
+    }
     columns.push_back(displacements_of(field, figures));
     errors.emplace_back(Eigen::VectorXd::Constant(static_cast<Eigen::Index>(figures.size()),
                                                   error_of_gape(field).value_or(std::nan(""))));
@@ -69,6 +77,9 @@ FigureModel::Cases read_cases(const PublishedStudy& study, const std::vector<Fig
   for (std::size_t i = 0; i < columns.size(); ++i)
     cases.displacements.col(static_cast<Eigen::Index>(i)) = columns[i],
     cases.fit_errors.col(static_cast<Eigen::Index>(i)) = errors[i];
+  cases.derivatives.resize(columns.front().size(), std::ssize(slopes));
+  for (std::size_t d = 0; d < slopes.size(); ++d)
+    cases.derivatives.col(static_cast<Eigen::Index>(d)) = slopes[d];
   return cases;
 }
 
@@ -88,12 +99,24 @@ double kept(std::vector<double> values, double share) {
   return (1.96 + 2.37 / n + 2.82 / (n * n)) * std::sqrt(squares / n);  // of Student's distribution, expanded
 }
 
-/// Of many cases some choose the method.
-DisplacementModel best_model(const std::vector<RecordedParameters>& parameters,
-                             const Eigen::MatrixXd& displacements) {
+/// Of some of the cases. Of many, a part chooses the method.
+DisplacementModel best_model(const FigureModel::Cases& cases, const std::vector<int>& some) {
+  std::vector<RecordedParameters> parameters;
+  std::vector<int> place(cases.parameters.size(), -1);
+  for (const int i : some) {
+    place[static_cast<std::size_t>(i)] = static_cast<int>(parameters.size());
+    parameters.push_back(cases.parameters[static_cast<std::size_t>(i)]);
+  }
   CaseSamples samples;
   samples.cases = representative_cases(parameters, most_compared);
-  samples.displacements = displacements(Eigen::all, samples.cases);
+  std::vector<int> compared, slopes;
+  for (const int i : samples.cases) compared.push_back(some[static_cast<std::size_t>(i)]);
+  samples.displacements = cases.displacements(Eigen::all, compared);
+  for (std::size_t d = 0; d < cases.by.size(); ++d)
+    if (const int of = place[static_cast<std::size_t>(cases.derivative_of[d])]; of >= 0)
+      samples.derivative_of.push_back(of), samples.parameter.push_back(cases.by[d]),
+          slopes.push_back(static_cast<int>(d));
+  samples.derivatives = cases.derivatives(Eigen::all, slopes);
   return best_model(parameters, samples, loadings_of(parameters.front()));
 }
 
@@ -121,18 +144,41 @@ FigureModel::FigureModel(Cases cases, std::vector<Figure> figures)
   for (const Figure& figure : figures_)
     rows_.push_back(rows_.back() + 3 * std::ssize(figure.places(FieldGeometry{})));
 
-  model_ = std::make_shared<const DisplacementModel>(best_model(parameters, cases_.displacements));
+  const Eigen::Index slopes = cases_.derivatives.cols();
+  if (slopes == 0 || n > most_compared || n + slopes > most_data)
+    cases_.derivatives.resize(cases_.displacements.rows(), 0), cases_.derivative_of.clear(),
+        cases_.by.clear();
+  std::vector<int> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  model_ = std::make_shared<const DisplacementModel>(best_model(cases_, all));
+  data_.resize(cases_.displacements.rows(), n + cases_.derivatives.cols());
+  data_ << cases_.displacements, cases_.derivatives;
   own_ = figures_from(cases_.displacements);
-  const DisplacementModel::Predictions others = model_->left_out();
-  inverse_ = -others.weights;
-  inverse_.diagonal().array() += 1;
-  inverse_ = inverse_ * others.deviations.cwiseAbs2().cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd predicted = cases_.displacements * others.weights;
+  inverse_ = model_->inverse();
+  residuals_.setZero(data_.rows(), data_.cols());
+  for (int i = 0; i < n; ++i) {
+    const std::vector<Eigen::Index> columns = columns_of({i});
+    const Eigen::MatrixXd own = inverse_(columns, columns);
+    residuals_(Eigen::all, columns) =
+        own.ldlt().solve((data_ * inverse_(Eigen::all, columns)).transpose()).transpose();
+  }
+  const Eigen::MatrixXd predicted = cases_.displacements - residuals_.leftCols(n);
   left_out_ = figures_from(predicted);
-  residuals_ = cases_.displacements - predicted;
   ratios_ = n > static_cast<Eigen::Index>(few_cases)
-                ? ratios_of(predicted, others.deviations)
+                ? ratios_of(predicted, model_->left_out().deviations)
                 : ratios_of(predicted_by_parts(), deviations_without_parts());
+}
+
+/// Of the data, and of their inverse covariance: those of cases, and of their derivatives that are used.
+std::vector<Eigen::Index> FigureModel::columns_of(const std::vector<int>& cases) const {
+  std::vector<Eigen::Index> columns(cases.begin(), cases.end());
+  for (std::size_t d = 0; d < cases_.by.size(); ++d) {
+    const Eigen::Index column = this->cases() + static_cast<Eigen::Index>(d);
+    if (inverse_(column, column) > 0 &&
+        std::find(cases.begin(), cases.end(), cases_.derivative_of[d]) != cases.end())
+      columns.push_back(column);
+  }
+  return columns;
 }
 
 /// Residuals of predictions over their deviations.
@@ -148,13 +194,16 @@ Eigen::MatrixXd FigureModel::predicted_by_parts() const {
   Eigen::MatrixXd predicted(cases_.displacements.rows(), cases());
   parallel_for(parts, [&](int part) {
     std::vector<int> left, rest;
-    std::vector<RecordedParameters> of_left, of_rest;
-    for (int i = 0; i < cases(); ++i) {
-      (i % parts == part ? left : rest).push_back(i);
-      (i % parts == part ? of_left : of_rest).push_back(cases_.parameters[static_cast<std::size_t>(i)]);
-    }
-    const Eigen::MatrixXd displacements = cases_.displacements(Eigen::all, rest);
-    predicted(Eigen::all, left) = displacements * best_model(of_rest, displacements).at(of_left).weights;
+    for (int i = 0; i < cases(); ++i) (i % parts == part ? left : rest).push_back(i);
+    std::vector<RecordedParameters> of_left;
+    for (const int i : left) of_left.push_back(cases_.parameters[static_cast<std::size_t>(i)]);
+    const DisplacementModel model = best_model(cases_, rest);
+    const DisplacementModel::Predictions found = model.at(of_left);
+    std::vector<int> slopes;  // of the rest, in their order
+    for (std::size_t d = 0; d < cases_.by.size(); ++d)
+      if (cases_.derivative_of[d] % parts != part) slopes.push_back(static_cast<int>(d));
+    predicted(Eigen::all, left) = cases_.displacements(Eigen::all, rest) * found.weights +
+                                  cases_.derivatives(Eigen::all, slopes) * found.derivatives;
   });
   return predicted;
 }
@@ -167,8 +216,9 @@ Eigen::VectorXd FigureModel::deviations_without_parts() const {
   for (int part = 0; part < parts; ++part) {
     std::vector<int> left;
     for (int i = part; i < cases(); i += parts) left.push_back(i);
-    const Eigen::MatrixXd own = inverse_(left, left);
-    deviations(left) = own.inverse().diagonal().cwiseSqrt();
+    const std::vector<Eigen::Index> columns = columns_of(left);
+    const Eigen::MatrixXd own = inverse_(columns, columns);
+    deviations(left) = own.inverse().diagonal().head(std::ssize(left)).cwiseSqrt();
   }
   return deviations;
 }
@@ -217,7 +267,8 @@ FigureModel::Answers FigureModel::at(const Eigen::MatrixXd& points) const {
                   Eigen::MatrixXd(std::ssize(figures_), points.cols())};
   for_pieces(points.cols(), [&](Eigen::Index first, Eigen::Index count) {
     const auto found = model_->at(parameters_at(points.middleCols(first, count)));
-    const Eigen::MatrixXd displacements = cases_.displacements * found.weights;
+    const Eigen::MatrixXd displacements =
+        cases_.displacements * found.weights + cases_.derivatives * found.derivatives;
     Eigen::MatrixXd errors(std::ssize(figures_), count);
     estimate_errors(found, displacements, errors);
     answers.values.middleCols(first, count) = figures_from(displacements);
@@ -230,10 +281,10 @@ FigureModel::Function FigureModel::function_of(const std::vector<Told>& list) co
   std::vector<Figure> figures;
   std::vector<Eigen::Index> rows{0};
   Eigen::MatrixXd data;
-  for (const auto& [figure, displacements] : list) {
+  for (const auto& [figure, own] : list) {
     figures.push_back(figures_[static_cast<std::size_t>(figure)]);
-    const Eigen::MatrixXd part = figures.back().linear_part(displacements);
-    data.conservativeResize(rows.back() + part.rows(), cases());
+    const Eigen::MatrixXd part = figures.back().linear_part(own);
+    data.conservativeResize(rows.back() + part.rows(), data_.cols());
     data.bottomRows(part.rows()) = part;
     rows.push_back(data.rows());
   }
@@ -253,18 +304,23 @@ FigureModel::Function FigureModel::function_of(const std::vector<Told>& list) co
 FigureModel::Function FigureModel::values() const {
   std::vector<Told> list;
   list.reserve(figures_.size());
-  for (int f = 0; f < std::ssize(figures_); ++f) list.push_back({f, displacements_of_figure(f)});
+  for (int f = 0; f < std::ssize(figures_); ++f) list.push_back({f, data_of_figure(f)});
   return function_of(list);
 }
 
-/// Without case i the prediction is d - r_i w_i, where w_i is its weight and r_i its residual.
+/// Without case i the prediction is d - r_i w_i, where w_i is its weight and r_i its residual; with
+/// derivatives the sum of that over all its data.
 void FigureModel::estimate_errors(const DisplacementModel::Predictions& found,
                                   const Eigen::MatrixXd& displacements,
                                   Eigen::Ref<Eigen::MatrixXd> errors) const {
   Eigen::MatrixXd apart;  // of two models, where the cases cannot tell which is right
   if (found.others.size() > 0) apart = differences(cases_.displacements * found.others, displacements);
   for (Eigen::Index j = 0; j < errors.cols(); ++j) {
-    Eigen::MatrixXd without = -(residuals_ * found.weights.col(j).asDiagonal());
+    Eigen::MatrixXd without = -(residuals_.leftCols(cases()) * found.weights.col(j).asDiagonal());
+    for (std::size_t d = 0; d < cases_.by.size(); ++d) {
+      const auto k = static_cast<Eigen::Index>(d);
+      without.col(cases_.derivative_of[d]) -= found.derivatives(k, j) * residuals_.col(cases() + k);
+    }
     without.colwise() += displacements.col(j);
     const Eigen::MatrixXd changes = differences(without, displacements.col(j));
     for (Eigen::Index f = 0; f < errors.rows(); ++f) {
@@ -282,15 +338,16 @@ void FigureModel::estimate_errors(const DisplacementModel::Predictions& found,
 /// A weight that is held at zero changes the others by the column of the inverse that undoes it, and what
 /// these make of the displacements is as if the cases left out had that contribution less.
 FigureModel::Function FigureModel::without_parts(int parts, int figure) const {
-  const Eigen::MatrixXd displacements = displacements_of_figure(figure);
+  const Eigen::MatrixXd data = data_of_figure(figure);
   std::vector<Told> list;
   for (int k = 0; k < parts; ++k) {
     std::vector<int> left;
     for (int i = k; i < cases(); i += parts) left.push_back(i);
-    const Eigen::MatrixXd own = inverse_(left, left);
-    list.push_back({figure, displacements});
-    list.back().displacements(Eigen::all, left) -=
-        own.transpose().ldlt().solve((displacements * inverse_(Eigen::all, left)).transpose()).transpose();
+    const std::vector<Eigen::Index> columns = columns_of(left);
+    const Eigen::MatrixXd own = inverse_(columns, columns);
+    list.push_back({figure, data});
+    list.back().data(Eigen::all, columns) -=
+        own.transpose().ldlt().solve((data * inverse_(Eigen::all, columns)).transpose()).transpose();
   }
   return function_of(list);
 }

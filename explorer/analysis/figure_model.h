@@ -35,6 +35,11 @@ class FigureModel {
     Eigen::MatrixXd displacements;  ///< a column for each: of the places of all figures, one after another
     Eigen::MatrixXd fit_errors;     ///< figures x cases, mm: of the fields; NaN where it is not known
     std::vector<int> numbers = {};  ///< in the study; empty: as they stand here
+    /// The same displacements' derivatives by parameters, mm per unit: a column for each, of a case. Of all
+    /// cases or of none.
+    Eigen::MatrixXd derivatives = {};
+    std::vector<int> derivative_of = {};
+    std::vector<std::string> by = {};
   };
   static constexpr double share = 0.95;  ///< of new cases within the errors
 
@@ -87,16 +92,17 @@ class FigureModel {
   /// Calls work(first, count) for pieces of so many points.
   static void for_pieces(Eigen::Index points,
                          const std::function<void(Eigen::Index first, Eigen::Index count)>& work);
-  /// Values of figures, one after another, from other displacements of the cases.
+  /// Values of figures, one after another, from other data of the cases.
   struct Told {
     int figure;
-    Eigen::MatrixXd displacements;
+    Eigen::MatrixXd data;
   };
   Function function_of(const std::vector<Told>& list) const;
-  auto displacements_of_figure(int figure) const {
+  auto data_of_figure(int figure) const {
     const auto f = static_cast<std::size_t>(figure);
-    return cases_.displacements.middleRows(rows_[f], rows_[f + 1] - rows_[f]);
+    return data_.middleRows(rows_[f], rows_[f + 1] - rows_[f]);
   }
+  std::vector<Eigen::Index> columns_of(const std::vector<int>& cases) const;
   Eigen::MatrixXd figures_from(const Eigen::MatrixXd& displacements) const;
   Eigen::MatrixXd differences(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) const;
   Eigen::MatrixXd ratios_of(const Eigen::MatrixXd& predicted, const Eigen::VectorXd& deviations) const;
@@ -111,8 +117,9 @@ class FigureModel {
   std::vector<Varied> varying_;
   Eigen::MatrixXd places_, own_;
   std::shared_ptr<const DisplacementModel> model_;
-  Eigen::MatrixXd inverse_;    // of the covariance of the cases' displacements
-  Eigen::MatrixXd residuals_;  // displacements of each case less what the others predict
+  Eigen::MatrixXd data_;       // displacements of the cases, and the derivatives behind them
+  Eigen::MatrixXd inverse_;    // of their covariance
+  Eigen::MatrixXd residuals_;  // of the data of each case from what all others predict
   Eigen::MatrixXd ratios_;     // figures x cases: residuals over deviations
   Eigen::MatrixXd left_out_;
 };

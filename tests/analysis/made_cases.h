@@ -43,4 +43,21 @@ inline FigureModel::Cases cases_with(const std::vector<CaseParameters>& list,
   return cases;
 }
 
+/// The same with the derivatives by the tissue's modulus, by central differences of the formula.
+inline FigureModel::Cases cases_with_slopes(const std::vector<CaseParameters>& list,
+                                            const std::vector<Figure>& figures) {
+  const std::string name = "tissue.young_modulus";
+  constexpr double step = 1e-4;  // of the modulus: off by its square, and by rounding over it
+  FigureModel::Cases cases = cases_with(list, figures);
+  std::vector<CaseParameters> more = list, less = list;
+  for (CaseParameters& one : more) one[name] *= 1 + step;
+  for (CaseParameters& one : less) one[name] *= 1 - step;
+  cases.derivatives = cases_with(more, figures).displacements - cases_with(less, figures).displacements;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    cases.derivatives.col(static_cast<Eigen::Index>(i)) /= 2 * step * list[i].at(name);
+    cases.derivative_of.push_back(static_cast<int>(i)), cases.by.push_back(name);
+  }
+  return cases;
+}
+
 }  // namespace cleft

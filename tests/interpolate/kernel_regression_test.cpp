@@ -84,11 +84,11 @@ TEST(KernelRegression, SlopesAreDerivativesOfTheCovariance) {
     const auto at = [&](double s, double t) {
       return k(Eigen::VectorXd(x + s * dx), Eigen::VectorXd(y + t * dy));
     };
-    const Covariance::Jet jet = k.along(x, dx, y, dy);
-    EXPECT_DOUBLE_EQ(jet.value, at(0, 0)) << k.name;
-    EXPECT_NEAR(jet.by_x, (at(h, 0) - at(-h, 0)) / (2 * h), 1e-6) << k.name;
-    EXPECT_NEAR(jet.by_y, (at(0, h) - at(0, -h)) / (2 * h), 1e-6) << k.name;
-    EXPECT_NEAR(jet.by_both, (at(h, h) - at(h, -h) - at(-h, h) + at(-h, -h)) / (4 * h * h), 1e-5) << k.name;
+    const Covariance::Jets jet = k.along_rows(x.transpose(), dx.transpose(), y, dy);
+    EXPECT_DOUBLE_EQ(jet.value[0], at(0, 0)) << k.name;
+    EXPECT_NEAR(jet.by_x[0], (at(h, 0) - at(-h, 0)) / (2 * h), 1e-6) << k.name;
+    EXPECT_NEAR(jet.by_y[0], (at(0, h) - at(0, -h)) / (2 * h), 1e-6) << k.name;
+    EXPECT_NEAR(jet.by_both[0], (at(h, h) - at(h, -h) - at(-h, h) + at(-h, -h)) / (4 * h * h), 1e-5) << k.name;
   }
 }
 

@@ -125,6 +125,19 @@ TEST(Sensitivities, UnderFiniteStrains) {
                      Method::automatic, 1e-4);
 }
 
+/// Some pairs touch in every frame, others do not: the same ones at all steps of the differences.
+TEST(Sensitivities, WhereLipsPressOnEachOther) {
+  Parameters p = sheared();
+  p.cut.contact = true;
+  p.skin.prestress.uu = 0.05, p.skin.prestress.vv = 0.002;
+  Parameters without = p;
+  without.cut.contact = false;
+  EXPECT_GT(difference(solved_alone(p), solved_alone(without)), 0.01);
+  std::vector<std::string> names = of_the_stiffness;
+  names.insert(names.end(), of_the_prestress.begin(), of_the_prestress.end());
+  expect_derivatives({p}, names);
+}
+
 /// More frames than are solved together, and more loads of derivatives than are.
 TEST(Sensitivities, OfManyFrames) {
   Parameters p = sheared();

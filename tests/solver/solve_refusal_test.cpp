@@ -74,8 +74,8 @@ TEST_F(SolveRefuses, SensitivitiesThatAreNone) {
 }
 
 TEST_F(SolveRefuses, WhatHasNoDerivative) {
-  expect_wrong_options({.sensitivities = {"skin.young_modulus"}}, {"cut.contact=true"},
-                       {"--sensitivities", "set cut.contact to false"});
+  expect_wrong_options({.sensitivities = {"skin.young_modulus"}}, {"cut.contact=true", "model=finite"},
+                       {"--sensitivities", "set cut.contact to false, or model to \"small\""});
   expect_wrong_options({.unit_prestress = true, .sensitivities = {"skin.prestress_v"}}, {},
                        {"--sensitivities skin.prestress_v", "--unit-prestress", "leave one out"});
 }
