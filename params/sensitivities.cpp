@@ -61,4 +61,13 @@ void check_sensitivities(const std::vector<std::string>& names, const Parameters
   }
 }
 
+bool has_sensitivity(const std::string& name, const Parameters& parameters) {
+  try {
+    check_sensitivities({name}, parameters, "");
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 }  // namespace cleft

@@ -14,4 +14,7 @@ namespace cleft {
 void check_sensitivities(const std::vector<std::string>& names, const Parameters& parameters,
                          const std::string& where);
 
+/// Whether it can by this one.
+bool has_sensitivity(const std::string& name, const Parameters& parameters);
+
 }  // namespace cleft

@@ -48,11 +48,33 @@ class StudyReader {
     for (const auto& [key, node] : file_) read_section(std::string(key.str()), node);
     read_sampling(file_, path_, study_, mistakes_);
     mistakes_.throw_if_any();
+    if (study_.sampling.adapts && !file_.contains("sensitivities")) differentiate();
     return std::move(study_);
   }
 
  private:
   std::string where(const toml::node& node) const { return place_of(path_, node); }
+
+  /// A derivative tells as much as a further case, and costs less. (Under finite strains an equilibrium may
+  /// have none.)
+  void differentiate() {
+    if (study_.base.parameters.model == Model::finite) return;
+    study_.sampling.differentiates = true;
+    for (const Variation& one : ranges_by_name(study_)) {
+      const auto exists_at = [&](double value) {
+        Parameters at = study_.base.parameters;
+        set_parameter(at, one.name, value, path_);
+        return has_sensitivity(one.name, at);
+      };
+      if (exists_at(one.range->from) && exists_at(one.range->to))
+        study_.base.sensitivities.push_back(one.name);
+    }
+    if (2 * study_.base.sensitivities.size() < study_.vary.size()) return;
+    const auto says = [&](const char* key) { return bool(file_["sampling"][key]); };
+    SamplingSettings& s = study_.sampling;
+    if (!says("start")) s.count = std::min(s.most, (2 * s.count + 2) / 3);
+    if (!says("batch")) s.batch /= 2;
+  }
 
   void read_section(const std::string& key, const toml::node& node) {
     static const std::vector<std::string> known = {"name", "keep_snapshots", "sensitivities", "case", "vary",

@@ -75,6 +75,8 @@ struct SamplingSettings {
   double error = 0;
   std::size_t most = 0, batch = 8;
   std::string of = "field";
+  /// The file names no sensitivities: adaptive sampling takes those by its ranges, as far as there are any.
+  bool differentiates = false;
 };
 
 /// The name under which the folder of a study keeps the body of its cases.

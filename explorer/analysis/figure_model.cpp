@@ -164,7 +164,7 @@ FigureModel::FigureModel(Cases cases, std::vector<Figure> figures)
   }
   const Eigen::MatrixXd predicted = cases_.displacements - residuals_.leftCols(n);
   left_out_ = figures_from(predicted);
-  ratios_ = n > static_cast<Eigen::Index>(few_cases)
+  ratios_ = data_.cols() > static_cast<Eigen::Index>(few_cases)
                 ? ratios_of(predicted, model_->left_out().deviations)
                 : ratios_of(predicted_by_parts(), deviations_without_parts());
 }

@@ -33,6 +33,7 @@ void write(const std::string& file, const ChosenCases& chosen) {
   Json json = {{"version", record_version},
                {"figure", chosen.figure},
                {"names", chosen.names},
+               {"sensitivities", chosen.sensitivities},
                {"batches", Json::array()}};
   for (const ChosenBatch& one : chosen.batches)
     json["batches"].push_back({{"cases", one.cases}, {"error", one.error}, {"values", one.values}});
@@ -68,12 +69,15 @@ Json proposal(const StudyFolder& folder, std::size_t count) {
 
 ChosenCases chosen_cases(const StudyFolder& folder, const Study& study) {
   if (!study.sampling.adapts) return {};
-  ChosenCases chosen{study.sampling.of, names_of(study), {}};
+  ChosenCases chosen{study.sampling.of, names_of(study), study.base.sensitivities, {}};
   const std::string file = folder.path() + chosen_file;
   if (!fs::exists(file)) return chosen;
   const Json json = read_sealed(file);
   try {
     if (json.at("figure") != chosen.figure || json.at("names") != Json(chosen.names)) return chosen;
+    // Earlier versions wrote none, and took none.
+    if (study.sampling.differentiates)
+      chosen.sensitivities = json.value("sensitivities", std::vector<std::string>());
     for (const Json& one : json.at("batches"))
       chosen.batches.push_back({one.at("cases"), one.at("error"), one.at("values")});
   } catch (const Json::exception& e) {
@@ -82,9 +86,11 @@ ChosenCases chosen_cases(const StudyFolder& folder, const Study& study) {
   return chosen;
 }
 
-std::vector<Case> cases_of(const Study& study, const StudyFolder& folder) {
+std::vector<Case> cases_of(const Study& file, const StudyFolder& folder) {
+  const ChosenCases chosen = chosen_cases(folder, file);
+  Study study = file;
+  if (study.sampling.differentiates) study.base.sensitivities = chosen.sensitivities;
   std::vector<Case> cases = cases_of(study);
-  const ChosenCases chosen = chosen_cases(folder, study);
   if (chosen.batches.empty()) return cases;
   const std::vector<Variation> ranges = ranges_by_name(study);
   std::set<std::string> known;

@@ -21,6 +21,7 @@ struct ChosenBatch {
 struct ChosenCases {
   std::string figure;
   std::vector<std::string> names;
+  std::vector<std::string> sensitivities;  ///< of the cases, where the study file names none
   std::vector<ChosenBatch> batches;
 };
 
@@ -29,7 +30,7 @@ struct ChosenCases {
 ChosenCases chosen_cases(const StudyFolder& folder, const Study& study);
 
 /// The cases of the study file, and those chosen in the folder that lie in its ranges.
-std::vector<Case> cases_of(const Study& study, const StudyFolder& folder);
+std::vector<Case> cases_of(const Study& file, const StudyFolder& folder);
 
 /// Asks `cleft propose` for a further batch and records it. What was decided: cases were added; the error is
 /// below the one asked for; there are as many cases as the study may have; no place is left at which a

@@ -65,6 +65,64 @@ TEST(ChosenCases, AreThoseOfTheRecordAfterTheFirst) {
   EXPECT_THROW(cases_of(study, folder), FileError);
 }
 
+TEST(ChosenCases, HoldDerivativesByTheRangesUnlessTheFileSaysOtherwise) {
+  const TemporaryFolder files;
+  const std::string ranges = one_range +
+                             "'tissue.young_modulus' = { from = 0.01, to = 0.03 }\n"
+                             "'skin.bending_stiffness' = { from = 0, to = 0.1 }\n";
+  const auto of = [&](const std::string& text) {
+    return cases_of(read_study(files.write("study.toml", text))).at(0).sensitivities;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(of(adaptive(ranges)), Names{"tissue.young_modulus"});  // of 0 bending there is none
+  EXPECT_EQ(of("sensitivities = []\n" + adaptive(ranges)), Names{});
+  EXPECT_EQ(of("sensitivities = ['skin.thickness']\n" + adaptive(ranges)), Names{"skin.thickness"});
+  EXPECT_EQ(of("[case]\nmodel = 'finite'\n" + adaptive(ranges)), Names{});
+  EXPECT_EQ(of("[vary]\n'tissue.young_modulus' = [0.01, 0.02]\n"), Names{});
+}
+
+TEST(ChosenCases, AreFewerAtATimeWhereTheyHoldDerivatives) {
+  const TemporaryFolder files;
+  const auto of = [&](const std::string& before, const std::string& more) {
+    const SamplingSettings s =
+        read_study(
+            files.write("study.toml", before +
+                                          "[vary]\n'tissue.young_modulus' = { from = 0.01, to = 0.03 }\n"
+                                          "'cut.depth' = { from = 2, to = 5 }\n"
+                                          "[sampling]\nmethod = 'adaptive'\nmost = 20\nerror = 0.02\n" +
+                                          more))
+            .sampling;
+    return std::pair(s.count, s.batch);
+  };
+  EXPECT_EQ(of("", ""), std::pair(std::size_t{8}, std::size_t{4}));
+  EXPECT_EQ(of("sensitivities = []\n", ""), std::pair(std::size_t{12}, std::size_t{8}));
+  EXPECT_EQ(of("", "start = 5\nbatch = 3\n"), std::pair(std::size_t{5}, std::size_t{3}));
+}
+
+TEST(ChosenCases, AStudyThatWasBegunWithoutDerivativesGoesOnWithout) {
+  const TemporaryFolder files;
+  const std::string range = "'skin.thickness' = { from = 1, to = 2 }\n";
+  const Study study = read_study(files.write("study.toml", adaptive(range)));
+  const StudyFolder folder = StudyFolder::create(files / "out", study);
+  EXPECT_EQ(cases_of(study, folder).at(0).sensitivities.size(), 1u);
+  const auto with_record = [&](bool with) {
+    nlohmann::ordered_json json = {{"version", 2}, {"figure", "field"}, {"names", {"skin.thickness"}}};
+    if (with) json["sensitivities"] = {"skin.thickness"};
+    json["batches"].push_back({{"cases", 4}, {"error", 0.2}, {"values", nlohmann::json::array({{1.3}})}});
+    write_text_file(files / "out/chosen.json", sealed_text(json));
+    return cases_of(study, folder);
+  };
+  for (const bool with : {false, true}) {
+    const std::vector<Case> cases = with_record(with);
+    ASSERT_EQ(cases.size(), 5u);
+    for (const Case& one : cases) EXPECT_EQ(one.sensitivities.size(), with ? 1u : 0u);
+  }
+  with_record(false);
+  const Study said =
+      read_study(files.write("said.toml", "sensitivities = ['skin.thickness']\n" + adaptive(range)));
+  EXPECT_EQ(cases_of(said, folder).at(4).sensitivities.size(), 1u);
+}
+
 TEST(ChosenCases, EndWhereEveryCaseOfABatchFailed) {
   const TemporaryFolder files;
   const Study study = read_study(files.write("study.toml", adaptive(one_range)));
