@@ -131,26 +131,22 @@ void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, cons
 /// K u + C^T v = f differentiated: the same system under df/dp - dK/dp u. Lips that press on each other
 /// slide: where some are about to touch or to part, it is the derivative as long as they do not.
 Block CaseBatch::sensitivity(const Member& member, const std::string& name,
-                             std::vector<FrameSolver::Column> columns, const Block& frames) {
+                             const std::vector<FrameSolver::Column>& columns, const Block& frames) {
   auto& derivative = derivatives_[name + "/" + std::to_string(member.number)];
   if (!derivative) derivative = system_.derivative(member.output->parameters(), name);
   Block loads = -derivative->multiply(frames);
   loads.colwise() += Eigen::VectorXd(derivative->load().col(0));
   Block solution(frames.rows(), frames.cols());
-  if (columns.front().contact) {
-    for (Eigen::Index c = 0; c < frames.cols(); ++c) {
-      const int open = columns[static_cast<std::size_t>(c)].open;
-      solution.col(c) = solver_.solve_once(loads.col(c), open, touching(frames.col(c), open));
-    }
-    return solution;
-  }
   constexpr Eigen::Index at_once = 16;  // these loads are full
   for (Eigen::Index c = 0; c < frames.cols(); c += at_once) {
     const Eigen::Index count = std::min(at_once, frames.cols() - c);
-    std::vector<FrameSolver::Column> some(columns.begin() + c, columns.begin() + c + count);
-    for (Eigen::Index i = 0; i < count; ++i) some[i].load = static_cast<int>(i);
-    solver_.set_loads(loads.middleCols(c, count));
-    solution.middleCols(c, count) = solver_.solve(some);
+    std::vector<FrameSolver::Frame> some;
+    for (Eigen::Index i = c; i < c + count; ++i) {
+      const auto& [load, open, contact, residual] = columns[static_cast<std::size_t>(i)];
+      some.push_back({open, {}});
+      if (contact) some.back().touching = touching(frames.col(i), open);
+    }
+    solution.middleCols(c, count) = solver_.solve_each(loads.middleCols(c, count), some);
   }
   return solution;
 }

@@ -37,8 +37,8 @@ class CaseBatch {
   void solve_block(int first, int count);
   void solve_block(int first, int count, std::size_t part);
   void finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads);
-  Block sensitivity(const Member& member, const std::string& name, std::vector<FrameSolver::Column> columns,
-                    const Block& frames);
+  Block sensitivity(const Member& member, const std::string& name,
+                    const std::vector<FrameSolver::Column>& columns, const Block& frames);
   FrameSolver::Touching touching(const Block& displacement, int open) const;
 
   SharedStiffness& shared_;

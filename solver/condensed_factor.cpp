@@ -275,20 +275,21 @@ Block CondensedFactor::solve(const SparseColumns& right) {
 }
 
 /// MUMPS eliminates forward, gives what is left for the kept unknowns, and substitutes backward.
-Block CondensedFactor::solve(const Block& right, const std::function<void(Eigen::VectorXd&)>& find_kept) {
+Block CondensedFactor::solve(const Block& right, const std::function<void(Eigen::MatrixXd&)>& find_kept) {
   Mumps& m = *mumps_;
   const auto& offsets = m.system.offsets();
   std::vector<int> counts;
   for (std::size_t r = 0; r + 1 < offsets.size(); ++r) counts.push_back(offsets[r + 1] - offsets[r]);
   const bool root = m.system.rank() == 0;
-  std::vector<double> whole(root ? static_cast<std::size_t>(m.system.size()) : 0);
-  const int own = m.system.owned();
-  MPI_Gatherv(right.data(), own, MPI_DOUBLE, whole.data(), counts.data(), offsets.data(), MPI_DOUBLE, 0,
-              m.system.communicator());
-  Eigen::VectorXd kept(root ? m.id.size_schur : 0);
+  const int own = m.system.owned(), columns = static_cast<int>(right.cols());
+  Eigen::MatrixXd whole(root ? m.system.size() : 0, columns), kept(root ? m.id.size_schur : 0, columns);
+  const auto column_of = [&](Eigen::Index c) { return whole.data() + c * whole.rows(); };
+  for (Eigen::Index c = 0; c < columns; ++c)
+    MPI_Gatherv(right.col(c).data(), own, MPI_DOUBLE, column_of(c), counts.data(), offsets.data(), MPI_DOUBLE,
+                0, m.system.communicator());
   m.icntl(20) = 0, m.icntl(21) = 0;  // right-hand side and solution whole, on rank 0
-  m.icntl(27) = 1;
-  m.id.nrhs = 1, m.id.lrhs = m.system.size(), m.id.rhs = whole.data();
+  m.icntl(27) = columns;
+  m.id.nrhs = columns, m.id.lrhs = m.system.size(), m.id.rhs = whole.data();
   m.id.redrhs = kept.data(), m.id.lredrhs = m.id.size_schur;
   const auto run = [&](int half) {
     const auto order = m.same_sums ? std::make_unique<MessageOrder>() : nullptr;
@@ -300,9 +301,10 @@ Block CondensedFactor::solve(const Block& right, const std::function<void(Eigen:
   m.id.redrhs = kept.data();
   run(2);
   m.icntl(26) = 0;
-  Block solution(own, 1);
-  MPI_Scatterv(whole.data(), counts.data(), offsets.data(), MPI_DOUBLE, solution.data(), own, MPI_DOUBLE, 0,
-               m.system.communicator());
+  Block solution(own, columns);
+  for (Eigen::Index c = 0; c < columns; ++c)
+    MPI_Scatterv(column_of(c), counts.data(), offsets.data(), MPI_DOUBLE, solution.col(c).data(), own,
+                 MPI_DOUBLE, 0, m.system.communicator());
   return solution;
 }
 

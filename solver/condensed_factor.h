@@ -37,9 +37,9 @@ class CondensedFactor {
   /// x_i = K_ii^-1 b_i for every column; rows of kept unknowns are 0. `right` is read on rank 0.
   Block solve(const SparseColumns& right);
 
-  /// x = K^-1 b of one dense column, for the work of half of that: x_i and, between them, the kept unknowns.
+  /// x = K^-1 b of dense columns, for the work of half of that: x_i and, between them, the kept unknowns.
   /// `find_kept` replaces b_c - K_ci K_ii^-1 b_i, in the order of `kept`, by x_c, on rank 0.
-  Block solve(const Block& right, const std::function<void(Eigen::VectorXd&)>& find_kept);
+  Block solve(const Block& right, const std::function<void(Eigen::MatrixXd&)>& find_kept);
 
  private:
   class Redistribution;

@@ -232,11 +232,15 @@ Block DirectSolver::solve_together(const std::vector<Column>& columns) {
   return solution;
 }
 
-Block DirectSolver::solve_once(const Block& load, int open, const Touching& touching) {
-  Block pulls = load;
+Block DirectSolver::solve_each(const Block& loads, const std::vector<Frame>& frames) {
+  Block pulls = loads;
   to_pulls(pulls);
-  Block solution = factor_.solve(pulls, [&](Eigen::VectorXd& kept) {
-    kept = opening_->jumps(opening_->prepare(kept), open, touching.places, touching.openings);
+  Block solution = factor_.solve(pulls, [&](Eigen::MatrixXd& kept) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const auto& [open, touching] = frames[i];
+      auto own = kept.col(static_cast<Eigen::Index>(i));
+      own = opening_->jumps(opening_->prepare(own), open, touching.places, touching.openings);
+    }
   });
   to_displacements(solution);
   return solution;

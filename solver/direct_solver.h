@@ -31,8 +31,7 @@ class DirectSolver : public FrameSolver {
   void set_release(const Release& release) override;
   void set_loads(Block loads, Together together = Together::all) override;
   Block solve(const std::vector<Column>& columns) override;
-  using FrameSolver::solve_once;
-  Block solve_once(const Block& load, int open, const Touching& touching) override;
+  Block solve_each(const Block& loads, const std::vector<Frame>& frames) override;
 
  private:
   /// Solves the columns in one block of MUMPS.

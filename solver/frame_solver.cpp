@@ -75,10 +75,14 @@ void on_root(const PatchSystem& system, const std::function<void()>& work) {
   if (!failure.empty()) throw SolveError(failure);
 }
 
-Block FrameSolver::solve_once(const Block& load, int open, const Touching& touching) {
-  CLEFT_CHECK(touching.places.size(), ==, std::size_t{0});
-  set_loads(load);
-  return solve({{0, open, false, 1e-10}});
+Block FrameSolver::solve_each(const Block& loads, const std::vector<Frame>& frames) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    CLEFT_CHECK(frames[i].touching.places.size(), ==, std::size_t{0});
+    columns.push_back({static_cast<int>(i), frames[i].open, false, 1e-10});
+  }
+  set_loads(loads);
+  return solve(columns);
 }
 
 double rounding_error(const PatchSystem& system, FrameSolver& solver) {

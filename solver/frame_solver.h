@@ -61,10 +61,18 @@ class FrameSolver {
     std::vector<int> places;
     Eigen::VectorXd openings;
   };
-  /// The displacement under one load; pairs that touch have the openings that are given and slide, all others
-  /// are free. Discards the loads that are set. Iterations are for no pairs that touch.
-  virtual Block solve_once(const Block& load, int open, const Touching& touching);
-  Block solve_once(const Block& load, int open) { return solve_once(load, open, {}); }
+  /// A frame under a load of its own: pairs that touch have the openings that are given and slide, all others
+  /// of the open ones are free.
+  struct Frame {
+    int open = 0;
+    Touching touching = {};
+  };
+  /// The displacements under full loads, one for each frame, for half the work of set_loads() and solve().
+  /// Discards the loads that are set. Iterations are for no pairs that touch.
+  virtual Block solve_each(const Block& loads, const std::vector<Frame>& frames);
+  Block solve_once(const Block& load, int open, const Touching& touching = {}) {
+    return solve_each(load, {{open, touching}});
+  }
 
   /// Iterations of every column solved so far; empty for a direct solver.
   virtual std::vector<int> iterations() const { return {}; }
