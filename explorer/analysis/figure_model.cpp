@@ -15,7 +15,8 @@ namespace cleft {
 namespace {
 
 constexpr std::size_t few_cases = 64;  // whose quantiles are those of a normal distribution, and whose method
-                                       // is chosen again without each part of them
+                                       // is chosen again without each part of them if they, with their
+                                       // derivatives, are as few
 constexpr int most_parts = 8;
 constexpr int most_compared = 128;            // cases that choose the method
 constexpr Eigen::Index most_data = 512;       // with derivatives, which more cases need not
