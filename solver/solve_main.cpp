@@ -113,8 +113,14 @@ Json figures_of(const SolveReport& r) {
 
 /// Of the opening, beyond which the command warns.
 constexpr double much = 0.1;
+/// mm, by which lips overlap, beyond which it warns.
+constexpr double much_overlap = 0.05;
 
-void warn_of_error(const SolveReport& r) {
+void warn_of(const SolveReport& r) {
+  if (r.smallest_gap < -much_overlap)
+    std::cerr << "cleft solve: warning: " << r.out << ": lips pass through each other, by up to "
+              << shortest(std::round(-1000 * r.smallest_gap) / 1000)
+              << " mm: set cut.contact = true, so that they press on each other\n";
   const std::optional<ExpectedError>& expected = r.estimate.expected;
   if (!r.estimate.obstacle.empty())
     std::cerr << "cleft solve: note: " << r.out
@@ -229,7 +235,7 @@ int main(int argc, char** argv) {
     for (const SolveReport& report : reports)
       if (report.failure.empty()) {
         list.push_back(figures_of(report));
-        if (root) warn_of_error(report);
+        if (root) warn_of(report);
       } else {
         failures += (failures.empty() ? "" : "\n  ") + report.out + ": " + report.failure;
       }

@@ -80,6 +80,7 @@ class Maker {
     std::vector<ScalpelPath> paths;
     for (const LongerPath& one : longer_) paths.push_back(one.path);
     s_ = lined_surface(r_.skin, paths, r_.reach);
+    find_off_paths();
     for (std::size_t c = 0; c < s_.cuts.size(); ++c) trim(c);
     const SurfaceIndex shape(s_.mesh);
     const double size = p_.mesh.element_size;
@@ -104,6 +105,23 @@ class Maker {
       for (const int p : shape.surface().triangles[at.triangle]) bent = std::min(bent, radius[p]);
       return std::clamp(bend_of_edge * bent, size, wanted);
     });
+  }
+
+  void find_off_paths() {
+    for (std::size_t c = 0; c < s_.cuts.size(); ++c) {
+      const LongerPath& longer = longer_[c];
+      const double length = r_.paths[c].length();
+      OffPath found{static_cast<int>(c), 0, {}, 0, length};
+      for (const CutLine& line : s_.cuts[c]) {
+        const double off = norm(s_.mesh.points[line.from] - longer.path.at(line.s_from).position);
+        if (off > found.off) found.off = off, found.at = s_.mesh.points[line.from];
+        found.made += std::clamp(line.s_to - longer.front, 0., length) -
+                      std::clamp(line.s_from - longer.front, 0., length);
+      }
+      found.far = found.off > r_.paths[c].largest_depth();
+      found.leaves = found.made < 0.98 * length - p_.mesh.element_size;
+      if (found.far || found.leaves) off_paths_.push_back(found);
+    }
   }
 
   /// Radii of curvature at the points: the least distance along an edge over the turn of the normal.
@@ -332,7 +350,7 @@ class Maker {
     report.least_determinant = e_.least_determinant;
     report.thinned = e_.thinned, report.thinnest = e_.thinnest;
     report.least_thickness = *std::min_element(e_.thickness.begin(), e_.thickness.end());
-    report.left_out = left_out_;
+    report.left_out = left_out_, report.off_paths = off_paths_;
     report.on_bone = static_cast<int>(std::count(e_.on_bone.begin(), e_.on_bone.end(), true));
     double least = 180;
     for (const auto& t : s_.mesh.triangles)
@@ -357,6 +375,7 @@ class Maker {
   std::vector<Vec3> blade_;
   Extrusion e_;
   int left_out_ = 0;
+  std::vector<OffPath> off_paths_;
   Body body_;
   std::vector<int> column_of_;    // by node: its point of the surface
   std::vector<double> depth_of_;  // by node: of its layer

@@ -26,6 +26,16 @@ struct BodyRequest {
                               ///< its end
 };
 
+/// A path that does not lie on the skin: the cut goes below it, as far as there is skin.
+struct OffPath {
+  int cut;              ///< from 0
+  double off;           ///< mm, of the farthest place that is cut
+  Vec3 at;              ///< of the skin, there
+  double made, length;  ///< mm, of the cut and of its path
+  bool far = false;     ///< farther than the cut is deep
+  bool leaves = false;  ///< a part of it has no skin below
+};
+
 /// What was made, and where it had to be changed.
 struct BodyReport {
   int nodes = 0, wedges = 0, triangles = 0, pairs = 0, frames = 0;
@@ -37,6 +47,7 @@ struct BodyReport {
   int left_out = 0;              ///< triangles away from the cuts, below which even a thin body would turn
   int on_bone = 0;               ///< columns that end at bone
   double least_depth = 0;        ///< of a cut that bone would stop, mm; 0: none
+  std::vector<OffPath> off_paths;
 };
 
 /// The skin around the paths is cut along them, closed again, meshed with triangles of element_size along the

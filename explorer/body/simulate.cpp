@@ -42,6 +42,7 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   write_body(folder / "body.h5", result.body);
   Case one;
   one.parameters = request.parameters;
+  one.parameters.cut.contact = true;  // of cuts that meet lips would pass through each other
   write_text_file(folder / "case.toml", case_file_text(one));
   tell("solving " + std::to_string(result.report.nodes) + " nodes");
   const ProcessResult ended =

@@ -19,9 +19,10 @@ struct BodySimulation {
   double seconds = 0;  ///< for mesh and solution
 };
 
-/// Meshes the body and solves it in files of a temporary folder, which is removed. `progress` is called with
-/// the current step. When *stop is 1 the solver is asked to end. Throws InputError for what cannot be meshed
-/// or solved, std::runtime_error, with the solver's message, if it fails or was stopped.
+/// Meshes the body and solves it, with contact of the lips, in files of a temporary folder, which is removed.
+/// `progress` is called with the current step. When *stop is 1 the solver is asked to end. Throws InputError
+/// for what cannot be meshed or solved, std::runtime_error, with the solver's message, if it fails or was
+/// stopped.
 BodySimulation simulate(const BodyRequest& request,
                         const std::function<void(const std::string&)>& progress = {},
                         const StopCount* stop = nullptr);

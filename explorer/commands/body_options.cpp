@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/body/skin_coordinates.h"
 #include "explorer/incision/local_coordinates.h"
 #include "explorer/io/mesh_file.h"
 #include "params/parameters/table.h"
@@ -28,6 +29,16 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
   if (r.least_depth > 0)
     warnings.push_back("the cut is only " + shortest(rounded(r.least_depth)) +
                        " mm deep where the tissue is thin");
+  const auto hundredths = [](double x) { return shortest(std::round(100 * x) / 100); };
+  for (const OffPath& p : r.off_paths) {
+    const std::string cut = "cut " + std::to_string(p.cut + 1);
+    if (p.far)
+      warnings.push_back(cut + ": its path is " + hundredths(p.off) + " mm off the skin at " +
+                         place_text(p.at) + " mm; check that it is of this mesh, and --scale");
+    if (p.leaves)
+      warnings.push_back(cut + " is made along " + hundredths(p.made) + " of the " + hundredths(p.length) +
+                         " mm of its path: there is no skin below the rest of it");
+  }
   return warnings;
 }
 

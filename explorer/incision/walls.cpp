@@ -182,8 +182,8 @@ void Sewing::add(const Column& p, const Column& q) {
   const int skin = mesh_.triangle_with(p.vertex[0], q.vertex[0]),
             other = mesh_.triangle_with(q.vertex[0], p.vertex[0]);
   if (skin < 0 || other < 0) {
-    throw InputError("the path runs along the edge of the surface near " +
-                     place_of(mesh_.position(q.vertex[0])) + "; move it off that edge");
+    throw InputError("the path runs along the edge of the surface, or back along itself, near " +
+                     place_of(mesh_.position(q.vertex[0])) + "; move it off that edge, or smooth it there");
   }
   sew(p.vertex[0], q.vertex[0], first_);
   sew_column(p.vertex, along_p_);

@@ -283,4 +283,27 @@ TEST(BodyMaker, LayersEndWhereTheyAreSaidTo) {
   EXPECT_THROW(make_body(r), InputError);
 }
 
+/// Paths that only partly lie on the skin are cut as far as it goes, and told of.
+TEST(MakeBody, TellsOfPathsOffTheSkin) {
+  const auto off_paths = [](const std::vector<std::pair<double, double>>& places, double above) {
+    BodyRequest r = request(testing::flat, {});
+    r.paths.push_back(path_on([above](double x, double y) { return Vec3{x, y, above}; }, places, 2.5));
+    BodyReport report;
+    make_body(r, &report);
+    return report.off_paths;
+  };
+  EXPECT_TRUE(off_paths(along, 0).empty());
+  EXPECT_TRUE(off_paths(along, 2).empty());  // less than the cut is deep
+  const std::vector<OffPath> far = off_paths(along, 4);
+  ASSERT_EQ(far.size(), 1U);
+  EXPECT_TRUE(far[0].far && !far[0].leaves);
+  EXPECT_NEAR(far[0].off, 4, 1e-9);
+  EXPECT_NEAR(far[0].at.z, 0, 1e-9);
+  const std::vector<OffPath> out = off_paths({{30, 0}, {40, 0}, {55, 0}}, 0);  // the sheet ends at 40
+  ASSERT_EQ(out.size(), 1U);
+  EXPECT_TRUE(out[0].leaves && !out[0].far);
+  EXPECT_NEAR(out[0].made, 10, 1e-6);
+  EXPECT_NEAR(out[0].length, 25, 1e-6);
+}
+
 }  // namespace cleft

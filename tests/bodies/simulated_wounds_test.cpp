@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <memory>
 
 #include "base/error.h"
 #include "explorer/body/body_maker.h"
+#include "explorer/body/simulate.h"
 #include "tests/bodies/subjects.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"
@@ -172,6 +175,29 @@ TEST(SimulatedWounds, OfAnotherBodyAreRefused) {
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("another body"), std::string::npos) << e.what();
   }
+}
+
+/// Skin that is pulled across the first cut alone presses the second one's lips together, where they meet.
+TEST(SimulatedWounds, LipsThatAreCrossedDoNotPassThroughEachOther) {
+  BodyRequest request;
+  request.skin = sheet(testing::flat, 30, 30, 2, 0.25);
+  for (const auto& places : {along, across}) request.paths.push_back(path_on(testing::flat, places, 2.5));
+  request.parameters.mesh.element_size = 1.5, request.parameters.mesh.grading = 1.5;
+  request.parameters.patch.height = 6, request.reach = 15;
+  setenv("CLEFT_BIN", CLEFT_BIN, 1);
+  BodySimulation simulation = simulate(request);
+  for (const double gap : simulation.series->snapshot().smallest_gap) EXPECT_GE(gap, -1e-6);
+
+  TemporaryFolder folder;  // by itself the solver leaves it to the case, and warns
+  write_body(folder / "body.h5", simulation.body);
+  folder.write("case.toml", "[case]\npatch.height = 6\n");
+  const Outcome alone = run_cleft("solve", {folder / "case.toml", "--mesh", folder / "body.h5", "--out",
+                                            folder / "case.h5", "--no-estimate"});
+  expect_success(alone);
+  const auto& gaps = SnapshotReader(folder / "case.h5").snapshot().smallest_gap;
+  EXPECT_LT(*std::min_element(gaps.begin(), gaps.end()), -0.05);
+  EXPECT_NE(alone.output.find("lips pass through each other"), std::string::npos) << alone.output;
+  EXPECT_NE(alone.output.find("cut.contact = true"), std::string::npos) << alone.output;
 }
 
 }  // namespace cleft

@@ -54,6 +54,22 @@ TEST(FieldFile, ReadsBackWhatWasWritten) {
   }
 }
 
+TEST(FieldFile, TheTissueBelowTheCutComesBack) {
+  const TemporaryFolder folder;
+  Field field = random_field();
+  field.tissue = TissueBelow{{{0.08, 0.4, 1.2}, {0.012, 0.45, 4.8}}, 0.005};
+  write_field(folder / "a.dffd", field);
+  const std::optional<TissueBelow> found = read_field(folder / "a.dffd").tissue;
+  ASSERT_TRUE(found && found->layers.size() == 2);
+  EXPECT_EQ(found->foundation, 0.005);
+  for (int i : {0, 1}) {
+    const TissueLayerBelow &layer = found->layers[i], &written = field.tissue->layers[i];
+    EXPECT_EQ(layer.young_modulus, written.young_modulus);
+    EXPECT_EQ(layer.poisson_ratio, written.poisson_ratio);
+    EXPECT_EQ(layer.height, written.height);
+  }
+}
+
 TEST(FieldFile, TellsItsModelAndAFileWithoutOneIsOfSmallStrains) {
   const TemporaryFolder folder;
   Field field = random_field();
