@@ -61,8 +61,8 @@ double snapshot_stiffness(const std::string& file, const Field* field) {
       return stiffness_from_compliance(reader.point_array(array, 0)[nearest]);
   throw FileError(file,
                   "has no compliance of the skin (imported data, bodies and shaped patches have none): leave "
-                  "it out, as a "
-                  "--field of a body knows the tissue below its cut, or give --stiffness");
+                  "--snapshot out, since a --field of a body knows the tissue below its cut, or give "
+                  "--stiffness");
 }
 
 double stiffness(const Options& o, const std::optional<CutFields>& fields) {
