@@ -44,6 +44,10 @@ Parameters with_moduli_of(const Parameters& parameters, const Parameters& other)
   return p;
 }
 
+std::string pattern_key(const Parameters& p) {
+  return stiffness_key(with_moduli_of(p, Parameters())) + (p.skin.bending_stiffness > 0 ? "bends" : "");
+}
+
 std::string mesh_and_release_key(Parameters p) {
   const Parameters defaults;
   p = with_moduli_of(p, defaults);

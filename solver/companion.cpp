@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/error.h"
@@ -10,7 +11,7 @@
 #include "params/meshed_cut.h"
 #include "params/parameters/table.h"
 #include "solver/frame_figures.h"
-#include "solver/frame_solver.h"
+#include "solver/kept_patches.h"
 
 namespace cleft {
 
@@ -57,50 +58,63 @@ Parameters near_the_cut(Parameters p) {
 
 double change(double from, double to) { return std::abs(to - from) / from; }
 
-ExpectedError against_coarser(const Parameters& p, double gape, MPI_Comm communicator) {
+/// gape_of() of a companion.
+using Gape = std::function<double(const Parameters&)>;
+
+ExpectedError against_coarser(const Parameters& p, double gape, const Gape& gape_of) {
   const Parameters coarse = with_elements(p, 2);
-  const double coarser = gape_of(coarse, communicator), wider = gape_of(in_wider_patch(coarse), communicator);
+  const double coarser = gape_of(coarse), wider = gape_of(in_wider_patch(coarse));
   // Away from the front errors go as the square of elements' lengths.
   const double growing =
-      p.mesh.grading > 1 ? std::abs(gape_of(growing_twice_as_fast(coarse), communicator) - coarser) / 3 : 0;
+      p.mesh.grading > 1 ? std::abs(gape_of(growing_twice_as_fast(coarse)) - coarser) / 3 : 0;
   return {(std::abs(coarser - gape) + growing) / gape, std::abs(wider - coarser) / gape};
 }
 
 /// The error of a mesh goes as the size of its elements, as the energy of a crack does: elements half as long
 /// take half of it away.
 ExpectedError against_finer(const Parameters& p, const Parameters& coarse, const Parameters& fine,
-                            MPI_Comm communicator) {
-  const auto gape = [&](const Parameters& of) { return gape_of(of, communicator); };
+                            const Gape& gape) {
   return {2 * change(gape(coarse), gape(fine)), change(gape(with_grading(p)), gape(in_wider_patch(p)))};
 }
 
 }  // namespace
 
-double gape_of(const Parameters& parameters, MPI_Comm communicator) {
+double gape_of(const Parameters& parameters, MPI_Comm communicator, KeptPatches* kept) {
   check_consistency(parameters, "companion");
-  const PatchMesh mesh = make_patch_mesh(parameters);
-  const PatchSystem system(mesh, parameters, communicator);
-  const Release release = make_release(mesh, parameters);
-  const ChosenSolver chosen =
-      make_frame_solver(mesh, system, Method::automatic,
-                        parameters.cut.contact ? std::numeric_limits<double>::infinity() : many_operations,
-                        [](const std::string&) {});
+  std::shared_ptr<MeshedPatch> patch = kept ? kept->reassembled(parameters) : nullptr;
+  if (patch) {
+    factorize_again(patch->system, patch->chosen);
+  } else {
+    PatchMesh mesh = make_patch_mesh(parameters);
+    const KeepElements keep = kept ? kept->wants(parameters, mesh) : KeepElements::no;
+    patch = std::make_shared<MeshedPatch>(std::move(mesh), parameters, communicator, Discretization(), keep);
+    patch->chosen =
+        make_frame_solver(patch->mesh, patch->system, Method::automatic,
+                          parameters.cut.contact ? std::numeric_limits<double>::infinity() : many_operations,
+                          [](const std::string&) {});
+    if (kept) kept->keep(parameters, patch);
+  }
+  const PatchSystem& system = patch->system;
+  FrameSolver& solver = *patch->chosen.solver;
+  const Release release = make_release(patch->mesh, parameters);
   const Block load = system.load(parameters.skin);
   const std::vector<FrameSolver::Column> columns = {
       {0, release.released.back(), parameters.cut.contact, 1e-6}};
-  chosen.solver->set_release(release);
-  chosen.solver->set_loads(load);
-  const Block found = chosen.solver->solve(columns);
-  const FrameResidual residual(mesh, system);
+  solver.set_release(release);
+  solver.set_loads(load);
+  const Block found = solver.solve(columns);
+  const FrameResidual residual(patch->mesh, system);
   return residual.figures(release, columns, found, residual.left_over(load, found), 1).front().gape;
 }
 
-ErrorEstimate expected_error(const Parameters& parameters, double gape, MPI_Comm communicator) {
+ErrorEstimate expected_error(const Parameters& parameters, double gape, MPI_Comm communicator,
+                             KeptPatches* kept) {
+  const Gape gape_of = [&](const Parameters& p) { return cleft::gape_of(p, communicator, kept); };
   if (!(gape > 0)) return {{}, "the cut does not open"};
   Parameters p = parameters;
   try {
-    if (p.model == Model::finite) p.model = Model::small, gape = gape_of(p, communicator);
-    return {against_coarser(p, gape, communicator), ""};
+    if (p.model == Model::finite) p.model = Model::small, gape = gape_of(p);
+    return {against_coarser(p, gape, gape_of), ""};
   } catch (const SolveError& e) {
     return {{}, "with elements twice as long the cut has no solution: " + std::string(e.what())};
   } catch (const InputError&) {  // they do not fit the cut
@@ -112,7 +126,7 @@ ErrorEstimate expected_error(const Parameters& parameters, double gape, MPI_Comm
               "elements twice as long do not fit the cut, and half as long ones would take about " +
                   shortest(std::round(nodes)) + " nodes; solve it with half the " +
                   row_of(p, p.mesh.element_size).name + " and compare"};
-    return {against_finer(p, coarse, fine, communicator), ""};
+    return {against_finer(p, coarse, fine, gape_of), ""};
   } catch (const SolveError& e) {
     return {{}, "with elements half as long the cut has no solution: " + std::string(e.what())};
   } catch (const InputError& e) {

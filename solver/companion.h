@@ -11,9 +11,12 @@
 
 namespace cleft {
 
+class KeptPatches;
+
 /// The largest opening of the whole cut, mm, from its last frame alone. Throws InputError
-/// if the parameters do not fit together, SolveError if they have no solution. Collective.
-double gape_of(const Parameters& parameters, MPI_Comm communicator);
+/// if the parameters do not fit together, SolveError if they have no solution. `kept`: patches of earlier
+/// ones, for which this one is kept too. Collective.
+double gape_of(const Parameters& parameters, MPI_Comm communicator, KeptPatches* kept = nullptr);
 
 /// Expected errors of the largest opening of the whole cut, relative to it.
 struct ExpectedError {
@@ -34,6 +37,7 @@ struct ErrorEstimate {
 /// elements twice as long do not fit the cut, its companions have elements half as long, in a patch that is
 /// no larger than the cut needs. All companions are of the small model: mesh and patch err by the same part
 /// of the opening in both. Collective.
-ErrorEstimate expected_error(const Parameters& parameters, double gape, MPI_Comm communicator);
+ErrorEstimate expected_error(const Parameters& parameters, double gape, MPI_Comm communicator,
+                             KeptPatches* kept = nullptr);
 
 }  // namespace cleft

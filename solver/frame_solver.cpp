@@ -159,4 +159,10 @@ ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system,
   return {make_iterative_solver(mesh, system), Method::iterative, reason, peak};
 }
 
+void factorize_again(const PatchSystem& system, const ChosenSolver& chosen) {
+  auto& direct = static_cast<DirectSolver&>(*chosen.solver);
+  direct.replace(system.lower_triangle());
+  direct.factorize();
+}
+
 }  // namespace cleft

@@ -113,4 +113,7 @@ ChosenSolver make_frame_solver(const PatchMesh& mesh, const PatchSystem& system,
                                double most_operations,
                                const std::function<void(const std::string&)>& progress);
 
+/// Factorises K once more, whose values have changed; the solver is a direct one.
+void factorize_again(const PatchSystem& system, const ChosenSolver& chosen);
+
 }  // namespace cleft

@@ -106,10 +106,8 @@ PatchElements::PatchElements(const PatchMesh& patch, const Parameters& parameter
       mesh(patch),
       discretization(d),
       rank_of_cell(std::move(division)),
-      triangulation(comm),
       element(FE_WedgeP<3>(patch.is_quadratic() ? 2 : 1), 3),
-      mapping(FE_WedgeP<3>(1)),
-      dofs(triangulation) {
+      mapping(FE_WedgeP<3>(1)) {
   create_triangulation(parameters);
   distribute_unknowns();
   make_pattern(parameters.skin.bending_stiffness > 0);
@@ -117,14 +115,19 @@ PatchElements::PatchElements(const PatchMesh& patch, const Parameters& parameter
 
 void PatchElements::forget() {
   dofs.clear();
-  triangulation.clear();
+  triangulation->clear();
   pattern.clear();
 }
 
-/// Rank 0 makes the whole mesh, divides it and hands out the parts.
+/// Of several ranks, the first one makes the whole mesh, divides it and hands out the parts.
 void PatchElements::create_triangulation(const Parameters& parameters) {
   const unsigned ranks = Utilities::MPI::n_mpi_processes(communicator);
-  triangulation.create_triangulation(
+  if (ranks == 1) {
+    triangulation = std::make_unique<Triangulation<3>>();
+    return make_whole(mesh, parameters, *triangulation);
+  }
+  triangulation = std::make_unique<parallel::fullydistributed::Triangulation<3>>(communicator);
+  triangulation->create_triangulation(
       TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<3, 3>(
           [&](Triangulation<3>& whole) { make_whole(mesh, parameters, whole); },
           [&](Triangulation<3>& whole, const MPI_Comm&, unsigned) {
@@ -140,6 +143,7 @@ void PatchElements::create_triangulation(const Parameters& parameters) {
 }
 
 void PatchElements::distribute_unknowns() {
+  dofs.reinit(*triangulation);
   dofs.distribute_dofs(element);
   offsets = {0};
   for (const IndexSet& owned : Utilities::MPI::all_gather(communicator, dofs.locally_owned_dofs())) {
@@ -176,7 +180,7 @@ void PatchElements::make_pattern(bool bending) {
     add_quadratic_pattern();
   else
     DoFTools::make_sparsity_pattern(dofs, pattern, AffineConstraints<double>(), true,
-                                    triangulation.locally_owned_subdomain());
+                                    triangulation->locally_owned_subdomain());
   if (bending) add_bending_pattern(mesh, first_unknown, owned, pattern);
   pattern.compress();
 }

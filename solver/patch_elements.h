@@ -7,6 +7,7 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
+#include <memory>
 #include <vector>
 
 #include "params/parameters/parameters.h"
@@ -38,8 +39,8 @@ class PatchElements {
   MPI_Comm communicator;
   const PatchMesh& mesh;
   const Discretization discretization;
-  std::vector<unsigned> rank_of_cell;  ///< on rank 0
-  dealii::parallel::fullydistributed::Triangulation<3> triangulation;
+  std::vector<unsigned> rank_of_cell;                       ///< on rank 0
+  std::unique_ptr<dealii::Triangulation<3>> triangulation;  ///< distributed where there are several ranks
   dealii::FESystem<3> element;
   dealii::MappingFE<3> mapping;
   dealii::DoFHandler<3> dofs;

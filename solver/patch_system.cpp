@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "base/error.h"
 #include "params/parameters/table.h"
@@ -74,24 +75,32 @@ Block released_part(const PatchSystem& system, const PatchMesh& mesh, const Bloc
 struct PatchSystem::Parts {
   Parts(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
         const Discretization& discretization)
-      : elements(mesh, parameters, communicator, discretization), system(elements, 3) {
-    system.add(elements, parameters, 1, Eigen::Matrix3d::Identity());
-    system.finish();
-    unit_loads = system.loads();
-    system.forget_loads();
-    elements.forget();
+      : elements(mesh, parameters, communicator, discretization) {}
+
+  void assemble(const Parameters& parameters) {
+    system.emplace(elements, 3);
+    system->add(elements, parameters, 1, Eigen::Matrix3d::Identity());
+    system->finish();
+    unit_loads = system->loads();
+    system->forget_loads();
   }
 
   PatchElements elements;
-  Assembly system;
+  std::optional<Assembly> system;
   Block unit_loads;
 };
 
 PatchSystem::PatchSystem(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
-                         const Discretization& discretization)
+                         const Discretization& discretization, KeepElements keep)
     : parts_(std::make_unique<Parts>(mesh, parameters, communicator, discretization)) {
+  reassemble(parameters);
+  if (keep == KeepElements::no) parts_->elements.forget();
+}
+
+void PatchSystem::reassemble(const Parameters& parameters) {
+  parts_->assemble(parameters);
   if (parameters.skin.edges == SkinEdges::held)
-    parts_->unit_loads = released_part(*this, mesh, parts_->unit_loads);
+    parts_->unit_loads = released_part(*this, parts_->elements.mesh, parts_->unit_loads);
 }
 
 PatchSystem::~PatchSystem() = default;
@@ -108,7 +117,7 @@ Block PatchSystem::load(const Parameters::Skin& prestress) const {
   return unit_loads() * directions(prestress);
 }
 const Epetra_CrsMatrix& PatchSystem::stiffness() const {
-  return parts_->system.stiffness().trilinos_matrix();
+  return parts_->system->stiffness().trilinos_matrix();
 }
 Block PatchSystem::multiply(const Block& block) const { return cleft::multiply(stiffness(), block); }
 

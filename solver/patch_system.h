@@ -28,6 +28,9 @@ enum class WedgeRule {
 /// The library that divides the elements among the ranks.
 enum class Partitioner { metis, zorder, zoltan };
 
+/// Whether a system keeps its elements, for reassemble().
+enum class KeepElements { no, yes };
+
 struct Discretization {
   WedgeRule rule = WedgeRule::full;
   Partitioner partitioner = Partitioner::metis;
@@ -43,8 +46,10 @@ class PatchSystem {
  public:
   /// Keeps a reference to the mesh.
   PatchSystem(const PatchMesh& mesh, const Parameters& parameters, MPI_Comm communicator,
-              const Discretization& discretization = {});
+              const Discretization& discretization = {}, KeepElements keep = KeepElements::no);
   ~PatchSystem();
+  /// K and loads for other moduli, springs and tensions (of one pattern_key()), with elements that were kept.
+  void reassemble(const Parameters& parameters);
 
   MPI_Comm communicator() const;
   int rank() const;

@@ -20,47 +20,60 @@ Parameters of_tangent(Parameters p) {
 
 }  // namespace
 
-SharedStiffness::SharedStiffness(SolveJob& job, const std::vector<std::size_t>& members)
-    : job_(job), phases_(job.communicator) {
+SharedStiffness::SharedStiffness(SolveJob& job, const std::vector<std::size_t>& members, KeptPatches* kept)
+    : job_(job), phases_(job.communicator), kept_(kept) {
   const Parameters parameters = of_tangent(job.cases[members.front()].parameters);
   job.progress("meshing and assembling");
-  mesh_ = job.options.body ? mesh_of(*job.options.body) : make_patch_mesh(parameters);
-  check_assembly_fits(3 * mesh_.points.size(), job.communicator);
-  system_.emplace(mesh_, parameters, job.communicator, job.options.discretization);
-  residual_.emplace(mesh_, *system_);
-  phases_.end("assemble");
-  const bool needs_factor = std::any_of(members.begin(), members.end(), [&](std::size_t c) {
-    const Parameters& p = job.cases[c].parameters;
-    return p.cut.contact || p.model == Model::finite;
-  });
-  chosen_ = make_frame_solver(mesh_, *system_, job.options.method,
-                              needs_factor ? std::numeric_limits<double>::infinity() : many_operations,
-                              job.progress);
-  phases_.end(chosen_.method == Method::direct ? "factor" : "set up");
+  if (kept) patch_ = kept->reassembled(parameters);
+  if (patch_) {
+    phases_.end("assemble");
+    factorize_again(system(), chosen());
+  } else {
+    make_patch(members, parameters);
+  }
+  phases_.end(chosen().method == Method::direct ? "factor" : "set up");
+  residual_.emplace(mesh(), system());
   for (const std::size_t c : members) {
     SolveReport& report = job.reports[c];
-    MPI_Comm_size(system_->communicator(), &report.ranks);
-    report.nodes = static_cast<int>(mesh_.points.size());
-    report.unknowns = system_->size();
-    report.method = chosen_.method == Method::direct ? "direct" : "iterative";
-    report.reason = chosen_.reason;
-    report.expected_peak = chosen_.expected_peak;
+    MPI_Comm_size(system().communicator(), &report.ranks);
+    report.nodes = static_cast<int>(mesh().points.size());
+    report.unknowns = system().size();
+    report.method = chosen().method == Method::direct ? "direct" : "iterative";
+    report.reason = chosen().reason;
+    report.expected_peak = chosen().expected_peak;
     report.cases_sharing = static_cast<int>(members.size());
   }
   job.reports[members.front()].first_of_sharing = true;
 }
 
+void SharedStiffness::make_patch(const std::vector<std::size_t>& members, const Parameters& parameters) {
+  PatchMesh mesh = job_.options.body ? mesh_of(*job_.options.body) : make_patch_mesh(parameters);
+  check_assembly_fits(3 * mesh.points.size(), job_.communicator);
+  const KeepElements keep = kept_ ? kept_->wants(parameters, mesh) : KeepElements::no;
+  patch_ = std::make_shared<MeshedPatch>(std::move(mesh), parameters, job_.communicator,
+                                         job_.options.discretization, keep);
+  phases_.end("assemble");
+  const bool needs_factor = std::any_of(members.begin(), members.end(), [&](std::size_t c) {
+    const Parameters& p = job_.cases[c].parameters;
+    return p.cut.contact || p.model == Model::finite;
+  });
+  patch_->chosen = make_frame_solver(patch_->mesh, patch_->system, job_.options.method,
+                                     needs_factor ? std::numeric_limits<double>::infinity() : many_operations,
+                                     job_.progress);
+  if (kept_) kept_->keep(parameters, patch_);
+}
+
 void SharedStiffness::solve(const std::vector<std::size_t>& members) {
   const Body* body = job_.options.body.get();
   const Release release =
-      body ? release_of(*body) : make_release(mesh_, job_.cases[members.front()].parameters);
-  chosen_.solver->set_release(release);
+      body ? release_of(*body) : make_release(mesh(), job_.cases[members.front()].parameters);
+  chosen().solver->set_release(release);
   if (!checked_) {
-    check_rounding(*system_, chosen_);
+    check_rounding(system(), chosen());
     checked_ = true;
-    if (has_compliance(mesh_)) {
+    if (has_compliance(mesh())) {
       job_.progress("compliance of the skin");
-      compliance_ = compliance_of(mesh_, *system_, *chosen_.solver);
+      compliance_ = compliance_of(mesh(), system(), *chosen().solver);
     }
     phases_.end("compliance");
   }
@@ -69,7 +82,7 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
     estimate(members);
     return;
   }
-  const std::size_t iterations_before = chosen_.solver->iterations().size();
+  const std::size_t iterations_before = chosen().solver->iterations().size();
   // Few enough files open at a time.
   constexpr std::size_t at_once = 64;
   for (std::size_t first = 0; first < members.size(); first += at_once) {
@@ -79,7 +92,7 @@ void SharedStiffness::solve(const std::vector<std::size_t>& members) {
     batch.solve();
   }
   estimate(members);
-  const std::vector<int> iterations = chosen_.solver->iterations();
+  const std::vector<int> iterations = chosen().solver->iterations();
   job_.reports[members.front()].iterations.assign(iterations.begin() + static_cast<long>(iterations_before),
                                                   iterations.end());
 }
@@ -92,7 +105,7 @@ void SharedStiffness::estimate(const std::vector<std::size_t>& members) {
   const ErrorEstimate estimate =
       job_.options.body
           ? ErrorEstimate{{}, "a body has one mesh; make it again with smaller elements and compare"}
-          : expected_error(job_.cases[members.front()].parameters, first.gape, job_.communicator);
+          : expected_error(job_.cases[members.front()].parameters, first.gape, job_.communicator, kept_);
   for (const std::size_t c : members) job_.reports[c].estimate = estimate;
   phases_.end("estimate");
 }

@@ -46,6 +46,30 @@ std::vector<std::vector<std::size_t>> grouped(const std::vector<std::size_t>& ca
   return result;
 }
 
+/// Cases of one K.
+void solve_group(SolveJob& job, const std::vector<std::size_t>& group, KeptPatches* kept) {
+  const auto fail = [&](const std::vector<std::size_t>& members, const std::string& why) {
+    for (const std::size_t c : members)
+      if (job.reports[c].failure.empty() && !job.reports[c].written) job.reports[c].failure = why;
+  };
+  try {
+    SharedStiffness shared(job, group, kept);
+    for (const auto& members :
+         grouped(group, [&](std::size_t c) { return release_key(job.cases[c].parameters); }))
+      try {
+        shared.solve(members);
+      } catch (const SolveError& e) {
+        fail(members, e.what());
+      }
+    job.reports[group.front()].phases = shared.phases().list;
+  } catch (const SolveError& e) {
+    fail(group, e.what());
+  } catch (const InputError& e) {
+    if (job.cases.size() == 1) throw;
+    fail(group, e.what());
+  }
+}
+
 }  // namespace
 
 void check_options(const Parameters& p, const SolveOptions& options, const std::string& where) {
@@ -80,27 +104,11 @@ std::vector<SolveReport> solve_cases(const std::vector<CaseToSolve>& cases, cons
     all.push_back(c);
   }
   const auto stiffness = [&](std::size_t c) { return stiffness_key(cases[c].parameters); };
-  for (const auto& group : grouped(all, stiffness)) {
-    const auto fail = [&](const std::vector<std::size_t>& members, const std::string& why) {
-      for (const std::size_t c : members)
-        if (reports[c].failure.empty() && !reports[c].written) reports[c].failure = why;
-    };
-    try {
-      SharedStiffness shared(job, group);
-      for (const auto& members :
-           grouped(group, [&](std::size_t c) { return release_key(cases[c].parameters); }))
-        try {
-          shared.solve(members);
-        } catch (const SolveError& e) {
-          fail(members, e.what());
-        }
-      reports[group.front()].phases = shared.phases().list;
-    } catch (const SolveError& e) {
-      fail(group, e.what());
-    } catch (const InputError& e) {
-      if (cases.size() == 1) throw;
-      fail(group, e.what());
-    }
+  const auto pattern = [&](std::size_t c) { return pattern_key(cases[c].parameters); };
+  for (const auto& of_mesh : grouped(all, pattern)) {
+    KeptPatches kept;
+    const auto groups = grouped(of_mesh, stiffness);
+    for (const auto& group : groups) solve_group(job, group, groups.size() > 1 ? &kept : nullptr);
   }
   return reports;
 }

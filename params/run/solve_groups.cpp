@@ -15,7 +15,7 @@ using Groups = std::vector<std::vector<std::size_t>>;
 
 /// Joins groups of small cases, to at most so many cases.
 Groups joined(Groups groups, const std::vector<Case>& cases, std::size_t workers, std::size_t most) {
-  constexpr std::size_t groups_a_worker = 4;
+  const std::size_t groups_a_worker = workers > 1 ? 4 : 1;  // one worker keeps no other one waiting
   const auto end_of_small = std::stable_partition(
       groups.begin(), groups.end(), [&](const auto& group) { return is_small(cases[group.front()]); });
   std::size_t small = 0;

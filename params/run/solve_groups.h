@@ -19,8 +19,8 @@ inline constexpr double most_small_nodes = 5000;
 bool is_small(const Case& one);
 
 /// Groups of cases (by index) with one stiffness matrix, which share its factorisation; groups are smaller if
-/// this keeps all `workers` busy. Small cases of several stiffness matrices are in one group, where enough
-/// groups are left for all workers to end at about the same time.
+/// this keeps all `workers` busy. Small cases of several stiffness matrices are in one group, where several
+/// workers still have enough groups to end at about the same time.
 std::vector<std::vector<std::size_t>> solve_groups(const std::vector<Case>& cases, int workers,
                                                    std::size_t most = most_small_together);
 

@@ -5,6 +5,7 @@
 #include "params/parameters/table.h"
 #include "params/solve_hash.h"
 #include "solver/compliance.h"
+#include "solver/kept_patches.h"
 #include "tests/solver/dense_patch.h"
 #include "tests/solver/solved_snapshot.h"
 
@@ -154,6 +155,50 @@ TEST(SolveCases, OfSeveralStiffnessesShareWithTheirOwn) {
     EXPECT_EQ(reports[c].cases_sharing, sharing[c]) << c;
     EXPECT_EQ(reports[c].first_of_sharing, c != 2 && c != 3 && c != 7 && c != 11) << c;
   }
+}
+
+/// With elements, analyses and companions of the first.
+TEST(SolveCases, OfOneMeshAreAsAlone) {
+  const TemporaryFolder folder;
+  const std::vector<Parameters> cases = {
+      base(),
+      changed(base(), {"tissue.young_modulus=0.03", "skin.prestress_v=0.05"}),
+      changed(base(), {"skin.bending_stiffness=0.02"}),
+      changed(base(), {"foundation.stiffness=0.02", "skin.thickness=1", "tissue.prestress_share=0.2"}),
+      changed(base(), {"skin.bending_stiffness=0.05", "tissue.poisson_ratio=0.3"}),
+      changed(base(), {"tissue.young_modulus=0.05", "cut.contact=true", "cut.length=4"}),
+  };
+  const std::vector<SolveReport> reports = solve_into(folder, cases);
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    expect_as_alone(reports[c], cases[c]);
+    const TemporaryFolder place;
+    const ErrorEstimate alone = solve_into(place, {cases[c]})[0].estimate;
+    ASSERT_TRUE(alone.expected && reports[c].estimate.expected) << c << alone.obstacle;
+    EXPECT_EQ(reports[c].estimate.expected->mesh, alone.expected->mesh) << c;
+    EXPECT_EQ(reports[c].estimate.expected->patch, alone.expected->patch) << c;
+  }
+}
+
+TEST(SolveCases, PatchesAreKeptForTheirMesh) {
+  KeptPatches kept;
+  const auto make = [](const Parameters& p) {
+    auto patch = std::make_shared<MeshedPatch>(make_patch_mesh(p), p, MPI_COMM_WORLD, Discretization(),
+                                               KeepElements::yes);
+    patch->chosen = make_frame_solver(patch->mesh, patch->system, Method::automatic, many_operations,
+                                      [](const std::string&) {});
+    return patch;
+  };
+  const auto patch = make(base());
+  kept.keep(base(), patch);
+  const Parameters stiffer = changed(base(), {"tissue.young_modulus=0.03"});
+  EXPECT_EQ(kept.reassembled(stiffer), patch);
+  EXPECT_EQ(patch->system.unit_loads(), make(stiffer)->system.unit_loads());
+  for (const char* other : {"mesh.element_size=0.9", "skin.bending_stiffness=0.02", "mesh.cut_length=4"})
+    EXPECT_EQ(kept.reassembled(changed(base(), {other})), nullptr) << other;
+  EXPECT_EQ(kept.wants(changed(base(), {"model=finite"}), patch->mesh), KeepElements::no);
+  PatchMesh large;
+  large.points.resize(100000);
+  EXPECT_EQ(kept.wants(base(), large), KeepElements::no);
 }
 
 TEST(SolveCases, OfOneStiffnessAreAsAloneByIterations) {
