@@ -132,8 +132,10 @@ Expectation CaseModel::expectation(const Setting& setting) const {
   }
   e.mesh = scale * size_of(mesh), e.patch = scale * size_of(*patch);
   e.tip = scale * std::max(size_of(tip), meshes.first_node(setting.element_size));
-  const MeshErrors::Code& code = meshes.code(setting.tolerance);
-  e.code = scale * code.error, e.bytes = code.bytes;
+  if (setting.tolerance > 0) {
+    const MeshErrors::Code& code = meshes.code(setting.tolerance);
+    e.code = scale * code.error, e.bytes = code.bytes;
+  }
   e.detail = 2 * setting.detail / right;  // of both lips
   e.total = safety * std::max({size_of(all), std::hypot(size_of(sum), e.tip), e.model_counts ? e.model : 0}) +
             e.code + e.detail;
@@ -151,15 +153,13 @@ std::vector<Setting> CaseModel::settings() const {
   for (const MeshErrors& meshes : meshes_)
     for (const std::optional<Model> model : models)
       for (const double count : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96})
-        for (const auto& [margin, samples] : patches_)
-          for (const MeshErrors::Code& code : meshes.codes()) {
-            const Setting setting{.element_size = parameters_.cut.length / count,
-                                  .margin = margin,
-                                  .tolerance = code.tolerance,
-                                  .model = model,
-                                  .elements = meshes.elements()};
-            if (serves(setting)) all.push_back(setting);
-          }
+        for (const auto& [margin, samples] : patches_) {
+          const Setting setting{.element_size = parameters_.cut.length / count,
+                                .margin = margin,
+                                .model = model,
+                                .elements = meshes.elements()};
+          if (serves(setting)) all.push_back(setting);
+        }
   return all;
 }
 
@@ -212,30 +212,46 @@ double detail_for(const std::vector<CaseModel>& models, const Goals& goals) {
 Setting advise(const std::vector<CaseModel>& models, const Goals& goals) {
   const double detail = goals.frame_ms > 0 ? detail_for(models, goals) : 0;
   const double most_tolerance = std::max(loosest * goals.error, tightest_tolerance);
-  std::optional<Setting> best;
-  Expectation of_best, nearest;
-  bool fits_at_all = false;
+  std::vector<std::pair<Setting, Expectation>> meshes;  // without code
   for (Setting setting : models.front().settings()) {
-    if (setting.tolerance > most_tolerance || (goals.model && setting.model != goals.model)) continue;
+    if (goals.model && setting.model != goals.model) continue;
     const auto serves = [&](const CaseModel& model) { return model.serves(setting); };
     if (!std::all_of(models.begin(), models.end(), serves)) continue;
     setting.detail = detail, setting.grading = advised_grading(setting.elements, goals.error);
-    const Expectation e = expectation(models, setting);
-    if (goals.megabytes > 0 && 1e-6 * goals.cases * e.bytes > goals.megabytes) continue;
-    if (!fits_at_all || e.total < nearest.total) nearest = e;
-    fits_at_all = true;
-    if (e.total > goals.error) continue;
-    if (!best || e.seconds < of_best.seconds || (e.seconds == of_best.seconds && e.bytes < of_best.bytes))
-      best = setting, of_best = e;
+    meshes.emplace_back(setting, expectation(models, setting));
   }
+  std::stable_sort(meshes.begin(), meshes.end(),
+                   [](const auto& a, const auto& b) { return a.second.seconds < b.second.seconds; });
+  std::optional<Setting> best;
+  Expectation of_best, nearest;
+  bool fits_at_all = false;
+  // Of a mesh with its tolerances, the loosest first, that which keeps the goals.
+  const auto take = [&](Setting setting) {
+    for (const double tolerance : tolerances) {
+      if (tolerance > most_tolerance) continue;
+      setting.tolerance = tolerance;
+      const Expectation e = expectation(models, setting);
+      if (goals.megabytes > 0 && 1e-6 * goals.cases * e.bytes > goals.megabytes) continue;
+      if (!fits_at_all || e.total < nearest.total) nearest = e;
+      fits_at_all = true;
+      if (e.total > goals.error) continue;
+      if (!best || e.bytes < of_best.bytes) best = setting, of_best = e;
+      return;
+    }
+  };
+  // The cheapest first. No field makes up for what a mesh is off, so nothing is encoded for too coarse ones.
+  for (const auto& [setting, e] : meshes) {
+    if (best && e.seconds > of_best.seconds) break;
+    if (e.total <= goals.error) take(setting);
+  }
+  if (best) return *best;
+  for (const auto& [setting, e] : meshes) take(setting);
   if (!fits_at_all)
     throw InputError("--mb " + shortest(goals.megabytes) + ": " + shortest(goals.cases) +
                      " cases take more, with tolerances of half the error and tighter");
-  if (!best)
-    throw InputError("--error " + shortest(goals.error) + ": out of reach; " +
-                     shortest(std::round(1e4 * nearest.total) / 1e4) + " can be had, where the " +
-                     nearest.dominating() + " dominates");
-  return *best;
+  throw InputError("--error " + shortest(goals.error) + ": out of reach; " +
+                   shortest(std::round(1e4 * nearest.total) / 1e4) + " can be had, where the " +
+                   nearest.dominating() + " dominates");
 }
 
 }  // namespace cleft

@@ -11,7 +11,8 @@
 //   tip      the field against its own mesh between nodes and frames, where the lips close as the square root
 //            of the distance from the tip, at three sizes (two of quadratic elements); finer ones go on with
 //            the order of the last two; or what the mesh's first node there is off, if that is more
-//   code     what a looser tolerance adds, at the finest of those meshes; none beyond half the error is taken
+//   code     what a looser tolerance adds, at the finest of those meshes, encoded where the choice needs it;
+//            none beyond half the error is taken
 //   model    small strains against finite ones, in a coarse mesh (model_error.h)
 //   detail   what a replay leaves alone, on both lips
 //
@@ -75,7 +76,7 @@ class CaseModel {
   std::array<int, 4> control_points(const Setting& setting) const {
     return meshes_of(setting.elements)->code(setting.tolerance).control_points;
   }
-  /// All candidate settings.
+  /// All candidates of meshes and patches, before a tolerance is chosen.
   std::vector<Setting> settings() const;
   /// Whether the case can have a setting's elements, and they were measured.
   bool serves(const Setting& setting) const;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
-#include "tradeoff/chain.h"
 
 namespace cleft {
 
@@ -17,7 +17,6 @@ constexpr double linear_along_cut[] = {8, 16, 32}, quadratic_along_cut[] = {8, 1
 // nodes further away tell, as the root of the distance from the front. Largest over the frames.
 constexpr double first_node_of_linear = 0.1, first_node_of_quadratic = 0.02;
 constexpr double least_tip_order = 0.5;  // of a square root that a mesh cannot follow
-constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, tightest_tolerance};
 
 std::span<const double> along_cut(ElementOrder elements) {
   if (elements == ElementOrder::quadratic) return quadratic_along_cut;
@@ -28,41 +27,39 @@ std::span<const double> along_cut(ElementOrder elements) {
 
 MeshErrors::MeshErrors(const Parameters& parameters, ElementOrder elements, double margin,
                        const std::string& work, const std::function<void(const std::string&)>& progress)
-    : elements_(elements) {
+    : elements_(elements), kept_(std::make_shared<ScratchFolder>("advise")) {
   const double length = parameters.cut.length;
   const std::span<const double> counts = along_cut(elements);
-  std::optional<Opening> before;
   for (const double count : counts) {
     progress("solving with " + shortest(count) + (elements == ElementOrder::quadratic ? " quadratic" : "") +
              " elements along the cut");
-    const Chain chain(coarse(parameters, elements, count, margin), work);
-    const Opening opening = chain.opening();
-    const auto at = [&](double s, double t) { return opening.at(s, t); };
-    if (before)
-      difference_ = difference(sampled(length, [&](double s, double t) { return before->at(s, t); }),
-                               sampled(length, at));
-    before = opening;
+    finest_ =
+        Chain(coarse(parameters, elements, count, margin), count == counts.back() ? kept_->path() : work);
+    const Opening opening = finest_->opening();
+    const Samples before =
+        std::exchange(finest_samples_, sampled(length, [&](double s, double t) { return opening.at(s, t); }));
+    if (!before.empty()) difference_ = difference(before, finest_samples_);
     largest_ = opening.largest(), size_ = length / count;
     first_opening_ = norm(opening.node(opening.times().size() - 1, 1));
-    const auto apart = [&](const Field& field) {
-      return difference(sampled(length, [&](double s, double t) { return cleft::opening(field, s, t); }),
-                        sampled(length, at));
-    };
-    const Chain::Encoded tight = chain.encoded(tightest_tolerance);
-    tips_.emplace_back(size_, apart(tight.field));
-    costs_.push_back({chain.nodes(), chain.solve_seconds() + tight.seconds});
-    if (count != counts.back()) continue;
+    const Chain::Encoded tight = finest_->encoded(tightest_tolerance);
     field_ = tight.field;
-    for (const double tolerance : tolerances) {
-      const Chain::Encoded encoded = tolerance == tightest_tolerance ? tight : chain.encoded(tolerance);
-      const Field& field = encoded.field;
-      codes_.push_back(
-          {tolerance,
-           std::max(0., size_of(apart(field)) - size_of(tips_.back().second)),
-           encoded.bytes,
-           {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}});
-    }
+    tips_.emplace_back(size_, apart(tight.field));
+    costs_.push_back({finest_->nodes(), finest_->solve_seconds() + tight.seconds});
+    codes_ = {{tightest_tolerance, code_of(tight)}};
   }
+}
+
+Samples MeshErrors::apart(const Field& field) const {
+  const double length = field.cut().length;
+  return difference(sampled(length, [&](double s, double t) { return opening(field, s, t); }),
+                    finest_samples_);
+}
+
+MeshErrors::Code MeshErrors::code_of(const Chain::Encoded& encoded) const {
+  const Field& field = encoded.field;
+  return {std::max(0., size_of(apart(field)) - size_of(tips_.back().second)),
+          encoded.bytes,
+          {field.basis(0).size(), field.basis(1).size(), field.basis(2).size(), field.basis(3).size()}};
 }
 
 Samples MeshErrors::mesh(double size) const {
@@ -96,10 +93,8 @@ Samples MeshErrors::tip(double size) const {
 double MeshErrors::seconds(double nodes) const { return expected_seconds(costs_, nodes); }
 
 const MeshErrors::Code& MeshErrors::code(double tolerance) const {
-  const auto code =
-      std::find_if(codes_.begin(), codes_.end(), [&](const Code& one) { return one.tolerance == tolerance; });
-  CLEFT_CHECK(code != codes_.end(), ==, true);
-  return *code;
+  if (const auto found = codes_.find(tolerance); found != codes_.end()) return found->second;
+  return codes_[tolerance] = code_of(finest_->encoded(tolerance));
 }
 
 double expected_seconds(const std::vector<ChainCost>& costs, double nodes) {

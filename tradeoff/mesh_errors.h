@@ -3,20 +3,25 @@
 
 #include <array>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/scratch_folder.h"
 #include "encoder/field/field.h"
+#include "tradeoff/chain.h"
 #include "tradeoff/model_error.h"
 #include "tradeoff/samples.h"
 #include "tradeoff/setting.h"
 
 namespace cleft {
 
-/// Of the encoder: the tightest that is tried.
-constexpr double tightest_tolerance = 0.001;
+/// Of the encoder: those that are tried, the loosest first.
+constexpr double tolerances[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
+constexpr double tightest_tolerance = tolerances[std::size(tolerances) - 1];
 
 /// A case in a mesh with so many elements along the cut, in a patch with a margin over the cut's length.
 Parameters coarse(const Parameters& parameters, ElementOrder elements, double count, double margin);
@@ -48,19 +53,25 @@ class MeshErrors {
 
   /// What a looser tolerance of the encoder brings, in the finest mesh.
   struct Code {
-    double tolerance, error, bytes;  ///< mm beyond the mesh's
+    double error, bytes;  ///< error: mm beyond the mesh's
     std::array<int, 4> control_points;
   };
-  const std::vector<Code>& codes() const { return codes_; }
+  /// Encodes when it is asked for a tolerance the first time, which takes seconds.
   const Code& code(double tolerance) const;
 
  private:
+  Samples apart(const Field& field) const;  // from the finest mesh
+  Code code_of(const Chain::Encoded& encoded) const;
+
   ElementOrder elements_;
   double first_opening_ = 0;       // of the first node next to the start, in the finest mesh, mm
   double largest_ = 0, size_ = 0;  // element size of the finest mesh
   Samples difference_;             // of it and one twice as coarse
   std::vector<std::pair<double, Samples>> tips_;  // by element size, coarsest first
-  std::vector<Code> codes_;
+  std::shared_ptr<const ScratchFolder> kept_;     // of the finest mesh's files
+  std::optional<Chain> finest_;
+  Samples finest_samples_;
+  mutable std::map<double, Code> codes_;  // by tolerance
   std::vector<ChainCost> costs_;
   std::optional<Field> field_;
 };

@@ -17,7 +17,7 @@ constexpr double advised_grading(ElementOrder elements, double error) {
 struct Setting {
   double element_size = 0;          ///< mm, at the cut
   double margin = 0;                ///< mm of patch around the cut, on all four sides
-  double tolerance = 0;             ///< of the encoder
+  double tolerance = 0;             ///< of the encoder; 0: nothing is encoded
   double detail = 0;                ///< mm: vertices that never move by more stay at rest in replays
   std::optional<Model> model = {};  ///< none: the case's own
   ElementOrder elements = ElementOrder::linear;

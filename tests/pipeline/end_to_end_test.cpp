@@ -36,7 +36,8 @@ class EndToEnd : public testing::Test {
   static void SetUpTestSuite() {
     folder = new TemporaryFolder;
     folder->write("case.toml", coarse_case);
-    expect_success(run_cleft("solve", {*folder / "case.toml", "--out", *folder / "case.h5"}));
+    expect_success(
+        run_cleft("solve", {*folder / "case.toml", "--out", *folder / "case.h5", "--no-estimate"}));
     expect_success(run_cleft(
         "encode", {*folder / "case.h5", "--out", *folder / "case.dffd", "--control-points", "18,14,8,9"}));
   }
@@ -177,8 +178,8 @@ TEST_F(EndToEnd, EveryNodeIsWithinTheToleranceInEveryFrame) {
 
 TEST_F(EndToEnd, SeveralSnapshotsAreEncodedAsEachAlone) {
   const std::string first = *folder / "case.h5", second = *folder / "pulled.h5", both = *folder / "both";
-  expect_success(
-      run_cleft("solve", {*folder / "case.toml", "--set", "skin.prestress_v=0.05", "--out", second}));
+  expect_success(run_cleft(
+      "solve", {*folder / "case.toml", "--set", "skin.prestress_v=0.05", "--no-estimate", "--out", second}));
   std::filesystem::create_directory(both);
   const Outcome encoded = run_cleft("encode", {first, second, "--out", both, "--json"});
   expect_success(encoded);

@@ -20,8 +20,8 @@ constexpr const char* small_case = R"(
 name = "small"
 [case]
 cut.length = 12
-cut.depth = 2
-patch = { height = 5 }
+cut.depth = 1
+patch = { height = 2.5 }
 foundation.stiffness = 0.02
 foundation.side_stiffness = 0.02
 [vary]
@@ -53,7 +53,7 @@ TEST(Advice, KeepsItsErrorAgainstAMuchFinerSimulationOfAWiderPatch) {
 TEST(Advice, LessErrorCostsMore) {
   const TemporaryFolder folder;
   Parameters p;
-  p.cut.length = 12, p.cut.depth = 2, p.patch.height = 5, p.foundation = {0.02, 0.02};
+  p.cut.length = 12, p.cut.depth = 1, p.patch.height = 2.5, p.foundation = {0.02, 0.02};
   const std::vector<CaseModel> models(1, CaseModel(
                                              p, folder.path(), [](const std::string&) {}, {}, true));
   double nodes = 0, seconds = 0;
@@ -110,7 +110,7 @@ ModelError made_model_error(double error) {
 TEST(Advice, TheModelIsChosenByItsError) {
   const TemporaryFolder folder;
   Parameters p;
-  p.cut.length = 12, p.cut.depth = 2, p.patch.height = 5, p.foundation = {0.02, 0.02};
+  p.cut.length = 12, p.cut.depth = 1, p.patch.height = 2.5, p.foundation = {0.02, 0.02};
   const auto quiet = [](const std::string&) {};
   const std::vector<CaseModel> models(
       1, CaseModel(p, folder.path(), quiet, {.error = made_model_error(0.15), .choose = true}));
@@ -140,7 +140,7 @@ TEST(Advice, TheModelIsChosenByItsError) {
 TEST(ModelErrorOfACase, GrowsInProportionToWeakTension) {
   const TemporaryFolder folder;
   Parameters p;
-  p.cut.length = 12, p.cut.depth = 2, p.patch.height = 5, p.foundation = {0.02, 0.02};
+  p.cut.length = 12, p.cut.depth = 1, p.patch.height = 2.5, p.foundation = {0.02, 0.02};
   const auto error = [&](double tension) {
     p.skin.prestress = {tension, 2 * tension, 0};
     const ModelError one = model_error(p, folder.path(), [](const std::string&) {});
@@ -190,7 +190,7 @@ TEST(Advice, AStudysFileKeepsAllButWhatWasChosen) {
   const Study changed = read_study(folder.write("t.toml", text));
   EXPECT_EQ(changed.name, "small");
   EXPECT_EQ(changed.base.parameters.patch.length, 33.3);
-  EXPECT_EQ(changed.base.parameters.patch.height, 5);
+  EXPECT_EQ(changed.base.parameters.patch.height, 2.5);
   EXPECT_EQ(changed.base.parameters.mesh.element_size, 0.1);
   EXPECT_EQ(changed.base.encode.tolerance, 0.05);
   ASSERT_EQ(changed.vary.size(), 1u);

@@ -3,5 +3,5 @@
 set -eu
 here=$(dirname "$0") python=$1 cleft=$2 case=$3
 place=$(mktemp -d); trap 'rm -rf "$place"' EXIT
-"$cleft" solve "$case" --out "$place/case.h5"
+"$cleft" solve "$case" --out "$place/case.h5" --no-estimate
 PYTHONDONTWRITEBYTECODE=1 "$python" "$here/recompute.py" "$place/case.h5"

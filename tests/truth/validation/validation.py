@@ -214,7 +214,7 @@ def slit(tool, page):
     half = 8
     # The tension of the finite model is so small that its strains are; without bending its skin would have wrinkles.
     for model, size, tension, bending in (("small", 2, 0.01, 0), ("small", 1, 0.01, 0), ("small", 0.5, 0.01, 0),
-                                          ("finite", 1, 1e-4, 1e-4), ("small", 1, 0.01, 0.01)):
+                                          ("finite", 2, 1e-4, 1e-4), ("small", 1, 0.01, 0.01)):
         case = tool.case(model=model, patch__length=40 * half, patch__width=40 * half, patch__height=2, cut__length=2 * half,
                          cut__depth=1, mesh__element_size=size, mesh__grading=1.15, skin__prestress_u=tension,
                          skin__prestress_v=tension, skin__bending_stiffness=bending, tissue__young_modulus=1e-6,
