@@ -88,7 +88,8 @@ TEST(KernelRegression, SlopesAreDerivativesOfTheCovariance) {
     EXPECT_DOUBLE_EQ(jet.value[0], at(0, 0)) << k.name;
     EXPECT_NEAR(jet.by_x[0], (at(h, 0) - at(-h, 0)) / (2 * h), 1e-6) << k.name;
     EXPECT_NEAR(jet.by_y[0], (at(0, h) - at(0, -h)) / (2 * h), 1e-6) << k.name;
-    EXPECT_NEAR(jet.by_both[0], (at(h, h) - at(h, -h) - at(-h, h) + at(-h, -h)) / (4 * h * h), 1e-5) << k.name;
+    EXPECT_NEAR(jet.by_both[0], (at(h, h) - at(h, -h) - at(-h, h) + at(-h, -h)) / (4 * h * h), 1e-5)
+        << k.name;
   }
 }
 
