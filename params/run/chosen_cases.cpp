@@ -89,7 +89,12 @@ ChosenCases chosen_cases(const StudyFolder& folder, const Study& study) {
 std::vector<Case> cases_of(const Study& file, const StudyFolder& folder) {
   const ChosenCases chosen = chosen_cases(folder, file);
   Study study = file;
-  if (study.sampling.differentiates) study.base.sensitivities = chosen.sensitivities;
+  if (study.sampling.differentiates) {
+    study.base.sensitivities = chosen.sensitivities;
+    if (chosen.sensitivities.empty() && !chosen.batches.empty())  // of as many first cases as there were then
+      study.sampling.count =
+          std::max(study.sampling.count, static_cast<std::size_t>(chosen.batches.front().cases));
+  }
   std::vector<Case> cases = cases_of(study);
   if (chosen.batches.empty()) return cases;
   const std::vector<Variation> ranges = ranges_by_name(study);

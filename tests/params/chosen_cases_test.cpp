@@ -108,13 +108,14 @@ TEST(ChosenCases, AStudyThatWasBegunWithoutDerivativesGoesOnWithout) {
   const auto with_record = [&](bool with) {
     nlohmann::ordered_json json = {{"version", 2}, {"figure", "field"}, {"names", {"skin.thickness"}}};
     if (with) json["sensitivities"] = {"skin.thickness"};
-    json["batches"].push_back({{"cases", 4}, {"error", 0.2}, {"values", nlohmann::json::array({{1.3}})}});
+    json["batches"].push_back(
+        {{"cases", with ? 4 : 6}, {"error", 0.2}, {"values", nlohmann::json::array({{1.3}})}});
     write_text_file(files / "out/chosen.json", sealed_text(json));
     return cases_of(study, folder);
   };
   for (const bool with : {false, true}) {
     const std::vector<Case> cases = with_record(with);
-    ASSERT_EQ(cases.size(), 5u);
+    ASSERT_EQ(cases.size(), with ? 5u : 7u);  // it may have had more first ones
     for (const Case& one : cases) EXPECT_EQ(one.sensitivities.size(), with ? 1u : 0u);
   }
   with_record(false);
