@@ -197,6 +197,7 @@ Eigen::MatrixXd FigureModel::predicted_by_parts() const {
     std::vector<int> left, rest;
     for (int i = 0; i < cases(); ++i) (i % parts == part ? left : rest).push_back(i);
     std::vector<RecordedParameters> of_left;
+    of_left.reserve(left.size());
     for (const int i : left) of_left.push_back(cases_.parameters[static_cast<std::size_t>(i)]);
     const DisplacementModel model = best_model(cases_, rest);
     const DisplacementModel::Predictions found = model.at(of_left);
