@@ -89,7 +89,8 @@ class Wounds::GuardLooks {
       }
       if (moments) hold_for_moments(guard);
     } else if (moments) {
-      for (const auto& [one, time] : search_.remaining()) suspects_.push_back({one, blades_[time]});
+      only_named_ = true;
+      hold_for_moments(guard);
     }
     name_unsound(guard);
     return guard;
@@ -254,7 +255,7 @@ class Wounds::GuardLooks {
   std::vector<int> hold(int one, const Blade& blade, double first, double last, Guard& guard) {
     const double end = wounds_[blade.cut].reached();
     suspects_.push_back({one, blade});
-    if (guard.moments().count() > most_moments) return {};
+    if (only_named_ || guard.moments().count() > most_moments) return {};
     if (one >= 0 && left(one, {blade.cut, end}, guard) == GuardPassage::unsound) return {};
     const Relief::At now = relief_at(blade);
     const auto own = [&](int v) { return this->own(v, blade, now); };
@@ -333,6 +334,7 @@ class Wounds::GuardLooks {
     Blade blade;
   };
   std::vector<Suspect> suspects_;          // all that was not sound, when it was found
+  bool only_named_ = false;                // not held back, where the field is to blame
   std::vector<std::pair<int, Vec3>> sum_;  // of all cuts, at one look
   std::vector<int> place_;                 // of a vertex in that
 };

@@ -175,9 +175,12 @@ TEST(Opening, IsCountedAsTurnedWhereItIs) {
   const ScalpelPath path = testing::path_through({{-15, 0.2, 0}, {15, 0.2, 0}}, testing::up, 3);
   Incision cut(plate, path);
   cut.advance_to(path.length());
-  const Opened o = look_at_opened(ReplayedWounds({Wound(cut, *field, 1)}), FieldLimits(*field), 5);
+  const ReplayedWounds wounds({Wound(cut, *field, 1)});
+  const Opened o = look_at_opened(wounds, FieldLimits(*field), 5);
   EXPECT_GT(o.turned + o.turned_by_field, 10);
   EXPECT_GT(o.turned_by_field, o.turned);
+  // And named, also at positions of the blade that the guard does not look at.
+  EXPECT_EQ(look_at_opened(wounds, FieldLimits(*field), 29).unnamed, 0);
 }
 
 }  // namespace
