@@ -120,10 +120,12 @@ void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, cons
         prestress_names()[loads_.units[i]], first,
         loads.displacements.middleCols(static_cast<Eigen::Index>(i) * count, count));
   shared_.phases().end("write");
+  if (options_.sensitivities.empty()) return;
+  const std::vector<FrameSolver::Frame> opened = frames_of(columns, frames);
   for (const std::string& name : options_.sensitivities) {
     shared_.job().progress("sensitivity to " + name + ", frame " + std::to_string(first) + " of " +
                            std::to_string(release_.released.size()));
-    member.output->write_derivative(name, first, sensitivity(member, name, columns, frames));
+    member.output->write_derivative(name, first, sensitivity(member, name, opened, frames));
     shared_.phases().end("sensitivities");
   }
 }
@@ -131,7 +133,7 @@ void CaseBatch::finish_block(Member& member, int first, Eigen::Index count, cons
 /// K u + C^T v = f differentiated: the same system under df/dp - dK/dp u. Lips that press on each other
 /// slide: where some are about to touch or to part, it is the derivative as long as they do not.
 Block CaseBatch::sensitivity(const Member& member, const std::string& name,
-                             const std::vector<FrameSolver::Column>& columns, const Block& frames) {
+                             const std::vector<FrameSolver::Frame>& opened, const Block& frames) {
   auto& derivative = derivatives_[name + "/" + std::to_string(member.number)];
   if (!derivative) derivative = system_.derivative(member.output->parameters(), name);
   Block loads = -derivative->multiply(frames);
@@ -140,33 +142,36 @@ Block CaseBatch::sensitivity(const Member& member, const std::string& name,
   constexpr Eigen::Index at_once = 16;  // these loads are full
   for (Eigen::Index c = 0; c < frames.cols(); c += at_once) {
     const Eigen::Index count = std::min(at_once, frames.cols() - c);
-    std::vector<FrameSolver::Frame> some;
-    for (Eigen::Index i = c; i < c + count; ++i) {
-      const auto& [load, open, contact, residual] = columns[static_cast<std::size_t>(i)];
-      some.push_back({open, {}});
-      if (contact) some.back().touching = touching(frames.col(i), open);
-    }
+    const std::vector<FrameSolver::Frame> some(opened.begin() + c, opened.begin() + c + count);
     solution.middleCols(c, count) = solver_.solve_each(loads.middleCols(c, count), some);
   }
   return solution;
 }
 
-/// Open pairs without an opening along their normals.
-FrameSolver::Touching CaseBatch::touching(const Block& displacement, int open) const {
+/// With contact, pairs touch that have no opening along their normals.
+std::vector<FrameSolver::Frame> CaseBatch::frames_of(const std::vector<FrameSolver::Column>& columns,
+                                                     const Block& displacements) const {
   constexpr double nothing = 1e-9;  // of the largest displacement at the cut
+  std::vector<FrameSolver::Frame> frames;
+  frames.reserve(columns.size());
+  for (const FrameSolver::Column& column : columns) frames.push_back({column.open, {}});
+  if (!columns.front().contact) return frames;
   const CutNodes cut(shared_.mesh(), system_);
-  const Eigen::MatrixXd at_cut = all_gather_rows(system_, displacement, cut.unknowns);
-  const double least = nothing * at_cut.cwiseAbs().maxCoeff();
-  FrameSolver::Touching found;
-  for (int i = 0; i < open; ++i) {
-    const int pair = release_.order[i];
-    const auto [left, right] = cut.pairs[pair];
-    const Vec3& n = shared_.mesh().pairs[pair].normal;
-    const Eigen::Vector3d jump = (at_cut.middleRows<3>(3 * right) - at_cut.middleRows<3>(3 * left)).col(0);
-    if (Eigen::Vector3d(n.x, n.y, n.z).dot(jump) <= least) found.places.push_back(i);
+  const Eigen::MatrixXd at_cut = all_gather_rows(system_, displacements, cut.unknowns);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Eigen::VectorXd own = at_cut.col(static_cast<Eigen::Index>(f));
+    const double least = nothing * own.cwiseAbs().maxCoeff();
+    FrameSolver::Touching& touching = frames[f].touching;
+    for (int i = 0; i < frames[f].open; ++i) {
+      const int pair = release_.order[i];
+      const auto [left, right] = cut.pairs[pair];
+      const Vec3& n = shared_.mesh().pairs[pair].normal;
+      const Eigen::Vector3d jump = own.segment<3>(3 * right) - own.segment<3>(3 * left);
+      if (Eigen::Vector3d(n.x, n.y, n.z).dot(jump) <= least) touching.places.push_back(i);
+    }
+    touching.openings = Eigen::VectorXd::Zero(std::ssize(touching.places));
   }
-  found.openings = Eigen::VectorXd::Zero(std::ssize(found.places));
-  return found;
+  return frames;
 }
 
 }  // namespace cleft

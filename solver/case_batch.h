@@ -38,8 +38,9 @@ class CaseBatch {
   void solve_block(int first, int count, std::size_t part);
   void finish_block(Member& member, int first, Eigen::Index count, const LoadFrames& loads);
   Block sensitivity(const Member& member, const std::string& name,
-                    const std::vector<FrameSolver::Column>& columns, const Block& frames);
-  FrameSolver::Touching touching(const Block& displacement, int open) const;
+                    const std::vector<FrameSolver::Frame>& opened, const Block& frames);
+  std::vector<FrameSolver::Frame> frames_of(const std::vector<FrameSolver::Column>& columns,
+                                            const Block& displacements) const;
 
   SharedStiffness& shared_;
   const SolveOptions& options_;
