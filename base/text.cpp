@@ -72,13 +72,19 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return near.empty() ? "" : " (did you mean '" + near + "'?)";
 }
 
-double parse_number(std::string_view text, const std::string& where) {
+std::optional<double> number_of(std::string_view text) {
   double value = 0;
-  const std::string_view digits = trimmed(text);
+  std::string_view digits = trimmed(text);
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw InputError(where + ": '" + std::string(text) + "' is not a number");
+  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) return {};
   return value;
+}
+
+double parse_number(std::string_view text, const std::string& where) {
+  const std::optional<double> value = number_of(text);
+  if (!value) throw InputError(where + ": '" + std::string(text) + "' is not a number");
+  return *value;
 }
 
 static std::string given_to(const std::string& option, const std::string& text) {

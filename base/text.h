@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,10 @@ std::string formatted(const char* format, Values... values) {
   std::snprintf(text.data(), text.size() + 1, format, values...);
   return text;
 }
+
+/// The number that the whole text is, but for blanks around it and a plus before it; none where it is none,
+/// or not finite.
+std::optional<double> number_of(std::string_view text);
 
 /// Reads a whole number or a decimal; throws InputError "<where>: '<text>' is not a number".
 double parse_number(std::string_view text, const std::string& where);

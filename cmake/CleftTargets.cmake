@@ -36,7 +36,7 @@ endif()
 
 add_library(cleft_warnings INTERFACE)
 target_compile_options(cleft_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
-  -Wno-restrict -Wno-stringop-overflow)  # GCC 12 reports sound std::string additions (GCC bug 105329)
+  -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)  # GCC 12 reports sound std::string additions (GCC bug 105329)
 
 add_library(cleft_options INTERFACE)
 if(CLEFT_SANITIZE)

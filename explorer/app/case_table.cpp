@@ -147,9 +147,9 @@ CaseTable::CaseTable(Session& session, Say say, std::function<void()> figures_kn
     if (!following_) say_selection();
   });
   connect(table_->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this,
-          [this](int column, Qt::SortOrder order) {
-            if (following_ || !session_.study() || column >= model_.columnCount()) return;
-            const std::string name = model_.name_of(column);
+          [this](int sorted, Qt::SortOrder order) {
+            if (following_ || !session_.study() || sorted >= model_.columnCount()) return;
+            const std::string name = model_.name_of(sorted);
             say_("sort " + (name.empty() ? "none" : name) + (order == Qt::DescendingOrder ? " down" : ""));
           });
   connect(&idle_, &QTimer::timeout, this, [this] { find_next_figures(); });

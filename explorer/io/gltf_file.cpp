@@ -54,7 +54,7 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : data_(path) {}
 
-  GltfMesh read() {
+  MeshPolygons read() {
     try {
       const Json& json = data_.json();
       if (data_.count("scenes") > 0) {
@@ -67,7 +67,7 @@ class Reader {
       data_.refuse(std::string("has an entry that is none of a glTF: ") + e.what());
     }
     tell_of_textures();
-    if (!colored_ || too_coarse_) result_.mesh.colors.clear();
+    if (!colored_ || too_coarse_) result_.colors.clear();
     return std::move(result_);
   }
 
@@ -140,7 +140,7 @@ class Reader {
     const GltfData::Numbers places = attribute(attributes, "POSITION", 3, 3, where);
     const std::vector<std::vector<int>> polygons =
         corners(primitive, mode, places.size(), mirrors(to), where);
-    PlyPolygons& mesh = result_.mesh;
+    MeshPolygons& mesh = result_;
     const int first = static_cast<int>(mesh.points.size());
     corners_ += 3 * polygons.size() + places.size();
     if (corners_ > most_gltf_corners) data_.refuse("places more triangles than can be read");
@@ -220,8 +220,8 @@ class Reader {
       }
     }
     for (const Rgb& c : linear)
-      result_.mesh.colors.push_back({static_cast<float>(srgb_of(c[0])), static_cast<float>(srgb_of(c[1])),
-                                     static_cast<float>(srgb_of(c[2]))});
+      result_.colors.push_back({static_cast<float>(srgb_of(c[0])), static_cast<float>(srgb_of(c[1])),
+                                static_cast<float>(srgb_of(c[2]))});
   }
 
   /// The image's colours of points; none where it cannot be read.
@@ -264,7 +264,7 @@ class Reader {
   }
 
   GltfData data_;
-  GltfMesh result_;
+  MeshPolygons result_;
   std::set<std::size_t> placed_;
   std::map<std::size_t, vtkSmartPointer<vtkImageData>> images_;
   std::string unread_;
@@ -275,6 +275,6 @@ class Reader {
 
 }  // namespace
 
-GltfMesh read_gltf(const std::string& path) { return Reader(path).read(); }
+MeshPolygons read_gltf(const std::string& path) { return Reader(path).read(); }
 
 }  // namespace cleft

@@ -5,12 +5,8 @@
 #include <vtkDoubleArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
-#include <vtkOBJWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
-#include <vtkSTLWriter.h>
 #include <vtkTriangleFilter.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
@@ -28,10 +24,11 @@
 #include "base/vtk_listener.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/gltf_file.h"
-#include "explorer/io/mesh_checks.h"
-#include "explorer/io/obj_texture.h"
+#include "explorer/io/mesh_polygons.h"
+#include "explorer/io/obj_file.h"
 #include "explorer/io/ply_file.h"
 #include "explorer/io/polygons.h"
+#include "explorer/io/stl_file.h"
 
 namespace cleft {
 
@@ -73,20 +70,15 @@ struct Told {
   std::string note = {};
 };
 
-template <class Reader>
-vtkSmartPointer<vtkPolyData> read_with(const std::string& path, Told& told) {
+vtkSmartPointer<vtkPolyData> read_vtp(const std::string& path, Told& told) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // its errors are reported by us
-  vtkNew<Reader> reader;
+  vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
   const VtkListener reading(reader.Get());
   reader->Update();
   if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
   check_corners(path, reader->GetOutput());
-  if constexpr (std::is_same_v<Reader, vtkOBJReader>)
-    told.note = add_texture_colors(path, reader->GetOutput());
-  auto triangles = merged_triangles(reader->GetOutput(), told.merged_points);
-  if (reading.failed()) throw FileError(path, "cannot be read as a mesh: " + reading.reason());
-  return triangles;
+  return merged_triangles(reader->GetOutput(), told.merged_points);
 }
 
 constexpr const char* color_name = "RGB";
@@ -119,12 +111,15 @@ PointColor color_at(const vtkUnsignedCharArray& colors, vtkIdType point) {
   return color;
 }
 
-vtkSmartPointer<vtkPolyData> triangles_of(const PlyPolygons& ply, Told& told) {
+template <MeshPolygons (*read)(const std::string& path)>
+vtkSmartPointer<vtkPolyData> read_own(const std::string& path, Told& told) {
+  const MeshPolygons mesh = read(path);
+  told.note = mesh.note;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  for (const Vec3& p : ply.points) points->InsertNextPoint(p.x, p.y, p.z);
+  for (const Vec3& p : mesh.points) points->InsertNextPoint(p.x, p.y, p.z);
   vtkNew<vtkCellArray> cells;
-  for (const std::vector<int>& polygon : ply.polygons) {
+  for (const std::vector<int>& polygon : mesh.polygons) {
     if (polygon.size() < 3) continue;
     cells->InsertNextCell(static_cast<int>(polygon.size()));
     for (const int corner : polygon) cells->InsertCellPoint(corner);
@@ -132,18 +127,8 @@ vtkSmartPointer<vtkPolyData> triangles_of(const PlyPolygons& ply, Told& told) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetPolys(cells);
-  if (!ply.colors.empty()) data->GetPointData()->AddArray(color_array(ply.colors));
+  if (!mesh.colors.empty()) data->GetPointData()->AddArray(color_array(mesh.colors));
   return merged_triangles(data, told.merged_points);
-}
-
-vtkSmartPointer<vtkPolyData> read_ply_mesh(const std::string& path, Told& told) {
-  return triangles_of(read_ply(path), told);
-}
-
-vtkSmartPointer<vtkPolyData> read_gltf_mesh(const std::string& path, Told& told) {
-  const GltfMesh gltf = read_gltf(path);
-  told.note = gltf.note;
-  return triangles_of(gltf.mesh, told);
 }
 
 vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
@@ -166,25 +151,12 @@ vtkSmartPointer<vtkPolyData> to_vtk(const SurfaceMesh& mesh, const std::vector<P
   return data;
 }
 
-template <class Writer>
-void write_with(const vtkNew<Writer>& writer, vtkPolyData* data, const std::string& path) {
-  write_through_memory(path, [&](const std::string& file) {
-    const VtkListener writing(writer.Get());
-    writer->SetFileName(file.c_str());
-    writer->SetInputData(data);
-    if (writer->Write() == 0 || writing.failed())
-      throw std::runtime_error(path + ": could not be written: " + writing.reason());
-  });
-}
-
 void write_stl(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>&) {
-  vtkNew<vtkSTLWriter> writer;
-  writer->SetFileTypeToBinary();
-  write_with(writer, to_vtk(mesh, {}), path);
+  write_text_file(path, stl_of(mesh, path));
 }
 
 void write_obj(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>&) {
-  write_with(vtkNew<vtkOBJWriter>(), to_vtk(mesh, {}), path);
+  write_text_file(path, obj_of(mesh));
 }
 
 void write_vtp(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays) {
@@ -199,18 +171,14 @@ void write_ply(const std::string& path, const SurfaceMesh& mesh, const std::vect
 /// What reads and writes a row of the table of formats.
 struct SurfaceFile {
   std::string_view ending;
-  void (*check)(const std::string& path);  ///< what VTK's reader would crash on; null: none
   vtkSmartPointer<vtkPolyData> (*read)(const std::string& path, Told& told);
   void (*write)(const std::string& path, const SurfaceMesh& mesh, const std::vector<PointArray>& arrays);
 };
 
 constexpr SurfaceFile surface_files[] = {
-    {".stl", check_stl, read_with<vtkSTLReader>, write_stl},
-    {".obj", check_obj, read_with<vtkOBJReader>, write_obj},
-    {".ply", nullptr, read_ply_mesh, write_ply},
-    {".vtp", nullptr, read_with<vtkXMLPolyDataReader>, write_vtp},
-    {".glb", nullptr, read_gltf_mesh, nullptr},
-    {".gltf", nullptr, read_gltf_mesh, nullptr},
+    {".stl", read_own<read_stl>, write_stl}, {".obj", read_own<read_obj>, write_obj},
+    {".ply", read_own<read_ply>, write_ply}, {".vtp", read_vtp, write_vtp},
+    {".glb", read_own<read_gltf>, nullptr},  {".gltf", read_own<read_gltf>, nullptr},
 };
 
 constexpr const SurfaceFile* file_of(std::string_view ending) {
@@ -284,7 +252,6 @@ void add_arrays(const std::vector<PointArray>& arrays, vtkPointData* to, std::si
 SurfaceMesh read_mesh(const std::string& path, MeshReport* told) {
   const SurfaceFile& file = *file_of(surface_format(path, MeshUse::read).ending);
   if (!std::ifstream(path)) throw FileError(path, "cannot be opened: does it exist?");
-  if (file.check) file.check(path);
   MeshReport report;
   Told found;
   const auto data = file.read(path, found);

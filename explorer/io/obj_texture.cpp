@@ -1,12 +1,8 @@
 #include "explorer/io/obj_texture.h"
 
-#include <vtkCellArray.h>
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkImageReader2Factory.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +16,6 @@
 #include "base/text.h"
 #include "base/vtk_listener.h"
 #include "explorer/io/memory_image.h"
-#include "explorer/io/texture_colors.h"
 
 namespace cleft {
 
@@ -72,16 +67,6 @@ std::set<std::filesystem::path> images_of(const std::filesystem::path& obj) {
   return images;
 }
 
-std::vector<std::vector<int>> polygons_of(vtkPolyData* data) {
-  std::vector<std::vector<int>> polygons;
-  vtkCellArray* cells = data->GetPolys();
-  vtkIdType size;
-  const vtkIdType* corners;
-  for (cells->InitTraversal(); cells->GetNextCell(size, corners);)
-    if (size >= 3) polygons.emplace_back(corners, corners + size);
-  return polygons;
-}
-
 /// Null, with the reason, if it cannot be read.
 vtkSmartPointer<vtkImageData> image_in(const std::string& file, std::string& why) {
   if (const std::string bytes = read_text_file(file); is_memory_image(bytes)) return memory_image(bytes, why);
@@ -98,9 +83,7 @@ vtkSmartPointer<vtkImageData> image_in(const std::string& file, std::string& why
 
 }  // namespace
 
-std::string add_texture_colors(const std::string& path, vtkPolyData* data) {
-  vtkDataArray* const places = data->GetPointData()->GetTCoords();
-  if (!places) return "";
+std::string add_texture_colors(const std::string& path, const std::vector<Uv>& places, MeshPolygons& mesh) {
   const std::set<std::filesystem::path> images = images_of(path);
   if (images.empty() || *images.rbegin() == "") return "";
   if (images.size() > 1)
@@ -112,25 +95,16 @@ std::string add_texture_colors(const std::string& path, vtkPolyData* data) {
   std::string why;
   const vtkSmartPointer<vtkImageData> image = image_in(file, why);
   if (!image) return what + " is no image that can be read: " + why;
-  const auto count = static_cast<std::size_t>(data->GetNumberOfPoints());
-  std::vector<Uv> uvs(count);
-  for (std::size_t p = 0; p < count; ++p)
-    for (int k = 0; k < 2; ++k) uvs[p][k] = places->GetComponent(static_cast<vtkIdType>(p), k);
-  const auto [colors, lost] = texture_colors(image, uvs, polygons_of(data));
+  if (std::any_of(places.begin(), places.end(), [](const Uv& place) { return std::isnan(place[0]); }))
+    return what + " is left out: corners of faces have no place in it";
+  const auto [colors, lost] = texture_colors(image, places, mesh.polygons);
   const std::string off = text_of_lost(lost);
   if (lost > most_lost)
     return what + " is left out: as colours of the points it would be " + off +
            "; divide the triangles until they are as fine as the image";
-  vtkNew<vtkUnsignedCharArray> array;
-  array->SetName("RGB");
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  for (std::size_t p = 0; p < count; ++p)
-    for (int c = 0; c < 3; ++c)
-      array->SetTypedComponent(
-          static_cast<vtkIdType>(p), c,
-          static_cast<unsigned char>(std::lround(255 * std::clamp(colors[p][c], 0., 1.))));
-  data->GetPointData()->AddArray(array);
+  for (const Rgb& color : colors)
+    mesh.colors.push_back(
+        {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])});
   return what + " is drawn as colours of the points, " + off;
 }
 

@@ -253,11 +253,11 @@ float color_part(const Body& body, const Property& property, double value) {
 
 }  // namespace
 
-PlyPolygons read_ply(const std::string& path) {
+MeshPolygons read_ply(const std::string& path) {
   const std::string text = read_text_file(path);
   const Header header = HeaderReader(path, text).read();
   Body body(path, text, header);
-  PlyPolygons result;
+  MeshPolygons result;
   bool has_points = false, has_faces = false;
   std::vector<double> scalars, list;
   for (const Element& element : header.elements) {

@@ -1,24 +1,10 @@
-#include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 
 #include "base/error.h"
+#include "explorer/io/binary_text.h"
 #include "explorer/io/ply_file.h"
 
 namespace cleft {
-
-namespace {
-
-template <class T>
-void append(std::string& bytes, T value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  if constexpr (std::endian::native == std::endian::big) std::reverse(raw, raw + sizeof value);
-  bytes.append(raw, sizeof value);
-}
-
-}  // namespace
 
 std::string ply_of(const SurfaceMesh& mesh) {
   const bool colored = !mesh.colors.empty();
@@ -29,13 +15,13 @@ std::string ply_of(const SurfaceMesh& mesh) {
       (colored ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "") + "element face " +
       std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
   for (std::size_t p = 0; p < mesh.points.size(); ++p) {
-    for (int k = 0; k < 3; ++k) append(bytes, mesh.points[p][k]);
+    for (int k = 0; k < 3; ++k) append_little(bytes, mesh.points[p][k]);
     if (!colored) continue;
-    for (const std::uint8_t part : byte_color(mesh.colors[p])) append(bytes, part);
+    for (const std::uint8_t part : byte_color(mesh.colors[p])) append_little(bytes, part);
   }
   for (const auto& corners : mesh.triangles) {
-    append(bytes, std::uint8_t{3});
-    for (const int corner : corners) append(bytes, std::int32_t{corner});
+    append_little(bytes, std::uint8_t{3});
+    for (const int corner : corners) append_little(bytes, std::int32_t{corner});
   }
   return bytes;
 }

@@ -105,8 +105,8 @@ TextureColors texture_colors(vtkImageData* image, const std::vector<Uv>& places,
         for (int k = 0; k < 2; ++k) there[k] += weight[i] * place[corners[i]][k];
         for (int c = 0; c < 3; ++c) between[c] += weight[i] * colors[corners[i]][c];
       }
-      const Rgb image = texture.at(there);
-      for (int c = 0; c < 3; ++c) lost += std::abs(image[c] - between[c]), compared += 1;
+      const Rgb drawn = texture.at(there);
+      for (int c = 0; c < 3; ++c) lost += std::abs(drawn[c] - between[c]), compared += 1;
     }
   }
   return {std::move(colors), lost / std::max(compared, 1.)};

@@ -15,7 +15,7 @@ namespace cleft {
 class CoarsePass : public vtkRenderPass {
  public:
   static CoarsePass* New();
-  vtkTypeMacro(CoarsePass, vtkRenderPass);
+  vtkTypeMacro(CoarsePass, vtkRenderPass)
 
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;

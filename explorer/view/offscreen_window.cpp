@@ -77,9 +77,7 @@ class EglWindow : public vtkGenericOpenGLRenderWindow {
   static EglWindow* New();
   vtkTypeMacro(EglWindow, vtkGenericOpenGLRenderWindow)
 
-      void MakeCurrent() override {
-    context_.make_current();
-  }
+  void MakeCurrent() override { context_.make_current(); }
   bool IsCurrent() override { return context_.is_current(); }
 
   /// GLEW requests a GLX display after it has loaded all of OpenGL; that there is none is harmless here.

@@ -235,8 +235,8 @@ std::vector<SurfaceLight::Near> SurfaceLight::near_lips(const WoundSurface& surf
   for (; !next.empty(); next.pop_front()) {
     const int from = lip[next.front()];
     for (const int p : neighbours[next.front()]) {
-      const double far = distance(p, from);
-      if (far > most || (lip[p] >= 0 && distance(p, lip[p]) <= far)) continue;
+      const double away = distance(p, from);
+      if (away > most || (lip[p] >= 0 && distance(p, lip[p]) <= away)) continue;
       lip[p] = from;
       next.push_back(p);
     }

@@ -78,7 +78,7 @@ TEST_F(MeshColors, OfPlyAreReadInEveryType) {
          {std::pair{"uchar", 255.}, {"ushort", 65535.}, {"float", 1.}, {"double", 1.}}) {
       const std::string file = in.write("a.ply", ply_text(plate, type, whole, first, ""));
       // Text of six digits; of wholes half of one. The mesh has bytes.
-      const PlyPolygons ply = read_ply(file);
+      const MeshPolygons ply = read_ply(file);
       EXPECT_LT(off({ply.points, {}, ply.colors}), whole == 1 ? 2e-6 : 0.5 / whole + 2e-6) << type;
       EXPECT_LT(off(read_mesh(file)), 0.5 * byte + 0.5 / whole * (whole > 1) + 2e-6) << type;
     }

@@ -149,6 +149,9 @@ TEST_F(ObjTexture, ThatCannotBeReadLeavesTheMeshWithoutColors) {
                                "f -3/1 -2/1 -1/1\n");
   EXPECT_TRUE(two.colors.empty());
   EXPECT_NE(two.note.find("2 textures or none"), std::string::npos) << two.note;
+  const SurfaceMesh bare = read(obj_of_plate("a.mtl") + "v 20 0 0\nv 21 0 0\nv 21 1 0\nf -3/1 -2 -1/1\n");
+  EXPECT_TRUE(bare.colors.empty());
+  EXPECT_NE(bare.note.find("no place in it"), std::string::npos) << bare.note;
 }
 
 /// VTK's own reader ends the program there.

@@ -72,7 +72,7 @@ std::string house(Form form) {
 
 class PlyFile : public ::testing::TestWithParam<Form> {
  protected:
-  PlyPolygons read(const std::string& bytes) const { return read_ply(in.write("a.ply", bytes)); }
+  MeshPolygons read(const std::string& bytes) const { return read_ply(in.write("a.ply", bytes)); }
   /// What is said of a file that is refused; "" if it is read.
   std::string refusal(const std::string& bytes) const {
     try {
@@ -92,7 +92,7 @@ std::string with(std::string text, const std::string& what, const std::string& i
 }
 
 TEST_P(PlyFile, ReadsEveryTypeAndSkipsTheRest) {
-  const PlyPolygons ply = read(house(GetParam()));
+  const MeshPolygons ply = read(house(GetParam()));
   ASSERT_EQ(ply.points.size(), 5u);
   EXPECT_EQ(ply.points[1], (Vec3{1e9 + 0.125, 0, -3}));
   EXPECT_EQ(ply.points[3], (Vec3{-1, 2, 32767}));
@@ -174,7 +174,7 @@ TEST_P(PlyFile, OfAnyBytesIsReadOrRefusedInBoundedMemory) {
   for (int n = 0; n < 2000; ++n) {
     const std::string bytes = mutated(good, random);
     try {
-      const PlyPolygons ply = read(bytes);
+      const MeshPolygons ply = read(bytes);
       EXPECT_LE(ply.points.size() + ply.polygons.size(), bytes.size());
       for (const std::vector<int>& polygon : ply.polygons)
         for (const int corner : polygon) ASSERT_LT(static_cast<std::size_t>(corner), ply.points.size());
