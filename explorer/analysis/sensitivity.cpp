@@ -4,6 +4,7 @@
 #include <cmath>
 #include <openturns/ComposedDistribution.hxx>
 #include <openturns/JansenSensitivityAlgorithm.hxx>
+#include <openturns/MauntzKucherenkoSensitivityAlgorithm.hxx>
 #include <openturns/ResourceMap.hxx>
 #include <openturns/SobolIndicesExperiment.hxx>
 
@@ -31,7 +32,8 @@ Eigen::MatrixXd columns_of(const OT::Sample& sample) {
   return columns;
 }
 
-/// First and total indices one after another, and their errors by the finite sample.
+/// Total indices, first ones from differences (Jansen), and from products (Mauntz and Kucherenko), one after
+/// another, and their errors by the finite sample.
 struct Indices {
   Eigen::VectorXd values, errors;
 };
@@ -39,19 +41,21 @@ Indices indices_of(const OT::Sample& points, const Eigen::VectorXd& values, int 
   OT::Sample out(static_cast<OT::UnsignedInteger>(values.size()), 1);
   for (Eigen::Index j = 0; j < values.size(); ++j)
     out(static_cast<OT::UnsignedInteger>(j), 0) = values[j] - values.mean();
-  OT::JansenSensitivityAlgorithm algorithm(points, out, static_cast<OT::UnsignedInteger>(size));
-  algorithm.setUseAsymptoticDistribution(true);
+  OT::JansenSensitivityAlgorithm differences(points, out, static_cast<OT::UnsignedInteger>(size));
+  OT::MauntzKucherenkoSensitivityAlgorithm products(points, out, static_cast<OT::UnsignedInteger>(size));
+  differences.setUseAsymptoticDistribution(true), products.setUseAsymptoticDistribution(true);
   const auto dimension = static_cast<Eigen::Index>(points.getDimension());
-  Indices indices{Eigen::VectorXd(2 * dimension), Eigen::VectorXd(2 * dimension)};
-  const OT::Point first = algorithm.getFirstOrderIndices(), total = algorithm.getTotalOrderIndices();
-  const OT::Interval of_first = algorithm.getFirstOrderIndicesInterval(),
-                     of_total = algorithm.getTotalOrderIndicesInterval();
-  for (Eigen::Index k = 0; k < dimension; ++k) {
-    const auto at = static_cast<OT::UnsignedInteger>(k);
-    indices.values[k] = first[at], indices.values[dimension + k] = total[at];
-    indices.errors[k] = 0.5 * (of_first.getUpperBound()[at] - of_first.getLowerBound()[at]);
-    indices.errors[dimension + k] = 0.5 * (of_total.getUpperBound()[at] - of_total.getLowerBound()[at]);
-  }
+  Indices indices{Eigen::VectorXd(3 * dimension), Eigen::VectorXd(3 * dimension)};
+  const auto add = [&](Eigen::Index begin, const OT::Point& found, const OT::Interval& within) {
+    for (Eigen::Index k = 0; k < dimension; ++k) {
+      const auto at = static_cast<OT::UnsignedInteger>(k);
+      indices.values[begin + k] = found[at];
+      indices.errors[begin + k] = 0.5 * (within.getUpperBound()[at] - within.getLowerBound()[at]);
+    }
+  };
+  add(0, differences.getTotalOrderIndices(), differences.getTotalOrderIndicesInterval());
+  add(dimension, differences.getFirstOrderIndices(), differences.getFirstOrderIndicesInterval());
+  add(2 * dimension, products.getFirstOrderIndices(), products.getFirstOrderIndicesInterval());
   return indices;
 }
 
@@ -104,7 +108,7 @@ Sensitivities sensitivities_of(const std::vector<InputDistribution>& distributio
 
   const Indices indices = indices_of(sample, values, size);
   const Eigen::MatrixXd figures = alternatives ? alternatives(points) : Eigen::MatrixXd(0, points.cols());
-  Eigen::MatrixXd others(2 * dimension, figures.rows());
+  Eigen::MatrixXd others(indices.values.size(), figures.rows());
   for (Eigen::Index a = 0; a < others.cols(); ++a)
     others.col(a) = indices_of(sample, figures.row(a).transpose(), size).values;
   const auto estimate = [&](Eigen::Index at) {
@@ -113,7 +117,10 @@ Sensitivities sensitivities_of(const std::vector<InputDistribution>& distributio
   };
   for (Eigen::Index k = 0; k < dimension; ++k) {
     ParameterEffect& effect = result.parameters.emplace_back();
-    effect.first = estimate(k), effect.total = estimate(dimension + k);
+    // Of large indices differences are surer, of small ones products.
+    const Estimate by_differences = estimate(dimension + k), by_products = estimate(2 * dimension + k);
+    effect.first = by_differences.error < by_products.error ? by_differences : by_products;
+    effect.total = estimate(k);
     for (int p = 0; p < places; ++p)
       effect.at.push_back(
           distributions[static_cast<std::size_t>(k)].quantile(0.025 + 0.95 * p / (places - 1)));

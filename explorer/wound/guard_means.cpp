@@ -192,6 +192,8 @@ void GuardSearch::move_as_means(const std::vector<int>& group) {
       if (p.number >= 0 && in_group_[p.number])
         hangs_on[n].push_back(p.number), hangs_on[p.number].push_back(n);
   }
+  std::vector<std::vector<Part>> before;
+  for (const int n : group) before.push_back(mean_[n]);
   std::vector<bool> seen(vertex_.size());
   for (const int first : group) {
     if (seen[first]) continue;
@@ -202,8 +204,11 @@ void GuardSearch::move_as_means(const std::vector<int>& group) {
         if (!seen[next]) seen[next] = true, together.push_back(next);
     solve(together, means);
   }
-  renew(group);
-  check(group);
+  std::vector<int> changed;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (mean_[group[i]] != before[i]) changed.push_back(group[i]);
+  renew(changed);
+  check(changed);
 }
 
 /// The displacements with which each of the group is the mean of its ring, from those beside the group; those

@@ -92,9 +92,8 @@ std::vector<GuardSearch::Remaining> GuardSearch::sudden() const {
     std::array<Vec3, 3> before{};
     for (std::size_t k = 0; k < times(); ++k) {
       const std::array<Vec3, 3> now = moved(one, k);
-      const Vec3 a = (now[1] - now[0]) - (before[1] - before[0]),
-                 b = (now[2] - now[0]) - (before[2] - before[0]);
-      if (std::max(squared_norm(a), squared_norm(b)) > harmless_[t] ||
+      const std::array<Vec3, 3> change{now[0] - before[0], now[1] - before[1], now[2] - before[2]};
+      if ((!hardly_moves(one, change) && !hardly_bends(one, change)) ||
           std::min(left_of(one, now), left_of(one, before)) < little)
         found.push_back({one, k});
       before = now;
@@ -189,6 +188,25 @@ bool GuardSearch::hardly_moves(int t, const std::array<Vec3, 3>& moved) const {
   return std::max(squared_norm(moved[1] - moved[0]), squared_norm(moved[2] - moved[0])) < harmless_[t];
 }
 
+/// Of slivers harmless_ is next to nothing, since it takes the corners' motion for one of any direction. With
+/// the edges a and b from an end of the shortest one, which change by c and d, their cross product changes by
+/// |c| |b| + |a| |d| + |c| |d| at most.
+bool GuardSearch::hardly_bends(int t, const std::array<Vec3, 3>& moved) const {
+  const auto& corner = mesh_.triangle(t).vertex;
+  std::array<Vec3, 3> edge;  // from each corner to the next
+  std::array<double, 3> length, change;
+  for (std::size_t i = 0; i < 3; ++i) {
+    edge[i] = mesh_.position(corner[(i + 1) % 3]) - mesh_.position(corner[i]);
+    length[i] = norm(edge[i]), change[i] = norm(moved[(i + 1) % 3] - moved[i]);
+    if (change[i] > length[i] / 2) return false;
+  }
+  const std::size_t a = static_cast<std::size_t>(std::min_element(length.begin(), length.end()) -
+                                                 length.begin()),
+                    b = (a + 1) % 3;
+  return change[a] * length[b] + length[a] * change[b] + change[a] * change[b] <
+         norm(cross(edge[a], edge[b])) / 2;
+}
+
 bool GuardSearch::is_kept(int t, const std::array<Vec3, 3>& moved) const {
   const auto& corner = mesh_.triangle(t).vertex;
   const Vec3 a = mesh_.position(corner[1]) - mesh_.position(corner[0]),
@@ -243,7 +261,7 @@ bool GuardSearch::offends(int one, std::size_t k, bool excused) const {
            !(excused && field_.closes(pair.vertex[0], k));
   }
   const std::array<Vec3, 3> now = moved(one, k);
-  if (hardly_moves(one, now)) return false;
+  if (hardly_moves(one, now) || hardly_bends(one, now)) return false;
   return is_torn(one, now) || (!is_kept(one, now) && !(excused && field_.turns(one, k)));
 }
 

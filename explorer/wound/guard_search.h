@@ -91,6 +91,7 @@ class GuardSearch {
   struct Part {
     int number;
     double part;
+    friend bool operator==(const Part&, const Part&) = default;
   };
   struct Neighbor {
     int number;
@@ -122,6 +123,7 @@ class GuardSearch {
     return dot(right - left, pair.across) < -part_passed * least_jump_;
   }
   bool hardly_moves(int triangle, const std::array<Vec3, 3>& moved) const;
+  bool hardly_bends(int triangle, const std::array<Vec3, 3>& moved) const;
   bool is_kept(int triangle, const std::array<Vec3, 3>& moved) const;
   void check(const std::vector<int>& numbers);
   std::vector<int> all_numbers() const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
+#include <utility>
 
 #include "explorer/incision/path_trace.h"
 #include "explorer/wound/small_fit.h"
@@ -33,6 +33,7 @@ SkinFit::SkinFit(const Incision& incision, double scale, double from, double to)
     if (const double s = labels[v].s * scale; labels[v].reached && s >= from && s <= to)
       beside_.emplace_back(s, static_cast<int>(v));
   std::sort(beside_.begin(), beside_.end());
+  passed_.resize(mesh_.triangles().size()), seen_.resize(mesh_.vertices().size());
 }
 
 /// Of a line through the triangles' normals, so that it is no other at the skin's rim.
@@ -61,9 +62,11 @@ Vec3 SkinFit::mean_normal(double s, double distance) const {
 
 /// From the triangle `seed` on, over those that do not turn away from `outward`.
 std::vector<Vec3> SkinFit::vertices(const Vec3& center, const Vec3& outward, int seed,
-                                    double distance) const {
+                                    double distance) {
+  const auto is_new = [this](int& search) { return std::exchange(search, searches_) != searches_; };
+  ++searches_;
+  passed_[seed] = searches_;
   std::vector<int> found;
-  std::unordered_set<int> passed{seed}, seen;
   std::vector<int> next{seed};
   while (!next.empty()) {
     const int t = next.back();
@@ -74,16 +77,16 @@ std::vector<Vec3> SkinFit::vertices(const Vec3& center, const Vec3& outward, int
       if (norm(scale_ * vertex.original - center) >= distance) continue;
       within = true;
       // What was added has parents, and so have copies of a vertex that a cut has parted.
-      if (vertex.parents[0] < 0 && seen.insert(v).second) found.push_back(v);
+      if (vertex.parents[0] < 0 && is_new(seen_[v])) found.push_back(v);
     }
     if (!within) continue;
     for (int i = 0; i < 3; ++i) {
       const int other = skin_across(mesh_, t, i);
-      if (other < 0 || passed.count(other) > 0) continue;
+      if (other < 0 || passed_[other] == searches_) continue;
       const auto& [p, q, r] = mesh_.triangle(other).vertex;
       const Vec3 area = cross(mesh_.position(q) - mesh_.position(p), mesh_.position(r) - mesh_.position(p));
       if (dot(area, outward) <= turned_away * norm(area)) continue;
-      passed.insert(other);
+      passed_[other] = searches_;
       next.push_back(other);
     }
   }
@@ -113,7 +116,7 @@ int SkinFit::triangle_at(double s, const Vec3& center, double distance) const {
 /// Heights in units of the distance. Their fourth order is that of a sphere or a cylinder, from the fit
 /// before: z = a + b x + c y + (A x^2 + 2 B x y + C y^2 + F (z - a)^2) / 2.
 std::optional<SkinFit::Shape> SkinFit::at(double s, const Vec3& outward, const Vec3& along,
-                                          double distance) const {
+                                          double distance) {
   const auto& stations = incision_.surroundings().stations();
   const auto station = std::partition_point(stations.begin(), stations.end(),
                                             [&](const auto& piece) { return piece.s * scale_ < s; });

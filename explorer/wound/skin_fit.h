@@ -27,16 +27,18 @@ class SkinFit {
   };
   /// Of a quadric through the vertices within `distance`, at most four times as much where they are too few.
   /// `outward`: about the normal. None where there are not enough vertices.
-  std::optional<Shape> at(double s, const Vec3& outward, const Vec3& along, double distance) const;
+  std::optional<Shape> at(double s, const Vec3& outward, const Vec3& along, double distance);
 
  private:
-  std::vector<Vec3> vertices(const Vec3& center, const Vec3& outward, int seed, double distance) const;
+  std::vector<Vec3> vertices(const Vec3& center, const Vec3& outward, int seed, double distance);
   int triangle_at(double s, const Vec3& center, double distance) const;
 
   const Incision& incision_;
   const CutMesh& mesh_;
   double scale_;
   std::vector<std::pair<double, int>> beside_;  // vertices by the path's place next to them, mm
+  std::vector<int> passed_, seen_;              // of triangles and vertices: the last search that came by
+  int searches_ = 0;
 };
 
 }  // namespace cleft

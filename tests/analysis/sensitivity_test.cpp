@@ -43,6 +43,19 @@ TEST(Sensitivities, OfIshigamisFunctionAreThoseOfItsClosedForm) {
     EXPECT_NEAR(effect.mean[p] - effect.mean[effect.at.size() / 2], 2.948 * std::sin(effect.at[p]), 0.35);
 }
 
+TEST(Sensitivities, SmallFirstIndicesAreAsSureAsLargeOnes) {
+  // x1 + c x2: shares of 1 / (1 + c^2) and c^2 / (1 + c^2).
+  const auto figure = [](const Eigen::MatrixXd& x) {
+    return Eigen::VectorXd((x.row(0) + 0.1 * x.row(1)).transpose());
+  };
+  const Sensitivities found = sensitivities_of(of_ishigami(), figure, {}, 2048);
+  const double first[] = {1 / 1.01, 0.01 / 1.01, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(found.parameters[k].first.value, first[k], found.parameters[k].first.error + 1e-9) << k;
+    EXPECT_LT(found.parameters[k].first.error, 0.01) << k;
+  }
+}
+
 TEST(Interactions, OfIshigamisFunctionAreThoseOfItsClosedForm) {
   const auto distributions = of_ishigami();
   const Sensitivities found = sensitivities_of(distributions, ishigami, {}, 1024);
@@ -109,6 +122,8 @@ TEST(Sensitivities, AParameterThatDoesNothingHasNoShare) {
       of_ishigami(), [](const Eigen::MatrixXd& x) { return Eigen::VectorXd(x.row(0).transpose()); }, {}, 512);
   EXPECT_NEAR(found.parameters[0].total.value, 1, 0.01);
   EXPECT_NEAR(found.parameters[1].total.value, 0, 1e-12);
+  EXPECT_NEAR(found.parameters[1].first.value, 0, 1e-12);
+  for (const std::size_t k : {0u, 1u}) EXPECT_LT(found.parameters[k].first.error, 1e-9) << k;
   EXPECT_THROW(
       sensitivities_of(
           of_ishigami(),
