@@ -11,6 +11,7 @@
 #include "base/process.h"
 #include "base/scratch_folder.h"
 #include "base/text.h"
+#include "params/study.h"
 
 namespace cleft {
 
@@ -125,6 +126,11 @@ StudyOptimum best_in_study(const std::string& study, bool greatest, const std::s
 std::string study_of(const std::string& study_file, const StudyProposal& proposal) {
   std::istringstream lines(read_text_file(study_file));
   std::string text;
+  if (const Study study = read_study(study_file); study.sampling.differentiates) {
+    for (const std::string& name : study.base.sensitivities)
+      text += (text.empty() ? "sensitivities = [\"" : ", \"") + name + '"';
+    if (!text.empty()) text += "]\n";
+  }
   bool kept = true;
   for (std::string line; std::getline(lines, line);) {
     const std::size_t first = line.find_first_not_of(" \t");

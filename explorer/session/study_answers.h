@@ -76,7 +76,8 @@ StudyProposal propose_cases(const std::string& study, int count, const LookMeanw
 StudyOptimum best_in_study(const std::string& study, bool greatest, const std::string& figure,
                            const std::string& where, const LookMeanwhile& look);
 
-/// A study file with these cases in place of those of `study_file`.
+/// A study file with these cases in place of those of `study_file`; they hold the derivatives that adaptive
+/// sampling takes by itself. Throws InputError for a file that is no study.
 std::string study_of(const std::string& study_file, const StudyProposal& proposal);
 
 }  // namespace cleft

@@ -106,6 +106,16 @@ TEST_F(Answers, NextCasesAreAStudyFile) {
   EXPECT_EQ(cases[1].parameters.tissue.young_modulus, 0.0271);
   EXPECT_EQ(cases[1].parameters.skin.thickness, 1.75);
   EXPECT_EQ(cases[1].parameters.cut.length, 34);
+  EXPECT_TRUE(next.base.sensitivities.empty());
+  write_text_file(folder_ / "study.toml",
+                  "[sampling]\nmethod = \"adaptive\"\nerror = 0.01\nmost = 40\n"
+                  "[vary]\n\"tissue.young_modulus\" = { from = 0.01, to = 0.03 }\n"
+                  "\"skin.thickness\" = { from = 1, to = 2 }\n");
+  write_text_file(folder_ / "next.toml", study_of(folder_ / "study.toml", proposal));
+  EXPECT_EQ(read_study(folder_ / "next.toml").base.sensitivities,
+            read_study(folder_ / "study.toml").base.sensitivities)
+      << "those that adaptive sampling takes by itself";
+  EXPECT_FALSE(read_study(folder_ / "next.toml").base.sensitivities.empty());
   open();
   EXPECT_NE(refused("propose 3").find("study.toml"), std::string::npos) << "the folder has none";
 }
