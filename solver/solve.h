@@ -36,10 +36,10 @@ struct NewtonFrame {
 struct SolveOptions {
   Method method = Method::automatic;
   Discretization discretization = {};
-  bool unit_prestress = false;             ///< write the series of the unit prestresses uu, vv and uv as well
-  std::vector<std::string> sensitivities;  ///< parameters to differentiate the series by
-  bool estimate = true;                    ///< the error that the mesh and the patch leave
-  std::shared_ptr<const Body> body = {};   ///< in place of the patch; its error is not estimated
+  bool unit_prestress = false;  ///< write the series of the unit prestresses uu, vv and uv as well
+  std::vector<std::string> sensitivities = {};       ///< parameters to differentiate the series by
+  bool estimate = true;                              ///< the error that the mesh and the patch leave
+  std::shared_ptr<const Body> body = {};             ///< in place of the patch; its error is not estimated
   std::function<void(const std::string&)> log = {};  ///< takes a line for each frame of the finite model
 };
 

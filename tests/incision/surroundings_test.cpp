@@ -68,8 +68,8 @@ INSTANTIATE_TEST_SUITE_P(OfARegularPlate, SidesOfArcs,
                                            Arc{"a closed loop", 12, 0, 2 * pi},
                                            Arc{"nearly a closed loop", 12, 0, 1.97 * pi},
                                            Arc{"a small closed loop", 4.8, 0, 2 * pi}),
-                         [](const auto& info) {
-                           std::string name = info.param.name;
+                         [](const auto& one) {
+                           std::string name = one.param.name;
                            std::replace(name.begin(), name.end(), ' ', '_');
                            return name;
                          });
