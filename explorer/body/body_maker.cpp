@@ -14,6 +14,7 @@
 #include "explorer/body/parting.h"
 #include "explorer/body/remesh.h"
 #include "explorer/body/skin_coordinates.h"
+#include "explorer/body/smooth_surface.h"
 #include "params/meshed_cut.h"
 
 namespace cleft {
@@ -105,6 +106,8 @@ class Maker {
       for (const int p : shape.surface().triangles[at.triangle]) bent = std::min(bent, radius[p]);
       return std::clamp(bend_of_edge * bent, size, wanted);
     });
+    const SmoothSurface smooth(r_.skin, s_.mesh.points);
+    for (Vec3& p : s_.mesh.points) p = smooth.nearest(p);
   }
 
   void find_off_paths() {
