@@ -22,7 +22,8 @@ namespace cleft {
 namespace {
 
 constexpr double most_columns = 5000;  // of nodes along all cuts: no solver takes more
-constexpr double bend_of_edge = 0.5;   // radians by which the skin may turn along an edge
+constexpr double most_nodes = 1e7;
+constexpr double bend_of_edge = 0.5;  // radians by which the skin may turn along an edge
 
 /// A path as the mesh has it: made longer at both ends by the front's part of an element, because a mesh's
 /// cut opens as if it ended that much before its closed nodes (params/meshed_cut.h).
@@ -47,10 +48,10 @@ class Maker {
   }
 
   Body make(BodyReport* report) {
-    check_size();
-    make_surface();
     double depth = 0;
     for (const ScalpelPath& path : r_.paths) depth = std::max(depth, path.largest_depth());
+    check_size(depth);
+    make_surface();
     layers_ = divided(make_layers(p_, depth), r_.layers, p_.mesh.element_size);
     for (const TissueLayer& layer : r_.layers) body_.materials.push_back(layer.material);
     extrude_all();
@@ -66,7 +67,7 @@ class Maker {
   }
 
  private:
-  void check_size() const {
+  void check_size(double depth) const {
     if (p_.mesh.elements == ElementOrder::quadratic)
       throw InputError("mesh.elements = quadratic: a body has linear ones; set it to linear");
     double length = 0;
@@ -75,7 +76,27 @@ class Maker {
       throw InputError("mesh.element_size = " + shortest(size) + " mm is too small for cuts of " +
                        shortest(std::round(1e3 * length) / 1e3) + " mm: at least " +
                        shortest(std::ceil(1e4 * length / most_columns) / 1e4) + " mm");
+    if (const double nodes = expected_nodes(length, depth, p_); nodes > most_nodes) {
+      Parameters enough = p_;
+      while (expected_nodes(length, depth, enough) > most_nodes) enough.mesh.element_size *= 1.1;
+      throw InputError("mesh.element_size = " + shortest(p_.mesh.element_size) + " mm makes about " +
+                       formatted("%.0f", nodes / 1e6) +
+                       " million nodes, and a body has at most 10: make it at least " +
+                       formatted("%.2g", enough.mesh.element_size) + " mm, or mesh.grading larger");
+    }
   }
+
+  /// On a flat strip about the cuts, as long as they and half of the reach at both ends, in elements that
+  /// grow away from them.
+  double expected_nodes(double length, double depth, const Parameters& p) const {
+    const double size = p.mesh.element_size, equilateral = std::sqrt(3.) / 2;  // height of a triangle
+    const double across = 2 * r_.reach / (size * (size + growth(p) * r_.reach));
+    return (length + r_.reach) * across / equilateral *
+           static_cast<double>(make_layers(p, depth).depth.size());
+  }
+
+  /// Of elements, by mm away from the cuts: half of how the patch's grow, which do so in one direction only.
+  static double growth(const Parameters& p) { return (p.mesh.grading - 1) / 2; }
 
   void make_surface() {
     std::vector<ScalpelPath> paths;
@@ -93,13 +114,11 @@ class Maker {
       for (const CutLine& line : lines) places.push_back(s_.mesh.points[line.from]);
       places.push_back(s_.mesh.points[lines.back().to]);
     }
-    // Twice as slowly as the patch's elements grow, which do so in one direction only.
-    const double growth = (p_.mesh.grading - 1) / 2;
     const std::vector<double> radius = radii(shape.surface());
     s_ = remeshed(std::move(s_), stations, shape, [&](const Vec3& x) {
       double nearest = std::numeric_limits<double>::infinity();
       for (const Vec3& place : places) nearest = std::min(nearest, squared_norm(place - x));
-      const double wanted = size + growth * std::sqrt(nearest);
+      const double wanted = size + growth(p_) * std::sqrt(nearest);
       if (wanted <= size) return wanted;
       const SurfacePlace at = shape.nearest(x);
       double bent = std::numeric_limits<double>::infinity();

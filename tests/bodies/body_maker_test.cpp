@@ -248,6 +248,18 @@ TEST(MakeBody, PathsOffTheSkinAreRefused) {
   EXPECT_THROW(make_body(r), InputError);
 }
 
+TEST(MakeBody, MoreNodesThanFitAreRefusedBeforeTheWork) {
+  BodyRequest r = request(testing::flat, {along});
+  r.parameters.mesh.element_size = 0.01, r.reach = 40;
+  try {
+    make_body(r);
+    FAIL() << "not refused";
+  } catch (const InputError& e) {
+    for (const char* part : {"mesh.element_size = 0.01", "million nodes", "at least 0.0"})
+      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
+  }
+}
+
 /// Whatever the triangles are that the cuts found. Of seeds 99 and 156 two short pieces of lines meet.
 TEST(MakeBody, GoodTrianglesAtATJunction) {
   for (const unsigned seed : {0, 1, 2, 3, 4, 5, 99, 156}) {
