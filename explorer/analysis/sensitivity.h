@@ -41,9 +41,10 @@ struct Sensitivities {
 double jackknife_error(const Eigen::VectorXd& values);
 
 /// By Jansen's estimators (1999) on a sequence of low discrepancy, first indices also by Mauntz's and
-/// Kucherenko's (2005), which are surer of small ones; `size` times two more than there are parameters. `alternatives`, if given: the figure as other data tell it, by leaving parts of the cases out
-/// (jackknife); what the indices differ by is in their intervals, with what the finite sample leaves open.
-/// Throws InputError if the figure does not change.
+/// Kucherenko's (2005), which are surer of small ones; `size` times two more than there are parameters.
+/// `alternatives`, if given: the figure as other data tell it, by leaving parts of the cases out (jackknife);
+/// what the indices differ by is in their intervals, with what the finite sample leaves open. Throws
+/// InputError if the figure does not change.
 Sensitivities sensitivities_of(const std::vector<InputDistribution>& distributions,
                                const FigureFunction& figure, const AlternativeFigures& alternatives,
                                int size);

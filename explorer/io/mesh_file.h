@@ -1,5 +1,5 @@
-// Surface meshes from and to files, in the formats of explorer/io/formats/mesh_formats.h. VTK's own types stay
-// out of here.
+// Surface meshes from and to files, in the formats of explorer/io/formats/mesh_formats.h. VTK's own types
+// stay out of here.
 #pragma once
 
 #include <string>

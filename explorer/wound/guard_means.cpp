@@ -193,6 +193,7 @@ void GuardSearch::move_as_means(const std::vector<int>& group) {
         hangs_on[n].push_back(p.number), hangs_on[p.number].push_back(n);
   }
   std::vector<std::vector<Part>> before;
+  before.reserve(group.size());
   for (const int n : group) before.push_back(mean_[n]);
   std::vector<bool> seen(vertex_.size());
   for (const int first : group) {

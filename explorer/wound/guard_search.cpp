@@ -268,7 +268,7 @@ bool GuardSearch::offends(int one, std::size_t k, bool excused) const {
 bool GuardSearch::offends(int one) {
   if (poll_) poll_();
   for (std::size_t k = 0; k < times(); ++k) {
-    if ((only_lasting_ && one >= 0 && !lasting_[k]) || !offends(one, k, false)) continue;
+    if ((only_lasting_ && !lasting_[k]) || !offends(one, k, false)) continue;
     if (doubtful_.empty() || doubtful_.back() != one) doubtful_.push_back(one);
     if (!excused_ || offends(one, k, true)) return true;
   }

@@ -61,8 +61,7 @@ Vec3 SkinFit::mean_normal(double s, double distance) const {
 }
 
 /// From the triangle `seed` on, over those that do not turn away from `outward`.
-std::vector<Vec3> SkinFit::vertices(const Vec3& center, const Vec3& outward, int seed,
-                                    double distance) {
+std::vector<Vec3> SkinFit::vertices(const Vec3& center, const Vec3& outward, int seed, double distance) {
   const auto is_new = [this](int& search) { return std::exchange(search, searches_) != searches_; };
   ++searches_;
   passed_[seed] = searches_;
@@ -115,8 +114,7 @@ int SkinFit::triangle_at(double s, const Vec3& center, double distance) const {
 
 /// Heights in units of the distance. Their fourth order is that of a sphere or a cylinder, from the fit
 /// before: z = a + b x + c y + (A x^2 + 2 B x y + C y^2 + F (z - a)^2) / 2.
-std::optional<SkinFit::Shape> SkinFit::at(double s, const Vec3& outward, const Vec3& along,
-                                          double distance) {
+std::optional<SkinFit::Shape> SkinFit::at(double s, const Vec3& outward, const Vec3& along, double distance) {
   const auto& stations = incision_.surroundings().stations();
   const auto station = std::partition_point(stations.begin(), stations.end(),
                                             [&](const auto& piece) { return piece.s * scale_ < s; });

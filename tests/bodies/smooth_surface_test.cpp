@@ -40,6 +40,7 @@ TEST(SmoothSurface, OfACoarseSphereIsNearlyTheSphere) {
   const std::vector<Vec3> places = places_on(mesh);
   const SmoothSurface smooth(mesh, places);
   std::vector<Vec3> moved;
+  moved.reserve(places.size());
   for (const Vec3& p : places) moved.push_back(smooth.nearest(p));
   EXPECT_GT(off_sphere(places), 0.03) << "its triangles, with edges of about 4";
   EXPECT_LT(off_sphere(moved), off_sphere(places) / 50);
