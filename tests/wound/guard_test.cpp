@@ -10,6 +10,7 @@
 #include <random>
 
 #include "explorer/wound/guard_passage.h"
+#include "explorer/wound/guard_search.h"
 #include "explorer/wound/live_wounds.h"
 #include "explorer/wound/mean_value.h"
 #include "explorer/wound/replayed_wounds.h"
@@ -179,6 +180,32 @@ TEST(Guard, KeepsSliversWithoutHoldingTheLips) {
   EXPECT_GT(v.guarded, 0);
 }
 
+/// As at an X, where the second cut's lips beside the first one move into each other for a moment.
+TEST(GuardSearch, HoldsLipsForGoodOnlyIfTheyPassEachOtherForGood) {
+  const CutMesh mesh(grid(10, 10, 0, 0, 1));
+  constexpr int left = 60, right = 61;
+  for (const bool for_good : {false, true}) {
+    GuardSearch search(mesh, 0.05,
+                       {[](int, std::size_t) { return false; }, [](int, int, double) { return true; },
+                        [](int, int, double) { return true; }, [](int, std::size_t) { return false; }});
+    search.add_pair(left, right, {1, 0, 0});
+    for (const bool lasting : {false, true}) {
+      std::vector<std::pair<int, Vec3>> moved;
+      for (int v = 0; v < 121; ++v) moved.push_back({v, {0, 1, 0}});
+      if (!lasting || for_good) moved[left].second.x = 0.05, moved[right].second.x = -0.05;
+      search.add(moved, lasting);
+    }
+    ASSERT_TRUE(search.find());
+    const Guard guard = search.result();
+    EXPECT_EQ(guard.moves(left), for_good);
+    EXPECT_EQ(guard.moves(right), for_good);
+    const auto remaining = search.remaining();
+    EXPECT_EQ(std::any_of(remaining.begin(), remaining.end(),
+                          [](const GuardSearch::Remaining& r) { return r.one == -1 && r.time == 0; }),
+              !for_good);
+  }
+}
+
 TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
   Opened opened(grid(60, 40, -30, -20, 1));
   for (const double y : {-0.25, 0.25}) opened.cut(path_through({{-15, y, 0}, {15, y, 0}}, up, 3));
@@ -186,12 +213,7 @@ TEST(Guard, KeepsTheSkinBetweenCutsHalfAMillimetreApart) {
   const auto wounds = opened.wounds();
   EXPECT_FALSE(wounds->guard().empty());
   EXPECT_EQ(unsound(*wounds, 23), 0);
-  EXPECT_GT(widest(*wounds, 2), 0.3);
-  int told = 0;
-  for (const Validity& v : wounds->validity(true))
-    for (const std::string& warning : v.warnings)
-      told += warning.find("would turn over") != std::string::npos;
-  EXPECT_GT(told, 0);
+  EXPECT_GT(widest(*wounds, 2), 0.9);
 }
 
 /// Triangles are looked at while the blade passes them, however small they are, and where little is left of
