@@ -59,13 +59,14 @@ SurfaceMesh part_of(const SurfaceMesh& mesh, const std::vector<Vec3>& places) {
 }  // namespace
 
 SmoothSurface::SmoothSurface(const SurfaceMesh& mesh, const std::vector<Vec3>& places)
-    : part_(part_of(mesh, places)), normals_(smooth_normals(mesh)), index_(part_) {}
+    : normals_(smooth_normals(mesh)), part_(part_of(mesh, places)) {}
 
 Vec3 SmoothSurface::nearest(const Vec3& x) const {
-  const SurfacePlace place = index_.nearest(x);
-  const auto& corners = part_.triangles[place.triangle];
+  const SurfacePlace place = part_.nearest(x);
+  const SurfaceMesh& mesh = part_.surface();
+  const auto& corners = mesh.triangles[place.triangle];
   const auto& w = place.weights;
-  const auto at = [&](int i) { return part_.points[corners[i]]; };
+  const auto at = [&](int i) { return mesh.points[corners[i]]; };
   // The control points next to corner i on its edge to corner j.
   const auto beside = [&](int i, int j) {
     const Vec3& normal = normals_[corners[i]];

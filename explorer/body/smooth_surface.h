@@ -21,9 +21,8 @@ class SmoothSurface {
   Vec3 nearest(const Vec3& x) const;
 
  private:
-  SurfaceMesh part_;
-  std::vector<Vec3> normals_;  // of its points; 0 at features
-  SurfaceIndex index_;
+  std::vector<Vec3> normals_;  // of the mesh's points; 0 at features
+  SurfaceIndex part_;
 };
 
 }  // namespace cleft

@@ -15,10 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <type_traits>
 
 #include "base/error.h"
-#include "base/memory_file.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "base/vtk_listener.h"
