@@ -15,6 +15,8 @@ namespace cleft {
 
 namespace {
 
+constexpr std::size_t most_frames = 64;  // between which positions are linear
+
 /// What the solver said last, without its name and those of temporary files.
 std::string last_message(const std::string& log, const std::string& case_file) {
   std::string text = read_text_file(log);
@@ -24,6 +26,22 @@ std::string last_message(const std::string& log, const std::string& case_file) {
 }
 
 }  // namespace
+
+void thin_frames(Body& body, std::size_t most) {
+  const std::size_t frames = body.times.size();
+  if (frames <= most) return;
+  const double step = body.times.back() / static_cast<double>(most - 1);
+  std::size_t kept = 1;
+  for (std::size_t i = 1; i < frames; ++i) {
+    const bool ends_a_cut = i + 1 == frames || body.position[i + 1] < body.position[i];
+    if (!ends_a_cut && body.times[i] < body.times[kept - 1] + step) continue;
+    body.times[kept] = body.times[i], body.position[kept] = body.position[i];
+    body.released[kept] = body.released[i];
+    ++kept;
+  }
+  body.times.resize(kept), body.position.resize(kept), body.released.resize(kept);
+  body.hash = hash_of(body);
+}
 
 BodySimulation simulate(const BodyRequest& request, const std::function<void(const std::string&)>& progress,
                         const StopCount* stop) {
@@ -38,6 +56,8 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   BodySimulation result;
   tell("meshing the body");
   result.body = make_body(request, &result.report);
+  thin_frames(result.body, most_frames);
+  result.report.frames = static_cast<int>(result.body.times.size());
   end_if_stopped();
   write_body(folder / "body.h5", result.body);
   Case one;

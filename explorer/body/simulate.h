@@ -19,6 +19,9 @@ struct BodySimulation {
   double seconds = 0;  ///< for mesh and solution
 };
 
+/// Leaves out frames until there are about `most`, but the first one and those in which a cut ends.
+void thin_frames(Body& body, std::size_t most);
+
 /// Meshes the body and solves it, with contact of the lips, in files of a temporary folder, which is removed.
 /// `progress` is called with the current step. When *stop is 1 the solver is asked to end. Throws InputError
 /// for what cannot be meshed or solved, std::runtime_error, with the solver's message, if it fails or was

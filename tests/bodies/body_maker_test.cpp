@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "explorer/body/simulate.h"
 #include "tests/bodies/subjects.h"
 
 namespace cleft {
@@ -258,6 +259,32 @@ TEST(MakeBody, MoreNodesThanFitAreRefusedBeforeTheWork) {
     for (const char* part : {"mesh.element_size = 0.01", "million nodes", "at least 0.0"})
       EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
   }
+}
+
+TEST(ThinFrames, KeepsTheFirstOneAndThoseInWhichCutsEnd) {
+  BodyRequest r = request(testing::flat, {{{-15, 0}, {15, 0}}, {{0, 3}, {0, 15}}});
+  r.parameters.mesh.element_size = 0.5;
+  const Body whole = make_body(r);
+  ASSERT_GT(whole.times.size(), 60u);
+  Body thin = whole;
+  thin_frames(thin, 200);
+  EXPECT_EQ(thin.times, whole.times);
+  thin_frames(thin, 20);
+  EXPECT_LE(thin.times.size(), 22u);
+  EXPECT_GE(thin.times.size(), 15u);
+  EXPECT_EQ(thin.times.front(), 0);
+  EXPECT_EQ(thin.times.back(), whole.times.back());
+  EXPECT_EQ(thin.released.back(), whole.released.back());
+  EXPECT_NE(std::find(thin.times.begin(), thin.times.end(), r.paths[0].length()), thin.times.end());
+  for (std::size_t f = 0; f < thin.times.size(); ++f) {
+    const auto at = std::find(whole.times.begin(), whole.times.end(), thin.times[f]);
+    ASSERT_NE(at, whole.times.end());
+    const auto i = static_cast<std::size_t>(at - whole.times.begin());
+    EXPECT_EQ(thin.released[f], whole.released[i]);
+    EXPECT_EQ(thin.position[f], whole.position[i]);
+  }
+  EXPECT_NE(thin.hash, whole.hash);
+  check_body(thin, "thin");
 }
 
 /// Whatever the triangles are that the cuts found. Of seeds 99 and 156 two short pieces of lines meet.
