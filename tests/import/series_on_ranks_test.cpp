@@ -61,7 +61,9 @@ class SeriesOnRanks : public ::testing::Test {
     EXPECT_NE(alone.find(note), std::string::npos) << alone;
     arguments.back() = several_ + "/case.h5";
     for (const int ranks : {1, 2, 3}) {
-      EXPECT_EQ(expect_success(cleft_on_ranks("import", ranks, arguments)).output, alone);
+      const std::string output = expect_success(cleft_on_ranks("import", ranks, arguments)).output;
+      EXPECT_TRUE(output.ends_with(alone))
+          << output;  // what MPI says of a machine it does not know is before
       EXPECT_TRUE(files_in(alone_) == files_in(several_)) << series << " on " << ranks;
       fs::remove(arguments.back());
     }

@@ -17,7 +17,7 @@ complain() { [ -z "$2" ] || { echo "$1:"; sed 's/^/  /' <<< "$2"; bad=1; }; }
 endings=$(grep -oE '\{"\.[a-z0-9]+"' explorer/io/formats/mesh_formats.h | tr -d '{".' | paste -sd'|')
 [ -n "$endings" ] || { echo "no endings in explorer/io/formats/mesh_formats.h"; bad=1; }
 complain "take endings of meshes from explorer/io/formats/mesh_formats.h" \
-  "$(literals "\\.($endings)\\b" 'explorer/io/(formats/mesh_formats\.h|mesh_file\.cpp|mesh_checks\.cpp|ply_file\.cpp|paraview_file\.cpp)|explorer/commands/export_main\.cpp|explorer/app/examples\.cpp' explorer haptic tradeoff cli)"
+  "$(literals "\\.($endings)\\b" 'explorer/io/(formats/mesh_formats\.h|mesh_file\.cpp|(ply|stl)_file\.cpp|paraview_file\.cpp)|explorer/commands/export_main\.cpp|explorer/app/examples\.cpp' explorer haptic tradeoff cli)"
 
 names=$(grep -rhoE --include='*.h' --include='*.cpp' '(\.name|char\* [a-z]*_?name) = "[a-z]+"' haptic/devices | grep -oE '"[a-z]+"' | tr -d '"' | sort -u)
 [ "$(wc -w <<< "$names")" -ge 6 ] || { echo "the devices' rows were not found in haptic/devices"; bad=1; }

@@ -191,6 +191,7 @@ TEST(GuardSearch, HoldsLipsForGoodOnlyIfTheyPassEachOtherForGood) {
     search.add_pair(left, right, {1, 0, 0});
     for (const bool lasting : {false, true}) {
       std::vector<std::pair<int, Vec3>> moved;
+      moved.reserve(121);
       for (int v = 0; v < 121; ++v) moved.push_back({v, {0, 1, 0}});
       if (!lasting || for_good) moved[left].second.x = 0.05, moved[right].second.x = -0.05;
       search.add(moved, lasting);
