@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/io/binary_text.h"
 
 namespace cleft {
 
@@ -22,9 +23,7 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 /// Binary data of the format are little-endian.
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return word;
+  return little<std::uint32_t>(bytes.data() + at);
 }
 
 /// Empty where a character is none of base64.

@@ -130,6 +130,22 @@ std::array<float, 3> single(const Vec3& p) {
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
+/// Of single precision are 24 bits: a mesh this many of its diameters away keeps 14 of them.
+constexpr double farthest = 1000;
+
+void expect_precision(const SurfaceMesh& mesh, const std::string& path) {
+  if (mesh.points.empty()) return;
+  Vec3 least = mesh.points.front(), most = least;
+  for (const Vec3& p : mesh.points)
+    for (int k = 0; k < 3; ++k) least[k] = std::min(least[k], p[k]), most[k] = std::max(most[k], p[k]);
+  const double size = norm(most - least), away = norm(0.5 * (least + most));
+  if (away > farthest * size)
+    throw InputError(path + ": the mesh is " + formatted("%.3g", away) + " from the origin and " +
+                     formatted("%.3g", size) +
+                     " wide, and the single precision of .stl would move its points; write .ply, .obj or "
+                     ".vtp, or move the mesh to the origin");
+}
+
 }  // namespace
 
 MeshPolygons read_stl(const std::string& path) {
@@ -138,16 +154,12 @@ MeshPolygons read_stl(const std::string& path) {
 }
 
 std::string stl_of(const SurfaceMesh& mesh, const std::string& path) {
+  expect_precision(mesh, path);
   std::string bytes = "binary .stl by " + producer();
   bytes.resize(80, ' ');
   append_little(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const auto& t : mesh.triangles) {
     const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-    if (single(a) == single(b) || single(b) == single(c) || single(c) == single(a))
-      throw InputError(path + ": corners of a triangle at " + shortest(a.x) + ", " + shortest(a.y) + ", " +
-                       shortest(a.z) +
-                       " are one in the single precision of .stl; write .ply, .obj or .vtp, or move the mesh "
-                       "to the origin");
     const Vec3 normal = cross(b - a, c - a);
     const double length = norm(normal);
     for (const Vec3& p : {length > 0 ? (1 / length) * normal : Vec3{}, a, b, c})

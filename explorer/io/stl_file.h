@@ -11,7 +11,7 @@ namespace cleft {
 MeshPolygons read_stl(const std::string& path);
 
 /// The mesh as a binary .stl, with coordinates of single precision. Throws InputError, naming `path`, where
-/// two corners of a triangle are one in it.
+/// it is more than a thousand of its diameters from the origin.
 std::string stl_of(const SurfaceMesh& mesh, const std::string& path);
 
 }  // namespace cleft

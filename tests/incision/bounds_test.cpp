@@ -9,23 +9,12 @@
 #include "base/error.h"
 #include "tests/incision/meshes.h"
 #include "tests/incision/stress/soundness.h"
+#include "tests/support/expect_refusal.h"
 
 namespace cleft {
 namespace {
 
 using namespace testing;
-
-void expect_refusal(const std::string& what, const std::function<void()>& work,
-                    const std::vector<std::string>& told) {
-  SCOPED_TRACE(what);
-  try {
-    work();
-    FAIL() << "not refused";
-  } catch (const InputError& error) {
-    for (const std::string& part : told)
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
-}
 
 SurfaceMesh plate_with_outlier(double far) {
   SurfaceMesh mesh = grid(8, 8, -10, -10, 2.5);

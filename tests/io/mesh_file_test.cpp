@@ -5,16 +5,17 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "tests/incision/meshes.h"
+#include "tests/support/expect_refusal.h"
 
 namespace cleft {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::expect_refusal;
 
 class MeshFile : public ::testing::Test {
  protected:
@@ -66,19 +67,6 @@ TEST_F(MeshFile, ObjFacesMayNameOnlyWhatIsThere) {
   EXPECT_EQ(read_mesh(path("good.obj")).triangles.size(), 1u);
 }
 
-/// Expects a FileError or InputError that has all of the words.
-void expect_refusal(const std::string& what, const std::function<void()>& work,
-                    const std::vector<std::string>& words) {
-  SCOPED_TRACE(what);
-  try {
-    work();
-    ADD_FAILURE() << "is not refused";
-  } catch (const InputError& error) {
-    for (const std::string& word : words)
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-  }
-}
-
 /// A sphere 1e7 of its diameters from the origin, where numbers of single precision are as far apart as it is
 /// wide.
 SurfaceMesh far_sphere() {
@@ -110,10 +98,16 @@ TEST_F(MeshFile, KeepsEveryPointFarFromTheOrigin) {
   EXPECT_EQ(read_mesh(path("far.stl")).points.size(), mesh.points.size());
 }
 
-TEST_F(MeshFile, OfSinglePrecisionIsNotWrittenWherePointsBecomeOne) {
+TEST_F(MeshFile, OfSinglePrecisionIsNotWrittenFarFromTheOrigin) {
   expect_refusal("far sphere", [&] { write_mesh(path("far.stl"), far_sphere()); },
                  {"far.stl", "single precision", ".ply"});
   EXPECT_FALSE(fs::exists(path("far.stl")));
+  SurfaceMesh near = testing::sphere(2, 5);
+  const auto last = static_cast<int>(near.points.size());
+  near.points.push_back(near.points[0] + Vec3{1e-12, 0, 0}), near.triangles.push_back({0, last, 1});
+  write_mesh(path("near.stl"), near);
+  EXPECT_EQ(read_mesh(path("near.stl")).triangles.size() + 1, near.triangles.size())
+      << "a triangle of no size";
 }
 
 TEST_F(MeshFile, ObjLinesGoOnBehindABackslashAndFacesMayCountBack) {
