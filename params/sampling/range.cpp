@@ -1,9 +1,9 @@
 // Values along ranges, and what methods that draw from them share.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/rounded.h"
 #include "params/parameters/table.h"
 #include "params/sampling/sampling.h"
 
@@ -11,17 +11,9 @@ namespace cleft {
 
 namespace {
 
-double rounded_to_12_digits(double value) {
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, 11).ptr;
-  double rounded = value;
-  std::from_chars(text, end, rounded);
-  return rounded;
-}
-
 double rounded_within(const Range& range, double value) {
   const auto [least, greatest] = std::minmax(range.from, range.to);
-  return std::clamp(rounded_to_12_digits(value), least, greatest);
+  return std::clamp(rounded_to_digits(value, 12), least, greatest);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ void write_residual(h5::File& file, const std::string& name, const CodedResidual
   for (const auto& block : residual.blocks)
     bytes.insert(bytes.end(), block.begin(), block.end()),
         sizes.push_back(static_cast<std::int64_t>(block.size()));
-  file.write<std::uint8_t>(name, bytes, {bytes.size()}, h5::Packing::deflate);
+  file.write<std::uint8_t>(name, bytes, {bytes.size()});
   file.write_number(name, "quantum", residual.quantum);
   file.write_number(name, "nodes", residual.nodes);
   file.write_number(name, "frames", residual.frames);
@@ -135,11 +135,12 @@ h5::File created(const std::string& path, FileFormat format, bool blocks) {
 void write_into(h5::File& file, const std::string& group, const Field& field, const CodedResidual* residual,
                 Residuals of_quantities) {
   const FieldRecord record = record_of(field);
-  const auto write = [&](const char* name, const std::vector<std::uint8_t>& bytes) {
-    file.write<std::uint8_t>(group + name, bytes, {bytes.size()}, h5::Packing::deflate);
+  const auto write = [&](const char* name, const std::vector<std::uint8_t>& bytes, h5::Packing packing) {
+    file.write<std::uint8_t>(group + name, bytes, {bytes.size()}, packing);
   };
-  write("/header", header_bytes(record.header));
-  write("/coefficients", record.coefficients);
+  const bool coded = field.quantum > 0;  // so that deflate would add some bytes
+  write("/header", header_bytes(record.header), h5::Packing::deflate);
+  write("/coefficients", record.coefficients, coded ? h5::Packing::plain : h5::Packing::deflate);
   if (residual) write_residual(file, group + "/residual", *residual);
   for (std::size_t q = 0; q < of_quantities.size(); ++q)
     if (of_quantities[q]) write_residual(file, group + residual_of_quantity(q), *of_quantities[q]);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/rounded.h"
 #include "base/text.h"
 #include "encoder/field/file/coded_points.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr const char* axis_names[] = {"along", "across", "height", "time"};
 constexpr const char* domain_names[] = {"u", "v", "w", "t"};
 constexpr double most_control_points = 1e8;
+constexpr int digits = 7;  // of a figure of the report, more than it means
 
 /// The report's figures: their names in the file, and the unit that commands add where they show them.
 struct Figure {
@@ -144,7 +146,8 @@ Json header_of(const Field& field, int slices) {
   header["parameters"] = Json::object();
   for (const auto& [name, value] : field.parameters.numbers()) header["parameters"][name] = value;
   for (const auto& [name, value] : field.parameters.texts()) header["choices"][name] = value;
-  for (const Figure& figure : figures) header["report"][figure.name] = field.report.*figure.value;
+  for (const Figure& figure : figures)
+    header["report"][figure.name] = rounded_to_digits(field.report.*figure.value, digits);
   if (field.source) put_source(header, *field.source);
   if (field.tissue) {
     header["tissue"]["foundation"] = field.tissue->foundation;
