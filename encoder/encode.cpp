@@ -103,7 +103,8 @@ class Encoder {
 
   std::vector<Rung> supported_rungs() const {
     const bool waiting = !series_.kinks.empty() && waits(series_.geometry.tip);
-    return supported(ladder_of(*parametrization_, series_.round, waiting), series_, *parametrization_);
+    return supported(ladder_of(*parametrization_, {series_.round, waiting, series_.bends}), series_,
+                     *parametrization_);
   }
 
   /// For single frames; if there is none, one that leaves little to a residual.

@@ -14,6 +14,9 @@ const std::vector<double> before_order = {0.5, 0.75, 0.25};
 const std::vector<double> along_order = {0.5,    0.75,  0.25,  0.875,   0.125,  0.9375,
                                          0.0625, 0.625, 0.375, 0.96875, 0.03125};
 const std::vector<double> after_order = {0.5, 0.75, 0.25};
+// Where the direction of the cut turns, what opens changes along all of it.
+const std::vector<double> bent_order = {0.5,   0.75,   0.25,   0.875,   0.125,  0.625,
+                                        0.375, 0.9375, 0.0625, 0.96875, 0.03125};
 // Where lengths next to the front are measured as displacements grow.
 const std::vector<double> beyond_front_order = {0.25, 0.0625, 0.5, 0.75};
 const std::vector<double> across_order = {0.5, 0.25, 0.875, 0.625, 0.1875, 0.96875, 0.375, 0.75};
@@ -82,7 +85,8 @@ std::array<BSplineBasis, 4> following_tip(const Rung& rung, const Parametrizatio
   } else {
     along.repeat(1, degree + 1);
   }
-  for (const double s : first_of(along_order, rung.along - 1)) along.list.push_back(1 + s);
+  for (const double s : first_of(rung.bends ? bent_order : along_order, rung.along - 1))
+    along.list.push_back(1 + s);
   if (geometry.tip.positions.front() < back) {
     along.repeat(2, degree);
     const auto& order = rung.waits ? waiting_order : front_resolved ? beyond_front_order : after_order;
@@ -140,7 +144,7 @@ std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& pa
                                  : fixed(rung, parametrization.geometry(), frames);
 }
 
-std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round, bool waits) {
+std::vector<Rung> ladder_of(const Parametrization& parametrization, const LadderOf& series) {
   std::vector<Rung> rungs;
   if (parametrization.moves()) {
     // Where lengths next to the front are measured as displacements grow, six spans along the cut are needed
@@ -148,9 +152,9 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round, 
     const bool front = parametrization.resolves_front();
     Rung r = front ? Rung{2, 4, 2, 3, 2, 1, 8} : Rung{1, 3, 2, 3, 2, 1, 8};
     constexpr int around = 3;  // spans of an angle for each of a height
-    if (round) r.above *= around;
-    r.waits = waits;
-    if (waits) r.after = static_cast<int>(waiting_order.size()) + 1;
+    if (series.round) r.above *= around;
+    r.waits = series.waits, r.bends = series.bends;
+    if (series.waits) r.after = static_cast<int>(waiting_order.size()) + 1;
     rungs.push_back(r);
     using Steps = std::vector<int Rung::*>;
     const Steps of_tip = {&Rung::across, &Rung::across, &Rung::along,  &Rung::across, &Rung::along,
@@ -163,8 +167,10 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round, 
                             &Rung::after,  &Rung::before, &Rung::along,  &Rung::above,  &Rung::along,
                             &Rung::across, &Rung::across, &Rung::below,  &Rung::across, &Rung::across,
                             &Rung::along,  &Rung::after,  &Rung::above,  &Rung::before, &Rung::along};
-    for (int Rung::*const step : front ? of_front : of_tip) {
-      r.*step += round && step == &Rung::above ? around : 1;
+    Steps steps = front ? of_front : of_tip;
+    if (front && series.bends) steps.insert(steps.begin(), {&Rung::along, &Rung::along});
+    for (int Rung::*const step : steps) {
+      r.*step += series.round && step == &Rung::above ? around : 1;
       r.time = 8 + static_cast<int>(rungs.size()) / 2;
       rungs.push_back(r);
     }

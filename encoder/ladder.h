@@ -18,6 +18,7 @@ struct Rung {
   int before = 1, along = 1, after = 1, across = 1, above = 1, below = 1, time = 1;
   std::vector<TimeKink> kinks = {};  ///< ascending; of a parametrisation that follows the tip
   bool waits = false;                ///< whether knots ahead of the tip serve what happens far from it
+  bool bends = false;                ///< whether knots in the middle of the cut come early
 
   friend bool operator==(const Rung&, const Rung&) = default;
 };
@@ -32,8 +33,12 @@ inline constexpr int most_time_spans = 32;
 std::array<BSplineBasis, 4> bases_of(const Rung& rung, const Parametrization& parametrization, int frames);
 
 /// Rungs of growing size, each contained in the next. The order of refinement that follows the tip comes from
-/// trials on a few cuts. `round`: the height is an angle around the front, over which the whole body changes.
-/// `waits`: the front waits while others move.
-std::vector<Rung> ladder_of(const Parametrization& parametrization, bool round = false, bool waits = false);
+/// trials on a few cuts.
+struct LadderOf {
+  bool round = false;  ///< the height is an angle around the front, over which the whole body changes
+  bool waits = false;  ///< the front waits while others move
+  bool bends = false;  ///< the direction of the cut turns, and what opens turns with it
+};
+std::vector<Rung> ladder_of(const Parametrization& parametrization, const LadderOf& series = {});
 
 }  // namespace cleft

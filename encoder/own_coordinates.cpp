@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <span>
 
 #include "encoder/curved_places.h"
 
@@ -108,23 +107,66 @@ void OwnCoordinates::fill_gaps(const std::array<Interval, 2>& domain) {
     }
 }
 
-Snapshot OwnCoordinates::of(const Snapshot& s) const {
-  constexpr double most_stretched = 4;
-  Snapshot moved = s;
+double OwnCoordinates::turning(const std::vector<std::array<std::int32_t, 2>>& pairs) const {
+  std::map<double, const std::array<Vec3, 3>*> along;
+  for (const auto& [left, right] : pairs) along.emplace(places[left].x, &frames[left]);
+  double angle = 0, least = 0, greatest = 0;
+  const std::array<Vec3, 3>* before = nullptr;
+  for (const auto& [u, frame] : along) {
+    if (before) angle += std::asin(std::clamp(dot((*frame)[0], (*before)[1]), -1., 1.));
+    least = std::min(least, angle), greatest = std::max(greatest, angle);
+    before = frame;
+  }
+  return greatest - least;
+}
+
+/// Of the places among those that are kept, or -1.
+std::vector<std::int64_t> OwnCoordinates::numbers() const {
   std::vector<std::int64_t> number(places.size(), -1);
   for (std::size_t i = 0; i < kept.size(); ++i) number[kept[i]] = static_cast<std::int64_t>(i);
-  moved.points.clear(), moved.cell_types.clear(), moved.connectivity.clear(), moved.cell_offsets = {0};
-  for (const std::size_t n : kept) moved.points.push_back(places[n]);
-  const auto jumps = [&](std::int64_t a, std::int64_t b) {
+  return number;
+}
+
+bool OwnCoordinates::jumps(const Snapshot& s, std::span<const std::int64_t> cell) const {
+  constexpr double most_stretched = 4;
+  const std::int64_t b = cell[0];
+  return std::any_of(cell.begin(), cell.end(), [&](std::int64_t a) {
     return norm(places[a] - places[b]) > most_stretched * norm(s.points[a] - s.points[b]) ||
            (turn > 0 && std::abs(places[a].z - places[b].z) > turn / 2);
-  };
+  });
+}
+
+namespace {
+
+std::span<const std::int64_t> cell_of(const Snapshot& s, std::size_t c) {
+  return {s.connectivity.begin() + s.cell_offsets[c], s.connectivity.begin() + s.cell_offsets[c + 1]};
+}
+
+bool within(std::span<const std::int64_t> cell, const std::vector<std::int64_t>& number) {
+  return std::all_of(cell.begin(), cell.end(), [&](std::int64_t n) { return number[n] >= 0; });
+}
+
+}  // namespace
+
+std::vector<std::int32_t> OwnCoordinates::beside_jumps(const Snapshot& s) const {
+  const std::vector<std::int64_t> number = numbers();
+  std::vector<std::int32_t> beside;
+  for (std::size_t c = 0; s.coordinates && c + 1 < s.cell_offsets.size(); ++c)
+    if (const auto cell = cell_of(s, c); within(cell, number) && jumps(s, cell))
+      for (const std::int64_t n : cell) beside.push_back(static_cast<std::int32_t>(number[n]));
+  std::sort(beside.begin(), beside.end());
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  return beside;
+}
+
+Snapshot OwnCoordinates::of(const Snapshot& s) const {
+  Snapshot moved = s;
+  const std::vector<std::int64_t> number = numbers();
+  moved.points.clear(), moved.cell_types.clear(), moved.connectivity.clear(), moved.cell_offsets = {0};
+  for (const std::size_t n : kept) moved.points.push_back(places[n]);
   for (std::size_t c = 0; c + 1 < s.cell_offsets.size(); ++c) {
-    const std::span cell(s.connectivity.begin() + s.cell_offsets[c],
-                         s.connectivity.begin() + s.cell_offsets[c + 1]);
-    if (std::any_of(cell.begin(), cell.end(),
-                    [&](std::int64_t n) { return number[n] < 0 || (s.coordinates && jumps(n, cell[0])); }))
-      continue;
+    const auto cell = cell_of(s, c);
+    if (!within(cell, number) || (s.coordinates && jumps(s, cell))) continue;
     for (const std::int64_t n : cell) moved.connectivity.push_back(number[n]);
     moved.cell_types.push_back(s.cell_types[c]);
     moved.cell_offsets.push_back(static_cast<std::int64_t>(moved.connectivity.size()));

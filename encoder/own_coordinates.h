@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/vec3.h"
@@ -33,11 +34,17 @@ struct OwnCoordinates {
   Vec3 components(std::size_t place, const Vec3& d) const {
     return {dot(frames[place][0], d), dot(frames[place][1], d), dot(frames[place][2], d)};
   }
+  /// Radians between the directions of the cut that differ most, as they turn within the skin.
+  double turning(const std::vector<std::array<std::int32_t, 2>>& pairs) const;
   /// The snapshot in these coordinates, of the nodes that are kept. Cells are left out where the coordinates
   /// jump, as they do beyond the middle of a curved cut's circle.
   Snapshot of(const Snapshot& s) const;
+  /// The nodes of the cells that are left out so, in increasing order of their numbers there.
+  std::vector<std::int32_t> beside_jumps(const Snapshot& s) const;
 
  private:
+  std::vector<std::int64_t> numbers() const;
+  bool jumps(const Snapshot& s, std::span<const std::int64_t> cell) const;
   void add_turned_places(const BreakMap& map);
   void add_further_places(const CutCurve& cut);
   void fill_gaps(const std::array<Interval, 2>& domain);

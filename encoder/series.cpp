@@ -15,6 +15,9 @@ namespace cleft {
 
 namespace {
 
+constexpr double next_to_nothing = 1e-9;  // over the body's extent: displacements that are rounding
+constexpr double bent = 0.3;  // radians from which the middle of a cut needs knots of its own
+
 using Pairs = std::vector<std::array<std::int32_t, 2>>;
 
 /// Whether each pair parts in some frame.
@@ -83,6 +86,14 @@ FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
   }
   g.tip = few;
   return g;
+}
+
+/// The longest side of the box around the nodes.
+double extent_of(const std::vector<Vec3>& points) {
+  Vec3 least = points.front(), greatest = least;
+  for (const Vec3& p : points)
+    for (int k = 0; k < 3; ++k) least[k] = std::min(least[k], p[k]), greatest[k] = std::max(greatest[k], p[k]);
+  return std::max({greatest.x - least.x, greatest.y - least.y, greatest.z - least.z});
 }
 
 void check_cut(const Snapshot& s) {
@@ -253,6 +264,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
   if (!reader.snapshot().body.empty() || reader.snapshot().coordinates) {
     own = std::make_shared<OwnCoordinates>(reader);
     round = own->round;
+    bends = own->turning(reader.snapshot().pairs) > bent;
     moved = own->of(reader.snapshot());
   }
   const Snapshot& s = moved ? *moved : reader.snapshot();
@@ -284,6 +296,10 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     frames.push_back(frame);
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
+  if (largest_displacement <= next_to_nothing * extent_of(s.points)) {
+    largest_displacement = 0, largest.assign(times.size(), 0);
+    frames.assign(times.size(), Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(taken.size()), 3));
+  }
   pairs = taken.pairs_of(s.pairs);
   const std::vector<SnapshotArray> arrays = quantity_arrays(reader);
   if (taken.in_part()) {
@@ -297,6 +313,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     centres = cell_centres(taken.cells_of(s), samples);
   } else {
     centres = cell_centres(s, samples);
+    if (own) beside_jumps = own->beside_jumps(reader.snapshot());
   }
   quadratic = s.parameters->mesh.elements == ElementOrder::quadratic;
   if (s.source && s.source->break_extent.size() >= 8)

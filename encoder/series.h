@@ -69,7 +69,8 @@ struct Series {
   std::vector<double> largest;      ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;  ///< mm, of all
   CellCentres centres;
-  bool quadratic = false;  ///< simulated with quadratic elements, of which cells are parts
+  std::vector<std::int32_t> beside_jumps;  ///< samples next to which the cut's coordinates jump
+  bool quadratic = false;                  ///< simulated with quadratic elements, of which cells are parts
   /// Of imported data: the fields besides the displacement, and `at_start`, the displacement of frame 0 in
   /// all frames, where it is not 0.
   std::vector<SeriesQuantity> quantities;
@@ -80,6 +81,7 @@ struct Series {
   FrontKinks front_kinks;                          ///< of one of several breaks
   std::vector<TimeKink> kinks;                     ///< and those of all, once they are shared
   bool round = false;                              ///< whether w is an angle around a round front
+  bool bends = false;                              ///< whether the direction of the break turns
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: number of open pairs
 

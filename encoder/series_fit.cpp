@@ -50,7 +50,9 @@ SpaceMisfit space_misfit(const Series& series, FitStore& store, const std::array
   const auto factor = store.factor(bases, frame, of_search,
                                    [&] { return fit->space().factorize(fit->normal(frame, of_search)); });
   const Eigen::MatrixX3d x = factor->solve(fit->project(frame, series.frames[frame]));
-  const Eigen::MatrixX3d left = fit->values(x, frame) - series.frames[frame];
+  Eigen::MatrixX3d left = fit->values(x, frame) - series.frames[frame];
+  // Knots would be spent in vain where the coordinates jump, on what a residual holds.
+  for (const std::int32_t sample : series.beside_jumps) left.row(sample).setZero();
   SpaceMisfit misfit{misfit_of(left, series, limit)};
   for (const auto& [a, b] : series.pairs)
     misfit.gape = std::max(misfit.gape, (left.row(b) - left.row(a)).norm());

@@ -24,15 +24,17 @@ constexpr std::size_t bytes_of_weight = 3;  // deflated
 // Rows of samples that are in double precision at a time: of whole points.
 constexpr Eigen::Index block_rows = 3 * 256;
 
+bool displaces_alone(const StudyRecord& one) {
+  const Json& header = one.record.header;
+  return !header.contains("quantities") && !header.contains("by_parameter") &&
+         report_of(header).largest_displacement > 0;
+}
+
 /// Those that may become sums of modes.
 std::vector<const StudyRecord*> displacements_alone(const std::vector<StudyRecord>& cases) {
   std::vector<const StudyRecord*> list;
-  for (const StudyRecord& one : cases) {
-    const Json& header = one.record.header;
-    if (!header.contains("quantities") && !header.contains("by_parameter") &&
-        report_of(header).largest_displacement > 0)
-      list.push_back(&one);
-  }
+  for (const StudyRecord& one : cases)
+    if (displaces_alone(one)) list.push_back(&one);
   return list;
 }
 
@@ -196,7 +198,24 @@ Fit fit(const Eigen::MatrixXd& modes, const Eigen::MatrixXf& samples) {
   return fit;
 }
 
-/// The cases that are sums of modes where that is exact enough, all others as they are.
+/// The case with control points in coarser steps, if these need fewer bytes.
+StudyRecord in_coarser_steps(const StudyRecord& own, double error) {
+  const Field field = field_of(own.record);
+  const double largest = field.report.largest_displacement, bound = error * largest;
+  // Half a step each way is sqrt(3) / 2 steps together, and functions sum to 1.
+  const Field coarser = quantised(field, 2 / std::sqrt(3.) * bound, 0.5);
+  double farthest = 0;
+  for (std::size_t n = 0; n < field.coefficients().size(); ++n)
+    farthest = std::max(farthest, norm(coarser.coefficients()[n] - field.coefficients()[n]));
+  StudyRecord record = own;
+  record.record = record_of(coarser), record.modes_error = farthest / largest;
+  // Ties can move what they tie by more.
+  const bool good = farthest <= (1 + 1e-9) * bound &&
+                    record.record.coefficients.size() < own.record.coefficients.size();
+  return good ? record : own;
+}
+
+/// The cases that are sums of modes where that is exact enough, all others as `own` has them.
 std::vector<StudyRecord> sums_of(const Coded& coded, const ScaledCases& cases, double error,
                                  const std::vector<StudyRecord>& own) {
   std::vector<StudyRecord> records = own;
@@ -206,7 +225,7 @@ std::vector<StudyRecord> sums_of(const Coded& coded, const ScaledCases& cases, d
   for (int i = 0; i < cases.size(); ++i) {
     if (cases.apart(i) || !(fit.off[i] <= error)) continue;
     StudyRecord& one = *by_name.at(cases.name(i));
-    one.record = cases.record_of_sum(i, one.record);
+    one.record = cases.record_of_sum(i, one.record);  // of its header
     one.weights = {fit.weights.col(i).begin(), fit.weights.col(i).end()}, one.modes_error = fit.off[i];
   }
   return records;
@@ -226,21 +245,25 @@ PackedStudy with_common_modes(const PackedStudy& own, double error) {
   CLEFT_CHECK(error, >, 0);
   const std::vector<const StudyRecord*> records = displacements_alone(own.cases);
   if (records.size() < 2 && own.cases.size() >= 2) return own;
+  PackedStudy coarser = own;
+  parallel_for(static_cast<int>(coarser.cases.size()), [&](int i) {
+    if (displaces_alone(own.cases[i])) coarser.cases[i] = in_coarser_steps(own.cases[i], error);
+  });
   const ScaledCases cases(records);
   const Eigen::MatrixXd vectors = singular_vectors(cases.samples());
   const Eigen::Index most = std::max(1, cases.size() - 1),
                      fewest = fewest_modes(vectors, cases.samples(), most, error);
-  PackedStudy best = own;
+  PackedStudy best;
   std::size_t fewest_bytes = std::numeric_limits<std::size_t>::max();
   for (Eigen::Index count = std::max<Eigen::Index>(fewest, 1), worse = 0;
        fewest > 0 && count <= most && worse < 4; count += std::max<Eigen::Index>(1, count / 16)) {
     const Coded coded = code(cases, vectors.leftCols(count), error);
-    PackedStudy packed{sums_of(coded, cases, error, own.cases), coded.modes};
+    PackedStudy packed{sums_of(coded, cases, error, coarser.cases), coded.modes};
     const std::size_t bytes = coefficient_bytes(packed);
     worse = bytes < fewest_bytes ? 0 : worse + 1;
     if (bytes < fewest_bytes) best = std::move(packed), fewest_bytes = bytes;
   }
-  return fewest_bytes < coefficient_bytes(own) ? best : own;
+  return fewest_bytes < coefficient_bytes(coarser) ? best : coarser;
 }
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// Cases of a study as sums of common modes, which are stored once.
+// Cases of a study in fewer bytes: as sums of common modes, which are stored once, or in coarser steps.
 #pragma once
 
 #include <vector>
@@ -14,12 +14,11 @@ struct PackedStudy {
 };
 std::size_t coefficient_bytes(const PackedStudy& study);  ///< approximate size of its file
 
-/// The same cases as sums of modes, if that needs fewer bytes; else unchanged. The modes are
-/// the leading left singular vectors of the cases on common knots, each divided by its largest displacement,
-/// compared at nodes. A case becomes a sum of modes if it then differs nowhere at nodes by more than `error`
-/// times its largest displacement. The number of modes minimises the bytes, to a sixteenth. Cases with
-/// further quantities or derivatives, and cases with equal parameters, are unchanged. Throws InputError as
-/// CommonCases does.
+/// The same cases where that needs fewer bytes as sums of modes, or with control points in coarser steps;
+/// none then differs at nodes by more than `error` times its largest displacement. The modes are the leading
+/// left singular vectors of the cases on common knots, each divided by its largest displacement, compared at
+/// nodes; their number minimises the bytes, to a sixteenth. Cases with further quantities or derivatives are
+/// unchanged, and cases with equal parameters are no sums. Throws InputError as CommonCases does.
 PackedStudy with_common_modes(const PackedStudy& own, double error);
 
 }  // namespace cleft

@@ -105,6 +105,11 @@ Json Columns::group(const std::string& group, std::size_t i) const {
   return {{group, members}};
 }
 
+bool Columns::has(const std::string& name, std::size_t i) const {
+  const auto column = columns_.find(name);
+  return column != columns_.end() && find(*column, i);
+}
+
 Json Columns::entry(const std::string& name, std::size_t i) const {
   const auto column = columns_.find(name);
   const Json* value = column == columns_.end() ? nullptr : find(*column, i);

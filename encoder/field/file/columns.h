@@ -20,6 +20,7 @@ class Columns {
   /// Only the entries of one group: "parameters", "choices", "report".
   Json group(const std::string& name, std::size_t i) const;
   Json entry(const std::string& name, std::size_t i) const;
+  bool has(const std::string& name, std::size_t i) const;  ///< an entry
 
  private:
   const Json* find(const Json& column, std::size_t i) const;

@@ -158,11 +158,15 @@ int StudyFile::modes() const { return static_cast<int>(parts_->coded.quanta.size
 
 double StudyFile::modes_error(int i) const {
   return told_of_file(parts_->file.path(), [&] {
-    const Json group = parts_->columns.group("modes", static_cast<std::size_t>(i))["modes"];
-    if (group.empty()) return 0.;
-    if (!group.contains("error") || !group["error"].is_number())
-      throw InputError("the error of the modes is missing");
-    return group["error"].get<double>();
+    const std::size_t n = i;
+    for (const char* name : {"modes/error", "steps_error"})
+      if (parts_->columns.has(name, n)) {
+        const Json error = parts_->columns.entry(name, n);
+        if (!error.is_number()) throw InputError(std::string(name) + " is no number");
+        return error.get<double>();
+      }
+    if (parts_->columns.has("modes/weights", n)) throw InputError("the error of the modes is missing");
+    return 0.;
   });
 }
 
@@ -292,7 +296,10 @@ void write_study(const std::string& path, const std::vector<StudyRecord>& cases,
     coefficients.insert(coefficients.end(), record.coefficients.begin(), record.coefficients.end());
     Json& header = headers.emplace_back(record.header);
     for (const auto& [name, value] : one.choices.texts()) header["choices"][name] = value;
-    if (!one.weights.empty()) header["modes"] = {{"weights", one.weights}, {"error", one.modes_error}};
+    if (!one.weights.empty())
+      header["modes"] = {{"weights", one.weights}, {"error", one.modes_error}};
+    else if (one.modes_error > 0)
+      header["steps_error"] = one.modes_error;
   }
   Json header{{"names", names}, {"bytes", bytes}, {"columns", columns_of(headers)}};
   if (!modes.quanta.empty()) {

@@ -29,7 +29,7 @@ class StudyFile {
   const std::string& name(int i) const;        ///< of the case's folder
   std::string case_hash(int i) const;          ///< the snapshot's
   RecordedParameters parameters(int i) const;  ///< without switches and choices in older files
-  /// If the case is a sum of modes, node_error, spline_error and frame_error include its error.
+  /// If the case is not as its own file has it, node_error, spline_error and frame_error include its error.
   FitReport report(int i) const;
   std::size_t coefficient_bytes(int i) const;  ///< as coded
   /// Reads and decodes this case only, and the modes when they are first needed; throws FileError if it is
@@ -40,8 +40,8 @@ class StudyFile {
   FieldRecord record(int i) const;
   const CodedModes& coded_modes() const;
   int modes() const;  ///< number of modes that cases are sums of; 0: none
-  /// For a case that is a sum of modes: the largest distance from the case's own field at nodes, relative to
-  /// its largest displacement; else 0.
+  /// For a case that is a sum of modes, or has coarser steps: the largest distance from the case's own field
+  /// (of a sum: at nodes), relative to its largest displacement; else 0.
   double modes_error(int i) const;
 
  private:
