@@ -113,14 +113,43 @@ TEST(CommonModes, ACaseWithFurtherQuantitiesStandsByItself) {
   EXPECT_EQ(file.field(16).quantities.size(), 1u);
 }
 
-TEST(CommonModes, WhereTheyCostMoreNothingChanges) {
+/// With control points that are multiples of a part of the largest displacement.
+std::vector<StudyMember> in_steps(std::vector<StudyMember> members, double part) {
+  for (StudyMember& one : members)
+    one.field = quantised(one.field, part * one.field.report.largest_displacement, 0.5);
+  return members;
+}
+
+TEST(CommonModes, WhereTheyCostMoreCasesHaveCoarserSteps) {
   const TemporaryFolder folder;
-  const std::vector<StudyMember> members = sums_of_three(3);
-  const PackedStudy own = packed_of(members, folder), study = with_common_modes(own, 0.001);
+  const std::vector<StudyMember> members = in_steps(sums_of_three(3), 1e-4);
+  const PackedStudy own = packed_of(members, folder), study = with_common_modes(own, 0.01);
+  EXPECT_TRUE(study.modes.quanta.empty());
+  EXPECT_LT(coefficient_bytes(study), coefficient_bytes(own));
+  const std::string path = folder / "study.dffd";
+  write_study(path, study.cases, study.modes);
+  const StudyFile file(path);
+  ASSERT_EQ(file.size(), 3);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GT(file.modes_error(i), 0.005);
+    EXPECT_LE(file.modes_error(i), 0.01 * (1 + 1e-9));
+    EXPECT_LE(distance_of(file.field(i), members[i].field, nodes_of_millimetres()), file.modes_error(i));
+    EXPECT_EQ(file.report(i).spline_error, 1e-6 + file.modes_error(i));
+    EXPECT_EQ(file.field(i).case_hash, members[i].field.case_hash);
+    EXPECT_EQ(file.field(i).parameters, members[i].field.parameters);
+  }
+}
+
+TEST(CommonModes, WhereStepsAreAsCoarseAlreadyNothingChanges) {
+  const TemporaryFolder folder;
+  const PackedStudy own = packed_of(in_steps(sums_of_three(3), 0.01), folder),
+                    study = with_common_modes(own, 0.001);
   EXPECT_TRUE(study.modes.quanta.empty());
   ASSERT_EQ(study.cases.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(study.cases[i].record.coefficients, own.cases[i].record.coefficients);
+    EXPECT_EQ(study.cases[i].modes_error, 0);
+  }
 }
 
 TEST(CommonModes, DamageIsNoticed) {

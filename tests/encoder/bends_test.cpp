@@ -1,0 +1,170 @@
+// Cuts whose direction turns: what opens turns with it, so that the middle of the cut needs knots too.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "encoder/ladder.h"
+#include "encoder/own_coordinates.h"
+#include "tests/encoder/bent_snapshot.h"
+
+namespace cleft {
+namespace {
+
+/// Lips part along one direction in space, wherever the cut turns.
+Vec3 opening_one_way(const Vec3& p, Side side, double t, double curvature) {
+  const double behind = std::max(0., (p.x + 4) * (t - 4 - p.x)), open = std::max(0., 1 + p.z / 1.5);
+  const double gape = 0.2 * std::sqrt(behind) * open * std::exp(-std::abs(p.y) / 2) * sign_of(p, side);
+  return {gape * std::sin(4 * curvature * p.x), gape * std::cos(4 * curvature * p.x), 0};
+}
+
+/// A grid whose cut turns in the skin: the direction of the cut at u is turned by `angle(u)`.
+struct TurningSnapshot {
+  static constexpr int along = 48, across = 28, deep = 6;
+  TemporaryFolder folder;
+  std::string file = folder / "case.h5";
+
+  explicit TurningSnapshot(const std::function<double(double)>& angle, const Motion& motion) {
+    Snapshot s = cut_in(grid(along, across, deep), eight_times);
+    s.coordinates = true;
+    add_cells(s);
+    const std::vector<Sample> samples = samples_of(s);
+    std::vector<double> places, frames;
+    std::vector<Vec3> shown;
+    for (const Vec3& p : s.points) {
+      const double a = angle(p.x);
+      places.insert(places.end(), {p.x, p.y, p.z});
+      frames.insert(frames.end(), {std::cos(a), std::sin(a), 0, -std::sin(a), std::cos(a), 0, 0, 0, 1});
+      // The path is a chain of short pieces; displacements do not depend on it.
+      Vec3 at{0, 0, p.z};
+      constexpr int pieces = 200;
+      for (int i = 0; i < pieces; ++i) {
+        const double b = angle(p.x * (i + 0.5) / pieces);
+        at += p.x / pieces * Vec3{std::cos(b), std::sin(b), 0};
+      }
+      shown.push_back(at + p.y * Vec3{-std::sin(a), std::cos(a), 0});
+    }
+    const std::vector<Vec3> own = s.points;
+    s.points = shown;
+    SnapshotWriter writer(file, s, {canonical_array, frame_array});
+    writer.write_array(canonical_array, 0, places);
+    writer.write_array(frame_array, 0, frames);
+    for (std::size_t j = 0; j < s.frames(); ++j) {
+      std::vector<Vec3> d;
+      for (std::size_t n = 0; n < own.size(); ++n) {
+        const Vec3 local = motion(own[n], samples[n].side, s.times[j]);
+        const double* axes = &frames[9 * n];
+        d.push_back(in_space(local, axes));
+      }
+      writer.write_frames(j, d);
+    }
+    writer.finish(s);
+  }
+  /// Hexahedra that do not touch the plane of the cut.
+  static void add_cells(Snapshot& s) {
+    const auto node = [](int i, int j, int k) -> std::int64_t {
+      return (i * (across + 1) + j) * (deep + 1) + k;
+    };
+    for (int i = 0; i < along; ++i)
+      for (int j = 0; j < across; ++j)
+        for (int k = 0; k < deep; ++k) {
+          if (2 * j == across || 2 * j + 2 == across) continue;
+          for (const int up : {0, 1})
+            for (const auto& [a, b] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+              s.connectivity.push_back(node(i + a, j + b, k + up));
+          s.cell_types.push_back(12);
+          s.cell_offsets.push_back(static_cast<std::int64_t>(s.connectivity.size()));
+        }
+  }
+  double turning() const {
+    const SnapshotReader reader(file);
+    return OwnCoordinates(reader).turning(reader.snapshot().pairs);
+  }
+};
+
+const Motion straight = [](const Vec3& p, Side side, double t) { return opening(p, side, t); };
+
+TEST(Bends, AreTheAnglesBetweenDirectionsOfTheCut) {
+  // The first and the last open column are at -3.75 and 3.75 mm.
+  const double columns = 7.5;
+  EXPECT_NEAR(TurningSnapshot([](double u) { return u / 9; }, straight).turning(), columns / 9, 1e-6);
+  // A path that turns back to where it came from.
+  const double half = columns / 2;
+  EXPECT_NEAR(TurningSnapshot([](double u) { return u * u / 30; }, straight).turning(), half * half / 30,
+              1e-6);
+  // Directions that differ from the axes, but not from each other, are none.
+  EXPECT_NEAR(TurningSnapshot([](double) { return 0.7; }, straight).turning(), 0, 1e-9);
+}
+
+TEST(Bends, AreNoneOfASkinThatIsCurvedAndAreToldOfASeries) {
+  EXPECT_FALSE(Series(SnapshotReader(BentSnapshot(straight).file)).bends);
+  EXPECT_FALSE(SyntheticSnapshot(straight).series().bends);
+  EXPECT_FALSE(Series(SnapshotReader(TurningSnapshot([](double u) { return u / 40; }, straight).file)).bends);
+  EXPECT_TRUE(Series(SnapshotReader(TurningSnapshot([](double u) { return -u / 9; }, straight).file)).bends);
+}
+
+TEST(Bends, HaveKnotsInTheMiddleOfTheCut) {
+  constexpr double curvature = 1. / 9;
+  const TurningSnapshot turning(
+      [](double u) { return curvature * u; },
+      [](const Vec3& p, Side side, double t) { return opening_one_way(p, side, t, curvature); });
+  const SnapshotReader reader(turning.file);
+  const Series series(reader);
+  ASSERT_TRUE(series.bends);
+  EncodeOptions options;
+  const auto parametrization = fit_store(series, options)->parametrization();
+  const auto error_on = [&](bool bends) {
+    Rung rung = ladder_of(*parametrization, {.bends = bends}).front();
+    rung.along = 8;
+    return encoded_on(series, "front", rung).field.report.gape_error;
+  };
+  const double with = error_on(true), without = error_on(false);
+  EXPECT_LT(with, 0.5 * without) << with << ", " << without;
+  // Each ladder is one of nested knots.
+  const std::vector<Rung> ladder = ladder_of(*parametrization, {.bends = true});
+  for (std::size_t i = 0; i + 1 < ladder.size(); ++i) {
+    const auto few = bases_of(ladder[i], *parametrization, 30),
+               more = bases_of(ladder[i + 1], *parametrization, 30);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_TRUE(std::includes(more[axis].knots().begin(), more[axis].knots().end(),
+                                few[axis].knots().begin(), few[axis].knots().end()))
+          << "rung " << i << ", axis " << axis;
+  }
+}
+
+TEST(Bends, SpendNoKnotsWhereTheCoordinatesJump) {
+  // Beyond the middle of the circle a step along the cut is a leap.
+  const TurningSnapshot turning([](double u) { return u / 5; },
+                                [](const Vec3& p, Side side, double t) {
+                                  Vec3 d = opening(p, side, t);
+                                  if (p.y > 4.4) d.z += 0.008 * t * std::cos(1.5 * p.x);
+                                  return d;
+                                });
+  const SnapshotReader reader(turning.file);
+  Series series(reader);
+  ASSERT_FALSE(series.beside_jumps.empty());
+  for (const std::int32_t n : series.beside_jumps) EXPECT_GT(series.samples[n].uvw.y, 3.5);
+  const auto size = [](const Encoded& one) {
+    const Field& f = one.field;
+    return f.basis(0).size() * f.basis(1).size() * f.basis(2).size();
+  };
+  const Encoded few = encoded_within(series, 0.03, "front");
+  series.beside_jumps.clear();
+  const Encoded many = encoded_within(series, 0.03, "front");
+  EXPECT_LT(size(few), size(many));
+  EXPECT_LE(few.field.report.node_error, 0.03);  // by the residual
+}
+
+TEST(Series, DisplacementsThatAreRoundingAreNone) {
+  const auto of_size = [](double size) {
+    return SyntheticSnapshot(
+        [size](const Vec3& p, Side side, double t) { return size * opening(p, side, t); });
+  };
+  EXPECT_EQ(of_size(1e-9).series().largest_displacement, 0);
+  EXPECT_EQ(encoded_within(of_size(1e-9).series(), 0.01).field.displacement({0, 0, 0}, Side::left, 8),
+            Vec3{});
+  EXPECT_NEAR(of_size(1e-6).series().largest_displacement, 1e-6 * of_size(1).series().largest_displacement,
+              1e-12);
+}
+
+}  // namespace
+}  // namespace cleft
