@@ -121,17 +121,13 @@ class Encoder {
   /// A bound, mm, slightly above the error of the fit.
   static double above(const Misfit& misfit) { return 1.02 * misfit.largest; }
 
-  double bound_of_steps(double bound) const {
-    return limit_ > 0 ? std::min(bound, most_tolerances * limit_) : bound;
-  }
-
   /// The field and its report, with steps of its coefficients that keep `bound`, mm.
   Field with_steps(const SeriesFit& fit, double bound) const {
     progress_("choosing the coefficients' steps");
     bound = std::max(bound, finest_bound * scale_);
     // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
     // steps.
-    double step = share_of_steps * 2 / std::sqrt(3.) * bound_of_steps(bound);
+    double step = share_of_steps * 2 / std::sqrt(3.) * bound_of_steps(bound, options_.rung ? 0 : limit_);
     const Field exact =
         with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest_move * step, bound);
     // At nodes that were not fitted the spline may be off by more.

@@ -88,7 +88,7 @@ FittedQuantity fit_quantity(const Series& series, int number, const Field& field
                limit = limit_of_data.value_or(0);
   const bool within = misfit <= share_of_fit * limit;
   const double bound = std::max(within ? limit : 1.02 * misfit, finest_bound * scale);
-  double step = step_within(bound, exact.components, share_of_steps);
+  double step = step_within(bound_of_steps(bound, limit), exact.components, share_of_steps);
   NodeSpline spline = stepped(exact, step);
   double error = error_of(spline, series);
   for (int times = 0; error > bound && times < 12; ++times) {

@@ -6,7 +6,8 @@
 
 namespace cleft {
 
-inline constexpr double least_tolerance = 1e-9;  ///< and less than 1
+inline constexpr double least_tolerance = 1e-9;                              ///< and less than 1
+inline constexpr double least_pack_error = 1e-4, greatest_pack_error = 0.1;  ///< of cleft pack --modes
 
 /// Control points along u, v (both sides together), w, t. Throws InputError "<where>: ..." if they are fewer
 /// than the parametrisation needs, or too many.

@@ -77,12 +77,15 @@ class StudyReader {
   }
 
   void read_section(const std::string& key, const toml::node& node) {
-    static const std::vector<std::string> known = {"name", "keep_snapshots", "sensitivities", "case", "vary",
-                                                   "body", "sampling",       "encode",        "slurm"};
+    static const std::vector<std::string> known = {"name",   "keep_snapshots", "pack_error", "sensitivities",
+                                                   "case",   "vary",           "body",       "sampling",
+                                                   "encode", "slurm"};
     if (key == "name") {
       mistakes_.collect([&] { study_.name = text(node, "name"); });
     } else if (key == "keep_snapshots") {
       mistakes_.collect([&] { read_keep_snapshots(text(node, key)); });
+    } else if (key == "pack_error") {
+      mistakes_.collect([&] { study_.pack_error = pack_error(node); });
     } else if (key == "sensitivities") {
       mistakes_.collect([&] { study_.base.sensitivities = texts(node, key); });
     } else if (std::find(known.begin(), known.end(), key) == known.end()) {
@@ -115,6 +118,15 @@ class StudyReader {
     if (which != "all" && which != "none")
       throw InputError(path_ + ": keep_snapshots = \"" + which + "\": must be \"all\" or \"none\"");
     study_.keep_snapshots = which == "all";
+  }
+
+  double pack_error(const toml::node& node) const {
+    const auto value = node.value<double>();
+    if (!value) throw InputError(where(node) + ": pack_error: must be a number");
+    if (!(*value >= least_pack_error && *value <= greatest_pack_error))
+      throw InputError(where(node) + ": pack_error = " + shortest(*value) + ": must be from " +
+                       shortest(least_pack_error) + " to " + shortest(greatest_pack_error));
+    return *value;
   }
 
   void read_slurm(const toml::table& table) {

@@ -92,6 +92,7 @@ Rung rung_of(const std::vector<int>& counts, bool follows_tip) {
     const int u = counts[0] - 7, w = counts[2] - 5;
     rung.before = std::max(1, u / 4), rung.after = std::max(1, u / 4),
     rung.along = u - rung.before - rung.after;
+    rung.bends = true;  // so that cases of one study have the same knots, whether their cuts bend or not
     rung.below = std::max(1, w / 3), rung.above = w - rung.below;
   } else {
     rung.along = counts[0] - 3, rung.above = counts[2] - 3;

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "encoder/field/file/study_file.h"
 #include "encoder/modes/common_modes.h"
+#include "params/encode_limits.h"
 
 using namespace cleft;
 
@@ -21,11 +22,12 @@ int main(int argc, char** argv) {
   bool json = false;
   app.add_option("DIR", folder, "study folder")->required();
   app.add_option("--modes", error,
-                 "make the cases of modes that they have in common, if that costs fewer bytes: no "
-                 "point of a case moves by more than this times its largest displacement (0.0001 to 0.1)");
+                 "make the cases of modes that they have in common, or of coarser steps, if that costs fewer "
+                 "bytes: no point of a case moves by more than this times its largest displacement (0.0001 "
+                 "to 0.1)");
   app.add_flag("--json", json, "print the figures as JSON");
   return run_command(app, argc, argv, [&] {
-    if (app.count("--modes") && !(error >= 1e-4 && error <= 0.1))
+    if (app.count("--modes") && !(error >= least_pack_error && error <= greatest_pack_error))
       throw InputError("--modes " + shortest(error) + ": must be from 0.0001 to 0.1");
     std::vector<std::string> older, damaged;
     const std::vector<StudyCase> cases = published_study_cases(folder, &older, &damaged);

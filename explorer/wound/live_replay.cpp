@@ -13,7 +13,8 @@ constexpr std::size_t chain_end = 4;
 }  // namespace
 
 LiveReplay::LiveReplay(Wound& wound, std::size_t most_entering)
-    : incision_(*wound.incision),
+    : wound_(wound),
+      incision_(*wound.incision),
       volume_(wound.volume),
       most_entering_(most_entering),
       undone_(true),
@@ -57,7 +58,7 @@ void LiveReplay::follow() {
   }
   rest_.resize(count + 1), position_.resize(count + 1);
   slots_.resize(std::max(slots_.size(), count + 1));  // those of former vertices remember their versions
-  stations_.resize(slots_.size());
+  beside_.resize(slots_.size());
   const bool extended = incision_.extended_to() > extended_to_;
   if (extended) volume_.follow_path();
   volume_.update(changed);
@@ -155,7 +156,7 @@ void LiveReplay::enter() {
     Slot& slot = slots_[static_cast<std::size_t>(entering_[i].vertex) + 1];
     slot.batch = static_cast<int>(batches_.size());
     slot.index = static_cast<int>(i);
-    stations_[static_cast<std::size_t>(entering_[i].vertex) + 1] = entering_[i].s;
+    beside_[static_cast<std::size_t>(entering_[i].vertex) + 1] = {entering_[i], wound_};
     touched_.push_back(entering_[i].vertex);
   }
   batches_.push_back({contractor_.contract(entering_, 1), entering_.size()});

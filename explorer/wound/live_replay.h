@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "explorer/wound/contractor.h"
+#include "explorer/wound/mutual_relief.h"
 #include "explorer/wound/wound.h"
 
 namespace cleft {
@@ -45,8 +46,8 @@ class LiveReplay {
     return batches_[slot.batch].pieces.displacement(static_cast<std::size_t>(slot.index), s);
   }
 
-  /// The arc length of a vertex that has entered, mm.
-  double station(int vertex) const { return stations_[static_cast<std::size_t>(vertex) + 1]; }
+  /// The place of a vertex that has entered.
+  const BesideCut& beside(int vertex) const { return beside_[static_cast<std::size_t>(vertex) + 1]; }
   /// All vertices that have entered and still exist.
   std::vector<int> entered() const;
 
@@ -95,6 +96,7 @@ class LiveReplay {
   void enter();
   void shrink(std::size_t vertices);
 
+  const Wound& wound_;
   const Incision& incision_;
   IncisionVolume& volume_;
   double blade_ = 0, extended_to_ = 0;
@@ -103,7 +105,7 @@ class LiveReplay {
   Contractor contractor_;
   std::vector<Vec3> rest_, position_;  // number 0 is unused: it receives the results of vertices that left
   std::vector<Slot> slots_;
-  std::vector<double> stations_;
+  std::vector<BesideCut> beside_;
   std::vector<Placed> placed_;  // of a path that is extended
   std::vector<Batch> batches_;
   std::priority_queue<Waiting> waiting_;

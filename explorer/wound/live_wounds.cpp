@@ -67,7 +67,7 @@ Guard LiveWounds::find_guard(const std::function<void()>& poll) const {
         replay.displacements(blade.s, moved);
         std::vector<Moved> found;
         found.reserve(moved.size());
-        for (const auto& [v, d] : moved) found.push_back({v, replay.station(v), d});
+        for (const auto& [v, d] : moved) found.push_back({v, replay.beside(v), d});
         return found;
       },
       [&](int vertex, const Blade& blade) { return replays_[blade.cut].displacement(vertex, blade.s); },

@@ -54,7 +54,7 @@ class LiveWounds : public Wounds {
     Vec3 sum;
     std::size_t k = 0;
     for (const LiveReplay& replay : replays_)
-      sum += scale_ * now_.amplitude(k++, replay.station(vertex)) * replay.displacement(vertex);
+      sum += scale_ * now_.relieved(k++, replay.beside(vertex), replay.displacement(vertex));
     return sum;
   }
   std::vector<LiveReplay> replays_;

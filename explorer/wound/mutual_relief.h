@@ -5,6 +5,10 @@
 // a fixed point in the amplitudes of all cuts (Kachanov 1987, elastic solids with many cracks, with constant
 // amplitudes; here they vary along the path). The change of tension in the skin is its plane stress for the
 // strain of the other cut's field.
+//
+// Of parallel cuts the strip between them sinks and becomes longer, and the skin beyond them rises as beside
+// a cut alone: lips lean. Next to them a share of the displacement across the cut is added upright, and along
+// the cut, in proportion to how much it is relieved from that side.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +18,23 @@
 
 namespace cleft {
 
-/// Amplitude along a path, linear between stations, in mm of it; constant beyond them.
+/// Amplitude along a path, linear between stations, in mm of it; constant beyond them. And how far lips lean:
+/// by which part of its displacement across a vertex on a lip rises, positive where those at v > 0 do.
 struct Amplitude {
   std::vector<double> stations, values;
+  std::vector<double> leans = {};  ///< none: 0
   double at(double s) const;
+  double lean(double s) const;
+};
+
+/// A vertex beside a cut, as its relief needs it.
+struct BesideCut {
+  double s = 0;  ///< mm along the path
+  Vec3 across;   ///< in the mesh's space, shorter the further from the lips
+  Vec3 leaning;  ///< outward, and toward the middle of the cut, as much as outward at its ends
+
+  BesideCut() = default;
+  BesideCut(const ActiveVertex& vertex, const Wound& wound);
 };
 
 /// The amplitudes of several cuts while the blade makes the newest of them, at equal steps of its path,
@@ -48,6 +65,15 @@ class Relief {
       if (cut >= cuts_) return 1;
       if (before_ == after_) return before_[cut].at(s);
       return (1 - beyond_) * before_[cut].at(s) + beyond_ * after_[cut].at(s);
+    }
+
+    /// A displacement by one cut alone, as the others leave it.
+    Vec3 relieved(std::size_t cut, const BesideCut& at, const Vec3& alone) const {
+      if (cut >= cuts_) return alone;
+      const double lean = before_ == after_
+                              ? before_[cut].lean(at.s)
+                              : (1 - beyond_) * before_[cut].lean(at.s) + beyond_ * after_[cut].lean(at.s);
+      return amplitude(cut, at.s) * alone + lean * dot(alone, at.across) * at.leaning;
     }
 
    private:

@@ -1,6 +1,7 @@
 #include "explorer/wound/replayed_wounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace cleft {
@@ -17,6 +18,10 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
   for (Wound& wound : wounds) {
     whole_.replays.emplace_back(add(std::move(wound)));
     begins_.push_back(begins_.back() + whole_.replays.back().path_length());
+  }
+  for (std::size_t k = 0; k < size(); ++k) {
+    std::vector<BesideCut>& beside = whole_.beside.emplace_back();
+    for (const ActiveVertex& a : active(k)) beside.emplace_back(a, (*this)[k]);
   }
   std::vector<Vec3> moved(size() > 1 ? vertex_count() : 0);
   for (std::size_t k = 0; k + 1 < size(); ++k) {
@@ -41,7 +46,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
         std::vector<Moved> found;
         found.reserve(active(blade.cut).size());
         for (const ActiveVertex& a : active(blade.cut))
-          found.push_back({a.vertex, a.s, now[a.vertex] - rest()[a.vertex]});
+          found.push_back({a.vertex, {a, (*this)[blade.cut]}, now[a.vertex] - rest()[a.vertex]});
         return found;
       },
       [&](int vertex, const Blade& blade) {
@@ -53,7 +58,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
 }
 
 /// A cut moves a vertex by no more than the bound of its replay, times its largest amplitude there: alone
-/// that of the first is 1, and then those of its relief, which are linear in between.
+/// that of the first is 1, and then those of its relief, which are linear in between, and what lips lean.
 void ReplayedWounds::bound_vertices() {
   bounds_.assign(vertex_count(), 0);
   for (std::size_t k = 0; k < size(); ++k) {
@@ -64,7 +69,8 @@ void ReplayedWounds::bound_vertices() {
         if (largest.values.empty())
           largest = {one.stations, std::vector(one.values.size(), k == 0 ? 1. : 0.)};
         for (std::size_t i = 0; i < one.values.size(); ++i)
-          largest.values[i] = std::max(largest.values[i], one.values[i]);
+          largest.values[i] =
+              std::max(largest.values[i], one.values[i] + std::abs(one.lean(one.stations[i])));
       }
     const Replay& replay = whole_.replays[k];
     for (std::size_t i = 0; i < replay.active().size(); ++i) {
@@ -100,6 +106,8 @@ ReplayedWounds::Level ReplayedWounds::level(double detail) const {
         level.error = std::max(level.error, bound);
     }
     level.replays.push_back(whole_.replays[k].of(chosen));
+    std::vector<BesideCut>& beside = level.beside.emplace_back();
+    for (const std::size_t i : chosen) beside.push_back(whole_.beside[k][i]);
     if (k + 1 == size()) break;
     std::vector<Vec3>& complete = level.complete.emplace_back();
     for (const std::size_t i : chosen) complete.push_back(whole_.complete[k][i]);
@@ -124,14 +132,15 @@ void ReplayedWounds::superpose(const Blade& now, const Level& level, std::span<V
   cutting.positions(std::min(now.s, (*this)[now.cut].reached()), out);
   if (now.cut == 0) return;
   const Relief::At relief = relief_at(now);
+  auto at = level.beside[now.cut].begin();
   for (const ActiveVertex& a : cutting.active()) {
     const std::size_t v = a.vertex;
-    out[v] = rest()[v] + relief.amplitude(now.cut, a.s) * (out[v] - rest()[v]);
+    out[v] = rest()[v] + relief.relieved(now.cut, *at++, out[v] - rest()[v]);
   }
   for (std::size_t k = 0; k < now.cut; ++k)
     for (std::size_t i = 0; i < level.complete[k].size(); ++i) {
       const ActiveVertex& a = level.replays[k].active()[i];
-      out[a.vertex] += relief.amplitude(k, a.s) * level.complete[k][i];
+      out[a.vertex] += relief.relieved(k, level.beside[k][i], level.complete[k][i]);
     }
 }
 

@@ -21,9 +21,10 @@ class ReplayedWounds : public Wounds {
     std::vector<Replay> replays;
     /// For every cut but the last: displacements of its active vertices when it is complete.
     std::vector<std::vector<Vec3>> complete;
-    double error = 0;              ///< bound of the error of vertices left out, mm
-    std::size_t active() const;    ///< vertices that a field moves, counted for every cut
-    std::size_t left_out() const;  ///< those that move too little, likewise
+    std::vector<std::vector<BesideCut>> beside;  ///< active vertices, of every cut
+    double error = 0;                            ///< bound of the error of vertices left out, mm
+    std::size_t active() const;                  ///< vertices that a field moves, counted for every cut
+    std::size_t left_out() const;                ///< those that move too little, likewise
   };
   /// Without the vertices that all cuts together never move by more than `detail`, mm, which stay at rest.
   /// All others move as before, bit for bit.

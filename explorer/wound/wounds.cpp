@@ -32,6 +32,10 @@ double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
   return relief_at(blade).amplitude(cut, s);
 }
 
+Vec3 Wounds::relieved(std::size_t cut, const ActiveVertex& at, const Vec3& alone, const Blade& blade) const {
+  return relief_at(blade).relieved(cut, BesideCut(at, wounds_[cut]), alone);
+}
+
 Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, std::span<const Side> sides,
                                 const Blade& blade) const {
   // What the guard changes of the skin falls to nothing down to the bottom of the cut.
@@ -45,8 +49,8 @@ Vec3 Wounds::displacement_below(const Vec3& place, double depth, int nearest, st
     if (at && at->s >= s) at = wound.volume.locate_below(place, depth, nearest, Side::both);
     if (!at) continue;
     const double own_time = at->time_at(s, wound.field.shape().cut().length);
-    sum += amplitude(k, at->s, blade) / wound.scale() *
-           at->in_mesh(wound.field.displacement(at->uvw, at->side, own_time, at->s));
+    sum += 1 / wound.scale() *
+           relieved(k, *at, at->in_mesh(wound.field.displacement(at->uvw, at->side, own_time, at->s)), blade);
   }
   return sum;
 }
@@ -61,8 +65,9 @@ Vec3 Wounds::changed_by_guard(int vertex, const Blade& blade) const {
       if (!at) continue;
       const double s = k == blade.cut ? blade.s : wound.complete(),
                    t = at->time_at(s, wound.field.shape().cut().length);
-      sum += amplitude(k, at->s, blade) / wound.scale() *
-             at->in_mesh(wound.field.displacement(at->uvw, at->side_at(s), t, at->s));
+      sum +=
+          1 / wound.scale() *
+          relieved(k, *at, at->in_mesh(wound.field.displacement(at->uvw, at->side_at(s), t, at->s)), blade);
     }
     return sum;
   };

@@ -61,10 +61,10 @@ class Wounds {
   /// The amplitudes at a position of the blade; valid until a wound is added or a relief is set.
   Relief::At relief_at(const Blade& blade) const;
 
-  /// A vertex that a cut moves, s of its place in mm of the path, and its displacement, mesh units.
+  /// A vertex that a cut moves, and its displacement by this cut alone, mesh units.
   struct Moved {
     int vertex;
-    double s;
+    BesideCut at;
     Vec3 displacement;
   };
   /// The vertices that a cut moves alone, each once, with the blade at the given place of it; and the
@@ -84,6 +84,8 @@ class Wounds {
   /// mm: neighbours that move apart by no more are never torn.
   static constexpr double least_jump = 0.05;
   Vec3 changed_by_guard(int vertex, const Blade& blade) const;
+  /// A displacement by one cut alone, mm, as the others leave it.
+  Vec3 relieved(std::size_t cut, const ActiveVertex& at, const Vec3& alone, const Blade& blade) const;
   Relief relief_while_cut(std::size_t newest, double length) const;
   bool turned_by_field(int triangle, const Blade& blade) const;
   bool turned_between_corners(int triangle, const Blade& blade) const;

@@ -62,7 +62,9 @@ bool Wounds::turned_between_corners(int triangle, const Blade& blade) const {
     const double t = at->time_at(blade.s, wound.field.shape().cut().length);
     space[i] = wound.scale() * mesh.position(corners[i]);
     rest[i] = {at->s, at->uvw.y, 0};
-    moved[i] = amplitude(blade.cut, at->s, blade) * wound.field.displacement(at->uvw, side, t, at->s);
+    ActiveVertex flat = *at;
+    flat.along = {1, 0, 0}, flat.across = {0, 1, 0}, flat.outward = {0, 0, 1};
+    moved[i] = relieved(blade.cut, flat, wound.field.displacement(at->uvw, side, t, at->s), blade);
     part = std::min(part, at->weight);
   }
   std::array<Vec3, 3> now = rest;

@@ -66,7 +66,7 @@ class Wounds::GuardLooks {
       std::vector<std::pair<int, double>> vertices;
       for (const Moved& one : complete_[k]) {
         number_[k][one.vertex] = static_cast<int>(vertices.size());
-        vertices.emplace_back(one.vertex, one.s);
+        vertices.emplace_back(one.vertex, one.at.s);
       }
       touched_.emplace_back();
       passages_.emplace_back(wound, vertices, wound.reached() / looks);
@@ -148,8 +148,8 @@ class Wounds::GuardLooks {
   }
 
   void add(const std::vector<Moved>& some, const Relief::At& now, std::size_t cut) {
-    for (const auto& [v, s, d] : some) {
-      const Vec3 scaled = now.amplitude(cut, s) * d;
+    for (const auto& [v, at, d] : some) {
+      const Vec3 scaled = now.relieved(cut, at, d);
       if (place_[v] < 0)
         place_[v] = static_cast<int>(sum_.size()), sum_.emplace_back(v, scaled);
       else
@@ -277,7 +277,7 @@ class Wounds::GuardLooks {
       const int i = number_[k][v];
       if (i < 0) continue;
       const Moved& moved = complete_[k][i];
-      sum += now.amplitude(k, moved.s) * (k == blade.cut ? alone_(v, blade) : moved.displacement);
+      sum += now.relieved(k, moved.at, k == blade.cut ? alone_(v, blade) : moved.displacement);
     }
     return sum;
   }

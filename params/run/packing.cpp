@@ -25,12 +25,13 @@ constexpr double share = 0.05;               // of the time, at most
 constexpr const char* pack_lock = "/.pack";  // locked while one packs; holds the seconds that it took
 
 /// Called by the holder of the lock. The messages of cleft pack are in `log` at its end.
-bool pack(const std::string& study, const std::string& log, const StopCount* stop) {
+bool pack(const std::string& study, const std::string& log, const StopCount* stop, double error = 0) {
   const Stopwatch watch;
   sweep_leftovers(study);
   sweep_pack_logs(study, log);
-  const bool done =
-      run_process({executable_folder() + "/cleft-pack", study}, log, {}, stop, "/dev/null").success();
+  std::vector<std::string> command = {executable_folder() + "/cleft-pack", study};
+  if (error > 0) command.insert(command.end(), {"--modes", shortest(error)});
+  const bool done = run_process(command, log, {}, stop, "/dev/null").success();
   if (done) std::ofstream(study + pack_lock) << watch.seconds() << "\n";
   return done;
 }
@@ -39,15 +40,15 @@ std::string log_of(const std::string& study) { return study + "/.pack." + std::t
 
 }  // namespace
 
-void pack_study(const std::string& study) {
+void pack_study(const std::string& study, double error) {
   const Moment moment(study, pack_lock);
   const std::string log = log_of(study);
-  if (!pack(study, log, nullptr)) {
+  if (!pack(study, log, nullptr, error)) {
     // A log that another user has left may be replaced, though not written.
     std::string kept = study + "/pack.log";
-    std::error_code error;
-    fs::rename(log, kept, error);
-    if (error) kept = log;
+    std::error_code immovable;
+    fs::rename(log, kept, immovable);
+    if (immovable) kept = log;
     throw std::runtime_error("the study's fields could not be packed into " + study + "/study.dffd; " + kept +
                              " says why");
   }

@@ -12,9 +12,9 @@
 namespace cleft {
 
 /// Packs the published fields of a study into its study.dffd (cleft pack), after any other run of the study
-/// that is packing. Messages go to stderr. Throws std::runtime_error if it fails; the earlier file is then
-/// unchanged, also if a signal ends this process.
-void pack_study(const std::string& study);
+/// that is packing; with --modes `error`, if that is not 0. Messages go to stderr. Throws std::runtime_error
+/// if it fails; the earlier file is then unchanged, also if a signal ends this process.
+void pack_study(const std::string& study, double error = 0);
 
 /// Keeps study.dffd up to date during a run: rewrites the file if the time since the last packing, by any run
 /// of the study, is twenty times what that took. Packing thus takes at most a twentieth of a core, and the

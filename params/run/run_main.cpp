@@ -89,9 +89,9 @@ void tell(const Decision& decision, const Study& study, int cases) {
 }
 
 /// Packs what is published, if anything is, and tells how many cases another run has not published yet.
-void pack_published(const StudyFolder& folder, const std::vector<Case>& cases) {
+void pack_published(const StudyFolder& folder, const std::vector<Case>& cases, double pack_error) {
   const auto index = folder.index();
-  if (!index.empty()) pack_study(folder.path());
+  if (!index.empty()) pack_study(folder.path(), pack_error);
   const std::vector<CaseStatus> states = folder.status(cases, index);
   const auto others = std::count_if(states.begin(), states.end(), [](const CaseStatus& status) {
     return status.state == CaseState::running;
@@ -189,7 +189,7 @@ int main(int argc, char** argv) {
       const std::vector<Case> cases = cases_of(study, folder);
       const RunReport last = run(cases);
       report = report.cases == 0 ? last : with_batch(report, last);
-      if (task.empty() && report.interrupted == 0) pack_published(folder, cases);
+      if (task.empty() && report.interrupted == 0) pack_published(folder, cases, study.pack_error);
       if (!adapts || report.interrupted > 0) break;
       decision = choose_more(folder, study);
       tell(decision, study, report.cases);

@@ -108,6 +108,18 @@ TEST(Study, EncodeTakesAToleranceBetweenItsBounds) {
   EXPECT_NE(message_of("[encode]\ntolerance = 'fine'\n").find("must be a number"), std::string::npos);
 }
 
+TEST(Study, SaysHowItsFileIsPacked) {
+  TemporaryFolder folder;
+  const std::string vary = "[vary]\n'skin.thickness' = [1, 2]\n";
+  EXPECT_EQ(read_study(folder.write("s.toml", vary)).pack_error, 0);
+  EXPECT_EQ(read_study(folder.write("s.toml", "pack_error = 0.015\n" + vary)).pack_error, 0.015);
+  for (const char* value : {"0", "0.00009", "0.11", "-1", "nan", "inf"})
+    EXPECT_NE(message_of(std::string("pack_error = ") + value + "\n" + vary).find("line 1: pack_error = "),
+              std::string::npos)
+        << value;
+  EXPECT_NE(message_of("pack_error = 'low'\n" + vary).find("must be a number"), std::string::npos);
+}
+
 TEST(Study, EncodeTakesEitherAToleranceOrControlPoints) {
   const std::string text = message_of("[encode]\ntolerance = 0.01\ncontrol_points = [20, 12, 8, 10]\n");
   EXPECT_NE(text.find("line 3: encode.control_points and encode.tolerance: give one of them"),

@@ -276,6 +276,23 @@ TEST(StudyRun, WithoutItsSnapshotsIsSound) {
   EXPECT_NE(exported.output.find("keep_snapshots"), std::string::npos) << exported.output;
 }
 
+TEST(StudyRun, ItsFileHasFewerBytesWhereItSaysSo) {
+  const TemporaryFolder place;
+  const std::string file = place.write("study.toml", std::string("pack_error = 0.02\n") + study),
+                    packed = place / "out/study.dffd";
+  expect_success(run_cleft("run", {file, "--out", place / "out"}));
+  const auto bytes = fs::file_size(packed);
+  const auto info = nlohmann::json::parse(expect_success(run_cleft("info", {packed, "--json"})).output);
+  ASSERT_EQ(info["list"].size(), 4u);
+  for (const auto& one : info["list"]) {
+    EXPECT_GT(one["modes_error"], 0) << one;
+    EXPECT_LE(one["modes_error"], 0.02) << one;
+  }
+  expect_success(run_cleft("check", {place / "out"}));
+  expect_success(run_cleft("pack", {place / "out"}));
+  EXPECT_LT(bytes, fs::file_size(packed));
+}
+
 TEST(StudyRun, AFailedCaseKeepsItsLogAndStopsNoOther) {
   const TemporaryFolder place;
   // Without springs the patch floats: K is singular, and the factorisation is set.

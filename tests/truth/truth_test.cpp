@@ -164,12 +164,11 @@ TEST(TruthOfTwoCuts, RelieveEachOther) {
       "mesh.grading = 1.2\ncut.length = 20");
   const Field field = cases.canonical();
   for (const char* spacing : {"10", "12", "16"}) {
-    const bool near = std::string(spacing) == "10";  // half of the cut: a little beyond what is promised
     const SnapshotReader truth = cases.truth("cut.count = 2\ncut.spacing = " + std::string(spacing));
     const ReplayError e = parallel_error(truth, field);
     EXPECT_GT(e.gape, 1);
-    EXPECT_LT(e.gape_error, (near ? 1.5 : 1) * promised * e.gape)
-        << spacing << " mm apart: 0.18 to 0.29 where they do not";
+    EXPECT_LT(e.gape_error, promised * e.gape)
+        << spacing << " mm apart: 0.18 to 0.29 where they do not, 0.1 to 0.15 where lips do not lean";
   }
 }
 

@@ -87,6 +87,20 @@ Influence influence_of(const Field& field, double u, double v) {
           canonical.depth * layer * layer / 24 * bend / (thickness * prestress)};
 }
 
+/// The mean of values that are linear between stations, over twice the depth to each side within the path,
+/// with weights that fall to 0 there.
+double mean(const std::vector<double>& stations, const std::vector<double>& values, double s) {
+  const Amplitude linear{stations, values};
+  constexpr int parts = 2000;
+  double sum = 0, weights = 0;
+  for (int k = 0; k < parts; ++k) {
+    const double part = (2. * k + 1) / parts - 1, there = s + part * 2 * canonical.depth;
+    if (there < stations.front() || there > stations.back()) continue;
+    sum += (1 - std::abs(part)) * linear.at(there), weights += 1 - std::abs(part);
+  }
+  return sum / weights;
+}
+
 /// By Gaussian elimination with pivots; each row ends with its right-hand side.
 std::vector<double> solved(std::vector<std::vector<double>> rows) {
   const std::size_t n = rows.size();
@@ -120,6 +134,7 @@ class TwoCuts {
         wounds_{Wound(*cuts_[0], first, 1), Wound(*cuts_[1], second, 1)} {}
 
   std::vector<Amplitude> amplitudes() const { return mutual_relief({&wounds_[0], &wounds_[1]}, 30); }
+  const Wound& wound(int i) const { return wounds_[i]; }
 
   Influence influence(std::size_t cut, double s) const {
     return influence_of(*fields_[1 - cut], canonical.start + s, y_[cut] - y_[1 - cut]);
@@ -185,12 +200,15 @@ TEST_P(MutualRelief, OfTwoEqualParallelCutsIsOneOverOneMinusTheInfluence) {
   ASSERT_GT(found[0].stations.size(), 10u);
   const double tolerance = two.tolerance(found);
   double most = 0;
-  for (const std::size_t i : {0u, 1u})
+  for (const std::size_t i : {0u, 1u}) {
+    std::vector<double> local;
+    for (const double s : found[i].stations) local.push_back(1 / (1 - two.influence(i, s).ratio));
     for (std::size_t k = 0; k < found[i].stations.size(); ++k) {
-      const double s = found[i].stations[k], expected = 1 / (1 - two.influence(i, s).ratio);
+      const double s = found[i].stations[k], expected = mean(found[i].stations, local, s);
       EXPECT_NEAR(found[i].values[k], expected, tolerance) << "cut " << i << " at " << s;
       most = std::max(most, std::abs(expected - 1));
     }
+  }
   EXPECT_GT(most, 20 * tolerance) << "cuts that hardly feel each other would show nothing";
 }
 
@@ -198,13 +216,59 @@ TEST_P(MutualRelief, OfTwoCutsOfDifferentFieldsSolvesTheirLinearSystem) {
   const Field strong = parabolic_field(GetParam()), weak = parabolic_field(0.4 * GetParam());
   const TwoCuts two(strong, -3.7, weak, 3.1);
   const std::vector<Amplitude> found = two.amplitudes();
-  const std::vector<double> expected = two.eliminated(found);
+  const std::vector<double> local = two.eliminated(found);
   const double tolerance = two.tolerance(found);
-  for (std::size_t k = 0; k < expected.size(); ++k) {
-    const bool first = k < found[0].values.size();
-    const double value = first ? found[0].values[k] : found[1].values[k - found[0].values.size()];
-    EXPECT_NEAR(value, expected[k], tolerance) << k;
+  const auto second = local.begin() + static_cast<std::ptrdiff_t>(found[0].values.size());
+  const std::vector<double> of[] = {{local.begin(), second}, {second, local.end()}};
+  for (const std::size_t i : {0u, 1u})
+    for (std::size_t k = 0; k < of[i].size(); ++k)
+      EXPECT_NEAR(found[i].values[k], mean(found[i].stations, of[i], found[i].stations[k]), tolerance)
+          << "cut " << i << " at " << found[i].stations[k];
+}
+
+TEST(Leaning, IsAwayFromTheCutThatRelievesAndNoneBesideOneThatAdds) {
+  const Field relieves = parabolic_field(3), adds = parabolic_field(-2);
+  for (const Field* field : {&relieves, &adds}) {
+    const TwoCuts two(*field, -4, *field, 4);
+    const std::vector<Amplitude> found = two.amplitudes();
+    const double tolerance = two.tolerance(found);
+    for (std::size_t k = 0; k < found[0].stations.size(); ++k) {
+      const double s = found[0].stations[k];
+      // The second cut is at v > 0 of the first: there lips sink by a quarter of what it takes of the
+      // tension.
+      const double expected = 0.25 * std::min(0., two.influence(0, s).ratio * found[1].at(s));
+      EXPECT_NEAR(found[0].leans[k], expected, tolerance) << s;
+      EXPECT_NEAR(found[1].leans[k], -found[0].leans[k], 1e-6) << s;
+    }
+    if (field == &relieves) EXPECT_LT(found[0].lean(15), -20 * tolerance);
+    if (field == &adds) EXPECT_EQ(found[0].lean(15), 0);
   }
+}
+
+TEST(Leaning, MovesLipsUprightAndAlongTheCutInProportionToTheirDisplacementAcross) {
+  const Field field = parabolic_field(3);
+  const TwoCuts two(field, -4, field, 4);
+  const Relief relief({two.amplitudes()});
+  const Relief::At now = relief.at(1);
+  const auto relieved = [&](double u, double v, const Vec3& alone) {
+    ActiveVertex at;
+    at.s = u - canonical.start, at.uvw = {u, v, 0};
+    at.along = {1, 0, 0}, at.across = {0, 1, 0}, at.outward = {0, 0, 1};
+    return now.relieved(0, BesideCut(at, two.wound(0)), alone);
+  };
+  const double a = now.amplitude(0, 15), lean = relief.amplitude(0, 0).lean(15);
+  ASSERT_LT(lean, 0);
+  const auto expect = [](const Vec3& found, const Vec3& expected) {
+    EXPECT_NEAR(norm(found - expected), 0, 1e-12) << found.x << ", " << found.y << ", " << found.z;
+  };
+  expect(relieved(0, 0, {0, 2, 0}), {0, 2 * a, 2 * lean});     // at v > 0, next to the other cut, it sinks
+  expect(relieved(0, 0, {0, -2, 0}), {0, -2 * a, -2 * lean});  // beyond it rises
+  expect(relieved(0, 0, {1, 0, 3}), {a, 0, 3 * a});
+  expect(relieved(0, -2, {0, -2, 0}),
+         {0, -2 * a, -2 * lean * std::exp(-1.)});  // two thirds of the depth away
+  const double end = relief.amplitude(0, 0).lean(22.5), of_end = now.amplitude(0, 22.5);
+  expect(relieved(7.5, 0, {0, 2, 0}), {-0.5 * 2 * end, 2 * of_end, 2 * end});
+  expect(now.relieved(5, {}, {1, 2, 3}), {1, 2, 3});  // a cut that is not known
 }
 
 INSTANTIATE_TEST_SUITE_P(RelievingAndAdding, MutualRelief, ::testing::Values(3., -2.));
