@@ -16,7 +16,7 @@ namespace cleft {
 namespace {
 
 constexpr double next_to_nothing = 1e-9;  // over the body's extent: displacements that are rounding
-constexpr double bent = 0.3;  // radians from which the middle of a cut needs knots of its own
+constexpr double bent = 0.3;              // radians from which the middle of a cut needs knots of its own
 
 using Pairs = std::vector<std::array<std::int32_t, 2>>;
 
@@ -92,7 +92,8 @@ FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
 double extent_of(const std::vector<Vec3>& points) {
   Vec3 least = points.front(), greatest = least;
   for (const Vec3& p : points)
-    for (int k = 0; k < 3; ++k) least[k] = std::min(least[k], p[k]), greatest[k] = std::max(greatest[k], p[k]);
+    for (int k = 0; k < 3; ++k)
+      least[k] = std::min(least[k], p[k]), greatest[k] = std::max(greatest[k], p[k]);
   return std::max({greatest.x - least.x, greatest.y - least.y, greatest.z - least.z});
 }
 

@@ -36,7 +36,7 @@ template <class T>
 void File::create_dataset(const std::string& name, const Shape& shape, hsize_t chunk_rows, Packing packing) {
   const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, false);  // the same content gives the same bytes
+  H5Pset_obj_track_times(creation, false);    // the same content gives the same bytes
   H5Pset_dset_no_attrs_hint(creation, true);  // no room is kept for attributes
   if (product(shape) > 0) {
     Shape chunk = shape;

@@ -210,8 +210,8 @@ StudyRecord in_coarser_steps(const StudyRecord& own, double error) {
   StudyRecord record = own;
   record.record = record_of(coarser), record.modes_error = farthest / largest;
   // Ties can move what they tie by more.
-  const bool good = farthest <= (1 + 1e-9) * bound &&
-                    record.record.coefficients.size() < own.record.coefficients.size();
+  const bool good =
+      farthest <= (1 + 1e-9) * bound && record.record.coefficients.size() < own.record.coefficients.size();
   return good ? record : own;
 }
 
