@@ -15,8 +15,7 @@ namespace cleft {
 
 namespace {
 
-constexpr double next_to_nothing = 1e-9;  // over the body's extent: displacements that are rounding
-constexpr double bent = 0.3;              // radians from which the middle of a cut needs knots of its own
+constexpr double bent = 0.3;  // radians from which the middle of a cut needs knots of its own
 
 using Pairs = std::vector<std::array<std::int32_t, 2>>;
 
@@ -86,15 +85,6 @@ FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
   }
   g.tip = few;
   return g;
-}
-
-/// The longest side of the box around the nodes.
-double extent_of(const std::vector<Vec3>& points) {
-  Vec3 least = points.front(), greatest = least;
-  for (const Vec3& p : points)
-    for (int k = 0; k < 3; ++k)
-      least[k] = std::min(least[k], p[k]), greatest[k] = std::max(greatest[k], p[k]);
-  return std::max({greatest.x - least.x, greatest.y - least.y, greatest.z - least.z});
 }
 
 void check_cut(const Snapshot& s) {
@@ -297,10 +287,6 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     frames.push_back(frame);
   }
   largest_displacement = *std::max_element(largest.begin(), largest.end());
-  if (largest_displacement <= next_to_nothing * extent_of(s.points)) {
-    largest_displacement = 0, largest.assign(times.size(), 0);
-    frames.assign(times.size(), Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(taken.size()), 3));
-  }
   pairs = taken.pairs_of(s.pairs);
   const std::vector<SnapshotArray> arrays = quantity_arrays(reader);
   if (taken.in_part()) {

@@ -221,6 +221,7 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
     const Snapshot& s = readers[p].snapshot();
     field.parameters = s.parameters, field.case_hash = s.case_hash, field.source = source_of(s);
     field.tissue = tissue_below(readers[p]);
+    field.report = rounded_report(field.report);
     if (const std::string warning = warning_of(field, series[p], task.options); !warning.empty())
       warnings.push_back(of + warning);
   }

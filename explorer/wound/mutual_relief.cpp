@@ -49,11 +49,6 @@ struct Influence {
   double toward;  // 1: the other is at v > 0, -1: at v < 0; in between where they cross
 };
 
-double linear(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto [before, after, part] = between(x, at);
-  return before == after ? y[before] : (1 - part) * y[before] + part * y[after];
-}
-
 /// Skin and tissue as a field's case has them.
 struct Stiffness {
   double thickness;     // of the skin
@@ -123,8 +118,12 @@ std::vector<double> means_of(const Amplitude& amplitude, double width) {
 
 }  // namespace
 
-double Amplitude::at(double s) const { return linear(stations, values, s); }
-double Amplitude::lean(double s) const { return leans.empty() ? 0 : linear(stations, leans, s); }
+Amplitude::Both Amplitude::both(double s) const {
+  const auto [before, after, part] = between(stations, s);
+  if (before == after) return {values[before], leans.empty() ? 0 : leans[before]};
+  const auto linear = [&](const std::vector<double>& y) { return (1 - part) * y[before] + part * y[after]; };
+  return {linear(values), leans.empty() ? 0 : linear(leans)};
+}
 
 BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound) : s(vertex.s) {
   const CanonicalCut& cut = wound.field.shape().cut();

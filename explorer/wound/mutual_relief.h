@@ -23,8 +23,12 @@ namespace cleft {
 struct Amplitude {
   std::vector<double> stations, values;
   std::vector<double> leans = {};  ///< none: 0
-  double at(double s) const;
-  double lean(double s) const;
+  double at(double s) const { return both(s).value; }
+  double lean(double s) const { return both(s).lean; }
+  struct Both {
+    double value, lean;
+  };
+  Both both(double s) const;
 };
 
 /// A vertex beside a cut, as its relief needs it.
@@ -70,10 +74,12 @@ class Relief {
     /// A displacement by one cut alone, as the others leave it.
     Vec3 relieved(std::size_t cut, const BesideCut& at, const Vec3& alone) const {
       if (cut >= cuts_) return alone;
-      const double lean = before_ == after_
-                              ? before_[cut].lean(at.s)
-                              : (1 - beyond_) * before_[cut].lean(at.s) + beyond_ * after_[cut].lean(at.s);
-      return amplitude(cut, at.s) * alone + lean * dot(alone, at.across) * at.leaning;
+      auto [value, lean] = before_[cut].both(at.s);
+      if (before_ != after_) {
+        const Amplitude::Both after = after_[cut].both(at.s);
+        value += beyond_ * (after.value - value), lean += beyond_ * (after.lean - lean);
+      }
+      return value * alone + lean * dot(alone, at.across) * at.leaning;
     }
 
    private:

@@ -66,16 +66,21 @@ void ReplayedWounds::bound_vertices() {
     for (std::size_t later = std::max<std::size_t>(k, 1); later < size(); ++later)
       for (std::size_t step = 0; step < relief(later).steps(); ++step) {
         const Amplitude& one = relief(later).amplitude(step, k);
+        const std::size_t stations = one.stations.size();
         if (largest.values.empty())
-          largest = {one.stations, std::vector(one.values.size(), k == 0 ? 1. : 0.)};
-        for (std::size_t i = 0; i < one.values.size(); ++i)
-          largest.values[i] =
-              std::max(largest.values[i], one.values[i] + std::abs(one.lean(one.stations[i])));
+          largest = {one.stations, std::vector(stations, k == 0 ? 1. : 0.), std::vector(stations, 0.)};
+        for (std::size_t i = 0; i < stations; ++i) {
+          largest.values[i] = std::max(largest.values[i], one.values[i]);
+          largest.leans[i] = std::max(largest.leans[i], std::abs(one.lean(one.stations[i])));
+        }
       }
     const Replay& replay = whole_.replays[k];
     for (std::size_t i = 0; i < replay.active().size(); ++i) {
-      const ActiveVertex& a = replay.active()[i];
-      bounds_[a.vertex] += replay.bound(i) * (largest.values.empty() ? 1 : largest.at(a.s));
+      const BesideCut& at = whole_.beside[k][i];
+      const auto [value, lean] = largest.values.empty() ? Amplitude::Both{1, 0} : largest.both(at.s);
+      // The norm of A I + l a^T, of perpendicular vectors whose lengths have the product 2 half.
+      const double half = lean * norm(at.across) * norm(at.leaning) / 2;
+      bounds_[replay.active()[i].vertex] += replay.bound(i) * (half + std::hypot(half, value));
     }
   }
   for (const int v : guard().vertices()) bounds_[v] = never_left_out;

@@ -154,17 +154,5 @@ TEST(Bends, SpendNoKnotsWhereTheCoordinatesJump) {
   EXPECT_LE(few.field.report.node_error, 0.03);  // by the residual
 }
 
-TEST(Series, DisplacementsThatAreRoundingAreNone) {
-  const auto of_size = [](double size) {
-    return SyntheticSnapshot(
-        [size](const Vec3& p, Side side, double t) { return size * opening(p, side, t); });
-  };
-  EXPECT_EQ(of_size(1e-9).series().largest_displacement, 0);
-  EXPECT_EQ(encoded_within(of_size(1e-9).series(), 0.01).field.displacement({0, 0, 0}, Side::left, 8),
-            Vec3{});
-  EXPECT_NEAR(of_size(1e-6).series().largest_displacement, 1e-6 * of_size(1).series().largest_displacement,
-              1e-12);
-}
-
 }  // namespace
 }  // namespace cleft

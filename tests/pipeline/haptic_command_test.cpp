@@ -169,7 +169,7 @@ TEST_F(HapticCommand, WithoutAPathItCutsWhereTheBladeGoes) {
 
 TEST_F(HapticCommand, CutsWithoutAPathAreWarnedOfWhereTheyLieTooNear) {
   const auto cut = figures(
-      {"--clock", "virtual", "--device", "recorded", "--trajectory", two_cuts(5), "--field", field()});
+      {"--clock", "virtual", "--device", "recorded", "--trajectory", two_cuts(3), "--field", field()});
   ASSERT_TRUE(cut.is_object());
   EXPECT_EQ(told(cut, "another cut is"), 2) << cut["warnings"];
 }

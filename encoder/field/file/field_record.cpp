@@ -146,8 +146,7 @@ Json header_of(const Field& field, int slices) {
   header["parameters"] = Json::object();
   for (const auto& [name, value] : field.parameters.numbers()) header["parameters"][name] = value;
   for (const auto& [name, value] : field.parameters.texts()) header["choices"][name] = value;
-  for (const Figure& figure : figures)
-    header["report"][figure.name] = rounded_to_digits(field.report.*figure.value, digits);
+  for (const Figure& figure : figures) header["report"][figure.name] = field.report.*figure.value;
   if (field.source) put_source(header, *field.source);
   if (field.tissue) {
     header["tissue"]["foundation"] = field.tissue->foundation;
@@ -362,6 +361,11 @@ FitReport report_of(const Json& header) {
         report.*figure.value = number(header.at("report").at(figure.name));
     return report;
   });
+}
+
+FitReport rounded_report(FitReport report) {
+  for (const Figure& figure : figures) report.*figure.value = rounded_to_digits(report.*figure.value, digits);
+  return report;
 }
 
 Json shown(const FitReport& report) {

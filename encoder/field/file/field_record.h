@@ -43,6 +43,9 @@ RecordedParameters parameters_of(const Json& header);
 void record_texts(const Json& object, RecordedParameters& parameters);
 FitReport report_of(const Json& header);
 
+/// With figures of as many digits as they mean, which take fewer bytes.
+FitReport rounded_report(FitReport report);
+
 /// All figures of a report for commands, with units in their names.
 Json shown(const FitReport& report);
 
