@@ -121,8 +121,8 @@ std::vector<double> means_of(const Amplitude& amplitude, double width) {
 Amplitude::Both Amplitude::both(double s) const {
   const auto [before, after, part] = between(stations, s);
   if (before == after) return {values[before], leans.empty() ? 0 : leans[before]};
-  const auto linear = [&](const std::vector<double>& y) { return (1 - part) * y[before] + part * y[after]; };
-  return {linear(values), leans.empty() ? 0 : linear(leans)};
+  return {(1 - part) * values[before] + part * values[after],
+          leans.empty() ? 0 : (1 - part) * leans[before] + part * leans[after]};
 }
 
 BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound) : s(vertex.s) {

@@ -56,7 +56,8 @@ TEST_F(DetailTest, WhatStaysAtRestMovesLessAndAllElseIsBitForBitAsItWas) {
       }
       EXPECT_GT(left, before) << mm;
       before = left;
-      EXPECT_GT(static_cast<double>(left), 0.85 * static_cast<double>(less)) << mm << ": few are kept in vain";
+      EXPECT_GT(static_cast<double>(left), 0.85 * static_cast<double>(less))
+          << mm << ": few are kept in vain";
       EXPECT_GE(out.vertices, left) << "counted for every cut";
       EXPECT_LE(error, out.error + 1e-13) << "rounding of places of some 10 mm";
       EXPECT_LE(out.error, mm);
