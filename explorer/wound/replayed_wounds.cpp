@@ -45,8 +45,10 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
         whole_.replays[blade.cut].active_positions(blade.s, now);
         std::vector<Moved> found;
         found.reserve(active(blade.cut).size());
-        for (const ActiveVertex& a : active(blade.cut))
-          found.push_back({a.vertex, {a, (*this)[blade.cut]}, now[a.vertex] - rest()[a.vertex]});
+        for (std::size_t i = 0; i < active(blade.cut).size(); ++i) {
+          const int v = active(blade.cut)[i].vertex;
+          found.push_back({v, whole_.beside[blade.cut][i], now[v] - rest()[v]});
+        }
         return found;
       },
       [&](int vertex, const Blade& blade) {
