@@ -1,5 +1,7 @@
 #include "solver/elimination_order.h"
 
+#include <metis.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -55,87 +57,50 @@ class Dissection {
   std::vector<int> order_;
 };
 
-/// Nested dissection of a body by the columns of nodes below its skin: a part is halved across its longest
-/// side; the columns of the first half that have neighbours in the second come after both.
-class ColumnDissection {
- public:
-  explicit ColumnDissection(const PatchMesh& mesh) : mesh_(mesh) {
-    std::vector<bool> doubled(mesh.points.size(), false);
-    for (const NodePair& pair : mesh.pairs) doubled[pair.right] = true;
-    root_.resize(mesh.points.size());
-    std::iota(root_.begin(), root_.end(), 0);
-    for (const NodePair& pair : mesh.pairs) root_[pair.right] = pair.left;
-    columns_.resize(mesh.points.size()), neighbors_.resize(mesh.points.size());
-    std::vector<int> all;
-    for (int n = 0; n < static_cast<int>(mesh.points.size()); ++n) {
-      if (doubled[n]) continue;
-      const int column = root_of(mesh.skin_above[n]);
-      if (columns_[column].empty()) all.push_back(column);
-      columns_[column].push_back(n);
-    }
-    for (const auto& triangle : mesh.skin)
-      for (int c = 0; c < 3; ++c)
-        for (const int next : {1, 2})
-          neighbors_[root_of(triangle[c])].push_back(root_of(triangle[(c + next) % 3]));
-    part_.assign(mesh.points.size(), 0);
-    dissect(std::move(all));
-  }
-
-  const std::vector<int>& order() const { return order_; }  ///< node after node, without the duplicates
-
- private:
-  int root_of(int node) const {
-    while (root_[node] != node) node = root_[node];
+/// A body has no grid: METIS divides the graph of its closed mesh, whose nodes are neighbours within a wedge.
+/// (Halves of equal numbers of columns, across the longest side, took 2.5 times the operations.)
+std::vector<int> dissected_body(const PatchMesh& mesh) {
+  const std::size_t nodes = mesh.points.size();
+  std::vector<int> root(nodes);
+  std::iota(root.begin(), root.end(), 0);
+  for (const NodePair& pair : mesh.pairs) root[pair.right] = pair.left;
+  const auto root_of = [&](int node) {
+    while (root[node] != node) node = root[node];
     return node;
-  }
-
-  void append(const std::vector<int>& columns) {
-    for (const int column : columns)
-      order_.insert(order_.end(), columns_[column].begin(), columns_[column].end());
-  }
-
-  void dissect(std::vector<int> columns) {
-    if (columns.size() <= smallest) return append(columns);
-    Vec3 least = mesh_.points[columns.front()], most = least;
-    for (const int c : columns)
-      for (int axis = 0; axis < 3; ++axis) {
-        least[axis] = std::min(least[axis], mesh_.points[c][axis]);
-        most[axis] = std::max(most[axis], mesh_.points[c][axis]);
-      }
-    int axis = 0;
-    for (const int a : {1, 2})
-      if (most[a] - least[a] > most[axis] - least[axis]) axis = a;
-    const auto middle = columns.begin() + static_cast<std::ptrdiff_t>(columns.size() / 2);
-    std::nth_element(columns.begin(), middle, columns.end(), [&](int a, int b) {
-      const double x = mesh_.points[a][axis], y = mesh_.points[b][axis];
-      return x != y ? x < y : a < b;
-    });
-    const int first = ++parts_, second = ++parts_;
-    for (auto c = columns.begin(); c != columns.end(); ++c) part_[*c] = c < middle ? first : second;
-    std::vector<int> before, between, after(middle, columns.end());
-    for (auto c = columns.begin(); c != middle; ++c) {
-      const auto& around = neighbors_[*c];
-      const bool touches =
-          std::any_of(around.begin(), around.end(), [&](int n) { return part_[n] == second; });
-      (touches ? between : before).push_back(*c);
+  };
+  std::vector<int> closed;           // the nodes of the closed mesh
+  std::vector<idx_t> number(nodes);  // of a node of the mesh among them
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (root[n] == static_cast<int>(n)) {
+      number[n] = static_cast<idx_t>(closed.size());
+      closed.push_back(static_cast<int>(n));
     }
-    for (auto* list : {&before, &between, &after}) std::sort(list->begin(), list->end());
-    dissect(std::move(before));
-    dissect(std::move(after));
-    append(between);
+  std::vector<std::vector<idx_t>> neighbours(closed.size());
+  for (const auto& wedge : mesh.wedges)
+    for (const int a : wedge)
+      for (const int b : wedge) {
+        const idx_t from = number[root_of(a)], to = number[root_of(b)];
+        if (from != to) neighbours[from].push_back(to);
+      }
+  std::vector<idx_t> starts = {0}, all;
+  for (auto& list : neighbours) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    all.insert(all.end(), list.begin(), list.end());
+    starts.push_back(static_cast<idx_t>(all.size()));
   }
-
-  static constexpr std::size_t smallest = 8;  // columns
-  const PatchMesh& mesh_;
-  std::vector<int> root_;                              // by node
-  std::vector<std::vector<int>> columns_, neighbors_;  // by the skin's node
-  std::vector<int> part_, order_;
-  int parts_ = 0;
-};
+  auto count = static_cast<idx_t>(closed.size());
+  std::vector<idx_t> order(closed.size()), position(closed.size());
+  const int outcome =
+      METIS_NodeND(&count, starts.data(), all.data(), nullptr, nullptr, order.data(), position.data());
+  CLEFT_CHECK(outcome, ==, METIS_OK);
+  std::vector<int> result(closed.size());
+  std::transform(order.begin(), order.end(), result.begin(), [&](idx_t n) { return closed[n]; });
+  return result;
+}
 
 std::vector<int> dissected(const PatchMesh& mesh) {
-  return mesh.is_body() ? ColumnDissection(mesh).order()
-                        : Dissection(mesh.grid, mesh.lines_of_element()).order();
+  return mesh.is_body() ? dissected_body(mesh) : Dissection(mesh.grid, mesh.lines_of_element()).order();
 }
 
 }  // namespace

@@ -9,6 +9,12 @@
 
 namespace cleft {
 
+namespace {
+
+constexpr Eigen::Index columns_together = 64;  // substituted forward
+
+}  // namespace
+
 Opening::Opening(const Eigen::MatrixXd& stiffness, std::vector<int> order, const std::vector<Vec3>& normal)
     : size_(stiffness.rows()), order_(std::move(order)) {
   if (order_.empty()) return;
@@ -25,7 +31,16 @@ Opening::Opening(const Eigen::MatrixXd& stiffness, std::vector<int> order, const
     for (int axis = 0; axis < 3; ++axis)
       normal_forward_(3 * static_cast<Eigen::Index>(p) + axis, static_cast<Eigen::Index>(p)) =
           normal[order_[p]][axis];
-  factor_.matrixL().solveInPlace(normal_forward_);
+  // Above its own rows a column of L^-1 N is 0.
+  const Eigen::Index pairs = normal_forward_.cols();
+  for (Eigen::Index first = 0; first < pairs; first += columns_together) {
+    const Eigen::Index rows_left = 3 * (pairs - first), count = std::min(columns_together, pairs - first);
+    auto columns = normal_forward_.block(3 * first, first, rows_left, count);
+    factor_.matrixLLT()
+        .bottomRightCorner(rows_left, rows_left)
+        .triangularView<Eigen::Lower>()
+        .solveInPlace(columns);
+  }
 }
 
 bool Opening::is_definite(const Eigen::MatrixXd& stiffness, const std::vector<int>& open,
@@ -87,7 +102,6 @@ Eigen::VectorXd Opening::substituted_back(Eigen::VectorXd leading, int open) con
 Eigen::VectorXd Opening::contact_forces(const Load& load, int open) const {
   const auto normals = normal_forward_.topLeftCorner(3 * open, open);
   const Eigen::VectorXd free_gap = normals.transpose() * load.head(3 * open);
-  const Eigen::MatrixXd compliance = normals.transpose() * normals;
   const double tolerance = 1e-13 * std::max(free_gap.cwiseAbs().maxCoeff(), 1e-300);
   std::vector<bool> touching(static_cast<std::size_t>(open), false);
   int fewest_wrong = open + 1, patience = 3;
@@ -95,11 +109,16 @@ Eigen::VectorXd Opening::contact_forces(const Load& load, int open) const {
     std::vector<int> active;
     for (int p = 0; p < open; ++p)
       if (touching[p]) active.push_back(p);
-    Eigen::VectorXd force = Eigen::VectorXd::Zero(open);
-    if (!active.empty())
-      force(active) =
-          -Eigen::MatrixXd(compliance(active, active)).llt().solve(Eigen::VectorXd(free_gap(active)));
-    const Eigen::VectorXd gap = free_gap + compliance * force;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(open), gap = free_gap;
+    if (!active.empty()) {  // G is N^T J^-1 N: few of many pairs touch, so only their part of it is made
+      const Eigen::MatrixXd of_active = normals(Eigen::all, active);
+      Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(of_active.cols(), of_active.cols());
+      compliance.selfadjointView<Eigen::Lower>().rankUpdate(of_active.transpose());
+      const Eigen::VectorXd forces =
+          -compliance.selfadjointView<Eigen::Lower>().llt().solve(Eigen::VectorXd(free_gap(active)));
+      gap += normals.transpose() * (of_active * forces);
+      force(active) = forces;
+    }
     std::vector<int> wrong;
     for (int p = 0; p < open; ++p)
       if (touching[p] ? force(p) < 0 : gap(p) < -tolerance) wrong.push_back(p);
