@@ -42,12 +42,15 @@ Wound CutFields::opened(const Incision& cut, double scale, const std::optional<P
         cut, volume, own ? *own : prestress_along(volume, cut.path().length(), tension), known);
     return {cut, std::move(field), std::move(volume)};
   }
-  if (own) return {cut, three_->along(*own), scale};
-  if (!tension_)
+  if (!own && !tension_)
     throw InputError(
         "the field file holds several cases: give --tension and --prestress, or the path columns "
         "skin.prestress_u, _v, _uv, or one case.dffd");
-  return wound_in_tension(cut, *three_, *tension_, scale);
+  IncisionVolume volume(cut, three_->shape(), scale);
+  const double length = cut.path().length();
+  PathPrestress prestress = own ? *own : prestress_along(volume, length, *tension_);
+  if (length * scale <= known) prestress = three_->as_the_path_opens(prestress, volume, length * scale);
+  return {cut, three_->along(prestress), std::move(volume)};
 }
 
 SkinTension CutFields::tension_of(const Incision& cut, bool grows) const {
@@ -61,13 +64,6 @@ void CutFields::follow_shape(Wound& wound) const {
   const Incision& cut = *wound.incision;
   if (const auto s = family_->next_station(cut, wound.scale(), wound.field))
     family_->extend(wound.field, cut, wound.scale(), *s, tension_of(cut, true));
-}
-
-Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,
-                       double scale) {
-  IncisionVolume volume(cut, fields.shape(), scale);
-  VaryingField field = fields.along(prestress_along(volume, cut.path().length(), tension));
-  return {cut, std::move(field), std::move(volume)};
 }
 
 CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,

@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "explorer/wound/path_opening.h"
+#include "explorer/wound/plane_tensor.h"
 #include "explorer/wound/room.h"
 #include "explorer/wound/stations.h"
 
@@ -27,28 +29,12 @@ constexpr double station_in_smoothing = 0.25, behind_tip_in_smoothing = 0.5;
 constexpr double straight_enough = 0.005, near_enough = 0.1;
 /// Of the path's length: its start and its end are apart by more, or it is a loop.
 constexpr double least_chord = 1e-3;
-/// Of a path's turn from the middle of the canonical cut to a place.
-constexpr double most_turned = std::numbers::pi / 2;
-
-/// A symmetric tensor in the plane, (uu, vv, uv), whose axes are turned back by an angle: a direction at phi
-/// is then at phi + angle.
-std::array<double, 3> turned(const std::array<double, 3>& tensor, double angle) {
-  const double mean = (tensor[0] + tensor[1]) / 2, half = (tensor[0] - tensor[1]) / 2;
-  const double c = std::cos(2 * angle), s = std::sin(2 * angle);
-  return {mean + half * c - tensor[2] * s, mean - half * c + tensor[2] * s, half * s + tensor[2] * c};
-}
 
 /// The shape and the prestress of the case that stands for a place.
 struct CaseShape {
   std::map<std::string, double> shapes;
   Prestress prestress;
 };
-
-Prestress prestress_at(const PathPrestress& along, double s) {
-  const auto [a, b, part] = between(along.stations, s);
-  const Prestress &x = along.values[a], &y = along.values[b];
-  return {std::lerp(x.uu, y.uu, part), std::lerp(x.vv, y.vv, part), std::lerp(x.uv, y.uv, part)};
-}
 
 /// The greatest part of the rate with which the case's curvature and its rate are within the diamond of their
 /// ranges: beyond it there are no cases. `x` is the way from the middle of the cut.
@@ -66,10 +52,11 @@ double part_of_rate(const LocalShape& local, double x, double most_curvature, do
   return least;
 }
 
-CaseShape case_of(const LocalShape& local, const Prestress& prestress, double u_from_middle) {
+/// `own` is what the family opens the place with.
+CaseShape case_of(const LocalShape& local, const OwnCut& own, const Prestress& prestress,
+                  double u_from_middle) {
   const double at_middle = local.curvature - local.curvature_rate * u_from_middle;
-  const double angle =
-      std::clamp((at_middle + local.curvature) / 2 * u_from_middle, -most_turned, most_turned);
+  const double angle = own.turned(u_from_middle);
   const auto skin = turned({local.skin_u, local.skin_v, local.skin_uv}, angle);
   const auto tension = turned({prestress.uu, prestress.vv, prestress.uv}, angle);
   return {{{"cut.curvature", at_middle},
@@ -81,6 +68,13 @@ CaseShape case_of(const LocalShape& local, const Prestress& prestress, double u_
            {"skin.curvature_uv", skin[2]},
            {"patch.height", local.tissue}},
           {tension[0], tension[1], tension[2]}};
+}
+
+OwnCut between_cuts(const std::vector<double>& stations, const std::vector<OwnCut>& cuts, double s) {
+  const auto [a, b, part] = between(stations, s);
+  const OwnCut &x = cuts[a], &y = cuts[b];
+  return {std::lerp(x.curvature, y.curvature, part), std::lerp(x.curvature_rate, y.curvature_rate, part),
+          std::lerp(x.ahead, y.ahead, part)};
 }
 
 /// Of the place on the canonical cut of s mm of a path, mm.
@@ -161,6 +155,15 @@ LocalShape FamilyFields::known_to_family(LocalShape local, const Incision& incis
   return local;
 }
 
+/// The family's cut that stands for a place, as far as it has such.
+OwnCut FamilyFields::own_cut(const LocalShape& local, double u_from_middle) const {
+  const auto range = family_->shapes().find("cut.curvature");
+  if (range == family_->shapes().end()) return {};
+  return {std::clamp(local.curvature - local.curvature_rate * u_from_middle, range->second.least,
+                     range->second.greatest),
+          local.curvature_rate};
+}
+
 VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume& volume,
                                  const PathPrestress& prestress, double known) const {
   const double scale = volume.scale();
@@ -174,18 +177,30 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
   double largest = 0;
   for (const Prestress& one : prestress.values)
     largest = std::max({largest, std::abs(one.uu), std::abs(one.vv), std::abs(one.uv)});
+  std::vector<OwnCut> own;
+  for (std::size_t i = 0; i < shapes.stations.size(); ++i) {
+    const double s = shapes.stations[i];
+    const PathFrame frame = volume.skin_frame(s / scale);
+    const Vec3& along = shapes.values[i].along;
+    own.push_back(own_cut(shapes.values[i], from_middle(s, length, cut)));
+    own.back().ahead = std::atan2(dot(cross(frame.along, along), frame.outward), dot(frame.along, along));
+  }
+  const bool winds = membrane_ && length <= known;
+  const PathPrestress added =
+      winds ? tension_of_winding(*membrane_, cut, volume, length, prestress,
+                                 [&](double s) { return between_cuts(shapes.stations, own, s); })
+            : PathPrestress{{0}, {{}}};
   std::vector<CaseShape> cases;
   std::vector<Prestress> local;
   std::vector<std::vector<double>> numbers;
   for (std::size_t i = 0; i < shapes.stations.size(); ++i) {
     const double s = shapes.stations[i];
-    const PathFrame frame = volume.skin_frame(s / scale);
     const Vec3& along = shapes.values[i].along;
-    const double ahead = std::atan2(dot(cross(frame.along, along), frame.outward), dot(frame.along, along));
-    const Prestress own = prestress_at(prestress, s);
-    const auto [uu, vv, uv] = turned({own.uu, own.vv, own.uv}, -ahead);
+    const Prestress of_path = prestress.at(s), more = added.at(s);
+    const auto [uu, vv, uv] = turned({of_path.uu, of_path.vv, of_path.uv}, -own[i].ahead);
     local.push_back({uu, vv, uv});
-    cases.push_back(case_of(shapes.values[i], local.back(), from_middle(s, length, cut)));
+    cases.push_back(case_of(shapes.values[i], own[i], {uu + more.uu, vv + more.vv, uv + more.uv},
+                            from_middle(s, length, cut)));
     numbers.push_back(normalised(cases.back(), local.back(), *family_, largest > 0 ? largest : 1));
     for (int c = 0; c < 3; ++c) numbers.back().push_back(along[c]);
   }
@@ -211,7 +226,8 @@ void FamilyFields::extend(VaryingField& field, const Incision& incision, double 
   const LocalShape local = known_to_family(local_shape(incision, scale, s, smoothing()), incision, scale, s);
   const Prestress prestress = prestress_in({local.along, cross(local.outward, local.along)}, tension, s,
                                            scale * incision.path().at(s / scale).position);
-  const CaseShape one = case_of(local, prestress, from_middle(s, length, shape().cut()));
+  const double x = from_middle(s, length, shape().cut());
+  const CaseShape one = case_of(local, own_cut(local, x), prestress, x);
   const auto [there, outside] = family_->at(one.shapes, one.prestress);
   field.extend({s, there, prestress, local.along, outside});
 }

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/wound/path_opening.h"
+#include "explorer/wound/stations.h"
 
 namespace cleft {
 
@@ -42,6 +44,12 @@ PublishedStudy all_alike(PublishedStudy study) {
 }
 
 }  // namespace
+
+Prestress PathPrestress::at(double s) const {
+  const auto [a, b, part] = between(stations, s);
+  const Prestress &x = values[a], &y = values[b];
+  return {std::lerp(x.uu, y.uu, part), std::lerp(x.vv, y.vv, part), std::lerp(x.uv, y.uv, part)};
+}
 
 Prestress prestress_of(const RecordedParameters& p) {
   const Prestress& sigma = p->skin.prestress;
@@ -126,6 +134,20 @@ PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
                      "(0.01, 0.01, 0.005) MPa");
   const double volume = dot(cross(p[0], p[1]), p[2]);
   for (int i = 0; i < 3; ++i) inverse_[i] = 1 / volume * cross(p[(i + 1) % 3], p[(i + 2) % 3]);
+  membrane_ = membrane_of(along({{0}, {{0, 1, 0}}}));
+}
+
+PathPrestress PrestressFields::as_the_path_opens(const PathPrestress& prestress, const IncisionVolume& volume,
+                                                 double length) const {
+  if (!membrane_) return prestress;
+  const PathPrestress added = tension_of_winding(*membrane_, shape().cut(), volume, length, prestress,
+                                                 [](double) { return OwnCut{}; });
+  PathPrestress result = prestress;
+  for (std::size_t i = 0; i < result.stations.size(); ++i) {
+    const Prestress more = added.at(result.stations[i]);
+    result.values[i].vv += more.vv, result.values[i].uv += more.uv;
+  }
+  return result;
 }
 
 VaryingField PrestressFields::along(const PathPrestress& prestress) const {

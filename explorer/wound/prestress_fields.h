@@ -4,10 +4,12 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "explorer/study/study.h"
+#include "explorer/wound/cut_membrane.h"
 #include "explorer/wound/ipv.h"
 #include "explorer/wound/varying_field.h"
 #include "params/parameters/recorded.h"
@@ -18,6 +20,9 @@ namespace cleft {
 struct PathPrestress {
   std::vector<double> stations;  ///< mm along the path, increasing
   std::vector<Prestress> values;
+
+  /// Linear between the stations, and as at the ends beyond them. There must be a station.
+  Prestress at(double s) const;
 };
 
 /// The direction of the skin's larger tension at a place, both in the mesh's space; mm.
@@ -57,9 +62,14 @@ class PrestressFields {
   const Field& shape() const { return fields_.front(); }
   /// Refers to this object's fields, which must outlive it.
   VaryingField along(const PathPrestress& prestress) const;
+  /// The prestress with which the straight cut of these fields opens at each place as all of a path, `length`
+  /// mm long, does (path_opening.h).
+  PathPrestress as_the_path_opens(const PathPrestress& prestress, const IncisionVolume& volume,
+                                  double length) const;
 
  private:
   std::vector<Field> fields_;
+  std::optional<CutMembrane> membrane_;
   Vec3 inverse_[3];  // rows: weights of the three fields for (uu, vv, uv)
 };
 

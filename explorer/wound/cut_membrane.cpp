@@ -1,0 +1,164 @@
+#include "explorer/wound/cut_membrane.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "params/material/isotropic.h"
+
+namespace cleft {
+
+namespace {
+
+using Tensor = Eigen::Matrix2d;
+using Vector = Eigen::Vector2d;
+
+/// The table is even in the logarithm of the distance over the reach. Nearer, the smooth part is linear in
+/// it; beyond, it is what makes the whole 0.
+constexpr double nearest = 1e-3, farthest = 30;
+constexpr int places = 400;
+const double log_step = std::log(farthest / nearest) / places;
+
+/// A point of Gauss's rule on (-1, 1): of four for a piece and those next to it, where the smooth part is
+/// logarithmic, of one for others.
+struct GaussPoint {
+  double place, weight;
+};
+constexpr std::array<GaussPoint, 4> four_points = {{{-0.8611363115940526, 0.3478548451374538},
+                                                    {-0.3399810435848563, 0.6521451548625461},
+                                                    {0.3399810435848563, 0.6521451548625461},
+                                                    {0.8611363115940526, 0.3478548451374538}}};
+constexpr std::array<GaussPoint, 1> one_point = {{{0, 2}}};
+constexpr double near_pieces = 1.5;  // lengths of a piece
+
+/// The derivatives of K0(c r) by r, the first to the fourth.
+std::array<double, 4> bessel_derivatives(double c, double r) {
+  const double z = c * r, k0 = std::cyl_bessel_k(0, z), k1 = std::cyl_bessel_k(1, z);
+  return {-c * k1, c * c * (k0 + k1 / z), -c * c * c * (k1 + k0 / z + 2 * k1 / (z * z)),
+          c * c * c * c * (k0 + 2 * k1 / z + 3 * k0 / (z * z) + 6 * k1 / (z * z * z))};
+}
+
+/// Of a function of the distance, from its derivatives: the second ones along and across the direction to the
+/// place.
+std::array<double, 2> second_derivatives(const std::array<double, 4>& f, double r) { return {f[1], f[0] / r}; }
+
+/// The fourth ones: along four times, along and across twice each, across four times.
+std::array<double, 3> fourth_derivatives(const std::array<double, 4>& f, double r) {
+  const double g1 = f[0] / r, g2 = f[1] - g1, g3 = r * f[2] - 3 * g2;
+  return {f[3], (g3 + g2) / (r * r), 3 * g2 / (r * r)};
+}
+
+/// The stress of an edge dislocation with a jump along each axis, in a sheet without springs, at a place.
+std::array<Tensor, 2> dislocation_stress(const Vector& at, double factor) {
+  const double x = at.x(), y = at.y(), r4 = at.squaredNorm() * at.squaredNorm();
+  const double d = factor / r4, x2 = x * x, y2 = y * y;
+  std::array<Tensor, 2> stress;
+  stress[0] << -d * y * (3 * x2 + y2), d * x * (x2 - y2), d * x * (x2 - y2), d * y * (x2 - y2);
+  stress[1] << d * x * (x2 - y2), d * y * (x2 - y2), d * y * (x2 - y2), d * x * (x2 + 3 * y2);
+  return stress;
+}
+
+}  // namespace
+
+CutMembrane::CutMembrane(double reach, double poisson_ratio) : reach_(reach) {
+  const IsotropicSheet sheet(1, poisson_ratio);
+  shear_ = sheet.modulus * (1 - poisson_ratio) / 2, lame_ = sheet.modulus * poisson_ratio;
+  // Lengths in the reach: k1 is 1.
+  const double stiff = lame_ + 2 * shear_, k2 = std::sqrt(stiff / shear_), soft = shear_ / stiff;
+  for (int i = 0; i <= places; ++i) {
+    const double r = nearest * std::exp(i * log_step);
+    const auto transverse = bessel_derivatives(k2, r), longitudinal = bessel_derivatives(1, r);
+    std::array<double, 4> both;
+    for (int n = 0; n < 4; ++n) both[n] = (transverse[n] - longitudinal[n]) / (k2 * k2);
+    // Without springs: -log r, and -(1 - soft) / 4 r^2 log r.
+    const double c = -(1 - soft) / 4, log_r = std::log(r);
+    const std::array<double, 4> unheld = {-1 / r, 1 / (r * r), 0, 0},
+                                unheld_both = {c * r * (2 * log_r + 1), c * (2 * log_r + 3), 2 * c / r,
+                                               -2 * c / (r * r)};
+    const auto second = second_derivatives(transverse, r), second_unheld = second_derivatives(unheld, r);
+    const auto fourth = fourth_derivatives(both, r), fourth_unheld = fourth_derivatives(unheld_both, r);
+    table_.push_back({second[0] - second_unheld[0], second[1] - second_unheld[1],
+                      fourth[0] - fourth_unheld[0], fourth[1] - fourth_unheld[1],
+                      fourth[2] - fourth_unheld[2]});
+  }
+}
+
+CutMembrane::Derivatives CutMembrane::smooth_part(double distance) const {
+  const double place = std::log(distance / reach_ / nearest) / log_step;
+  const int before = std::clamp(static_cast<int>(place), 0, places - 1);
+  // As 1 / r^2 beyond the table: the smooth part is minus that without springs.
+  const double part = std::min(place, double(places)) - before,
+               beyond = std::exp(-2 * log_step * std::max(0., place - places));
+  Derivatives result;
+  for (int n = 0; n < 5; ++n)
+    result[n] = beyond * std::lerp(table_[before][n], table_[before + 1][n], part) / (reach_ * reach_);
+  return result;
+}
+
+Eigen::MatrixXd CutMembrane::openings(const std::vector<PlanePoint>& corners,
+                                      const Eigen::MatrixXd& tractions) const {
+  const auto pieces = static_cast<Eigen::Index>(corners.size()) - 1;
+  std::vector<Vector> corner, middle;
+  std::vector<Tensor> frame;  // columns: along, across
+  std::vector<double> half;
+  for (const auto& [x, y] : corners) corner.emplace_back(x, y);
+  for (Eigen::Index i = 0; i < pieces; ++i) {
+    const Vector way = corner[i + 1] - corner[i], along = way.normalized();
+    middle.push_back((corner[i] + corner[i + 1]) / 2);
+    half.push_back(way.norm() / 2);
+    frame.emplace_back() << along.x(), -along.y(), along.y(), along.x();
+  }
+  const double poisson = lame_ / (lame_ + 2 * shear_), kappa = (3 - poisson) / (1 + poisson);
+  const double of_dislocation = 2 * shear_ / (std::numbers::pi * (kappa + 1)),
+               of_unit_force = 1 / (2 * std::numbers::pi * shear_);
+  const auto stress_of = [&](const Tensor& gradient) -> Tensor {
+    return lame_ * gradient.trace() * Tensor::Identity() + shear_ * (gradient + gradient.transpose());
+  };
+  Eigen::MatrixXd matrix(2 * pieces, 2 * pieces);
+  for (Eigen::Index to = 0; to < pieces; ++to)
+    for (Eigen::Index from = 0; from < pieces; ++from) {
+      Tensor block;  // columns: the traction of a unit jump along and across, in the frame of `to`
+      const Vector across = frame[to].col(1);
+      const auto begin = dislocation_stress(frame[from].transpose() * (middle[to] - corner[from]), of_dislocation),
+                 end = dislocation_stress(frame[from].transpose() * (middle[to] - corner[from + 1]), of_dislocation);
+      const Vector across_there = frame[from].transpose() * across;
+      for (int i = 0; i < 2; ++i)
+        block.col(i) = -frame[to].transpose() * (frame[from] * ((begin[i] - end[i]) * across_there));
+      const bool near = (middle[to] - middle[from]).norm() < 2 * near_pieces * half[from];
+      const std::span<const GaussPoint> rule = near ? std::span<const GaussPoint>(four_points) : one_point;
+      for (const auto& [place, weight] : rule) {
+        const Vector way = middle[to] - middle[from] - half[from] * place * frame[from].col(0);
+        const double distance = way.norm();
+        const Derivatives d = smooth_part(distance);
+        Tensor polar;  // columns: to the place, and across that
+        polar.col(0) = way / distance, polar.col(1) = Vector(-polar(1, 0), polar(0, 0));
+        const Tensor source = polar.transpose() * frame[from];  // the piece's axes, in the polar frame
+        const Vector line = polar.transpose() * across, normal = source.col(1);
+        // G_ij,kl: second derivatives by k and l of the displacement i under a unit force j, in the polar frame.
+        const auto derivative = [&](int i, int j, int k, int l) {
+          const int times_across = i + j + k + l;
+          const double fourth = times_across % 2 == 1 ? 0 : d[2 + times_across / 2];
+          return of_unit_force * ((i == j && k == l ? d[k] : 0) - fourth);
+        };
+        for (int a = 0; a < 2; ++a) {
+          const Vector jump = source.col(a);
+          // The moments of a unit jump: C_ijkl n_l jump_k.
+          const Tensor moment = lame_ * jump.dot(normal) * Tensor::Identity() +
+                                shear_ * (jump * normal.transpose() + normal * jump.transpose());
+          Tensor gradient = Tensor::Zero();  // of the displacement: row p, derivative by q
+          for (int p = 0; p < 2; ++p)
+            for (int q = 0; q < 2; ++q)
+              for (int b = 0; b < 2; ++b)
+                for (int k = 0; k < 2; ++k) gradient(p, q) += moment(b, k) * derivative(p, b, k, q);
+          block.col(a) -= weight * half[from] *
+                          (frame[to].transpose() * (polar * (stress_of(gradient) * line)));
+        }
+      }
+      matrix.block<2, 2>(2 * to, 2 * from) = block;
+    }
+  return Eigen::PartialPivLU<Eigen::MatrixXd>(-matrix).solve(tractions);
+}
+
+}  // namespace cleft

@@ -1,0 +1,141 @@
+#include "explorer/wound/path_opening.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "explorer/wound/plane_tensor.h"
+#include "explorer/wound/room.h"
+#include "explorer/wound/stations.h"
+
+namespace cleft {
+
+namespace {
+
+/// Pieces of a field's own cut, and of a path at most.
+constexpr int own_pieces = 40, most_pieces = 120, fewest_pieces = 8;
+/// The reach of a membrane is sought between these, in lengths of the field's own cut.
+constexpr double least_reach = 0.02, greatest_reach = 20;
+constexpr int halvings = 30;
+constexpr double usual_poisson_ratio = 0.4;
+/// What is added is no more than so many times the prestress.
+constexpr double most_added = 2;
+
+std::vector<PlanePoint> straight(double length, int pieces) {
+  std::vector<PlanePoint> corners;
+  for (int i = 0; i <= pieces; ++i) corners.push_back({length * i / pieces, 0});
+  return corners;
+}
+
+/// In the middle of a straight cut, under unit tension across it.
+double straight_opening(const CutMembrane& membrane, double length) {
+  constexpr int pieces = own_pieces / 2 + 1;  // an odd number: one is in the middle
+  Eigen::MatrixXd tension = Eigen::MatrixXd::Zero(2 * pieces, 1);
+  for (int i = 0; i < pieces; ++i) tension(2 * i + 1, 0) = 1;
+  return membrane.openings(straight(length, pieces), tension)(2 * (pieces / 2) + 1, 0);
+}
+
+double field_opening(const VaryingField& field, double length) {
+  const Vec3 middle{field.shape().cut().start + length / 2, 0, 0};
+  return field.displacement(middle, Side::right, length, 0).y -
+         field.displacement(middle, Side::left, length, 0).y;
+}
+
+/// A path of pieces as long as each other in the plane, in which it bends as in the skin.
+std::vector<PlanePoint> unrolled(const IncisionVolume& volume, double length, int pieces) {
+  const double piece = length / pieces, scale = volume.scale();
+  std::vector<PlanePoint> corners = {{0, 0}};
+  double direction = 0;
+  PathFrame before = volume.skin_frame(piece / 2 / scale);
+  for (int i = 0; i < pieces; ++i) {
+    const PathFrame frame = volume.skin_frame((i + 0.5) * piece / scale);
+    direction += std::atan2(dot(frame.along, before.across), dot(frame.along, before.along));
+    const auto [x, y] = corners.back();
+    corners.push_back({x + piece * std::cos(direction), y + piece * std::sin(direction)});
+    before = frame;
+  }
+  return corners;
+}
+
+/// A field's own cut, complete up to `t` mm, and how it opens at `u` mm from its start: the opening along and
+/// across under unit stresses along, across and in shear there.
+Eigen::Matrix<double, 2, 3> own_opening(const CutMembrane& membrane, const OwnCut& own, double cut_length,
+                                        double t, double u) {
+  const int pieces = std::clamp(static_cast<int>(std::lround(own_pieces * t / cut_length)), fewest_pieces,
+                                own_pieces);
+  const double piece = t / pieces, middle = cut_length / 2;
+  std::vector<PlanePoint> corners = {{0, 0}};
+  Eigen::MatrixXd tractions(2 * pieces, 3);
+  for (int i = 0; i < pieces; ++i) {
+    const double turned = own.turned((i + 0.5) * piece - middle), back = own.turned(u - middle) - turned;
+    const auto [x, y] = corners.back();
+    corners.push_back({x + piece * std::cos(turned), y + piece * std::sin(turned)});
+    // A stress in the frame at u, on a piece that is turned against it by -back.
+    const double c = std::cos(back), s = std::sin(back);
+    tractions.row(2 * i) << c * s, -c * s, c * c - s * s;
+    tractions.row(2 * i + 1) << s * s, c * c, 2 * c * s;
+  }
+  const Eigen::MatrixXd opened = membrane.openings(corners, tractions);
+  // Between the middles of pieces the opening is smooth when it is divided by that of a straight cut.
+  const auto shape = [&](double at) { return std::sqrt(std::max(1e-9, at * (t - at))); };
+  const double place = std::clamp(u / piece - 0.5, 0., pieces - 1.);
+  const int before = std::min(static_cast<int>(place), pieces - 2);
+  Eigen::Matrix<double, 2, 3> result = Eigen::Matrix<double, 2, 3>::Zero();
+  for (const int i : {before, before + 1})
+    result += (i == before ? before + 1 - place : place - before) * shape(u) / shape((i + 0.5) * piece) *
+              opened.middleRows<2>(2 * i);
+  return result;
+}
+
+}  // namespace
+
+std::optional<CutMembrane> membrane_of(const VaryingField& field) {
+  const Field& shape = field.shape();
+  const double length = shape.cut().length;
+  const double whole = field_opening(field, length), half = field_opening(field, length / 2);
+  if (!(whole > 0) || !(half > 0)) return std::nullopt;
+  const double poisson =
+      shape.parameters.value_or(shape.parameters->skin.poisson_ratio, usual_poisson_ratio);
+  // In lengths of the reach; a cut that is short against it opens in proportion to its length.
+  const CutMembrane unit(1, poisson);
+  double least = std::log(least_reach), greatest = std::log(greatest_reach);
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (least + greatest) / 2, in_reaches = std::exp(-middle);
+    const double ratio = straight_opening(unit, in_reaches / 2) / straight_opening(unit, in_reaches);
+    (ratio > half / whole ? least : greatest) = middle;
+  }
+  return CutMembrane(length * std::exp((least + greatest) / 2), poisson);
+}
+
+PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut& cut,
+                                 const IncisionVolume& volume, double length, const PathPrestress& prestress,
+                                 const std::function<OwnCut(double s)>& own) {
+  const int pieces = std::clamp(static_cast<int>(std::lround(own_pieces * length / cut.length)),
+                                fewest_pieces, most_pieces);
+  std::vector<Prestress> local;
+  Eigen::MatrixXd tractions(2 * pieces, 1);
+  PathPrestress result;
+  for (int i = 0; i < pieces; ++i) {
+    result.stations.push_back((i + 0.5) * length / pieces);
+    local.push_back(prestress.at(result.stations.back()));
+    tractions(2 * i, 0) = local.back().uv, tractions(2 * i + 1, 0) = local.back().vv;
+  }
+  const Eigen::MatrixXd opened = membrane.openings(unrolled(volume, length, pieces), tractions);
+  for (int i = 0; i < pieces; ++i) {
+    const double s = result.stations[i];
+    const auto [u, time_offset] = canonical_place(s, length, cut);
+    const double t = std::clamp(length + time_offset, 0., cut.length);
+    const OwnCut at = own(s);
+    const Eigen::Matrix<double, 2, 3> unit = own_opening(membrane, at, cut.length, t, u - cut.start);
+    const auto there = turned({local[i].uu, local[i].vv, local[i].uv}, -at.ahead);
+    const Eigen::Rotation2Dd back(-at.ahead);
+    const Eigen::Vector2d lacking =
+        back * opened.middleRows<2>(2 * i).col(0) - unit * Eigen::Vector3d(there[0], there[1], there[2]);
+    const Eigen::Vector2d added = unit.rightCols<2>().lu().solve(lacking);
+    const double most = most_added * std::max({std::abs(there[0]), std::abs(there[1]), std::abs(there[2])});
+    result.values.push_back({0, std::clamp(added[0], -most, most), std::clamp(added[1], -most, most)});
+  }
+  return result;
+}
+
+}  // namespace cleft
