@@ -12,7 +12,17 @@ namespace cleft {
 namespace {
 constexpr const char* three_cases =
     "a study.dffd of three cases that differ in skin.prestress_u, _v and _uv alone";
+
+/// A path of which less is known than all opens as that of the fields' own cut.
+Wound in_prestress(const Incision& cut, const PrestressFields& fields, const PathPrestress& prestress,
+                   IncisionVolume volume, double known) {
+  const double length = cut.path().length() * volume.scale();
+  VaryingField field =
+      fields.along(length <= known ? fields.as_the_path_opens(prestress, volume, length) : prestress);
+  return {cut, std::move(field), std::move(volume)};
 }
+
+}  // namespace
 
 CutFields CutFields::above_bone(TissueAboveBone tissue) const {
   CutFields result = *this;
@@ -47,10 +57,8 @@ Wound CutFields::opened(const Incision& cut, double scale, const std::optional<P
         "the field file holds several cases: give --tension and --prestress, or the path columns "
         "skin.prestress_u, _v, _uv, or one case.dffd");
   IncisionVolume volume(cut, three_->shape(), scale);
-  const double length = cut.path().length();
-  PathPrestress prestress = own ? *own : prestress_along(volume, length, *tension_);
-  if (length * scale <= known) prestress = three_->as_the_path_opens(prestress, volume, length * scale);
-  return {cut, three_->along(prestress), std::move(volume)};
+  const PathPrestress prestress = own ? *own : prestress_along(volume, cut.path().length(), *tension_);
+  return in_prestress(cut, *three_, prestress, std::move(volume), known);
 }
 
 SkinTension CutFields::tension_of(const Incision& cut, bool grows) const {
@@ -64,6 +72,13 @@ void CutFields::follow_shape(Wound& wound) const {
   const Incision& cut = *wound.incision;
   if (const auto s = family_->next_station(cut, wound.scale(), wound.field))
     family_->extend(wound.field, cut, wound.scale(), *s, tension_of(cut, true));
+}
+
+Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,
+                       double scale) {
+  IncisionVolume volume(cut, fields.shape(), scale);
+  const PathPrestress prestress = prestress_along(volume, cut.path().length(), tension);
+  return in_prestress(cut, fields, prestress, std::move(volume), std::numeric_limits<double>::infinity());
 }
 
 CutFields read_cut_fields(const std::string& file, const std::vector<double>& direction,

@@ -60,6 +60,10 @@ class CutFields {
   std::shared_ptr<std::optional<SkinTension>> of_first_ = std::make_shared<std::optional<SkinTension>>();
 };
 
+/// The wound of a cut in skin under one tension, which turns against the path; the fields must outlive it.
+Wound wound_in_tension(const Incision& cut, const PrestressFields& fields, const SkinTension& tension,
+                       double scale);
+
 /// The fields of a field file, of a study.dffd of three cases with different prestress, or of a family.
 /// `direction` (three numbers) and `prestresses` (two, MPa, in either order) are the tension, if they are not
 /// empty. Throws InputError if a tension is given for one case's field.

@@ -32,6 +32,10 @@ constexpr std::array<GaussPoint, 4> four_points = {{{-0.8611363115940526, 0.3478
                                                     {0.8611363115940526, 0.3478548451374538}}};
 constexpr std::array<GaussPoint, 1> one_point = {{{0, 2}}};
 constexpr double near_pieces = 1.5;  // lengths of a piece
+/// Of half a piece: what is nearer counts as so near.
+constexpr double near_part = 0.3;
+/// Pieces whose normals are apart by more, as a cosine, are on different sides of a body.
+constexpr double turned_away = 0.1;
 
 /// The derivatives of K0(c r) by r, the first to the fourth.
 std::array<double, 4> bessel_derivatives(double c, double r) {
@@ -42,7 +46,9 @@ std::array<double, 4> bessel_derivatives(double c, double r) {
 
 /// Of a function of the distance, from its derivatives: the second ones along and across the direction to the
 /// place.
-std::array<double, 2> second_derivatives(const std::array<double, 4>& f, double r) { return {f[1], f[0] / r}; }
+std::array<double, 2> second_derivatives(const std::array<double, 4>& f, double r) {
+  return {f[1], f[0] / r};
+}
 
 /// The fourth ones: along four times, along and across twice each, across four times.
 std::array<double, 3> fourth_derivatives(const std::array<double, 4>& f, double r) {
@@ -67,6 +73,7 @@ CutMembrane::CutMembrane(double reach, double poisson_ratio) : reach_(reach) {
   shear_ = sheet.modulus * (1 - poisson_ratio) / 2, lame_ = sheet.modulus * poisson_ratio;
   // Lengths in the reach: k1 is 1.
   const double stiff = lame_ + 2 * shear_, k2 = std::sqrt(stiff / shear_), soft = shear_ / stiff;
+  std::vector<Derivatives> table;
   for (int i = 0; i <= places; ++i) {
     const double r = nearest * std::exp(i * log_step);
     const auto transverse = bessel_derivatives(k2, r), longitudinal = bessel_derivatives(1, r);
@@ -79,10 +86,10 @@ CutMembrane::CutMembrane(double reach, double poisson_ratio) : reach_(reach) {
                                                -2 * c / (r * r)};
     const auto second = second_derivatives(transverse, r), second_unheld = second_derivatives(unheld, r);
     const auto fourth = fourth_derivatives(both, r), fourth_unheld = fourth_derivatives(unheld_both, r);
-    table_.push_back({second[0] - second_unheld[0], second[1] - second_unheld[1],
-                      fourth[0] - fourth_unheld[0], fourth[1] - fourth_unheld[1],
-                      fourth[2] - fourth_unheld[2]});
+    table.push_back({second[0] - second_unheld[0], second[1] - second_unheld[1], fourth[0] - fourth_unheld[0],
+                     fourth[1] - fourth_unheld[1], fourth[2] - fourth_unheld[2]});
   }
+  table_ = std::make_shared<const std::vector<Derivatives>>(std::move(table));
 }
 
 CutMembrane::Derivatives CutMembrane::smooth_part(double distance) const {
@@ -93,72 +100,89 @@ CutMembrane::Derivatives CutMembrane::smooth_part(double distance) const {
                beyond = std::exp(-2 * log_step * std::max(0., place - places));
   Derivatives result;
   for (int n = 0; n < 5; ++n)
-    result[n] = beyond * std::lerp(table_[before][n], table_[before + 1][n], part) / (reach_ * reach_);
+    result[n] = beyond * std::lerp((*table_)[before][n], (*table_)[before + 1][n], part) / (reach_ * reach_);
   return result;
 }
 
-Eigen::MatrixXd CutMembrane::openings(const std::vector<PlanePoint>& corners,
-                                      const Eigen::MatrixXd& tractions) const {
-  const auto pieces = static_cast<Eigen::Index>(corners.size()) - 1;
-  std::vector<Vector> corner, middle;
-  std::vector<Tensor> frame;  // columns: along, across
-  std::vector<double> half;
-  for (const auto& [x, y] : corners) corner.emplace_back(x, y);
-  for (Eigen::Index i = 0; i < pieces; ++i) {
-    const Vector way = corner[i + 1] - corner[i], along = way.normalized();
-    middle.push_back((corner[i] + corner[i + 1]) / 2);
-    half.push_back(way.norm() / 2);
-    frame.emplace_back() << along.x(), -along.y(), along.y(), along.x();
-  }
+/// The traction on `to` that a unit opening of `from`, along and across, takes: both in their own frames.
+Eigen::Matrix2d CutMembrane::relief(const CutPiece& to, const CutPiece& from) const {
+  Tensor taken = Tensor::Zero();
+  const double facing = dot(to.outward, from.outward);
+  if (facing < turned_away) return taken;
+  const Vec3 place = 0.5 * (to.from + to.to), normal = normalized(to.outward + from.outward);
+  const Vec3 first = normalized(to.to - to.from - dot(to.to - to.from, normal) * normal),
+             second = cross(normal, first);
+  // Seen from `place`, in the frame of `to`; as far away as in space.
+  const auto seen = [&](const Vec3& point) -> Vector {
+    const Vec3 way = point - place;
+    const Vector in_plane(dot(way, first), dot(way, second));
+    const double length = in_plane.norm();
+    return length > 0 ? Vector(norm(way) / length * in_plane) : in_plane;
+  };
+  const bool itself = &to == &from;
+  const double half = norm(from.to - from.from) / 2, nearest_end = near_part * half;
+  const Vector begin = itself ? Vector(-half, 0) : seen(from.from),
+               end = itself ? Vector(half, 0) : seen(from.to);
+  const Vector middle = (begin + end) / 2, along = (end - begin).normalized();
+  Tensor frame;  // columns: along and across `from`
+  frame << along.x(), -along.y(), along.y(), along.x();
+  // Ends of other cuts within a piece's own length would be felt as much as they are singular.
+  const auto not_too_near = [&](const Vector& way) -> Vector {
+    return way.norm() < nearest_end ? Vector(nearest_end * (way.norm() > 0 ? way.normalized() : Vector(1, 0)))
+                                    : way;
+  };
   const double poisson = lame_ / (lame_ + 2 * shear_), kappa = (3 - poisson) / (1 + poisson);
   const double of_dislocation = 2 * shear_ / (std::numbers::pi * (kappa + 1)),
                of_unit_force = 1 / (2 * std::numbers::pi * shear_);
-  const auto stress_of = [&](const Tensor& gradient) -> Tensor {
-    return lame_ * gradient.trace() * Tensor::Identity() + shear_ * (gradient + gradient.transpose());
-  };
-  Eigen::MatrixXd matrix(2 * pieces, 2 * pieces);
-  for (Eigen::Index to = 0; to < pieces; ++to)
-    for (Eigen::Index from = 0; from < pieces; ++from) {
-      Tensor block;  // columns: the traction of a unit jump along and across, in the frame of `to`
-      const Vector across = frame[to].col(1);
-      const auto begin = dislocation_stress(frame[from].transpose() * (middle[to] - corner[from]), of_dislocation),
-                 end = dislocation_stress(frame[from].transpose() * (middle[to] - corner[from + 1]), of_dislocation);
-      const Vector across_there = frame[from].transpose() * across;
-      for (int i = 0; i < 2; ++i)
-        block.col(i) = -frame[to].transpose() * (frame[from] * ((begin[i] - end[i]) * across_there));
-      const bool near = (middle[to] - middle[from]).norm() < 2 * near_pieces * half[from];
-      const std::span<const GaussPoint> rule = near ? std::span<const GaussPoint>(four_points) : one_point;
-      for (const auto& [place, weight] : rule) {
-        const Vector way = middle[to] - middle[from] - half[from] * place * frame[from].col(0);
-        const double distance = way.norm();
-        const Derivatives d = smooth_part(distance);
-        Tensor polar;  // columns: to the place, and across that
-        polar.col(0) = way / distance, polar.col(1) = Vector(-polar(1, 0), polar(0, 0));
-        const Tensor source = polar.transpose() * frame[from];  // the piece's axes, in the polar frame
-        const Vector line = polar.transpose() * across, normal = source.col(1);
-        // G_ij,kl: second derivatives by k and l of the displacement i under a unit force j, in the polar frame.
-        const auto derivative = [&](int i, int j, int k, int l) {
-          const int times_across = i + j + k + l;
-          const double fourth = times_across % 2 == 1 ? 0 : d[2 + times_across / 2];
-          return of_unit_force * ((i == j && k == l ? d[k] : 0) - fourth);
-        };
-        for (int a = 0; a < 2; ++a) {
-          const Vector jump = source.col(a);
-          // The moments of a unit jump: C_ijkl n_l jump_k.
-          const Tensor moment = lame_ * jump.dot(normal) * Tensor::Identity() +
-                                shear_ * (jump * normal.transpose() + normal * jump.transpose());
-          Tensor gradient = Tensor::Zero();  // of the displacement: row p, derivative by q
-          for (int p = 0; p < 2; ++p)
-            for (int q = 0; q < 2; ++q)
-              for (int b = 0; b < 2; ++b)
-                for (int k = 0; k < 2; ++k) gradient(p, q) += moment(b, k) * derivative(p, b, k, q);
-          block.col(a) -= weight * half[from] *
-                          (frame[to].transpose() * (polar * (stress_of(gradient) * line)));
-        }
-      }
-      matrix.block<2, 2>(2 * to, 2 * from) = block;
+  const Vector across(0, 1), across_there = frame.transpose() * across;
+  const auto at_begin = dislocation_stress(frame.transpose() * not_too_near(-begin), of_dislocation),
+             at_end = dislocation_stress(frame.transpose() * not_too_near(-end), of_dislocation);
+  for (int a = 0; a < 2; ++a) taken.col(a) = frame * ((at_begin[a] - at_end[a]) * across_there);
+  const std::span<const GaussPoint> rule =
+      middle.norm() < 2 * near_pieces * half ? std::span<const GaussPoint>(four_points) : one_point;
+  for (const auto& [part, weight] : rule) {
+    const Vector way = not_too_near(-middle - half * part * along);
+    const double distance = way.norm();
+    const Derivatives d = smooth_part(distance);
+    Tensor polar;  // columns: to the place, and across that
+    polar.col(0) = way / distance, polar.col(1) = Vector(-polar(1, 0), polar(0, 0));
+    const Tensor source = polar.transpose() * frame;
+    const Vector line = polar.transpose() * across, from_across = source.col(1);
+    // Of the displacement along i under a unit force along j, by k and l, in the polar frame.
+    const auto derivative = [&](int i, int j, int k, int l) {
+      const int times_across = i + j + k + l;
+      const double fourth = times_across % 2 == 1 ? 0 : d[2 + times_across / 2];
+      return of_unit_force * ((i == j && k == l ? d[k] : 0) - fourth);
+    };
+    for (int a = 0; a < 2; ++a) {
+      const Vector jump = source.col(a);
+      const Tensor moment = lame_ * jump.dot(from_across) * Tensor::Identity() +
+                            shear_ * (jump * from_across.transpose() + from_across * jump.transpose());
+      Tensor gradient = Tensor::Zero();  // of the displacement: row p, derivative by q
+      for (int p = 0; p < 2; ++p)
+        for (int q = 0; q < 2; ++q)
+          for (int b = 0; b < 2; ++b)
+            for (int k = 0; k < 2; ++k) gradient(p, q) += moment(b, k) * derivative(p, b, k, q);
+      const Tensor stress =
+          lame_ * gradient.trace() * Tensor::Identity() + shear_ * (gradient + gradient.transpose());
+      taken.col(a) += weight * half * (polar * (stress * line));
     }
-  return Eigen::PartialPivLU<Eigen::MatrixXd>(-matrix).solve(tractions);
+  }
+  return taken;
+}
+
+Eigen::MatrixXd CutMembrane::relief(const std::vector<CutPiece>& pieces) const {
+  const auto count = static_cast<Eigen::Index>(pieces.size());
+  Eigen::MatrixXd result(2 * count, 2 * count);
+  for (Eigen::Index from = 0; from < count; ++from)
+    for (Eigen::Index to = 0; to < count; ++to)
+      result.block<2, 2>(2 * to, 2 * from) = relief(pieces[to], pieces[from]);
+  return result;
+}
+
+Eigen::MatrixXd CutMembrane::openings(const std::vector<CutPiece>& pieces,
+                                      const Eigen::MatrixXd& tractions) const {
+  return relief(pieces).partialPivLu().solve(tractions);
 }
 
 }  // namespace cleft

@@ -9,11 +9,18 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <vector>
+
+#include "base/vec3.h"
 
 namespace cleft {
 
-using PlanePoint = std::array<double, 2>;  ///< mm
+/// A piece of a cut, mm, in skin whose normal there is `outward`. It has a frame: along, to its other end,
+/// and across = outward x along.
+struct CutPiece {
+  Vec3 from, to, outward;
+};
 
 class CutMembrane {
  public:
@@ -21,12 +28,22 @@ class CutMembrane {
   /// sqrt((lambda + 2 mu) / k). Both are above 0, the ratio is below 1.
   CutMembrane(double reach, double poisson_ratio);
 
-  /// How the pieces of a cut between so many corners open. Each has a frame: along, to the next corner, and
-  /// across, a quarter turn from there, from the first axis toward the second. Rows are along the first
-  /// piece, across it, along the second, ...; a column for each load. `tractions` are those on the pieces
-  /// before they are cut: the shear and the tension across. Openings are the displacement on the side to
-  /// which `across` points less that on the other, mm, for forces in E times the sheet's thickness.
-  Eigen::MatrixXd openings(const std::vector<PlanePoint>& corners, const Eigen::MatrixXd& tractions) const;
+  /// The same membrane with another reach.
+  CutMembrane with_reach(double reach) const {
+    CutMembrane result = *this;
+    result.reach_ = reach;
+    return result;
+  }
+
+  /// How the pieces of cuts open: the displacement on the side to which `across` points less that on the
+  /// other, mm, for forces in E times the sheet's thickness. Rows are along the first piece, across it, along
+  /// the second, ...; a column for each load. `tractions` are those on the pieces before they are cut: the
+  /// shear and the tension across.
+  Eigen::MatrixXd openings(const std::vector<CutPiece>& pieces, const Eigen::MatrixXd& tractions) const;
+
+  /// What a unit opening of each piece takes from the tractions on the pieces: a column for each opening, in
+  /// the order of these. In skin that is not flat two pieces are seen in the plane between their own.
+  Eigen::MatrixXd relief(const std::vector<CutPiece>& pieces) const;
 
  private:
   /// What is smooth of the second derivatives of the fundamental solution at a distance, in the frame of the
@@ -35,8 +52,10 @@ class CutMembrane {
   using Derivatives = std::array<double, 5>;
   Derivatives smooth_part(double distance) const;
 
+  Eigen::Matrix2d relief(const CutPiece& to, const CutPiece& from) const;
+
   double reach_, lame_, shear_;  // for a Young's modulus of 1
-  std::vector<Derivatives> table_;
+  std::shared_ptr<const std::vector<Derivatives>> table_;
 };
 
 }  // namespace cleft

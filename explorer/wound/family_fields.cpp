@@ -185,11 +185,11 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
     own.push_back(own_cut(shapes.values[i], from_middle(s, length, cut)));
     own.back().ahead = std::atan2(dot(cross(frame.along, along), frame.outward), dot(frame.along, along));
   }
-  const bool winds = membrane_ && length <= known;
+  const auto membrane = length <= known ? membrane_of(family_->middle()) : std::nullopt;
   const PathPrestress added =
-      winds ? tension_of_winding(*membrane_, cut, volume, length, prestress,
-                                 [&](double s) { return between_cuts(shapes.stations, own, s); })
-            : PathPrestress{{0}, {{}}};
+      membrane ? tension_of_winding(*membrane, cut, volume, length, prestress,
+                                    [&](double s) { return between_cuts(shapes.stations, own, s); })
+               : PathPrestress{{0}, {{}}};
   std::vector<CaseShape> cases;
   std::vector<Prestress> local;
   std::vector<std::vector<double>> numbers;

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "explorer/study/family.h"
-#include "explorer/wound/path_opening.h"
 #include "explorer/wound/path_shape.h"
 #include "explorer/wound/prestress_fields.h"
 #include "explorer/wound/varying_field.h"
@@ -19,11 +18,13 @@ namespace cleft {
 /// has it.
 SkinTension default_tension(const ScalpelPath& path, bool grows);
 
+struct OwnCut;
+
 class FamilyFields {
  public:
   /// `tissue`: above bone, where there is any.
   explicit FamilyFields(std::shared_ptr<const Family> family, TissueAboveBone tissue = {})
-      : family_(std::move(family)), membrane_(membrane_of(family_->middle())), tissue_(std::move(tissue)) {}
+      : family_(std::move(family)), tissue_(std::move(tissue)) {}
 
   const Field& shape() const { return family_->middle(); }
   const Family& family() const { return *family_; }
@@ -53,7 +54,6 @@ class FamilyFields {
   OwnCut own_cut(const LocalShape& local, double u_from_middle) const;
 
   std::shared_ptr<const Family> family_;
-  std::optional<CutMembrane> membrane_;
   TissueAboveBone tissue_;
 };
 

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "explorer/wound/plane_tensor.h"
 #include "explorer/wound/room.h"
@@ -16,15 +18,20 @@ namespace {
 constexpr int own_pieces = 40, most_pieces = 120, fewest_pieces = 8;
 /// The reach of a membrane is sought between these, in lengths of the field's own cut.
 constexpr double least_reach = 0.02, greatest_reach = 20;
-constexpr int halvings = 30;
 constexpr double usual_poisson_ratio = 0.4;
 /// What is added is no more than so many times the prestress.
 constexpr double most_added = 2;
 
-std::vector<PlanePoint> straight(double length, int pieces) {
-  std::vector<PlanePoint> corners;
-  for (int i = 0; i <= pieces; ++i) corners.push_back({length * i / pieces, 0});
-  return corners;
+/// Pieces of the same length in the plane, each in a direction.
+std::vector<CutPiece> in_plane(double length, int pieces, const std::function<double(int)>& direction) {
+  std::vector<CutPiece> result;
+  Vec3 at{};
+  for (int i = 0; i < pieces; ++i) {
+    const Vec3 next = at + length / pieces * Vec3{std::cos(direction(i)), std::sin(direction(i)), 0};
+    result.push_back({at, next, {0, 0, 1}});
+    at = next;
+  }
+  return result;
 }
 
 /// In the middle of a straight cut, under unit tension across it.
@@ -32,7 +39,42 @@ double straight_opening(const CutMembrane& membrane, double length) {
   constexpr int pieces = own_pieces / 2 + 1;  // an odd number: one is in the middle
   Eigen::MatrixXd tension = Eigen::MatrixXd::Zero(2 * pieces, 1);
   for (int i = 0; i < pieces; ++i) tension(2 * i + 1, 0) = 1;
-  return membrane.openings(straight(length, pieces), tension)(2 * (pieces / 2) + 1, 0);
+  return membrane.openings(in_plane(length, pieces, [](int) { return 0.; }), tension)(2 * (pieces / 2) + 1,
+                                                                                      0);
+}
+
+/// Which part of its opening in the middle a straight cut has when half of it is cut, by the membrane's
+/// reach: of a short cut half, of a long one all.
+struct HalfOpenings {
+  CutMembrane membrane;
+  std::vector<double> log_reach, part;  // falling
+
+  explicit HalfOpenings(double poisson_ratio) : membrane(1, poisson_ratio) {
+    constexpr int steps = 40;
+    for (int i = 0; i <= steps; ++i) {
+      log_reach.push_back(std::lerp(std::log(least_reach), std::log(greatest_reach), double(i) / steps));
+      const double length = std::exp(-log_reach.back());  // in reaches
+      part.push_back(straight_opening(membrane, length / 2) / straight_opening(membrane, length));
+    }
+  }
+
+  /// In lengths of the cut.
+  double reach(double of_half) const {
+    const auto beyond = std::partition_point(part.begin(), part.end(), [&](double p) { return p > of_half; });
+    if (beyond == part.begin()) return least_reach;
+    if (beyond == part.end()) return greatest_reach;
+    const auto i = static_cast<std::size_t>(beyond - part.begin());
+    return std::exp(
+        std::lerp(log_reach[i - 1], log_reach[i], (part[i - 1] - of_half) / (part[i - 1] - part[i])));
+  }
+};
+
+/// Made once for each ratio.
+const HalfOpenings& half_openings(double poisson_ratio) {
+  static std::mutex mutex;
+  static std::map<double, HalfOpenings> known;
+  const std::lock_guard lock(mutex);
+  return known.try_emplace(poisson_ratio, poisson_ratio).first->second;
 }
 
 double field_opening(const VaryingField& field, double length) {
@@ -41,41 +83,37 @@ double field_opening(const VaryingField& field, double length) {
          field.displacement(middle, Side::left, length, 0).y;
 }
 
-/// A path of pieces as long as each other in the plane, in which it bends as in the skin.
-std::vector<PlanePoint> unrolled(const IncisionVolume& volume, double length, int pieces) {
-  const double piece = length / pieces, scale = volume.scale();
-  std::vector<PlanePoint> corners = {{0, 0}};
-  double direction = 0;
-  PathFrame before = volume.skin_frame(piece / 2 / scale);
+/// A path in the plane, in which it bends as in the skin.
+std::vector<CutPiece> unrolled(const IncisionVolume& volume, double length, int pieces) {
+  std::vector<double> directions;
+  PathFrame before{};
   for (int i = 0; i < pieces; ++i) {
-    const PathFrame frame = volume.skin_frame((i + 0.5) * piece / scale);
-    direction += std::atan2(dot(frame.along, before.across), dot(frame.along, before.along));
-    const auto [x, y] = corners.back();
-    corners.push_back({x + piece * std::cos(direction), y + piece * std::sin(direction)});
+    const PathFrame frame = volume.skin_frame((i + 0.5) * length / pieces / volume.scale());
+    directions.push_back(i == 0 ? 0
+                                : directions.back() + std::atan2(dot(frame.along, before.across),
+                                                                 dot(frame.along, before.along)));
     before = frame;
   }
-  return corners;
+  return in_plane(length, pieces, [&](int i) { return directions[i]; });
 }
 
 /// A field's own cut, complete up to `t` mm, and how it opens at `u` mm from its start: the opening along and
 /// across under unit stresses along, across and in shear there.
 Eigen::Matrix<double, 2, 3> own_opening(const CutMembrane& membrane, const OwnCut& own, double cut_length,
                                         double t, double u) {
-  const int pieces = std::clamp(static_cast<int>(std::lround(own_pieces * t / cut_length)), fewest_pieces,
-                                own_pieces);
+  const int pieces =
+      std::clamp(static_cast<int>(std::lround(own_pieces * t / cut_length)), fewest_pieces, own_pieces);
   const double piece = t / pieces, middle = cut_length / 2;
-  std::vector<PlanePoint> corners = {{0, 0}};
+  const auto direction = [&](int i) { return own.turned((i + 0.5) * piece - middle); };
   Eigen::MatrixXd tractions(2 * pieces, 3);
   for (int i = 0; i < pieces; ++i) {
-    const double turned = own.turned((i + 0.5) * piece - middle), back = own.turned(u - middle) - turned;
-    const auto [x, y] = corners.back();
-    corners.push_back({x + piece * std::cos(turned), y + piece * std::sin(turned)});
+    const double back = own.turned(u - middle) - direction(i);
     // A stress in the frame at u, on a piece that is turned against it by -back.
     const double c = std::cos(back), s = std::sin(back);
     tractions.row(2 * i) << c * s, -c * s, c * c - s * s;
     tractions.row(2 * i + 1) << s * s, c * c, 2 * c * s;
   }
-  const Eigen::MatrixXd opened = membrane.openings(corners, tractions);
+  const Eigen::MatrixXd opened = membrane.openings(in_plane(t, pieces, direction), tractions);
   // Between the middles of pieces the opening is smooth when it is divided by that of a straight cut.
   const auto shape = [&](double at) { return std::sqrt(std::max(1e-9, at * (t - at))); };
   const double place = std::clamp(u / piece - 0.5, 0., pieces - 1.);
@@ -94,24 +132,16 @@ std::optional<CutMembrane> membrane_of(const VaryingField& field) {
   const double length = shape.cut().length;
   const double whole = field_opening(field, length), half = field_opening(field, length / 2);
   if (!(whole > 0) || !(half > 0)) return std::nullopt;
-  const double poisson =
-      shape.parameters.value_or(shape.parameters->skin.poisson_ratio, usual_poisson_ratio);
-  // In lengths of the reach; a cut that is short against it opens in proportion to its length.
-  const CutMembrane unit(1, poisson);
-  double least = std::log(least_reach), greatest = std::log(greatest_reach);
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (least + greatest) / 2, in_reaches = std::exp(-middle);
-    const double ratio = straight_opening(unit, in_reaches / 2) / straight_opening(unit, in_reaches);
-    (ratio > half / whole ? least : greatest) = middle;
-  }
-  return CutMembrane(length * std::exp((least + greatest) / 2), poisson);
+  const double poisson = shape.parameters.value_or(shape.parameters->skin.poisson_ratio, usual_poisson_ratio);
+  const HalfOpenings& known = half_openings(poisson);
+  return known.membrane.with_reach(length * known.reach(half / whole));
 }
 
 PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut& cut,
                                  const IncisionVolume& volume, double length, const PathPrestress& prestress,
                                  const std::function<OwnCut(double s)>& own) {
-  const int pieces = std::clamp(static_cast<int>(std::lround(own_pieces * length / cut.length)),
-                                fewest_pieces, most_pieces);
+  const int pieces =
+      std::clamp(static_cast<int>(std::lround(own_pieces * length / cut.length)), fewest_pieces, most_pieces);
   std::vector<Prestress> local;
   Eigen::MatrixXd tractions(2 * pieces, 1);
   PathPrestress result;

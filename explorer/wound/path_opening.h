@@ -1,6 +1,6 @@
-// How a path that winds opens, where a field knows a cut of one bend: the tension is changed at each place such
-// that the field's own cut opens there as the path does in a membrane (cut_membrane.h). Nothing changes where the
-// path is the field's own cut.
+// How a path that winds opens, where a field knows a cut of one bend: the tension is changed at each place
+// such that the field's own cut opens there as the path does in a membrane (cut_membrane.h). Nothing changes
+// where the path is the field's own cut.
 #pragma once
 
 #include <functional>

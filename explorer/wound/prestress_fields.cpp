@@ -134,18 +134,20 @@ PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
                      "(0.01, 0.01, 0.005) MPa");
   const double volume = dot(cross(p[0], p[1]), p[2]);
   for (int i = 0; i < 3; ++i) inverse_[i] = 1 / volume * cross(p[(i + 1) % 3], p[(i + 2) % 3]);
-  membrane_ = membrane_of(along({{0}, {{0, 1, 0}}}));
 }
 
 PathPrestress PrestressFields::as_the_path_opens(const PathPrestress& prestress, const IncisionVolume& volume,
                                                  double length) const {
-  if (!membrane_) return prestress;
-  const PathPrestress added = tension_of_winding(*membrane_, shape().cut(), volume, length, prestress,
+  const auto membrane = membrane_of(along({{0}, {{0, 1, 0}}}));
+  if (!membrane) return prestress;
+  const PathPrestress added = tension_of_winding(*membrane, shape().cut(), volume, length, prestress,
                                                  [](double) { return OwnCut{}; });
-  PathPrestress result = prestress;
-  for (std::size_t i = 0; i < result.stations.size(); ++i) {
-    const Prestress more = added.at(result.stations[i]);
-    result.values[i].vv += more.vv, result.values[i].uv += more.uv;
+  PathPrestress result = {prestress.stations, {}};
+  result.stations.insert(result.stations.end(), added.stations.begin(), added.stations.end());
+  std::sort(result.stations.begin(), result.stations.end());
+  for (const double s : result.stations) {
+    const Prestress own = prestress.at(s), more = added.at(s);
+    result.values.push_back({own.uu, own.vv + more.vv, own.uv + more.uv});
   }
   return result;
 }

@@ -4,12 +4,10 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "explorer/study/study.h"
-#include "explorer/wound/cut_membrane.h"
 #include "explorer/wound/ipv.h"
 #include "explorer/wound/varying_field.h"
 #include "params/parameters/recorded.h"
@@ -69,7 +67,6 @@ class PrestressFields {
 
  private:
   std::vector<Field> fields_;
-  std::optional<CutMembrane> membrane_;
   Vec3 inverse_[3];  // rows: weights of the three fields for (uu, vv, uv)
 };
 
