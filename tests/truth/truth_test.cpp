@@ -2,9 +2,16 @@
 // opening.
 #include <gtest/gtest.h>
 
-#include "explorer/wound/replay.h"
+#include <algorithm>
+#include <cstdlib>
+
+#include "explorer/body/simulate.h"
+#include "explorer/body/simulated_wounds.h"
+#include "explorer/wound/cut_fields.h"
+#include "explorer/wound/replayed_wounds.h"
 #include "tests/incision/meshes.h"
 #include "tests/incision/self_intersections.h"
+#include "tests/truth/body_subjects.h"
 #include "tests/truth/truth_cases.h"
 #include "tradeoff/replays/replay_error.h"
 
@@ -144,6 +151,38 @@ TEST_F(TruthInTension, TurnsAgainstACurvedCut) {
   const ReplayError e = replay_error(truth, *fields);
   EXPECT_GT(e.gape, 1);
   EXPECT_LT(e.gape_error, promised * e.gape) << "0.24 where the tension does not turn";
+}
+
+TEST_F(TruthInTension, APathThatWindsOpensAsTheMembraneSays) {
+  setenv("CLEFT_BIN", CLEFT_BIN, 1);
+  // An S of two arcs of 15 mm, 45 mm long, as its body is simulated.
+  const auto subjects = testing::body_subjects(25);
+  const auto s_shape = std::ranges::find(subjects, "S of 15, 45 mm long", &testing::NamedSubject::name);
+  ASSERT_NE(s_shape, subjects.end());
+  const testing::Subject subject = s_shape->make();
+  BodyRequest request;
+  request.skin = subject.skin, request.paths = subject.paths, request.reach = 20;
+  request.parameters.patch.height = 6, request.parameters.mesh.element_size = 1.5;
+  const BodySimulation simulation = simulate(request);
+  CutMesh mesh(request.skin);
+  Incision cut(mesh, request.paths[0], {});
+  cut.advance_to(cut.path().length());
+  const auto& prestress = request.parameters.skin.prestress;
+  SkinTension tension = default_tension(request.paths[0], false);
+  tension.larger = prestress.uu, tension.smaller = prestress.vv;
+  const ReplayedWounds wounds({wound_in_tension(cut, *fields, tension, 1)});
+  const SimulatedWounds truth({&cut}, 1, simulation.body, *simulation.series);
+  std::vector<Vec3> replayed(wounds.vertex_count()), simulated(wounds.vertex_count());
+  wounds.positions(wounds.duration(), replayed);
+  truth.positions(truth.duration(), simulated);
+  double gape = 0, off = 0;
+  for (const auto& c : cut.chain()) {
+    const Vec3 opening = simulated[c.right] - simulated[c.left];
+    gape = std::max(gape, norm(opening));
+    off = std::max(off, norm(opening - (replayed[c.right] - replayed[c.left])));
+  }
+  EXPECT_GT(gape, 1);
+  EXPECT_LT(off, 2 * promised * gape) << off / gape << "; 0.35 with the tension at each place alone";
 }
 
 TEST_F(TruthInTension, ABranchOpensAwayFromTheCutItLeaves) {
