@@ -109,6 +109,8 @@ Relief::At Relief::at(double part) const {
 std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade) {
   std::vector<Amplitude> result;
   for (const Wound* cut : cuts) result.push_back(unrelieved(*cut));
+  if (cuts.size() > 1)
+    for (const Wound* cut : cuts) cut->field.prestress(&Prestress::vv, 0);  // throws where it is not told
   const std::optional<CutMembrane> membrane = membrane_of(cuts.back()->field);
   if (!membrane) return result;
   std::vector<InMembrane> parts;

@@ -16,8 +16,9 @@ namespace {
 
 /// Pieces of a field's own cut, and of a path at most.
 constexpr int own_pieces = 40, most_pieces = 120, fewest_pieces = 8;
-/// The reach of a membrane is sought between these, in lengths of the field's own cut.
-constexpr double least_reach = 0.02, greatest_reach = 20;
+/// The reach of a membrane is sought between these, in lengths of the field's own cut: four pieces, and what is
+/// as good as endless.
+constexpr double least_reach = 0.1, greatest_reach = 20;
 constexpr double usual_poisson_ratio = 0.4;
 /// What is added is no more than so many times the prestress.
 constexpr double most_added = 2;

@@ -50,7 +50,7 @@ inline void write_study_of_prestresses(const std::string& study) {
   for (const Vec3& p : prestresses) {
     const std::string place = study + "/cases/case" + std::to_string(number);
     std::filesystem::create_directories(place);
-    Field field = synthetic_field(5 - number);
+    Field field = synthetic_field(500 / 3. * p.y);  // the tension across opens it
     field.parameters = recorded({{"skin.prestress_u", p.x},
                                  {"skin.prestress_v", p.y},
                                  {"skin.prestress_uv", p.z},
