@@ -108,6 +108,7 @@ Relief::At Relief::at(double part) const {
 
 std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade) {
   std::vector<Amplitude> result;
+  result.reserve(cuts.size());
   for (const Wound* cut : cuts) result.push_back(unrelieved(*cut));
   if (cuts.size() > 1)
     for (const Wound* cut : cuts) cut->field.prestress(&Prestress::vv, 0);  // throws where it is not told

@@ -1,7 +1,9 @@
 #include "explorer/wound/path_opening.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -16,8 +18,8 @@ namespace {
 
 /// Pieces of a field's own cut, and of a path at most.
 constexpr int own_pieces = 40, most_pieces = 120, fewest_pieces = 8;
-/// The reach of a membrane is sought between these, in lengths of the field's own cut: four pieces, and what is
-/// as good as endless.
+/// The reach of a membrane is sought between these, in lengths of the field's own cut: four pieces, and what
+/// is as good as endless.
 constexpr double least_reach = 0.1, greatest_reach = 20;
 constexpr double usual_poisson_ratio = 0.4;
 /// What is added is no more than so many times the prestress.
@@ -98,33 +100,59 @@ std::vector<CutPiece> unrolled(const IncisionVolume& volume, double length, int 
   return in_plane(length, pieces, [&](int i) { return directions[i]; });
 }
 
-/// A field's own cut, complete up to `t` mm, and how it opens at `u` mm from its start: the opening along and
-/// across under unit stresses along, across and in shear there.
-Eigen::Matrix<double, 2, 3> own_opening(const CutMembrane& membrane, const OwnCut& own, double cut_length,
-                                        double t, double u) {
-  const int pieces =
-      std::clamp(static_cast<int>(std::lround(own_pieces * t / cut_length)), fewest_pieces, own_pieces);
-  const double piece = t / pieces, middle = cut_length / 2;
-  const auto direction = [&](int i) { return own.turned((i + 0.5) * piece - middle); };
-  Eigen::MatrixXd tractions(2 * pieces, 3);
-  for (int i = 0; i < pieces; ++i) {
-    const double back = own.turned(u - middle) - direction(i);
-    // A stress in the frame at u, on a piece that is turned against it by -back.
-    const double c = std::cos(back), s = std::sin(back);
-    tractions.row(2 * i) << c * s, -c * s, c * c - s * s;
-    tractions.row(2 * i + 1) << s * s, c * c, 2 * c * s;
+/// How a field's own cut opens in the membrane when `t` mm of it are cut.
+class OwnOpening {
+ public:
+  OwnOpening(const CutMembrane& membrane, const OwnCut& own, double cut_length, double t)
+      : own_(own), t_(t), middle_(cut_length / 2) {
+    const int pieces =
+        std::clamp(static_cast<int>(std::lround(own_pieces * t / cut_length)), fewest_pieces, own_pieces);
+    piece_ = t / pieces;
+    const auto direction = [&](int i) { return own.turned((i + 0.5) * piece_ - middle_); };
+    Eigen::MatrixXd tractions(2 * pieces, 3);  // of unit stresses in the frame of the cut's middle
+    for (int i = 0; i < pieces; ++i) {
+      const double c = std::cos(direction(i)), s = std::sin(direction(i));
+      tractions.row(2 * i) << -c * s, c * s, c * c - s * s;
+      tractions.row(2 * i + 1) << s * s, c * c, -2 * c * s;
+    }
+    opened_ = membrane.openings(in_plane(t, pieces, direction), tractions);
   }
-  const Eigen::MatrixXd opened = membrane.openings(in_plane(t, pieces, direction), tractions);
-  // Between the middles of pieces the opening is smooth when it is divided by that of a straight cut.
-  const auto shape = [&](double at) { return std::sqrt(std::max(1e-9, at * (t - at))); };
-  const double place = std::clamp(u / piece - 0.5, 0., pieces - 1.);
-  const int before = std::min(static_cast<int>(place), pieces - 2);
-  Eigen::Matrix<double, 2, 3> result = Eigen::Matrix<double, 2, 3>::Zero();
-  for (const int i : {before, before + 1})
-    result += (i == before ? before + 1 - place : place - before) * shape(u) / shape((i + 0.5) * piece) *
-              opened.middleRows<2>(2 * i);
-  return result;
-}
+
+  /// Whether it is that of another cut too, but for what no opening shows.
+  bool is_of(const OwnCut& own, double t) const {
+    return std::abs(own.curvature - own_.curvature) < same_curvature &&
+           std::abs(own.curvature_rate - own_.curvature_rate) < same_rate && std::abs(t - t_) < 1e-9 * t_;
+  }
+
+  /// At u mm from its start: along and across, under unit stresses along, across and in shear there.
+  Eigen::Matrix<double, 2, 3> at(double u) const {
+    // Between the middles of pieces the opening is smooth when it is divided by that of a straight cut.
+    const auto shape = [&](double at) { return std::sqrt(std::max(1e-9, at * (t_ - at))); };
+    const auto pieces = static_cast<int>(opened_.rows() / 2);
+    const double place = std::clamp(u / piece_ - 0.5, 0., pieces - 1.);
+    const int before = std::min(static_cast<int>(place), pieces - 2);
+    Eigen::Matrix<double, 2, 3> opened = Eigen::Matrix<double, 2, 3>::Zero();
+    for (const int i : {before, before + 1})
+      opened += (i == before ? before + 1 - place : place - before) * shape(u) / shape((i + 0.5) * piece_) *
+                opened_.middleRows<2>(2 * i);
+    Eigen::Matrix3d in_middle;  // unit stresses there, in the frame of the middle
+    for (int k = 0; k < 3; ++k) {
+      std::array<double, 3> unit{};
+      unit[static_cast<std::size_t>(k)] = 1;
+      const auto [uu, vv, uv] = turned(unit, own_.turned(u - middle_));
+      in_middle.col(k) << uu, vv, uv;
+    }
+    return opened * in_middle;
+  }
+
+ private:
+  /// 1/mm and 1/mm^2: a cut of 40 mm turns by less than 2 mrad from its middle to an end.
+  static constexpr double same_curvature = 5e-5, same_rate = 5e-6;
+
+  OwnCut own_;
+  double t_, middle_, piece_ = 0;
+  Eigen::MatrixXd opened_;
+};
 
 }  // namespace
 
@@ -152,12 +180,14 @@ PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut
     tractions(2 * i, 0) = local.back().uv, tractions(2 * i + 1, 0) = local.back().vv;
   }
   const Eigen::MatrixXd opened = membrane.openings(unrolled(volume, length, pieces), tractions);
+  std::optional<OwnOpening> own_opening;
   for (int i = 0; i < pieces; ++i) {
     const double s = result.stations[i];
     const auto [u, time_offset] = canonical_place(s, length, cut);
     const double t = std::clamp(length + time_offset, 0., cut.length);
     const OwnCut at = own(s);
-    const Eigen::Matrix<double, 2, 3> unit = own_opening(membrane, at, cut.length, t, u - cut.start);
+    if (!own_opening || !own_opening->is_of(at, t)) own_opening.emplace(membrane, at, cut.length, t);
+    const Eigen::Matrix<double, 2, 3> unit = own_opening->at(u - cut.start);
     const auto there = turned({local[i].uu, local[i].vv, local[i].uv}, -at.ahead);
     const Eigen::Rotation2Dd back(-at.ahead);
     const Eigen::Vector2d lacking =
