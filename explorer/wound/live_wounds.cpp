@@ -86,7 +86,7 @@ bool LiveWounds::relieve() {
   try {
     amplitudes = mutual_relief(first(size()), scale_ * newest.tip());
   } catch (const InputError&) {  // the field does not tell the tension: they add
-    amplitudes.assign(size(), {{0}, {{}}});
+    amplitudes.assign(size(), {{0}, {1}});
   }
   set_relief(last, Relief({std::move(amplitudes)}));
   now_ = relief(last).at(1);

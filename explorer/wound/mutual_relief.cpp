@@ -1,98 +1,136 @@
 #include "explorer/wound/mutual_relief.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
-#include "explorer/wound/path_opening.h"
 #include "explorer/wound/stations.h"
+#include "params/material/isotropic.h"
 
 namespace cleft {
 
 namespace {
 
-/// How far a cut is taken to open at most, over what it would alone, and lips to slide, over their opening.
-constexpr double most = 3, most_slide = 1;
-/// Pieces of a cut as long as the canonical one, of any cut, and of all cuts together.
-constexpr double pieces_of_canonical = 24;
-constexpr int fewest_pieces = 6, most_pieces = 48, pieces_of_all = 160;
-/// Of a cut, whatever its length: where amplitudes are told.
-constexpr int stations = 40;
+/// Parts of the cut's depth, each taken in its middle: where strains fall to nothing from the skin to the
+/// bottom as a parabola does, the sum is off by less than a hundredth.
+constexpr int layers = 6;
+/// The force is the mean over a part of the cut's depth on either side, at two Gauss points, and never across
+/// the other cut: on its lip the strain of a spline that was fitted to nodes is not determined. Along the
+/// other cut the mean is exact, a difference: next to its front, derivatives of a field jump.
+constexpr double reach = 0.5;
+const double gauss = 1 / std::numbers::sqrt3;
+/// Of the fixed point, and which part of the way a round goes. Halfway: parallel cuts close together relieve
+/// each other nearly wholly, r = -1, and whole ways would swing to and fro for ever. A deviation shrinks by
+/// (1 + r) / 2 a round: where r = 0.5, by 3e-8 in all.
+constexpr int rounds = 60;
+constexpr double way = 0.5;
+/// How far a cut is taken to open at most, over what it would alone, where others add to the tension. Beyond,
+/// cuts nearly meet end to end, and the strains of their fields do not add.
+constexpr double most = 3;
+/// The part of a path's normal that lies in the other cut's skin: with less the surface has turned away.
+constexpr double turned_away = 0.1;
+
+/// A cut opens as far as the tension next to each place lets it, which is the mean over so many depths to
+/// each side, with weights that fall to 0 there, at so many places.
+constexpr double mean_over = 2;
+constexpr int mean_of = 201;
 /// How far lips lean, for all of the tension across the cut that another takes: as simulated parallel cuts of
 /// 30 mm do, 4 to 20 mm apart. And over which part of its depth that falls by e.
 constexpr double leaning = 0.25, leaning_reach = 2. / 3;
 
-/// A cut in the membrane, as far as the blade has come.
-struct InMembrane {
-  std::vector<double> stations;  // the middles of its pieces, mm along the path
-  std::vector<CutPiece> pieces;
-  Eigen::VectorXd tractions;  // of the skin, along and across each piece
-  Eigen::Index first = 0;     // of its rows among those of all cuts
+/// The tension across `cut` at one of its stations: as it is given, and what another cut's field adds.
+struct Influence {
+  std::size_t cut, by;
+  std::size_t station;
+  double s;       // of the other's path
+  double ratio;   // of its change to the tension
+  double toward;  // 1: the other is at v > 0, -1: at v < 0; in between where they cross
 };
 
-InMembrane in_membrane(const Wound& cut, double length, std::size_t cuts) {
-  InMembrane result;
-  const double by_length = pieces_of_canonical * length / cut.field.shape().cut().length;
-  const int count =
-      std::clamp(static_cast<int>(std::lround(by_length)), fewest_pieces,
-                 std::clamp(pieces_of_all / static_cast<int>(cuts), fewest_pieces, most_pieces));
-  const auto place = [&](int corner) {
-    return cut.scale() * cut.incision->path().at(length * corner / count / cut.scale()).position;
+/// Skin and tissue as a field's case has them.
+struct Stiffness {
+  double thickness;     // of the skin
+  IsotropicSheet skin;  // N/mm
+  Isotropic tissue;     // MPa
+
+  explicit Stiffness(const Field& field)
+      : thickness(parameter_of(field, field.parameters->skin.thickness)),
+        skin(thickness * parameter_of(field, field.parameters->skin.young_modulus),
+             parameter_of(field, field.parameters->skin.poisson_ratio)),
+        tissue(parameter_of(field, field.parameters->tissue.young_modulus),
+               parameter_of(field, field.parameters->tissue.poisson_ratio)) {}
+};
+
+/// What another cut's field changes of the force across a line with normal `n`, N for each mm of it: in the
+/// skin (plane stress), and in the tissue as deep as the cut (the tissue has no prestress, but it presses on
+/// the walls where the skin draws it together).
+double change_across(const Wound& other, const Stiffness& is, const ActiveVertex& at, const Vec3& n,
+                     double blade) {
+  const CanonicalCut& cut = other.field.shape().cut();
+  const double t = std::clamp(blade + at.time_offset, 0., cut.length);
+  double a = dot(n, at.along), b = dot(n, normalized(at.across));
+  const double length = std::hypot(a, b);
+  if (length < turned_away) return 0;
+  a /= length, b /= length;
+  const auto strains = [&](double v, double w) {
+    Derivatives d = other.field.derivatives({at.uvw.x, v, w}, at.side, t, at.s);
+    const double from = at.uvw.x - reach * cut.depth, to = at.uvw.x + reach * cut.depth;
+    d.by_u = 1 / (to - from) *
+             (other.field.displacement({to, v, w}, at.side, t, at.s) -
+              other.field.displacement({from, v, w}, at.side, t, at.s));
+    const double uu = at.weight * d.by_u.x, vv = at.weight * d.by_v.y,
+                 uv = at.weight * (d.by_u.y + d.by_v.x) / 2, ww = at.weight * d.by_w.z;
+    return std::array{uu * a * a + 2 * uv * a * b + vv * b * b, uu + vv,
+                      ww};  // across the line, in plane, upright
   };
-  result.tractions.resize(2 * count);
-  const RecordedParameters& told = cut.field.shape().parameters;
-  const bool shear = told.number(told.name_of(told->skin.prestress.uv)) || cut.field.follows_shape();
-  for (int i = 0; i < count; ++i) {
-    const double s = (i + 0.5) * length / count;
-    result.stations.push_back(s);
-    result.pieces.push_back({place(i), place(i + 1), cut.volume.skin_frame(s / cut.scale()).outward});
-    result.tractions[2 * i] = shear ? cut.field.prestress(&Prestress::uv, s) : 0;
-    result.tractions[2 * i + 1] = cut.field.prestress(&Prestress::vv, s);
+  const double beside = std::max(std::abs(at.uvw.y), reach * cut.depth);
+  double force = 0;
+  for (const double distance : {beside - gauss * reach * cut.depth, beside + gauss * reach * cut.depth}) {
+    const double v = std::copysign(distance, at.side == Side::left    ? -1.
+                                             : at.side == Side::right ? 1.
+                                                                      : at.uvw.y);
+    const auto [across, in_plane, upright] = strains(v, 0);
+    force += is.skin.normal_stress(across, in_plane) / 2;
+    for (int i = 0; i < layers; ++i) {
+      const auto [nn, plane, up] = strains(v, -cut.depth * (i + 0.5) / layers);
+      force += cut.depth / layers * is.tissue.normal_stress(nn, plane + up) / 2;
+    }
   }
-  return result;
+  return force;
 }
 
-double station_of(const Wound& cut, int k) { return (k + 0.5) * cut.reached() / stations; }
-
-Amplitude unrelieved(const Wound& cut) {
-  Amplitude result;
-  for (int k = 0; k < stations; ++k) result.stations.push_back(station_of(cut, k));
-  result.values.resize(stations);
-  return result;
-}
-
-Vec3 across(const CutPiece& piece) { return normalized(cross(piece.outward, piece.to - piece.from)); }
-
-/// On which side of a piece the nearest piece of another cut goes along it: 1, -1 or, where they cross at a
-/// right angle, 0.
-double side_of(const CutPiece& piece, const std::vector<CutPiece>& other) {
-  const auto way_to = [&](const CutPiece& there) {
-    return 0.5 * (there.from + there.to - piece.from - piece.to);
-  };
-  const CutPiece& nearest =
-      *std::min_element(other.begin(), other.end(), [&](const CutPiece& a, const CutPiece& b) {
-        return dot(way_to(a), way_to(a)) < dot(way_to(b), way_to(b));
-      });
-  return std::copysign(dot(across(piece), across(nearest)),
-                       dot(across(piece), across(nearest)) * dot(way_to(nearest), across(nearest)));
+/// The means of an amplitude, over `width` mm to each side as far as the path goes.
+std::vector<double> means_of(const Amplitude& amplitude, double width) {
+  std::vector<double> means;
+  for (const double s : amplitude.stations) {
+    double sum = 0, weights = 0;
+    for (int k = 0; k < mean_of; ++k) {
+      const double part = (2 * k + 1.) / mean_of - 1, there = s + part * width, weight = 1 - std::abs(part);
+      if (there < amplitude.stations.front() || there > amplitude.stations.back()) continue;
+      sum += weight * amplitude.at(there), weights += weight;
+    }
+    means.push_back(sum / weights);
+  }
+  return means;
 }
 
 }  // namespace
 
-Amplitude::Value Amplitude::at(double s) const {
+Amplitude::Both Amplitude::both(double s) const {
   const auto [before, after, part] = between(stations, s);
-  const Value &a = values[before], &b = values[after];
-  return {std::lerp(a.across, b.across, part), std::lerp(a.slide, b.slide, part),
-          std::lerp(a.lean, b.lean, part)};
+  if (before == after) return {values[before], leans.empty() ? 0 : leans[before]};
+  return {(1 - part) * values[before] + part * values[after],
+          leans.empty() ? 0 : (1 - part) * leans[before] + part * leans[after]};
 }
 
-BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound)
-    : s(vertex.s),
-      along(vertex.along),
-      across(vertex.across),
-      outward(std::exp(-std::abs(vertex.uvw.y) / (leaning_reach * wound.field.shape().cut().depth)) *
-              vertex.outward) {}
+BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound) : s(vertex.s) {
+  const CanonicalCut& cut = wound.field.shape().cut();
+  const double from_middle = (vertex.uvw.x - cut.start) / (cut.length / 2) - 1;
+  across = std::exp(-std::abs(vertex.uvw.y) / (leaning_reach * cut.depth)) * vertex.across;
+  leaning = vertex.outward - std::clamp(from_middle, -1., 1.) * vertex.along;
+}
 
 Relief::At Relief::at(double part) const {
   At result;
@@ -107,56 +145,45 @@ Relief::At Relief::at(double part) const {
 }
 
 std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade) {
-  std::vector<Amplitude> result;
-  result.reserve(cuts.size());
-  for (const Wound* cut : cuts) result.push_back(unrelieved(*cut));
-  if (cuts.size() > 1)
-    for (const Wound* cut : cuts) cut->field.prestress(&Prestress::vv, 0);  // throws where it is not told
-  const std::optional<CutMembrane> membrane = membrane_of(cuts.back()->field);
-  if (!membrane) return result;
-  std::vector<InMembrane> parts;
-  std::vector<CutPiece> pieces;
-  for (const Wound* cut : cuts) {
-    const double length = cut == cuts.back() ? blade : cut->complete();
-    if (!(length > 0)) continue;  // the newest has not begun
-    parts.push_back(in_membrane(*cut, length, cuts.size()));
-    parts.back().first = 2 * static_cast<Eigen::Index>(pieces.size());
-    pieces.insert(pieces.end(), parts.back().pieces.begin(), parts.back().pieces.end());
-  }
-  if (parts.size() < 2) return result;
-  const Eigen::MatrixXd relief = membrane->relief(pieces);
-  Eigen::VectorXd tractions(relief.rows());
-  for (const InMembrane& part : parts) tractions.segment(part.first, part.tractions.size()) = part.tractions;
-  const Eigen::VectorXd together = relief.partialPivLu().solve(tractions);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const InMembrane& part = parts[i];
-    const Eigen::Index rows = part.tractions.size();
-    const Eigen::VectorXd alone =
-        relief.block(part.first, part.first, rows, rows).partialPivLu().solve(part.tractions);
-    Amplitude now{part.stations, std::vector<Amplitude::Value>(part.stations.size())};
-    for (std::size_t k = 0; k < now.values.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(2 * k);
-      const double opened = alone[row + 1];
-      if (!(opened > 0)) continue;
-      auto& [across, slide, lean] = now.values[k];
-      across = std::clamp(together[part.first + row + 1] / opened, 0., most);
-      slide =
-          std::clamp((together[part.first + row] - across * alone[row]) / opened, -most_slide, most_slide);
-    }
-    for (const InMembrane& other : parts) {
-      if (&other == &part) continue;
-      const Eigen::VectorXd taken = relief.block(part.first, other.first, rows, other.tractions.size()) *
-                                    together.segment(other.first, other.tractions.size());
-      for (std::size_t k = 0; k < now.values.size(); ++k) {
-        const auto row = static_cast<Eigen::Index>(2 * k + 1);
-        if (!(part.tractions[row] > 0)) continue;
-        const double of_tension = std::clamp(taken[row] / part.tractions[row], 0., 1.);
-        now.values[k].lean -= leaning * of_tension * side_of(part.pieces[k], other.pieces);
+  std::vector<Amplitude> result(cuts.size());
+  std::vector<Influence> influences;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const Wound& cut = *cuts[i];
+    for (const Incision::ChainVertex& c : cut.incision->chain()) {
+      const double s = c.s * cut.scale();
+      if (!result[i].stations.empty() && s <= result[i].stations.back()) continue;
+      const std::size_t station = result[i].stations.size();
+      result[i].stations.push_back(s);
+      const Vec3 normal = cut.volume.skin_frame(c.s).across;
+      for (std::size_t j = 0; j < cuts.size(); ++j) {
+        if (j == i) continue;
+        const std::optional<ActiveVertex> at = cuts[j]->volume.locate(c.left);
+        if (!at) continue;
+        const double there = j + 1 == cuts.size() ? blade : cuts[j]->complete();
+        const double tension = cut.field.prestress(&Prestress::vv, s);
+        if (!(tension > 0)) continue;
+        const Stiffness stiffness(cuts[j]->field.shape());
+        const double change = change_across(*cuts[j], stiffness, *at, normal, there);
+        const double toward = (at->uvw.y > 0 ? -1 : 1) * dot(at->across, normal);
+        influences.push_back({i, j, station, at->s, change / (stiffness.thickness * tension), toward});
       }
     }
-    // At the same stations wherever the blade is.
-    for (int k = 0; k < stations; ++k) result[i].values[k] = now.at(result[i].stations[k]);
+    result[i].values.assign(result[i].stations.size(), 1);
   }
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<std::vector<double>> next;
+    for (const Amplitude& amplitude : result) next.emplace_back(amplitude.values.size(), 1);
+    for (const Influence& x : influences) next[x.cut][x.station] += x.ratio * result[x.by].at(x.s);
+    for (std::size_t i = 0; i < result.size(); ++i)
+      for (std::size_t k = 0; k < next[i].size(); ++k)
+        result[i].values[k] += way * (std::clamp(next[i][k], 0., most) - result[i].values[k]);
+  }
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i].values = means_of(result[i], mean_over * cuts[i]->field.shape().cut().depth);
+    result[i].leans.assign(result[i].stations.size(), 0);
+  }
+  for (const Influence& x : influences)
+    result[x.cut].leans[x.station] += leaning * std::min(0., x.ratio * result[x.by].at(x.s)) * x.toward;
   return result;
 }
 

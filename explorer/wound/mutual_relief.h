@@ -1,10 +1,14 @@
-// Cuts side by side relieve each other: each opens in the tension that the others leave. How much less than
-// alone it opens at each place of its path, A(s), and how far its lips slide along each other, are taken from
-// a membrane in which all cuts are (cut_membrane.h): the field of each is scaled, and slides, accordingly.
+// Cuts side by side relieve each other: each opens in the tension that the others leave. The field of each is
+// scaled along its path by A(s), the tension across it relative to that without the others:
+//   A_i(s) = 1 + sum over j of A_j r_ij(s),   r_ij = (change of tension across path i that cut j alone makes)
+//   / (tension)
+// a fixed point in the amplitudes of all cuts (Kachanov 1987, elastic solids with many cracks, with constant
+// amplitudes; here they vary along the path). The change of tension in the skin is its plane stress for the
+// strain of the other cut's field.
 //
-// Of parallel cuts the strip between them sinks, and the skin beyond them rises as beside a cut alone: lips
-// lean. Next to them a share of the displacement across the cut is added upright, in proportion to how much
-// it is relieved from that side.
+// Of parallel cuts the strip between them sinks and becomes longer, and the skin beyond them rises as beside
+// a cut alone: lips lean. Next to them a share of the displacement across the cut is added upright, and along
+// the cut, in proportion to how much it is relieved from that side.
 #pragma once
 
 #include <algorithm>
@@ -14,22 +18,24 @@
 
 namespace cleft {
 
-/// Amplitude along a path, linear between stations, in mm of it; constant beyond them.
+/// Amplitude along a path, linear between stations, in mm of it; constant beyond them. And how far lips lean:
+/// by which part of its displacement across a vertex on a lip rises, positive where those at v > 0 do.
 struct Amplitude {
-  struct Value {
-    double across = 1;  ///< of the displacement that the cut makes alone
-    double slide = 0;   ///< part of its displacement across by which a vertex also moves along
-    double lean = 0;    ///< and by which one on a lip rises
+  std::vector<double> stations, values;
+  std::vector<double> leans = {};  ///< none: 0
+  double at(double s) const { return both(s).value; }
+  double lean(double s) const { return both(s).lean; }
+  struct Both {
+    double value, lean;
   };
-  std::vector<double> stations;
-  std::vector<Value> values;
-  Value at(double s) const;
+  Both both(double s) const;
 };
 
 /// A vertex beside a cut, as its relief needs it.
 struct BesideCut {
-  double s = 0;                 ///< mm along the path
-  Vec3 along, across, outward;  ///< unit, in the mesh's space; `outward` is shorter the further from the lips
+  double s = 0;  ///< mm along the path
+  Vec3 across;   ///< in the mesh's space, shorter the further from the lips
+  Vec3 leaning;  ///< outward, and toward the middle of the cut, as much as outward at its ends
 
   BesideCut() = default;
   BesideCut(const ActiveVertex& vertex, const Wound& wound);
@@ -59,21 +65,21 @@ class Relief {
    public:
     At() = default;  ///< 1 everywhere
     /// The amplitude at s mm of a cut's path.
-    Amplitude::Value amplitude(std::size_t cut, double s) const {
-      if (cut >= cuts_) return {};
-      const Amplitude::Value before = before_[cut].at(s);
-      if (before_ == after_) return before;
-      const Amplitude::Value after = after_[cut].at(s);
-      return {before.across + beyond_ * (after.across - before.across),
-              before.slide + beyond_ * (after.slide - before.slide),
-              before.lean + beyond_ * (after.lean - before.lean)};
+    double amplitude(std::size_t cut, double s) const {
+      if (cut >= cuts_) return 1;
+      if (before_ == after_) return before_[cut].at(s);
+      return (1 - beyond_) * before_[cut].at(s) + beyond_ * after_[cut].at(s);
     }
 
     /// A displacement by one cut alone, as the others leave it.
     Vec3 relieved(std::size_t cut, const BesideCut& at, const Vec3& alone) const {
       if (cut >= cuts_) return alone;
-      const auto [across, slide, lean] = amplitude(cut, at.s);
-      return across * alone + dot(alone, at.across) * (slide * at.along + lean * at.outward);
+      auto [value, lean] = before_[cut].both(at.s);
+      if (before_ != after_) {
+        const Amplitude::Both after = after_[cut].both(at.s);
+        value += beyond_ * (after.value - value), lean += beyond_ * (after.lean - lean);
+      }
+      return value * alone + lean * dot(alone, at.across) * at.leaning;
     }
 
    private:
@@ -91,8 +97,7 @@ class Relief {
 };
 
 /// The amplitudes of all cuts, with the blade of the last one at `blade` mm of its path and the others
-/// complete. All 1 for a single cut, and where the newest field does not open. Throws InputError if a field
-/// lacks the skin's prestress.
+/// complete. All 1 for a single cut. Throws InputError if a field lacks the skin's prestress or stiffness.
 std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade);
 
 }  // namespace cleft

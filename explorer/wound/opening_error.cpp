@@ -24,14 +24,15 @@ constexpr double of_skin_across = 5, of_skin_along = 1.7, of_twist = 3;  // mm: 
 constexpr double of_length = 0.1;  // times the part of the path beyond the canonical cut
 /// Of the error by the length, where the tension is that with which the whole path opens (path_opening.h).
 constexpr double of_length_turned = 0.4;
-constexpr double of_neighbour = 0.05, neighbour_reach = 20;  // falls by e over so many mm
-constexpr double of_slant = 0.1, slant_reach = 1;            // likewise, of cuts that meet at a slant
+constexpr double of_neighbour = 0.12, neighbour_reach = 20;  // falls by e over so many mm
 /// Where the cut that it meets is pulled alike along and across, or the tension does not turn; up to a third
 /// as hard along as across none.
 constexpr double of_junction = 0.6, pulled_enough = 1. / 3;
 constexpr double of_winding = 0.6;    // mm: times the curvature's difference from that which opens it
 constexpr double of_direction = 0.1;  // a radian: between the path and the direction that opens it
-constexpr double of_outside = 0.1;    // half a range beyond the family
+constexpr double of_loop = 3.3;       // of these two, where the path ends so near to its start, in depths:
+constexpr double ends_apart = 2;
+constexpr double of_outside = 0.1;  // half a range beyond the family
 /// Of bone: at 5 mm, with a power of how much nearer it is than where it does not count.
 constexpr double of_bone = 0.15, near_bone = 5, far_bone = 12, bone_power = 1.75;
 
@@ -78,9 +79,8 @@ Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, b
        n.between ? "the field lies between the cases of a study" : "that is the error of the field's fit"},
       {(as_path ? of_length_turned : 1) * std::min(1., std::max(of_length, n.length_defect)) * beyond,
        "the path of # mm is longer than the field's cut", length},
-      {of_neighbour * std::exp(-n.nearest_cut / neighbour_reach) +
-           of_slant * std::exp(-n.nearest_cut / slant_reach),
-       "another cut is # mm beside it", n.nearest_cut},
+      {of_neighbour * std::exp(-n.nearest_cut / neighbour_reach), "another cut is # mm beside it",
+       n.nearest_cut},
       {n.held_back, "the skin would turn over or pass through itself, and is held back"}};
   if (n.junction_tension > 0 && !known)
     parts.push_back({of_junction, "it meets another cut, and the tension does not turn with it"});
@@ -92,12 +92,14 @@ Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, b
 }
 
 /// `whole` is the shape over half the canonical cut.
-Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, const Wound& cut, bool known) {
+Parts parts_at(double s, const LocalShape& local, const LocalShape& whole, const Wound& cut, bool known,
+               bool loop) {
   const CanonicalCut& canonical = cut.field.shape().cut();
   const double in_cuts = canonical.length / 30, radius = 1 / std::abs(local.curvature);
   Parts parts;
   if (cut.followed.bend)
-    parts.push_back({of_winding * std::abs(local.curvature - whole.curvature) + of_direction * astray(cut, s),
+    parts.push_back({(loop ? of_loop : 1) * (of_winding * std::abs(local.curvature - whole.curvature) +
+                                             of_direction * astray(cut, s)),
                      "the path winds"});
   else if (known)
     parts.push_back(
@@ -135,13 +137,16 @@ OpeningError opening_error_of(const Wound& cut, bool known, const Neighbourhood&
   const PathShape whole =
       cut.followed.bend ? shape_along(*cut.incision, cut.scale(), {canonical.length / 2, skin_smoothing})
                         : shape;
-  const bool as_path = cut.field.follows_shape() || cut.field.typical().size() > 1;
+  const ScalpelPath& path = cut.incision->path();
+  const double chord = norm(path.at(path.length()).position - path.at(0).position) * cut.scale();
+  const bool loop = chord < ends_apart * canonical.depth;
+  const bool as_path = !loop && (cut.field.follows_shape() || cut.field.typical().size() > 1);
   const Parts of_whole = parts_of_whole(shape.stations.back(), canonical, known, as_path, neighbourhood);
   OpeningError result;
   for (std::size_t i = 0; i < shape.stations.size(); ++i) {
     const LocalShape& local = shape.values[i];
     const double s = shape.stations[i];
-    Parts parts = parts_at(s, local, whole.at(s), cut, known);
+    Parts parts = parts_at(s, local, whole.at(s), cut, known, loop);
     parts.insert(parts.begin(), of_whole.begin(), of_whole.end());
     if (cut.tissue && !cut.followed.bone) {
       const Vec3 place = cut.scale() * cut.incision->path().at(s / cut.scale()).position;

@@ -22,8 +22,9 @@ constexpr int own_pieces = 40, most_pieces = 120, fewest_pieces = 8;
 /// is as good as endless.
 constexpr double least_reach = 0.1, greatest_reach = 20;
 constexpr double usual_poisson_ratio = 0.4;
-/// What is added is no more than so many times the prestress.
-constexpr double most_added = 2;
+/// What is added is no more than so many times the prestress, and leaves a cut this part of its own opening:
+/// lips that the path's other parts press together bear on each other.
+constexpr double most_added = 1, least_opening = 0.25;
 
 /// Pieces of the same length in the plane, each in a direction.
 std::vector<CutPiece> in_plane(double length, int pieces, const std::function<double(int)>& direction) {
@@ -84,6 +85,17 @@ double field_opening(const VaryingField& field, double length) {
   const Vec3 middle{field.shape().cut().start + length / 2, 0, 0};
   return field.displacement(middle, Side::right, length, 0).y -
          field.displacement(middle, Side::left, length, 0).y;
+}
+
+/// Whether a path comes back to itself: so near, pieces feel each other's ends.
+bool comes_back(const std::vector<CutPiece>& pieces) {
+  constexpr std::size_t next = 4;    // pieces that are near each other anyway
+  constexpr double near_pieces = 2;  // of a piece's length
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (std::size_t j = i + next; j < pieces.size(); ++j)
+      if (norm(pieces[j].to - pieces[i].from) < near_pieces * norm(pieces[i].to - pieces[i].from))
+        return true;
+  return false;
 }
 
 /// A path in the plane, in which it bends as in the skin.
@@ -179,19 +191,23 @@ PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut
     local.push_back(prestress.at(result.stations.back()));
     tractions(2 * i, 0) = local.back().uv, tractions(2 * i + 1, 0) = local.back().vv;
   }
-  const Eigen::MatrixXd opened = membrane.openings(unrolled(volume, length, pieces), tractions);
-  std::optional<OwnOpening> own_opening;
+  const std::vector<CutPiece> path = unrolled(volume, length, pieces);
+  if (comes_back(path)) return {{0}, {{}}};
+  const Eigen::MatrixXd opened = membrane.openings(path, tractions);
+  std::optional<OwnOpening> of_own_cut;
   for (int i = 0; i < pieces; ++i) {
     const double s = result.stations[i];
     const auto [u, time_offset] = canonical_place(s, length, cut);
     const double t = std::clamp(length + time_offset, 0., cut.length);
     const OwnCut at = own(s);
-    if (!own_opening || !own_opening->is_of(at, t)) own_opening.emplace(membrane, at, cut.length, t);
-    const Eigen::Matrix<double, 2, 3> unit = own_opening->at(u - cut.start);
+    if (!of_own_cut || !of_own_cut->is_of(at, t)) of_own_cut.emplace(membrane, at, cut.length, t);
+    const Eigen::Matrix<double, 2, 3> unit = of_own_cut->at(u - cut.start);
     const auto there = turned({local[i].uu, local[i].vv, local[i].uv}, -at.ahead);
     const Eigen::Rotation2Dd back(-at.ahead);
-    const Eigen::Vector2d lacking =
-        back * opened.middleRows<2>(2 * i).col(0) - unit * Eigen::Vector3d(there[0], there[1], there[2]);
+    const Eigen::Vector2d own_opening = unit * Eigen::Vector3d(there[0], there[1], there[2]);
+    Eigen::Vector2d wanted = back * opened.middleRows<2>(2 * i).col(0);
+    wanted[1] = std::max(wanted[1], std::min(own_opening[1], least_opening * own_opening[1]));
+    const Eigen::Vector2d lacking = wanted - own_opening;
     const Eigen::Vector2d added = unit.rightCols<2>().lu().solve(lacking);
     const double most = most_added * std::max({std::abs(there[0]), std::abs(there[1]), std::abs(there[2])});
     result.values.push_back({0, std::clamp(added[0], -most, most), std::clamp(added[1], -most, most)});

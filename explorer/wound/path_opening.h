@@ -29,7 +29,7 @@ struct OwnCut {
 };
 
 /// What is to be added to the prestress at places of a path, MPa, in the frame of the field's u there; none
-/// along it.
+/// along it, and none at all of a path that comes back to itself.
 PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut& cut,
                                  const IncisionVolume& volume, double length, const PathPrestress& prestress,
                                  const std::function<OwnCut(double s)>& own);

@@ -70,21 +70,19 @@ void ReplayedWounds::bound_vertices() {
         const Amplitude& one = relief(later).amplitude(step, k);
         const std::size_t stations = one.stations.size();
         if (largest.values.empty())
-          largest = {one.stations, std::vector<Amplitude::Value>(stations, {k == 0 ? 1. : 0.})};
+          largest = {one.stations, std::vector(stations, k == 0 ? 1. : 0.), std::vector(stations, 0.)};
         for (std::size_t i = 0; i < stations; ++i) {
-          auto& [across, slide, lean] = largest.values[i];
-          across = std::max(across, one.values[i].across);
-          slide = std::max(slide, std::abs(one.values[i].slide));
-          lean = std::max(lean, std::abs(one.values[i].lean));
+          largest.values[i] = std::max(largest.values[i], one.values[i]);
+          largest.leans[i] = std::max(largest.leans[i], std::abs(one.lean(one.stations[i])));
         }
       }
     const Replay& replay = whole_.replays[k];
     for (std::size_t i = 0; i < replay.active().size(); ++i) {
       const BesideCut& at = whole_.beside[k][i];
-      const auto [across, slide, lean] = largest.values.empty() ? Amplitude::Value{} : largest.at(at.s);
+      const auto [value, lean] = largest.values.empty() ? Amplitude::Both{1, 0} : largest.both(at.s);
       // The norm of A I + l a^T, of perpendicular vectors whose lengths have the product 2 half.
-      const double half = std::hypot(slide * norm(at.along), lean * norm(at.outward)) * norm(at.across) / 2;
-      bounds_[replay.active()[i].vertex] += replay.bound(i) * (half + std::hypot(half, across));
+      const double half = lean * norm(at.across) * norm(at.leaning) / 2;
+      bounds_[replay.active()[i].vertex] += replay.bound(i) * (half + std::hypot(half, value));
     }
   }
   for (const int v : guard().vertices()) bounds_[v] = never_left_out;

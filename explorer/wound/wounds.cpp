@@ -29,7 +29,7 @@ Relief::At Wounds::relief_at(const Blade& blade) const {
 }
 
 double Wounds::amplitude(std::size_t cut, double s, const Blade& blade) const {
-  return relief_at(blade).amplitude(cut, s).across;
+  return relief_at(blade).amplitude(cut, s);
 }
 
 Vec3 Wounds::relieved(std::size_t cut, const ActiveVertex& at, const Vec3& alone, const Blade& blade) const {

@@ -261,17 +261,7 @@ TEST_F(SessionTest, FiguresOfLargeWoundsHaveNoExponent) {
 }
 
 TEST_F(SessionTest, CutsThatAFieldCannotOpenTogetherAreRefusedAndTheFirstStays) {
-  const TemporaryFolder folder;
-  for (const int number : {0, 1}) {  // fields that do not tell the tension across the cut
-    const std::string name = "case" + std::to_string(number), place = folder / ("study/cases/" + name);
-    std::filesystem::create_directories(place);
-    Field field = synthetic_field(3 + number);
-    field.parameters = recorded({{"tissue.young_modulus", 0.01 + 0.01 * number}, {"cut.depth", 6}});
-    field.case_hash = name;
-    write_field(place + "/case.dffd", field);
-    write_text_file(place + "/manifest.json", "{}");
-  }
-  say("open " + (folder / "study"));
+  say("open " + raw_study());  // its fields do not tell the tension along the cut
   say("mesh plate.stl");
   say("cut -15,0.7,0,0,0,1 0,0.7,0,0,0,1 15,0.7,0,0,0,1");
   const std::string before = state_to_json(state());

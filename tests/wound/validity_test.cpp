@@ -62,7 +62,7 @@ TEST(Validity, CutsThatMeetAtASlantOrLieBesideEachOtherAreJudgedByTheirDistance)
   const auto beside = two_cuts(pulled(0.02, 0.02), -2, 90, true);
   EXPECT_FALSE(beside[1].junction_tension);
   EXPECT_EQ(tells(beside[1], "meets another cut"), 0);
-  EXPECT_EQ(beside[1].expected_error.cause, "another cut is 2 mm beside it");
+  EXPECT_EQ(tells(beside[1], "another cut is 2 mm beside it"), 1);
   EXPECT_NEAR(beside[1].nearest_cut, 2, 0.2);
 }
 
