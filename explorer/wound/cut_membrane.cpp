@@ -34,8 +34,6 @@ constexpr std::array<GaussPoint, 1> one_point = {{{0, 2}}};
 constexpr double near_pieces = 1.5;  // lengths of a piece
 /// Of half a piece: what is nearer counts as so near.
 constexpr double near_part = 0.3;
-/// Pieces whose normals are apart by more, as a cosine, are on different sides of a body.
-constexpr double turned_away = 0.1;
 
 /// The derivatives of K0(c r) by r, the first to the fourth.
 std::array<double, 4> bessel_derivatives(double c, double r) {
@@ -104,32 +102,14 @@ CutMembrane::Derivatives CutMembrane::smooth_part(double distance) const {
   return result;
 }
 
-/// The traction on `to` that a unit opening of `from`, along and across, takes: both in their own frames.
-Eigen::Matrix2d CutMembrane::relief(const CutPiece& to, const CutPiece& from) const {
-  Tensor taken = Tensor::Zero();
-  const double facing = dot(to.outward, from.outward);
-  if (facing < turned_away) return taken;
-  const Vec3 place = 0.5 * (to.from + to.to), normal = normalized(to.outward + from.outward);
-  const Vec3 first = normalized(to.to - to.from - dot(to.to - to.from, normal) * normal),
-             second = cross(normal, first);
-  // Seen from `place`, in the frame of `to`; as far away as in space.
-  const auto seen = [&](const Vec3& point) -> Vector {
-    const Vec3 way = point - place;
-    const Vector in_plane(dot(way, first), dot(way, second));
-    const double length = in_plane.norm();
-    return length > 0 ? Vector(norm(way) / length * in_plane) : in_plane;
-  };
-  const bool itself = &to == &from;
-  const double half = norm(from.to - from.from) / 2, nearest_end = near_part * half;
-  const Vector begin = itself ? Vector(-half, 0) : seen(from.from),
-               end = itself ? Vector(half, 0) : seen(from.to);
+Eigen::Matrix2d CutMembrane::relief(const Vector& begin, const Vector& end) const {
   const Vector middle = (begin + end) / 2, along = (end - begin).normalized();
-  Tensor frame;  // columns: along and across `from`
+  const double half = (end - begin).norm() / 2, least = near_part * half;
+  Tensor frame;  // columns: along and across the opening
   frame << along.x(), -along.y(), along.y(), along.x();
-  // Ends of other cuts within a piece's own length would be felt as much as they are singular.
+  // A path that turns back within a piece would feel it as much as it is singular.
   const auto not_too_near = [&](const Vector& way) -> Vector {
-    return way.norm() < nearest_end ? Vector(nearest_end * (way.norm() > 0 ? way.normalized() : Vector(1, 0)))
-                                    : way;
+    return way.norm() < least ? Vector(least * (way.norm() > 0 ? way.normalized() : Vector(1, 0))) : way;
   };
   const double poisson = lame_ / (lame_ + 2 * shear_), kappa = (3 - poisson) / (1 + poisson);
   const double of_dislocation = 2 * shear_ / (std::numbers::pi * (kappa + 1)),
@@ -137,6 +117,7 @@ Eigen::Matrix2d CutMembrane::relief(const CutPiece& to, const CutPiece& from) co
   const Vector across(0, 1), across_there = frame.transpose() * across;
   const auto at_begin = dislocation_stress(frame.transpose() * not_too_near(-begin), of_dislocation),
              at_end = dislocation_stress(frame.transpose() * not_too_near(-end), of_dislocation);
+  Tensor taken;
   for (int a = 0; a < 2; ++a) taken.col(a) = frame * ((at_begin[a] - at_end[a]) * across_there);
   const std::span<const GaussPoint> rule =
       middle.norm() < 2 * near_pieces * half ? std::span<const GaussPoint>(four_points) : one_point;
@@ -171,18 +152,20 @@ Eigen::Matrix2d CutMembrane::relief(const CutPiece& to, const CutPiece& from) co
   return taken;
 }
 
-Eigen::MatrixXd CutMembrane::relief(const std::vector<CutPiece>& pieces) const {
-  const auto count = static_cast<Eigen::Index>(pieces.size());
-  Eigen::MatrixXd result(2 * count, 2 * count);
-  for (Eigen::Index from = 0; from < count; ++from)
-    for (Eigen::Index to = 0; to < count; ++to)
-      result.block<2, 2>(2 * to, 2 * from) = relief(pieces[to], pieces[from]);
-  return result;
-}
-
-Eigen::MatrixXd CutMembrane::openings(const std::vector<CutPiece>& pieces,
+Eigen::MatrixXd CutMembrane::openings(const std::vector<Vector>& corners,
                                       const Eigen::MatrixXd& tractions) const {
-  return relief(pieces).partialPivLu().solve(tractions);
+  const auto pieces = static_cast<Eigen::Index>(corners.size()) - 1;
+  Eigen::MatrixXd taken(2 * pieces, 2 * pieces);
+  for (Eigen::Index to = 0; to < pieces; ++to) {
+    const Vector middle = (corners[to] + corners[to + 1]) / 2,
+                 along = (corners[to + 1] - corners[to]).normalized();
+    Tensor frame;
+    frame << along.x(), -along.y(), along.y(), along.x();
+    const auto seen = [&](const Vector& corner) -> Vector { return frame.transpose() * (corner - middle); };
+    for (Eigen::Index from = 0; from < pieces; ++from)
+      taken.block<2, 2>(2 * to, 2 * from) = relief(seen(corners[from]), seen(corners[from + 1]));
+  }
+  return taken.partialPivLu().solve(tractions);
 }
 
 }  // namespace cleft

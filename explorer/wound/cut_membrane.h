@@ -12,15 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/vec3.h"
-
 namespace cleft {
-
-/// A piece of a cut, mm, in skin whose normal there is `outward`. It has a frame: along, to its other end,
-/// and across = outward x along.
-struct CutPiece {
-  Vec3 from, to, outward;
-};
 
 class CutMembrane {
  public:
@@ -35,15 +27,14 @@ class CutMembrane {
     return result;
   }
 
-  /// How the pieces of cuts open: the displacement on the side to which `across` points less that on the
-  /// other, mm, for forces in E times the sheet's thickness. Rows are along the first piece, across it, along
-  /// the second, ...; a column for each load. `tractions` are those on the pieces before they are cut: the
-  /// shear and the tension across.
-  Eigen::MatrixXd openings(const std::vector<CutPiece>& pieces, const Eigen::MatrixXd& tractions) const;
-
-  /// What a unit opening of each piece takes from the tractions on the pieces: a column for each opening, in
-  /// the order of these. In skin that is not flat two pieces are seen in the plane between their own.
-  Eigen::MatrixXd relief(const std::vector<CutPiece>& pieces) const;
+  /// How a cut opens between its corners, mm, in the middles of its straight pieces. Each piece has a frame:
+  /// along, to the next corner, and across, a quarter turn from there, from the first axis toward the second.
+  /// The opening is the displacement on the side to which `across` points less that on the other, for forces
+  /// in E times the sheet's thickness. Rows are along the first piece, across it, along the second, ...; a
+  /// column for each load. `tractions` are those on the pieces before they are cut: the shear and the tension
+  /// across.
+  Eigen::MatrixXd openings(const std::vector<Eigen::Vector2d>& corners,
+                           const Eigen::MatrixXd& tractions) const;
 
  private:
   /// What is smooth of the second derivatives of the fundamental solution at a distance, in the frame of the
@@ -52,7 +43,9 @@ class CutMembrane {
   using Derivatives = std::array<double, 5>;
   Derivatives smooth_part(double distance) const;
 
-  Eigen::Matrix2d relief(const CutPiece& to, const CutPiece& from) const;
+  /// What a unit opening between two corners, along and across, takes from the traction on a piece; both in
+  /// the piece's frame, in whose middle the corners are seen.
+  Eigen::Matrix2d relief(const Eigen::Vector2d& begin, const Eigen::Vector2d& end) const;
 
   double reach_, lame_, shear_;  // for a Young's modulus of 1
   std::shared_ptr<const std::vector<Derivatives>> table_;

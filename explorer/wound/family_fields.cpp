@@ -70,6 +70,7 @@ CaseShape case_of(const LocalShape& local, const OwnCut& own, const Prestress& p
           {tension[0], tension[1], tension[2]}};
 }
 
+/// Linear between the stations of cuts, and as at the ends beyond them.
 OwnCut between_cuts(const std::vector<double>& stations, const std::vector<OwnCut>& cuts, double s) {
   const auto [a, b, part] = between(stations, s);
   const OwnCut &x = cuts[a], &y = cuts[b];

@@ -26,14 +26,15 @@ constexpr double usual_poisson_ratio = 0.4;
 /// lips that the path's other parts press together bear on each other.
 constexpr double most_added = 1, least_opening = 0.25;
 
-/// Pieces of the same length in the plane, each in a direction.
-std::vector<CutPiece> in_plane(double length, int pieces, const std::function<double(int)>& direction) {
-  std::vector<CutPiece> result;
-  Vec3 at{};
+/// Corners of a path in the plane, mm.
+using Corners = std::vector<Eigen::Vector2d>;
+
+/// Of pieces of the same length, each in a direction, radians.
+Corners corners_of(double length, int pieces, const std::function<double(int)>& direction) {
+  Corners result = {{0, 0}};
   for (int i = 0; i < pieces; ++i) {
-    const Vec3 next = at + length / pieces * Vec3{std::cos(direction(i)), std::sin(direction(i)), 0};
-    result.push_back({at, next, {0, 0, 1}});
-    at = next;
+    const double angle = direction(i);
+    result.emplace_back(result.back() + length / pieces * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   return result;
 }
@@ -43,8 +44,8 @@ double straight_opening(const CutMembrane& membrane, double length) {
   constexpr int pieces = own_pieces / 2 + 1;  // an odd number: one is in the middle
   Eigen::MatrixXd tension = Eigen::MatrixXd::Zero(2 * pieces, 1);
   for (int i = 0; i < pieces; ++i) tension(2 * i + 1, 0) = 1;
-  return membrane.openings(in_plane(length, pieces, [](int) { return 0.; }), tension)(2 * (pieces / 2) + 1,
-                                                                                      0);
+  const Corners corners = corners_of(length, pieces, [](int) { return 0.; });
+  return membrane.openings(corners, tension)(2 * (pieces / 2) + 1, 0);
 }
 
 /// Which part of its opening in the middle a straight cut has when half of it is cut, by the membrane's
@@ -88,18 +89,18 @@ double field_opening(const VaryingField& field, double length) {
 }
 
 /// Whether a path comes back to itself: so near, pieces feel each other's ends.
-bool comes_back(const std::vector<CutPiece>& pieces) {
-  constexpr std::size_t next = 4;    // pieces that are near each other anyway
+bool comes_back(const Corners& corners) {
+  constexpr std::size_t next = 5;    // corners that are near each other anyway
   constexpr double near_pieces = 2;  // of a piece's length
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    for (std::size_t j = i + next; j < pieces.size(); ++j)
-      if (norm(pieces[j].to - pieces[i].from) < near_pieces * norm(pieces[i].to - pieces[i].from))
-        return true;
+  const double near = near_pieces * (corners[1] - corners[0]).norm();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t j = i + next; j < corners.size(); ++j)
+      if ((corners[j] - corners[i]).norm() < near) return true;
   return false;
 }
 
 /// A path in the plane, in which it bends as in the skin.
-std::vector<CutPiece> unrolled(const IncisionVolume& volume, double length, int pieces) {
+Corners unrolled(const IncisionVolume& volume, double length, int pieces) {
   std::vector<double> directions;
   PathFrame before{};
   for (int i = 0; i < pieces; ++i) {
@@ -109,7 +110,7 @@ std::vector<CutPiece> unrolled(const IncisionVolume& volume, double length, int 
                                                                  dot(frame.along, before.along)));
     before = frame;
   }
-  return in_plane(length, pieces, [&](int i) { return directions[i]; });
+  return corners_of(length, pieces, [&](int i) { return directions[i]; });
 }
 
 /// How a field's own cut opens in the membrane when `t` mm of it are cut.
@@ -127,7 +128,7 @@ class OwnOpening {
       tractions.row(2 * i) << -c * s, c * s, c * c - s * s;
       tractions.row(2 * i + 1) << s * s, c * c, -2 * c * s;
     }
-    opened_ = membrane.openings(in_plane(t, pieces, direction), tractions);
+    opened_ = membrane.openings(corners_of(t, pieces, direction), tractions);
   }
 
   /// Whether it is that of another cut too, but for what no opening shows.
@@ -191,7 +192,7 @@ PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut
     local.push_back(prestress.at(result.stations.back()));
     tractions(2 * i, 0) = local.back().uv, tractions(2 * i + 1, 0) = local.back().vv;
   }
-  const std::vector<CutPiece> path = unrolled(volume, length, pieces);
+  const Corners path = unrolled(volume, length, pieces);
   if (comes_back(path)) return {{0}, {{}}};
   const Eigen::MatrixXd opened = membrane.openings(path, tractions);
   std::optional<OwnOpening> of_own_cut;

@@ -14,19 +14,18 @@ namespace {
 constexpr double nu = 0.4, stiff = 1 / (1 - nu * nu), shear = 1 / (2 * (1 + nu));  // of a sheet with E = 1
 constexpr int pieces = 120;
 
-/// Between places of the plane that are a function of 0 to 1.
-std::vector<CutPiece> along(int count, const std::function<Vec3(double)>& place) {
-  std::vector<CutPiece> result;
-  for (int i = 0; i < count; ++i)
-    result.push_back({place(double(i) / count), place((i + 1.) / count), {0, 0, 1}});
-  return result;
+/// Corners at places of the plane that are a function of 0 to 1.
+std::vector<Eigen::Vector2d> along(int count, const std::function<Eigen::Vector2d(double)>& place) {
+  std::vector<Eigen::Vector2d> corners;
+  for (int i = 0; i <= count; ++i) corners.push_back(place(double(i) / count));
+  return corners;
 }
 
 /// How a straight cut from -half to half opens in its middle, under unit tension across it and unit shear;
 /// turned by an angle.
 std::array<double, 2> middle_openings(double reach, double half, double angle = 0) {
-  const auto cut = along(pieces, [&](double part) {
-    return half * (2 * part - 1) * Vec3{std::cos(angle), std::sin(angle), 0};
+  const auto cut = along(pieces, [&](double part) -> Eigen::Vector2d {
+    return half * (2 * part - 1) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   });
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(2 * pieces, 2);
   for (int i = 0; i < pieces; ++i) loads(2 * i + 1, 0) = loads(2 * i, 1) = 1;
@@ -56,7 +55,7 @@ TEST(CutMembrane, NearTheEndsOfAnArcItSlidesAndOpensAsItsStressIntensities) {
   for (const double half_angle : {0.3, 0.8, 1.3}) {
     const auto cut = along(pieces, [&](double part) {
       const double a = half_angle * (2 * part - 1);
-      return Vec3{20 * std::sin(a), 20 * (1 - std::cos(a)), 0};
+      return Eigen::Vector2d(20 * std::sin(a), 20 * (1 - std::cos(a)));
     });
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(2 * pieces, 1);
     for (int i = 0; i < pieces; ++i) load(2 * i + 1, 0) = 1;
@@ -70,13 +69,13 @@ TEST(CutMembrane, NearTheEndsOfAnArcItSlidesAndOpensAsItsStressIntensities) {
 
 TEST(CutMembrane, WorkOfOneLoadThroughTheOpeningOfAnotherIsMutual) {
   // Betti: of any path, with springs.
-  const auto cut = along(40, [](double part) { return Vec3{30 * part, 5 * std::sin(10 * part), 0}; });
+  const auto cut = along(40, [](double part) { return Eigen::Vector2d(30 * part, 5 * std::sin(10 * part)); });
   Eigen::MatrixXd loads(80, 2);
   for (int i = 0; i < 80; ++i) loads(i, 0) = std::sin(0.3 * i), loads(i, 1) = std::cos(0.17 * i * i);
   const Eigen::MatrixXd opened = CutMembrane(12, nu).openings(cut, loads);
   double one = 0, other = 0, own = 0;
   for (int i = 0; i < 40; ++i) {
-    const double length = norm(cut[i].to - cut[i].from);
+    const double length = (cut[i + 1] - cut[i]).norm();
     for (int c = 0; c < 2; ++c) {
       one += length * loads(2 * i + c, 0) * opened(2 * i + c, 1);
       other += length * loads(2 * i + c, 1) * opened(2 * i + c, 0);
