@@ -37,10 +37,9 @@ std::optional<std::array<Interval, 2>> own_domain(const Snapshot& s) {
 }
 
 OwnCoordinates::OwnCoordinates(const SnapshotReader& reader) {
-  const std::vector<double> at = reader.point_array(canonical_array, 0);
+  places = reader.coordinates();
   const std::vector<double> axes = reader.point_array(frame_array, 0);
-  places.resize(at.size() / 3), frames.resize(axes.size() / 9);
-  for (std::size_t i = 0; i < at.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = at[i];
+  frames.resize(axes.size() / 9);
   for (std::size_t i = 0; i < axes.size(); ++i) frames[i / 9][i % 9 / 3][static_cast<int>(i % 3)] = axes[i];
   node.resize(places.size());
   std::iota(node.begin(), node.end(), std::size_t{0});

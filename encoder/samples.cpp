@@ -25,8 +25,7 @@ std::vector<Sample> samples_of(const Snapshot& snapshot) {
 std::vector<Sample> samples_in_field(const SnapshotReader& reader) {
   if (!reader.snapshot().coordinates) return samples_of(reader.snapshot());
   Snapshot moved = reader.snapshot();
-  const std::vector<double> at = reader.point_array(canonical_array, 0);
-  for (std::size_t i = 0; i < at.size(); ++i) moved.points[i / 3][static_cast<int>(i % 3)] = at[i];
+  moved.points = reader.coordinates();
   return samples_of(moved);
 }
 

@@ -11,15 +11,6 @@ namespace {
 
 constexpr double bone_firm = 1e3;  // docs/formats.md, body: springs of bone
 
-std::vector<Vec3> coordinates_of(const SnapshotReader& reader) {
-  const Snapshot& s = reader.snapshot();
-  if (!s.coordinates && s.body.empty()) return s.points;
-  const std::vector<double> numbers = reader.point_array(canonical_array, 0);
-  std::vector<Vec3> places(s.points.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = numbers[i];
-  return places;
-}
-
 Vec3 mean(const std::vector<Vec3>& places, auto first, auto last) {
   Vec3 sum;
   for (auto n = first; n != last; ++n) sum += places[static_cast<std::size_t>(*n)];
@@ -103,7 +94,7 @@ std::optional<TissueBelow> tissue_below(const SnapshotReader& reader) {
                      p.foundation.stiffness > 0 && p.patch.height > 0;
   if (s.source || !known || s.foundation_triangles.empty() || (s.body.empty() && s.support.empty()))
     return {};
-  const std::vector<Vec3> places = coordinates_of(reader);
+  const std::vector<Vec3> places = reader.coordinates();
   const std::size_t face = face_below(s, places, s.cut_start + s.cut_length / 2);
   const double height = thickness_over(s, places, face);
   TissueBelow below{layers_over(s, places, face, p.tissue), p.foundation.stiffness};

@@ -47,12 +47,26 @@ class StudyReader {
   Study read() {
     for (const auto& [key, node] : file_) read_section(std::string(key.str()), node);
     read_sampling(file_, path_, study_, mistakes_);
+    if (!study_.base.body.empty())
+      for (const Variation& one : study_.vary) check_has_effect(one.name);
     mistakes_.throw_if_any();
     if (study_.sampling.adapts && !file_.contains("sensitivities")) differentiate();
     return std::move(study_);
   }
 
  private:
+  /// Of a body: its file has the shape of the cuts and the mesh.
+  void check_has_effect(const std::string& name) {
+    const auto starts = [&](const char* with) { return name.starts_with(with); };
+    if (name == "cut.contact" || name == "patch.height" ||
+        !(starts("cut.") || starts("patch.") || starts("mesh.") || starts("skin.curvature_")))
+      return;
+    mistakes_.add(
+        path_ + ": vary." + name +
+        ": has no effect with [body], whose file holds the cuts and the shape of the skin; leave it "
+        "out, and make a study for each body file");
+  }
+
   std::string where(const toml::node& node) const { return place_of(path_, node); }
 
   /// A derivative tells as much as a further case, and costs less. (Under finite strains an equilibrium may

@@ -73,12 +73,7 @@ void decode_field(const Task& task, const Use& use) {
     const Snapshot& s = reader.snapshot();
     check_times(s, field, task.nodes);
     mesh = mesh_of(s);
-    std::vector<Vec3> at = s.points;
-    if (s.coordinates) {
-      const std::vector<double> canonical = reader.point_array(canonical_array, 0);
-      for (std::size_t i = 0; i < canonical.size(); ++i) at[i / 3][static_cast<int>(i % 3)] = canonical[i];
-    }
-    nodes = places_of(at, s.pairs);
+    nodes = places_of(reader.coordinates(), s.pairs);
     kept.residual = read_residual(task.file);
     for (std::size_t q = 0; q < field.quantities.size(); ++q)
       kept.of_quantities.push_back(read_quantity_residual(task.file, q));

@@ -134,12 +134,19 @@ class Maker {
       const LongerPath& longer = longer_[c];
       const double length = r_.paths[c].length();
       OffPath found{static_cast<int>(c), 0, {}, 0, length};
+      double nearest = std::numeric_limits<double>::infinity();
       for (const CutLine& line : s_.cuts[c]) {
         const double off = norm(s_.mesh.points[line.from] - longer.path.at(line.s_from).position);
         if (off > found.off) found.off = off, found.at = s_.mesh.points[line.from];
+        nearest = std::min(nearest, off);
         found.made += std::clamp(line.s_to - longer.front, 0., length) -
                       std::clamp(line.s_from - longer.front, 0., length);
       }
+      if (const double depth = r_.paths[c].largest_depth(); nearest > depth && std::isfinite(nearest))
+        throw InputError("cut " + std::to_string(c + 1) + ": its path is " +
+                         shortest(std::round(100 * nearest) / 100) +
+                         " mm off the skin where it is nearest, and the cut is " + shortest(depth) +
+                         " mm deep; check that the path is of this mesh, and --scale");
       found.far = found.off > r_.paths[c].largest_depth();
       found.leaves = found.made < 0.98 * length - p_.mesh.element_size;
       if (found.far || found.leaves) off_paths_.push_back(found);
@@ -193,6 +200,7 @@ class Maker {
               "too flat; smooth the mesh, move the cut, or make mesh.element_size larger");
         }
       for (const int t : e_.turned) out[t] = true;
+      if (left_out_ == 0) left_out_at_ = s_.mesh.points[s_.mesh.triangles[e_.turned.front()][0]];
       left_out_ += static_cast<int>(e_.turned.size());
       s_ = without(s_, out);
     }
@@ -372,16 +380,16 @@ class Maker {
     report.least_determinant = e_.least_determinant;
     report.thinned = e_.thinned, report.thinnest = e_.thinnest;
     report.least_thickness = *std::min_element(e_.thickness.begin(), e_.thickness.end());
-    report.left_out = left_out_, report.off_paths = off_paths_;
+    report.left_out = left_out_, report.left_out_at = left_out_at_, report.off_paths = off_paths_;
     report.on_bone = static_cast<int>(std::count(e_.on_bone.begin(), e_.on_bone.end(), true));
-    double least = 180;
+    report.least_angle = 180;
     for (const auto& t : s_.mesh.triangles)
       for (int i = 0; i < 3; ++i) {
         const Vec3 a = s_.mesh.points[t[(i + 1) % 3]] - s_.mesh.points[t[i]];
         const Vec3 b = s_.mesh.points[t[(i + 2) % 3]] - s_.mesh.points[t[i]];
-        least = std::min(least, std::atan2(norm(cross(a, b)), dot(a, b)) * 57.29577951308232);
+        const double angle = std::atan2(norm(cross(a, b)), dot(a, b)) * 57.29577951308232;
+        if (angle < report.least_angle) report.least_angle = angle, report.sharpest = s_.mesh.points[t[i]];
       }
-    report.least_angle = least;
     for (const auto& lines : s_.cuts)
       for (const CutLine& line : lines)
         if (const double depth = e_.cut_depth(layers_, line.from);
@@ -397,6 +405,7 @@ class Maker {
   std::vector<Vec3> blade_;
   Extrusion e_;
   int left_out_ = 0;
+  Vec3 left_out_at_;
   std::vector<OffPath> off_paths_;
   Body body_;
   std::vector<int> column_of_;    // by node: its point of the surface

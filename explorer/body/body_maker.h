@@ -40,11 +40,13 @@ struct OffPath {
 struct BodyReport {
   int nodes = 0, wedges = 0, triangles = 0, pairs = 0, frames = 0;
   double least_angle = 0;        ///< of the skin's triangles, degrees
+  Vec3 sharpest;                 ///< where
   double least_determinant = 0;  ///< of a wedge: least Jacobian of its corners over its mean
   double least_thickness = 0;    ///< of the tissue, mm
   int thinned = 0;               ///< columns that had to be made thinner, because they would turn inside out
   Vec3 thinnest;                 ///< where
   int left_out = 0;              ///< triangles away from the cuts, below which even a thin body would turn
+  Vec3 left_out_at;              ///< of the first of them
   int on_bone = 0;               ///< columns that end at bone
   double least_depth = 0;        ///< of a cut that bone would stop, mm; 0: none
   std::vector<OffPath> off_paths;

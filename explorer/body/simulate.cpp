@@ -9,6 +9,7 @@
 #include "base/scratch_folder.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "params/parameters/table.h"
 #include "params/study.h"
 
 namespace cleft {
@@ -26,6 +27,17 @@ std::string last_message(const std::string& log, const std::string& case_file) {
 }
 
 }  // namespace
+
+Parameters parameters_of_body(const RecordedParameters& of_case) {
+  const Parameters defaults;
+  Parameters parameters;
+  for (const Parameter& row : parameter_table())
+    if (const auto value = of_case.find(row.name)) put_parameter(parameters, row, *value);
+  parameters.cut.radius = 0, parameters.cut.tilt = 0, parameters.cut.count = 1, parameters.cut.branch = 0;
+  parameters.skin.edges = SkinEdges::held;
+  parameters.mesh.front = defaults.mesh.front, parameters.mesh.elements = defaults.mesh.elements;
+  return parameters;
+}
 
 void thin_frames(Body& body, std::size_t most) {
   const std::size_t frames = body.times.size();

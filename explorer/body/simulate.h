@@ -7,6 +7,7 @@
 
 #include "base/process.h"
 #include "explorer/body/body_maker.h"
+#include "params/parameters/recorded.h"
 #include "solver/snapshot/snapshot.h"
 
 namespace cleft {
@@ -18,6 +19,9 @@ struct BodySimulation {
   double gape = 0;     ///< largest opening of the last frame, mm
   double seconds = 0;  ///< for mesh and solution
 };
+
+/// Those of a case as far as a body has them, and the defaults where its file lacks them.
+Parameters parameters_of_body(const RecordedParameters& of_case);
 
 /// Leaves out frames until there are about `most`, but the first one and those in which a cut ends.
 void thin_frames(Body& body, std::size_t most);

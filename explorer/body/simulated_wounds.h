@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "explorer/body/surface_index.h"
+#include "explorer/body/vertex_places.h"
 #include "explorer/incision/incision.h"
 #include "solver/body/body.h"
 #include "solver/snapshot/snapshot.h"
@@ -28,12 +28,10 @@ class SimulatedWounds {
   /// no memory.
   void positions(double t, std::span<Vec3> out) const;
 
-  /// What a vertex takes of three nodes; the ends and the bottom of a cut take of both sides.
-  struct Place {
-    int vertex;
-    std::array<int, 3> nodes;
-    std::array<double, 3> weights;  ///< those of the nodes, less toward the rim of the body
-  };
+  /// The largest opening at t, mm.
+  double gape(double t) const;
+
+  using Place = VertexPlace;
   const std::vector<Place>& places() const { return places_; }
   Vec3 displacement(const Place& place, double t) const;  ///< mm
 
@@ -43,13 +41,19 @@ class SimulatedWounds {
     double part;  ///< of the next one
   };
   Moment moment(double t) const;
+  Vec3 of_node(int node, const Moment& at) const;  // displacement, mm
 
   double scale_;
   std::vector<double> times_;
   std::vector<std::vector<std::array<float, 3>>> frames_;  // mm, by node
+  std::vector<BodyPair> pairs_;
   std::vector<Vec3> rest_;
   std::vector<Place> places_;  // in the order of vertices, of those that move
 };
+
+/// Triangles of the skin that would be seen to be turned over, or hardly at all: of whose area, seen along
+/// their normal at rest, less than a fifth is left. `positions`: of all vertices.
+std::vector<int> turned_triangles(const CutMesh& mesh, std::span<const Vec3> positions);
 
 /// How far replayed positions are from simulated ones: of the displacement of any vertex, over the largest
 /// one, and of the vectors from lip to lip along the cuts, over the largest opening. Lengths in mesh units.

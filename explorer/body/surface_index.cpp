@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/nearest_weights.h"
 #include "haptic/triangle_geometry.h"
 
 namespace cleft {
@@ -85,19 +86,17 @@ SurfacePlace SurfaceIndex::nearest_of(const Vec3& x, double reach, const Counts&
       const Vec3 at = closest_point(x, corners).position;
       const double distance = squared_norm(at - x);
       if (distance < least || (best.triangle < 0 && distance <= least))
-        least = distance, best.triangle = number, best.position = at;
+        least = distance, best.triangle = number;
     }
     if (looked_at < found.size() || found.size() < most) break;
   }
-  if (best.triangle < 0) return best;
-  const auto [a, b, c] = tree_->corners(best.triangle);
-  const Vec3 normal = cross(b - a, c - a);
-  const double area = squared_norm(normal);
-  const Vec3& p = best.position;
-  best.weights[1] = std::clamp(dot(cross(p - a, c - a), normal) / area, 0., 1.);
-  best.weights[2] = std::clamp(dot(cross(b - a, p - a), normal) / area, 0., 1.);
-  best.weights[0] = 1 - best.weights[1] - best.weights[2];
-  return best;
+  return best.triangle < 0 ? best : nearest_on(best.triangle, x);
+}
+
+SurfacePlace SurfaceIndex::nearest_on(int triangle, const Vec3& x) const {
+  const Corners corners = tree_->corners(triangle);
+  return {triangle, closest_point(x, corners).position,
+          nearest_weights(x, corners[0], corners[1], corners[2])};
 }
 
 SurfacePlace SurfaceIndex::nearest(const Vec3& x) const {

@@ -29,6 +29,7 @@ class SurfaceIndex {
   /// The nearest place of triangles whose normal is less than a right angle away from `normal`, within
   /// `reach`; its triangle is -1 if there is none.
   SurfacePlace nearest(const Vec3& x, const Vec3& normal, double reach) const;
+  SurfacePlace nearest_on(int triangle, const Vec3& x) const;
   /// How far from `from`, in lengths of `way`, the segment to from + way first meets the surface, if it does.
   std::optional<double> meets(const Vec3& from, const Vec3& way) const;
 

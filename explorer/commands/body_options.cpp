@@ -6,7 +6,9 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "explorer/body/skin_coordinates.h"
+#include "explorer/body/body_warnings.h"
+#include "explorer/body/simulate.h"
+#include "explorer/commands/tension_options.h"
 #include "explorer/incision/local_coordinates.h"
 #include "explorer/io/mesh_file.h"
 #include "params/parameters/table.h"
@@ -20,28 +22,6 @@ constexpr double least_reach = 2;  // elements: a narrower body is held by its r
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 
-std::vector<std::string> warnings_of(const BodyReport& r) {
-  std::vector<std::string> warnings;
-  if (r.thinned > 0)
-    warnings.push_back("the tissue is thinner than patch.height below " + std::to_string(r.thinned) +
-                       " points of the skin, down to " + shortest(rounded(r.least_thickness)) +
-                       " mm, because the skin is bent too strongly there");
-  if (r.least_depth > 0)
-    warnings.push_back("the cut is only " + shortest(rounded(r.least_depth)) +
-                       " mm deep where the tissue is thin");
-  const auto hundredths = [](double x) { return shortest(std::round(100 * x) / 100); };
-  for (const OffPath& p : r.off_paths) {
-    const std::string cut = "cut " + std::to_string(p.cut + 1);
-    if (p.far)
-      warnings.push_back(cut + ": its path is " + hundredths(p.off) + " mm off the skin at " +
-                         place_text(p.at) + " mm; check that it is of this mesh, and --scale");
-    if (p.leaves)
-      warnings.push_back(cut + " is made along " + hundredths(p.made) + " of the " + hundredths(p.length) +
-                         " mm of its path: there is no skin below the rest of it");
-  }
-  return warnings;
-}
-
 }  // namespace
 
 void BodyOptions::add_to(CommandLine& app) {
@@ -51,7 +31,8 @@ void BodyOptions::add_to(CommandLine& app) {
       "surface of the bone below, to which the tissue is grown: of a simulation, and of a family's fields");
   app.add_option("--case", case_file,
                  "of a simulation: case file, for skin, tissue, mesh.element_size along the cuts, "
-                 "mesh.grading, and patch.height, the thickness of the tissue [the defaults]");
+                 "mesh.grading, and patch.height, the thickness of the tissue [those of --field's case, else "
+                 "the defaults]");
   app.add_option("--set", assignments, "of a simulation: NAME=VALUE, overrides a parameter (repeatable)")
       ->allow_extra_args(false);
   app.add_option("--reach", reach,
@@ -72,18 +53,19 @@ std::string BodyOptions::first_given(bool but_bone) const {
   return "";
 }
 
-BodyRequest BodyOptions::request() const {
+BodyRequest BodyOptions::request(const RecordedParameters& of_field) const {
   BodyRequest request;
-  if (!case_file.empty())
+  if (!case_file.empty()) {
     request.parameters = read_case(case_file, assignments).parameters;
-  else
+  } else {
+    request.parameters = parameters_of_body(of_field);
     for (const std::string& assignment : assignments) set_from_text(request.parameters, assignment, "--set");
+  }
   if (reach < least_reach * request.parameters.mesh.element_size)
     throw InputError("--reach " + shortest(reach) + " mm: must be at least " + shortest(least_reach) +
                      " times mesh.element_size = " + shortest(request.parameters.mesh.element_size) + " mm");
   request.reach = reach;
-  if (!direction.empty() && !(std::hypot(direction[0], direction[1], direction[2]) > 0))
-    throw InputError("--direction 0,0,0: has no length; give a direction within the skin");
+  if (!direction.empty()) check_direction("--direction", direction);
   if (!direction.empty()) request.tension = {{direction[0], direction[1], direction[2]}};
   return request;
 }

@@ -23,8 +23,8 @@ struct BodyOptions {
 
   bool given(const std::string& name) const { return app_->count(name) > 0; }
 
-  /// Without skin, paths and bone.
-  BodyRequest request() const;
+  /// Without skin, paths and bone. `of_field`: parameters in place of the defaults.
+  BodyRequest request(const RecordedParameters& of_field = {}) const;
   /// As bone_below(); null if none was given.
   std::shared_ptr<const SurfaceIndex> read_bone(double scale, const Vec3& origin) const;
 

@@ -1,6 +1,5 @@
 // cleft cut: cuts through one mesh, one after the other, without a window.
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -9,10 +8,9 @@
 #include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "explorer/body/simulate.h"
-#include "explorer/body/simulated_wounds.h"
 #include "explorer/commands/body_options.h"
 #include "explorer/commands/cut_figures.h"
+#include "explorer/commands/cut_simulated.h"
 #include "explorer/commands/cut_volume.h"
 #include "explorer/commands/mesh_options.h"
 #include "explorer/commands/tension_options.h"
@@ -23,7 +21,6 @@
 #include "explorer/wound/mesh_cuts.h"
 #include "explorer/wound/path_file.h"
 #include "explorer/wound/replayed_wounds.h"
-#include "params/run/signal_handler.h"
 
 namespace {
 
@@ -80,16 +77,22 @@ void check_files(const Options& options) {
   const OutputFile probe(options.out);
 }
 
-std::vector<ScalpelPath> read_paths(const Options& options, const Field* field) {
+/// `simulated`: null if nothing is.
+std::vector<ScalpelPath> read_paths(const Options& options, const Field* field,
+                                    const BodyRequest* simulated) {
   std::vector<ScalpelPath> paths;
-  for (const std::string& file : options.paths)
-    paths.push_back(read_path(file, options.depth, options.scale, field));
+  for (const std::string& file : options.paths) {
+    const bool none = simulated && !field && options.depth == 0 && read_csv(file).column("depth") < 0;
+    const double depth = none ? simulated->parameters.cut.depth : options.depth;
+    paths.push_back(read_path(file, depth, options.scale, field));
+  }
   return paths;
 }
 
 /// A surface far from the origin is cut in coordinates from its cut.
-std::unique_ptr<MeshCuts> make_cuts(const Options& options, const Skin& skin, const Field* field) {
-  const std::vector<ScalpelPath> paths = read_paths(options, field);
+std::unique_ptr<MeshCuts> make_cuts(const Options& options, const Skin& skin, const Field* field,
+                                    const BodyRequest* simulated) {
+  const std::vector<ScalpelPath> paths = read_paths(options, field, simulated);
   MeshCutsOptions how{options.scale, {}, options.max_edge};
   if (options.progress >= 0) how.progress = options.progress;
   const Vec3 origin = skin.volume ? Vec3{} : local_origin(skin.surface, paths.front());
@@ -132,34 +135,6 @@ void move(const ReplayedWounds& wounds, const CutFields& fields, const Options& 
   figures["warnings"] = warnings_of(validity, "cleft cut");
 }
 
-/// Moves the mesh as a simulation of these very cuts says, and tells how far replays, if `positions` holds
-/// them, are from it.
-void move_as_simulated(const Options& options, const MeshCuts& cuts,
-                       const std::shared_ptr<const SurfaceIndex>& bone, bool replayed,
-                       std::vector<Vec3>& positions, Json& figures) {
-  BodyRequest request = options.body.request();
-  request.skin = scaled(cuts.uncut(), options.scale);
-  for (const Incision* one : cuts.cuts()) request.paths.push_back(one->path().scaled(options.scale));
-  request.bone = bone;
-  Progress progress("simulating");
-  static StopCount stop = 0;
-  const BodySimulation simulation = [&] {
-    const SignalHandler handler({SIGINT, SIGTERM}, [](int) { stop = stop + 1; });
-    return simulate(request, std::ref(progress), &stop);
-  }();
-  const SimulatedWounds wounds(cuts.cuts(), options.scale, simulation.body, *simulation.series);
-  std::vector<Vec3> simulated(positions.size());
-  wounds.positions(cuts.progress(), simulated);
-  Json told = figures_of(simulation.report);
-  told["gape_mm"] = simulation.gape;
-  told["seconds"] = simulation.seconds;
-  told["moved_vertices"] = wounds.active();
-  if (replayed) told["replay"] = figures_of(replay_off(cuts.cuts(), positions, simulated), options.scale);
-  figures["simulated"] = told;
-  warn_of(simulation.report, "cleft cut");
-  positions = std::move(simulated);
-}
-
 void cut(const Options& options) {
   check_files(options);
   std::optional<CutFields> fields;
@@ -167,9 +142,11 @@ void cut(const Options& options) {
     fields = read_cut_fields(options.field, options.tension.direction, options.tension.prestresses);
   Skin skin(options.mesh);
   const Field* shape = fields ? &fields->shape() : nullptr;
+  std::optional<BodyRequest> request;
+  if (options.simulate) request = body_to_simulate(options.body, options.tension, fields);
   warn_of_size(skin.surface, options.scale, shape, "cleft cut");
   tell_note(skin.surface, options.mesh, "cleft cut");
-  const auto made = make_cuts(options, skin, shape);
+  const auto made = make_cuts(options, skin, shape, request ? &*request : nullptr);
   const MeshCuts& cuts = *made;
   SurfaceMesh result = cuts.mesh().surface();
   Json figures = figures_of(cuts.cuts(), cuts.uncut(), options.scale);
@@ -181,10 +158,14 @@ void cut(const Options& options) {
   const std::shared_ptr<const SurfaceIndex> bone = options.body.read_bone(options.scale, cuts.origin());
   if (fields) {
     if (bone) fields = fields->above_bone(distance_to(bone));
+    if (request) fields = in_tension_of(*request, *fields, options.paths, cuts);
     wounds = open(options, *fields, cuts);
     move(*wounds, *fields, options, cuts.progress(), result.points, figures);
   }
-  if (options.simulate) move_as_simulated(options, cuts, bone, fields.has_value(), result.points, figures);
+  if (request) {
+    request->bone = bone;
+    figures["simulated"] = move_as_simulated(std::move(*request), cuts, fields, result.points);
+  }
   if (skin.volume) {
     figures["cells_added"] = write_cut_volume(*skin.volume, skin.surface, cuts.cuts(), wounds.get(),
                                               options.scale, cuts.progress(), options.out);

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "explorer/body/body_warnings.h"
 #include "explorer/scene/mesh_scene.h"
 #include "explorer/session/actions.h"
 #include "params/parameters/table.h"
@@ -11,15 +12,15 @@ namespace cleft {
 
 namespace {
 
-/// Those of the shown case, as far as a body has them; the defaults where its file lacks them.
+/// Those of the shown case; of a family, whose cases are of any shape and tension, those of the one in the
+/// middle, in the tension in which the family opens cuts.
 Parameters parameters_of_shown(Session& session) {
   Parameters parameters;
-  if (const auto field = session.field())
-    for (const Parameter& row : parameter_table())
-      if (const auto value = field->parameters.find(row.name)) put_parameter(parameters, row, *value);
-  const Parameters defaults;
-  parameters.cut.radius = 0, parameters.cut.tilt = 0, parameters.cut.count = 1, parameters.cut.branch = 0;
-  parameters.skin.edges = SkinEdges::held, parameters.mesh.front = defaults.mesh.front;
+  if (const auto field = session.field()) parameters = parameters_of_body(field->parameters);
+  if (const auto family = session.opened().cases ? session.opened().cases->family() : nullptr) {
+    parameters = parameters_of_body(family->shape().parameters);
+    parameters.skin.prestress = Parameters{}.skin.prestress;
+  }
   if (const auto& tension = session.state().tension)
     parameters.skin.prestress = {tension->larger, tension->smaller, 0};
   return parameters;
@@ -104,6 +105,13 @@ void finish_simulation(Session& session) {
     simulated.wounds = std::make_shared<const SimulatedWounds>(cuts, 1, result.body, *result.series);
     session.opened().drawn.scenes.erase(session.state().shown);
     simulated.note = "simulated, " + std::to_string(result.report.nodes) + " nodes";
+    std::vector<Vec3> moved(cuts.front()->mesh().vertices().size());
+    simulated.wounds->positions(simulated.wounds->duration(), moved);
+    std::vector<std::string> warnings = warnings_of(result.report);
+    warnings.push_back(
+        warning_of_turned(cuts.front()->mesh(), turned_triangles(cuts.front()->mesh(), moved), 1));
+    for (const std::string& warning : warnings)
+      if (!warning.empty()) session.answer("the simulation: " + warning);
     if (const auto scene = std::dynamic_pointer_cast<const MeshScene>(session.scene()))
       if (const auto off = scene->replay_off())
         simulated.note += "; the opening of the replay was off by " + percent(off->relative_opening());

@@ -56,12 +56,7 @@ FieldOnMesh::FieldOnMesh(const std::string& field, const std::string& snapshot) 
         places_inside_cells(mesh_.points_in_source(), mesh_.cell_offsets, mesh_.connectivity), 0);
   } else {
     values->field.emplace(read_field(field));
-    std::vector<Vec3> at = mesh_.points;
-    if (mesh_.coordinates) {
-      const std::vector<double> canonical = reader.point_array(canonical_array, 0);
-      for (std::size_t i = 0; i < canonical.size(); ++i) at[i / 3][static_cast<int>(i % 3)] = canonical[i];
-    }
-    values->places = places_of(at, mesh_.pairs);
+    values->places = places_of(reader.coordinates(), mesh_.pairs);
   }
   const Field& first = values->first();
   if (first.duration() != mesh_.times.back() || !first.source || first.source->file != mesh_.source->file)

@@ -69,12 +69,12 @@ std::optional<Finding> Condition::find(const Field& field, const std::string& fi
   std::size_t frame = 0;
   for (std::size_t j = 0; j < s.frames(); ++j)
     if (std::abs(s.times[j] - found->best_t) < std::abs(s.times[frame] - found->best_t)) frame = j;
-  const std::vector<Vec3> displacement = reader.displacement(frame);
+  const std::vector<Vec3> displacement = reader.displacement(frame), places = reader.coordinates();
   std::vector<double> values = values_of(field);
   found->confirmed = std::any_of(s.pairs.begin(), s.pairs.end(), [&](const auto& pair) {
     const auto left = static_cast<std::size_t>(pair[0]), right = static_cast<std::size_t>(pair[1]);
-    return std::abs(s.points[left].z) < 1e-9 &&
-           holds(values, found->best_t, s.points[left].x, norm(displacement[right] - displacement[left]));
+    return std::abs(places[left].z) < 1e-9 &&
+           holds(values, found->best_t, places[left].x, norm(displacement[right] - displacement[left]));
   });
   return found;
 }

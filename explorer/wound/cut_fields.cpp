@@ -32,6 +32,12 @@ CutFields CutFields::above_bone(TissueAboveBone tissue) const {
   return result;
 }
 
+CutFields CutFields::in_tension(const SkinTension& tension) const {
+  CutFields result = *this;
+  if (turning()) result.tension_ = tension;
+  return result;
+}
+
 Wound CutFields::wound(const Incision& cut, double scale, const std::optional<PathPrestress>& own,
                        double known) const {
   Wound wound = opened(cut, scale, own, known);

@@ -33,6 +33,9 @@ class CutFields {
   /// The same fields over bone: a family that has cases on bone follows it.
   CutFields above_bone(TissueAboveBone tissue) const;
 
+  /// The same fields in this tension, if they turn with it.
+  CutFields in_tension(const SkinTension& tension) const;
+
   /// The wound of a cut whose surroundings are known; neither the cut nor this must end before it. `own`:
   /// prestresses along its path that override the tension. Throws InputError if a tension is given for one
   /// field, or none for three.

@@ -32,6 +32,7 @@ class MeshCuts {
   MeshCuts(const MeshCuts&) = delete;
   MeshCuts& operator=(const MeshCuts&) = delete;
 
+  double scale() const { return scale_; }  ///< mm per mesh unit
   const Vec3& origin() const { return origin_; }
   const SurfaceMesh& uncut() const { return uncut_; }  ///< from the origin
   const CutMesh& mesh() const { return mesh_; }        ///< from the origin

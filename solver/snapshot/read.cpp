@@ -359,6 +359,14 @@ std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
   return arrays;
 }
 
+std::vector<Vec3> SnapshotReader::coordinates() const {
+  if (!snapshot_.coordinates && snapshot_.body.empty()) return snapshot_.points;
+  const std::vector<double> numbers = point_array(canonical_array, 0);
+  std::vector<Vec3> places(snapshot_.points.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = numbers[i];
+  return places;
+}
+
 std::vector<double> SnapshotReader::point_array(const SnapshotArray& array, std::size_t frame) const {
   return point_array(array, frame, 0, snapshot_.points.size());
 }

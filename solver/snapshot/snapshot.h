@@ -141,6 +141,9 @@ class SnapshotReader {
   /// Displacements of the nodes first .. first + count - 1 in a frame.
   std::vector<Vec3> displacement(std::size_t frame, std::size_t first, std::size_t count) const;
 
+  /// Every node's coordinates of the cut: its place, unless the snapshot says otherwise.
+  std::vector<Vec3> coordinates() const;
+
   /// All arrays of /VTKHDF/PointData but the displacement, by name. Throws FileError if one has neither N nor
   /// F N rows.
   std::vector<SnapshotArray> point_arrays() const;

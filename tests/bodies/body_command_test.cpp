@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "base/output_file.h"
 #include "base/text.h"
@@ -165,6 +166,31 @@ TEST_F(BodyCommand, OutputsThatAreInputs) {
     refused(command, options, {"--out", "is the input"});
     EXPECT_EQ(read_text_file(held), before);
   }
+}
+
+/// --tension and --prestress say the same of a simulation as its parameters and --direction.
+TEST_F(BodyCommand, SimulationsInTheTensionThatIsGiven) {
+  const auto gape = [&](const std::vector<std::string>& more) {
+    const std::vector<std::string> options = with(options_, {"--simulate", "--out", out / "a.obj", "--json"});
+    const nlohmann::json figures = figures_of(expect_success(run_cleft("cut", with(options, more))));
+    std::filesystem::remove(out / "a.obj");
+    return figures.at("simulated").at("gape_mm").get<double>();
+  };
+  const double usual = gape({});
+  const double along = gape({"--tension", "1,0,0", "--prestress", "0.004,0.02"});
+  EXPECT_DOUBLE_EQ(along, gape({"--direction", "1,0,0", "--set", "skin.prestress_u=0.02", "--set",
+                                "skin.prestress_v=0.004"}));
+  EXPECT_LT(along, 0.3 * usual) << "0.03 across the path";
+  EXPECT_DOUBLE_EQ(gape({"--tension", "0,1,0", "--prestress", "0.03,0.01"}), usual);
+  // The path's own depth, 3 mm, and that of the case where it has none.
+  in.write("path.csv", "x,y,z,nx,ny,nz\n-8,0,0,0,0,1\n8,0,0,0,0,1\n");
+  EXPECT_DOUBLE_EQ(gape({"--set", "cut.depth=3"}), usual);
+  EXPECT_LT(gape({"--set", "cut.depth=1.5"}), 0.95 * usual);
+  const std::vector<std::string> options = with(
+      options_, {"--simulate", "--out", out / "a.obj", "--tension", "0,1,0", "--prestress", "0.03,0.01"});
+  refused("cut", with(options, {"--direction", "1,0,0"}), {"--direction: is of the same tension"});
+  refused("cut", with(options, {"--set", "skin.prestress_v=0.02"}),
+          {"is of the same tension as --prestress"});
 }
 
 TEST_F(BodyCommand, SimulationsOfWhatIsNotSimulated) {

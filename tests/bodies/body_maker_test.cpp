@@ -324,20 +324,29 @@ TEST(BodyMaker, LayersEndWhereTheyAreSaidTo) {
 
 /// Paths that only partly lie on the skin are cut as far as it goes, and told of.
 TEST(MakeBody, TellsOfPathsOffTheSkin) {
-  const auto off_paths = [](const std::vector<std::pair<double, double>>& places, double above) {
+  const auto off_paths = [](const std::vector<std::pair<double, double>>& places, double above,
+                            double rises = 0) {
     BodyRequest r = request(testing::flat, {});
-    r.paths.push_back(path_on([above](double x, double y) { return Vec3{x, y, above}; }, places, 2.5));
+    const auto path = [&](double x, double y) { return Vec3{x, y, above + rises * x}; };
+    r.paths.push_back(path_on(path, places, 2.5));
     BodyReport report;
     make_body(r, &report);
     return report.off_paths;
   };
   EXPECT_TRUE(off_paths(along, 0).empty());
-  EXPECT_TRUE(off_paths(along, 2).empty());  // less than the cut is deep
-  const std::vector<OffPath> far = off_paths(along, 4);
+  EXPECT_TRUE(off_paths(along, 2).empty());                     // less than the cut is deep
+  const std::vector<OffPath> far = off_paths(along, 3, 0.125);  // from 2 to 4 mm
   ASSERT_EQ(far.size(), 1U);
   EXPECT_TRUE(far[0].far && !far[0].leaves);
-  EXPECT_NEAR(far[0].off, 4, 1e-9);
+  EXPECT_GT(far[0].off, 4);
+  EXPECT_LT(far[0].off, 4.5) << "a body is cut a little farther than its path";
   EXPECT_NEAR(far[0].at.z, 0, 1e-9);
+  try {
+    off_paths(along, 4);
+    FAIL() << "not refused";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("4 mm off the skin"), std::string::npos) << e.what();
+  }
   const std::vector<OffPath> out = off_paths({{30, 0}, {40, 0}, {55, 0}}, 0);  // the sheet ends at 40
   ASSERT_EQ(out.size(), 1U);
   EXPECT_TRUE(out[0].leaves && !out[0].far);

@@ -165,6 +165,31 @@ TEST(SimulatedWounds, FourCornersPart) {
   EXPECT_EQ(corner.size(), 4u);
 }
 
+/// Wherever cuts cross, begin at one another or turn, each vertex of a mesh of any triangles moves with its
+/// own piece of skin.
+TEST(SimulatedWounds, VerticesStayWithTheirPieceOfSkin) {
+  using Places = std::vector<std::pair<double, double>>;
+  const Places acute{{-7, -3}, {0, 0}, {7, 3}}, begins{{0, 0}, {4, 5}},
+      turns{{-6, -4}, {-1, 5}, {1, 5}, {6, -4}};
+  const Places lens_left{{-8, -1}, {0, 3}, {8, -1}}, lens_right{{-8, 1}, {0, -3}, {8, 1}};
+  for (const std::vector<Places>& paths :
+       std::vector<std::vector<Places>>{{along, acute}, {along, begins}, {turns}, {lens_left, lens_right}})
+    for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+      Simulated s(testing::sphere_cap(60), paths);
+      const SimulatedWounds wounds = s.wounds(sheet(testing::sphere_cap(60), 30, 30, 1.1, 0.24, seed));
+      const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
+      EXPECT_TRUE(turned_triangles(*s.mesh, now).empty()) << seed;
+      double longest = 0;  // of an edge, in lengths at rest and fifths of a millimetre
+      for (int t = 0; t < static_cast<int>(s.mesh->triangles().size()); ++t)
+        for (int i = 0; i < 3 && s.mesh->is_skin(t); ++i) {
+          const int a = s.mesh->triangle(t).vertex[i], b = s.mesh->triangle(t).vertex[(i + 1) % 3];
+          longest = std::max(longest,
+                             norm(now[a] - now[b]) / (norm(s.mesh->position(a) - s.mesh->position(b)) + 0.2));
+        }
+      EXPECT_LT(longest, 2) << seed;
+    }
+}
+
 TEST(SimulatedWounds, OfAnotherBodyAreRefused) {
   Simulated s(testing::flat, {along});
   s.body.points[3].x += 0.1;

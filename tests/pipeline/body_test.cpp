@@ -58,6 +58,26 @@ TEST(BodyStudy, ItsCasesAreSimulatedEncodedAndReplayedOnThatBody) {
                         "--simulate", "--set", "mesh.element_size=1", "--set", "skin.prestress_v=0.03",
                         "--out", folder / "cut.vtp", "--json"})));
   EXPECT_LT(cut.at("simulated").at("replay").at("opening_off_by").get<double>(), 0.1);
+
+  // What is found in a field is looked up in its simulation, whose nodes are in space.
+  const nlohmann::json found =
+      figures_of(expect_success(run_cleft("find", {out, "--where", "gape > 0.5", "--json"})));
+  ASSERT_EQ(found.at("found").size(), 2U);
+  for (const auto& one : found.at("found")) EXPECT_EQ(one.at("confirmed"), true) << one;
+}
+
+TEST(BodyStudy, WhatTheBodyFixesDoesNotVary) {
+  const TemporaryFolder folder;
+  folder.write("wrist.h5", "not read");
+  for (const std::string name : {"cut.length", "skin.curvature_u", "mesh.element_size"}) {
+    const std::string study =
+        folder.write("study.toml", "[body]\nfile = 'wrist.h5'\n[vary]\n'" + name + "' = [0.02, 0.03]\n");
+    const Outcome outcome = run_cleft("run", {study, "--out", folder / "out"});
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_NE(outcome.output.find("vary." + name + ": has no effect with [body]"), std::string::npos)
+        << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  }
 }
 
 }  // namespace cleft

@@ -1,0 +1,62 @@
+#include "explorer/body/body_warnings.h"
+
+#include <cmath>
+
+#include "base/text.h"
+#include "explorer/body/skin_coordinates.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double least_angle = 5;  // degrees
+
+double rounded(double x) { return std::round(1e4 * x) / 1e4; }
+std::string hundredths(double x) { return shortest(std::round(100 * x) / 100); }
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const BodyReport& r) {
+  std::vector<std::string> warnings;
+  if (r.thinned > 0)
+    warnings.push_back("the tissue is thinner than patch.height below " + std::to_string(r.thinned) +
+                       " points of the skin, down to " + shortest(rounded(r.least_thickness)) +
+                       " mm, because the skin is bent too strongly there");
+  if (r.least_depth > 0)
+    warnings.push_back("the cut is only " + shortest(rounded(r.least_depth)) +
+                       " mm deep where the tissue is thin");
+  if (r.left_out > 0)
+    warnings.push_back(std::to_string(r.left_out) + " triangles of the skin, the first at " +
+                       place_text(r.left_out_at) +
+                       " mm, are left out of the body, which ends there: the skin is bent too strongly");
+  if (r.least_angle < least_angle)
+    warnings.push_back(
+        "a triangle of the skin at " + place_text(r.sharpest) + " mm has an angle of only " +
+        hundredths(r.least_angle) +
+        " degrees: what is simulated there is less accurate; smooth the mesh or the path there");
+  for (const OffPath& p : r.off_paths) {
+    const std::string cut = "cut " + std::to_string(p.cut + 1);
+    if (p.far)
+      warnings.push_back(cut + ": its path is " + hundredths(p.off) + " mm off the skin at " +
+                         place_text(p.at) + " mm; check that it is of this mesh, and --scale");
+    if (p.leaves)
+      warnings.push_back(cut + " is made along " + hundredths(p.made) + " of the " + hundredths(p.length) +
+                         " mm of its path: there is no skin below the rest of it");
+  }
+  return warnings;
+}
+
+std::string warning_of_turned(const CutMesh& mesh, const std::vector<int>& turned, double scale) {
+  if (turned.empty()) return "";
+  const auto& corners = mesh.triangle(turned.front()).vertex;
+  Vec3 middle;
+  for (const int v : corners) middle += scale / 3 * mesh.position(v);
+  const bool one = turned.size() == 1;
+  return std::to_string(turned.size()) + (one ? " triangle" : " triangles") + " of the skin" +
+         (one ? "" : ", the first") + " at " + place_text(middle) +
+         (one ? " mm turns over or folds up" : " mm, turn over or fold up") +
+         " in this simulation: the skin is bent or thin there, or strains are too large to be small; try "
+         "model = finite, a shallower cut or a smaller mesh.element_size";
+}
+
+}  // namespace cleft

@@ -1,0 +1,275 @@
+#include "explorer/body/vertex_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <queue>
+#include <set>
+#include <utility>
+
+#include "explorer/body/body_lips.h"
+#include "explorer/body/parted_surface.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double furthest = 2;      // mm: of a vertex from the body's skin, whose triangles are larger
+constexpr double faded_part = 0.3;  // of the way from the cuts to the rim: there displacements fade out
+// A vertex on a cut, or next to one, is first sought where the skin around it, so many mm and triangles, is:
+// there it is on one side of all cuts. A body's straight pieces of a path are off those of the mesh.
+constexpr double around = 0.5;
+constexpr std::size_t most_around = 64;
+constexpr double aside = 0.2;    // mm: the same on a wall, and at the end of a cut
+constexpr double as_near = 0.1;  // mm: of two places, one reached from a lip of the body
+constexpr double least_of_end = 1.3 * std::numbers::pi;  // radians, of the skin around the end of a cut
+
+/// Distances over the skin from its rim, by node: infinite without a rim.
+std::vector<double> from_rim(const Body& body) {
+  std::vector<std::vector<int>> around(body.points.size());
+  const std::vector<int> root = first_at_place(body);
+  for (const auto& t : body.skin)
+    for (int i = 0; i < 3; ++i)
+      for (const int j : {1, 2}) around[root[t[i]]].push_back(root[t[(i + j) % 3]]);
+  std::vector<double> distance(body.points.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (const auto& side : body.sides)
+    for (const int n : side)
+      if (body.skin_above[n] == n && distance[n] > 0) distance[n] = 0, queue.emplace(0, n);
+  while (!queue.empty()) {
+    const auto [d, n] = queue.top();
+    queue.pop();
+    if (d > distance[n]) continue;
+    for (const int m : around[n])
+      if (const double next = d + norm(body.points[m] - body.points[n]); next < distance[m])
+        distance[m] = next, queue.emplace(next, m);
+  }
+  for (std::size_t n = 0; n < distance.size(); ++n) distance[n] = distance[root[body.skin_above[n]]];
+  return distance;
+}
+
+class Locator {
+ public:
+  Locator(const Body& body, const std::vector<const Incision*>& cuts, double scale)
+      : cuts_(cuts),
+        mesh_(cuts.front()->mesh()),
+        scale_(scale),
+        skin_({body.points, body.skin}),
+        walls_(walls_of(body)),
+        ends_(body, cuts, scale) {
+    for (std::size_t k = 0; k < cuts.size(); ++k)
+      lips_.emplace_back(body, static_cast<int>(k), *cuts[k], scale);
+    const std::vector<double> rim = from_rim(body);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const BodyPair& pair : body.pairs) nearest = std::min(nearest, rim[pair.left]);
+    for (const double d : rim) {
+      const double x = std::isinf(d) ? 1 : std::clamp(d / (faded_part * nearest), 0., 1.);
+      share_.push_back(x * x * (3 - 2 * x));
+    }
+  }
+
+  std::vector<VertexPlace> run() {
+    const auto count = static_cast<int>(mesh_.vertices().size());
+    std::vector<bool> seen(count, false);
+    std::queue<int> next;
+    for (int v = 0; v < count; ++v)
+      if (mesh_.vertex(v).kind != VertexKind::skin) seen[v] = true, next.push(v);
+    std::vector<std::vector<int>> around(count);
+    for (const CutMesh::Triangle& t : mesh_.triangles())
+      for (int i = 0; i < 3; ++i)
+        around[t.vertex[i]].push_back(t.vertex[(i + 1) % 3]),
+            around[t.vertex[(i + 1) % 3]].push_back(t.vertex[i]);
+    // Only what is connected with the cuts over places of the body.
+    while (!next.empty()) {
+      const int v = next.front();
+      next.pop();
+      const std::size_t had = places_.size();
+      locate(v);
+      if (places_.size() == had) continue;
+      for (const int w : around[v])
+        if (!seen[w]) seen[w] = true, next.push(w);
+    }
+    std::sort(places_.begin(), places_.end(),
+              [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+    return std::move(places_);
+  }
+
+ private:
+  /// Triangles around a vertex, of the skin or of a wall.
+  struct Fan {
+    std::vector<int> skin, left, right;
+  };
+
+  Vec3 at(int v) const { return scale_ * mesh_.position(v); }
+  Vec3 middle(int t) const {
+    const auto& c = mesh_.triangle(t).vertex;
+    return 1. / 3 * (at(c[0]) + at(c[1]) + at(c[2]));
+  }
+  Vec3 twice_area(int t) const {
+    const auto& c = mesh_.triangle(t).vertex;
+    return cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0]));
+  }
+
+  Fan fan(int v) const {
+    Fan fan;
+    for (const int t : mesh_.fan(v)) {
+      const Region region = mesh_.triangle(t).region;
+      (region == Region::skin ? fan.skin : region == Region::left_wall ? fan.left : fan.right).push_back(t);
+    }
+    return fan;
+  }
+
+  /// From a vertex toward the centroid of triangles around it, not far.
+  Vec3 to_middle(int v, const std::vector<int>& triangles) const {
+    Vec3 sum;
+    double area = 0;
+    for (const int t : triangles) {
+      const double part = norm(twice_area(t));
+      sum += part * (middle(t) - at(v)), area += part;
+    }
+    return area > 0 ? std::min(1., aside / norm(sum) * area) / area * sum : Vec3{};
+  }
+
+  /// Of triangles around a vertex, there.
+  double angle(int v, const std::vector<int>& triangles) const {
+    double sum = 0;
+    for (const int t : triangles) {
+      const auto& c = mesh_.triangle(t).vertex;
+      const int i = mesh_.triangle(t).corner(v);
+      const Vec3 a = at(c[(i + 1) % 3]) - at(v), b = at(c[(i + 2) % 3]) - at(v);
+      sum += std::atan2(norm(cross(a, b)), dot(a, b));
+    }
+    return sum;
+  }
+
+  /// The direction from a lip into its skin: between its two edges there.
+  Vec3 inward(int v, const std::vector<int>& fan) const {
+    std::set<int> after, before;  // the vertices around it, counter-clockwise
+    Vec3 normal;
+    for (const int t : fan) {
+      const auto& c = mesh_.triangle(t).vertex;
+      const int i = mesh_.triangle(t).corner(v);
+      after.insert(c[(i + 1) % 3]), before.insert(c[(i + 2) % 3]), normal += twice_area(t);
+    }
+    if (after == before) return {};
+    const auto only_in = [](const std::set<int>& some, const std::set<int>& others) {
+      return *std::find_if(some.begin(), some.end(), [&](int w) { return !others.contains(w); });
+    };
+    const Vec3 first = normalized(at(only_in(after, before)) - at(v));
+    const Vec3 left = cross(normalized(normal), first);
+    const double half = angle(v, fan) / 2;
+    return std::cos(half) * first + std::sin(half) * left;
+  }
+
+  /// From a vertex to the middle of the skin that is near it, connected with `fan`, and not behind `inward`.
+  Vec3 to_middle_of_skin(int v, const std::vector<int>& fan, const Vec3& inward) const {
+    std::vector<int> patch = fan;
+    std::set<int> seen(fan.begin(), fan.end());
+    for (std::size_t k = 0; k < patch.size() && patch.size() < most_around; ++k)
+      for (const int t : mesh_.triangle(patch[k]).neighbor)
+        if (mesh_.is_skin(t) && norm(middle(t) - at(v)) < around && seen.insert(t).second) patch.push_back(t);
+    Vec3 sum;
+    double weights = 0;
+    for (const int t : patch) {
+      const Vec3 way = middle(t) - at(v);
+      if (dot(way, inward) < 0) continue;
+      const double weight = std::min(norm(twice_area(t)), around * around);
+      sum += weight * std::min(1., around / norm(way)) * way, weights += weight;
+    }
+    return weights > 0 ? 1 / weights * sum : Vec3{};
+  }
+
+  /// How far a vertex of a cut is from its place in the body.
+  Vec3 offset(int v) const {
+    const CutMesh::Vertex& vertex = mesh_.vertex(v);
+    return vertex.cut >= 0 && std::isfinite(vertex.s) ? lips_[vertex.cut].offset(vertex.s) : Vec3{};
+  }
+
+  /// At x, by some of the triangles around a vertex. From `start`, a triangle, if it leads there; else from
+  /// where x + way is, on one side of all cuts.
+  void add(int v, const std::vector<int>& triangles, const PartedSurface& surface, double share,
+           const Vec3& x, const Vec3& way, int start = -1) {
+    if (triangles.empty()) return;
+    Vec3 normal;
+    for (const int t : triangles) normal += twice_area(t);
+    const bool on_lip = mesh_.vertex(v).kind != VertexKind::skin;
+    SurfacePlace found = surface.nearest(x + way, normal, furthest);
+    if (found.triangle >= 0) found = surface.nearest_from(found.triangle, x);
+    if (start >= 0) {
+      const SurfacePlace other = surface.nearest_from(start, x);
+      if (norm(other.position - x) <
+          (found.triangle < 0 ? furthest : norm(found.position - x) + (on_lip ? around : as_near)))
+        found = other;
+    }
+    if (found.triangle < 0) return;
+    VertexPlace place{v, surface.nodes(found.triangle), {}};
+    double weights = 0;
+    for (int i = 0; i < 3; ++i)
+      place.weights[i] = share * share_[place.nodes[i]] * found.weights[i], weights += place.weights[i];
+    if (weights > 0) places_.push_back(place);
+  }
+
+  void locate(int v) {
+    const auto [skin, left, right] = fan(v);
+    const CutMesh::Vertex& vertex = mesh_.vertex(v);
+    const Vec3 x = at(v) + offset(v) + ends_.at(at(v));
+    if (vertex.kind == VertexKind::shared && angle(v, skin) > least_of_end) {  // an end: between the lips
+      const Vec3 across = cuts_[vertex.cut]->path().at(vertex.s).across;
+      std::vector<int> sides[2];
+      for (const int t : skin) sides[dot(middle(t) - at(v), across) > 0].push_back(t);
+      const double share = sides[0].empty() || sides[1].empty() ? 1 : 0.5;
+      for (const int side : {0, 1}) add(v, sides[side], skin_, share, x, (side ? aside : -aside) * across);
+    } else if (vertex.kind != VertexKind::skin && !skin.empty()) {
+      add(v, skin, skin_, 1, x, to_middle_of_skin(v, skin, inward(v, skin)), start_of(v));
+    } else if (!skin.empty()) {
+      int start = -1;
+      for (const int t : skin)
+        for (const int w : mesh_.triangle(t).vertex)
+          if (start < 0) start = start_of(w);
+      add(v, skin, skin_, 1, x, from_lips(v, skin), start);
+    } else {  // walls; the bottom is shared by both
+      const double share = left.empty() || right.empty() ? 1 : 0.5;
+      add(v, left, walls_, share, x, to_middle(v, left));
+      add(v, right, walls_, share, x, to_middle(v, right));
+    }
+  }
+
+  /// A triangle of the body's skin on the lip that a vertex is on, nearby; -1: none is known.
+  int start_of(int v) const {
+    const CutMesh::Vertex& vertex = mesh_.vertex(v);
+    if (vertex.kind != VertexKind::left_lip && vertex.kind != VertexKind::right_lip) return -1;
+    const int node = lips_[vertex.cut].node(vertex.s, vertex.kind == VertexKind::right_lip);
+    return node < 0 ? -1 : skin_.triangle_at(node);
+  }
+
+  /// Of a vertex of the skin: away from the lips next to it, if there are any.
+  Vec3 from_lips(int v, const std::vector<int>& skin) const {
+    Vec3 off, way;
+    double lips = 0;
+    for (const int t : skin)
+      for (const int w : mesh_.triangle(t).vertex)
+        if (mesh_.vertex(w).kind != VertexKind::skin) off += offset(w), way += inward(w, fan(w).skin), ++lips;
+    return lips > 0 ? 1 / lips * off + to_middle_of_skin(v, skin, way) : Vec3{};
+  }
+
+  const std::vector<const Incision*>& cuts_;
+  const CutMesh& mesh_;
+  double scale_;
+  const PartedSurface skin_, walls_;
+  std::vector<BodyLips> lips_;  // by cut
+  const EndShift ends_;
+  std::vector<double> share_;  // of a node's displacement, by node
+  std::vector<VertexPlace> places_;
+};
+
+}  // namespace
+
+std::vector<VertexPlace> places_in(const Body& body, const std::vector<const Incision*>& cuts, double scale) {
+  return Locator(body, cuts, scale).run();
+}
+
+}  // namespace cleft
