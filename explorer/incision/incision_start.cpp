@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/nearest_weights.h"
 #include "base/text.h"
 #include "explorer/incision/blade.h"
 #include "explorer/incision/incision_places.h"
@@ -85,6 +86,23 @@ PathStep on_its_lip(const IncisionState& cut, PathStep start) {
   return start;
 }
 
+/// Whether the skin nearest to the start, if it is within reach, faces against the path's directions.
+bool faces_away(const IncisionState& cut, double reach) {
+  const PathFrame start = cut.path.at(0);
+  double least = reach;
+  bool away = false;
+  for (int t = 0; t < static_cast<int>(cut.mesh.triangles().size()); ++t) {
+    if (!cut.mesh.is_skin(t)) continue;
+    const auto& corners = cut.mesh.triangle(t).vertex;
+    const Vec3 a = cut.mesh.position(corners[0]), b = cut.mesh.position(corners[1]),
+               c = cut.mesh.position(corners[2]);
+    const std::array<double, 3> weight = nearest_weights(start.position, a, b, c);
+    const double apart = norm(weight[0] * a + weight[1] * b + weight[2] * c - start.position);
+    if (apart < least) least = apart, away = dot(cross(b - a, c - a), start.outward) < 0;
+  }
+  return away;
+}
+
 }  // namespace
 
 PathStep find_start(const IncisionState& cut) {
@@ -92,6 +110,10 @@ PathStep find_start(const IncisionState& cut) {
   if (const auto start = start_on_face(cut, reach)) return on_its_lip(cut, *start);
   if (const auto start = start_on_boundary(cut, reach)) return on_its_lip(cut, *start);
   const Vec3 c = cut.path.at(0).position;
+  if (faces_away(cut, reach))
+    throw InputError("the path begins at " + place_of(c) +
+                     " on a surface that faces the other way: its directions (nx, ny, nz) must point out of "
+                     "the surface; turn them round, or the triangles of the mesh");
   double least = std::numeric_limits<double>::infinity();
   for (const CutMesh::Vertex& v : cut.mesh.vertices()) least = std::min(least, norm(v.position - c));
   throw InputError("the path never touches the mesh: it begins at " + place_of(c) + ", " + shortest(least) +
