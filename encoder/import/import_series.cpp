@@ -137,7 +137,8 @@ ImportReport import_series(const ImportOptions& o, const std::function<void(cons
   });
   Break& first = found.list.front();
   const Placement placement =
-      first.plane ? placement_on(first, series.mesh(), flat) : placement_in_box(series.mesh(), o.box, flat);
+      first.plane ? placement_on(first, series.mesh(), static_cast<std::int32_t>(series.frames()), flat)
+                  : placement_in_box(series.mesh(), o.box, flat);
 
   ImportReport report;
   Placed placed = found.list.size() == 1

@@ -44,7 +44,7 @@ void mark_joined(FieldSource& source, const std::vector<Vec3>& junctions) {
 
 OwnPlace own_place(const ImportedSeries& series, Break& found, const std::optional<Vec3>& flat) {
   OwnPlace own;
-  own.placement = placement_on(found, series.mesh(), flat);
+  own.placement = placement_on(found, series.mesh(), static_cast<std::int32_t>(series.frames()), flat);
   own.placed = snapshot_of(series, series.mesh(), found, own.placement, flat.has_value());
   const std::vector<Vec3>& at = own.placed.map ? own.placed.canonical : own.placed.snapshot.points;
   std::vector<Vec3> parting;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "encoder/import/boundary.h"
 
@@ -49,15 +50,15 @@ std::vector<Point2> hull_of(std::vector<Point2> points) {
   return hull;
 }
 
-/// Along the longer side of the smallest rectangle around the points, seen along `normal`; a side of it lies
-/// on a side of the hull.
-Vec3 longest_direction(const std::vector<Vec3>& points, const Vec3& normal) {
+/// Along the sides of the smallest rectangle around the points, seen along `normal`, the longer one first; a
+/// side of it lies on a side of the hull.
+std::array<Vec3, 2> sides_of_rectangle(const std::vector<Vec3>& points, const Vec3& normal) {
   const Vec3 aside = std::abs(normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 x = normalized(aside - dot(aside, normal) * normal), y = cross(normal, x);
   std::vector<Point2> flat;
   for (const Vec3& p : points) flat.push_back({dot(x, p), dot(y, p)});
   const std::vector<Point2> hull = hull_of(flat);
-  Vec3 best = x;
+  std::array<Vec3, 2> best = {x, y};
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
@@ -65,9 +66,13 @@ Vec3 longest_direction(const std::vector<Vec3>& points, const Vec3& normal) {
     if (!(length > 0)) continue;
     const Vec3 along = ((b.x - a.x) / length) * x + ((b.y - a.y) / length) * y, across = cross(normal, along);
     const double p = range_along(points, along).extent(), q = range_along(points, across).extent();
-    if (p * q < least * (1 - 1e-9)) least = p * q, best = p >= q * (1 - 1e-9) ? along : across;
+    if (p * q < least * (1 - 1e-9)) {
+      least = p * q;
+      best = {along, across};
+      if (p < q * (1 - 1e-9)) std::swap(best[0], best[1]);
+    }
   }
-  return snapped(best);
+  return {snapped(best[0]), snapped(best[1])};
 }
 
 /// Makes `u` exactly orthogonal to the unit vector `v`.
@@ -88,6 +93,37 @@ bool opens_backwards(const Break& found, const SourceMesh& mesh, const Vec3& u) 
          -0.1 * std::sqrt(places * frames);  // both ways at once, like a crack's two ends, is neither
 }
 
+/// How much of the differences between the frames in which pairs open the best parabola over their places
+/// along the axis explains, 0 to 1. A parabola, since a crack may grow at both of its ends.
+double growth_along(const Break& found, const SourceMesh& mesh, std::int32_t frames, const Vec3& axis) {
+  std::vector<double> place, square, frame;
+  for (std::size_t p = 0; p < found.pairs.size(); ++p)
+    if (found.first_frame[p] < frames) {
+      place.push_back(dot(axis, mesh.points[found.pairs[p][0]]));
+      frame.push_back(found.first_frame[p]);
+    }
+  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+  };
+  const auto centre = [](std::vector<double>& list) {
+    const double mean = std::accumulate(list.begin(), list.end(), 0.) / static_cast<double>(list.size());
+    for (double& x : list) x -= mean;
+  };
+  centre(place), centre(frame);
+  for (const double x : place) square.push_back(x * x);
+  centre(square);
+  const double places = product(place, place), differences = product(frame, frame);
+  if (!(places > 0 && differences > 0)) return 0;
+  const double slope = product(square, place) / places;
+  for (std::size_t i = 0; i < square.size(); ++i) square[i] -= slope * place[i];
+  const double squares = product(square, square), of_line = product(frame, place),
+               of_square = product(frame, square);
+  const double largest = places * places / static_cast<double>(place.size());
+  const double by_square =
+      squares > 1e-9 * largest ? of_square * of_square / squares : 0;  // else two columns
+  return (of_line * of_line / places + by_square) / differences;
+}
+
 double volume(const std::vector<Vec3>& points, const std::array<Vec3, 3>& axes, bool is_flat) {
   double product = 1;
   for (int i = 0; i < (is_flat ? 2 : 3); ++i) product *= range_along(points, axes[i]).extent();
@@ -102,7 +138,8 @@ std::optional<Vec3> flatness(const SourceMesh& mesh) {
   return plane->normal;
 }
 
-Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional<Vec3>& flat) {
+Placement placement_on(Break& found, const SourceMesh& mesh, std::int32_t frames,
+                       const std::optional<Vec3>& flat) {
   std::vector<std::int32_t> doubled;
   std::vector<Vec3> places;
   for (const auto& [left, right] : found.pairs) {
@@ -118,15 +155,23 @@ Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional
     w = *flat;
     u = cross(plane.normal, w);
   } else {
-    u = orthogonal(longest_direction(places, plane.normal), plane.normal);
+    const std::vector<Vec3> outward = outward_at(mesh, doubled);
+    const auto faces_toward = [&](const Vec3& axis) {
+      return std::count_if(outward.begin(), outward.end(), [&](const Vec3& o) { return dot(o, axis) > 0.7; });
+    };
+    const auto reaches_a_face = [&](const Vec3& axis) {
+      return faces_toward(axis) + faces_toward(-axis) > 0;
+    };
+    const auto [longer, shorter] = sides_of_rectangle(places, plane.normal);
+    const auto growth = [&](const Vec3& axis) { return growth_along(found, mesh, frames, axis); };
+    // A front that is round moves along both. One below, which ends on both sides of the break, is its
+    // bottom.
+    const bool grows_along_shorter =
+        growth(shorter) > 1.5 * growth(longer) && (reaches_a_face(longer) || !reaches_a_face(shorter));
+    u = orthogonal(grows_along_shorter ? shorter : longer, plane.normal);
     w = forward(cross(u, plane.normal));
-    int above = 0, below = 0;
-    for (const Vec3& outward : outward_at(mesh, doubled)) {
-      above += dot(outward, w) > 0.7;
-      below += dot(outward, w) < -0.7;
-    }
-    if (below > above) w = -w;
-    open_above = std::max(above, below) > 0;
+    if (faces_toward(-w) > faces_toward(w)) w = -w;
+    open_above = reaches_a_face(w);
     u = cross(plane.normal, w);
   }
   if (opens_backwards(found, mesh, u)) {

@@ -19,11 +19,13 @@ struct Placement {
 /// The normal of the plane of a plane mesh.
 std::optional<Vec3> flatness(const SourceMesh& mesh);
 
-/// v = 0 is the break's plane, u is along the longest extent of its doubled nodes, in the direction in which
-/// they open, from their middle; w is toward the surface of the body that they reach, with w = 0 at the
-/// highest of them, or at the top of the body. Exchanges left and right of the pairs if this reverses the
-/// plane.
-Placement placement_on(Break& found, const SourceMesh& mesh, const std::optional<Vec3>& flat);
+/// v = 0 is the break's plane, u is along one side of the smallest rectangle around its doubled nodes, from
+/// their middle: along that in which the front moves, by the frames in which pairs open (`frames`: never),
+/// else along the longer one; in the direction in which they open. w is toward the surface of the body that
+/// they reach, with w = 0 at the highest of them, or at the top of the body. Exchanges left and right of the
+/// pairs if this reverses the plane.
+Placement placement_on(Break& found, const SourceMesh& mesh, std::int32_t frames,
+                       const std::optional<Vec3>& flat);
 
 /// The box of the mesh of a series without a break.
 enum class Box { smaller, aligned, principal };

@@ -23,17 +23,6 @@ CrackedBody named(CrackedBody body, const std::string& name) {
   return body;
 }
 
-/// The body's places and displacements moved rigidly.
-CrackedBody posed(CrackedBody body, const std::string& name, const Pose& pose) {
-  const auto place = body.place;
-  const auto displacement = body.displacement;
-  body.place = [=](const Vec3& abc) { return pose.point(place(abc)); };
-  body.displacement = [=](const Vec3& abc, int side, double t) {
-    return pose.vector(displacement(abc, side, t));
-  };
-  return named(std::move(body), name);
-}
-
 CrackedBody bent(const std::string& name, const std::function<Vec3(const Vec3&)>& place) {
   CrackedBody body = edge_crack();
   body.place = place;
@@ -85,6 +74,17 @@ double around_slit(double x, double y, double R, int side) {
 }
 
 }  // namespace
+
+CrackedBody posed(CrackedBody body, const std::string& name, const Pose& pose) {
+  const auto place = body.place;
+  const auto displacement = body.displacement;
+  body.place = [=](const Vec3& abc) { return pose.point(place(abc)); };
+  body.displacement = [=](const Vec3& abc, int side, double t) {
+    return pose.vector(displacement(abc, side, t));
+  };
+  body.name = name;
+  return body;
+}
 
 std::vector<double> planes(double front, double back, int cells) {
   std::vector<double> list;

@@ -54,6 +54,9 @@ Vec3 beside_front(double a, double b, int side);
 /// time.
 CrackedBody edge_crack();
 
+/// The body's places and displacements moved rigidly.
+CrackedBody posed(CrackedBody body, const std::string& name, const Pose& pose);
+
 /// The rows of the table: edge_crack() and how it is changed.
 std::vector<CrackedBody> cracked_bodies();
 

@@ -16,7 +16,11 @@ std::string data_array(const std::string& type, const std::string& name, int com
   std::ostringstream text;
   text << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
        << "\" format=\"ascii\">";
-  for (const T value : values) text << shortest(static_cast<double>(value)) << ' ';
+  for (const T value : values)
+    if constexpr (std::is_integral_v<T>)
+      text << +value << ' ';
+    else
+      text << shortest(value) << ' ';
   text << "</DataArray>\n";
   return text.str();
 }
