@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "encoder/field/at_time.h"
 #include "encoder/field/quantity_fields.h"
+#include "encoder/import/coincident.h"
 #include "encoder/import/decoded_vtkhdf.h"
 
 namespace cleft {
@@ -47,54 +48,91 @@ double clamped(const Field& field, int axis, double value) {
   return value < front ? front : value > back ? back : value;
 }
 
-double inside(const Field& field, int axis, double value, std::size_t node, double slack) {
-  const auto [front, back] = field.domain(axis);
-  if (value < front - slack || value > back + slack)
-    throw InputError(
-        "node " + std::to_string(node) + " is at " + "uvw"[axis] + " = " + shortest(value) +
-        " of the field, which reaches from " + shortest(front) + " to " + shortest(back) +
-        "; the mesh must lie in the space of the series that the field was made from, within its body");
-  return clamped(field, axis, value);
+/// Where a node is in a field, and the cells that have it.
+struct InCells {
+  Vec3 extent;                                 ///< largest of its cells along each axis of the field
+  double across = 0;                           ///< their farthest node from the break
+  std::array<bool, 2> sides = {false, false};  ///< whether there are such on the left, and on the right
+};
+
+std::vector<InCells> in_cells(const SourceMesh& m, const std::vector<Place>& nodes) {
+  std::vector<InCells> list(nodes.size());
+  for (std::size_t c = 0; c < m.cell_types.size(); ++c) {
+    const std::span corners(m.connectivity.begin() + m.cell_offsets[c],
+                            m.connectivity.begin() + m.cell_offsets[c + 1]);
+    Vec3 low = nodes[corners.front()].uvw, high = low;
+    double sum = 0;
+    for (const std::int64_t n : corners) {
+      const Vec3& at = nodes[n].uvw;
+      sum += at.y;
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
+    }
+    for (const std::int64_t n : corners) {
+      InCells& node = list[n];
+      for (int axis = 0; axis < 3; ++axis)
+        node.extent[axis] = std::max(node.extent[axis], high[axis] - low[axis]);
+      node.across = std::max({node.across, -low.y, high.y});
+      if (sum != 0) node.sides[sum > 0] = true;
+    }
+  }
+  return list;
+}
+
+std::vector<char> doubled_nodes(const SourceMesh& mesh) {
+  std::vector<char> doubled(mesh.points.size());
+  for (const auto& group : coincident_groups(mesh.points, same_place(mesh)))
+    for (const std::int32_t node : group) doubled[node] = 1;
+  return doubled;
+}
+
+/// Puts a node at the break on the side of its cells. A mesh whose nodes are others than the source's has
+/// chords where the break is curved: its lips are beside v = 0 then, and may be on the wrong side.
+void put_on_side(Place& place, const InCells& cells, bool doubled) {
+  constexpr double at_break = 1e-3, single_lip = 0.05, lip = 0.5;  // of the extent of cells across the break
+  const auto [left, right] = cells.sides;
+  const double distance = std::abs(place.uvw.y);
+  const bool on_wrong_side = left != right && (right ? place.uvw.y < 0 : place.uvw.y > 0);
+  if (distance <= (on_wrong_side ? (doubled ? lip : single_lip) : at_break) * cells.across) {
+    place.uvw.y = 0;
+    place.side = left == right ? Side::both : left ? Side::left : Side::right;
+  } else {
+    place.side = side_of(place.uvw.y);
+  }
+}
+
+/// Throws InputError unless the node, which is at `x` in the source's space, is in the field's domain, or
+/// beside it by a small part of its cells: those of another mesh bulge where faces are curved.
+void expect_inside(const Field& field, const Place& place, const InCells& cells, double rounding,
+                   std::size_t node, const Vec3& x) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [front, back] = field.domain(axis);
+    const double slack = std::max(rounding, std::min(0.1 * cells.extent[axis], 0.01 * (back - front)));
+    const double value = place.uvw[axis];
+    if (value < front - slack || value > back + slack)
+      throw InputError("node " + std::to_string(node) + " at (" + shortest(x.x) + ", " + shortest(x.y) +
+                       ", " + shortest(x.z) + ") is at " + "uvw"[axis] + " = " + shortest(value) +
+                       " of the field, which reaches from " + shortest(front) + " to " + shortest(back) +
+                       "; the mesh must lie in the space of the series that the field was made from, within "
+                       "its body: move it there, or leave out what is beyond");
+  }
 }
 
 }  // namespace
 
 std::vector<Place> nodes_in_field(const SourceMesh& m, const Field& field, const std::vector<char>* asked) {
-  constexpr double at_break = 1e-3;  // of the extent of a node's cells across the break
   const FieldSource source = source_of(field);
   std::vector<Place> nodes;
   nodes.reserve(m.points.size());
   for (const Vec3& p : m.points) nodes.push_back({source.canonical(p)});
-  std::vector<double> extent(m.points.size(), 0);
-  std::vector<std::array<bool, 2>> sides(m.points.size(), {false, false});
-  for (std::size_t c = 0; c < m.cell_types.size(); ++c) {
-    const std::span corners(m.connectivity.begin() + m.cell_offsets[c],
-                            m.connectivity.begin() + m.cell_offsets[c + 1]);
-    double sum = 0, farthest = 0;
-    for (const std::int64_t n : corners) {
-      const double v = nodes[n].uvw.y;
-      sum += v, farthest = std::max(farthest, std::abs(v));
-    }
-    if (sum == 0) continue;
-    for (const std::int64_t n : corners) {
-      extent[n] = std::max(extent[n], farthest);
-      sides[n][sum > 0] = true;
-    }
-  }
-  const double slack = same_place(m) * 100;
+  const std::vector<InCells> cells = in_cells(m, nodes);
+  const std::vector<char> doubled = doubled_nodes(m);
+  const double rounding = 100 * same_place(m);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Place& place = nodes[n];
-    if (std::abs(place.uvw.y) <= at_break * extent[n]) {
-      place.uvw.y = 0;
-      const bool left = sides[n][0], right = sides[n][1];
-      place.side = left == right ? Side::both : left ? Side::left : Side::right;
-    } else {
-      place.side = side_of(place.uvw.y);
-    }
-    const bool strict = !asked || (*asked)[n];
-    for (int axis = 0; axis < 3; ++axis)
-      place.uvw[axis] =
-          strict ? inside(field, axis, place.uvw[axis], n, slack) : clamped(field, axis, place.uvw[axis]);
+    put_on_side(place, cells[n], doubled[n]);
+    if (!asked || (*asked)[n]) expect_inside(field, place, cells[n], rounding, n, m.points[n]);
+    for (int axis = 0; axis < 3; ++axis) place.uvw[axis] = clamped(field, axis, place.uvw[axis]);
   }
   return nodes;
 }

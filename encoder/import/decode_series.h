@@ -13,8 +13,9 @@
 namespace cleft {
 
 /// The place of every node of a mesh, in the source's space, in a field: nodes at the break belong to the
-/// side on which their cells are. Throws InputError if a node is outside of the field's domain; where `asked`
-/// is given, if one of those is, and others are put on its border.
+/// side on which their cells are. Nodes outside of the field's domain are put on its border. Throws
+/// InputError if one is so by more than a small part of its cells; where `asked` is given, if one of those
+/// is.
 std::vector<Place> nodes_in_field(const SourceMesh& mesh, const Field& field,
                                   const std::vector<char>* asked = nullptr);
 /// The same in a field of several pieces.
