@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "solver/snapshot/break_front.h"
 
@@ -23,6 +24,21 @@ struct Joined {
     first = extent[4] != 0, last = extent[5] != 0, lowest = extent[6] != 0;
   }
 };
+
+/// Of each node, whether there are cells on both sides of the break at it.
+std::vector<bool> have_both_sides(const Snapshot& s) {
+  std::vector<std::array<bool, 2>> sides(s.points.size(), {false, false});
+  for (std::size_t c = 0; c < s.cell_types.size(); ++c) {
+    const auto first = s.connectivity.begin() + s.cell_offsets[c],
+               last = s.connectivity.begin() + s.cell_offsets[c + 1];
+    const double side =
+        std::accumulate(first, last, 0., [&](double sum, std::int64_t n) { return sum + s.points[n].y; });
+    if (side != 0) std::for_each(first, last, [&](std::int64_t n) { sides[n][side > 0] = true; });
+  }
+  std::vector<bool> both(sides.size());
+  for (std::size_t n = 0; n < both.size(); ++n) both[n] = sides[n][0] && sides[n][1];
+  return both;
+}
 
 }  // namespace
 
@@ -58,9 +74,17 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
     if (beside && at.x < first - slack) before = std::max(before, at.x);
     if (under && at.z < lowest - slack) below = std::max(below, at.z);
   }
+  const bool imported = s.source && !s.cell_types.empty();
+  if (imported && before == -far) {
+    // Behind the hole in which a break may begin.
+    const std::vector<bool> whole_there = have_both_sides(s);
+    for (std::size_t n = 0; n < whole_there.size(); ++n)
+      if (const Vec3& at = s.points[n]; whole_there[n] && sides[n] == 0 && at.x < first - slack &&
+                                        lowest - slack < at.z && at.z < highest + slack)
+        before = std::max(before, at.x);
+  }
   if (joined.first) before = -far;
   if (joined.lowest) below = -far;
-  const bool imported = s.source && !s.cell_types.empty();
   if (imported || std::abs(ends.cut.start - first) <= slack) {
     const double end = ends.cut.start + ends.cut.length;
     ends.cut.start = before > -far ? before : domain[0].front;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <span>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -56,6 +58,36 @@ std::vector<Vec3> canonical_points(const Snapshot& s, const BreakMap& map, const
   return places;
 }
 
+/// Nodes without a partner that are in the plane of the break, or nearly so, and have cells on one side of it
+/// alone, are on a face that is flush with it, as in a corner where it begins: they are put beside it.
+void put_beside(std::vector<Vec3>& places, const Snapshot& s, const Break& found,
+                const std::vector<bool>& at_front) {
+  constexpr double near = 0.05, beside = 1e-7;  // of the extent of cells, and of all, across
+  std::vector<double> extent(places.size()), side(places.size());
+  std::vector<char> whole(places.size(), 0);
+  const Interval across = range_of(places, 1);
+  for (std::size_t c = 0; c < s.cell_types.size(); ++c) {
+    const std::span corners(s.connectivity.begin() + s.cell_offsets[c],
+                            s.connectivity.begin() + s.cell_offsets[c + 1]);
+    double sum = 0, farthest = 0;
+    for (const std::int64_t n : corners)
+      sum += places[n].y, farthest = std::max(farthest, std::abs(places[n].y));
+    if (farthest == 0) continue;  // an interface element, between the two sides
+    for (const std::int64_t n : corners) {
+      const double other = std::exchange(side[n], sum);
+      whole[n] = whole[n] || sum == 0 || std::signbit(sum) != std::signbit(other == 0 ? sum : other);
+      extent[n] = std::max(extent[n], farthest);
+    }
+  }
+  for (const NodePair& pair : found.pairs)
+    for (const std::int32_t node : pair) whole[node] = 1;
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    double& v = places[n].y;
+    if (!whole[n] && !at_front[n] && std::abs(v) <= near * extent[n] && v * side[n] <= 0)
+      v = std::copysign(beside * (across.back - across.front), side[n]);
+  }
+}
+
 std::vector<bool> front_of(const Snapshot& s, const Break& found) {
   std::vector<std::int8_t> sides(s.points.size(), 0);
   for (std::size_t p = 0; p < found.pairs.size(); ++p)
@@ -90,10 +122,12 @@ Placed snapshot_of(const ImportedSeries& series, const SourceMesh& mesh, const B
     s.source->break_map = result.map->numbers();
     s.coordinates = true;
     result.canonical = canonical_points(s, *result.map, found, at_front);
+    put_beside(result.canonical, s, found, at_front);
     std::swap(s.points, result.canonical);
     fill_cut(s, found, beyond);
     std::swap(s.points, result.canonical);
   } else {
+    if (found.plane) put_beside(s.points, s, found, at_front);
     fill_cut(s, found, beyond);
   }
   return result;

@@ -65,14 +65,6 @@ double through_disc(const Vec3& x, double R, int side) {
   return xi * decay;
 }
 
-/// Around a slit of half length R along x: Im of sqrt(R^2 - z^2), on the slit +- sqrt(R^2 - x^2), less what
-/// is linear far away.
-double around_slit(double x, double y, double R, int side) {
-  const double p = R * R - x * x + y * y, q = -2 * x * y, size = std::hypot(p, q);
-  const double real = std::sqrt(std::max(0., 0.5 * (size + p)));
-  return std::copysign(real, side != 0 ? side : y) - y;
-}
-
 }  // namespace
 
 CrackedBody posed(CrackedBody body, const std::string& name, const Pose& pose) {
@@ -90,6 +82,12 @@ std::vector<double> planes(double front, double back, int cells) {
   std::vector<double> list;
   for (int i = 0; i <= cells; ++i) list.push_back(front + (back - front) * i / cells);
   return list;
+}
+
+double around_slit(double x, double y, double R, int side) {
+  const double p = R * R - x * x + y * y, q = -2 * x * y, size = std::hypot(p, q);
+  const double real = std::sqrt(std::max(0., 0.5 * (size + p)));
+  return std::copysign(real, side != 0 ? side : y) - y;
 }
 
 Vec3 beside_front(double a, double b, int side) {

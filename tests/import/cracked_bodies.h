@@ -50,6 +50,10 @@ std::vector<double> planes(double front, double back, int cells);
 /// 0.3, plane strain): the lips part by 5.6 sqrt(-a).
 Vec3 beside_front(double a, double b, int side);
 
+/// Around a slit of half length R along x: Im of sqrt(R^2 - z^2), on the slit +- sqrt(R^2 - x^2), less what
+/// is linear far away.
+double around_slit(double x, double y, double R, int side);
+
 /// An edge crack that grows from a = 0 to a = 24, through bodies of 40 x 30 x 6, one column of a unit at a
 /// time.
 CrackedBody edge_crack();

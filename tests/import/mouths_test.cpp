@@ -1,0 +1,85 @@
+// Cracks that begin within the body's outline: at notches, corners and holes, with whole material beside or
+// behind what is not there.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/import/cracked_bodies.h"
+#include "tests/import/field_errors.h"
+
+namespace cleft {
+
+namespace {
+
+/// A crack along b = 0 from a = 6 on, where the body begins above it. Faces in its plane are on its sides.
+CrackedBody from_six(const std::string& name, bool flat) {
+  CrackedBody body = edge_crack();
+  body.name = name + (flat ? ", 2D" : "");
+  if (flat) body.c = {0};
+  body.times = planes(0, 9, 9);
+  body.doubled = [](const Vec3& x) { return 6 <= x.x && x.x < 24; };
+  body.side = [](const Vec3& x, const Vec3& middle) {
+    return x.y != 0 || x.x >= 24 ? 0 : middle.y < 0 ? -1 : 1;
+  };
+  body.displacement = [](const Vec3& x, int side, double t) {
+    return 0.01 * t * beside_front(x.x - 6 - 2 * t, x.y, side);
+  };
+  return body;
+}
+
+/// The notch is above the plane of the crack.
+CrackedBody one_sided_notch(bool flat) {
+  CrackedBody body = from_six("one-sided notch", flat);
+  body.solid = [](const Vec3& x) { return x.x > 6 || x.y < 0 || x.y > 2; };
+  return body;
+}
+
+/// The crack goes on where one face of the corner ends.
+CrackedBody corner(bool flat) {
+  CrackedBody body = from_six("re-entrant corner", flat);
+  body.solid = [](const Vec3& x) { return x.x > 6 || x.y < 0; };
+  return body;
+}
+
+/// From a hole between a = 6 and 10, behind which the body is whole.
+CrackedBody hole(bool flat) {
+  CrackedBody body = from_six("hole", flat);
+  body.solid = [](const Vec3& x) { return x.x < 6 || x.x > 10 || std::abs(x.y) > 3; };
+  body.doubled = [](const Vec3& x) { return 10 <= x.x && x.x < 24; };
+  body.side = {};
+  body.times = planes(0, 7, 7);
+  body.displacement = [](const Vec3& x, int side, double t) {
+    const double tip = 10 + 2 * t;
+    return Vec3{0, 0.02 * t * around_slit(x.x - (6 + tip) / 2, x.y, (tip - 6) / 2, side), 0};
+  };
+  return body;
+}
+
+CrackedBody curved(CrackedBody body) {
+  body.name += ", curved";
+  body.place = [](const Vec3& x) {
+    const double turn = x.x / 60;
+    return Vec3{(60 - x.y) * std::sin(turn), 60 - (60 - x.y) * std::cos(turn), x.z};
+  };
+  return body;
+}
+
+std::vector<CrackedBody> bodies() {
+  std::vector<CrackedBody> list;
+  for (const bool flat : {false, true})
+    for (const CrackedBody& body : {one_sided_notch(flat), corner(flat), hole(flat), curved(hole(flat))}) {
+      list.push_back(body);
+      list.push_back(posed(body, body.name + ", turned", Pose::random(8)));
+    }
+  return list;
+}
+
+class Mouths : public testing::TestWithParam<std::size_t> {};
+
+}  // namespace
+
+TEST_P(Mouths, OpenWhereThePairsBegin) { expect_exact(bodies()[GetParam()]); }
+
+INSTANTIATE_TEST_SUITE_P(, Mouths, testing::Range(std::size_t{0}, bodies().size()));
+
+}  // namespace cleft
