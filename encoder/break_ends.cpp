@@ -25,8 +25,9 @@ struct Joined {
   }
 };
 
-/// Of each node, whether there are cells on both sides of the break at it.
-std::vector<bool> have_both_sides(const Snapshot& s) {
+/// Places at which the body is whole across v = 0: of nodes with cells on both sides of it, which no pair
+/// that parts has (`divided`: -1, 1), and of closed pairs.
+std::vector<Vec3> whole_across(const Snapshot& s, const std::vector<std::int8_t>& divided) {
   std::vector<std::array<bool, 2>> sides(s.points.size(), {false, false});
   for (std::size_t c = 0; c < s.cell_types.size(); ++c) {
     const auto first = s.connectivity.begin() + s.cell_offsets[c],
@@ -35,9 +36,12 @@ std::vector<bool> have_both_sides(const Snapshot& s) {
         std::accumulate(first, last, 0., [&](double sum, std::int64_t n) { return sum + s.points[n].y; });
     if (side != 0) std::for_each(first, last, [&](std::int64_t n) { sides[n][side > 0] = true; });
   }
-  std::vector<bool> both(sides.size());
-  for (std::size_t n = 0; n < both.size(); ++n) both[n] = sides[n][0] && sides[n][1];
-  return both;
+  for (const auto& [left, right] : s.pairs)
+    for (const std::size_t side : {0, 1}) sides[left][side] = sides[left][side] || sides[right][side];
+  std::vector<Vec3> places;
+  for (std::size_t n = 0; n < sides.size(); ++n)
+    if (divided[n] == 0 && sides[n][0] && sides[n][1]) places.push_back(s.points[n]);
+  return places;
 }
 
 }  // namespace
@@ -75,14 +79,14 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
     if (under && at.z < lowest - slack) below = std::max(below, at.z);
   }
   const bool imported = s.source && !s.cell_types.empty();
-  if (imported && before == -far) {
-    // Behind the hole in which a break may begin.
-    const std::vector<bool> whole_there = have_both_sides(s);
-    for (std::size_t n = 0; n < whole_there.size(); ++n)
-      if (const Vec3& at = s.points[n]; whole_there[n] && sides[n] == 0 && at.x < first - slack &&
-                                        lowest - slack < at.z && at.z < highest + slack)
-        before = std::max(before, at.x);
-  }
+  std::vector<Vec3> beyond;  // the holes in which the break begins or ends, or beside it
+  if (imported)
+    for (const Vec3& at : whole_across(s, sides))
+      if (lowest - slack < at.z && at.z < highest + slack && !(joined.last && at.x > last - slack))
+        beyond.push_back(at);
+  if (before == -far)
+    for (const Vec3& at : beyond)
+      if (at.x < first - slack) before = std::max(before, at.x);
   if (joined.first) before = -far;
   if (joined.lowest) below = -far;
   if (imported || std::abs(ends.cut.start - first) <= slack) {
@@ -106,8 +110,10 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
     double& tip = ends.tip[j];
     if (tip <= of_open + slack) {
       double ahead = far;
-      for (const Vec3& at : whole)
-        if (at.x > of_open + slack) ahead = std::min(ahead, at.x);
+      for (const auto* places : {&whole, &beyond})
+        if (ahead == far)
+          for (const Vec3& at : *places)
+            if (at.x > of_open + slack) ahead = std::min(ahead, at.x);
       tip = ahead < far ? ahead : domain[0].back;
     }
     if (tip > domain[0].back - slack) tip = domain[0].back;

@@ -17,8 +17,8 @@ struct BreakEnds {
 /// only pairs are known, the cut begins, ends and has its bottom at whole nodes that share cells with both
 /// sides of pairs that part (`parted`, one for each pair). Where there are none, it is open there: it
 /// reaches a face of the body, an edge, a notch or a hole, and goes on to the end of the domain, so that no
-/// comparison of places decides whether a mouth is closed; at its start, to where the body behind a hole is
-/// whole: to nodes with cells on both sides. Without cells all whole nodes of v = 0 count.
+/// comparison of places decides whether a mouth is closed; or to where the body beyond a hole is whole: to
+/// nodes with cells on both sides. Without cells all whole nodes of v = 0 count.
 BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
                      const std::array<Interval, 3>& domain);
 

@@ -55,6 +55,18 @@ CrackedBody hole(bool flat) {
   return body;
 }
 
+/// From the edge to a hole between a = 10 and 14, beyond which the body is whole; all of it opens at once.
+CrackedBody into_hole(bool flat) {
+  CrackedBody body = from_six("into a hole", flat);
+  body.solid = [](const Vec3& x) { return x.x < 10 || x.x > 14 || std::abs(x.y) > 3; };
+  body.doubled = [](const Vec3& x) { return x.x <= 10; };
+  body.side = {};
+  body.displacement = [](const Vec3& x, int side, double t) {
+    return 0.01 * t * beside_front(x.x - 14, x.y, side);
+  };
+  return body;
+}
+
 CrackedBody curved(CrackedBody body) {
   body.name += ", curved";
   body.place = [](const Vec3& x) {
@@ -67,7 +79,8 @@ CrackedBody curved(CrackedBody body) {
 std::vector<CrackedBody> bodies() {
   std::vector<CrackedBody> list;
   for (const bool flat : {false, true})
-    for (const CrackedBody& body : {one_sided_notch(flat), corner(flat), hole(flat), curved(hole(flat))}) {
+    for (const CrackedBody& body : {one_sided_notch(flat), corner(flat), hole(flat), curved(hole(flat)),
+                                    into_hole(flat), curved(into_hole(flat))}) {
       list.push_back(body);
       list.push_back(posed(body, body.name + ", turned", Pose::random(8)));
     }
