@@ -125,6 +125,8 @@ Json info_of_field(const Field& field, const std::string& file) {
                                   {"scale", quantity.scale},
                                   {"error", quantity.error},
                                   {"spline_error", quantity.spline_error},
+                                  {"worst_node", quantity.worst_node},
+                                  {"worst_time", quantity.worst_time},
                                   {"unit", field.source ? unit_of(*field.source, quantity.name) : ""}});
   for (const ParameterDerivative& one : field.by_parameter)
     info["by_parameter"].push_back(

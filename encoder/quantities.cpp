@@ -29,11 +29,18 @@ std::vector<double> coefficients_of(const NodeSpline& spline) {
   return all;
 }
 
-/// The largest distance from the data at any node and frame.
-double error_of(const NodeSpline& spline, const Series& series) {
-  double largest = 0;
-  for (const NodeErrors& frame : node_errors(series, spline)) largest = std::max(largest, frame.largest);
-  return largest;
+/// The largest distance from the data at any node and frame, and where it is.
+struct Worst {
+  double error = 0;
+  std::size_t node = 0;
+  double time = 0;
+};
+Worst worst_of(const NodeSpline& spline, const Series& series) {
+  Worst worst;
+  const std::vector<NodeErrors> frames = node_errors(series, spline);
+  for (std::size_t j = 0; j < frames.size(); ++j)
+    if (frames[j].largest > worst.error) worst = {frames[j].largest, frames[j].worst_node, series.times[j]};
+  return worst;
 }
 
 /// The field plus the components from `first` on of a constant; functions sum to 1.
@@ -84,22 +91,23 @@ FittedQuantity fit_quantity(const Series& series, int number, const Field& field
                             std::optional<double> limit_of_data) {
   const SeriesQuantity& data = series.quantities[number];
   const NodeSpline exact = fitted(series, number, field);
-  const double scale = data.scale > 0 ? data.scale : 1, misfit = error_of(exact, series),
+  const double scale = data.scale > 0 ? data.scale : 1, misfit = worst_of(exact, series).error,
                limit = limit_of_data.value_or(0);
   const bool within = misfit <= share_of_fit * limit;
   const double bound = std::max(within ? limit : 1.02 * misfit, finest_bound * scale);
   double step = step_within(bound_of_steps(bound, limit), exact.components, share_of_steps);
   NodeSpline spline = stepped(exact, step);
-  double error = error_of(spline, series);
-  for (int times = 0; error > bound && times < 12; ++times) {
+  Worst worst = worst_of(spline, series);
+  for (int times = 0; worst.error > bound && times < 12; ++times) {
     step /= 1.5;
     spline = stepped(exact, step);
-    error = error_of(spline, series);
+    worst = worst_of(spline, series);
   }
-  FittedQuantity result{{data.name, exact.components, coefficients_of(spline), data.largest, error / scale,
-                         error / scale, step, data.scale},
-                        {}};
-  if (!limit_of_data || error <= limit) return result;
+  FittedQuantity result{
+      {data.name, exact.components, coefficients_of(spline), data.largest, worst.error / scale,
+       worst.error / scale, step, data.scale, static_cast<double>(worst.node), worst.time},
+      {}};
+  if (!limit_of_data || worst.error <= limit) return result;
   double largest = 0;
   result.residual = code_left(series, spline, 0, limit, largest);
   result.quantity.error = largest / scale;

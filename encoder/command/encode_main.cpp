@@ -17,6 +17,7 @@
 #include "encoder/command/encoder_progress.h"
 #include "encoder/command/figures.h"
 #include "encoder/command/spread_nodes.h"
+#include "encoder/command/warnings.h"
 #include "encoder/encode.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/field_record.h"
@@ -222,7 +223,7 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
     field.parameters = s.parameters, field.case_hash = s.case_hash, field.source = source_of(s);
     field.tissue = tissue_below(readers[p]);
     field.report = rounded_report(field.report);
-    if (const std::string warning = warning_of(field, series[p], task.options); !warning.empty())
+    for (const std::string& warning : warnings_of(field, series[p], task.options))
       warnings.push_back(of + warning);
   }
   progress("writing");

@@ -2,10 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
 
 #include "base/h5/h5.h"
 #include "base/text.h"
@@ -56,45 +53,19 @@ Json figures_of(const std::vector<Field>& pieces, std::size_t nodes, const std::
       {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                     std::to_string(EIGEN_MINOR_VERSION)},
       {"HDF5", h5::version()}};
-  for (const Quantity& quantity : field.quantities)
-    figures["quantities"].push_back({{"name", quantity.name},
-                                     {"scale", quantity.scale},
-                                     {"error", quantity.error},
-                                     {"spline_error", quantity.spline_error}});
+  for (std::size_t q = 0; q < field.quantities.size(); ++q) {
+    double error = 0, spline_error = 0;
+    for (const Field& piece : pieces)
+      error = std::max(error, piece.quantities[q].error),
+      spline_error = std::max(spline_error, piece.quantities[q].spline_error);
+    figures["quantities"].push_back({{"name", field.quantities[q].name},
+                                     {"scale", field.quantities[q].scale},
+                                     {"error", error},
+                                     {"spline_error", spline_error}});
+  }
   for (const ParameterDerivative& one : field.by_parameter)
     figures["by_parameter"].push_back({{"parameter", one.parameter}, {"error", one.error}});
   return figures;
-}
-
-std::string warning_of(const Field& field, const Series& series, const EncodeOptions& options) {
-  const FitReport& report = field.report;
-  const double scale = report.largest_displacement,
-               limit = options.tolerance_of("displacement").limit(scale > 0 ? scale : 1);
-  if (options.rung || report.spline_error * scale <= 2 * limit) return "";
-  const Vec3& at = series.node_samples()[static_cast<std::size_t>(report.worst_node)].uvw;
-  const CanonicalCut& cut = field.cut();
-  const double tip = field.parametrization().geometry().tip.at(report.worst_time);
-  const bool beside_front = std::min(std::abs(at.x - tip), std::abs(at.x - cut.start)) < 0.1 * cut.length;
-  const auto digits = [](double x) {
-    std::ostringstream text;
-    text << std::setprecision(3) << x;
-    return text.str();
-  };
-  const std::string cause =
-      cut.length == 0 ? "the field has no break; where the data jump, import them with the plane of the jump "
-                        "(cleft import "
-                        "--break), or with a smaller --open-at"
-      : beside_front
-          ? "beside the front of the break the knots are as dense as the nodes allow; refine the mesh "
-            "there, or write more frames"
-      : at.y == 0 ? "on the break, away from its ends; see whether all of it opens as one (cleft info, cleft "
-                    "import --open-at)"
-                  : "away from the break the nodes do not determine more knots; refine the mesh there";
-  return "the spline, which is what is drawn between the nodes, is off by " +
-         digits(100 * report.spline_error) + " % of the largest displacement, " +
-         digits(report.spline_error * scale / limit) + " times the tolerance, at node " +
-         shortest(report.worst_node) + " (u = " + digits(at.x) + ", v = " + digits(at.y) +
-         ", w = " + digits(at.z) + " mm) and t = " + digits(report.worst_time) + ": " + cause;
 }
 
 }  // namespace cleft

@@ -43,6 +43,8 @@ struct Quantity {
   double spline_error = 0;  ///< the same for the spline alone (equal where no residual is stored)
   double quantum = 0;       ///< unknowns are whole multiples of it, and stored as such; 0: as 32-bit floats
   double scale = 0;  ///< what errors are relative to: `largest`, or the data's range where that is less
+  double worst_node = 0, worst_time = 0;  ///< where spline_error is
+  double between_nodes = 0;               ///< as FitReport has it, over `scale`
 };
 
 /// The derivative of the displacement by a parameter of the case, over the field's bases, for interpolation

@@ -8,11 +8,12 @@ namespace cleft {
 /// The report of the fit that goes with a field; errors are relative to the largest displacement from frame 0
 /// unless stated otherwise.
 struct FitReport {
-  double relative_l2 = 0;           ///< sqrt(sum |error|^2 / sum |d|^2) over nodes and frames
-  double node_error = 0;            ///< largest Euclidean error at any node and frame, as stored
-  double spline_error = 0;          ///< the same for the spline alone (equal where no residual is stored)
-  double gape_error = 0;            ///< largest error of the opening of a pair of nodes on the cut
-  double false_gap = 0;             ///< largest opening across v = 0 at uncut nodes, where it should be 0
+  double relative_l2 = 0;    ///< sqrt(sum |error|^2 / sum |d|^2) over nodes and frames
+  double node_error = 0;     ///< largest Euclidean error at any node and frame, as stored
+  double spline_error = 0;   ///< the same for the spline alone (equal where no residual is stored)
+  double between_nodes = 0;  ///< largest error between the nodes that the data show (encoder/between_nodes.h)
+  double gape_error = 0;     ///< largest error of the opening of a pair of nodes on the cut
+  double false_gap = 0;      ///< largest opening across v = 0 at uncut nodes, where it should be 0
   double largest_displacement = 0;  ///< mm, from frame 0
   double frame_error = 0;           ///< largest error in any frame over that frame's own largest displacement
   double worst_node = 0;            ///< node of spline_error, and its time

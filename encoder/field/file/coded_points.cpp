@@ -64,9 +64,14 @@ void append(std::vector<std::uint8_t>& bytes, const std::vector<std::uint8_t>& m
 
 void append_quantity(Json& list, std::vector<std::uint8_t>& bytes, const Quantity& quantity,
                      const ControlTies& ties, const std::array<BSplineBasis, 4>& bases) {
-  Json entry{{"name", quantity.name},       {"components", quantity.components},
-             {"largest", quantity.largest}, {"scale", quantity.scale},
-             {"error", quantity.error},     {"spline_error", quantity.spline_error}};
+  Json entry{{"name", quantity.name},
+             {"components", quantity.components},
+             {"largest", quantity.largest},
+             {"scale", quantity.scale},
+             {"error", quantity.error},
+             {"spline_error", quantity.spline_error},
+             {"worst_node", quantity.worst_node},
+             {"worst_time", quantity.worst_time}};
   if (quantity.quantum == 0) {
     append_planes(bytes, std::vector<float>(quantity.coefficients.begin(), quantity.coefficients.end()));
   } else {
@@ -91,6 +96,9 @@ Quantity take_quantity(const Json& entry, std::span<const std::uint8_t>& bytes, 
     throw InputError("a quantity has no number of components");
   quantity.spline_error =
       entry.contains("spline_error") ? finite_member(entry, "spline_error") : quantity.error;
+  if (entry.contains("worst_node"))
+    quantity.worst_node = finite_member(entry, "worst_node"),
+    quantity.worst_time = finite_member(entry, "worst_time");
   quantity.scale = entry.contains("scale") ? finite_member(entry, "scale") : quantity.largest;
   const std::size_t components = quantity.components;
   const std::size_t count = components * control_points_of(bases);

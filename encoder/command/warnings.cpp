@@ -1,0 +1,106 @@
+#include "encoder/command/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "base/text.h"
+
+namespace cleft {
+
+namespace {
+
+constexpr double worth_a_warning = 2;  // tolerances
+
+std::string digits(double x) {
+  std::ostringstream text;
+  text << std::setprecision(3) << x;
+  return text.str();
+}
+
+std::string percent(double part) { return digits(100 * part) + " %"; }
+
+struct Place {
+  double node, t;
+};
+
+const Vec3& at(const Series& series, const Place& place) {
+  return series.node_samples()[static_cast<std::size_t>(place.node)].uvw;
+}
+
+std::string told(const Series& series, const Place& place) {
+  const Vec3& p = at(series, place);
+  return " at node " + shortest(place.node) + " (u = " + digits(p.x) + ", v = " + digits(p.y) +
+         ", w = " + digits(p.z) + " mm) and t = " + digits(place.t) + ": ";
+}
+
+/// Why knots of its own do not follow a field there, and what helps.
+std::string cause_of(const Field& field, const Series& series, const Place& place) {
+  const CanonicalCut& cut = field.cut();
+  if (cut.length == 0)
+    return "the field has no break; where the data jump, import them with the plane of the jump (cleft "
+           "import "
+           "--break), or with a smaller --open-at";
+  const Vec3& p = at(series, place);
+  const double tip = field.parametrization().geometry().tip.at(place.t);
+  if (std::min(std::abs(p.x - tip), std::abs(p.x - cut.start)) < 0.1 * cut.length)
+    return "beside the front of the break the knots are as dense as the nodes allow; refine the mesh there, "
+           "or "
+           "write more frames";
+  if (p.y == 0)
+    return "on the break, away from its ends; see whether all of it opens as one (cleft info, cleft import "
+           "--open-at)";
+  return "away from the break the nodes do not determine more knots; refine the mesh there";
+}
+
+/// Of a quantity on the knots of the displacement.
+std::string cause_of(const Quantity& quantity) {
+  const std::string knots =
+      "it has the knots of the displacement, which do not follow it there; ask for a "
+      "smaller error of that, which makes knots denser (--tolerance displacement=0.1%)";
+  if (quantity.name == Series::at_start)
+    return knots + ", or import the series from a frame on in which nothing has moved yet";
+  return knots + ", or import " + quantity.name + " without it, for knots of its own";
+}
+
+std::string warning_of(const Quantity& quantity, const Field& field, const Series& series,
+                       const EncodeOptions& options) {
+  const double scale = quantity.scale > 0 ? quantity.scale : 1,
+               limit = options.tolerance_of(quantity.name).limit(scale),
+               error = quantity.spline_error * scale;
+  if (error <= worth_a_warning * limit) return "";
+  const bool start = quantity.name == Series::at_start;
+  const Place place{quantity.worst_node, quantity.worst_time};
+  return quantity.name + (start ? " (the displacement of frame 0)" : "") +
+         ": the spline, which is what is drawn between the nodes, is off by " +
+         percent(quantity.spline_error) +
+         (start && series.largest_displacement > 0 ? " of the largest displacement, "
+                                                   : " of its largest value or range, ") +
+         digits(error / limit) + " times the tolerance," + told(series, place) +
+         (series.largest_displacement > 0 ? cause_of(quantity) : cause_of(field, series, place));
+}
+
+std::string warning_of_displacement(const Field& field, const Series& series, const EncodeOptions& options) {
+  const FitReport& report = field.report;
+  const double scale = report.largest_displacement,
+               limit = options.tolerance_of("displacement").limit(scale > 0 ? scale : 1);
+  if (report.spline_error * scale <= worth_a_warning * limit) return "";
+  const Place place{report.worst_node, report.worst_time};
+  return "the spline, which is what is drawn between the nodes, is off by " + percent(report.spline_error) +
+         " of the largest displacement, " + digits(report.spline_error * scale / limit) +
+         " times the tolerance," + told(series, place) + cause_of(field, series, place);
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Field& field, const Series& series, const EncodeOptions& options) {
+  if (options.rung) return {};
+  std::vector<std::string> warnings = {warning_of_displacement(field, series, options)};
+  for (const Quantity& quantity : field.quantities)
+    warnings.push_back(warning_of(quantity, field, series, options));
+  std::erase(warnings, "");
+  return warnings;
+}
+
+}  // namespace cleft
