@@ -127,6 +127,7 @@ Json info_of_field(const Field& field, const std::string& file) {
                                   {"spline_error", quantity.spline_error},
                                   {"worst_node", quantity.worst_node},
                                   {"worst_time", quantity.worst_time},
+                                  {"between_nodes", quantity.between_nodes},
                                   {"unit", field.source ? unit_of(*field.source, quantity.name) : ""}});
   for (const ParameterDerivative& one : field.by_parameter)
     info["by_parameter"].push_back(

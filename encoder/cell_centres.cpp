@@ -1,8 +1,28 @@
 #include "encoder/cell_centres.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <set>
 
 namespace cleft {
+
+namespace {
+
+using Edges = std::vector<std::array<std::size_t, 2>>;
+
+/// Of VTK's linear cells, by their type.
+const std::map<std::uint8_t, Edges> edges_of_types = {
+    {5, {{0, 1}, {1, 2}, {2, 0}}},
+    {8, {{0, 1}, {1, 3}, {3, 2}, {2, 0}}},
+    {9, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+    {10, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}},
+    {11, {{0, 1}, {1, 3}, {3, 2}, {2, 0}, {4, 5}, {5, 7}, {7, 6}, {6, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
+    {12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
+    {13, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}},
+    {14, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}}};
+
+}  // namespace
 
 CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& samples) {
   CellCentres centres;
@@ -29,8 +49,32 @@ CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& sa
   return centres;
 }
 
-Eigen::MatrixX3d CellCentres::mean(const Eigen::Ref<const Eigen::MatrixX3d>& frame) const {
-  Eigen::MatrixX3d means = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(samples.size()), 3);
+CellCentres edge_middles(const Snapshot& snapshot, const std::vector<Sample>& samples) {
+  CellCentres middles;
+  middles.first = {0};
+  std::set<std::array<std::int64_t, 2>> known;
+  for (std::size_t c = 0; c < snapshot.cell_types.size(); ++c) {
+    const auto edges = edges_of_types.find(snapshot.cell_types[c]);
+    if (edges == edges_of_types.end()) continue;
+    const std::int64_t* corners = &snapshot.connectivity[static_cast<std::size_t>(snapshot.cell_offsets[c])];
+    for (const auto& [from, to] : edges->second) {
+      const auto [a, b] = std::minmax(corners[from], corners[to]);
+      const Sample &one = samples[static_cast<std::size_t>(a)], &other = samples[static_cast<std::size_t>(b)];
+      const Vec3 middle = 0.5 * (one.uvw + other.uvw);
+      const bool on_plane = one.uvw.y == 0 && other.uvw.y == 0;
+      if ((one.uvw.y * other.uvw.y < 0) || (on_plane && one.side != other.side)) continue;
+      if (!known.insert({a, b}).second) continue;
+      middles.samples.push_back({middle, on_plane ? one.side : side_of(middle.y)});
+      middles.touches_plane.push_back(one.uvw.y == 0 || other.uvw.y == 0);
+      middles.nodes.insert(middles.nodes.end(), {a, b});
+      middles.first.push_back(middles.nodes.size());
+    }
+  }
+  return middles;
+}
+
+Eigen::MatrixXd CellCentres::mean(const Eigen::Ref<const Eigen::MatrixXd>& frame) const {
+  Eigen::MatrixXd means = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(samples.size()), frame.cols());
   for (std::size_t c = 0; c < samples.size(); ++c) {
     for (std::size_t k = first[c]; k < first[c + 1]; ++k)
       means.row(static_cast<Eigen::Index>(c)) += frame.row(nodes[k]);

@@ -18,13 +18,16 @@ struct CellCentres {
   std::vector<std::int64_t> nodes;  ///< of one cell after another
   std::vector<std::size_t> first;   ///< M + 1: where each begins there
 
-  /// M x 3, of a frame's N x 3.
-  Eigen::MatrixX3d mean(const Eigen::Ref<const Eigen::MatrixX3d>& frame) const;
+  /// M rows, of a frame's N.
+  Eigen::MatrixXd mean(const Eigen::Ref<const Eigen::MatrixXd>& frame) const;
   /// The centroids with the given numbers.
   CellCentres only(const std::vector<std::size_t>& some) const;
 };
 
 /// `samples`: those of the snapshot's nodes.
 CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& samples);
+/// The same of the edges of linear cells; those in v = 0 are on the side of their nodes, and left out where
+/// these are on both sides.
+CellCentres edge_middles(const Snapshot& snapshot, const std::vector<Sample>& samples);
 
 }  // namespace cleft

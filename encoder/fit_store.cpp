@@ -48,7 +48,7 @@ bool FitStore::serves(const Series& series) const {
   return series.nodes == series_.nodes && series.times == series_.times && series.arm == series_.arm &&
          series.round == series_.round && series.quadratic == series_.quadratic &&
          equal(series.geometry, series_.geometry) && equal(series.samples, series_.samples) &&
-         equal(series.centres, series_.centres);
+         equal(series.centres, series_.centres) && equal(series.middles, series_.middles);
 }
 
 template <class Matrix, class Make>

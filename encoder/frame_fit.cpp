@@ -6,7 +6,8 @@ namespace cleft {
 
 namespace {
 
-constexpr int enough = 8;  // nodes a control point, in any piece along the cut
+constexpr double of_middles = 0.03;  // the weight of edges: more bends the opening next to a front
+constexpr int enough = 8;            // nodes a control point, in any piece along the cut
 
 /// Where the basis along interpolates: pieces between such knots share no function but at their ends.
 struct Piece {
@@ -46,9 +47,11 @@ FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
     return std::upper_bound(places.begin(), places.end(), back) -
            std::lower_bound(places.begin(), places.end(), front);
   };
-  std::vector<bool> sparse(series.times.size(), false), inside(series.centres.samples.size(), false);
+  std::vector<bool> sparse(series.times.size(), false), inside(series.centres.samples.size(), false),
+      held(series.middles.samples.size(), false);
   const int section = bases[1].size() * bases[2].size();
-  for (std::size_t j = 1; j < series.times.size(); ++j)
+  const double tiny = 1e-8 * (u.back() - u.front());
+  for (std::size_t j = series.from_zero ? 1 : 0; j < series.times.size(); ++j)
     for (const Piece& piece : pieces_of(bases[0])) {
       const double front = parametrization.u_at(piece.front, series.times[j]),
                    back = parametrization.u_at(piece.back, series.times[j]);
@@ -58,31 +61,40 @@ FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
       sparse[j] = true;
       for (std::size_t c = 0; c < inside.size(); ++c)
         if (const double at = series.centres.samples[c].uvw.x; front < at && at < back) inside[c] = true;
+      for (std::size_t c = 0; c < held.size(); ++c)
+        if (const double at = series.middles.samples[c].uvw.x; front - tiny <= at && at <= back + tiny)
+          held[c] = true;
     }
-  std::vector<std::size_t> at_plane, others;
+  std::vector<std::size_t> at_plane, others, middles;
   for (std::size_t c = 0; c < inside.size(); ++c)
     if (series.centres.touches_plane[c])
       at_plane.push_back(c);
     else if (inside[c])
       others.push_back(c);
-  if (series.geometry.cut.length > 0) add_group(at_plane, std::vector<bool>(sparse.size(), true));
-  add_group(others, sparse);
+  for (std::size_t c = 0; c < held.size(); ++c)
+    // Lips close as a root next to the front, which edges of the break would straighten.
+    if (held[c] && !(series.from_zero && series.middles.samples[c].uvw.y == 0)) middles.push_back(c);
+  if (series.geometry.cut.length > 0)
+    add_group(series.centres, at_plane, std::vector<bool>(sparse.size(), true));
+  add_group(series.centres, others, sparse);
+  add_group(series.middles, middles, sparse, of_middles);
 }
 
-void FrameFit::add_group(const std::vector<std::size_t>& cells, std::vector<bool> of_frame) {
+void FrameFit::add_group(const CellCentres& all, const std::vector<std::size_t>& cells,
+                         std::vector<bool> of_frame, double weight) {
   if (cells.empty()) return;
-  CellCentres centres = series_.centres.only(cells);
+  CellCentres centres = all.only(cells);
   SpaceFit fit(parametrization_, bases_, centres.samples);
   std::optional<FrontCentres> fronts;
-  if (series_.quadratic) fronts.emplace(centres, series_.samples, series_.pairs);
-  groups_.push_back({std::move(centres), std::move(fit), std::move(of_frame), std::move(fronts)});
+  if (series_.quadratic && weight == 1) fronts.emplace(centres, series_.samples, series_.pairs);
+  groups_.push_back({std::move(centres), std::move(fit), std::move(of_frame), std::move(fronts), weight});
 }
 
 SpaceFit::Normal FrameFit::normal(std::size_t frame, double strength) const {
   const double t = series_.times[frame];
   SpaceFit::Normal sum = nodes_.normal(t, 0);
   for (const Group& group : groups_)
-    if (group.of_frame[frame]) sum.add(1, group.fit.normal(t, 0));
+    if (group.of_frame[frame]) sum.add(group.weight, group.fit.normal(t, 0));
   nodes_.roughen(sum, strength);
   return sum;
 }
@@ -97,7 +109,7 @@ Eigen::MatrixX3d FrameFit::project(std::size_t frame, const Eigen::Ref<const Eig
         const double start = series_.geometry.cut.start;
         group.fronts->correct(means, d, {start, start + t});
       }
-      sum += group.fit.project(means, t);
+      sum += group.weight * group.fit.project(means, t);
     }
   return sum;
 }

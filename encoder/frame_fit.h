@@ -15,7 +15,8 @@ namespace cleft {
 /// Where knots are closer than nodes, the nodes leave the spline free between them: next to the cut, and
 /// between its start and a tip that is still near, because all knots of the canonical cut are there at any
 /// time. There the least squares also use collocation at cell centroids: the finite elements' own values,
-/// with the weight of nodes.
+/// with the weight of nodes. Of imported data with few nodes the middles of edges hold the spline there too,
+/// with a weight that bends it little at the nodes.
 class FrameFit {
  public:
   /// Of the places and times of `series`, not of its displacements. Keeps references to `series` and
@@ -38,8 +39,10 @@ class FrameFit {
     SpaceFit fit;
     std::vector<bool> of_frame;
     std::optional<FrontCentres> fronts;  // of quadratic elements
+    double weight = 1;                   // over that of nodes
   };
-  void add_group(const std::vector<std::size_t>& cells, std::vector<bool> of_frame);
+  void add_group(const CellCentres& all, const std::vector<std::size_t>& cells, std::vector<bool> of_frame,
+                 double weight = 1);
 
   const Series& series_;
   const Parametrization& parametrization_;

@@ -56,8 +56,9 @@ OwnCoordinates::OwnCoordinates(const SnapshotReader& reader) {
 
 /// Around a front, the angle of a node near its ends is known with a turn more or less.
 void OwnCoordinates::add_turned_places(const BreakMap& map) {
-  round = map.round().has_value();
-  turn = round && map.round()->whole_circle() ? 2 * std::numbers::pi * map.round()->radius : 0;
+  if (!map.round()) return;
+  around = map;
+  turn = map.round()->whole_circle() ? 2 * std::numbers::pi * map.round()->radius : 0;
   for (std::size_t n = 0, count = places.size(); n < count; ++n)
     if (const auto again = map.again(places[n]))
       places.push_back(*again), frames.push_back(frames[n]), node.push_back(n);
@@ -130,8 +131,8 @@ bool OwnCoordinates::jumps(const Snapshot& s, std::span<const std::int64_t> cell
   constexpr double most_stretched = 4;
   const std::int64_t b = cell[0];
   return std::any_of(cell.begin(), cell.end(), [&](std::int64_t a) {
-    return norm(places[a] - places[b]) > most_stretched * norm(s.points[a] - s.points[b]) ||
-           (turn > 0 && std::abs(places[a].z - places[b].z) > turn / 2);
+    if (turn > 0) return std::abs(places[a].z - places[b].z) > turn / 2;
+    return norm(places[a] - places[b]) > most_stretched * norm(s.points[a] - s.points[b]);
   });
 }
 
@@ -156,6 +157,21 @@ std::vector<std::int32_t> OwnCoordinates::beside_jumps(const Snapshot& s) const 
   std::sort(beside.begin(), beside.end());
   beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
   return beside;
+}
+
+void OwnCoordinates::place_around_front(const Snapshot& s, CellCentres& middles) const {
+  if (!around) return;
+  for (std::size_t c = 0; c < middles.samples.size(); ++c) {
+    const std::size_t first = middles.first[c], count = middles.first[c + 1] - first;
+    Vec3 middle;
+    for (std::size_t k = first; k < first + count; ++k)
+      middle += (1. / static_cast<double>(count)) * s.points[node[kept[middles.nodes[k]]]];
+    const Vec3 found = around->canonical(middle);
+    if (found.x < 1e-6 * around->round()->radius) continue;  // on the axis, which has no angle
+    Vec3& place = middles.samples[c].uvw;
+    const double turns = turn > 0 ? std::round((place.z - found.z) / turn) : 0;
+    place.x = found.x, place.z = found.z + turns * turn;
+  }
 }
 
 Snapshot OwnCoordinates::of(const Snapshot& s) const {

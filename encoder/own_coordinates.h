@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "encoder/cell_centres.h"
 #include "encoder/field/break_map.h"
 #include "encoder/field/parametrization.h"
 #include "params/cut_curve.h"
@@ -25,7 +26,7 @@ struct OwnCoordinates {
   std::vector<std::size_t> node;            ///< of all places
   std::vector<std::size_t> kept;            ///< the places of the series
   std::size_t nodes = 0;                    ///< of these, the first ones: of nodes, one for each
-  bool round = false;                       ///< whether w is an angle around a front
+  std::optional<BreakMap> around;           ///< a front, of which w is the angle then
   double turn = 0;                          ///< a whole turn of it, in mm; 0: it has none
 
   explicit OwnCoordinates(const SnapshotReader& reader);
@@ -39,6 +40,8 @@ struct OwnCoordinates {
   /// The snapshot in these coordinates, of the nodes that are kept. Cells are left out where the coordinates
   /// jump, as they do beyond the middle of a curved cut's circle.
   Snapshot of(const Snapshot& s) const;
+  /// Moves the middles of cells to where they are around a front; others stay.
+  void place_around_front(const Snapshot& s, CellCentres& middles) const;
   /// The nodes of the cells that are left out so, in increasing order of their numbers there.
   std::vector<std::int32_t> beside_jumps(const Snapshot& s) const;
 

@@ -67,19 +67,55 @@ NodeSpline fitted(const Series& series, int number, const Field& field) {
   return spline;
 }
 
+/// Where the tip is in frame 0, if that is where the cut starts, a node is behind both or ahead, as it is
+/// rounded, and the other place has no data. Adds both places of such nodes and middles of edges; gives the
+/// nodes whose values the further samples have.
+std::vector<Eigen::Index> add_at_closed_tip(Series& series) {
+  std::vector<Eigen::Index> again;
+  const Interval& u = series.geometry.domain[0];
+  const double start = series.geometry.cut.start, tiny = 1e-9 * (u.back - u.front);
+  if (series.geometry.cut.length == 0 || series.geometry.tip.positions.front() > start + tiny) return again;
+  const auto is_there = [&](const Sample& sample) { return std::abs(sample.uvw.x - start) < tiny; };
+  const auto moved = [&](Sample sample, double to) {
+    sample.uvw.x = to;
+    return sample;
+  };
+  CellCentres& middles = series.middles;
+  const std::size_t nodes = series.samples.size(), edges = middles.samples.size();
+  for (const double to : {start, start + tiny}) {
+    for (std::size_t n = 0; n < nodes; ++n)
+      if (is_there(series.samples[n])) {
+        series.samples.push_back(moved(series.samples[n], to));
+        again.push_back(static_cast<Eigen::Index>(n));
+      }
+    for (std::size_t i = 0; i < edges; ++i)
+      if (is_there(middles.samples[i])) {
+        middles.samples.push_back(moved(middles.samples[i], to));
+        middles.touches_plane.push_back(middles.touches_plane[i]);
+        for (std::size_t k = middles.first[i]; k < middles.first[i + 1]; ++k)
+          middles.nodes.push_back(std::int64_t{middles.nodes[k]});
+        middles.first.push_back(middles.nodes.size());
+      }
+  }
+  return again;
+}
+
 }  // namespace
 
 Series series_of(const Series& series, const SeriesQuantity& quantity, int component) {
   Series result = series;
   result.quantities.clear(), result.derivatives.clear(), result.frames = series.frames.like_these();
-  result.centres = {};  // displacements alone are linear in a cell
+  result.from_zero = false, result.quadratic = false;  // no opening
   result.largest_displacement = quantity.scale;
+  const std::vector<Eigen::Index> again = add_at_closed_tip(result);
   for (std::size_t j = 0; j < series.frames.size(); ++j) {
     const auto all = quantity.frames[j];
-    const Eigen::Index columns = std::min<Eigen::Index>(3, all.cols() - component);
-    Eigen::MatrixX3d part = Eigen::MatrixX3d::Zero(all.rows(), 3);
-    part.leftCols(columns) =
+    const Eigen::Index columns = std::min<Eigen::Index>(3, all.cols() - component), rows = all.rows();
+    Eigen::MatrixX3d part = Eigen::MatrixX3d::Zero(rows + static_cast<Eigen::Index>(again.size()), 3);
+    part.topLeftCorner(rows, columns) =
         all.middleCols(component, columns).rowwise() - quantity.middle.segment(component, columns);
+    for (std::size_t i = 0; i < again.size(); ++i)
+      part.row(rows + static_cast<Eigen::Index>(i)) = part.row(again[i]);
     result.largest[j] = part.rowwise().norm().maxCoeff();
     result.frames.push_back(part);
     quantity.frames.forget(j);

@@ -15,7 +15,8 @@ namespace cleft {
 
 namespace {
 
-constexpr double bent = 0.3;  // radians from which the middle of a cut needs knots of its own
+constexpr std::size_t few_nodes = 1 << 16;  // above, cells alone determine a fit
+constexpr double bent = 0.3;                // radians from which the middle of a cut needs knots of its own
 
 using Pairs = std::vector<std::array<std::int32_t, 2>>;
 
@@ -254,7 +255,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
   std::optional<Snapshot> moved;
   if (!reader.snapshot().body.empty() || reader.snapshot().coordinates) {
     own = std::make_shared<OwnCoordinates>(reader);
-    round = own->round;
+    round = own->around.has_value();
     bends = own->turning(reader.snapshot().pairs) > bent;
     moved = own->of(reader.snapshot());
   }
@@ -300,7 +301,12 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     centres = cell_centres(taken.cells_of(s), samples);
   } else {
     centres = cell_centres(s, samples);
-    if (own) beside_jumps = own->beside_jumps(reader.snapshot());
+    if (s.source && samples.size() <= few_nodes) middles = edge_middles(s, samples);
+    if (own) {
+      own->place_around_front(reader.snapshot(), centres);
+      own->place_around_front(reader.snapshot(), middles);
+      beside_jumps = own->beside_jumps(reader.snapshot());
+    }
   }
   quadratic = s.parameters->mesh.elements == ElementOrder::quadratic;
   if (s.source && s.source->break_extent.size() >= 8)

@@ -69,6 +69,9 @@ struct Series {
   std::vector<double> largest;      ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;  ///< mm, of all
   CellCentres centres;
+  /// Of imported data with few nodes: middles of edges, which hold fits and show errors between nodes.
+  CellCentres middles;
+  bool from_zero = true;                   ///< whether frame 0 is no part of the fit
   std::vector<std::int32_t> beside_jumps;  ///< samples next to which the cut's coordinates jump
   bool quadratic = false;                  ///< simulated with quadratic elements, of which cells are parts
   /// Of imported data: the fields besides the displacement, and `at_start`, the displacement of frame 0 in

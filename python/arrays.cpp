@@ -133,6 +133,7 @@ py::dict dict_of(const FitReport& r) {
   const std::pair<const char*, double> rows[] = {{"relative_l2", r.relative_l2},
                                                  {"node_error", r.node_error},
                                                  {"spline_error", r.spline_error},
+                                                 {"between_nodes", r.between_nodes},
                                                  {"gape_error", r.gape_error},
                                                  {"false_gap", r.false_gap},
                                                  {"largest_displacement", r.largest_displacement},

@@ -222,8 +222,9 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
     const Snapshot& s = readers[p].snapshot();
     field.parameters = s.parameters, field.case_hash = s.case_hash, field.source = source_of(s);
     field.tissue = tissue_below(readers[p]);
+    const std::vector<BetweenNodes> between = add_between_nodes(field, series[p]);
     field.report = rounded_report(field.report);
-    for (const std::string& warning : warnings_of(field, series[p], task.options))
+    for (const std::string& warning : warnings_of(field, between, series[p], task.options))
       warnings.push_back(of + warning);
   }
   progress("writing");

@@ -54,14 +54,16 @@ Json figures_of(const std::vector<Field>& pieces, std::size_t nodes, const std::
                     std::to_string(EIGEN_MINOR_VERSION)},
       {"HDF5", h5::version()}};
   for (std::size_t q = 0; q < field.quantities.size(); ++q) {
-    double error = 0, spline_error = 0;
+    double error = 0, spline_error = 0, between = 0;
     for (const Field& piece : pieces)
       error = std::max(error, piece.quantities[q].error),
-      spline_error = std::max(spline_error, piece.quantities[q].spline_error);
+      spline_error = std::max(spline_error, piece.quantities[q].spline_error),
+      between = std::max(between, piece.quantities[q].between_nodes);
     figures["quantities"].push_back({{"name", field.quantities[q].name},
                                      {"scale", field.quantities[q].scale},
                                      {"error", error},
-                                     {"spline_error", spline_error}});
+                                     {"spline_error", spline_error},
+                                     {"between_nodes", between}});
   }
   for (const ParameterDerivative& one : field.by_parameter)
     figures["by_parameter"].push_back({{"parameter", one.parameter}, {"error", one.error}});

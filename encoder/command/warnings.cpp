@@ -64,10 +64,11 @@ std::string cause_of(const Quantity& quantity) {
   return knots + ", or import " + quantity.name + " without it, for knots of its own";
 }
 
+double scale_of(const Quantity& quantity) { return quantity.scale > 0 ? quantity.scale : 1; }
+
 std::string warning_of(const Quantity& quantity, const Field& field, const Series& series,
                        const EncodeOptions& options) {
-  const double scale = quantity.scale > 0 ? quantity.scale : 1,
-               limit = options.tolerance_of(quantity.name).limit(scale),
+  const double scale = scale_of(quantity), limit = options.tolerance_of(quantity.name).limit(scale),
                error = quantity.spline_error * scale;
   if (error <= worth_a_warning * limit) return "";
   const bool start = quantity.name == Series::at_start;
@@ -92,13 +93,34 @@ std::string warning_of_displacement(const Field& field, const Series& series, co
          " times the tolerance," + told(series, place) + cause_of(field, series, place);
 }
 
+/// `of`: "" for the displacement, else the quantity's name and a colon.
+std::string warning_between(const std::string& of, const BetweenNodes& between, double scale, double limit) {
+  if (between.error <= worth_a_warning * limit) return "";
+  return of + "between the nodes the spline goes astray by " + percent(between.error / scale) +
+         (of.empty() ? " of the largest displacement" : " of its largest value or range") +
+         ", beyond what the values of the cell's nodes span (at u = " + digits(between.at.x) +
+         ", v = " + digits(between.at.y) + ", w = " + digits(between.at.z) +
+         " mm and t = " + digits(between.time) +
+         "): knots are denser than nodes there; refine the mesh there, or take fewer knots "
+         "(--control-points, or "
+         "a larger --tolerance)";
+}
+
 }  // namespace
 
-std::vector<std::string> warnings_of(const Field& field, const Series& series, const EncodeOptions& options) {
+std::vector<std::string> warnings_of(const Field& field, const std::vector<BetweenNodes>& between,
+                                     const Series& series, const EncodeOptions& options) {
   if (options.rung) return {};
   std::vector<std::string> warnings = {warning_of_displacement(field, series, options)};
-  for (const Quantity& quantity : field.quantities)
+  if (const double scale = field.report.largest_displacement; scale > 0)
+    warnings.push_back(
+        warning_between("", between.front(), scale, options.tolerance_of("displacement").limit(scale)));
+  for (std::size_t q = 0; q < field.quantities.size(); ++q) {
+    const Quantity& quantity = field.quantities[q];
+    const double scale = scale_of(quantity), limit = options.tolerance_of(quantity.name).limit(scale);
     warnings.push_back(warning_of(quantity, field, series, options));
+    warnings.push_back(warning_between(quantity.name + ": ", between[q + 1], scale, limit));
+  }
   std::erase(warnings, "");
   return warnings;
 }

@@ -83,8 +83,9 @@ FitReport report_of(const std::vector<Field>& pieces) {
   for (const Field& piece : pieces) {
     const FitReport& one = piece.report;
     for (double FitReport::*error :
-         {&FitReport::relative_l2, &FitReport::node_error, &FitReport::gape_error, &FitReport::false_gap,
-          &FitReport::frame_error, &FitReport::condition, &FitReport::crease, &FitReport::overlap})
+         {&FitReport::relative_l2, &FitReport::node_error, &FitReport::between_nodes, &FitReport::gape_error,
+          &FitReport::false_gap, &FitReport::frame_error, &FitReport::condition, &FitReport::crease,
+          &FitReport::overlap})
       all.*error = std::max(all.*error, one.*error);
     if (one.spline_error > all.spline_error)
       all.spline_error = one.spline_error, all.worst_node = one.worst_node, all.worst_time = one.worst_time;

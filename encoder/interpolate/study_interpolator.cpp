@@ -233,7 +233,8 @@ void StudyInterpolator::tell(Field& field, const Recipe& recipe, double largest)
                          std::hypot(error, fit_error(recipe.prediction, largest)), error,
                          outside(recipe.parameters)};
   const double none = std::nan("");
-  field.report = {none, none, none, none, none, none, none, none, none, none, none, none, none, none, none};
+  field.report = {none, none, none, none, none, none, none, none,
+                  none, none, none, none, none, none, none, none};
   field.report.node_error = field.report.spline_error = field.interpolation->estimated_error;
   field.report.largest_displacement = largest;
 }

@@ -1,4 +1,6 @@
 // What holds the spline between nodes: centres of cells in the least squares, and knots that data determine.
+#include "encoder/between_nodes.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -103,6 +105,54 @@ TEST(BetweenNodes, EarlyFramesFollowTheElementsThere) {
   }
   // The fit is as good there as at the nodes of its worst frame.
   EXPECT_LT(worst, field.report.spline_error * series.largest_displacement);
+}
+
+/// Of a field that goes astray, at every centroid by the definition: what the distance from the mean is more
+/// than half of what the values vary by in a cell of the same nodes.
+TEST(BetweenNodes, WhatIsAstrayIsTold) {
+  const Series series = SyntheticSnapshot(grid_with_cells(), opening).series();
+  Field smooth = encoded_on(series, "tip", {1, 4, 2, 3, 2, 1, 4}).field;
+  std::vector<Vec3> points = smooth.coefficients();
+  for (std::size_t n = 0; n < points.size(); ++n) points[n] += 0.2 * std::sin(1. * n) * Vec3{1, -2, 0.5};
+  Field astray(smooth.shared_parametrization(),
+               {smooth.basis(0), smooth.basis(1), smooth.basis(2), smooth.basis(3)}, points);
+  const std::vector<BetweenNodes> found = add_between_nodes(astray, series);
+  add_between_nodes(smooth, series);
+  const Snapshot s = grid_with_cells();
+  double most = 0;
+  for (std::size_t j = 0; j < series.times.size(); ++j) {
+    const auto data = [&](std::int64_t n) {
+      const auto row = series.frames[j].row(static_cast<Eigen::Index>(n));
+      return Vec3{row(0), row(1), row(2)};
+    };
+    std::vector<double> varies(s.points.size(), 0);
+    for (int pass = 0; pass < 2; ++pass)
+      for (std::size_t c = 0; c < s.cell_types.size(); ++c) {
+        Vec3 mean, at;
+        double farthest = 0, least = 1e9;
+        for (std::size_t k = 8 * c; k < 8 * c + 8; ++k)
+          mean += 0.125 * data(s.connectivity[k]), at += 0.125 * s.points[s.connectivity[k]];
+        for (std::size_t k = 8 * c; k < 8 * c + 8; ++k) {
+          farthest = std::max(farthest, norm(data(s.connectivity[k]) - mean));
+          least = std::min(least, varies[s.connectivity[k]]);
+        }
+        for (std::size_t k = 8 * c; pass == 0 && k < 8 * c + 8; ++k)
+          varies[s.connectivity[k]] = std::max(varies[s.connectivity[k]], farthest);
+        if (pass == 0) continue;
+        const double off = norm(astray.displacement(at, Side::both, series.times[j]) - mean) - 0.5 * least;
+        if (off > most) {
+          most = off;
+          if (std::abs(off - found.front().error) < 1e-12) {
+            EXPECT_LT(norm(at - found.front().at), 1e-12);
+            EXPECT_EQ(series.times[j], found.front().time);
+          }
+        }
+      }
+  }
+  EXPECT_NEAR(found.front().error, most, 1e-12);
+  EXPECT_GT(astray.report.between_nodes, 0.1);
+  EXPECT_EQ(astray.report.between_nodes, found.front().error / series.largest_displacement);
+  EXPECT_LT(smooth.report.between_nodes, 0.005);
 }
 
 TEST(BetweenNodes, SupportedRungsAreDeterminedByTheNodes) {

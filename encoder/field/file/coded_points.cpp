@@ -71,7 +71,8 @@ void append_quantity(Json& list, std::vector<std::uint8_t>& bytes, const Quantit
              {"error", quantity.error},
              {"spline_error", quantity.spline_error},
              {"worst_node", quantity.worst_node},
-             {"worst_time", quantity.worst_time}};
+             {"worst_time", quantity.worst_time},
+             {"between_nodes", quantity.between_nodes}};
   if (quantity.quantum == 0) {
     append_planes(bytes, std::vector<float>(quantity.coefficients.begin(), quantity.coefficients.end()));
   } else {
@@ -99,6 +100,7 @@ Quantity take_quantity(const Json& entry, std::span<const std::uint8_t>& bytes, 
   if (entry.contains("worst_node"))
     quantity.worst_node = finite_member(entry, "worst_node"),
     quantity.worst_time = finite_member(entry, "worst_time");
+  if (entry.contains("between_nodes")) quantity.between_nodes = finite_member(entry, "between_nodes");
   quantity.scale = entry.contains("scale") ? finite_member(entry, "scale") : quantity.largest;
   const std::size_t components = quantity.components;
   const std::size_t count = components * control_points_of(bases);

@@ -29,6 +29,7 @@ constexpr Figure figures[] = {
     {"relative_l2", "", &FitReport::relative_l2},
     {"node_error", "", &FitReport::node_error},
     {"spline_error", "", &FitReport::spline_error},
+    {"between_nodes", "", &FitReport::between_nodes, false},
     {"gape_error", "", &FitReport::gape_error},
     {"false_gap", "", &FitReport::false_gap},
     {"largest_displacement", "_mm", &FitReport::largest_displacement},
