@@ -19,6 +19,7 @@ namespace cleft {
 struct FieldTolerance {
   double value = 0.01;
   bool absolute = false;
+  std::string unit = {};  ///< that was given with it, if absolute
 
   double limit(double scale) const { return absolute ? value : value * scale; }
 };

@@ -1,4 +1,5 @@
 // cleft eval: displacements of a field at points given as CSV, or at the nodes of its snapshot.
+#include <cmath>
 #include <functional>
 #include <iostream>
 
@@ -18,10 +19,12 @@ namespace {
 
 constexpr const char* columns[] = {"u", "v", "w", "side", "t"};
 
+constexpr double rounding = 1e-9;  // of the field's extent
+
 /// A number of a row inside the field's domain; the field itself would clamp without a word.
 double inside(const Field& field, int axis, double value, const std::string& where) {
   const auto [front, back] = field.domain(axis);
-  const double slack = 1e-9 * (back - front);
+  const double slack = rounding * (back - front);
   if (value >= front - slack && value <= back + slack) return value;
   throw InputError(where + ": " + columns[axis == 3 ? 4 : axis] + " = " + shortest(value) +
                    ": the field reaches from " + shortest(front) + " to " + shortest(back) + " mm");
@@ -79,7 +82,8 @@ AtRows rows_of(const BlendedField& field) {
           }};
 }
 
-/// `first`: the field, or the first of its pieces. Of several pieces a side may be given away from v = 0.
+/// `first`: the field, or the first of its pieces. Of several pieces a side may be given away from v = 0; of
+/// one, v that is 0 but for rounding is on the side that is given.
 std::string evaluate_rows(const AtRows& at_rows, const Field& first, bool several, const NumberTable& table,
                           const std::string& file) {
   int at[5];
@@ -97,7 +101,9 @@ std::string evaluate_rows(const AtRows& at_rows, const Field& first, bool severa
     if (side != -1 && side != 0 && side != 1)
       throw InputError(where + ": side = " + shortest(side) +
                        ": must be -1 (left), 1 (right) or 0 (by the sign of v)");
-    const Vec3 uvw = at_rows.inside({row[at[0]], row[at[1]], row[at[2]]}, where);
+    Vec3 uvw = at_rows.inside({row[at[0]], row[at[1]], row[at[2]]}, where);
+    const Interval& across = first.domain(1);
+    if (!several && side != 0 && std::abs(uvw.y) <= rounding * (across.back - across.front)) uvw.y = 0;
     if (uvw.y * side < 0 && !several)
       throw InputError(where + ": side = " + shortest(side) + " contradicts v = " + shortest(uvw.y));
     const auto lip = static_cast<Side>(static_cast<int>(side));

@@ -48,7 +48,8 @@ void parse_tolerance(const std::string& text, EncodeOptions& options) {
   if (!number.empty() && !unit.empty() && (number.back() == 'e' || number.back() == 'E'))
     unit = number.back() + unit, number.pop_back();  // of eV, say
   const std::string where = "--tolerance" + (name.empty() ? "" : " " + name);
-  FieldTolerance tolerance{parse_number(number, where), !unit.empty() && unit != "%"};
+  if (number.empty()) number = value;
+  FieldTolerance tolerance{parse_number(number, where), !unit.empty() && unit != "%", unit};
   if (unit == "%") tolerance.value /= 100;
   const bool good = tolerance.absolute ? tolerance.value > 0 && std::isfinite(tolerance.value)
                                        : tolerance.value >= least_tolerance && tolerance.value < 1;
@@ -68,6 +69,19 @@ std::string listed(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list.append(list.empty() ? "" : ", ").append(name);
   return list;
+}
+
+/// A unit that is told of a field must be that of its tolerance: numbers are not converted.
+void check_units(const EncodeOptions& options, const Snapshot& s) {
+  for (const auto& [name, tolerance] : options.tolerances) {
+    if (!tolerance.absolute) continue;
+    const std::string field = name == Series::at_start ? "displacement" : name,
+                      unit = s.source ? unit_of(FieldSource{.fields = s.source->fields}, field) : "mm";
+    if (!unit.empty() && unit != tolerance.unit)
+      throw InputError("--tolerance " + name + "=" + shortest(tolerance.value) + tolerance.unit + ": " +
+                       name + " is in " + unit + ", not in " + tolerance.unit + "; give the number in " +
+                       unit);
+  }
 }
 
 void check_names(const EncodeOptions& options, const Series& series) {
@@ -204,6 +218,7 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
     series.emplace_back(reader, storage);
   }
   check_names(task.options, series.front());
+  check_units(task.options, readers.front().snapshot());
   if (series.size() > 1) share_scales(series), share_kinks(series);
   progress.expect(series.size(), series.front().quantities.size());
   std::vector<Encoded> all;

@@ -227,6 +227,7 @@ std::vector<DecodedValues> values_at(const DecodedNodes& decoded, std::size_t fr
   const AxesInSpace to_source = axes_between(source.axes, same_axes);
   for (DecodedValues& values : all) {
     turn(values.numbers, values.components, to_source);
+    values.unit = field.source ? unit_of(source, values.name) : values.name == "displacement" ? "mm" : "";
     values.name = name_there(source, values.name);
   }
   return all;

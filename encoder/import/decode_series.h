@@ -38,11 +38,12 @@ struct KeptField {
 DecodedNodes decoded_at(const KeptField& kept, const std::vector<Place>& nodes);
 DecodedNodes decoded_at(const PiecesAtNodes& pieces);
 
-/// A field at the nodes: its name in the source, and numbers node by node.
+/// A field at the nodes: its name in the source, numbers node by node, and its unit, "" where it is not told.
 struct DecodedValues {
   std::string name;
   int components;
   std::vector<double> numbers;
+  std::string unit = {};
 };
 
 /// Times of the frames, in the source.

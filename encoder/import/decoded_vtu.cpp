@@ -1,6 +1,8 @@
 #include "encoder/import/decoded_vtu.h"
 
 #include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
@@ -46,6 +48,7 @@ void write_frame(vtkUnstructuredGrid* grid, const std::vector<DecodedValues>& al
     array->SetNumberOfComponents(values.components);
     array->SetNumberOfTuples(static_cast<vtkIdType>(values.numbers.size()) / values.components);
     std::copy(values.numbers.begin(), values.numbers.end(), array->GetPointer(0));
+    if (!values.unit.empty()) array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), values.unit.c_str());
     grid->GetPointData()->AddArray(array);
   }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;

@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
          "--field", o.fields,
          "SOURCE[:NAME[UNIT]],...: arrays of the points, or of the cells, whose mean a node gets, their "
          "names here, and their units, with which legends show them, as S:stress[MPa]; one named "
-         "displacement is what fields are fitted to")
+         "displacement is what fields are fitted to. May be repeated")
       ->required()
       ->delimiter(',')
       ->allow_extra_args(false);

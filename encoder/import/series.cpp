@@ -51,6 +51,9 @@ std::vector<SeriesField> parse_fields(const std::vector<std::string>& texts) {
     const SeriesField field{names_of.there, names_of.here, names_of.unit};
     if (field.source.empty() || field.name.empty())
       throw InputError("--field '" + text + "': expected SOURCE, SOURCE:NAME or SOURCE:NAME[UNIT]");
+    if (text.ends_with("[]") && text.find(':') != text.npos)
+      throw InputError("--field '" + text +
+                       "': the brackets hold no unit; write one, as [MPa], or leave them out");
     if (field.name.find('/') != std::string::npos || field.name == ".")
       throw InputError("--field '" + text + "': '" + field.name +
                        "' cannot be a dataset's name; give another, as SOURCE:NAME");

@@ -57,15 +57,25 @@ Place place_of(const std::string& out, bool is_series) {
   return {path.has_parent_path() ? path.parent_path().string() : ".", name};
 }
 
+/// Of simulations lengths are mm; others are what the source's fields tell.
+Units units_of(const std::vector<std::string>* source_fields) {
+  if (!source_fields)
+    return [](const std::string& name) { return std::string(name == "displacement" ? "mm" : ""); };
+  return [source = FieldSource{.fields = *source_fields}](const std::string& name) {
+    return unit_of(source, name);
+  };
+}
+Units units_of(const Snapshot& s) { return units_of(s.source ? &s.source->fields : nullptr); }
+
 void export_case(const Options& o, Progress& progress, Json& figures) {
   const Place place = place_of(*o.paraview, true);
   refuse_to_replace_series(place.folder, place.name);
   OutputFolder out(place.folder, place.name);
   const SnapshotReader reader(o.input);
   const std::string frames = std::to_string(reader.snapshot().frames());
-  const ExportFigures done = write_paraview_series(reader, out.path(), place.name, [&](std::size_t j) {
-    progress("frame " + std::to_string(j + 1) + " of " + frames);
-  });
+  const ExportFigures done = write_paraview_series(
+      reader, out.path(), place.name, units_of(reader.snapshot()),
+      [&](std::size_t j) { progress("frame " + std::to_string(j + 1) + " of " + frames); });
   out.commit({place.name, place.name + ".pvd"});
   figures = {{"frames", done.frames}, {"files", done.files}, {"bytes", done.bytes}};
 }
@@ -104,7 +114,8 @@ void export_study(const Options& o, Progress& progress, Json& figures) {
   ExportFigures done;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     progress("case " + std::to_string(i + 1) + " of " + std::to_string(cases.size()));
-    done += write_paraview_series(SnapshotReader(snapshot(cases[i])), folder, cases[i]);
+    const SnapshotReader reader(snapshot(cases[i]));
+    done += write_paraview_series(reader, folder, cases[i], units_of(reader.snapshot()));
   }
   out.commit({place.name});
   figures = {{"cases", cases.size()}, {"frames", done.frames}, {"files", done.files}, {"bytes", done.bytes}};
@@ -124,7 +135,17 @@ SurfaceSeries series_of(const std::shared_ptr<const Field>& field, int frames) {
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = moved[i] - scene->surface().points[i];
     return moved;
   };
+  series.units = units_of(field->source ? &field->source->fields : nullptr);
   return series;
+}
+
+/// Further quantities are exported on the mesh of the snapshot, not on the explorer's surface.
+void tell_what_is_left_out(const Field& field) {
+  std::string names;
+  for (const Quantity& quantity : field.quantities) names += (names.empty() ? "" : ", ") + quantity.name;
+  if (names.empty()) return;
+  std::cerr << "cleft export: warning: left out without the snapshot: " << names
+            << "; name it (--nodes CASE.h5), or give a mesh of the body to cleft decode --on\n";
 }
 
 /// A field of imported data on its own mesh, with all quantities.
@@ -134,7 +155,8 @@ ExportFigures export_on_mesh(const Options& o, const FieldOnMesh& field, Progres
                     {},
                     [&](double t) { return field.displacement(t); },
                     field.quantities(),
-                    [&](std::size_t a, double t) { return field.quantity(a, t); }};
+                    [&](std::size_t a, double t) { return field.quantity(a, t); },
+                    units_of(field.mesh())};
   for (int j = 0; j < o.frames; ++j) series.times.push_back(field.duration() * j / std::max(1, o.frames - 1));
   return write_paraview_series(series, folder, name, [&](std::size_t j) {
     progress("frame " + std::to_string(j + 1) + " of " + std::to_string(o.frames));
@@ -171,6 +193,7 @@ void export_decoded(const Options& o, Progress& progress, Json& figures) {
   ExportFigures done;
   if (single) {
     refuse_to_replace_series(place.folder, place.name);
+    tell_what_is_left_out(*study.field(0));
     done = write_paraview_series(series_of(study.field(0), o.frames), out.path(), place.name);
     out.commit({place.name, place.name + ".pvd"});
   } else {

@@ -4,6 +4,8 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkLogger.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -43,8 +45,11 @@ vtkNew<Array> array_of(const std::vector<T>& values) {
   return array;
 }
 
-vtkNew<vtkDoubleArray> numbers(const std::string& name, int components, const std::vector<double>& values) {
+vtkNew<vtkDoubleArray> numbers(const std::string& name, int components, const std::vector<double>& values,
+                               const Units& units = {}) {
   vtkNew<vtkDoubleArray> array;
+  if (const std::string unit = units ? units(name) : ""; !unit.empty())
+    array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
@@ -159,13 +164,13 @@ ExportFigures& ExportFigures::operator+=(const ExportFigures& other) {
 }
 
 ExportFigures write_paraview_series(const SnapshotReader& reader, const std::string& folder,
-                                    const std::string& name,
+                                    const std::string& name, const Units& units,
                                     const std::function<void(std::size_t)>& progress) {
   const Snapshot& s = reader.snapshot();
   const std::vector<SnapshotArray> arrays = reader.point_arrays();
   const vtkNew<vtkUnstructuredGrid> grid = mesh_of(s);
-  const auto add = [&grid](const SnapshotArray& array, const std::vector<double>& values) {
-    grid->GetPointData()->AddArray(numbers(array.name, static_cast<int>(array.components), values));
+  const auto add = [&](const SnapshotArray& array, const std::vector<double>& values) {
+    grid->GetPointData()->AddArray(numbers(array.name, static_cast<int>(array.components), values, units));
   };
   return write_frames(grid, s.times, folder, name, [&](std::size_t j) {
     if (progress) progress(j);
@@ -199,7 +204,8 @@ ExportFigures write_paraview_series(const SurfaceSeries& series, const std::stri
                                     const std::string& name) {
   const auto grid = mesh_of(series);
   return write_frames(grid, series.times, folder, name, [&](std::size_t j) {
-    grid->GetPointData()->AddArray(numbers("displacement", 3, flat(series.displacement(series.times[j]))));
+    grid->GetPointData()->AddArray(
+        numbers("displacement", 3, flat(series.displacement(series.times[j])), series.units));
   });
 }
 
@@ -210,10 +216,11 @@ ExportFigures write_paraview_series(const MeshSeries& series, const std::string&
   return write_frames(grid, series.times, folder, name, [&](std::size_t j) {
     if (progress) progress(j);
     const double t = series.times[j];
-    grid->GetPointData()->AddArray(numbers("displacement", 3, flat(series.displacement(t))));
+    grid->GetPointData()->AddArray(numbers("displacement", 3, flat(series.displacement(t)), series.units));
     for (std::size_t a = 0; a < series.arrays.size(); ++a)
-      grid->GetPointData()->AddArray(
-          numbers(series.arrays[a].name, static_cast<int>(series.arrays[a].components), series.values(a, t)));
+      grid->GetPointData()->AddArray(numbers(series.arrays[a].name,
+                                             static_cast<int>(series.arrays[a].components),
+                                             series.values(a, t), series.units));
   });
 }
 

@@ -19,13 +19,16 @@ struct ExportFigures {
   ExportFigures& operator+=(const ExportFigures& other);
 };
 
+/// Of an array of this name; "" where it is not known. VTK's files hold it as UNITS_LABEL.
+using Units = std::function<std::string(const std::string& name)>;
+
 /// Writes folder/NAME.pvd and folder/NAME/frame_0000.vtu, ... In each: the points at their stress-free
 /// positions, the displacement and all further arrays of the points in this frame, on cells `part` (0 skin, 1
 /// tissue), and t as TimeValue. `progress` is called with the frame. Throws FileError if the snapshot is
 /// damaged, std::runtime_error if the disk is full. Files written before an exception remain: `folder` is a
 /// temporary one.
 ExportFigures write_paraview_series(const SnapshotReader& reader, const std::string& folder,
-                                    const std::string& name,
+                                    const std::string& name, const Units& units = {},
                                     const std::function<void(std::size_t)>& progress = {});
 
 /// A moving surface without a snapshot: T triangles of N points at rest.
@@ -35,6 +38,7 @@ struct SurfaceSeries {
   std::vector<int> parts;                                   ///< T: 0 skin, 1 left wall, 2 right wall
   std::vector<double> times;                                ///< F
   std::function<std::vector<Vec3>(double t)> displacement;  ///< N, from the points at rest
+  Units units = {};
 };
 
 /// The same files for a surface, with the displacement only.
@@ -48,6 +52,7 @@ struct MeshSeries {
   std::function<std::vector<Vec3>(double t)> displacement;  ///< N
   std::vector<SnapshotArray> arrays;
   std::function<std::vector<double>(std::size_t array, double t)> values;  ///< N times its components
+  Units units = {};
 };
 
 /// The same files, with all arrays.
