@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -19,6 +20,16 @@ constexpr std::size_t few_nodes = 1 << 16;  // above, cells alone determine a fi
 constexpr double bent = 0.3;                // radians from which the middle of a cut needs knots of its own
 
 using Pairs = std::vector<std::array<std::int32_t, 2>>;
+
+/// Whether the cells are surfaces and lines that are in no plane, such as the skin of a solid.
+bool is_curved_surface(const Snapshot& s) {
+  // VTK's types of less than three dimensions.
+  static const std::set<int> flat_types = {1,  2,  3,  4,  5,  6,  7,  8,  9,  21, 22,
+                                           23, 28, 34, 35, 36, 68, 69, 70, 75, 76, 77};
+  return std::all_of(s.cell_types.begin(), s.cell_types.end(),
+                     [](int type) { return flat_types.contains(type); }) &&
+         std::any_of(s.points.begin(), s.points.end(), [](const Vec3& p) { return p.z != 0; });
+}
 
 /// Whether each pair parts in some frame.
 std::vector<bool> parted(const Pairs& pairs, const StoredFrames<3>& frames, double largest) {
@@ -308,6 +319,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
       beside_jumps = own->beside_jumps(reader.snapshot());
     }
   }
+  surface_only = s.source && is_curved_surface(reader.snapshot());
   quadratic = s.parameters->mesh.elements == ElementOrder::quadratic;
   if (s.source && s.source->break_extent.size() >= 8)
     arm = std::any_of(s.source->break_extent.begin() + 4, s.source->break_extent.begin() + 8,

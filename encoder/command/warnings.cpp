@@ -35,8 +35,14 @@ std::string told(const Series& series, const Place& place) {
          ", w = " + digits(p.z) + " mm) and t = " + digits(place.t) + ": ";
 }
 
+constexpr const char* no_solid =
+    "the series has only the surface of a body, which does not tell of its inside, where the field is fitted "
+    "too; "
+    "give the solid's cells (tetrahedra, hexahedra), not its skin";
+
 /// Why knots of its own do not follow a field there, and what helps.
 std::string cause_of(const Field& field, const Series& series, const Place& place) {
+  if (series.surface_only) return no_solid;
   const CanonicalCut& cut = field.cut();
   if (cut.length == 0)
     return "the field has no break; where the data jump, import them with the plane of the jump (cleft "
@@ -79,7 +85,8 @@ std::string warning_of(const Quantity& quantity, const Field& field, const Serie
          (start && series.largest_displacement > 0 ? " of the largest displacement, "
                                                    : " of its largest value or range, ") +
          digits(error / limit) + " times the tolerance," + told(series, place) +
-         (series.largest_displacement > 0 ? cause_of(quantity) : cause_of(field, series, place));
+         (series.largest_displacement > 0 && !series.surface_only ? cause_of(quantity)
+                                                                  : cause_of(field, series, place));
 }
 
 std::string warning_of_displacement(const Field& field, const Series& series, const EncodeOptions& options) {
@@ -94,16 +101,17 @@ std::string warning_of_displacement(const Field& field, const Series& series, co
 }
 
 /// `of`: "" for the displacement, else the quantity's name and a colon.
-std::string warning_between(const std::string& of, const BetweenNodes& between, double scale, double limit) {
+std::string warning_between(const std::string& of, const BetweenNodes& between, double scale, double limit,
+                            bool surface_only) {
   if (between.error <= worth_a_warning * limit) return "";
   return of + "between the nodes the spline goes astray by " + percent(between.error / scale) +
          (of.empty() ? " of the largest displacement" : " of its largest value or range") +
          ", beyond what the values of the cell's nodes span (at u = " + digits(between.at.x) +
          ", v = " + digits(between.at.y) + ", w = " + digits(between.at.z) +
-         " mm and t = " + digits(between.time) +
-         "): knots are denser than nodes there; refine the mesh there, or take fewer knots "
-         "(--control-points, or "
-         "a larger --tolerance)";
+         " mm and t = " + digits(between.time) + "): " +
+         (surface_only ? no_solid
+                       : "knots are denser than nodes there; refine the mesh there, or take fewer knots "
+                         "(--control-points, or a larger --tolerance)");
 }
 
 }  // namespace
@@ -113,13 +121,14 @@ std::vector<std::string> warnings_of(const Field& field, const std::vector<Betwe
   if (options.rung) return {};
   std::vector<std::string> warnings = {warning_of_displacement(field, series, options)};
   if (const double scale = field.report.largest_displacement; scale > 0)
-    warnings.push_back(
-        warning_between("", between.front(), scale, options.tolerance_of("displacement").limit(scale)));
+    warnings.push_back(warning_between(
+        "", between.front(), scale, options.tolerance_of("displacement").limit(scale), series.surface_only));
   for (std::size_t q = 0; q < field.quantities.size(); ++q) {
     const Quantity& quantity = field.quantities[q];
     const double scale = scale_of(quantity), limit = options.tolerance_of(quantity.name).limit(scale);
     warnings.push_back(warning_of(quantity, field, series, options));
-    warnings.push_back(warning_between(quantity.name + ": ", between[q + 1], scale, limit));
+    warnings.push_back(
+        warning_between(quantity.name + ": ", between[q + 1], scale, limit, series.surface_only));
   }
   std::erase(warnings, "");
   return warnings;
