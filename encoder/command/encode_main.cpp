@@ -77,10 +77,10 @@ void check_units(const EncodeOptions& options, const Snapshot& s) {
     if (!tolerance.absolute) continue;
     const std::string field = name == Series::at_start ? "displacement" : name,
                       unit = s.source ? unit_of(FieldSource{.fields = s.source->fields}, field) : "mm";
-    if (!unit.empty() && unit != tolerance.unit)
-      throw InputError("--tolerance " + name + "=" + shortest(tolerance.value) + tolerance.unit + ": " +
-                       name + " is in " + unit + ", not in " + tolerance.unit + "; give the number in " +
-                       unit);
+    if (unit.empty() || unit == tolerance.unit) continue;
+    std::string mistake = "--tolerance " + name;
+    mistake.append(": is in ").append(unit).append(", not in ").append(tolerance.unit);
+    throw InputError(mistake.append("; give the number in ").append(unit));
   }
 }
 

@@ -56,7 +56,7 @@ class CrackedPlane {
         for (int j = 0; j <= 12; ++j)
           if (side < 0 || (j == 6 && i < 12)) {
             number_[{i, j, side}] = series.add_point(pose.point({1. * i, (j - 6) * 4. / 3, 0}));
-            nodes_.push_back({1. * i, (j - 6) * 4. / 3, j == 6 && i < 12 ? side : 0});
+            nodes_.push_back({1. * i, (j - 6) * 4. / 3, j == 6 && i < 12 ? 1. * side : 0.});
           }
     for (int i = 0; i < 20; ++i)
       for (int j = 0; j < 12; ++j) {

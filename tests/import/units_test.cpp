@@ -78,9 +78,9 @@ TEST_F(Units, OfATolerancesAreTheFieldsOwn) {
   const auto with = [&](const std::string& tolerance) {
     return std::vector<std::string>{h5, "--out", folder / "none.dffd", "--tolerance", tolerance};
   };
-  expect_refused("encode", with("T=0.5MPa"), {"T is in K, not in MPa"});
-  expect_refused("encode", with("stress=5kPa"), {"stress is in N/mm^2, not in kPa"});
-  expect_refused("encode", with("0.01m"), {"displacement is in mm, not in m"});
+  expect_refused("encode", with("T=0.5MPa"), {"--tolerance T: is in K, not in MPa"});
+  expect_refused("encode", with("stress=5kPa"), {"--tolerance stress: is in N/mm^2, not in kPa"});
+  expect_refused("encode", with("0.01m"), {"--tolerance displacement: is in mm, not in m"});
   expect_refused("encode", with("abc"), {"--tolerance: 'abc' is not a number"});
   expect_refused("encode", with("T=K"), {"--tolerance T: 'K' is not a number"});
   EXPECT_FALSE(std::filesystem::exists(folder / "none.dffd"));

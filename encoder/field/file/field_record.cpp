@@ -357,6 +357,7 @@ void record_texts(const Json& object, RecordedParameters& parameters) {
 FitReport report_of(const Json& header) {
   return reading([&] {
     FitReport report;
+    report.between_nodes = std::nan("");  // of earlier files it is not known
     for (const Figure& figure : figures)
       if (figure.always || header.at("report").contains(figure.name))
         report.*figure.value = number(header.at("report").at(figure.name));
