@@ -246,6 +246,25 @@ SnapshotPiece piece_of(const ImportedSeries& series, const std::vector<Break>& b
   return piece;
 }
 
+/// Where arms meet, all are as near, and the surfaces that are fitted to curved arms are off them by more
+/// than nodes are from the corners of their cells: there a node counts for the arms that it is a lip of.
+void count_at_junctions(const SourceMesh& mesh, const std::vector<Break>& breaks,
+                        std::vector<std::vector<char>>& counts) {
+  const double near = same_place(mesh);
+  std::vector<std::vector<char>> lip(breaks.size(), std::vector<char>(mesh.points.size()));
+  std::vector<char> at_junction(mesh.points.size());
+  for (std::size_t b = 0; b < breaks.size(); ++b)
+    for (const NodePair& pair : breaks[b].pairs)
+      for (const std::int32_t n : pair) {
+        lip[b][n] = 1;
+        at_junction[n] =
+            at_junction[n] || std::any_of(breaks[b].junctions.begin(), breaks[b].junctions.end(),
+                                          [&](const Vec3& x) { return norm(x - mesh.points[n]) <= near; });
+      }
+  for (std::size_t n = 0; n < at_junction.size(); ++n)
+    for (std::size_t b = 0; at_junction[n] && b < breaks.size(); ++b) counts[b][n] = lip[b][n];
+}
+
 /// Between the pairs of two breaks; 0 where they meet.
 double gap_between(const SourceMesh& mesh, const Break& a, const Break& b, std::int32_t frames) {
   double least = std::numeric_limits<double>::infinity();
@@ -288,6 +307,7 @@ std::vector<SnapshotPiece> pieces_of(const ImportedSeries& series, std::vector<B
     piece_weights(sources, inside[n], weights);
     for (std::size_t p = 0; p < weights.size(); ++p) counts[p][n] = weights[p] > 0;
   }
+  count_at_junctions(mesh, breaks, counts);
   std::vector<char> on_lips(mesh.points.size());
   for (const Break& found : breaks)
     for (std::size_t p = 0; p < found.pairs.size(); ++p)
