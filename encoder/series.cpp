@@ -267,7 +267,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
   if (!reader.snapshot().body.empty() || reader.snapshot().coordinates) {
     own = std::make_shared<OwnCoordinates>(reader);
     round = own->around.has_value();
-    bends = own->turning(reader.snapshot().pairs) > bent;
+    turning = own->turning(reader.snapshot().pairs), bends = turning > bent;
     moved = own->of(reader.snapshot());
   }
   const Snapshot& s = moved ? *moved : reader.snapshot();

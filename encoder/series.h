@@ -85,7 +85,8 @@ struct Series {
   std::vector<TimeKink> kinks;                     ///< and those of all, once they are shared
   bool round = false;                              ///< whether w is an angle around a round front
   bool surface_only = false;                       ///< of imported data: no solid, and no plane
-  bool bends = false;                              ///< whether the direction of the break turns
+  double turning = 0;                              ///< of the direction of the break, radians
+  bool bends = false;                              ///< whether it turns much
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: number of open pairs
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <numbers>
 #include <sstream>
 
 #include "base/text.h"
@@ -12,6 +13,7 @@ namespace cleft {
 namespace {
 
 constexpr double worth_a_warning = 2;  // tolerances
+constexpr double folds = 2.6;          // radians, of a path that comes back
 
 std::string digits(double x) {
   std::ostringstream text;
@@ -40,9 +42,18 @@ constexpr const char* no_solid =
     "too; "
     "give the solid's cells (tetrahedra, hexahedra), not its skin";
 
+/// Why no field of the series is exact, whatever its knots, and what helps; empty if one may be.
+std::string cause_in_series(const Series& series) {
+  if (series.surface_only) return no_solid;
+  if (series.turning <= folds) return "";
+  return "the path of the cut turns by " + digits(std::round(series.turning * 180 / std::numbers::pi)) +
+         " degrees, and coordinates along it fold within its bends, so that no field is exact there; what "
+         "cleft cut --simulate and simulate on show is the simulation, and needs no field";
+}
+
 /// Why knots of its own do not follow a field there, and what helps.
 std::string cause_of(const Field& field, const Series& series, const Place& place) {
-  if (series.surface_only) return no_solid;
+  if (const std::string cause = cause_in_series(series); !cause.empty()) return cause;
   const CanonicalCut& cut = field.cut();
   if (cut.length == 0)
     return "the field has no break; where the data jump, import them with the plane of the jump (cleft "
@@ -102,16 +113,17 @@ std::string warning_of_displacement(const Field& field, const Series& series, co
 
 /// `of`: "" for the displacement, else the quantity's name and a colon.
 std::string warning_between(const std::string& of, const BetweenNodes& between, double scale, double limit,
-                            bool surface_only) {
+                            const Series& series) {
   if (between.error <= worth_a_warning * limit) return "";
+  const std::string cause = cause_in_series(series);
   return of + "between the nodes the spline goes astray by " + percent(between.error / scale) +
          (of.empty() ? " of the largest displacement" : " of its largest value or range") +
          ", beyond what the values of the cell's nodes span (at u = " + digits(between.at.x) +
          ", v = " + digits(between.at.y) + ", w = " + digits(between.at.z) +
          " mm and t = " + digits(between.time) + "): " +
-         (surface_only ? no_solid
-                       : "knots are denser than nodes there; refine the mesh there, or take fewer knots "
-                         "(--control-points, or a larger --tolerance)");
+         (!cause.empty() ? cause
+                         : "knots are denser than nodes there; refine the mesh there, or take fewer knots "
+                           "(--control-points, or a larger --tolerance)");
 }
 
 }  // namespace
@@ -121,14 +133,13 @@ std::vector<std::string> warnings_of(const Field& field, const std::vector<Betwe
   if (options.rung) return {};
   std::vector<std::string> warnings = {warning_of_displacement(field, series, options)};
   if (const double scale = field.report.largest_displacement; scale > 0)
-    warnings.push_back(warning_between(
-        "", between.front(), scale, options.tolerance_of("displacement").limit(scale), series.surface_only));
+    warnings.push_back(warning_between("", between.front(), scale,
+                                       options.tolerance_of("displacement").limit(scale), series));
   for (std::size_t q = 0; q < field.quantities.size(); ++q) {
     const Quantity& quantity = field.quantities[q];
     const double scale = scale_of(quantity), limit = options.tolerance_of(quantity.name).limit(scale);
     warnings.push_back(warning_of(quantity, field, series, options));
-    warnings.push_back(
-        warning_between(quantity.name + ": ", between[q + 1], scale, limit, series.surface_only));
+    warnings.push_back(warning_between(quantity.name + ": ", between[q + 1], scale, limit, series));
   }
   std::erase(warnings, "");
   return warnings;

@@ -2,8 +2,10 @@
 // and no file left, nor a temporary one.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "base/output_file.h"
 #include "base/text.h"
@@ -191,6 +193,24 @@ TEST_F(BodyCommand, SimulationsInTheTensionThatIsGiven) {
   refused("cut", with(options, {"--direction", "1,0,0"}), {"--direction: is of the same tension"});
   refused("cut", with(options, {"--set", "skin.prestress_v=0.02"}),
           {"is of the same tension as --prestress"});
+}
+
+/// Coordinates along a path that comes back fold: no finer mesh helps.
+TEST_F(BodyCommand, FieldsOfPathsThatComeBackSayWhyTheyAreOff) {
+  std::string text = "x,y,z,nx,ny,nz,depth\n";
+  constexpr int pieces = 24;
+  constexpr double radius = 7;
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = std::numbers::pi * i / pieces;
+    text += shortest(-radius * std::cos(angle)) + "," + shortest(radius * std::sin(angle)) + ",0,0,0,1,3\n";
+  }
+  in.write("path.csv", text);
+  const std::string series = out / "case.h5";
+  expect_success(run_cleft("solve", {in / "case.toml", "--mesh", body(), "--out", series, "--no-estimate"}));
+  const Outcome encoded = run_cleft("encode", {series, "--out", out / "case.dffd"});
+  expect_success(encoded);
+  EXPECT_NE(encoded.output.find("the path of the cut turns by 1"), std::string::npos) << encoded.output;
+  EXPECT_NE(encoded.output.find("cleft cut --simulate"), std::string::npos) << encoded.output;
 }
 
 TEST_F(BodyCommand, SimulationsOfWhatIsNotSimulated) {
