@@ -53,7 +53,7 @@ std::string cause_in_series(const Series& series) {
 
 /// Why knots of its own do not follow a field there, and what helps.
 std::string cause_of(const Field& field, const Series& series, const Place& place) {
-  if (const std::string cause = cause_in_series(series); !cause.empty()) return cause;
+  if (std::string cause = cause_in_series(series); !cause.empty()) return cause;
   const CanonicalCut& cut = field.cut();
   if (cut.length == 0)
     return "the field has no break; where the data jump, import them with the plane of the jump (cleft "

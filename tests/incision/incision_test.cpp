@@ -230,7 +230,7 @@ TEST(Incision, SaysWhyItCannotGoOn) {
   EXPECT_THROW(Incision(plane, path_through({{-5, 0, 0}, {5, 0, 0}}, up, 0)), InputError);  // no depth
   const auto down = [](const Vec3&) { return Vec3{0, 0, -1}; };
   try {
-    Incision(plane, path_through({{-5, 0, 0}, {5, 0, 0}}, down, depth));
+    const Incision refused(plane, path_through({{-5, 0, 0}, {5, 0, 0}}, down, depth));
     FAIL() << "not refused";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("faces the other way"), std::string::npos) << error.what();
