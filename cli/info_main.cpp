@@ -118,17 +118,11 @@ Json info_of_field(const Field& field, const std::string& file) {
       {"report", shown(field.report)},
       {"bytes", std::filesystem::file_size(file)},
       {"parameters", parameters_of(field.parameters)}};
-  for (const Quantity& quantity : field.quantities)
-    info["quantities"].push_back({{"name", quantity.name},
-                                  {"components", quantity.components},
-                                  {"largest", quantity.largest},
-                                  {"scale", quantity.scale},
-                                  {"error", quantity.error},
-                                  {"spline_error", quantity.spline_error},
-                                  {"worst_node", quantity.worst_node},
-                                  {"worst_time", quantity.worst_time},
-                                  {"between_nodes", quantity.between_nodes},
-                                  {"unit", field.source ? unit_of(*field.source, quantity.name) : ""}});
+  for (const Quantity& quantity : field.quantities) {
+    Json figures = figures_of(quantity);
+    figures["unit"] = field.source ? unit_of(*field.source, quantity.name) : "";
+    info["quantities"].push_back(figures);
+  }
   for (const ParameterDerivative& one : field.by_parameter)
     info["by_parameter"].push_back(
         {{"parameter", one.parameter}, {"largest", one.largest}, {"error", one.error}});

@@ -42,7 +42,7 @@ class OpenedMesh {
       : fields_(std::move(fields)), scale_(options.scale) {
     std::vector<ScalpelPath> paths;
     for (const auto& [name, table] : tables)
-      paths.push_back(path_of(table, name, options.depth, options.scale, &fields_->shape()));
+      paths.push_back(path_of(table, name, options.depth, options.scale, fields_->shape().cut().depth));
     MeshReport report;
     mesh = repaired(mesh, report);
     cuts_ = std::make_unique<MeshCuts>(mesh, local_origin(mesh, paths.front()), paths, &fields_->shape(),

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <set>
 
+#include "base/stations.h"
+
 namespace cleft {
 
 namespace {
@@ -57,10 +59,8 @@ int BodyLips::node(double s, bool right) const {
 
 Vec3 BodyLips::offset(double s) const {
   if (s_.empty()) return {};
-  const std::size_t next = std::lower_bound(s_.begin(), s_.end(), s) - s_.begin();
-  if (next == 0 || next == s_.size()) return offset_[next == 0 ? 0 : next - 1];
-  const double part = (s - s_[next - 1]) / (s_[next] - s_[next - 1]);
-  return offset_[next - 1] + part * (offset_[next] - offset_[next - 1]);
+  const auto [a, b, part] = between(s_, s);
+  return lerp(offset_[a], offset_[b], part);
 }
 
 EndShift::EndShift(const Body& body, const std::vector<const Incision*>& cuts, double scale) {

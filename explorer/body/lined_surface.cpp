@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <queue>
 #include <utility>
 
 #include "base/error.h"
+#include "explorer/body/edge_distances.h"
 #include "explorer/incision/cut_surface.h"
 
 namespace cleft {
@@ -66,28 +66,12 @@ class Joining {
   std::map<std::array<double, 3>, int> at_place_;
 };
 
-/// Distances along edges from the points of all cuts.
+/// Along edges from the points of all cuts.
 std::vector<double> distances(const LinedSurface& surface) {
-  std::vector<std::vector<int>> around(surface.mesh.points.size());
-  for (const auto& t : surface.mesh.triangles)
-    for (int i = 0; i < 3; ++i)
-      for (const int j : {1, 2}) around[t[i]].push_back(t[(i + j) % 3]);
-  std::vector<double> distance(surface.mesh.points.size(), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  std::vector<int> from;
   for (const auto& lines : surface.cuts)
-    for (const CutLine& line : lines)
-      for (const int p : {line.from, line.to})
-        if (distance[p] > 0) distance[p] = 0, queue.emplace(0, p);
-  while (!queue.empty()) {
-    const auto [d, p] = queue.top();
-    queue.pop();
-    if (d > distance[p]) continue;
-    for (const int q : around[p])
-      if (const double next = d + norm(surface.mesh.points[q] - surface.mesh.points[p]); next < distance[q])
-        distance[q] = next, queue.emplace(next, q);
-  }
-  return distance;
+    for (const CutLine& line : lines) from.insert(from.end(), {line.from, line.to});
+  return edge_distances(surface.mesh.points, surface.mesh.triangles, from);
 }
 
 /// A point in the middle of something on an edge: all triangles and lines of the edge are divided.

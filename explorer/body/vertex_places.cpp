@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <numbers>
-#include <numeric>
 #include <queue>
 #include <set>
 #include <utility>
 
 #include "explorer/body/body_lips.h"
+#include "explorer/body/edge_distances.h"
 #include "explorer/body/parted_surface.h"
 
 namespace cleft {
@@ -29,25 +29,15 @@ constexpr double least_of_end = 1.3 * std::numbers::pi;  // radians, of the skin
 
 /// Distances over the skin from its rim, by node: infinite without a rim.
 std::vector<double> from_rim(const Body& body) {
-  std::vector<std::vector<int>> around(body.points.size());
   const std::vector<int> root = first_at_place(body);
-  for (const auto& t : body.skin)
-    for (int i = 0; i < 3; ++i)
-      for (const int j : {1, 2}) around[root[t[i]]].push_back(root[t[(i + j) % 3]]);
-  std::vector<double> distance(body.points.size(), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  std::vector<std::array<int, 3>> whole = body.skin;
+  for (auto& t : whole)
+    for (int& n : t) n = root[n];
+  std::vector<int> rim;
   for (const auto& side : body.sides)
-    for (const int n : side)
-      if (body.skin_above[n] == n && distance[n] > 0) distance[n] = 0, queue.emplace(0, n);
-  while (!queue.empty()) {
-    const auto [d, n] = queue.top();
-    queue.pop();
-    if (d > distance[n]) continue;
-    for (const int m : around[n])
-      if (const double next = d + norm(body.points[m] - body.points[n]); next < distance[m])
-        distance[m] = next, queue.emplace(next, m);
-  }
+    std::copy_if(side.begin(), side.end(), std::back_inserter(rim),
+                 [&](int n) { return body.skin_above[n] == n; });
+  std::vector<double> distance = edge_distances(body.points, whole, rim);
   for (std::size_t n = 0; n < distance.size(); ++n) distance[n] = distance[root[body.skin_above[n]]];
   return distance;
 }

@@ -30,11 +30,8 @@ struct Options {
 
 std::vector<ScalpelPath> read_paths(const Options& options, double depth) {
   std::vector<ScalpelPath> paths;
-  for (const std::string& file : options.paths) {
-    const bool own = read_csv(file).column("depth") >= 0;
-    paths.push_back(read_path(file, options.depth > 0 || own ? options.depth : depth, options.scale, nullptr)
-                        .scaled(options.scale));
-  }
+  for (const std::string& file : options.paths)
+    paths.push_back(read_path(file, options.depth, options.scale, depth).scaled(options.scale));
   return paths;
 }
 
@@ -91,7 +88,7 @@ Body make_below(const Options& options, Json& figures) {
   Body body = make_body(request, &report);
   figures = cleft::figures_of(report);
   figures["mesh"] = cleft::figures_of(mesh);
-  warn_of(report, "cleft body");
+  print_warnings(figures["warnings"], "cleft body");
   return body;
 }
 

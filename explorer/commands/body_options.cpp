@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -99,11 +98,6 @@ Json figures_of(const BodyReport& r) {
     figures["thinnest_at_mm"] = {rounded(r.thinnest.x), rounded(r.thinnest.y), rounded(r.thinnest.z)};
   figures["warnings"] = warnings_of(r);
   return figures;
-}
-
-void warn_of(const BodyReport& report, const char* command) {
-  for (const std::string& warning : warnings_of(report))
-    std::cerr << command << ": warning: " << warning << "\n";
 }
 
 Json figures_of(const ReplayOff& off, double scale) {

@@ -39,8 +39,6 @@ SurfaceMesh scaled(SurfaceMesh mesh, double scale);
 std::shared_ptr<const SurfaceIndex> bone_below(const std::string& file, double scale, const Vec3& origin);
 
 Json figures_of(const BodyReport& report);
-/// Prints the report's warnings on stderr as those of `command`.
-void warn_of(const BodyReport& report, const char* command);
 
 Json figures_of(const ReplayOff& off, double scale);
 

@@ -110,13 +110,16 @@ Json figures_of(const Validity& v) {
           {"junction_tension", v.junction_tension ? finite(*v.junction_tension) : Json()}};
 }
 
+void print_warnings(const Json& warnings, const char* command) {
+  for (const Json& warning : warnings)
+    std::fprintf(stderr, "%s: warning: %s\n", command, warning.get<std::string>().c_str());
+}
+
 Json warnings_of(const std::vector<Validity>& validity, const char* command) {
   Json warnings = Json::array();
   for (const Validity& v : validity)
-    for (const std::string& warning : v.warnings) {
-      std::fprintf(stderr, "%s: warning: %s\n", command, warning.c_str());
-      warnings.push_back(warning);
-    }
+    for (const std::string& warning : v.warnings) warnings.push_back(warning);
+  print_warnings(warnings, command);
   return warnings;
 }
 

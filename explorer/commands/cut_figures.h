@@ -20,6 +20,8 @@ Json figures_of(const std::vector<const Incision*>& cuts, const SurfaceMesh& bef
 Json figures_of(const Incision& cut, double scale);
 Json figures_of(const Validity& validity);
 
+/// On stderr, as those of `command`.
+void print_warnings(const Json& warnings, const char* command);
 /// All warnings, also printed on stderr as those of `command`.
 Json warnings_of(const std::vector<Validity>& validity, const char* command);
 

@@ -77,22 +77,21 @@ void check_files(const Options& options) {
   const OutputFile probe(options.out);
 }
 
-/// `simulated`: null if nothing is.
-std::vector<ScalpelPath> read_paths(const Options& options, const Field* field,
-                                    const BodyRequest* simulated) {
+/// `otherwise`: the depth of paths without one, mm.
+std::vector<ScalpelPath> read_paths(const Options& options, std::optional<double> otherwise) {
   std::vector<ScalpelPath> paths;
-  for (const std::string& file : options.paths) {
-    const bool none = simulated && !field && options.depth == 0 && read_csv(file).column("depth") < 0;
-    const double depth = none ? simulated->parameters.cut.depth : options.depth;
-    paths.push_back(read_path(file, depth, options.scale, field));
-  }
+  for (const std::string& file : options.paths)
+    paths.push_back(read_path(file, options.depth, options.scale, otherwise));
   return paths;
 }
 
 /// A surface far from the origin is cut in coordinates from its cut.
 std::unique_ptr<MeshCuts> make_cuts(const Options& options, const Skin& skin, const Field* field,
-                                    const BodyRequest* simulated) {
-  const std::vector<ScalpelPath> paths = read_paths(options, field, simulated);
+                                    const std::optional<BodyRequest>& simulated) {
+  std::optional<double> depth;
+  if (simulated) depth = simulated->parameters.cut.depth;
+  if (field) depth = field->cut().depth;
+  const std::vector<ScalpelPath> paths = read_paths(options, depth);
   MeshCutsOptions how{options.scale, {}, options.max_edge};
   if (options.progress >= 0) how.progress = options.progress;
   const Vec3 origin = skin.volume ? Vec3{} : local_origin(skin.surface, paths.front());
@@ -146,7 +145,7 @@ void cut(const Options& options) {
   if (options.simulate) request = body_to_simulate(options.body, options.tension, fields);
   warn_of_size(skin.surface, options.scale, shape, "cleft cut");
   tell_note(skin.surface, options.mesh, "cleft cut");
-  const auto made = make_cuts(options, skin, shape, request ? &*request : nullptr);
+  const auto made = make_cuts(options, skin, shape, request);
   const MeshCuts& cuts = *made;
   SurfaceMesh result = cuts.mesh().surface();
   Json figures = figures_of(cuts.cuts(), cuts.uncut(), options.scale);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <functional>
-#include <iostream>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "explorer/body/body_warnings.h"
 #include "explorer/body/simulate.h"
 #include "explorer/body/simulated_wounds.h"
+#include "explorer/commands/cut_figures.h"
 #include "explorer/wound/path_file.h"
 #include "params/parameters/table.h"
 #include "params/run/signal_handler.h"
@@ -108,8 +108,7 @@ Json move_as_simulated(BodyRequest request, const MeshCuts& cuts, const std::opt
     if (const std::string other = differences(*fields, request.parameters); !other.empty())
       told["warnings"].push_back("the field of the replay is of another body than is simulated: " + other);
   }
-  for (const auto& warning : told["warnings"])
-    std::cerr << "cleft cut: warning: " << warning.get<std::string>() << "\n";
+  print_warnings(told["warnings"], "cleft cut");
   positions = std::move(simulated);
   return told;
 }

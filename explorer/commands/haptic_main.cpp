@@ -166,7 +166,10 @@ void haptic(const Options& o) {
   warn_of_size(mesh, o.scale, field, "cleft haptic");
   tell_note(mesh, o.mesh, "cleft haptic");
   std::optional<ScalpelPath> path;
-  if (!o.path.empty()) path = read_path(o.path, o.depth, o.scale, field);
+  if (!o.path.empty()) {
+    const auto of_field = field ? std::optional(field->cut().depth) : std::nullopt;
+    path = read_path(o.path, o.depth, o.scale, of_field);
+  }
 
   ForceParameters force;
   force.stiffness = stiffness(o, fields);

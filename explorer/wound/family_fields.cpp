@@ -6,10 +6,10 @@
 #include <map>
 #include <numbers>
 
+#include "base/stations.h"
 #include "explorer/wound/path_opening.h"
 #include "explorer/wound/plane_tensor.h"
 #include "explorer/wound/room.h"
-#include "explorer/wound/stations.h"
 
 namespace cleft {
 

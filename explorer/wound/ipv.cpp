@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "explorer/wound/stations.h"
+#include "base/stations.h"
 
 namespace cleft {
 

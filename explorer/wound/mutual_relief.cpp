@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "explorer/wound/stations.h"
+#include "base/stations.h"
 #include "params/material/isotropic.h"
 
 namespace cleft {

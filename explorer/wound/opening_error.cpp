@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/stations.h"
 #include "base/text.h"
 #include "explorer/wound/path_shape.h"
-#include "explorer/wound/stations.h"
 
 namespace cleft {
 

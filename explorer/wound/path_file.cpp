@@ -23,17 +23,17 @@ std::vector<std::string> prestress_columns() {
 
 }  // namespace
 
-ScalpelPath read_path(const std::string& file, double depth, double scale, const Field* field) {
-  return path_of(read_csv(file), file, depth, scale, field);
+ScalpelPath read_path(const std::string& file, double depth, double scale, std::optional<double> otherwise) {
+  return path_of(read_csv(file), file, depth, scale, otherwise);
 }
 
 ScalpelPath path_of(const NumberTable& table, const std::string& name, double depth, double scale,
-                    const Field* field) {
+                    std::optional<double> otherwise) {
   ScalpelPath path = ScalpelPath::from_table(table, name, prestress_columns());
   if (depth > 0)
     path.set_depth(depth / scale);
-  else if (table.column("depth") < 0 && field)
-    path.set_depth(field->cut().depth / scale);
+  else if (table.column("depth") < 0 && otherwise)
+    path.set_depth(*otherwise / scale);
   else if (table.column("depth") < 0)
     throw FileError(name, "has no column 'depth', and there is no field that knows one: give --depth in mm");
   return path;

@@ -8,9 +8,9 @@
 #include <map>
 #include <mutex>
 
+#include "base/stations.h"
 #include "explorer/wound/plane_tensor.h"
 #include "explorer/wound/room.h"
-#include "explorer/wound/stations.h"
 
 namespace cleft {
 

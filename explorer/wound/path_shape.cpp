@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/stations.h"
 #include "base/text.h"
 #include "explorer/wound/skin_fit.h"
 #include "explorer/wound/small_fit.h"
-#include "explorer/wound/stations.h"
 
 namespace cleft {
 

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/stations.h"
 #include "base/text.h"
 #include "explorer/wound/path_opening.h"
-#include "explorer/wound/stations.h"
 
 namespace cleft {
 

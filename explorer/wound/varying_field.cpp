@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "explorer/wound/stations.h"
+#include "base/stations.h"
 
 namespace cleft {
 

@@ -64,15 +64,7 @@ void append(std::vector<std::uint8_t>& bytes, const std::vector<std::uint8_t>& m
 
 void append_quantity(Json& list, std::vector<std::uint8_t>& bytes, const Quantity& quantity,
                      const ControlTies& ties, const std::array<BSplineBasis, 4>& bases) {
-  Json entry{{"name", quantity.name},
-             {"components", quantity.components},
-             {"largest", quantity.largest},
-             {"scale", quantity.scale},
-             {"error", quantity.error},
-             {"spline_error", quantity.spline_error},
-             {"worst_node", quantity.worst_node},
-             {"worst_time", quantity.worst_time},
-             {"between_nodes", quantity.between_nodes}};
+  Json entry = figures_of(quantity);
   if (quantity.quantum == 0) {
     append_planes(bytes, std::vector<float>(quantity.coefficients.begin(), quantity.coefficients.end()));
   } else {

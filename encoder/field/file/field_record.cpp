@@ -257,6 +257,18 @@ FieldRecord record_of_sum(const Json& header, const std::array<BSplineBasis, 4>&
   return record;
 }
 
+Json figures_of(const Quantity& quantity) {
+  return {{"name", quantity.name},
+          {"components", quantity.components},
+          {"largest", quantity.largest},
+          {"scale", quantity.scale},
+          {"error", quantity.error},
+          {"spline_error", quantity.spline_error},
+          {"worst_node", quantity.worst_node},
+          {"worst_time", quantity.worst_time},
+          {"between_nodes", quantity.between_nodes}};
+}
+
 FieldRecord record_of(const Field& field) {
   const std::array<BSplineBasis, 4> bases = bases_of(field);
   FieldRecord record;

@@ -19,6 +19,8 @@ struct FieldRecord {
 };
 
 FieldRecord record_of(const Field& field);
+/// What headers and reports tell of a quantity.
+Json figures_of(const Quantity& quantity);
 /// A header without bytes, from that of another field; its unknowns, on these bases and in this number of
 /// slices of t, must be passed to field_of().
 FieldRecord record_of_sum(const Json& header, const std::array<BSplineBasis, 4>& bases, int slices);
