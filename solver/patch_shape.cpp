@@ -42,12 +42,22 @@ double core_of(const Parameters& p) {
   return std::max(10., cut.length / 2 + cut.depth);
 }
 
-/// The same across it. The opening feels curvatures across as far as this: with less, that of a cut of 30 mm
-/// on a sphere of 60 mm is 1 % less. The profile turns by no more than about 0.8 radians, so that it does not
-/// come down to the axis about which a curvature along the cut turns it.
+/// How far the profile across a cut may turn, radians. Where the skin bends along the cut too, the profile must
+/// not reach the axis about which that curvature turns it.
+double most_turned(const Parameters::Skin& skin) {
+  constexpr double turned = 1.3, turned_alike = 0.72;  // alike: where the two curvatures are equal
+  const double u = std::abs(skin.curvature_u), v = std::abs(skin.curvature_v);
+  if (u == 0 || v == 0) return turned;
+  const double cosine = 1 - (1 - std::cos(turned_alike)) * v / u;
+  return cosine < std::cos(turned) ? turned : std::acos(cosine);
+}
+
+/// The same across it. The opening feels curvatures across as far as this: with 1.4 of the core in place of
+/// 1.8, and a profile that turns by 0.72 radians at most, that of a cut of 30 mm along a cylinder of 30 mm is
+/// 1.4 % less.
 double core_across(const Parameters& p) {
-  constexpr double times = 1.4, most_turned = 0.72;
-  const double core = times * core_of(p), ratio = core * p.skin.curvature_v / most_turned;
+  constexpr double times = 1.8;
+  const double core = times * core_of(p), ratio = core * p.skin.curvature_v / most_turned(p.skin);
   return core * std::pow(1 + ratio * ratio * ratio * ratio, -0.25);
 }
 

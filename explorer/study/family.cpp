@@ -73,8 +73,10 @@ Family::Family(const std::string& study) : parts_(std::make_unique<Parts>(study)
     middle[name] = name == height_name                     ? std::numeric_limits<double>::infinity()
                    : range.least < 0 && range.greatest > 0 ? 0
                                                            : (range.least + range.greatest) / 2;
-  const Prestress& own = parts_->between.cases().cases().front().parameters->skin.prestress;
-  middle_ = at(middle, own).field;
+  Prestress across;
+  for (const CommonCase& one : parts_->between.cases().cases())
+    across.vv = std::max(across.vv, one.parameters->skin.prestress.vv);
+  middle_ = at(middle, across).field;
 }
 
 Family::~Family() = default;

@@ -32,7 +32,7 @@ class Family {
 
   /// The shapes that differ among the cases, by name.
   const std::map<std::string, Range>& shapes() const { return shapes_; }
-  /// The parameters of the case in the middle: 0 or the mean of the range.
+  /// The shape in the middle, 0 or the mean of each range, under the cases' largest tension across the cut.
   const Field& middle() const { return *middle_; }
   std::shared_ptr<const Field> shared_middle() const { return middle_; }
 

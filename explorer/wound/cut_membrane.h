@@ -36,16 +36,18 @@ class CutMembrane {
   Eigen::MatrixXd openings(const std::vector<Eigen::Vector2d>& corners,
                            const Eigen::MatrixXd& tractions) const;
 
+  double reach() const { return reach_; }
+
+  /// What a unit opening between two corners, along and across, takes from the traction on a piece; both in
+  /// the piece's frame, in whose middle the corners are seen.
+  Eigen::Matrix2d relief(const Eigen::Vector2d& begin, const Eigen::Vector2d& end) const;
+
  private:
   /// What is smooth of the second derivatives of the fundamental solution at a distance, in the frame of the
   /// direction to it: of K0(k2 r), along and across twice; of K0(k2 r) - K0(k1 r), along four times, twice
   /// and never.
   using Derivatives = std::array<double, 5>;
   Derivatives smooth_part(double distance) const;
-
-  /// What a unit opening between two corners, along and across, takes from the traction on a piece; both in
-  /// the piece's frame, in whose middle the corners are seen.
-  Eigen::Matrix2d relief(const Eigen::Vector2d& begin, const Eigen::Vector2d& end) const;
 
   double reach_, lame_, shear_;  // for a Young's modulus of 1
   std::shared_ptr<const std::vector<Derivatives>> table_;

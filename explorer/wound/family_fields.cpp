@@ -62,7 +62,7 @@ CaseShape case_of(const LocalShape& local, const OwnCut& own, const Prestress& p
   return {{{"cut.curvature", at_middle},
            {"cut.curvature_rate", local.curvature_rate},
            {"cut.tilt", local.tilt},
-           {"cut.depth", local.depth},
+           {"cut.depth", local.depth * std::cos(local.tilt * std::numbers::pi / 180)},
            {"skin.curvature_u", skin[0]},
            {"skin.curvature_v", skin[1]},
            {"skin.curvature_uv", skin[2]},

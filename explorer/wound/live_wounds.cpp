@@ -84,7 +84,7 @@ bool LiveWounds::relieve() {
   if (known && length < relieved_at_ + relieved_each && !complete) return false;
   std::vector<Amplitude> amplitudes;
   try {
-    amplitudes = mutual_relief(first(size()), scale_ * newest.tip());
+    amplitudes = std::move(mutual_relief(first(size()), {scale_ * newest.tip()}).front());
   } catch (const InputError&) {  // the field does not tell the tension: they add
     amplitudes.assign(size(), {{0}, {1}});
   }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/stations.h"
+#include "explorer/wound/membrane_relief.h"
 #include "params/material/isotropic.h"
 
 namespace cleft {
@@ -36,6 +37,8 @@ constexpr double turned_away = 0.1;
 /// each side, with weights that fall to 0 there, at so many places.
 constexpr double mean_over = 2;
 constexpr int mean_of = 201;
+/// Of a cut's path, in which the relief is taken as linear: a fiftieth of it turns amplitudes by little.
+constexpr int steps = 48;
 /// How far lips lean, for all of the tension across the cut that another takes: as simulated parallel cuts of
 /// 30 mm do, 4 to 20 mm apart. And over which part of its depth that falls by e.
 constexpr double leaning = 0.25, leaning_reach = 2. / 3;
@@ -47,6 +50,7 @@ struct Influence {
   double s;       // of the other's path
   double ratio;   // of its change to the tension
   double toward;  // 1: the other is at v > 0, -1: at v < 0; in between where they cross
+  double meets;   // 1: the cuts meet, 0: they are apart
 };
 
 /// Skin and tissue as a field's case has them.
@@ -101,6 +105,17 @@ double change_across(const Wound& other, const Stiffness& is, const ActiveVertex
   return force;
 }
 
+/// Where along the cut a vertex is: -1 at the start, 1 at the end, 0 in what is longer than the canonical
+/// cut. A path that is found as the blade moves is as long as that.
+double way_from_middle(const ActiveVertex& vertex, const Wound& wound) {
+  const CanonicalCut& cut = wound.field.shape().cut();
+  if (wound.incision->extended_to() > 0)
+    return std::clamp((vertex.uvw.x - cut.start) / (cut.length / 2) - 1, -1., 1.);
+  const double length = wound.complete(), half = std::min(length, cut.length) / 2;
+  return vertex.s < length / 2 ? std::clamp(vertex.s / half - 1, -1., 0.)
+                               : std::clamp(1 - (length - vertex.s) / half, 0., 1.);
+}
+
 /// The means of an amplitude, over `width` mm to each side as far as the path goes.
 std::vector<double> means_of(const Amplitude& amplitude, double width) {
   std::vector<double> means;
@@ -127,9 +142,9 @@ Amplitude::Both Amplitude::both(double s) const {
 
 BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound) : s(vertex.s) {
   const CanonicalCut& cut = wound.field.shape().cut();
-  const double from_middle = (vertex.uvw.x - cut.start) / (cut.length / 2) - 1;
+  const double from_middle = way_from_middle(vertex, wound);
   across = std::exp(-std::abs(vertex.uvw.y) / (leaning_reach * cut.depth)) * vertex.across;
-  leaning = vertex.outward - std::clamp(from_middle, -1., 1.) * vertex.along;
+  leaning = vertex.outward - from_middle * vertex.along;
 }
 
 Relief::At Relief::at(double part) const {
@@ -144,7 +159,23 @@ Relief::At Relief::at(double part) const {
   return result;
 }
 
-std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade) {
+namespace {
+
+/// By the numbers of two cuts: 1 where they meet, 0 where they are apart.
+using Meetings = std::vector<std::vector<double>>;
+
+Meetings all_meet(std::size_t cuts) { return Meetings(cuts, std::vector<double>(cuts, 1)); }
+
+Meetings meetings(const std::vector<const Wound*>& cuts) {
+  Meetings result = all_meet(cuts.size());
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) result[i][j] = result[j][i] = 1 - apart(*cuts[i], *cuts[j]);
+  return result;
+}
+
+/// With the blade of the last cut at one place; `of_membrane`: of cuts that are apart, where there are some.
+std::vector<Amplitude> amplitudes(const std::vector<const Wound*>& cuts, double blade, const Meetings& meets,
+                                  const std::vector<Amplitude>& of_membrane) {
   std::vector<Amplitude> result(cuts.size());
   std::vector<Influence> influences;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
@@ -165,7 +196,8 @@ std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, doub
         const Stiffness stiffness(cuts[j]->field.shape());
         const double change = change_across(*cuts[j], stiffness, *at, normal, there);
         const double toward = (at->uvw.y > 0 ? -1 : 1) * dot(at->across, normal);
-        influences.push_back({i, j, station, at->s, change / (stiffness.thickness * tension), toward});
+        influences.push_back(
+            {i, j, station, at->s, change / (stiffness.thickness * tension), toward, meets[i][j]});
       }
     }
     result[i].values.assign(result[i].stations.size(), 1);
@@ -173,7 +205,7 @@ std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, doub
   for (int round = 0; round < rounds; ++round) {
     std::vector<std::vector<double>> next;
     for (const Amplitude& amplitude : result) next.emplace_back(amplitude.values.size(), 1);
-    for (const Influence& x : influences) next[x.cut][x.station] += x.ratio * result[x.by].at(x.s);
+    for (const Influence& x : influences) next[x.cut][x.station] += x.meets * x.ratio * result[x.by].at(x.s);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (std::size_t k = 0; k < next[i].size(); ++k)
         result[i].values[k] += way * (std::clamp(next[i][k], 0., most) - result[i].values[k]);
@@ -181,10 +213,36 @@ std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, doub
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i].values = means_of(result[i], mean_over * cuts[i]->field.shape().cut().depth);
     result[i].leans.assign(result[i].stations.size(), 0);
+    if (of_membrane.empty() || of_membrane[i].values.empty()) continue;
+    for (std::size_t k = 0; k < result[i].stations.size(); ++k)
+      result[i].values[k] *= std::min(most, of_membrane[i].at(result[i].stations[k]));
   }
   for (const Influence& x : influences)
     result[x.cut].leans[x.station] += leaning * std::min(0., x.ratio * result[x.by].at(x.s)) * x.toward;
   return result;
+}
+
+}  // namespace
+
+std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*>& cuts,
+                                                  const std::vector<double>& blades) {
+  const std::vector<std::vector<Amplitude>> of_membrane = membrane_relief(cuts, blades);
+  const Meetings meets = of_membrane.empty() ? all_meet(cuts.size()) : meetings(cuts);
+  std::vector<std::vector<Amplitude>> result;
+  for (std::size_t i = 0; i < blades.size(); ++i)
+    result.push_back(
+        amplitudes(cuts, blades[i], meets, of_membrane.empty() ? std::vector<Amplitude>() : of_membrane[i]));
+  return result;
+}
+
+std::vector<Amplitude> relief_of_meeting_cuts(const std::vector<const Wound*>& cuts, double blade) {
+  return amplitudes(cuts, blade, all_meet(cuts.size()), {});
+}
+
+Relief relief_while_cut(const std::vector<const Wound*>& cuts, double length) {
+  std::vector<double> blades;
+  for (int i = 0; i <= steps; ++i) blades.push_back(length * i / steps);
+  return Relief(mutual_relief(cuts, blades));
 }
 
 }  // namespace cleft

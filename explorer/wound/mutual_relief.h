@@ -1,10 +1,12 @@
 // Cuts side by side relieve each other: each opens in the tension that the others leave. The field of each is
-// scaled along its path by A(s), the tension across it relative to that without the others:
+// scaled along its path by an amplitude. Of cuts that do not meet it is how far each opens in a membrane with
+// all of them, over what it opens alone (membrane_relief.h). Of cuts that meet it is A(s), the tension across
+// the path relative to that without the others:
 //   A_i(s) = 1 + sum over j of A_j r_ij(s),   r_ij = (change of tension across path i that cut j alone makes)
 //   / (tension)
 // a fixed point in the amplitudes of all cuts (Kachanov 1987, elastic solids with many cracks, with constant
 // amplitudes; here they vary along the path). The change of tension in the skin is its plane stress for the
-// strain of the other cut's field.
+// strain of the other cut's field. Where cuts of either kind are together, the amplitude is the product.
 //
 // Of parallel cuts the strip between them sinks and becomes longer, and the skin beyond them rises as beside
 // a cut alone: lips lean. Next to them a share of the displacement across the cut is added upright, and along
@@ -96,8 +98,15 @@ class Relief {
   std::vector<Amplitude> amplitudes_;  // [step][cut]
 };
 
-/// The amplitudes of all cuts, with the blade of the last one at `blade` mm of its path and the others
+/// The amplitudes of all cuts at each position of the blade, mm of the path of the last one, with the others
 /// complete. All 1 for a single cut. Throws InputError if a field lacks the skin's prestress or stiffness.
-std::vector<Amplitude> mutual_relief(const std::vector<const Wound*>& cuts, double blade);
+std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*>& cuts,
+                                                  const std::vector<double>& blades);
+
+/// The amplitudes as of cuts that all meet, with the blade at one place.
+std::vector<Amplitude> relief_of_meeting_cuts(const std::vector<const Wound*>& cuts, double blade);
+
+/// Those of mutual_relief while the blade makes the first `length` mm of the last cut's path.
+Relief relief_while_cut(const std::vector<const Wound*>& cuts, double length);
 
 }  // namespace cleft

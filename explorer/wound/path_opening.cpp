@@ -82,10 +82,10 @@ const HalfOpenings& half_openings(double poisson_ratio) {
   return known.try_emplace(poisson_ratio, poisson_ratio).first->second;
 }
 
-double field_opening(const VaryingField& field, double length) {
+double field_opening(const VaryingField& field, double length, double s) {
   const Vec3 middle{field.shape().cut().start + length / 2, 0, 0};
-  return field.displacement(middle, Side::right, length, 0).y -
-         field.displacement(middle, Side::left, length, 0).y;
+  return field.displacement(middle, Side::right, length, s).y -
+         field.displacement(middle, Side::left, length, s).y;
 }
 
 /// Whether a path comes back to itself: so near, pieces feel each other's ends.
@@ -169,10 +169,10 @@ class OwnOpening {
 
 }  // namespace
 
-std::optional<CutMembrane> membrane_of(const VaryingField& field) {
+std::optional<CutMembrane> membrane_of(const VaryingField& field, double s) {
   const Field& shape = field.shape();
   const double length = shape.cut().length;
-  const double whole = field_opening(field, length), half = field_opening(field, length / 2);
+  const double whole = field_opening(field, length, s), half = field_opening(field, length / 2, s);
   if (!(whole > 0) || !(half > 0)) return std::nullopt;
   const double poisson = shape.parameters.value_or(shape.parameters->skin.poisson_ratio, usual_poisson_ratio);
   const HalfOpenings& known = half_openings(poisson);

@@ -13,8 +13,9 @@
 namespace cleft {
 
 /// The membrane in which a straight cut opens as the field's own does: in the middle, when half of it is cut
-/// and when all is. None of a field that does not open, or opens against the tension.
-std::optional<CutMembrane> membrane_of(const VaryingField& field);
+/// and when all is. Of the fields at s mm of a path. None of a field that does not open, or opens against the
+/// tension.
+std::optional<CutMembrane> membrane_of(const VaryingField& field, double s = 0);
 
 /// The cut whose field opens a place of a path.
 struct OwnCut {

@@ -7,9 +7,6 @@
 namespace cleft {
 
 namespace {
-/// Of a cut's path, in which the relief is taken as linear: a fiftieth of the path turns amplitudes by
-/// little.
-constexpr int relief_pieces = 48;
 /// mm: the vertices that the guard moves are never left out.
 constexpr double never_left_out = std::numeric_limits<double>::infinity();
 }  // namespace
@@ -31,10 +28,7 @@ ReplayedWounds::ReplayedWounds(std::vector<Wound> wounds) : begins_{0} {
       const std::size_t v = a.vertex;
       displacements.push_back(moved[v] - rest()[v]);
     }
-    std::vector<std::vector<Amplitude>> steps;
-    for (int i = 0; i <= relief_pieces; ++i)
-      steps.push_back(mutual_relief(first(k + 2), path_length(k + 1) * i / relief_pieces));
-    set_relief(k + 1, Relief(steps));
+    set_relief(k + 1, cleft::relief_while_cut(first(k + 2), path_length(k + 1)));
   }
   std::vector<Vec3> now(vertex_count());
   std::vector<std::vector<int>> number(size(), std::vector<int>(vertex_count()));

@@ -7,11 +7,6 @@
 
 namespace cleft {
 
-namespace {
-/// In how many pieces of a cut the relief is linear while the guard is found.
-constexpr int relief_looks = 48;
-}  // namespace
-
 Wound& Wounds::add(Wound wound) {
   relief_.push_back(relief_.empty() ? Relief() : relief_.back());
   return wounds_.emplace_back(std::move(wound));
@@ -79,14 +74,11 @@ Vec3 Wounds::changed_by_guard(int vertex, const Blade& blade) const {
 /// The amplitudes while the blade makes the newest of some cuts.
 Relief Wounds::relief_while_cut(std::size_t newest, double length) const {
   if (newest == 0) return {};
-  std::vector<std::vector<Amplitude>> steps;
   try {
-    for (int i = 0; i <= relief_looks; ++i)
-      steps.push_back(mutual_relief(first(newest + 1), length * i / relief_looks));
+    return cleft::relief_while_cut(first(newest + 1), length);
   } catch (const InputError&) {  // the field does not tell the tension: displacements add
     return {};
   }
-  return Relief(steps);
 }
 
 }  // namespace cleft

@@ -1,4 +1,4 @@
-// The amplitudes of two parallel cuts against the linear system that they solve: its coefficients come from
+// The amplitudes of two parallel cuts, as of cuts that meet, against the linear system that they solve: its coefficients come from
 // the field's displacements alone, by differences and a fine integration through the depth, and it is solved
 // by elimination.
 #include "explorer/wound/mutual_relief.h"
@@ -133,7 +133,7 @@ class TwoCuts {
         cuts_{made(y), made(other_y)},
         wounds_{Wound(*cuts_[0], first, 1), Wound(*cuts_[1], second, 1)} {}
 
-  std::vector<Amplitude> amplitudes() const { return mutual_relief({&wounds_[0], &wounds_[1]}, 30); }
+  std::vector<Amplitude> amplitudes() const { return relief_of_meeting_cuts({&wounds_[0], &wounds_[1]}, 30); }
   const Wound& wound(int i) const { return wounds_[i]; }
 
   Influence influence(std::size_t cut, double s) const {

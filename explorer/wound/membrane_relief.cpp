@@ -1,0 +1,215 @@
+#include "explorer/wound/membrane_relief.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "explorer/wound/path_opening.h"
+
+namespace cleft {
+
+namespace {
+
+/// Pieces of a cut as long as the canonical one, and of a cut: the ratio of two openings needs fewer than
+/// they do.
+constexpr int own_pieces = 24, most_pieces = 72, fewest_pieces = 6;
+/// In reaches of the membrane: displacements beside a cut are as good as 0 there.
+constexpr double farthest = 4;
+/// Of the cosine between two normals: with less, the skin has turned away.
+constexpr double turned_away = 0.1;
+/// In depths of the cut: the distances between which cuts come to be apart.
+constexpr double meeting = 1. / 3, wholly_apart = 1;
+/// What is less of a cut's own opening, over the largest, is no measure of it.
+constexpr double least_opening = 1e-6;
+
+double length_of(const Wound& wound, bool is_last) {
+  return is_last ? wound.incision->path().length() * wound.scale() : wound.complete();
+}
+
+/// A cut in straight pieces.
+struct Cut {
+  struct Piece {
+    Vec3 begin, middle, end;  // mm
+    PathFrame frame;          // in the middle
+  };
+  std::vector<Piece> pieces;
+  double length, piece;  // mm
+
+  Cut(const Wound& wound, double length_of_cut) : length(length_of_cut) {
+    const double canonical = wound.field.shape().cut().length, scale = wound.scale();
+    const int count = std::clamp(static_cast<int>(std::lround(own_pieces * length / canonical)),
+                                 fewest_pieces, most_pieces);
+    piece = length / count;
+    const auto place = [&](double s) { return scale * wound.incision->path().at(s / scale).position; };
+    for (int i = 0; i < count; ++i) {
+      const double s = i * piece;
+      pieces.push_back({place(s), place(s + piece / 2), place(s + piece),
+                        wound.volume.skin_frame((s + piece / 2) / scale)});
+    }
+  }
+
+  Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(pieces.size()); }
+  std::vector<double> stations() const {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < pieces.size(); ++i) result.push_back((double(i) + 0.5) * piece);
+    return result;
+  }
+};
+
+/// What openings of one cut take from the tractions on another, whose skin is unrolled around each piece.
+Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& from) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(to.rows(), from.rows());
+  for (std::size_t i = 0; i < to.pieces.size(); ++i) {
+    const auto& [begin, middle, end, frame] = to.pieces[i];
+    const auto seen = [&, &at = middle, &axes = frame](const Vec3& place) -> Eigen::Vector2d {
+      const Vec3 way = place - at;
+      const Eigen::Vector2d in_skin(dot(way, axes.along), dot(way, axes.across));
+      const double length = in_skin.norm();
+      return length > 0 ? Eigen::Vector2d(norm(way) / length * in_skin) : in_skin;
+    };
+    for (std::size_t j = 0; j < from.pieces.size(); ++j) {
+      const Cut::Piece& other = from.pieces[j];
+      if (norm(other.middle - middle) > farthest * membrane.reach() ||
+          dot(other.frame.outward, frame.outward) < turned_away)
+        continue;
+      result.block<2, 2>(2 * Eigen::Index(i), 2 * Eigen::Index(j)) =
+          membrane.relief(seen(other.begin), seen(other.end));
+    }
+  }
+  return result;
+}
+
+/// The shear and the tension across each piece before it is cut, MPa.
+Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
+  Eigen::VectorXd result(cut.rows());
+  Eigen::Index row = 0;
+  for (const double s : cut.stations()) {
+    result(row++) = wound.field.prestress(&Prestress::uv, s);
+    result(row++) = wound.field.prestress(&Prestress::vv, s);
+  }
+  return result;
+}
+
+/// Openings across the pieces over those of the cut alone.
+std::vector<double> ratios(const Eigen::VectorXd& opened, const Eigen::VectorXd& alone) {
+  double largest = 0;
+  for (Eigen::Index i = 1; i < alone.size(); i += 2) largest = std::max(largest, alone(i));
+  std::vector<double> result;
+  for (Eigen::Index i = 1; i < alone.size(); i += 2)
+    result.push_back(alone(i) > least_opening * largest ? std::max(0., opened(i) / alone(i)) : 1);
+  return result;
+}
+
+/// All cuts in one membrane. With the last one cut in part, its first pieces alone are open: their equations
+/// are what the elimination of the complete cuts leaves.
+class Together {
+ public:
+  Together(const std::vector<const Wound*>& wounds, const CutMembrane& membrane)
+      : feel_(wounds.size(), false) {
+    std::vector<Eigen::Index> first = {0};
+    for (const Wound* wound : wounds) {
+      cuts_.emplace_back(*wound, length_of(*wound, wound == wounds.back()));
+      first.push_back(first.back() + cuts_.back().rows());
+    }
+    const Eigen::Index complete = first[cuts_.size() - 1], last = cuts_.back().rows();
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(first.back(), first.back());
+    Eigen::VectorXd tractions(first.back());
+    for (std::size_t i = 0; i < cuts_.size(); ++i) {
+      tractions.segment(first[i], cuts_[i].rows()) = tractions_on(*wounds[i], cuts_[i]);
+      for (std::size_t j = 0; j < cuts_.size(); ++j) {
+        const double part = i == j ? 1 : apart(*wounds[i], *wounds[j]);
+        if (part == 0) continue;
+        all.block(first[i], first[j], cuts_[i].rows(), cuts_[j].rows()) =
+            part * taken(membrane, cuts_[i], cuts_[j]);
+        if (i != j) feel_[i] = true;
+      }
+      if (i + 1 < cuts_.size())
+        alone_.push_back(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
+                             .partialPivLu()
+                             .solve(tractions.segment(first[i], cuts_[i].rows())));
+    }
+    last_alone_ = all.bottomRightCorner(last, last), last_tractions_ = tractions.tail(last);
+    const auto factor = all.topLeftCorner(complete, complete).partialPivLu();
+    by_last_ = factor.solve(all.topRightCorner(complete, last));
+    by_tractions_ = factor.solve(tractions.head(complete));
+    const auto of_complete = all.bottomLeftCorner(last, complete);
+    left_ = last_alone_ - of_complete * by_last_;
+    left_tractions_ = last_tractions_ - of_complete * by_tractions_;
+  }
+
+  std::vector<Amplitude> with_blade_at(double blade) const {
+    const double at = std::clamp(blade / cuts_.back().piece, 0., double(cuts_.back().pieces.size()));
+    const auto before = static_cast<Eigen::Index>(at);
+    std::vector<Amplitude> result = when_cut(before);
+    const double part = at - double(before);
+    if (part == 0) return result;
+    const std::vector<Amplitude> after = when_cut(before + 1);
+    for (std::size_t k = 0; k < result.size(); ++k)
+      for (std::size_t i = 0; i < result[k].values.size(); ++i)
+        result[k].values[i] += part * (after[k].values[i] - result[k].values[i]);
+    return result;
+  }
+
+ private:
+  /// With so many pieces of the last cut open.
+  std::vector<Amplitude> when_cut(Eigen::Index pieces) const {
+    const Eigen::Index rows = 2 * pieces;
+    const Eigen::VectorXd opened =
+        left_.topLeftCorner(rows, rows).partialPivLu().solve(left_tractions_.head(rows));
+    const Eigen::VectorXd of_complete = by_tractions_ - by_last_.leftCols(rows) * opened;
+    std::vector<Amplitude> result;
+    Eigen::Index row = 0;
+    for (std::size_t k = 0; k + 1 < cuts_.size(); ++k) {
+      result.push_back({cuts_[k].stations(), ratios(of_complete.segment(row, alone_[k].size()), alone_[k])});
+      row += alone_[k].size();
+    }
+    std::vector<double> of_last = ratios(
+        opened, last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows)));
+    of_last.resize(cuts_.back().pieces.size(), of_last.empty() ? 1 : of_last.back());
+    result.push_back({cuts_.back().stations(), std::move(of_last)});
+    for (std::size_t k = 0; k < result.size(); ++k)
+      if (!feel_[k]) result[k] = {};
+    return result;
+  }
+
+  std::vector<Cut> cuts_;
+  std::vector<bool> feel_;              // others
+  std::vector<Eigen::VectorXd> alone_;  // of the complete ones
+  Eigen::MatrixXd last_alone_, left_;   // of the last one, alone and with what the complete ones leave of it
+  Eigen::MatrixXd by_last_;             // how far openings of the last one close the complete ones
+  Eigen::VectorXd last_tractions_, left_tractions_, by_tractions_;
+};
+
+}  // namespace
+
+double apart(const Wound& a, const Wound& b) {
+  const ScalpelPath& other = b.incision->path();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Cut::Piece& piece : Cut(a, a.complete()).pieces)
+    for (const Vec3& place : {piece.begin, piece.middle, piece.end}) {
+      const Vec3 there = 1 / b.scale() * place;
+      const double end = b.complete() / b.scale(),
+                   s = std::clamp(other.coordinates(there, 0, end).s, 0., end);
+      nearest = std::min(nearest, b.scale() * norm(other.at(s).position - there));
+    }
+  const double depth = std::max(a.field.shape().cut().depth, b.field.shape().cut().depth);
+  return std::clamp((nearest / depth - meeting) / (wholly_apart - meeting), 0., 1.);
+}
+
+std::vector<std::vector<Amplitude>> membrane_relief(const std::vector<const Wound*>& cuts,
+                                                    const std::vector<double>& blades) {
+  std::optional<CutMembrane> membrane;
+  for (const Wound* cut : cuts)
+    if (!membrane) membrane = membrane_of(cut->field, cut->complete() / 2);
+  if (!membrane) return {};
+  std::vector<std::vector<Amplitude>> result(blades.size(), std::vector<Amplitude>(cuts.size()));
+  if (cuts.size() < 2) return result;
+  const Together together(cuts, *membrane);
+  for (std::size_t i = 0; i < blades.size(); ++i) result[i] = together.with_blade_at(blades[i]);
+  return result;
+}
+
+}  // namespace cleft

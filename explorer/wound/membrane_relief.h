@@ -1,0 +1,22 @@
+// How far cuts that do not meet relieve each other: in a membrane with all of them (cut_membrane.h) each
+// opens by a part of what it opens alone. Cuts that meet, or nearly do, do not feel each other here: the
+// membrane, which knows no depth, would open them too abruptly next to each other (mutual_relief.h).
+#pragma once
+
+#include <vector>
+
+#include "explorer/wound/mutual_relief.h"
+
+namespace cleft {
+
+/// 1: two cuts relieve each other as they do in the membrane; 0: they meet, or nearly do. Between, it rises
+/// with the distance between their paths, from a third of the depth of the cut to all of it.
+double apart(const Wound& a, const Wound& b);
+
+/// result[i][k]: the opening across cut k over that of the cut alone, along its path, with the blade of the
+/// last cut at blades[i] mm of its path and the others complete. Without values of cuts that feel no other;
+/// empty of fields that do not open. Throws InputError if a field lacks the skin's prestress.
+std::vector<std::vector<Amplitude>> membrane_relief(const std::vector<const Wound*>& cuts,
+                                                    const std::vector<double>& blades);
+
+}  // namespace cleft

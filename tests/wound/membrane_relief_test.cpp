@@ -1,0 +1,148 @@
+// How far cuts that do not meet relieve each other, against two collinear cracks in closed form: in a sheet
+// without springs, between a < |x| < b, the opening has the slope
+//   (x^2 - C^2) / sqrt((x^2 - a^2) (b^2 - x^2)),   C^2 = b^2 E(k) / K(k),   k^2 = 1 - a^2 / b^2,
+// where that of a crack of half the length h alone has x / sqrt(h^2 - x^2) from its middle (Erdogan 1962).
+#include "explorer/wound/membrane_relief.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "tests/incision/meshes.h"
+#include "tests/support/recorded.h"
+
+namespace cleft {
+namespace {
+
+using namespace testing;
+
+const CanonicalCut canonical{-15, 30, 3};
+constexpr double length = 30, piece = length / 24;  // mm
+
+/// Opens as an ellipse does, in proportion to the length that is cut: as in a sheet without springs.
+Field ellipses() {
+  const BSplineBasis u = BSplineBasis::uniform(3, 32, -25, 25), v = BSplineBasis::broken(3, 16, -25, 0, 25),
+                     w = BSplineBasis::uniform(3, 8, -6, 0), t = BSplineBasis::uniform(3, 12, 0, 30);
+  const auto greville = [](const BSplineBasis& b, int i) {
+    return (b.knots()[i + 1] + b.knots()[i + 2] + b.knots()[i + 3]) / 3;
+  };
+  std::vector<Vec3> c;
+  for (int i = 0; i < u.size(); ++i)
+    for (int j = 0; j < v.size(); ++j)
+      for (int k = 0; k < w.size(); ++k)
+        for (int l = 0; l < t.size(); ++l) {
+          const double x = greville(u, i) - canonical.start, y = greville(v, j);
+          const double height = std::max(0., 1 + greville(w, k) / canonical.depth);
+          const double g = 0.1 * std::sqrt(std::max(0., x * (greville(t, l) - x))) *
+                           std::exp(-0.06 * std::abs(y)) * height;
+          c.push_back({0, j < v.size() / 2 ? -g : g, 0});
+        }
+  Field field(u, v, w, t, std::move(c), canonical);
+  field.parameters = recorded({{"skin.prestress_v", 0.03},
+                               {"skin.prestress_uv", 0},
+                               {"skin.thickness", 1.5},
+                               {"skin.young_modulus", 0.2},
+                               {"skin.poisson_ratio", 0.4},
+                               {"tissue.young_modulus", 0.2},
+                               {"tissue.poisson_ratio", 0.3}});
+  return field;
+}
+
+/// Straight cuts in a flat mesh, one after the other.
+class Cuts {
+ public:
+  Cuts(const Field& field, const std::vector<std::vector<Vec3>>& paths)
+      : mesh_(grid(60, 40, -60.3, -40.1, 2)) {
+    IncisionOptions options;
+    options.max_edge = 0;
+    for (const auto& path : paths) {
+      made_.push_back(std::make_unique<Incision>(mesh_, path_through(path, up, 3), options));
+      made_.back()->advance_to(made_.back()->path().length());
+    }
+    for (const auto& cut : made_) wounds_.push_back(std::make_unique<Wound>(*cut, field, 1));
+  }
+
+  std::vector<const Wound*> all() const {
+    std::vector<const Wound*> result;
+    for (const auto& wound : wounds_) result.push_back(wound.get());
+    return result;
+  }
+
+ private:
+  CutMesh mesh_;
+  std::vector<std::unique_ptr<Incision>> made_;
+  std::vector<std::unique_ptr<Wound>> wounds_;
+};
+
+std::vector<Vec3> line(double x0, double y0, double x1, double y1) { return {{x0, y0, 0}, {x1, y1, 0}}; }
+
+/// The opening of one of two collinear cracks over that of it alone, at x between a and b.
+double collinear_ratio(double a, double b, double x) {
+  const double k = std::sqrt(1 - a * a / (b * b)), c2 = b * b * std::comp_ellint_2(k) / std::comp_ellint_1(k);
+  // From b inward, with x = m + h cos(angle): both root singularities go.
+  const double m = (a + b) / 2, h = (b - a) / 2, end = std::acos((x - m) / h);
+  constexpr int parts = 4000;
+  double opening = 0;
+  for (int i = 0; i < parts; ++i) {
+    const double at = m + h * std::cos(end * (i + 0.5) / parts);
+    opening += end / parts * (at * at - c2) / std::sqrt((at + a) * (b + at));
+  }
+  return opening / std::sqrt(h * h - (x - m) * (x - m));
+}
+
+TEST(MembraneRelief, OfCollinearCutsIsThatOfCollinearCracks) {
+  const Field field = ellipses();
+  for (const double a : {2., 5., 12.}) {  // half the distance of their ends
+    const double b = a + length;
+    const Cuts cuts(field, {line(-b, 0.1, -a, 0.1), line(a, 0.1, b, 0.1)});
+    const auto found = membrane_relief(cuts.all(), {length});
+    ASSERT_EQ(found.size(), 1u);
+    // The jump is constant over a piece: the nearer the ends, the more it matters where a piece ends.
+    const double tolerance = 0.1 * piece / (2 * a);
+    for (const double x : {a + 2, a + 8, a + 15, a + 22, a + 28}) {
+      const double expected = collinear_ratio(a, b, x);
+      EXPECT_NEAR(found[0][1].at(x - a), expected, tolerance) << "a = " << a << ", x = " << x;
+      EXPECT_NEAR(found[0][0].at(b - x), expected, tolerance) << "a = " << a << ", x = " << -x;
+    }
+  }
+  EXPECT_GT(collinear_ratio(2, 32, 4), 1.2) << "ratios that are all 1 would show nothing";
+}
+
+TEST(MembraneRelief, WithHalfOfTheLastCutIsThatOfACutOfHalfTheLength) {
+  const Field field = ellipses();
+  const Cuts whole(field, {line(-15, -4, 15, -4), line(-15, 4, 15, 4)}),
+      half(field, {line(-15, -4, 15, -4), line(-15, 4, 0, 4)});
+  const auto growing = membrane_relief(whole.all(), {0, 15, 30}), cut = membrane_relief(half.all(), {15});
+  for (const double s : {1., 4., 9., 14.}) {
+    EXPECT_NEAR(growing[1][0].at(s), cut[0][0].at(s), 1e-6) << s;
+    EXPECT_NEAR(growing[1][1].at(s), cut[0][1].at(s), 1e-6) << s;
+    EXPECT_NEAR(growing[0][0].at(s), 1, 1e-9) << s;  // nothing of the other is cut
+    EXPECT_LT(growing[2][0].at(s), growing[1][0].at(s)) << s;
+    EXPECT_NEAR(growing[2][0].at(s), growing[2][1].at(s), 1e-6) << s;  // alike
+  }
+}
+
+TEST(MembraneRelief, IsThatOfTheFieldsStrainsWhereCutsMeetAndChangesSteadilyUntilThen) {
+  const Field field = ellipses();
+  EXPECT_TRUE(
+      membrane_relief(Cuts(field, {line(-15, 0.1, 15, 0.1), line(0.1, -15, 0.1, 15)}).all(), {length})[0][0]
+          .values.empty());
+  double before = -1;
+  for (const double gap :
+       {0.5, 1., 1.5, 2., 2.5, 3., 4.}) {  // between the end of one and the side of the other
+    const Cuts cuts(field, {line(-15, 0.1, 15, 0.1), line(0.1, 0.1 + gap, 0.1, 15)});
+    const double part = apart(*cuts.all()[0], *cuts.all()[1]);
+    EXPECT_NEAR(part, std::clamp((gap - 1) / 2, 0., 1.), 0.03) << gap;
+    EXPECT_GE(part, before);
+    before = part;
+    const auto both = mutual_relief(cuts.all(), {15 - 0.1 - gap}).front(),
+               met = relief_of_meeting_cuts(cuts.all(), 15 - 0.1 - gap);
+    if (gap == 0.5)
+      for (const double s : {3., 12., 20.}) EXPECT_EQ(both[0].at(s), met[0].at(s)) << s;
+  }
+}
+
+}  // namespace
+}  // namespace cleft
