@@ -74,15 +74,41 @@ std::vector<std::vector<Eigen::Index>> blocks_of(const TrainingCases& cases) {
   return blocks;
 }
 
-/// Whether features take other values in most cases, as those of sequences and drawn ones do.
-bool scattered(const Eigen::MatrixXd& features) {
-  for (Eigen::Index k = 0; k < features.cols(); ++k) {
-    std::vector<double> values(features.col(k).begin(), features.col(k).end());
-    std::sort(values.begin(), values.end());
-    const auto distinct = std::unique(values.begin(), values.end()) - values.begin();
-    if (2 * distinct < features.rows()) return false;
+/// How many values each feature takes, and how many places there are in all; but for rounding.
+struct Distinct {
+  std::vector<Eigen::Index> values;
+  Eigen::Index places = 0;
+
+  explicit Distinct(const Eigen::MatrixXd& features) {
+    constexpr double same = 1e-6;
+    for (Eigen::Index k = 0; k < features.cols(); ++k) {
+      std::vector<double> list(features.col(k).begin(), features.col(k).end());
+      std::sort(list.begin(), list.end());
+      values.push_back(
+          std::unique(list.begin(), list.end(), [](double a, double b) { return b - a < same; }) -
+          list.begin());
+    }
+    for (Eigen::Index i = 0; i < features.rows(); ++i) {
+      bool first = true;
+      for (Eigen::Index j = 0; j < i && first; ++j)
+        first = (features.row(i) - features.row(j)).cwiseAbs().maxCoeff() > same;
+      places += first;
+    }
   }
-  return true;
+};
+
+/// Whether features take other values in most cases, as those of sequences and drawn ones do.
+bool scattered(const Distinct& distinct) {
+  return std::ranges::all_of(distinct.values, [&](Eigen::Index n) { return 2 * n >= distinct.places; });
+}
+
+/// Whether cases take few values of each feature, but only a few of their combinations: a sparse grid. Left
+/// out, a case there leaves the end of an axis, or a corner, to what is beyond: the errors of that are least
+/// with nuggets and lengths that miss the cases themselves.
+bool on_sparse_grid(const Distinct& distinct) {
+  double combinations = 1;
+  for (const Eigen::Index n : distinct.values) combinations *= static_cast<double>(n);
+  return !scattered(distinct) && combinations > 2 * static_cast<double>(distinct.places);
 }
 
 /// By which hyperparameters of a Gaussian process are chosen. Where cases are scattered, from six a feature
@@ -104,7 +130,7 @@ double misfit(const TrainingCases& cases, const Covariance& covariance, bool is_
 /// Coordinate descent on logarithms: both are smooth in them, and seldom have more than one minimum.
 Covariance tuned(const TrainingCases& cases, Covariance covariance, bool one_length, bool with_nugget) {
   const Eigen::Index d = cases.features.cols();
-  const bool is_scattered = !one_length && scattered(cases.features);
+  const bool is_scattered = !one_length && scattered(Distinct(cases.features));
   const auto error_of = [&](const Covariance& one) { return misfit(cases, one, is_scattered); };
   double best = error_of(covariance);
   const auto attempt = [&](Covariance changed) {
@@ -257,15 +283,8 @@ namespace {
 /// as would determine one, such as two parallel lines. A square is then the same as a constant, which a
 /// quadratic trend shares out, and between the lines only a part of it is left.
 bool sees_squares(const Eigen::MatrixXd& features) {
-  constexpr double same = 1e-6, nothing = 1e-10;
+  constexpr double nothing = 1e-10;
   const Eigen::Index n = features.rows(), d = features.cols();
-  Eigen::Index distinct = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    bool first = true;
-    for (Eigen::Index j = 0; j < i && first; ++j)
-      first = (features.row(i) - features.row(j)).cwiseAbs().maxCoeff() > same;
-    distinct += first;
-  }
   Eigen::MatrixXd terms(n, 1 + d + d * (d + 1) / 2);
   terms.col(0).setOnes(), terms.middleCols(1, d) = features;
   Eigen::Index at = 1 + d;
@@ -275,7 +294,7 @@ bool sees_squares(const Eigen::MatrixXd& features) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(terms.transpose() * terms, Eigen::EigenvaluesOnly)
           .eigenvalues();
   const Eigen::Index rank = (values.array() > nothing * values.maxCoeff()).count();
-  return rank >= std::min(distinct, terms.cols());
+  return rank >= std::min(Distinct(features).places, terms.cols());
 }
 
 }  // namespace
@@ -292,11 +311,12 @@ std::vector<KernelRegression> all_methods(const TrainingCases& cases) {
     methods.emplace_back(cases, Covariance{"quadratic polynomial" + with, 2, none, 1, 1e-9, lengths});
   methods.emplace_back(
       cases, tuned(cases, {"radial basis functions" + with, 1, matern, 100, 1e-9, lengths}, true, false));
+  const bool sparse = on_sparse_grid(Distinct(cases.features));
   std::optional<KernelRegression> process;
   for (const int degree : {1, 2}) {
     if (degree == 2 && !squares) continue;
-    KernelRegression one(
-        cases, tuned(cases, {"Gaussian process" + with, degree, gaussian, 100, 1e-6, lengths}, false, true));
+    const Covariance start{"Gaussian process" + with, degree, gaussian, 100, sparse ? 1e-9 : 1e-6, lengths};
+    KernelRegression one(cases, sparse ? start : tuned(cases, start, false, true));
     if (!process || one.left_out_error() < process->left_out_error()) process.emplace(std::move(one));
   }
   methods.push_back(std::move(*process));

@@ -93,13 +93,19 @@ Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
   return result;
 }
 
-/// Openings across the pieces over those of the cut alone.
-std::vector<double> ratios(const Eigen::VectorXd& opened, const Eigen::VectorXd& alone) {
+/// What is opened over what opens across the cut alone.
+Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen::VectorXd& alone) {
   double largest = 0;
   for (Eigen::Index i = 1; i < alone.size(); i += 2) largest = std::max(largest, alone(i));
-  std::vector<double> result;
-  for (Eigen::Index i = 1; i < alone.size(); i += 2)
-    result.push_back(alone(i) > least_opening * largest ? std::max(0., opened(i) / alone(i)) : 1);
+  Amplitude result{cut.stations(), {}};
+  for (Eigen::Index i = 0; i < alone.size(); i += 2) {
+    const bool opens = alone(i + 1) > least_opening * largest;
+    result.values.push_back(opens ? std::max(0., opened(i + 1) / alone(i + 1)) : 1);
+    result.shifts.push_back(opens ? (opened(i) - alone(i)) / alone(i + 1) : 0);
+  }
+  // Ahead of the blade as at its tip.
+  result.values.resize(cut.pieces.size(), result.values.empty() ? 1 : result.values.back());
+  result.shifts.resize(cut.pieces.size(), result.shifts.empty() ? 0 : result.shifts.back());
   return result;
 }
 
@@ -148,8 +154,10 @@ class Together {
     if (part == 0) return result;
     const std::vector<Amplitude> after = when_cut(before + 1);
     for (std::size_t k = 0; k < result.size(); ++k)
-      for (std::size_t i = 0; i < result[k].values.size(); ++i)
+      for (std::size_t i = 0; i < result[k].values.size(); ++i) {
         result[k].values[i] += part * (after[k].values[i] - result[k].values[i]);
+        result[k].shifts[i] += part * (after[k].shifts[i] - result[k].shifts[i]);
+      }
     return result;
   }
 
@@ -163,13 +171,12 @@ class Together {
     std::vector<Amplitude> result;
     Eigen::Index row = 0;
     for (std::size_t k = 0; k + 1 < cuts_.size(); ++k) {
-      result.push_back({cuts_[k].stations(), ratios(of_complete.segment(row, alone_[k].size()), alone_[k])});
+      result.push_back(over_alone(cuts_[k], of_complete.segment(row, alone_[k].size()), alone_[k]));
       row += alone_[k].size();
     }
-    std::vector<double> of_last = ratios(
-        opened, last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows)));
-    of_last.resize(cuts_.back().pieces.size(), of_last.empty() ? 1 : of_last.back());
-    result.push_back({cuts_.back().stations(), std::move(of_last)});
+    result.push_back(
+        over_alone(cuts_.back(), opened,
+                   last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows))));
     for (std::size_t k = 0; k < result.size(); ++k)
       if (!feel_[k]) result[k] = {};
     return result;

@@ -13,9 +13,10 @@ namespace cleft {
 /// with the distance between their paths, from a third of the depth of the cut to all of it.
 double apart(const Wound& a, const Wound& b);
 
-/// result[i][k]: the opening across cut k over that of the cut alone, along its path, with the blade of the
-/// last cut at blades[i] mm of its path and the others complete. Without values of cuts that feel no other;
-/// empty of fields that do not open. Throws InputError if a field lacks the skin's prestress.
+/// result[i][k]: the opening of cut k over the opening across of the cut alone, along its path, with the
+/// blade of the last cut at blades[i] mm of its path and the others complete: across, and as `shifts` what
+/// the other cuts add along it. Without values of cuts that feel no other; empty of fields that do not open.
+/// Throws InputError if a field lacks the skin's prestress.
 std::vector<std::vector<Amplitude>> membrane_relief(const std::vector<const Wound*>& cuts,
                                                     const std::vector<double>& blades);
 

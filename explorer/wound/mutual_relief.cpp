@@ -8,6 +8,7 @@
 
 #include "base/stations.h"
 #include "explorer/wound/membrane_relief.h"
+#include "explorer/wound/room.h"
 #include "params/material/isotropic.h"
 
 namespace cleft {
@@ -39,6 +40,8 @@ constexpr double mean_over = 2;
 constexpr int mean_of = 201;
 /// Of a cut's path, in which the relief is taken as linear: a fiftieth of it turns amplitudes by little.
 constexpr int steps = 48;
+/// Of the displacement across: lips shift along the cut by no more.
+constexpr double most_shift = 0.5;
 /// How far lips lean, for all of the tension across the cut that another takes: as simulated parallel cuts of
 /// 30 mm do, 4 to 20 mm apart. And over which part of its depth that falls by e.
 constexpr double leaning = 0.25, leaning_reach = 2. / 3;
@@ -105,15 +108,16 @@ double change_across(const Wound& other, const Stiffness& is, const ActiveVertex
   return force;
 }
 
-/// Where along the cut a vertex is: -1 at the start, 1 at the end, 0 in what is longer than the canonical
-/// cut. A path that is found as the blade moves is as long as that.
-double way_from_middle(const ActiveVertex& vertex, const Wound& wound) {
+/// Where along the cut a place is: -1 at the start, 1 at the end, 0 in what is longer than the canonical cut.
+/// A path that is found as the blade moves is as long as that.
+double way_from_middle(double s, const Wound& wound) {
   const CanonicalCut& cut = wound.field.shape().cut();
-  if (wound.incision->extended_to() > 0)
-    return std::clamp((vertex.uvw.x - cut.start) / (cut.length / 2) - 1, -1., 1.);
   const double length = wound.complete(), half = std::min(length, cut.length) / 2;
-  return vertex.s < length / 2 ? std::clamp(vertex.s / half - 1, -1., 0.)
-                               : std::clamp(1 - (length - vertex.s) / half, 0., 1.);
+  if (wound.incision->extended_to() > 0) {
+    const double known = wound.incision->path().length() * wound.scale();
+    return std::clamp((canonical_place(s, known, cut).u - cut.start) / (cut.length / 2) - 1, -1., 1.);
+  }
+  return s < length / 2 ? std::clamp(s / half - 1, -1., 0.) : std::clamp(1 - (length - s) / half, 0., 1.);
 }
 
 /// The means of an amplitude, over `width` mm to each side as far as the path goes.
@@ -133,18 +137,18 @@ std::vector<double> means_of(const Amplitude& amplitude, double width) {
 
 }  // namespace
 
-Amplitude::Both Amplitude::both(double s) const {
+Amplitude::At Amplitude::operator()(double s) const {
   const auto [before, after, part] = between(stations, s);
-  if (before == after) return {values[before], leans.empty() ? 0 : leans[before]};
-  return {(1 - part) * values[before] + part * values[after],
-          leans.empty() ? 0 : (1 - part) * leans[before] + part * leans[after]};
+  const auto in = [&, &a = before, &b = after, &of_b = part](const std::vector<double>& list) {
+    return list.empty() ? 0 : a == b ? list[a] : (1 - of_b) * list[a] + of_b * list[b];
+  };
+  return {in(values), in(leans), in(shifts)};
 }
 
-BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound) : s(vertex.s) {
+BesideCut::BesideCut(const ActiveVertex& vertex, const Wound& wound)
+    : s(vertex.s), along(vertex.along), outward(vertex.outward) {
   const CanonicalCut& cut = wound.field.shape().cut();
-  const double from_middle = way_from_middle(vertex, wound);
   across = std::exp(-std::abs(vertex.uvw.y) / (leaning_reach * cut.depth)) * vertex.across;
-  leaning = vertex.outward - from_middle * vertex.along;
 }
 
 Relief::At Relief::at(double part) const {
@@ -213,12 +217,20 @@ std::vector<Amplitude> amplitudes(const std::vector<const Wound*>& cuts, double 
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i].values = means_of(result[i], mean_over * cuts[i]->field.shape().cut().depth);
     result[i].leans.assign(result[i].stations.size(), 0);
+    result[i].shifts.assign(result[i].stations.size(), 0);
     if (of_membrane.empty() || of_membrane[i].values.empty()) continue;
-    for (std::size_t k = 0; k < result[i].stations.size(); ++k)
-      result[i].values[k] *= std::min(most, of_membrane[i].at(result[i].stations[k]));
+    for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
+      const Amplitude::At there = of_membrane[i](result[i].stations[k]);
+      result[i].values[k] *= std::min(most, there.value);
+      result[i].shifts[k] = std::clamp(there.shift, -most_shift, most_shift);
+    }
   }
-  for (const Influence& x : influences)
-    result[x.cut].leans[x.station] += leaning * std::min(0., x.ratio * result[x.by].at(x.s)) * x.toward;
+  for (const Influence& x : influences) {
+    const double lean = leaning * std::min(0., x.ratio * result[x.by].at(x.s)) * x.toward;
+    result[x.cut].leans[x.station] += lean;
+    result[x.cut].shifts[x.station] -=
+        x.meets * lean * way_from_middle(result[x.cut].stations[x.station], *cuts[x.cut]);
+  }
   return result;
 }
 

@@ -9,8 +9,9 @@
 // strain of the other cut's field. Where cuts of either kind are together, the amplitude is the product.
 //
 // Of parallel cuts the strip between them sinks and becomes longer, and the skin beyond them rises as beside
-// a cut alone: lips lean. Next to them a share of the displacement across the cut is added upright, and along
-// the cut, in proportion to how much it is relieved from that side.
+// a cut alone: lips lean. Next to them a share of the displacement across the cut is added upright, in
+// proportion to how much it is relieved from that side. And they shift along the cut: of cuts that do not
+// meet as in the membrane, of others toward the middle, as much as they lean at the ends.
 #pragma once
 
 #include <algorithm>
@@ -20,27 +21,29 @@
 
 namespace cleft {
 
-/// Amplitude along a path, linear between stations, in mm of it; constant beyond them. And how far lips lean:
-/// by which part of its displacement across a vertex on a lip rises, positive where those at v > 0 do.
+/// Along a path, linear between stations, in mm of it; constant beyond them: the amplitude, and by which
+/// parts of its displacement across a vertex on a lip rises and moves along the cut, positive where those at
+/// v > 0 rise and move with u.
 struct Amplitude {
   std::vector<double> stations, values;
-  std::vector<double> leans = {};  ///< none: 0
-  double at(double s) const { return both(s).value; }
-  double lean(double s) const { return both(s).lean; }
-  struct Both {
-    double value, lean;
+  std::vector<double> leans = {}, shifts = {};  ///< none: 0
+  struct At {
+    double value, lean, shift;
   };
-  Both both(double s) const;
+  At operator()(double s) const;
+  double at(double s) const { return (*this)(s).value; }
 };
 
 /// A vertex beside a cut, as its relief needs it.
 struct BesideCut {
-  double s = 0;  ///< mm along the path
-  Vec3 across;   ///< in the mesh's space, shorter the further from the lips
-  Vec3 leaning;  ///< outward, and toward the middle of the cut, as much as outward at its ends
+  double s = 0;         ///< mm along the path
+  Vec3 across;          ///< in the mesh's space, shorter the further from the lips
+  Vec3 along, outward;  ///< unit
 
   BesideCut() = default;
   BesideCut(const ActiveVertex& vertex, const Wound& wound);
+  /// What lips that lean, and shift along the cut, add for each mm of displacement across.
+  Vec3 added(const Amplitude::At& there) const { return there.lean * outward + there.shift * along; }
 };
 
 /// The amplitudes of several cuts while the blade makes the newest of them, at equal steps of its path,
@@ -76,12 +79,14 @@ class Relief {
     /// A displacement by one cut alone, as the others leave it.
     Vec3 relieved(std::size_t cut, const BesideCut& at, const Vec3& alone) const {
       if (cut >= cuts_) return alone;
-      auto [value, lean] = before_[cut].both(at.s);
+      Amplitude::At there = before_[cut](at.s);
       if (before_ != after_) {
-        const Amplitude::Both after = after_[cut].both(at.s);
-        value += beyond_ * (after.value - value), lean += beyond_ * (after.lean - lean);
+        const Amplitude::At after = after_[cut](at.s);
+        there.value += beyond_ * (after.value - there.value),
+            there.lean += beyond_ * (after.lean - there.lean),
+            there.shift += beyond_ * (after.shift - there.shift);
       }
-      return value * alone + lean * dot(alone, at.across) * at.leaning;
+      return there.value * alone + dot(alone, at.across) * at.added(there);
     }
 
    private:

@@ -63,20 +63,23 @@ void ReplayedWounds::bound_vertices() {
       for (std::size_t step = 0; step < relief(later).steps(); ++step) {
         const Amplitude& one = relief(later).amplitude(step, k);
         const std::size_t stations = one.stations.size();
+        const std::vector<double> none(stations, 0.);
         if (largest.values.empty())
-          largest = {one.stations, std::vector(stations, k == 0 ? 1. : 0.), std::vector(stations, 0.)};
+          largest = {one.stations, std::vector(stations, k == 0 ? 1. : 0.), none, none};
         for (std::size_t i = 0; i < stations; ++i) {
-          largest.values[i] = std::max(largest.values[i], one.values[i]);
-          largest.leans[i] = std::max(largest.leans[i], std::abs(one.lean(one.stations[i])));
+          const Amplitude::At there = one(one.stations[i]);
+          largest.values[i] = std::max(largest.values[i], there.value);
+          largest.leans[i] = std::max(largest.leans[i], std::abs(there.lean));
+          largest.shifts[i] = std::max(largest.shifts[i], std::abs(there.shift));
         }
       }
     const Replay& replay = whole_.replays[k];
     for (std::size_t i = 0; i < replay.active().size(); ++i) {
       const BesideCut& at = whole_.beside[k][i];
-      const auto [value, lean] = largest.values.empty() ? Amplitude::Both{1, 0} : largest.both(at.s);
+      const Amplitude::At there = largest.values.empty() ? Amplitude::At{1, 0, 0} : largest(at.s);
       // The norm of A I + l a^T, of perpendicular vectors whose lengths have the product 2 half.
-      const double half = lean * norm(at.across) * norm(at.leaning) / 2;
-      bounds_[replay.active()[i].vertex] += replay.bound(i) * (half + std::hypot(half, value));
+      const double half = norm(at.across) * norm(at.added(there)) / 2;
+      bounds_[replay.active()[i].vertex] += replay.bound(i) * (half + std::hypot(half, there.value));
     }
   }
   for (const int v : guard().vertices()) bounds_[v] = never_left_out;

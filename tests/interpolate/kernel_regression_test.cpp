@@ -272,4 +272,32 @@ TEST(KernelRegression, TuningMakesNoMethodWorse) {
   }
 }
 
+/// Of four features: five values of each alone, and the corners of each two; of what no polynomial of the
+/// second degree tells.
+TEST(KernelRegression, OnASparseGridAProcessPassesThroughTheCases) {
+  std::vector<Eigen::Vector4d> places = {Eigen::Vector4d::Zero()};
+  const double inner = std::numbers::sqrt2 / 2;
+  for (int a = 0; a < 4; ++a) {
+    for (const double x : {-1., -inner, inner, 1.}) places.push_back(x * Eigen::Vector4d::Unit(a));
+    for (int b = 0; b < a; ++b)
+      for (const double x : {-1., 1.})
+        for (const double y : {-1., 1.})
+          places.push_back(x * Eigen::Vector4d::Unit(a) + y * Eigen::Vector4d::Unit(b));
+  }
+  const auto value = [](const Eigen::Vector4d& x) {
+    return std::exp(0.4 * x[0] + 0.3 * x[1]) / (1 + 0.3 * x[2] * x[2]) + 0.2 * std::abs(x[3]);
+  };
+  const auto n = static_cast<Eigen::Index>(places.size());
+  Problem p{{Eigen::MatrixXd(n, 4), Eigen::MatrixXd::Ones(n, 1), {}}, Eigen::MatrixXd(1, n)};
+  for (Eigen::Index i = 0; i < n; ++i) p.cases.features.row(i) = places[i], p.data(0, i) = value(places[i]);
+  p.cases.gram = p.data.transpose() * p.data;
+  for (const KernelRegression& method : all_methods(p.cases)) {
+    if (method.covariance().name != "Gaussian process") continue;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto weights = method.weights(p.cases.features.row(i), p.cases.loads.row(i));
+      EXPECT_NEAR(p.data.row(0).dot(weights.of_rows.col(0)), p.data(0, i), 2e-3) << p.cases.features.row(i);
+    }
+  }
+}
+
 }  // namespace cleft

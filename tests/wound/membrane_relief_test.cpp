@@ -121,6 +121,12 @@ TEST(MembraneRelief, WithHalfOfTheLastCutIsThatOfACutOfHalfTheLength) {
     EXPECT_NEAR(growing[0][0].at(s), 1, 1e-9) << s;  // nothing of the other is cut
     EXPECT_LT(growing[2][0].at(s), growing[1][0].at(s)) << s;
     EXPECT_NEAR(growing[2][0].at(s), growing[2][1].at(s), 1e-6) << s;  // alike
+    // The strip between them becomes longer: its lips, at v > 0 of the first cut and at v < 0 of the other,
+    // shift toward the ends.
+    const double shift = growing[2][0](s).shift;
+    EXPECT_LT(shift, 0) << s;
+    EXPECT_NEAR(growing[2][0](length - s).shift, -shift, 1e-6) << s;
+    EXPECT_NEAR(growing[2][1](s).shift, -shift, 1e-6) << s;
   }
 }
 

@@ -1,6 +1,6 @@
-// The amplitudes of two parallel cuts, as of cuts that meet, against the linear system that they solve: its coefficients come from
-// the field's displacements alone, by differences and a fine integration through the depth, and it is solved
-// by elimination.
+// The amplitudes of two parallel cuts, as of cuts that meet, against the linear system that they solve: its
+// coefficients come from the field's displacements alone, by differences and a fine integration through the
+// depth, and it is solved by elimination.
 #include "explorer/wound/mutual_relief.h"
 
 #include <gtest/gtest.h>
@@ -240,8 +240,8 @@ TEST(Leaning, IsAwayFromTheCutThatRelievesAndNoneBesideOneThatAdds) {
       EXPECT_NEAR(found[0].leans[k], expected, tolerance) << s;
       EXPECT_NEAR(found[1].leans[k], -found[0].leans[k], 1e-6) << s;
     }
-    if (field == &relieves) EXPECT_LT(found[0].lean(15), -20 * tolerance);
-    if (field == &adds) EXPECT_EQ(found[0].lean(15), 0);
+    if (field == &relieves) EXPECT_LT(found[0](15).lean, -20 * tolerance);
+    if (field == &adds) EXPECT_EQ(found[0](15).lean, 0);
   }
 }
 
@@ -256,17 +256,18 @@ TEST(Leaning, MovesLipsUprightAndAlongTheCutInProportionToTheirDisplacementAcros
     at.along = {1, 0, 0}, at.across = {0, 1, 0}, at.outward = {0, 0, 1};
     return now.relieved(0, BesideCut(at, two.wound(0)), alone);
   };
-  const double a = now.amplitude(0, 15), lean = relief.amplitude(0, 0).lean(15);
+  const double a = now.amplitude(0, 15), lean = relief.amplitude(0, 0)(15).lean;
   ASSERT_LT(lean, 0);
   const auto expect = [](const Vec3& found, const Vec3& expected) {
-    EXPECT_NEAR(norm(found - expected), 0, 1e-12) << found.x << ", " << found.y << ", " << found.z;
+    // Shifts are linear between stations, of which leans and the way from the middle are a product.
+    EXPECT_NEAR(norm(found - expected), 0, 2e-4) << found.x << ", " << found.y << ", " << found.z;
   };
   expect(relieved(0, 0, {0, 2, 0}), {0, 2 * a, 2 * lean});     // at v > 0, next to the other cut, it sinks
   expect(relieved(0, 0, {0, -2, 0}), {0, -2 * a, -2 * lean});  // beyond it rises
   expect(relieved(0, 0, {1, 0, 3}), {a, 0, 3 * a});
   expect(relieved(0, -2, {0, -2, 0}),
          {0, -2 * a, -2 * lean * std::exp(-1.)});  // two thirds of the depth away
-  const double end = relief.amplitude(0, 0).lean(22.5), of_end = now.amplitude(0, 22.5);
+  const double end = relief.amplitude(0, 0)(22.5).lean, of_end = now.amplitude(0, 22.5);
   expect(relieved(7.5, 0, {0, 2, 0}), {-0.5 * 2 * end, 2 * of_end, 2 * end});
   expect(now.relieved(5, {}, {1, 2, 3}), {1, 2, 3});  // a cut that is not known
 }
