@@ -9,9 +9,8 @@
 
 namespace cleft {
 
-/// 1: two cuts relieve each other as they do in the membrane; 0: they meet, or nearly do. Between, it rises
-/// with the distance between their paths, from a third of the depth of the cut to all of it.
-double apart(const Wound& a, const Wound& b);
+/// Whether two cuts meet, or nearly do: they are nearer to each other than about as they are deep.
+bool meet(const Wound& a, const Wound& b);
 
 /// result[i][k]: the opening of cut k over the opening across of the cut alone, along its path, with the
 /// blade of the last cut at blades[i] mm of its path and the others complete: across, and as `shifts` what

@@ -53,7 +53,7 @@ struct Influence {
   double s;       // of the other's path
   double ratio;   // of its change to the tension
   double toward;  // 1: the other is at v > 0, -1: at v < 0; in between where they cross
-  double meets;   // 1: the cuts meet, 0: they are apart
+  bool meet;
 };
 
 /// Skin and tissue as a field's case has them.
@@ -165,15 +165,15 @@ Relief::At Relief::at(double part) const {
 
 namespace {
 
-/// By the numbers of two cuts: 1 where they meet, 0 where they are apart.
-using Meetings = std::vector<std::vector<double>>;
+/// By the numbers of two cuts: whether they meet.
+using Meetings = std::vector<std::vector<bool>>;
 
-Meetings all_meet(std::size_t cuts) { return Meetings(cuts, std::vector<double>(cuts, 1)); }
+Meetings all_meet(std::size_t cuts) { return Meetings(cuts, std::vector<bool>(cuts, true)); }
 
 Meetings meetings(const std::vector<const Wound*>& cuts) {
   Meetings result = all_meet(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) result[i][j] = result[j][i] = 1 - apart(*cuts[i], *cuts[j]);
+    for (std::size_t j = 0; j < i; ++j) result[i][j] = result[j][i] = meet(*cuts[i], *cuts[j]);
   return result;
 }
 
@@ -209,7 +209,8 @@ std::vector<Amplitude> amplitudes(const std::vector<const Wound*>& cuts, double 
   for (int round = 0; round < rounds; ++round) {
     std::vector<std::vector<double>> next;
     for (const Amplitude& amplitude : result) next.emplace_back(amplitude.values.size(), 1);
-    for (const Influence& x : influences) next[x.cut][x.station] += x.meets * x.ratio * result[x.by].at(x.s);
+    for (const Influence& x : influences)
+      if (x.meet) next[x.cut][x.station] += x.ratio * result[x.by].at(x.s);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (std::size_t k = 0; k < next[i].size(); ++k)
         result[i].values[k] += way * (std::clamp(next[i][k], 0., most) - result[i].values[k]);
@@ -228,8 +229,9 @@ std::vector<Amplitude> amplitudes(const std::vector<const Wound*>& cuts, double 
   for (const Influence& x : influences) {
     const double lean = leaning * std::min(0., x.ratio * result[x.by].at(x.s)) * x.toward;
     result[x.cut].leans[x.station] += lean;
-    result[x.cut].shifts[x.station] -=
-        x.meets * lean * way_from_middle(result[x.cut].stations[x.station], *cuts[x.cut]);
+    if (x.meet)
+      result[x.cut].shifts[x.station] -=
+          lean * way_from_middle(result[x.cut].stations[x.station], *cuts[x.cut]);
   }
   return result;
 }

@@ -25,6 +25,7 @@ constexpr double of_length = 0.1;  // times the part of the path beyond the cano
 /// Of the error by the length, where the tension is that with which the whole path opens (path_opening.h).
 constexpr double of_length_turned = 0.4;
 constexpr double of_neighbour = 0.08, neighbour_reach = 20;  // falls by e over so many mm
+constexpr double of_nearest = 0.12;                          // of one that is nearer than cuts are deep
 /// Where the cut that it meets is pulled alike along and across, or the tension does not turn; up to a third
 /// as hard along as across none.
 constexpr double of_junction = 0.6, pulled_enough = 1. / 3;
@@ -79,8 +80,9 @@ Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, b
        n.between ? "the field lies between the cases of a study" : "that is the error of the field's fit"},
       {(as_path ? of_length_turned : 1) * std::min(1., std::max(of_length, n.length_defect)) * beyond,
        "the path of # mm is longer than the field's cut", length},
-      {of_neighbour * std::exp(-n.nearest_cut / neighbour_reach), "another cut is # mm beside it",
-       n.nearest_cut},
+      {(n.nearest_cut < canonical.depth ? of_nearest : of_neighbour) *
+           std::exp(-n.nearest_cut / neighbour_reach),
+       "another cut is # mm beside it", n.nearest_cut},
       {n.held_back, "the skin would turn over or pass through itself, and is held back"}};
   if (n.junction_tension > 0 && !known)
     parts.push_back({of_junction, "it meets another cut, and the tension does not turn with it"});

@@ -130,24 +130,30 @@ TEST(MembraneRelief, WithHalfOfTheLastCutIsThatOfACutOfHalfTheLength) {
   }
 }
 
-TEST(MembraneRelief, IsThatOfTheFieldsStrainsWhereCutsMeetAndChangesSteadilyUntilThen) {
+TEST(MembraneRelief, IsNoneOfCutsThatMeetWhichRelieveEachOtherByTheirStrains) {
   const Field field = ellipses();
-  EXPECT_TRUE(
-      membrane_relief(Cuts(field, {line(-15, 0.1, 15, 0.1), line(0.1, -15, 0.1, 15)}).all(), {length})[0][0]
-          .values.empty());
-  double before = -1;
-  for (const double gap :
-       {0.5, 1., 1.5, 2., 2.5, 3., 4.}) {  // between the end of one and the side of the other
+  for (const double gap : {-2., 0.5, 3., 4., 8.}) {  // between the end of one and the side of the other
+    const double length_of_other = 15 - 0.1 - gap;
     const Cuts cuts(field, {line(-15, 0.1, 15, 0.1), line(0.1, 0.1 + gap, 0.1, 15)});
-    const double part = apart(*cuts.all()[0], *cuts.all()[1]);
-    EXPECT_NEAR(part, std::clamp((gap - 1) / 2, 0., 1.), 0.03) << gap;
-    EXPECT_GE(part, before);
-    before = part;
-    const auto both = mutual_relief(cuts.all(), {15 - 0.1 - gap}).front(),
-               met = relief_of_meeting_cuts(cuts.all(), 15 - 0.1 - gap);
-    if (gap == 0.5)
-      for (const double s : {3., 12., 20.}) EXPECT_EQ(both[0].at(s), met[0].at(s)) << s;
+    EXPECT_EQ(meet(*cuts.all()[0], *cuts.all()[1]), gap < 3.5) << gap;
+    const auto both = mutual_relief(cuts.all(), {length_of_other}).front(),
+               met = relief_of_meeting_cuts(cuts.all(), length_of_other);
+    for (const double s : {3., 12., 20.}) {
+      if (gap < 3.5) EXPECT_EQ(both[0].at(s), met[0].at(s)) << gap;
+      if (gap > 3.5) EXPECT_NE(both[0].at(s), met[0].at(s)) << gap;
+    }
   }
+}
+
+TEST(MembraneRelief, WithACutOfEitherKindIsTheProduct) {
+  const Field field = ellipses();
+  const Cuts three(field, {line(-15, 0.1, 15, 0.1), line(0.1, -8, 0.1, 8), line(-15, 20.1, 15, 20.1)}),
+      meeting(field, {line(-15, 0.1, 15, 0.1), line(0.1, -8, 0.1, 8)});
+  const auto all = mutual_relief(three.all(), {length}).front();
+  const auto met = relief_of_meeting_cuts(meeting.all(), 16);
+  const auto apart = membrane_relief(three.all(), {length}).front();
+  for (const double s : {4., 10., 24.}) EXPECT_NEAR(all[0].at(s), met[0].at(s) * apart[0].at(s), 0.02) << s;
+  EXPECT_LT(apart[0].at(15), 0.95);
 }
 
 }  // namespace
