@@ -23,6 +23,7 @@ namespace {
 
 constexpr double most_columns = 5000;  // of nodes along all cuts: no solver takes more
 constexpr double most_nodes = 1e7;
+constexpr double degrees = 57.29577951308232;
 constexpr double bend_of_edge = 0.5;  // radians by which the skin may turn along an edge
 
 /// A path as the mesh has it: made longer at both ends by the front's part of an element, because a mesh's
@@ -380,6 +381,7 @@ class Maker {
     report.least_determinant = e_.least_determinant;
     report.thinned = e_.thinned, report.thinnest = e_.thinnest;
     report.least_thickness = *std::min_element(e_.thickness.begin(), e_.thickness.end());
+    report.blade_turn = e_.blade_turn * degrees, report.blade_turned_at = e_.blade_turned_at;
     report.left_out = left_out_, report.left_out_at = left_out_at_, report.off_paths = off_paths_;
     report.on_bone = static_cast<int>(std::count(e_.on_bone.begin(), e_.on_bone.end(), true));
     report.least_angle = 180;
@@ -387,7 +389,7 @@ class Maker {
       for (int i = 0; i < 3; ++i) {
         const Vec3 a = s_.mesh.points[t[(i + 1) % 3]] - s_.mesh.points[t[i]];
         const Vec3 b = s_.mesh.points[t[(i + 2) % 3]] - s_.mesh.points[t[i]];
-        const double angle = std::atan2(norm(cross(a, b)), dot(a, b)) * 57.29577951308232;
+        const double angle = std::atan2(norm(cross(a, b)), dot(a, b)) * degrees;
         if (angle < report.least_angle) report.least_angle = angle, report.sharpest = s_.mesh.points[t[i]];
       }
     for (const auto& lines : s_.cuts)

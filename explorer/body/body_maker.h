@@ -45,6 +45,8 @@ struct BodyReport {
   double least_thickness = 0;    ///< of the tissue, mm
   int thinned = 0;               ///< columns that had to be made thinner, because they would turn inside out
   Vec3 thinnest;                 ///< where
+  double blade_turn = 0;         ///< degrees by which the cuts' walls had to be turned from the blade
+  Vec3 blade_turned_at;          ///< where
   int left_out = 0;              ///< triangles away from the cuts, below which even a thin body would turn
   Vec3 left_out_at;              ///< of the first of them
   int on_bone = 0;               ///< columns that end at bone

@@ -9,7 +9,7 @@ namespace cleft {
 
 namespace {
 
-constexpr double least_angle = 5;  // degrees
+constexpr double least_angle = 5, most_turn = 10;  // degrees
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 std::string hundredths(double x) { return shortest(std::round(100 * x) / 100); }
@@ -25,6 +25,11 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
   if (r.least_depth > 0)
     warnings.push_back("the cut is only " + shortest(rounded(r.least_depth)) +
                        " mm deep where the tissue is thin");
+  if (r.blade_turn > most_turn)
+    warnings.push_back("the cut's wall at " + place_text(r.blade_turned_at) + " mm is turned by " +
+                       hundredths(r.blade_turn) +
+                       " degrees from the blade, because the skin is bent or the blade turns too fast there, or "
+                       "it is too flat: check the path's directions (nx, ny, nz)");
   if (r.left_out > 0)
     warnings.push_back(std::to_string(r.left_out) + " triangles of the skin, the first at " +
                        place_text(r.left_out_at) +

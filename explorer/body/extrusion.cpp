@@ -18,6 +18,9 @@ namespace {
 constexpr double least_determinant = 0.2;  // of a wedge: least over mean Jacobian of its corners
 constexpr double least_part = 0.1;         // of the thickness
 constexpr int most_rounds = 40;
+constexpr double most_in_a_round = 0.85, beside_in_a_round = 0.93;  // of the thickness, that are left
+constexpr int first_of_blades = 4;  // round: before it, columns of blades keep their directions
+constexpr double part_of_normal = 0.1;
 constexpr double most_cut = 0.8;  // of the thickness: layers of the cut
 // Columns turn from the blade's direction to the normals over so many times their way aside: there the tissue
 // is compressed to the rest of 1 less one over it.
@@ -58,25 +61,45 @@ class Extruder {
       for (const int t : e_.turned)
         for (const int p : s_.mesh.triangles[t]) bad[p] = true;
       // Neighbours too, so that the thickness changes slowly.
-      std::vector<double> next = e_.thickness;
+      std::vector<double> thickness = e_.thickness;
+      std::vector<Vec3> inward = e_.inward;
       for (std::size_t p = 0; p < points; ++p) {
         if (bad[p]) {
-          next[p] = std::max(std::min(least, next[p]), 0.85 * next[p]), thinned[p] = true;
-          if (squared_norm(blade_[p]) == 0) e_.inward[p] = normalized(e_.inward[p] - 0.25 * normal[p]);
+          thickness[p] = std::max(std::min(least, thickness[p]), most_in_a_round * thickness[p]);
+          thinned[p] = true;
+          if (squared_norm(blade_[p]) == 0 || round >= first_of_blades) inward[p] = evened_out(p, normal[p]);
         }
         for (const int q : around_[p])
-          if (bad[q]) next[p] = std::min(next[p], std::max(0.93 * e_.thickness[p], e_.thickness[q]));
+          if (bad[q])
+            thickness[p] =
+                std::min(thickness[p], std::max(beside_in_a_round * e_.thickness[p], e_.thickness[q]));
       }
-      e_.thickness = next;
+      e_.thickness = thickness, e_.inward = inward;
     }
     double thinnest = 0;
     for (std::size_t p = 0; p < points; ++p)
       if (thinned[p] && (e_.thinned++ == 0 || e_.thickness[p] < thinnest))
         thinnest = e_.thickness[p], e_.thinnest = s_.mesh.points[p];
+    for (std::size_t p = 0; p < points; ++p)
+      if (const double turn = turn_of_blade(p); turn > e_.blade_turn)
+        e_.blade_turn = turn, e_.blade_turned_at = s_.mesh.points[p];
     return std::move(e_);
   }
 
  private:
+  /// The mean of a column's direction and those around it, a little nearer to the normal.
+  Vec3 evened_out(std::size_t p, const Vec3& normal) const {
+    Vec3 sum;
+    for (const int q : around_[p]) sum += e_.inward[q];
+    return normalized(e_.inward[p] + normalized(sum) - part_of_normal * normal);
+  }
+
+  /// Radians from the blade to its column.
+  double turn_of_blade(std::size_t p) const {
+    if (squared_norm(blade_[p]) == 0) return 0;
+    return std::atan2(norm(cross(blade_[p], e_.inward[p])), dot(blade_[p], e_.inward[p]));
+  }
+
   /// Where columns that no blade turns go: means over the neighbourhood, as far as the tissue is thick.
   std::vector<Vec3> upright(const std::vector<Vec3>& normal) const {
     double edge = 0;

@@ -25,6 +25,8 @@ struct Extrusion {
   std::vector<bool> on_bone;      ///< whether it ends at bone
   int thinned = 0;
   Vec3 thinnest;
+  double blade_turn = 0;  ///< radians, the largest between a blade and its column
+  Vec3 blade_turned_at;
   double least_determinant = 0;
   std::vector<int> turned;  ///< triangles below which wedges are turned inside out, however thin they are
 
@@ -38,8 +40,9 @@ struct Extrusion {
 /// Directions are those of the blades on the cuts (`blade`: by point, zero elsewhere), and elsewhere mean
 /// normals; they turn from one to the other over a distance in proportion to the blade's tilt. Thickness is
 /// measured along them such that leaning columns end as deep as upright ones. Where wedges would be turned
-/// inside out, columns are made thinner, down to a tenth of the thickness, and their directions nearer to the
-/// normals. Throws InputError where bone is above the skin.
+/// inside out, columns are made thinner, down to a tenth of the thickness, and go nearer to the mean of those
+/// around them; those of blades at last, as noise of a path's directions, and blades that are too flat, do not
+/// leave them room. Throws InputError where bone is above the skin.
 Extrusion extrude(const LinedSurface& surface, const Layers& layers, const std::vector<Vec3>& blade,
                   const SurfaceIndex* bone);
 

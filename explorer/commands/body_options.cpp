@@ -92,6 +92,7 @@ Json figures_of(const BodyReport& r) {
                   {"least_determinant", rounded(r.least_determinant)},
                   {"least_thickness_mm", rounded(r.least_thickness)},
                   {"thinned_columns", r.thinned},
+                  {"blade_turned_degrees", rounded(r.blade_turn)},
                   {"left_out_triangles", r.left_out},
                   {"columns_on_bone", r.on_bone}};
   if (r.thinned > 0)
