@@ -10,9 +10,15 @@ namespace cleft {
 namespace {
 
 constexpr double least_angle = 5, most_turn = 10;  // degrees
+constexpr double degrees = 57.29577951308232;
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 std::string hundredths(double x) { return shortest(std::round(100 * x) / 100); }
+
+std::string triangles_at(std::size_t count, const Vec3& first) {
+  if (count == 1) return "1 triangle of the skin at " + place_text(first) + " mm";
+  return std::to_string(count) + " triangles of the skin, the first at " + place_text(first) + " mm,";
+}
 
 }  // namespace
 
@@ -26,14 +32,14 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
     warnings.push_back("the cut is only " + shortest(rounded(r.least_depth)) +
                        " mm deep where the tissue is thin");
   if (r.blade_turn > most_turn)
-    warnings.push_back("the cut's wall at " + place_text(r.blade_turned_at) + " mm is turned by " +
-                       hundredths(r.blade_turn) +
-                       " degrees from the blade, because the skin is bent or the blade turns too fast there, or "
-                       "it is too flat: check the path's directions (nx, ny, nz)");
+    warnings.push_back(
+        "the cut's wall at " + place_text(r.blade_turned_at) + " mm is turned by " +
+        hundredths(r.blade_turn) +
+        " degrees from the blade, because the skin is bent or the blade turns too fast there, or "
+        "it is too flat: check the path's directions (nx, ny, nz)");
   if (r.left_out > 0)
-    warnings.push_back(std::to_string(r.left_out) + " triangles of the skin, the first at " +
-                       place_text(r.left_out_at) +
-                       " mm, are left out of the body, which ends there: the skin is bent too strongly");
+    warnings.push_back(triangles_at(r.left_out, r.left_out_at) + (r.left_out == 1 ? " is" : " are") +
+                       " left out of the body, which ends there: the skin is bent too strongly");
   if (r.least_angle < least_angle)
     warnings.push_back(
         "a triangle of the skin at " + place_text(r.sharpest) + " mm has an angle of only " +
@@ -51,15 +57,20 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
   return warnings;
 }
 
+std::string warning_of_turn(double angle, const Vec3& at) {
+  return "in small strains the skin at " + place_text(at) + " mm would turn by " +
+         shortest(std::round(angle * degrees)) +
+         " degrees: it is simulated with the stiffness that its tension gives it "
+         "(skin.initial_stress_stiffness = true), with which wounds open less";
+}
+
 std::string warning_of_turned(const CutMesh& mesh, const std::vector<int>& turned, double scale) {
   if (turned.empty()) return "";
   const auto& corners = mesh.triangle(turned.front()).vertex;
   Vec3 middle;
   for (const int v : corners) middle += scale / 3 * mesh.position(v);
-  const bool one = turned.size() == 1;
-  return std::to_string(turned.size()) + (one ? " triangle" : " triangles") + " of the skin" +
-         (one ? "" : ", the first") + " at " + place_text(middle) +
-         (one ? " mm turns over or folds up" : " mm, turn over or fold up") +
+  return triangles_at(turned.size(), middle) +
+         (turned.size() == 1 ? " turns over or folds up" : " turn over or fold up") +
          " in this simulation: the skin is bent or thin there, or strains are too large to be small; try "
          "model = finite, a shallower cut or a smaller mesh.element_size";
 }

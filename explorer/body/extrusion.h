@@ -41,8 +41,8 @@ struct Extrusion {
 /// normals; they turn from one to the other over a distance in proportion to the blade's tilt. Thickness is
 /// measured along them such that leaning columns end as deep as upright ones. Where wedges would be turned
 /// inside out, columns are made thinner, down to a tenth of the thickness, and go nearer to the mean of those
-/// around them; those of blades at last, as noise of a path's directions, and blades that are too flat, do not
-/// leave them room. Throws InputError where bone is above the skin.
+/// around them; those of blades at last, as noise of a path's directions, and blades that are too flat, do
+/// not leave them room. Throws InputError where bone is above the skin.
 Extrusion extrude(const LinedSurface& surface, const Layers& layers, const std::vector<Vec3>& blade,
                   const SurfaceIndex* bone);
 

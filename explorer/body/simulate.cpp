@@ -1,6 +1,7 @@
 #include "explorer/body/simulate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -9,6 +10,7 @@
 #include "base/scratch_folder.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "explorer/body/body_warnings.h"
 #include "params/parameters/table.h"
 #include "params/study.h"
 
@@ -17,6 +19,7 @@ namespace cleft {
 namespace {
 
 constexpr std::size_t most_frames = 64;  // between which positions are linear
+constexpr double most_turn = 0.9;  // radians, of skin in small strains that lacks the stiffness of tension
 
 /// What the solver said last, without its name and those of temporary files.
 std::string last_message(const std::string& log, const std::string& case_file) {
@@ -26,7 +29,52 @@ std::string last_message(const std::string& log, const std::string& case_file) {
   return last_error(std::move(text), "it said nothing");
 }
 
+void end_if_stopped(const StopCount* stop) {
+  if (stop && *stop > 0) throw std::runtime_error("the simulation was stopped");
+}
+
+/// Of the body in the folder. Returns the displacements of the last frame.
+std::vector<Vec3> solve(BodySimulation& result, const Parameters& parameters, const ScratchFolder& folder,
+                        const StopCount* stop) {
+  Case one;
+  one.parameters = parameters;
+  write_text_file(folder / "case.toml", case_file_text(one));
+  result.series = nullptr;
+  const ProcessResult ended =
+      run_process({command_path("solve"), folder / "case.toml", "--mesh", folder / "body.h5", "--out",
+                   folder / "case.h5", "--no-estimate", "--json"},
+                  folder / "solve.log", {}, stop, folder / "solve.json");
+  if (!ended.success()) {
+    end_if_stopped(stop);
+    const std::string what =
+        "the body could not be solved: " + last_message(folder / "solve.log", folder / "case.toml: ");
+    if (ended.exit_code == 2) throw InputError(what);
+    throw std::runtime_error(what);
+  }
+  result.series = std::make_unique<SnapshotReader>(folder / "case.h5");
+  return result.series->displacement(result.series->snapshot().frames() - 1);
+}
+
+bool lacks_stiffness_of_tension(const Parameters& p) {
+  const Prestress& s = p.skin.prestress;
+  return p.model == Model::small && !p.skin.initial_stress_stiffness && std::min(s.uu, s.vv) >= 0 &&
+         s.uu * s.vv >= s.uv * s.uv;
+}
+
 }  // namespace
+
+Turn most_turned_skin(const Body& body, const std::vector<Vec3>& displacement) {
+  Turn most;
+  for (const auto& [a, b, c] : body.skin) {
+    const auto& p = body.points;
+    const auto& d = displacement;
+    const Vec3 rest = cross(p[b] - p[a], p[c] - p[a]);
+    const Vec3 now = cross(p[b] + d[b] - p[a] - d[a], p[c] + d[c] - p[a] - d[a]);
+    const double angle = std::atan2(norm(cross(rest, now)), dot(rest, now));
+    if (angle > most.angle) most = {angle, p[a]};
+  }
+  return most;
+}
 
 Parameters parameters_of_body(const RecordedParameters& of_case) {
   const Parameters defaults;
@@ -60,9 +108,6 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   const auto tell = [&](const std::string& step) {
     if (progress) progress(step);
   };
-  const auto end_if_stopped = [&] {
-    if (stop && *stop > 0) throw std::runtime_error("the simulation was stopped");
-  };
   const Stopwatch watch;
   const ScratchFolder folder("simulate");
   BodySimulation result;
@@ -70,26 +115,21 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   result.body = make_body(request, &result.report);
   thin_frames(result.body, most_frames);
   result.report.frames = static_cast<int>(result.body.times.size());
-  end_if_stopped();
+  result.warnings = warnings_of(result.report);
+  end_if_stopped(stop);
   write_body(folder / "body.h5", result.body);
-  Case one;
-  one.parameters = request.parameters;
-  one.parameters.cut.contact = true;  // of cuts that meet lips would pass through each other
-  write_text_file(folder / "case.toml", case_file_text(one));
-  tell("solving " + std::to_string(result.report.nodes) + " nodes");
-  const ProcessResult ended =
-      run_process({command_path("solve"), folder / "case.toml", "--mesh", folder / "body.h5", "--out",
-                   folder / "case.h5", "--no-estimate", "--json"},
-                  folder / "solve.log", {}, stop, folder / "solve.json");
-  if (!ended.success()) {
-    end_if_stopped();
-    const std::string what =
-        "the body could not be solved: " + last_message(folder / "solve.log", folder / "case.toml: ");
-    if (ended.exit_code == 2) throw InputError(what);
-    throw std::runtime_error(what);
+  Parameters parameters = request.parameters;
+  parameters.cut.contact = true;  // of cuts that meet lips would pass through each other
+  const std::string solving = "solving " + std::to_string(result.report.nodes) + " nodes";
+  tell(solving);
+  std::vector<Vec3> open = solve(result, parameters, folder, stop);
+  if (const Turn most = most_turned_skin(result.body, open);
+      most.angle > most_turn && lacks_stiffness_of_tension(parameters)) {
+    parameters.skin.initial_stress_stiffness = true;
+    tell(solving + " again");
+    open = solve(result, parameters, folder, stop);
+    result.warnings.push_back(warning_of_turn(most.angle, most.at));
   }
-  result.series = std::make_unique<SnapshotReader>(folder / "case.h5");
-  const std::vector<Vec3> open = result.series->displacement(result.series->snapshot().frames() - 1);
   for (const BodyPair& pair : result.body.pairs)
     result.gape = std::max(result.gape, dot(pair.normal, open[pair.right] - open[pair.left]));
   result.seconds = watch.seconds();

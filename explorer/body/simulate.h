@@ -16,9 +16,17 @@ struct BodySimulation {
   Body body;
   BodyReport report;
   std::unique_ptr<SnapshotReader> series;
-  double gape = 0;     ///< largest opening of the last frame, mm
-  double seconds = 0;  ///< for mesh and solution
+  std::vector<std::string> warnings;  ///< of the body, and of the solution
+  double gape = 0;                    ///< largest opening of the last frame, mm
+  double seconds = 0;                 ///< for mesh and solution
 };
+
+/// By which angle skin turns, where it does so most.
+struct Turn {
+  double angle = 0;  ///< radians
+  Vec3 at;           ///< mm
+};
+Turn most_turned_skin(const Body& body, const std::vector<Vec3>& displacement);
 
 /// Those of a case as far as a body has them, and the defaults where its file lacks them.
 Parameters parameters_of_body(const RecordedParameters& of_case);
@@ -27,6 +35,8 @@ Parameters parameters_of_body(const RecordedParameters& of_case);
 void thin_frames(Body& body, std::size_t most);
 
 /// Meshes the body and solves it, with contact of the lips, in files of a temporary folder, which is removed.
+/// Small strains leave out that skin under tension resists turning. Where it would turn far, as on edges of
+/// an organ, whose wounds would open three times too wide, the body is solved again with that stiffness.
 /// `progress` is called with the current step. When *stop is 1 the solver is asked to end. Throws InputError
 /// for what cannot be meshed or solved, std::runtime_error, with the solver's message, if it fails or was
 /// stopped.

@@ -98,6 +98,7 @@ Json move_as_simulated(BodyRequest request, const MeshCuts& cuts, const std::opt
   const CutMesh& mesh = cuts.cuts().front()->mesh();
   const std::vector<int> turned = turned_triangles(mesh, simulated);
   Json told = figures_of(simulation.report);
+  told["warnings"] = simulation.warnings;
   told["gape_mm"] = wounds.gape(cuts.progress());
   told["seconds"] = simulation.seconds;
   told["moved_vertices"] = wounds.active();

@@ -107,7 +107,7 @@ void finish_simulation(Session& session) {
     simulated.note = "simulated, " + std::to_string(result.report.nodes) + " nodes";
     std::vector<Vec3> moved(cuts.front()->mesh().vertices().size());
     simulated.wounds->positions(simulated.wounds->duration(), moved);
-    std::vector<std::string> warnings = warnings_of(result.report);
+    std::vector<std::string> warnings = result.warnings;
     warnings.push_back(
         warning_of_turned(cuts.front()->mesh(), turned_triangles(cuts.front()->mesh(), moved), 1));
     for (const std::string& warning : warnings)

@@ -123,6 +123,38 @@ TEST(Extrusion, ALeaningBladeThinsNothing) {
     }
 }
 
+/// A path with the normals of a coarse mesh's vertices turns its blade faster than wedges as wide as elements
+/// bear: columns go by the mean of those around them, rather than that the cut becomes shallow.
+TEST(Extrusion, BladesThatTurnFastAreEvenedOut) {
+  for (const double degrees : {10., 25., 40.}) {
+    LinedSurface s;
+    s.mesh = testing::sheet(testing::sphere_cap(40), 30, 30, 1);
+    s.outline.assign(s.mesh.points.size(), false);
+    const Layers layers = make_layers({}, 3);
+    const double angle = degrees * std::numbers::pi / 180;
+    std::vector<Vec3> blade(s.mesh.points.size());
+    const std::vector<Vec3> normals = normals_of(s.mesh);
+    for (std::size_t p = 0; p < blade.size(); ++p) {
+      const Vec3& at = s.mesh.points[p];
+      if (std::abs(at.y) > 1e-9 || std::abs(at.x) > 8.9) continue;
+      const bool odd = static_cast<int>(std::floor(at.x / 2)) % 2 != 0;
+      const Vec3 along = normalized(Vec3{1, 0, 0} - normals[p].x * normals[p]);
+      blade[p] = -std::cos(angle) * normals[p] + (odd ? 1 : -1) * std::sin(angle) * along;
+    }
+    const Extrusion e = extrude(s, layers, blade, nullptr);
+    EXPECT_TRUE(e.turned.empty()) << degrees;
+    EXPECT_GE(e.least_determinant, 0.2) << degrees;
+    double largest = 0;
+    for (std::size_t p = 0; p < blade.size(); ++p)
+      if (squared_norm(blade[p]) > 0) {
+        EXPECT_GT(e.cut_depth(layers, static_cast<int>(p)), 0.65 * layers.depth[layers.bottom]) << degrees;
+        largest = std::max(largest, std::acos(std::min(1., dot(blade[p], e.inward[p]))));
+      }
+    EXPECT_NEAR(e.blade_turn, largest, 1e-6) << degrees;
+    EXPECT_LT(largest, angle) << degrees;
+  }
+}
+
 /// A sharp ridge and a thin lamella are too thin for the whole thickness: the tissue becomes thinner there,
 /// and no wedge is turned inside out.
 TEST(Extrusion, NoWedgeTurnsInsideOut) {

@@ -202,6 +202,37 @@ TEST(SimulatedWounds, OfAnotherBodyAreRefused) {
   }
 }
 
+/// On an edge of a body the skin under tension is held by little else than its own stiffness against turning.
+TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
+  const auto request_for = [](const testing::Bend& bend) {
+    BodyRequest request;
+    request.skin = sheet(bend, 30, 30, 2, 0.25);
+    for (const auto& places : {along, across}) request.paths.push_back(path_on(bend, places, 2.5));
+    request.parameters.mesh.element_size = 1.5, request.parameters.mesh.grading = 1.5;
+    request.parameters.patch.height = 6, request.reach = 15;
+    return request;
+  };
+  const auto warned = [](const BodySimulation& simulation) {
+    for (const std::string& warning : simulation.warnings)
+      if (warning.find("skin.initial_stress_stiffness = true") != std::string::npos) return true;
+    return false;
+  };
+  setenv("CLEFT_BIN", CLEFT_BIN, 1);
+  const auto turn = [](const BodySimulation& s) {
+    return most_turned_skin(s.body, s.series->displacement(s.series->snapshot().frames() - 1)).angle;
+  };
+  const BodySimulation flat = simulate(request_for(testing::flat));
+  EXPECT_FALSE(warned(flat));
+  BodyRequest request = request_for(testing::cylinder_along(7));
+  const BodySimulation edge = simulate(request);
+  EXPECT_TRUE(warned(edge));
+  EXPECT_LT(turn(edge), 0.9);
+  request.parameters.skin.initial_stress_stiffness = true;
+  const BodySimulation same = simulate(request);
+  EXPECT_FALSE(warned(same)) << "was asked for";
+  EXPECT_NEAR(edge.gape, same.gape, 1e-6 * same.gape);
+}
+
 /// Skin that is pulled across the first cut alone presses the second one's lips together, where they meet.
 TEST(SimulatedWounds, LipsThatAreCrossedDoNotPassThroughEachOther) {
   BodyRequest request;
