@@ -85,6 +85,12 @@ EndShift::EndShift(const Body& body, const std::vector<const Incision*>& cuts, d
   }
 }
 
+double EndShift::reach() const {
+  double most = 0;
+  for (const End& end : ends_) most = std::max(most, end.reach);
+  return most;
+}
+
 Vec3 EndShift::at(const Vec3& x) const {
   Vec3 sum;
   for (const auto& [end, by, reach] : ends_) sum += std::max(0., 1 - norm(x - end) / reach) * by;

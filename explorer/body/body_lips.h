@@ -44,6 +44,7 @@ class EndShift {
   EndShift(const Body& body, const std::vector<const Incision*>& cuts, double scale);
 
   Vec3 at(const Vec3& x) const;  ///< of a place; both in mm
+  double reach() const;          ///< the largest from an end, mm
 
  private:
   struct End {

@@ -4,12 +4,16 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "explorer/body/body_lips.h"
 
 namespace cleft {
 
 SimulatedWounds::SimulatedWounds(const std::vector<const Incision*>& cuts, double scale, const Body& body,
                                  const SnapshotReader& series)
-    : scale_(scale), times_(series.snapshot().times), pairs_(body.pairs) {
+    : scale_(scale),
+      reach_of_ends_(EndShift(body, cuts, scale).reach() / scale),
+      times_(series.snapshot().times),
+      pairs_(body.pairs) {
   if (series.snapshot().body != body.hash || series.snapshot().points.size() != body.points.size())
     throw InputError("the simulation is of another body (" + series.snapshot().body + ", not " + body.hash +
                      "): solve this one with cleft solve --mesh");
@@ -70,18 +74,28 @@ std::vector<int> turned_triangles(const CutMesh& mesh, std::span<const Vec3> pos
 }
 
 ReplayOff replay_off(const std::vector<const Incision*>& cuts, std::span<const Vec3> replayed,
-                     std::span<const Vec3> simulated) {
+                     std::span<const Vec3> simulated, double end) {
   const CutMesh& mesh = cuts.front()->mesh();
+  std::vector<Vec3> ends;
+  for (const Incision* cut : cuts)
+    for (const double s : {0., cut->path().length()}) ends.push_back(cut->path().at(s).position);
+  const auto at_end = [&](int v) {
+    return std::any_of(ends.begin(), ends.end(),
+                       [&](const Vec3& x) { return norm(mesh.position(v) - x) < end; });
+  };
   ReplayOff off;
-  for (std::size_t v = 0; v < simulated.size(); ++v) {
-    off.largest = std::max(off.largest, norm(simulated[v] - mesh.position(static_cast<int>(v))));
-    off.displacement = std::max(off.displacement, norm(simulated[v] - replayed[v]));
+  for (int v = 0; v < static_cast<int>(simulated.size()); ++v) {
+    off.largest = std::max(off.largest, norm(simulated[v] - mesh.position(v)));
+    if (const double by = norm(simulated[v] - replayed[v]); by > off.displacement && !at_end(v))
+      off.displacement = by;
   }
   for (const Incision* cut : cuts)
     for (const Incision::ChainVertex& c : cut->chain()) {
       const Vec3 open = simulated[c.right] - simulated[c.left];
       off.gape = std::max(off.gape, norm(open));
-      off.opening = std::max(off.opening, norm(open - (replayed[c.right] - replayed[c.left])));
+      if (const double by = norm(open - (replayed[c.right] - replayed[c.left]));
+          by > off.opening && !at_end(c.left))
+        off.opening = by;
     }
   return off;
 }

@@ -22,6 +22,9 @@ class SimulatedWounds {
 
   /// The length of all paths, mm.
   double duration() const { return times_.back(); }
+  /// How far from the ends of cuts vertices take the place of others, mesh units: a body is cut beyond them,
+  /// up to its next nodes, and what is there is moved to the ends of the mesh.
+  double reach_of_ends() const { return reach_of_ends_; }
   int active() const { return static_cast<int>(places_.size()); }
 
   /// Positions of all vertices at t, mesh units: between two frames of the series in proportion. Allocates
@@ -43,7 +46,7 @@ class SimulatedWounds {
   Moment moment(double t) const;
   Vec3 of_node(int node, const Moment& at) const;  // displacement, mm
 
-  double scale_;
+  double scale_, reach_of_ends_;
   std::vector<double> times_;
   std::vector<std::vector<std::array<float, 3>>> frames_;  // mm, by node
   std::vector<BodyPair> pairs_;
@@ -57,6 +60,7 @@ std::vector<int> turned_triangles(const CutMesh& mesh, std::span<const Vec3> pos
 
 /// How far replayed positions are from simulated ones: of the displacement of any vertex, over the largest
 /// one, and of the vectors from lip to lip along the cuts, over the largest opening. Lengths in mesh units.
+/// Vertices within `end` of the ends of cuts do not count.
 struct ReplayOff {
   double largest = 0, displacement = 0;
   double gape = 0, opening = 0;
@@ -64,6 +68,6 @@ struct ReplayOff {
   double relative_opening() const { return gape > 0 ? opening / gape : 0; }
 };
 ReplayOff replay_off(const std::vector<const Incision*>& cuts, std::span<const Vec3> replayed,
-                     std::span<const Vec3> simulated);
+                     std::span<const Vec3> simulated, double end);
 
 }  // namespace cleft

@@ -105,7 +105,7 @@ Json move_as_simulated(BodyRequest request, const MeshCuts& cuts, const std::opt
   told["unsound_triangles"] = turned.size();
   if (!turned.empty()) told["warnings"].push_back(warning_of_turned(mesh, turned, scale));
   if (fields) {
-    told["replay"] = figures_of(replay_off(cuts.cuts(), positions, simulated), scale);
+    told["replay"] = figures_of(replay_off(cuts.cuts(), positions, simulated, wounds.reach_of_ends()), scale);
     if (const std::string other = differences(*fields, request.parameters); !other.empty())
       told["warnings"].push_back("the field of the replay is of another body than is simulated: " + other);
   }

@@ -43,7 +43,7 @@ std::optional<ReplayOff> MeshScene::replay_off() const {
   simulated_->positions(duration_, simulated);
   std::vector<const Incision*> cuts;
   for (const auto& cut : cut_->cuts()) cuts.push_back(cut.get());
-  return cleft::replay_off(cuts, replayed, simulated);
+  return cleft::replay_off(cuts, replayed, simulated, simulated_->reach_of_ends());
 }
 
 void MeshScene::positions(double t, std::vector<Vec3>& out) const {

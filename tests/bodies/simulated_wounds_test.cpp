@@ -190,6 +190,30 @@ TEST(SimulatedWounds, VerticesStayWithTheirPieceOfSkin) {
     }
 }
 
+/// A body is cut beyond the ends of a path, so that there the mesh takes what is elsewhere in the body: that
+/// is no error of a replay.
+TEST(SimulatedWounds, AReplayIsNotOffWhereTheMeshTakesTheEndsOfTheBody) {
+  Simulated s(testing::flat, {along});
+  const SimulatedWounds wounds = s.wounds(s.request.skin);
+  const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
+  const double reach = wounds.reach_of_ends(), element = s.request.parameters.mesh.element_size;
+  EXPECT_GT(reach, 0.1 * element);
+  EXPECT_LT(reach, 2 * element);
+  const auto off_where = [&](const auto& moves, double end) {
+    std::vector<Vec3> replayed = now;
+    for (const auto& c : s.cuts[0]->chain())
+      if (moves(norm(Vec3{8, 0, 0} - s.mesh->position(c.left)))) replayed[c.left].y += 0.5;
+    return replay_off(s.list, replayed, now, end);
+  };
+  const auto at_end = [&](double from_end) { return from_end < reach; };
+  EXPECT_EQ(off_where(at_end, reach).opening, 0);
+  EXPECT_EQ(off_where(at_end, reach).displacement, 0);
+  EXPECT_NEAR(off_where(at_end, 0).opening, 0.5, 1e-12);
+  const auto beside = [&](double from_end) { return reach < from_end && from_end < 3; };
+  EXPECT_NEAR(off_where(beside, reach).opening, 0.5, 1e-12);
+  EXPECT_NEAR(off_where(beside, reach).displacement, 0.5, 1e-12);
+}
+
 TEST(SimulatedWounds, OfAnotherBodyAreRefused) {
   Simulated s(testing::flat, {along});
   s.body.points[3].x += 0.1;
