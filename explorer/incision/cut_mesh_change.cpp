@@ -37,8 +37,8 @@ int CutMesh::split_edge(int t, int i, const Vec3& place, std::optional<double> s
       visit(c.neighbor[edge], triangles_[c.neighbor[edge]].corner(c.vertex[(edge + 1) % 3]));
     if (c.sheet >= 0) visit(twin(current), twin_edge(edge));
   }
-  const double part =
-      part_of(place, position(triangles_[t].vertex[i]), position(triangles_[t].vertex[(i + 1) % 3]));
+  const Vec3 start = position(triangles_[t].vertex[i]);
+  const double part = part_of(place, start, position(triangles_[t].vertex[(i + 1) % 3]));
   std::vector<std::array<int, 3>> parted;
   const auto is_parted = [&](int triangle) {
     for (const auto& p : parted)
@@ -48,7 +48,7 @@ int CutMesh::split_edge(int t, int i, const Vec3& place, std::optional<double> s
   int first = -1;
   for (const auto& [triangle, edge] : around) {
     if (is_parted(triangle)) continue;
-    const bool same_way = position(triangles_[triangle].vertex[edge]) == position(triangles_[t].vertex[i]);
+    const bool same_way = position(triangles_[triangle].vertex[edge]) == start;
     const Vertex vertex = new_on_edge(triangle, edge, place, first < 0 || same_way ? part : 1 - part, s);
     const int m = split_pair(triangle, edge, place, parted);
     const int around_m = vertices_[m].triangle;

@@ -84,6 +84,27 @@ TEST_P(Depths, CrossingAnotherCut) {
   EXPECT_EQ(there.size(), 4u);
 }
 
+/// A vertex that a crossing makes on both lips of an earlier cut knows where on its path it is.
+TEST(Crossing, BothLipsKnowTheirPlaceOnThePath) {
+  int compared = 0;
+  for (int k = 0; k < 12; ++k) {
+    CutMesh mesh(sphere(4, 10));
+    Incision first(mesh, on_top({{-4, 0.1}, {0, 0.3}, {4, 0.2}}, 2), unrefined());
+    first.advance_to(100);
+    const double at = -3 + 0.5 * k;
+    Incision second(mesh, on_top({{at - 1, -4}, {at, 0}, {at + 1, 4}}, 2), unrefined());
+    second.advance_to(100);
+    for (int v = 0; v < static_cast<int>(mesh.vertices().size()); ++v) {
+      const CutMesh::Vertex& vertex = mesh.vertex(v);
+      if (vertex.cut != 0 || (vertex.kind != VertexKind::left_lip && vertex.kind != VertexKind::right_lip))
+        continue;
+      EXPECT_NEAR(vertex.s, first.path().coordinates(vertex.position).s, 0.02) << at;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 100);
+}
+
 TEST(Crossing, APathThatBeginsBeforeALipOrTheOutlineDoesNotTurnBack) {
   for (const double start : {-9.97, 0.46}) {  // from there on along -y: over the outline, or into the wound
     CutMesh mesh(grid(20, 20, -10, -10, 1));
