@@ -16,6 +16,21 @@ namespace cleft {
 
 namespace {
 
+/// Throws where no cell has the number of a region: it is most likely another one. `what` says whose it is.
+void check_number(int number, bool of_face, const OwnBodyRequest& request, const std::string& what) {
+  std::set<int> known;
+  for (std::size_t c = 0; c < request.mesh.regions.size(); ++c) {
+    const std::size_t nodes = request.mesh.nodes[c].size();
+    if (of_face ? nodes == 3 || nodes == 4 : nodes >= 6) known.insert(request.mesh.regions[c]);
+  }
+  if (known.contains(number)) return;
+  std::string list;
+  for (const int one : known) list += (list.empty() ? "" : ", ") + std::to_string(one);
+  throw InputError(what + std::to_string(number) + ", and no " + (of_face ? "face" : "cell of tissue") +
+                   " of " + request.mesh.name + " has this number of '" + request.regions_name +
+                   "' (there are " + (list.empty() ? "none" : list) + "): correct it, or leave it out");
+}
+
 OwnFaces faces_of(const OwnBodyRequest& request) {
   OwnFaces faces;
   if (!request.regions || !request.regions->faces) return faces;
@@ -24,6 +39,10 @@ OwnFaces faces_of(const OwnBodyRequest& request) {
                     "has no array of the cells that numbers their regions, as [faces] needs; "
                     "name it (--regions)");
   const FaceRegions& named = *request.regions->faces;
+  for (const auto& [numbers, name] :
+       {std::pair{&named.skin, "skin"}, {&named.bone, "bone"}, {&named.free, "free"}})
+    for (const int number : *numbers)
+      check_number(number, true, request, std::string("[faces]: ") + name + " = ");
   faces.all_skin = named.skin.empty();
   faces.skin = {named.skin.begin(), named.skin.end()};
   faces.bone = {named.bone.begin(), named.bone.end()};
@@ -71,6 +90,9 @@ class OwnBodyMaker {
     }
     if (r_.mesh.regions.empty() && !material_of_.empty())
       throw FileError(name_, "has no array of the cells that numbers their regions; name it (--regions)");
+    for (const RegionSection& section : sections)
+      for (const int number : section.regions)
+        check_number(number, false, r_, section.where + ": [" + section.material.name + "]: region = ");
   }
 
   std::uint8_t material(int cell) const {

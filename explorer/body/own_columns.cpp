@@ -185,9 +185,7 @@ class Columns {
       }
     }
     if (skin_.empty())
-      throw FileError(m_.name,
-                      "has no skin: " + std::string(f_.all_skin ? "no triangles or quads on its outer surface"
-                                                                : "no face has a number of skin of [faces]"));
+      throw FileError(m_.name, "has no skin: no triangles or quads on its outer surface");
   }
 
   /// The cell below a face that is not used yet; -1: none.

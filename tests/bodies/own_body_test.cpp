@@ -208,13 +208,20 @@ TEST(OwnBody, RegionsHaveMaterials) {
   EXPECT_EQ(report.regions[0].wedges + report.regions[1].wedges, static_cast<int>(own.wedges.size()));
   EXPECT_EQ(own.materials[1].poisson_ratio, 0.4);
   file.faces = FaceRegions{{2}, {}, {}};
-  EXPECT_REFUSED(request, "no face has a number of skin");
+  EXPECT_REFUSED(request, "[faces]: skin = 2, and no face of");
+  file.faces = FaceRegions{{1}, {40}, {}};  // a number of cells
+  EXPECT_REFUSED(request, "[faces]: bone = 40, and no face of");
+  file.faces = FaceRegions{{1}, {}, {3}};
+  EXPECT_REFUSED(request, "(there are 1): correct it, or leave it out");
   file.faces = FaceRegions{{1}, {}, {}};
   EXPECT_EQ(own_body(request).skin, own.skin);
-  file.sections[1].regions = {39};
+  file.sections[1].regions = {40, 39};
+  EXPECT_REFUSED(request, "m.toml, line 4: [muscle]: region = 39, and no cell of tissue of");
+  EXPECT_REFUSED(request, "(there are 40, 41): correct it, or leave it out");
+  file.sections.pop_back();
   EXPECT_REFUSED(request, "region 40");
   EXPECT_REFUSED(request, "has no material; add region = 40");
-  file.sections[1].regions = {41};
+  file.sections.push_back({{"muscle", {}, 0.4}, {41}, {}, "m.toml, line 4"});
   EXPECT_REFUSED(request, "m.toml, line 4: region 41 has two materials");
   request.mesh.regions.clear();
   EXPECT_REFUSED(request, "has no array of the cells");
