@@ -13,8 +13,10 @@
 #include "base/text.h"
 #include "params/parameters/table.h"
 #include "params/study.h"
+#include "solver/body/skin_turn.h"
 #include "solver/body_mesh.h"
 #include "solver/mpi_session.h"
+#include "solver/snapshot/snapshot.h"
 #include "solver/solve.h"
 #include "solver/unsolved.h"
 
@@ -134,6 +136,19 @@ void warn_of(const SolveReport& r) {
       << "): make mesh.element_size smaller, or patch.length and patch.width larger; cleft advise chooses\n";
 }
 
+void warn_of_turn(const Body& body, const CaseToSolve& one) {
+  if (!lacks_stiffness_of_tension(one.parameters)) return;
+  const SnapshotReader series(one.out);
+  const Turn most = most_turned_skin(body, series.displacement(series.snapshot().frames() - 1));
+  if (most.angle <= much_turn) return;
+  const auto rounded = [](double x) { return shortest(std::round(100 * x) / 100); };
+  std::cerr << "cleft solve: warning: " << one.out << ": skin turns by up to "
+            << shortest(std::round(most.angle * 57.29577951308232)) << " degrees, at (" << rounded(most.at.x)
+            << ", " << rounded(most.at.y) << ", " << rounded(most.at.z)
+            << ") mm, for which strains are not small, and the wound is too wide: set "
+               "skin.initial_stress_stiffness = true, or model = finite\n";
+}
+
 /// Of cases that are not solved.
 void write_meshes(const std::vector<CaseToSolve>& cases, const SolveOptions& options, bool as_json) {
   if (options.body) throw InputError("--unsolved: is for patches; the body's file is its mesh");
@@ -236,6 +251,7 @@ int main(int argc, char** argv) {
       if (report.failure.empty()) {
         list.push_back(figures_of(report));
         if (root) warn_of(report);
+        if (root && options.body) warn_of_turn(*options.body, cases[&report - reports.data()]);
       } else {
         failures += (failures.empty() ? "" : "\n  ") + report.out + ": " + report.failure;
       }

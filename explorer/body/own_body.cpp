@@ -63,6 +63,7 @@ class OwnBodyMaker {
     body_.length = cuts_.front().path.length(), body_.depth = cuts_.front().depth;
     add_nodes();
     add_elements();
+    check_regions();
     set_coordinates();
     if (report) fill(*report);
     check_body(body_, name_);
@@ -90,7 +91,11 @@ class OwnBodyMaker {
     }
     if (r_.mesh.regions.empty() && !material_of_.empty())
       throw FileError(name_, "has no array of the cells that numbers their regions; name it (--regions)");
-    for (const RegionSection& section : sections)
+  }
+
+  void check_regions() const {
+    if (!r_.regions) return;
+    for (const RegionSection& section : r_.regions->sections)
       for (const int number : section.regions)
         check_number(number, false, r_, section.where + ": [" + section.material.name + "]: region = ");
   }

@@ -1,7 +1,6 @@
 #include "explorer/body/simulate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -13,13 +12,13 @@
 #include "explorer/body/body_warnings.h"
 #include "params/parameters/table.h"
 #include "params/study.h"
+#include "solver/body/skin_turn.h"
 
 namespace cleft {
 
 namespace {
 
 constexpr std::size_t most_frames = 64;  // between which positions are linear
-constexpr double most_turn = 0.9;  // radians, of skin in small strains that lacks the stiffness of tension
 
 /// What the solver said last, without its name and those of temporary files.
 std::string last_message(const std::string& log, const std::string& case_file) {
@@ -55,26 +54,7 @@ std::vector<Vec3> solve(BodySimulation& result, const Parameters& parameters, co
   return result.series->displacement(result.series->snapshot().frames() - 1);
 }
 
-bool lacks_stiffness_of_tension(const Parameters& p) {
-  const Prestress& s = p.skin.prestress;
-  return p.model == Model::small && !p.skin.initial_stress_stiffness && std::min(s.uu, s.vv) >= 0 &&
-         s.uu * s.vv >= s.uv * s.uv;
-}
-
 }  // namespace
-
-Turn most_turned_skin(const Body& body, const std::vector<Vec3>& displacement) {
-  Turn most;
-  for (const auto& [a, b, c] : body.skin) {
-    const auto& p = body.points;
-    const auto& d = displacement;
-    const Vec3 rest = cross(p[b] - p[a], p[c] - p[a]);
-    const Vec3 now = cross(p[b] + d[b] - p[a] - d[a], p[c] + d[c] - p[a] - d[a]);
-    const double angle = std::atan2(norm(cross(rest, now)), dot(rest, now));
-    if (angle > most.angle) most = {angle, p[a]};
-  }
-  return most;
-}
 
 Parameters parameters_of_body(const RecordedParameters& of_case) {
   const Parameters defaults;
@@ -124,7 +104,7 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   tell(solving);
   std::vector<Vec3> open = solve(result, parameters, folder, stop);
   if (const Turn most = most_turned_skin(result.body, open);
-      most.angle > most_turn && lacks_stiffness_of_tension(parameters)) {
+      most.angle > much_turn && lacks_stiffness_of_tension(parameters)) {
     parameters.skin.initial_stress_stiffness = true;
     tell(solving + " again");
     open = solve(result, parameters, folder, stop);

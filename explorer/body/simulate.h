@@ -21,13 +21,6 @@ struct BodySimulation {
   double seconds = 0;                 ///< for mesh and solution
 };
 
-/// By which angle skin turns, where it does so most.
-struct Turn {
-  double angle = 0;  ///< radians
-  Vec3 at;           ///< mm
-};
-Turn most_turned_skin(const Body& body, const std::vector<Vec3>& displacement);
-
 /// Those of a case as far as a body has them, and the defaults where its file lacks them.
 Parameters parameters_of_body(const RecordedParameters& of_case);
 
