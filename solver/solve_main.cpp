@@ -136,6 +136,14 @@ void warn_of(const SolveReport& r) {
       << "): make mesh.element_size smaller, or patch.length and patch.width larger; cleft advise chooses\n";
 }
 
+Body body_from(const std::string& file) {
+  for (const char* ending : {".stl", ".obj", ".ply", ".vtp", ".vtu", ".glb", ".gltf"})
+    if (file.ends_with(ending))
+      throw InputError("--mesh " + file + ": is no body yet; make one of it: cleft body --mesh " + file +
+                       " --path cut.csv --out body.h5");
+  return read_body(file);
+}
+
 void warn_of_turn(const Body& body, const CaseToSolve& one) {
   if (!lacks_stiffness_of_tension(one.parameters)) return;
   const SnapshotReader series(one.out);
@@ -221,7 +229,7 @@ int main(int argc, char** argv) {
     options.method = methods.at(method), options.estimate = !no_estimate;
     options.discretization.partitioner = partitioners.at(partitioner);
     const std::vector<std::string> outs = outputs_of(case_files, out, ".h5", "case");
-    if (!body.empty()) options.body = std::make_shared<const Body>(read_body(body));
+    if (!body.empty()) options.body = std::make_shared<const Body>(body_from(body));
     std::vector<CaseToSolve> cases;
     std::string taken_body;
     Mistakes mistakes;

@@ -245,7 +245,7 @@ TEST_F(BodyCommand, DamagedBodies) {
   std::string bytes = read_text_file(good);
   write_text_file(in / "short.h5", bytes.substr(0, bytes.size() / 2));
   expect_solve_refused(in / "short.h5", {}, {"short.h5", "damaged"});
-  expect_solve_refused(in / "skin.obj", {}, {"skin.obj"});
+  expect_solve_refused(in / "skin.obj", {}, {"skin.obj", "make one of it: cleft body --mesh"});
   // A number that is as good as another one: only a checksum tells.
   const double x = read_body(good).points[77].x;
   const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&x), sizeof x));
