@@ -18,7 +18,7 @@ params/parameters:base
 params/material:base
 params/run:base|base/command|params|params/parameters
 solver/snapshot:base|base/h5|params/parameters
-solver/body:base|base/h5|params
+solver/body:base|base/h5|params|params/parameters
 solver/multigrid:base
 solver:base|base/command|base/h5|base/ranks|params|params/parameters|params/material|solver/snapshot|solver/body|solver/multigrid
 encoder/field:base|params/parameters
