@@ -184,8 +184,7 @@ class Columns {
         }
       }
     }
-    if (skin_.empty())
-      throw FileError(m_.name, "has no skin: no triangles or quads on its outer surface");
+    if (skin_.empty()) throw FileError(m_.name, "has no skin: no triangles or quads on its outer surface");
   }
 
   /// The cell below a face that is not used yet; -1: none.
