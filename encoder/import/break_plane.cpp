@@ -157,7 +157,7 @@ class Search {
       const Vec3 x = p - spread.centre;
       return Vec3{dot(u, x), dot(v, x), dot(w, x)};
     };
-    BreakPlaces places{{}, {}, {}, {}, tolerance_};
+    BreakPlaces places{{}, {}, {}, {}, {}, tolerance_};
     for (const Vec3& p : parting) places.pairs.push_back(local(p));
     std::vector<Vec3> all;
     for (const Vec3& p : mesh_.points) all.push_back(local(p));

@@ -67,7 +67,7 @@ Interval range_of(const std::vector<Vec3>& places, int axis) {
 BreakMap surface_through(const BreakPlaces& places, double& farthest) {
   constexpr int most_along = 256, most_high = 48;
   std::vector<Vec3> all = places.pairs;
-  all.insert(all.end(), places.front.begin(), places.front.end());
+  for (const auto* more : {&places.front, &places.beyond}) all.insert(all.end(), more->begin(), more->end());
   const Interval u = range_of(all, 0), w = range_of(all, 2);
   const double count = static_cast<double>(all.size());
   // Knots at half the spacing of places.

@@ -11,6 +11,7 @@ namespace cleft {
 /// The places of a break over (u, v, w), v across its best plane.
 struct BreakPlaces {
   std::vector<Vec3> pairs, front;  ///< of pairs that part; of whole nodes at its front
+  std::vector<Vec3> beyond;        ///< of nodes of faces that continue its lips
   Interval u, w;                   ///< of the body
   double rounding = 0;             ///< mm: places that are closer are the same
 };

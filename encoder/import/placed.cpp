@@ -1,5 +1,6 @@
 #include "encoder/import/placed.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <span>
@@ -7,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/import/boundary.h"
 #include "encoder/import/break_surface.h"
 #include "solver/snapshot/break_front.h"
 
@@ -28,22 +30,28 @@ std::vector<Vec3> placed_points(const SourceMesh& mesh, const Placement& placeme
   return points;
 }
 
-/// The map of a break that is curved, has a round front, or has parts of the body above it. `at_front`: nodes
-/// there.
-std::optional<BreakMap> map_of(const Snapshot& s, const Break& found, const std::vector<bool>& at_front,
-                               double rounding, bool is_flat) {
-  BreakPlaces places{{}, {}, range_of(s.points, 0), range_of(s.points, 2), rounding};
+/// The map of a break that is curved or continued by curved faces, has a round front, or has parts of the
+/// body above it. `at_front`: nodes there.
+std::optional<BreakMap> map_of(const Snapshot& s, const SourceMesh& mesh, const Break& found,
+                               const std::vector<bool>& at_front, double rounding, bool is_flat) {
+  BreakPlaces places{{}, {}, {}, range_of(s.points, 0), range_of(s.points, 2), rounding};
+  std::vector<NodePair> parting;
   for (std::size_t p = 0; p < found.pairs.size(); ++p)
     if (found.first_frame[p] < static_cast<std::int32_t>(s.frames()))
-      places.pairs.push_back(s.points[found.pairs[p][0]]);
+      parting.push_back(found.pairs[p]), places.pairs.push_back(s.points[found.pairs[p][0]]);
   for (std::size_t n = 0; n < at_front.size(); ++n)
     if (at_front[n]) places.front.push_back(s.points[n]);
   if (places.pairs.empty()) return {};
   const auto round = is_flat ? std::nullopt : round_front(places);
   const double top = is_flat ? 0 : places.w.back;
-  if (!found.curved && !round && top <= rounding) return {};
+  if (found.junctions.empty())
+    for (const std::int32_t n : nodes_continuing_lips(mesh, parting, at_front, found.plane->normal))
+      places.beyond.push_back(s.points[n]);
+  const bool curved = found.curved || std::any_of(places.beyond.begin(), places.beyond.end(),
+                                                  [&](const Vec3& p) { return std::abs(p.y) > rounding; });
+  if (!curved && !round && top <= rounding) return {};
   double farthest = 0;
-  return (found.curved ? surface_through(places, farthest) : BreakMap()).with(top, round);
+  return (curved ? surface_through(places, farthest) : BreakMap()).with(top, round);
 }
 
 /// Canonical coordinates of the nodes; those of the break are exactly on v = 0.
@@ -62,10 +70,11 @@ std::vector<Vec3> canonical_points(const Snapshot& s, const BreakMap& map, const
 /// alone, are on a face that is flush with it, as in a corner where it begins: they are put beside it.
 void put_beside(std::vector<Vec3>& places, const Snapshot& s, const Break& found,
                 const std::vector<bool>& at_front) {
-  constexpr double near = 0.05, beside = 1e-7;  // of the extent of cells, and of all, across
+  constexpr double near = 0.05, least = 1e-7;  // of the extent of cells, and of all, across
   std::vector<double> extent(places.size()), side(places.size());
   std::vector<char> whole(places.size(), 0);
   const Interval across = range_of(places, 1);
+  const double beside = least * (across.back - across.front);
   for (std::size_t c = 0; c < s.cell_types.size(); ++c) {
     const std::span corners(s.connectivity.begin() + s.cell_offsets[c],
                             s.connectivity.begin() + s.cell_offsets[c + 1]);
@@ -83,8 +92,9 @@ void put_beside(std::vector<Vec3>& places, const Snapshot& s, const Break& found
     for (const std::int32_t node : pair) whole[node] = 1;
   for (std::size_t n = 0; n < places.size(); ++n) {
     double& v = places[n].y;
-    if (!whole[n] && !at_front[n] && std::abs(v) <= near * extent[n] && v * side[n] <= 0)
-      v = std::copysign(beside * (across.back - across.front), side[n]);
+    if (!whole[n] && !at_front[n] && std::abs(v) <= near * extent[n] &&
+        (v * side[n] <= 0 || std::abs(v) < beside))
+      v = std::copysign(beside, side[n]);
   }
 }
 
@@ -117,7 +127,7 @@ Placed snapshot_of(const ImportedSeries& series, const SourceMesh& mesh, const B
     s.source->fields.push_back(field.source + ":" + field.name +
                                (field.unit.empty() ? "" : "[" + field.unit + "]"));
   const std::vector<bool> at_front = front_of(s, found);
-  result.map = given ? given->map : map_of(s, found, at_front, in_plane(mesh), is_flat);
+  result.map = given ? given->map : map_of(s, mesh, found, at_front, in_plane(mesh), is_flat);
   if (result.map) {
     s.source->break_map = result.map->numbers();
     s.coordinates = true;

@@ -76,11 +76,20 @@ CrackedBody curved(CrackedBody body) {
   return body;
 }
 
+/// The face that continues the lip bends out of the plane of the crack, to its other side.
+CrackedBody corner_with_a_bent_face(bool flat) {
+  CrackedBody body = corner(flat);
+  body.name += ", its face bent";
+  body.place = [](const Vec3& x) { return Vec3{x.x, x.y + 0.02 * std::pow(std::max(0., 6 - x.x), 2), x.z}; };
+  return body;
+}
+
 std::vector<CrackedBody> bodies() {
   std::vector<CrackedBody> list;
   for (const bool flat : {false, true})
-    for (const CrackedBody& body : {one_sided_notch(flat), corner(flat), hole(flat), curved(hole(flat)),
-                                    into_hole(flat), curved(into_hole(flat))}) {
+    for (const CrackedBody& body :
+         {corner_with_a_bent_face(flat), one_sided_notch(flat), curved(one_sided_notch(flat)), corner(flat),
+          curved(corner(flat)), hole(flat), curved(hole(flat)), into_hole(flat), curved(into_hole(flat))}) {
       list.push_back(body);
       list.push_back(posed(body, body.name + ", turned", Pose::random(8)));
     }
