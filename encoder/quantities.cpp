@@ -14,9 +14,23 @@ namespace {
 
 constexpr int components_at_once = 3;  // components that are fitted and coded together
 
-NodeSpline stepped(const NodeSpline& spline, double step) {
+/// The field at the last time, at all times.
+Field as_at_the_end(const Field& field) {
+  std::vector<Vec3> points = field.coefficients();
+  const std::size_t slices = static_cast<std::size_t>(field.basis(3).size());
+  for (std::size_t n = 0; n < points.size(); ++n) points[n] = points[n - n % slices + slices - 1];
+  return {field.shared_parametrization(),
+          {field.basis(0), field.basis(1), field.basis(2), field.basis(3)},
+          std::move(points)};
+}
+
+/// With `still`: that of the last time, at all times.
+NodeSpline stepped(const NodeSpline& spline, double step, bool still) {
   NodeSpline result{spline.field, spline.components, {}};
-  for (const Field& part : spline.parts) result.parts.push_back(quantised(part, step, farthest_move));
+  for (const Field& part : spline.parts) {
+    const Field rounded = quantised(part, step, farthest_move);
+    result.parts.push_back(still ? as_at_the_end(rounded) : rounded);
+  }
   return result;
 }
 
@@ -54,17 +68,34 @@ Field shifted(const Field& field, const Eigen::RowVectorXd& by, int first) {
           std::move(points)};
 }
 
-NodeSpline fitted(const Series& series, int number, const Field& field) {
+NodeSpline fitted(const Series& series, int number, const Field& field,
+                  const std::shared_ptr<const Parametrization>& parametrization) {
   const SeriesQuantity& data = series.quantities[number];
   const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
   NodeSpline spline{number, static_cast<int>(data.frames.front().cols()), {}};
   for (int first = 0; first < spline.components; first += components_at_once) {
-    const Series part = series_of(series, data, first);
-    const SeriesFit fit(part, field.shared_parametrization(), bases, SeriesFit::Start::any);
+    Series part = series_of(series, data, first);
+    part.geometry = parametrization->geometry();
+    const SeriesFit fit(part, parametrization, bases, SeriesFit::Start::any);
     spline.parts.push_back(fit.field(fit.control_points()));
     if (!data.middle.isZero(0)) spline.parts.back() = shifted(spline.parts.back(), data.middle, first);
   }
   return spline;
+}
+
+bool never_changes(const SeriesQuantity& quantity) {
+  for (std::size_t j = 1; j < quantity.frames.size(); ++j) {
+    if (quantity.frames[j] != quantity.frames[0]) return false;
+    quantity.frames.forget(j);
+  }
+  return true;
+}
+
+/// The parametrisation at the last frame, when knots are all along the cut, as that of all frames.
+std::shared_ptr<const Parametrization> at_the_end(const Parametrization& parametrization) {
+  FieldGeometry geometry = parametrization.geometry();
+  std::fill(geometry.tip.positions.begin(), geometry.tip.positions.end(), geometry.tip.positions.back());
+  return make_parametrization(parametrization.name(), std::move(geometry));
 }
 
 /// Where the tip is in frame 0, if that is where the cut starts, a node is behind both or ahead, as it is
@@ -126,23 +157,30 @@ Series series_of(const Series& series, const SeriesQuantity& quantity, int compo
 FittedQuantity fit_quantity(const Series& series, int number, const Field& field,
                             std::optional<double> limit_of_data) {
   const SeriesQuantity& data = series.quantities[number];
-  const NodeSpline exact = fitted(series, number, field);
-  const double scale = data.scale > 0 ? data.scale : 1, misfit = worst_of(exact, series).error,
-               limit = limit_of_data.value_or(0);
+  NodeSpline exact = fitted(series, number, field, field.shared_parametrization());
+  const double scale = data.scale > 0 ? data.scale : 1, limit = limit_of_data.value_or(0);
+  double misfit = worst_of(exact, series).error;
+  std::optional<double> time;
+  if (limit_of_data && misfit > limit && field.parametrization().moves() && never_changes(data)) {
+    NodeSpline still = fitted(series, number, field, at_the_end(field.parametrization()));
+    if (const double of_still = worst_of(still, series).error; of_still < misfit)
+      exact = std::move(still), misfit = of_still, time = series.times.back();
+  }
   const bool within = misfit <= share_of_fit * limit;
   const double bound = std::max(within ? limit : 1.02 * misfit, finest_bound * scale);
   double step = step_within(bound_of_steps(bound, limit), exact.components, share_of_steps);
-  NodeSpline spline = stepped(exact, step);
+  NodeSpline spline = stepped(exact, step, time.has_value());
   Worst worst = worst_of(spline, series);
   for (int times = 0; worst.error > bound && times < 12; ++times) {
     step /= 1.5;
-    spline = stepped(exact, step);
+    spline = stepped(exact, step, time.has_value());
     worst = worst_of(spline, series);
   }
   FittedQuantity result{
       {data.name, exact.components, coefficients_of(spline), data.largest, worst.error / scale,
        worst.error / scale, step, data.scale, static_cast<double>(worst.node), worst.time},
       {}};
+  result.quantity.time = time;
   if (!limit_of_data || worst.error <= limit) return result;
   double largest = 0;
   result.residual = code_left(series, spline, 0, limit, largest);

@@ -105,7 +105,7 @@ void Field::quantity(std::size_t index, const Vec3& uvw, Side side, double t, st
   CLEFT_CHECK(out.size(), ==, components);
   CLEFT_CHECK(q.coefficients.size(), ==, coefficients_.size() * components);
   Stencil s;
-  kernels_->locate(*axes_, mapped(uvw, side, t), s);
+  kernels_->locate(*axes_, mapped(uvw, side, q.time.value_or(t)), s);
   std::size_t size[4], last[4];  // functions beyond a basis of lower degree have no coefficients
   for (int axis = 0; axis < 4; ++axis) {
     size[axis] = static_cast<std::size_t>(bases_[axis].size());

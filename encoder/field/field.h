@@ -45,6 +45,7 @@ struct Quantity {
   double scale = 0;  ///< what errors are relative to: `largest`, or the data's range where that is less
   double worst_node = 0, worst_time = 0;  ///< where spline_error is
   double between_nodes = 0;               ///< as FitReport has it, over `scale`
+  std::optional<double> time = {};        ///< of what never changes: it is the spline at this time, always
 };
 
 /// The derivative of the displacement by a parameter of the case, over the field's bases, for interpolation

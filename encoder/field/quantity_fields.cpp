@@ -14,7 +14,7 @@ constexpr std::size_t at_once = 3;
 
 QuantityFields::QuantityFields(const Field& field, std::size_t index) {
   const Quantity& quantity = field.quantities.at(index);
-  components_ = static_cast<std::size_t>(quantity.components);
+  components_ = static_cast<std::size_t>(quantity.components), time_ = quantity.time;
   const std::size_t points = field.coefficients().size();
   CLEFT_CHECK(quantity.coefficients.size(), ==, points * components_);
   for (std::size_t first = 0; first < components_; first += at_once) {
@@ -31,6 +31,12 @@ QuantityFields::QuantityFields(const Field& field, std::size_t index) {
 void QuantityFields::at(std::span<const Place> places, std::span<double> out) const {
   CLEFT_CHECK(out.size(), ==, places.size() * components_);
   std::vector<Vec3> values(places.size());
+  std::vector<Place> then;
+  if (time_) {
+    then.assign(places.begin(), places.end());
+    for (Place& place : then) place.t = *time_;
+    places = then;
+  }
   for (std::size_t part = 0; part < parts_.size(); ++part) {
     parts_[part].displacements(places, values);
     const std::size_t first = part * at_once;

@@ -1,6 +1,7 @@
 // A further quantity of a field at many places.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@ class QuantityFields {
 
  private:
   std::size_t components_;
+  std::optional<double> time_;
   std::vector<Field> parts_;
 };
 

@@ -29,8 +29,8 @@ class EncodeReport : public testing::Test {
   const TemporaryFolder folder;
 };
 
-/// The plate, with a layer that is hotter by 100 K than all others, and moved before the first frame by the
-/// square of the distance.
+/// The plate, with a layer that is hotter by 100 K than all others and heats up, and moved before the first
+/// frame as no spline is.
 SourceSeries hot_and_moved(const Plate& plate) {
   SourceSeries series = plate.series();
   series.fields.push_back({"hot", 1, {}});
@@ -38,8 +38,8 @@ SourceSeries hot_and_moved(const Plate& plate) {
     std::vector<double> hot;
     for (std::size_t n = 0; n < plate.local.size(); ++n) {
       const Vec3& p = plate.local[n];
-      hot.push_back(std::abs(p.x - 4) < 0.1 ? 400 : 300);
-      series.fields[0].frames[j][3 * n + 2] += 0.05 * p.x * p.x;
+      hot.push_back((std::abs(p.x - 4) < 0.1 ? 400 : 300) + static_cast<double>(j));
+      series.fields[0].frames[j][3 * n + 2] += n % 7 == 0 ? 0.5 : 0;
     }
     series.fields.back().frames.push_back(hot);
   }

@@ -92,6 +92,7 @@ Quantity take_quantity(const Json& entry, std::span<const std::uint8_t>& bytes, 
   if (entry.contains("worst_node"))
     quantity.worst_node = finite_member(entry, "worst_node"),
     quantity.worst_time = finite_member(entry, "worst_time");
+  if (entry.contains("time")) quantity.time = finite_member(entry, "time");
   if (entry.contains("between_nodes")) quantity.between_nodes = finite_member(entry, "between_nodes");
   quantity.scale = entry.contains("scale") ? finite_member(entry, "scale") : quantity.largest;
   const std::size_t components = quantity.components;

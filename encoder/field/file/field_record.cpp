@@ -258,15 +258,17 @@ FieldRecord record_of_sum(const Json& header, const std::array<BSplineBasis, 4>&
 }
 
 Json figures_of(const Quantity& quantity) {
-  return {{"name", quantity.name},
-          {"components", quantity.components},
-          {"largest", quantity.largest},
-          {"scale", quantity.scale},
-          {"error", quantity.error},
-          {"spline_error", quantity.spline_error},
-          {"worst_node", quantity.worst_node},
-          {"worst_time", quantity.worst_time},
-          {"between_nodes", quantity.between_nodes}};
+  Json figures{{"name", quantity.name},
+               {"components", quantity.components},
+               {"largest", quantity.largest},
+               {"scale", quantity.scale},
+               {"error", quantity.error},
+               {"spline_error", quantity.spline_error},
+               {"worst_node", quantity.worst_node},
+               {"worst_time", quantity.worst_time},
+               {"between_nodes", quantity.between_nodes}};
+  if (quantity.time) figures["time"] = *quantity.time;
+  return figures;
 }
 
 FieldRecord record_of(const Field& field) {
