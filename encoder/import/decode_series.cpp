@@ -246,7 +246,7 @@ void write_vtkhdf(const DecodedNodes& decoded, const SourceMesh& mesh, const std
   for (std::size_t j = 0; j < times.size(); ++j) {
     progress("writing frame " + std::to_string(j + 1) + " of " + std::to_string(times.size()));
     for (const DecodedValues& values : values_at(decoded, j))
-      series.write(j, values.name, values.components, values.numbers);
+      series.write(j, values.name, values.components, values.numbers, values.unit);
   }
   series.close();
   file.commit();

@@ -13,10 +13,13 @@ DecodedVtkHdf::DecodedVtkHdf(const std::string& path, const SourceMesh& mesh,
 }
 
 void DecodedVtkHdf::write(std::size_t frame, const std::string& name, int components,
-                          std::span<const double> numbers) {
-  if (frame == 0)
+                          std::span<const double> numbers, const std::string& unit) {
+  const std::string array = "/VTKHDF/PointData/" + name;
+  if (frame == 0) {
     h5::create_vtk_point_array(file_, name, static_cast<hsize_t>(components), nodes_, frames_, true);
-  file_.write_rows<double>("/VTKHDF/PointData/" + name, frame * nodes_, nodes_, numbers);
+    if (!unit.empty()) file_.write_text(array, "UNITS_LABEL", unit);
+  }
+  file_.write_rows<double>(array, frame * nodes_, nodes_, numbers);
 }
 
 }  // namespace cleft

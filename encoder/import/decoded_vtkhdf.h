@@ -17,7 +17,9 @@ class DecodedVtkHdf {
  public:
   DecodedVtkHdf(const std::string& path, const SourceMesh& mesh, const std::vector<double>& times);
   /// `numbers`: nodes times the components, node by node. Frames are written in order.
-  void write(std::size_t frame, const std::string& name, int components, std::span<const double> numbers);
+  /// `unit`: "" where it is not known, else an attribute of the array.
+  void write(std::size_t frame, const std::string& name, int components, std::span<const double> numbers,
+             const std::string& unit);
   void close() { file_.close(); }
 
  private:

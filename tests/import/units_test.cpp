@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/h5/h5.h"
 #include "base/text.h"
 #include "encoder/field/file/field_file.h"
 #include "tests/import/plate.h"
@@ -17,9 +18,9 @@ class Units : public testing::Test {
   void SetUp() override {
     expect_success(
         run_cleft("import", {plate.series().write(folder), "--field", "displacement:displacement[mm]",
-                             "--field", "stress:stress[N/mm^2],temperature:T[K]", "--out", h5}));
+                             "--field", "stress:stress[N/mm^2],temperature:T[K]", "--out", snapshot}));
   }
-  void encode() { expect_success(run_cleft("encode", {h5, "--out", dffd})); }
+  void encode() { expect_success(run_cleft("encode", {snapshot, "--out", dffd})); }
   /// Exit code 2, and all of this told.
   void expect_refused(const std::string& command, const std::vector<std::string>& arguments,
                       const std::vector<std::string>& told) {
@@ -31,7 +32,7 @@ class Units : public testing::Test {
 
   const Plate plate{Plate::Cells::hexahedra, Pose::random(4)};
   const TemporaryFolder folder;
-  const std::string h5 = folder / "case.h5", dffd = folder / "case.dffd";
+  const std::string snapshot = folder / "case.h5", dffd = folder / "case.dffd";
 };
 
 /// What VTK's readers take as the unit of an array of a .vtu file: the text in its element.
@@ -50,7 +51,7 @@ TEST_F(Units, AreInDecodedAndExportedSeries) {
   encode();
   expect_success(run_cleft("decode", {dffd, "--on", folder / "series_0.vtu", "--out", folder / "on.pvd"}));
   expect_success(run_cleft("export", {dffd, "--paraview", folder / "drawn.pvd", "--frames", "2"}));
-  expect_success(run_cleft("export", {h5, "--paraview", folder / "data.pvd"}));
+  expect_success(run_cleft("export", {snapshot, "--paraview", folder / "data.pvd"}));
   for (const std::string series : {"on", "drawn", "data"}) {
     const std::string vtu = folder / (series + "/frame_0001.vtu");
     const std::string temperature = series == "on" ? "temperature" : "T";  // the source's name, and ours
@@ -58,6 +59,11 @@ TEST_F(Units, AreInDecodedAndExportedSeries) {
     EXPECT_EQ(unit_in(vtu, "stress"), "N/mm^2") << series;
     EXPECT_EQ(unit_in(vtu, temperature), "K") << series;
   }
+  expect_success(run_cleft("decode", {dffd, "--nodes", snapshot, "--out", folder / "on.vtkhdf"}));
+  const h5::File file = h5::File::open(folder / "on.vtkhdf");
+  for (const auto& [array, unit] :
+       {std::pair("displacement", "mm"), {"stress", "N/mm^2"}, {"temperature", "K"}})
+    EXPECT_EQ(file.read_text(std::string("/VTKHDF/PointData/") + array, "UNITS_LABEL"), unit);
 }
 
 TEST_F(Units, AnExportWithoutTheSnapshotTellsWhatItLeavesOut) {
@@ -70,13 +76,13 @@ TEST_F(Units, AnExportWithoutTheSnapshotTellsWhatItLeavesOut) {
       << outcome.output;
   EXPECT_NE(outcome.output.find("--nodes"), std::string::npos) << outcome.output;
   const Outcome with = expect_success(
-      run_cleft("export", {alone, "--nodes", h5, "--paraview", folder / "with.pvd", "--frames", "2"}));
+      run_cleft("export", {alone, "--nodes", snapshot, "--paraview", folder / "with.pvd", "--frames", "2"}));
   EXPECT_EQ(with.output.find("left out"), std::string::npos) << with.output;
 }
 
 TEST_F(Units, OfATolerancesAreTheFieldsOwn) {
   const auto with = [&](const std::string& tolerance) {
-    return std::vector<std::string>{h5, "--out", folder / "none.dffd", "--tolerance", tolerance};
+    return std::vector<std::string>{snapshot, "--out", folder / "none.dffd", "--tolerance", tolerance};
   };
   expect_refused("encode", with("T=0.5MPa"), {"--tolerance T: is in K, not in MPa"});
   expect_refused("encode", with("stress=5kPa"), {"--tolerance stress: is in N/mm^2, not in kPa"});
