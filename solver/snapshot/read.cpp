@@ -181,7 +181,9 @@ std::optional<SnapshotSource> read_source(const h5::File& file) {
       file.read_text("/import", "break"),
       file.has("/import/break_map") ? file.read<double>("/import/break_map", {0}) : std::vector<double>(),
       file.has_attribute("/import", "fields") ? lines_of(file.read_text("/import", "fields"))
-                                              : std::vector<std::string>()};
+                                              : std::vector<std::string>(),
+      {},
+      file.has_attribute("/import", "rules") ? static_cast<int>(file.read_number("/import", "rules")) : 1};
 }
 
 SnapshotPiece read_piece(const h5::File& file, const std::string& group) {
@@ -323,8 +325,9 @@ SnapshotReader::SnapshotReader(const std::string& path, std::size_t number) : Sn
                             whole.source->time_start,
                             std::move(piece.break_plane),
                             std::move(piece.break_map),
-                            std::move(whole.source->fields)};
-  s.source->break_extent = std::move(piece.break_extent);
+                            std::move(whole.source->fields),
+                            std::move(piece.break_extent),
+                            whole.source->rules};
   values_.take({nodes, axes_between(whole.source->axes, piece.axes)});
   SnapshotCheck(values_.file().path(), s).run();
 }

@@ -33,6 +33,9 @@ struct SnapshotSource {
   std::vector<double> break_map = {};
   std::vector<std::string> fields = {};   ///< SOURCE:NAME: names of fields there and here; none: not recorded
   std::vector<double> break_extent = {};  ///< of a piece: SnapshotPiece::break_extent
+  /// By which cleft import placed the break; 1 in files of before 0.2.
+  static constexpr int newest_rules = 2;
+  int rules = newest_rules;
 };
 
 /// A piece of a body with several breaks: the nodes around one of them, over its own (u, v, w).

@@ -61,6 +61,7 @@ void write_source(h5::File& file, const SnapshotSource& source) {
   file.write_numbers("/import", "axes", as_numbers(source.axes));
   file.write_number("/import", "time_start", source.time_start);
   file.write_text("/import", "break", source.break_plane);
+  file.write_number("/import", "rules", source.rules);
   std::string fields;
   for (const std::string& field : source.fields) fields += (fields.empty() ? "" : "\n") + field;
   if (!fields.empty()) file.write_text("/import", "fields", fields);

@@ -2,6 +2,7 @@
 #include "tests/import/cracked_bodies.h"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <algorithm>
 #include <cmath>
@@ -307,6 +308,17 @@ TEST_F(FieldsOfASeries, ASplineThatIsOffIsWarnedOf) {
   const std::string said = encode().output;
   EXPECT_NE(said.find("cleft encode: warning: the spline"), std::string::npos) << said;
   EXPECT_NE(said.find("--break"), std::string::npos) << said;
+}
+
+/// Files of earlier versions have no rules.
+TEST_F(FieldsOfASeries, AnEarlierImportIsNamedWhereTheSplineIsOff) {
+  const std::string told = "import the series again";
+  import(edge_crack().series(), "displacement", {"--break", "none"});
+  EXPECT_EQ(encode().output.find(told), std::string::npos);
+  const hid_t earlier = H5Fopen(snapshot.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(H5Adelete_by_name(earlier, "/import", "rules", H5P_DEFAULT), 0);
+  H5Fclose(earlier);
+  EXPECT_NE(encode().output.find(told), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(, SeveralCrackedBodies,
