@@ -22,7 +22,8 @@ namespace {
 
 constexpr double share_of_space = 0.9;      // of the tolerance, for fits of single frames
 constexpr int most_tries = 6;               // of finer knots for an arm of a break
-constexpr double worth_of_kinks = 0.75;     // what they must make of an error, since they take more bytes
+constexpr double far_off = 2;               // tolerances, of a spline that is worth more bytes
+constexpr double worth_of_more = 0.75;      // what kinks and denser knots must make of an error
 constexpr double greatest_condition = 1e6;  // of what nodes determine well; mostly 1e3 to 1e5
 constexpr std::size_t most_fewer = 2;       // rungs, for a better condition
 
@@ -79,7 +80,13 @@ class Encoder {
     if (!series_.kinks.empty() && parametrization_->moves() && misfit.largest > limit_) {
       Rung bent = chosen;
       bent.kinks = series_.kinks;
-      try_instead(bent, worth_of_kinks);
+      try_instead(bent, worth_of_more);
+    }
+    if (!series_.middles.samples.empty() && misfit.largest > far_off * limit_) {
+      const std::vector<Rung> dense = supported_rungs(nodes_held_between);
+      Rung denser = dense[sufficient(dense)];
+      denser.kinks = chosen.kinks;
+      try_instead(denser, worth_of_more);
     }
     const SeriesFit& fit = *fitted;
     Encoded encoded{with_steps(fit, misfit.beyond == 0 ? limit_ : above(misfit))};
@@ -101,10 +108,10 @@ class Encoder {
     return std::make_unique<SeriesFit>(fit_of(rung));
   }
 
-  std::vector<Rung> supported_rungs() const {
+  std::vector<Rung> supported_rungs(double nodes_at_front = enough_nodes) const {
     const bool waiting = !series_.kinks.empty() && waits(series_.geometry.tip);
     return supported(ladder_of(*parametrization_, {series_.round, waiting, series_.bends}), series_,
-                     *parametrization_);
+                     *parametrization_, nodes_at_front);
   }
 
   /// For single frames; if there is none, one that leaves little to a residual.

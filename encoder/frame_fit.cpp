@@ -7,7 +7,8 @@ namespace cleft {
 namespace {
 
 constexpr double of_middles = 0.03;  // the weight of edges: more bends the opening next to a front
-constexpr int enough = 8;            // nodes a control point, in any piece along the cut
+constexpr double of_middles_at_front = 0.003;
+constexpr int enough = 8;  // nodes a control point, in any piece along the cut
 
 /// Where the basis along interpolates: pieces between such knots share no function but at their ends.
 struct Piece {
@@ -71,13 +72,40 @@ FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
       at_plane.push_back(c);
     else if (inside[c])
       others.push_back(c);
+  std::vector<std::size_t> on_lips;
   for (std::size_t c = 0; c < held.size(); ++c)
-    // Lips close as a root next to the front, which edges of the break would straighten.
-    if (held[c] && !(series.from_zero && series.middles.samples[c].uvw.y == 0)) middles.push_back(c);
+    if (held[c]) (series.from_zero && series.middles.samples[c].uvw.y == 0 ? on_lips : middles).push_back(c);
   if (series.geometry.cut.length > 0)
     add_group(series.centres, at_plane, std::vector<bool>(sparse.size(), true));
   add_group(series.centres, others, sparse);
   add_group(series.middles, middles, sparse, of_middles);
+  add_group(series.middles, on_lips, sparse, of_middles_at_front);
+  add_lips(on_lips, sparse);
+}
+
+/// Lips close as a root next to the front, which edges there would straighten: an edge holds them from the
+/// frame on in which both of its ends are open; the later that is, the fewer frames are told apart.
+void FrameFit::add_lips(const std::vector<std::size_t>& edges, const std::vector<bool>& sparse) {
+  const std::size_t frames = sparse.size();
+  std::vector<std::size_t> opens(series_.samples.size(), frames), both(edges.size(), 0);
+  for (std::size_t p = 0; p < series_.pairs.size(); ++p) {
+    const auto open = std::upper_bound(series_.released.begin(), series_.released.end(), static_cast<int>(p));
+    for (const std::int32_t n : series_.pairs[p])
+      opens[n] = std::min(opens[n], static_cast<std::size_t>(open - series_.released.begin()));
+  }
+  const CellCentres& middles = series_.middles;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (std::size_t k = middles.first[edges[e]]; k < middles.first[edges[e] + 1]; ++k)
+      both[e] = std::max(both[e], opens[middles.nodes[k]]);
+  for (std::size_t before = 0, from = 1; from < frames; before = from, from += 1 + from / 4) {
+    std::vector<bool> of_frame = sparse;
+    std::fill(of_frame.begin(), of_frame.begin() + static_cast<std::ptrdiff_t>(from), false);
+    if (std::find(of_frame.begin(), of_frame.end(), true) == of_frame.end()) continue;
+    std::vector<std::size_t> open;
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      if (before < both[e] && both[e] <= from) open.push_back(edges[e]);
+    add_group(middles, open, of_frame, of_middles);
+  }
 }
 
 void FrameFit::add_group(const CellCentres& all, const std::vector<std::size_t>& cells,

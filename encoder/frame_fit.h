@@ -41,6 +41,7 @@ class FrameFit {
     std::optional<FrontCentres> fronts;  // of quadratic elements
     double weight = 1;                   // over that of nodes
   };
+  void add_lips(const std::vector<std::size_t>& edges, const std::vector<bool>& sparse);
   void add_group(const CellCentres& all, const std::vector<std::size_t>& cells, std::vector<bool> of_frame,
                  double weight = 1);
 

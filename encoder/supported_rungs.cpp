@@ -32,7 +32,7 @@ constexpr std::pair<int Rung::*, std::size_t> spans_of_axes[] = {{&Rung::before,
 }  // namespace
 
 std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& series,
-                            const Parametrization& parametrization) {
+                            const Parametrization& parametrization, double nodes_at_front) {
   const double last = series.times.back();
   std::array<std::vector<double>, 3> places;
   const auto add = [&](const Vec3& uvw) {
@@ -55,8 +55,7 @@ std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& serie
   // Nodes for each control point; an axis on which all nodes have one place counts as one control point.
   const bool passes = parametrization.moves() && !parametrization.geometry().tip.still();
   const bool front = parametrization.resolves_front();
-  // With fewer, matrices that follow the front are up to a hundred times worse conditioned.
-  const double nodes_each = passes ? (front ? 3.4 : 6) : thorough ? 0 : 2;
+  const double nodes_each = passes ? (front ? nodes_at_front : 6) : thorough ? 0 : 2;
   std::vector<Rung> rungs = {least};
   for (const Rung& rung : ladder) {
     Rung next = rungs.back();

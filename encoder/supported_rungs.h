@@ -8,11 +8,15 @@
 
 namespace cleft {
 
+/// Nodes for each control point in space, where it follows the front: with fewer, matrices are up to a
+/// hundred times worse conditioned. And where edges hold the spline between the nodes, too.
+inline constexpr double enough_nodes = 3.4, nodes_held_between = 1.5;
+
 /// The ladder, limited to the spans that the positions of the nodes in the last frame determine on each axis
 /// (Schoenberg and Whitney), and further limited if nodes are few for the control points in space (with a
 /// parametrisation that moves, or if all nodes are in a plane). Contains at least the first rung, with the
 /// spans in height that the levels of nodes determine.
 std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& series,
-                            const Parametrization& parametrization);
+                            const Parametrization& parametrization, double nodes_at_front = enough_nodes);
 
 }  // namespace cleft
