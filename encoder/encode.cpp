@@ -21,7 +21,7 @@ namespace cleft {
 namespace {
 
 constexpr double share_of_space = 0.9;      // of the tolerance, for fits of single frames
-constexpr int most_tries = 6;               // of finer knots for an arm of a break
+constexpr int most_tries = 6;               // of finer knots, where frames between the probes are off
 constexpr double far_off = 2;               // tolerances, of a spline that is worth more bytes
 constexpr double worth_of_more = 0.75;      // what kinks and denser knots must make of an error
 constexpr double greatest_condition = 1e6;  // of what nodes determine well; mostly 1e3 to 1e5
@@ -73,10 +73,12 @@ class Encoder {
       fitted = std::move(another), misfit = of_another, chosen = other;
     };
     // What other arms do passes the ends of an arm in few frames, between those that the search for knots has
-    // looked at.
-    for (int more = 0; series_.arm && more < most_tries && misfit.largest > limit_ && rung + 1 < rungs.size();
+    // looked at; a single break may begin to open there, too.
+    const bool single = !series_.arm && !series_.middles.samples.empty();
+    for (int more = 0;
+         (series_.arm || single) && more < most_tries && misfit.largest > limit_ && rung + 1 < rungs.size();
          ++more)
-      try_instead(rungs[++rung], 1);
+      try_instead(rungs[++rung], single ? worth_of_more : 1);
     if (!series_.kinks.empty() && parametrization_->moves() && misfit.largest > limit_) {
       Rung bent = chosen;
       bent.kinks = series_.kinks;

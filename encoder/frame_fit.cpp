@@ -7,7 +7,7 @@ namespace cleft {
 namespace {
 
 constexpr double of_middles = 0.03;  // the weight of edges: more bends the opening next to a front
-constexpr double of_middles_at_front = 0.003;
+constexpr double of_middles_open = 0.01, of_middles_at_front = 0.003;  // of lips
 constexpr int enough = 8;  // nodes a control point, in any piece along the cut
 
 /// Where the basis along interpolates: pieces between such knots share no function but at their ends.
@@ -104,7 +104,7 @@ void FrameFit::add_lips(const std::vector<std::size_t>& edges, const std::vector
     std::vector<std::size_t> open;
     for (std::size_t e = 0; e < edges.size(); ++e)
       if (before < both[e] && both[e] <= from) open.push_back(edges[e]);
-    add_group(middles, open, of_frame, of_middles);
+    add_group(middles, open, of_frame, of_middles_open);
   }
 }
 
