@@ -224,35 +224,6 @@ TEST_F(FieldsOfASeries, ADisplacementOfFrame0IsKept) {
   EXPECT_LE(error(at_start, 0, 0), 0.01 * field.report.largest_displacement);
 }
 
-/// It is larger than what follows, and has not the knots of a tip that has only begun to move: at those of
-/// the first frame its spline was off by .35.
-TEST_F(FieldsOfASeries, ALargeDisplacementOfFrame0KeepsTheToleranceInTheSpline) {
-  CrackedBody body = edge_crack();
-  body.displacement = [of = body.displacement](const Vec3& abc, int side, double t) {
-    return of(abc, side, t) + Vec3{0, 0.005 * abc.x * abc.x, std::sin(abc.x / 8) * std::cos(abc.y / 10)};
-  };
-  const SourceSeries series = body.series();
-  import(series, "displacement");
-  const Outcome outcome = encode();
-  EXPECT_EQ(outcome.output.find("warning"), std::string::npos) << outcome.output;
-  const Field field = read_field(file);
-  const Quantity& start = field.quantities.at(0);
-  EXPECT_LE(start.spline_error, 0.02);
-  EXPECT_LE(start.between_nodes, 0.02);
-  ASSERT_TRUE(start.time.has_value());
-  const FieldPlaces places{SnapshotReader(snapshot)};
-  double worst = 0;
-  for (const double t : {0., 1., 7.5, 12.})
-    for (std::size_t n = 0; n < places.uvw.size(); ++n) {
-      std::vector<double> values(3);
-      field.quantity(0, places.uvw[n], places.sides[n], t, values);
-      const std::vector<double>& data = series.fields[0].frames[0];
-      worst = std::max(worst, std::hypot(values[0] - data[3 * n], values[1] - data[3 * n + 1],
-                                         values[2] - data[3 * n + 2]));
-    }
-  EXPECT_NEAR(worst, start.spline_error * start.scale, 1e-9);
-}
-
 /// The series comes back in its own axes, names and times: at its own nodes within the tolerance, and on its
 /// mesh, of which the field knows nothing, within the error of the spline.
 TEST_F(FieldsOfASeries, IsDecodedAsItWas) {
