@@ -38,6 +38,9 @@ constexpr double of_outside = 0.1;  // half a range beyond the family
 constexpr double of_bone = 0.15, near_bone = 5, far_bone = 12, bone_power = 1.75;
 
 constexpr double degrees_45 = 45;
+/// Of a cut that lies otherwise than the first, whose tension does not turn: in proportion to the sine of the
+/// angle between them, up to this.
+constexpr double of_turned = 0.6, of_sine = 0.96;
 /// mm: noise of paths is smoothed over so much, and of skin over so many depths of the cut.
 constexpr double smoothing_of_path = 8, smoothing_of_skin = 8. / 3;
 
@@ -84,6 +87,11 @@ Parts parts_of_whole(double length, const CanonicalCut& canonical, bool known, b
            std::exp(-n.nearest_cut / neighbour_reach),
        "another cut is # mm beside it", n.nearest_cut},
       {n.held_back, "the skin would turn over or pass through itself, and is held back"}};
+  if (!known && n.turned > 0)
+    parts.push_back(
+        {std::min(of_turned, of_sine * std::sin(n.turned)),
+         "it lies # degrees from the direction of the first cut, and the tension does not turn with it",
+         n.turned * 180 / std::numbers::pi});
   if (n.junction_tension > 0 && !known)
     parts.push_back({of_junction, "it meets another cut, and the tension does not turn with it"});
   else if (n.junction_tension > pulled_enough)

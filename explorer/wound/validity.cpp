@@ -158,6 +158,16 @@ double distance(const Wound& a, const Wound& b) {
   return least * a.scale();
 }
 
+/// Between the directions of two cuts from end to end, radians: at most a right angle.
+double angle_between(const Wound& a, const Wound& b) {
+  const auto direction = [](const Wound& cut) {
+    const ScalpelPath way = way_of(*cut.incision);
+    return way.at(way.length()).position - way.at(0).position;
+  };
+  const Vec3 one = direction(a), other = direction(b);
+  return std::atan2(norm(cross(one, other)), std::abs(dot(one, other)));
+}
+
 bool pulled_alike(const Field& field) {
   const auto [uu, vv, uv] = prestress_of(field.parameters);
   return std::abs(uu - vv) + 2 * std::abs(uv) <= greatest_difference * (uu + vv);
@@ -191,12 +201,13 @@ std::vector<Validity> validity_of(const std::vector<const Wound*>& cuts, bool tu
     for (const Junction& x : junctions[i])
       v.junction_tension = std::max(v.junction_tension.value_or(-infinity), x.tension);
     const bool known = turned || pulled_alike(field);
+    const double against_first = v.junction_tension ? 0 : angle_between(*cuts[0], *cuts[i]);
     const double widest = opening(cuts[i]->field, std::min(length, canonical));
     const double own = turned || !(widest > 0) ? 0 : error_of_gape(field).value_or(0) / widest;
-    v.expected_error = opening_error_of(
-        *cuts[i], known,
-        {nearest_beside, v.junction_tension.value_or(0), v.length_defect, own,
-         field.interpolation.has_value(), widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
+    v.expected_error = opening_error_of(*cuts[i], known,
+                                        {nearest_beside, v.junction_tension.value_or(0), v.length_defect, own,
+                                         field.interpolation.has_value(), against_first,
+                                         widest > 0 ? std::max(v.held_back, v.guarded) / widest : 0});
     const bool several = cuts.size() > 1;
     const std::string which = several ? "cut " + std::to_string(i + 1) + ": " : "";
     if (!v.unsound.empty()) v.warnings.push_back(which + warning_of(v.unsound, several));

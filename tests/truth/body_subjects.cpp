@@ -162,8 +162,14 @@ std::vector<NamedSubject> body_subjects(double margin) {
   for (const double d : {10., 4.})
     add("parallel, " + text(d) + " apart", flat,
         {straight(length, 0, 0, -d / 2), straight(length, 0, 0, d / 2)});
+  add("three parallel, 8 apart", flat,
+      {straight(length, 0, 0, -8), straight(length, 0, 0, 0), straight(length, 0, 0, 8)});
+  add("two in a line, 6 apart", flat, {straight(20, 0, -13, 0), straight(20, 0, 13, 0)});
+  add("at an angle of 30", flat, {straight(length, 0, 0, -5), straight(24, 30, 2, 5)});
+  add("at an angle of 60", flat, {straight(length, 0, 0, -8), straight(20, 60, 2, 6)});
   add("T, branch of 15", flat, {usual, straight(15, 90, 0, 7.5)});
   add("X at 90 degrees", flat, {usual, straight(length, 90)});
+  add("X at 45 degrees", flat, {usual, straight(length, 45)});
   add("flap, U of radius 10", flat, {flap(10, 15)});
   add("excision, ellipse 30 x 14", flat, {ellipse(15, 7)});
   all.push_back({"cheek of the generated head", head_cheek});

@@ -66,6 +66,14 @@ TEST(Validity, CutsThatMeetAtASlantOrLieBesideEachOtherAreJudgedByTheirDistance)
   EXPECT_NEAR(beside[1].nearest_cut, 2, 0.2);
 }
 
+TEST(Validity, ACutThatLiesOtherwiseThanTheFirstIsJudgedByTheAngleWhereTheTensionDoesNotTurn) {
+  const auto fixed = two_cuts(pulled(0.01, 0.03), -4, 30, false);
+  EXPECT_EQ(tells(fixed[0], "the direction of the first cut"), 0);
+  EXPECT_EQ(tells(fixed[1], "it lies 30 degrees from the direction of the first cut"), 1);
+  EXPECT_NEAR(fixed[1].expected_error.largest, 0.48, 0.03);
+  EXPECT_EQ(tells(two_cuts(pulled(0.01, 0.03), -4, 30, true)[1], "the direction of the first cut"), 0);
+}
+
 /// Two straight ways, 4 mm apart, and a bend between: the lips between them have 2 mm to the middle.
 TEST(Validity, TellsByHowMuchAndWhereLipsAreHeldBack) {
   const Field field = opening_field({-15, 30, 3}, 80, 60, 6, 4);
