@@ -84,12 +84,13 @@ Eigen::MatrixXd taken(const CutMembrane& membrane, const Cut& to, const Cut& fro
   return result;
 }
 
-/// The shear and the tension across each piece before it is cut, MPa.
+/// The shear, where the field tells one, and the tension across each piece before it is cut, MPa.
 Eigen::VectorXd tractions_on(const Wound& wound, const Cut& cut) {
+  const bool tells_shear = wound.field.shape().parameters.number("skin.prestress_uv").has_value();
   Eigen::VectorXd result(cut.rows());
   Eigen::Index row = 0;
   for (const double s : cut.stations()) {
-    result(row++) = wound.field.prestress(&Prestress::uv, s);
+    result(row++) = tells_shear ? wound.field.prestress(&Prestress::uv, s) : 0;
     result(row++) = wound.field.prestress(&Prestress::vv, s);
   }
   return result;

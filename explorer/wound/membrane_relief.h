@@ -15,7 +15,7 @@ bool meet(const Wound& a, const Wound& b);
 /// result[i][k]: the opening of cut k over the opening across of the cut alone, along its path, with the
 /// blade of the last cut at blades[i] mm of its path and the others complete: across, and as `shifts` what
 /// the other cuts add along it. Without values of cuts that feel no other; empty of fields that do not open.
-/// Throws InputError if a field lacks the skin's prestress.
+/// Throws InputError if a field lacks the skin's prestress across the cut.
 std::vector<std::vector<Amplitude>> membrane_relief(const std::vector<const Wound*>& cuts,
                                                     const std::vector<double>& blades);
 

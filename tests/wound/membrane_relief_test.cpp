@@ -41,7 +41,6 @@ Field ellipses() {
         }
   Field field(u, v, w, t, std::move(c), canonical);
   field.parameters = recorded({{"skin.prestress_v", 0.03},
-                               {"skin.prestress_uv", 0},
                                {"skin.thickness", 1.5},
                                {"skin.young_modulus", 0.2},
                                {"skin.poisson_ratio", 0.4},
