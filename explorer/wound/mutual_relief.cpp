@@ -177,80 +177,109 @@ Meetings meetings(const std::vector<const Wound*>& cuts) {
   return result;
 }
 
-/// With the blade of the last cut at one place; `of_membrane`: of cuts that are apart, where there are some.
-std::vector<Amplitude> amplitudes(const std::vector<const Wound*>& cuts, double blade, const Meetings& meets,
-                                  const std::vector<Amplitude>& of_membrane) {
-  std::vector<Amplitude> result(cuts.size());
-  std::vector<Influence> influences;
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const Wound& cut = *cuts[i];
-    for (const Incision::ChainVertex& c : cut.incision->chain()) {
-      const double s = c.s * cut.scale();
-      if (!result[i].stations.empty() && s <= result[i].stations.back()) continue;
-      const std::size_t station = result[i].stations.size();
-      result[i].stations.push_back(s);
-      const Vec3 normal = cut.volume.skin_frame(c.s).across;
-      for (std::size_t j = 0; j < cuts.size(); ++j) {
-        if (j == i) continue;
-        const std::optional<ActiveVertex> at = cuts[j]->volume.locate(c.left);
-        if (!at) continue;
-        const double there = j + 1 == cuts.size() ? blade : cuts[j]->complete();
-        const double tension = cut.field.prestress(&Prestress::vv, s);
-        if (!(tension > 0)) continue;
-        const Stiffness stiffness(cuts[j]->field.shape());
-        const double change = change_across(*cuts[j], stiffness, *at, normal, there);
-        const double toward = (at->uvw.y > 0 ? -1 : 1) * dot(at->across, normal);
-        influences.push_back(
-            {i, j, station, at->s, change / (stiffness.thickness * tension), toward, meets[i][j]});
+/// The amplitudes by the strains of the fields, at any place of the last cut's blade: what complete cuts do
+/// to each other is found once.
+class ByStrains {
+ public:
+  ByStrains(const std::vector<const Wound*>& cuts, const Meetings& meets)
+      : cuts_(cuts), closed_(cuts.size()) {
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      const Wound& cut = *cuts[i];
+      Amplitude& own = closed_[i];
+      for (const Incision::ChainVertex& c : cut.incision->chain()) {
+        const double s = c.s * cut.scale();
+        if (!own.stations.empty() && s <= own.stations.back()) continue;
+        own.stations.push_back(s);
+        const Vec3 normal = cut.volume.skin_frame(c.s).across;
+        for (std::size_t j = 0; j < cuts.size(); ++j) {
+          if (j == i) continue;
+          const std::optional<ActiveVertex> at = cuts[j]->volume.locate(c.left);
+          if (!at) continue;
+          const double tension = cut.field.prestress(&Prestress::vv, s);
+          if (!(tension > 0)) continue;
+          const double toward = (at->uvw.y > 0 ? -1 : 1) * dot(at->across, normal);
+          places_.push_back(
+              {{i, j, own.stations.size() - 1, at->s, 0, toward, meets[i][j]}, *at, normal, tension});
+          if (j + 1 < cuts.size())
+            places_.back().influence.ratio = ratio(places_.back(), cuts[j]->complete());
+        }
+      }
+      own.values.assign(own.stations.size(), 1);
+      own.leans = own.shifts = std::vector<double>(own.stations.size(), 0);
+    }
+  }
+
+  /// `of_membrane`: of cuts that are apart, where there are some.
+  std::vector<Amplitude> with_blade_at(double blade, const std::vector<Amplitude>& of_membrane) const {
+    std::vector<Influence> influences;
+    for (const Place& place : places_) {
+      influences.push_back(place.influence);
+      if (place.influence.by + 1 == cuts_.size()) influences.back().ratio = ratio(place, blade);
+    }
+    std::vector<Amplitude> result = closed_;
+    for (int round = 0; round < rounds; ++round) {
+      std::vector<std::vector<double>> next;
+      for (const Amplitude& amplitude : result) next.emplace_back(amplitude.values.size(), 1);
+      for (const Influence& x : influences)
+        if (x.meet) next[x.cut][x.station] += x.ratio * result[x.by].at(x.s);
+      for (std::size_t i = 0; i < result.size(); ++i)
+        for (std::size_t k = 0; k < next[i].size(); ++k)
+          result[i].values[k] += way * (std::clamp(next[i][k], 0., most) - result[i].values[k]);
+    }
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i].values = means_of(result[i], mean_over * cuts_[i]->field.shape().cut().depth);
+      if (of_membrane.empty() || of_membrane[i].values.empty()) continue;
+      for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
+        const Amplitude::At there = of_membrane[i](result[i].stations[k]);
+        result[i].values[k] *= std::min(most, there.value);
+        result[i].shifts[k] = std::clamp(there.shift, -most_shift, most_shift);
       }
     }
-    result[i].values.assign(result[i].stations.size(), 1);
-  }
-  for (int round = 0; round < rounds; ++round) {
-    std::vector<std::vector<double>> next;
-    for (const Amplitude& amplitude : result) next.emplace_back(amplitude.values.size(), 1);
-    for (const Influence& x : influences)
-      if (x.meet) next[x.cut][x.station] += x.ratio * result[x.by].at(x.s);
-    for (std::size_t i = 0; i < result.size(); ++i)
-      for (std::size_t k = 0; k < next[i].size(); ++k)
-        result[i].values[k] += way * (std::clamp(next[i][k], 0., most) - result[i].values[k]);
-  }
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].values = means_of(result[i], mean_over * cuts[i]->field.shape().cut().depth);
-    result[i].leans.assign(result[i].stations.size(), 0);
-    result[i].shifts.assign(result[i].stations.size(), 0);
-    if (of_membrane.empty() || of_membrane[i].values.empty()) continue;
-    for (std::size_t k = 0; k < result[i].stations.size(); ++k) {
-      const Amplitude::At there = of_membrane[i](result[i].stations[k]);
-      result[i].values[k] *= std::min(most, there.value);
-      result[i].shifts[k] = std::clamp(there.shift, -most_shift, most_shift);
+    for (const Influence& x : influences) {
+      const double lean = leaning * std::min(0., x.ratio * result[x.by].at(x.s)) * x.toward;
+      result[x.cut].leans[x.station] += lean;
+      if (x.meet)
+        result[x.cut].shifts[x.station] -=
+            lean * way_from_middle(result[x.cut].stations[x.station], *cuts_[x.cut]);
     }
+    return result;
   }
-  for (const Influence& x : influences) {
-    const double lean = leaning * std::min(0., x.ratio * result[x.by].at(x.s)) * x.toward;
-    result[x.cut].leans[x.station] += lean;
-    if (x.meet)
-      result[x.cut].shifts[x.station] -=
-          lean * way_from_middle(result[x.cut].stations[x.station], *cuts[x.cut]);
+
+ private:
+  struct Place {
+    Influence influence;  // its ratio: of complete cuts
+    ActiveVertex at;      // in the volume of the other cut
+    Vec3 normal;          // across the own path
+    double tension;       // MPa, across it
+  };
+  /// What the other cut changes of the tension, with its blade at some place, over the tension.
+  double ratio(const Place& place, double blade) const {
+    const Wound& other = *cuts_[place.influence.by];
+    const Stiffness stiffness(other.field.shape());
+    return change_across(other, stiffness, place.at, place.normal, blade) /
+           (stiffness.thickness * place.tension);
   }
-  return result;
-}
+
+  const std::vector<const Wound*>& cuts_;
+  std::vector<Amplitude> closed_;  // stations, with 1 at all of them
+  std::vector<Place> places_;
+};
 
 }  // namespace
 
 std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*>& cuts,
                                                   const std::vector<double>& blades) {
   const std::vector<std::vector<Amplitude>> of_membrane = membrane_relief(cuts, blades);
-  const Meetings meets = of_membrane.empty() ? all_meet(cuts.size()) : meetings(cuts);
+  const ByStrains by_strains(cuts, of_membrane.empty() ? all_meet(cuts.size()) : meetings(cuts));
   std::vector<std::vector<Amplitude>> result;
   for (std::size_t i = 0; i < blades.size(); ++i)
     result.push_back(
-        amplitudes(cuts, blades[i], meets, of_membrane.empty() ? std::vector<Amplitude>() : of_membrane[i]));
+        by_strains.with_blade_at(blades[i], of_membrane.empty() ? std::vector<Amplitude>() : of_membrane[i]));
   return result;
 }
 
 std::vector<Amplitude> relief_of_meeting_cuts(const std::vector<const Wound*>& cuts, double blade) {
-  return amplitudes(cuts, blade, all_meet(cuts.size()), {});
+  return ByStrains(cuts, all_meet(cuts.size())).with_blade_at(blade, {});
 }
 
 Relief relief_while_cut(const std::vector<const Wound*>& cuts, double length) {
