@@ -56,7 +56,7 @@ def export(body, out, materials, numbers):
         file.write(array("gmsh:physical", "Int32", np.array(tags)[order]) + "</CellData>\n")
         file.write("</Piece></UnstructuredGrid></VTKFile>\n")
     with open(materials, "w", encoding="utf-8") as file:
-        file.write(f"[faces]\nskin = {SKIN}\nbone = [{BONE}]\n")
+        file.write(f"[faces]\nskin = {SKIN}\n" + (f"bone = [{BONE}]\n" if len(bone) else ""))
         for number, name in reversed(list(enumerate(names))):
             file.write(f"[{name}]\nregion = {FIRST_REGION + number}\n")
             for key, values in zip(("young_modulus", "poisson_ratio"), moduli):
