@@ -42,8 +42,8 @@ double core_of(const Parameters& p) {
   return std::max(10., cut.length / 2 + cut.depth);
 }
 
-/// How far the profile across a cut may turn, radians. Where the skin bends along the cut too, the profile must
-/// not reach the axis about which that curvature turns it.
+/// How far the profile across a cut may turn, radians. Where the skin bends along the cut too, the profile
+/// must not reach the axis about which that curvature turns it.
 double most_turned(const Parameters::Skin& skin) {
   constexpr double turned = 1.3, turned_alike = 0.72;  // alike: where the two curvatures are equal
   const double u = std::abs(skin.curvature_u), v = std::abs(skin.curvature_v);

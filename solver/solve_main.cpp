@@ -2,6 +2,8 @@
 #include <deal.II/base/config.h>
 #include <dmumps_c.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -137,10 +139,10 @@ void warn_of(const SolveReport& r) {
 }
 
 Body body_from(const std::string& file) {
-  for (const char* ending : {".stl", ".obj", ".ply", ".vtp", ".vtu", ".glb", ".gltf"})
-    if (file.ends_with(ending))
-      throw InputError("--mesh " + file + ": is no body yet; make one of it: cleft body --mesh " + file +
-                       " --path cut.csv --out body.h5");
+  constexpr std::array surfaces = {".stl", ".obj", ".ply", ".vtp", ".vtu", ".glb", ".gltf"};
+  if (std::ranges::any_of(surfaces, [&](const char* ending) { return file.ends_with(ending); }))
+    throw InputError("--mesh " + file + ": is no body yet; make one of it: cleft body --mesh " + file +
+                     " --path cut.csv --out body.h5");
   return read_body(file);
 }
 

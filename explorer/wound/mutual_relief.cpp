@@ -219,6 +219,7 @@ class ByStrains {
     std::vector<Amplitude> result = closed_;
     for (int round = 0; round < rounds; ++round) {
       std::vector<std::vector<double>> next;
+      next.reserve(result.size());
       for (const Amplitude& amplitude : result) next.emplace_back(amplitude.values.size(), 1);
       for (const Influence& x : influences)
         if (x.meet) next[x.cut][x.station] += x.ratio * result[x.by].at(x.s);
