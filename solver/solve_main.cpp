@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <numbers>
 
 #include "base/command/command.h"
 #include "base/error.h"
@@ -153,8 +154,8 @@ void warn_of_turn(const Body& body, const CaseToSolve& one) {
   if (most.angle <= much_turn) return;
   const auto rounded = [](double x) { return shortest(std::round(100 * x) / 100); };
   std::cerr << "cleft solve: warning: " << one.out << ": skin turns by up to "
-            << shortest(std::round(most.angle * 57.29577951308232)) << " degrees, at (" << rounded(most.at.x)
-            << ", " << rounded(most.at.y) << ", " << rounded(most.at.z)
+            << shortest(std::round(most.angle * 180 / std::numbers::pi)) << " degrees, at ("
+            << rounded(most.at.x) << ", " << rounded(most.at.y) << ", " << rounded(most.at.z)
             << ") mm, for which strains are not small, and the wound is too wide: set "
                "skin.initial_stress_stiffness = true, or model = finite\n";
 }

@@ -246,8 +246,7 @@ Json encode_file(Task& task, std::size_t file, EncoderProgress& progress) {
       !warnings.empty() && source && source->rules < SnapshotSource::newest_rules)
     warnings.push_back(
         "an earlier version of cleft import made the snapshot, which did not know all kinds of breaks; "
-        "import "
-        "the series again");
+        "import the series again");
   progress("writing");
   const std::size_t nodes = series.size() > 1 ? SnapshotReader(snapshot).snapshot().points.size()
                                               : readers.front().snapshot().points.size(),

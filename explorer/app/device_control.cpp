@@ -49,9 +49,9 @@ std::unique_ptr<Device> DeviceControl::make(const std::string& name, const std::
   if (kind.input == &path_input) {
     const auto field = session_.field();
     const double scale = session_.state().scale;
-    const double depth = session_.depth_of_case(session_.state().shown);
     const ScalpelPath path =
-        field ? read_path(file, 0, scale, field->cut().depth) : read_path(file, depth, scale, std::nullopt);
+        field ? read_path(file, 0, scale, field->cut().depth)
+              : read_path(file, session_.depth_of_case(session_.state().shown), scale, std::nullopt);
     request.script = hand_along(path, scale, hand_speed, request.hand, forces(field));
   }
   return kind.make(request);

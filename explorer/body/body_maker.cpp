@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -23,7 +24,7 @@ namespace {
 
 constexpr double most_columns = 5000;  // of nodes along all cuts: no solver takes more
 constexpr double most_nodes = 1e7;
-constexpr double degrees = 57.29577951308232;
+constexpr double degrees = 180 / std::numbers::pi;
 constexpr double bend_of_edge = 0.5;  // radians by which the skin may turn along an edge
 
 /// A path as the mesh has it: made longer at both ends by the front's part of an element, because a mesh's

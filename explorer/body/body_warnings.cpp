@@ -1,6 +1,7 @@
 #include "explorer/body/body_warnings.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "base/text.h"
 #include "explorer/body/skin_coordinates.h"
@@ -10,7 +11,7 @@ namespace cleft {
 namespace {
 
 constexpr double least_angle = 5, most_turn = 10;  // degrees
-constexpr double degrees = 57.29577951308232;
+constexpr double degrees = 180 / std::numbers::pi;
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 std::string hundredths(double x) { return shortest(std::round(100 * x) / 100); }

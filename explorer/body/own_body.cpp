@@ -16,17 +16,21 @@ namespace cleft {
 
 namespace {
 
-/// Throws where no cell has the number of a region: it is most likely another one. `what` says whose it is.
-void check_number(int number, bool of_face, const OwnBodyRequest& request, const std::string& what) {
+/// Throws where no cell has one of the numbers of regions: it is most likely another one. `what` says whose
+/// they are.
+void check_numbers(const std::vector<int>& numbers, bool of_face, const OwnBodyRequest& request,
+                   const std::string& what) {
   std::set<int> known;
   for (std::size_t c = 0; c < request.mesh.regions.size(); ++c) {
     const std::size_t nodes = request.mesh.nodes[c].size();
     if (of_face ? nodes == 3 || nodes == 4 : nodes >= 6) known.insert(request.mesh.regions[c]);
   }
-  if (known.contains(number)) return;
+  const auto unknown =
+      std::find_if_not(numbers.begin(), numbers.end(), [&](int n) { return known.contains(n); });
+  if (unknown == numbers.end()) return;
   std::string list;
   for (const int one : known) list += (list.empty() ? "" : ", ") + std::to_string(one);
-  throw InputError(what + std::to_string(number) + ", and no " + (of_face ? "face" : "cell of tissue") +
+  throw InputError(what + std::to_string(*unknown) + ", and no " + (of_face ? "face" : "cell of tissue") +
                    " of " + request.mesh.name + " has this number of '" + request.regions_name +
                    "' (there are " + (list.empty() ? "none" : list) + "): correct it, or leave it out");
 }
@@ -41,8 +45,7 @@ OwnFaces faces_of(const OwnBodyRequest& request) {
   const FaceRegions& named = *request.regions->faces;
   for (const auto& [numbers, name] :
        {std::pair{&named.skin, "skin"}, {&named.bone, "bone"}, {&named.free, "free"}})
-    for (const int number : *numbers)
-      check_number(number, true, request, std::string("[faces]: ") + name + " = ");
+    check_numbers(*numbers, true, request, std::string("[faces]: ") + name + " = ");
   faces.all_skin = named.skin.empty();
   faces.skin = {named.skin.begin(), named.skin.end()};
   faces.bone = {named.bone.begin(), named.bone.end()};
@@ -96,8 +99,8 @@ class OwnBodyMaker {
   void check_regions() const {
     if (!r_.regions) return;
     for (const RegionSection& section : r_.regions->sections)
-      for (const int number : section.regions)
-        check_number(number, false, r_, section.where + ": [" + section.material.name + "]: region = ");
+      check_numbers(section.regions, false, r_,
+                    section.where + ": [" + section.material.name + "]: region = ");
   }
 
   std::uint8_t material(int cell) const {

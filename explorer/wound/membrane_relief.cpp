@@ -27,10 +27,6 @@ constexpr double nearly_meeting = 7. / 6;
 /// What is less of a cut's own opening, over the largest, is no measure of it.
 constexpr double least_opening = 1e-6;
 
-double length_of(const Wound& wound, bool is_last) {
-  return is_last ? wound.incision->path().length() * wound.scale() : wound.complete();
-}
-
 /// A cut in straight pieces.
 struct Cut {
   struct Piece {
@@ -38,10 +34,11 @@ struct Cut {
     PathFrame frame;          // in the middle
   };
   std::vector<Piece> pieces;
-  double length, piece;  // mm
+  double piece;  // mm
 
-  Cut(const Wound& wound, double length_of_cut) : length(length_of_cut) {
-    const double canonical = wound.field.shape().cut().length, scale = wound.scale();
+  explicit Cut(const Wound& wound) {
+    const double length = wound.complete(), canonical = wound.field.shape().cut().length,
+                 scale = wound.scale();
     const int count = std::clamp(static_cast<int>(std::lround(own_pieces * length / canonical)),
                                  fewest_pieces, most_pieces);
     piece = length / count;
@@ -117,11 +114,11 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
 /// are what the elimination of the complete cuts leaves.
 class Together {
  public:
-  Together(const std::vector<const Wound*>& wounds, const CutMembrane& membrane)
+  Together(const std::vector<const Wound*>& wounds, const Meetings& meets, const CutMembrane& membrane)
       : feel_(wounds.size(), false) {
     std::vector<Eigen::Index> first = {0};
     for (const Wound* wound : wounds) {
-      cuts_.emplace_back(*wound, length_of(*wound, wound == wounds.back()));
+      cuts_.emplace_back(*wound);
       first.push_back(first.back() + cuts_.back().rows());
     }
     const Eigen::Index complete = first[cuts_.size() - 1], last = cuts_.back().rows();
@@ -130,7 +127,7 @@ class Together {
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
       tractions.segment(first[i], cuts_[i].rows()) = tractions_on(*wounds[i], cuts_[i]);
       for (std::size_t j = 0; j < cuts_.size(); ++j) {
-        if (i != j && meet(*wounds[i], *wounds[j])) continue;
+        if (i != j && meets[i][j]) continue;
         all.block(first[i], first[j], cuts_[i].rows(), cuts_[j].rows()) = taken(membrane, cuts_[i], cuts_[j]);
         if (i != j) feel_[i] = true;
       }
@@ -198,7 +195,7 @@ bool meet(const Wound& a, const Wound& b) {
   const ScalpelPath& other = b.incision->path();
   const double end = b.complete() / b.scale();
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Cut::Piece& piece : Cut(a, a.complete()).pieces)
+  for (const Cut::Piece& piece : Cut(a).pieces)
     for (const Vec3& place : {piece.begin, piece.middle, piece.end}) {
       const Vec3 there = 1 / b.scale() * place;
       const double s = std::clamp(other.coordinates(there, 0, end).s, 0., end);
@@ -209,7 +206,15 @@ bool meet(const Wound& a, const Wound& b) {
   return nearest < nearly_meeting * depth;
 }
 
+Meetings meetings(const std::vector<const Wound*>& cuts) {
+  Meetings result(cuts.size(), std::vector<bool>(cuts.size(), true));
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) result[i][j] = result[j][i] = meet(*cuts[i], *cuts[j]);
+  return result;
+}
+
 std::vector<std::vector<Amplitude>> membrane_relief(const std::vector<const Wound*>& cuts,
+                                                    const Meetings& meets,
                                                     const std::vector<double>& blades) {
   std::optional<CutMembrane> membrane;
   for (const Wound* cut : cuts)
@@ -217,7 +222,7 @@ std::vector<std::vector<Amplitude>> membrane_relief(const std::vector<const Woun
   if (!membrane) return {};
   std::vector<std::vector<Amplitude>> result(blades.size(), std::vector<Amplitude>(cuts.size()));
   if (cuts.size() < 2) return result;
-  const Together together(cuts, *membrane);
+  const Together together(cuts, meets, *membrane);
   for (std::size_t i = 0; i < blades.size(); ++i) result[i] = together.with_blade_at(blades[i]);
   return result;
 }

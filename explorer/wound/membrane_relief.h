@@ -12,11 +12,15 @@ namespace cleft {
 /// Whether two cuts meet, or nearly do: they are nearer to each other than about as they are deep.
 bool meet(const Wound& a, const Wound& b);
 
+/// By the numbers of two cuts: whether they meet.
+using Meetings = std::vector<std::vector<bool>>;
+Meetings meetings(const std::vector<const Wound*>& cuts);
+
 /// result[i][k]: the opening of cut k over the opening across of the cut alone, along its path, with the
 /// blade of the last cut at blades[i] mm of its path and the others complete: across, and as `shifts` what
 /// the other cuts add along it. Without values of cuts that feel no other; empty of fields that do not open.
 /// Throws InputError if a field lacks the skin's prestress across the cut.
 std::vector<std::vector<Amplitude>> membrane_relief(const std::vector<const Wound*>& cuts,
-                                                    const std::vector<double>& blades);
+                                                    const Meetings& meets, const std::vector<double>& blades);
 
 }  // namespace cleft

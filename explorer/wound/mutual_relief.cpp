@@ -165,17 +165,7 @@ Relief::At Relief::at(double part) const {
 
 namespace {
 
-/// By the numbers of two cuts: whether they meet.
-using Meetings = std::vector<std::vector<bool>>;
-
 Meetings all_meet(std::size_t cuts) { return Meetings(cuts, std::vector<bool>(cuts, true)); }
-
-Meetings meetings(const std::vector<const Wound*>& cuts) {
-  Meetings result = all_meet(cuts.size());
-  for (std::size_t i = 0; i < cuts.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) result[i][j] = result[j][i] = meet(*cuts[i], *cuts[j]);
-  return result;
-}
 
 /// The amplitudes by the strains of the fields, at any place of the last cut's blade: what complete cuts do
 /// to each other is found once.
@@ -270,8 +260,9 @@ class ByStrains {
 
 std::vector<std::vector<Amplitude>> mutual_relief(const std::vector<const Wound*>& cuts,
                                                   const std::vector<double>& blades) {
-  const std::vector<std::vector<Amplitude>> of_membrane = membrane_relief(cuts, blades);
-  const ByStrains by_strains(cuts, of_membrane.empty() ? all_meet(cuts.size()) : meetings(cuts));
+  const Meetings meets = meetings(cuts);
+  const std::vector<std::vector<Amplitude>> of_membrane = membrane_relief(cuts, meets, blades);
+  const ByStrains by_strains(cuts, of_membrane.empty() ? all_meet(cuts.size()) : meets);
   std::vector<std::vector<Amplitude>> result;
   for (std::size_t i = 0; i < blades.size(); ++i)
     result.push_back(

@@ -74,6 +74,10 @@ Vec3 Wounds::changed_by_guard(int vertex, const Blade& blade) const {
 /// The amplitudes while the blade makes the newest of some cuts.
 Relief Wounds::relief_while_cut(std::size_t newest, double length) const {
   if (newest == 0) return {};
+  // A replay has found it for all of the path.
+  const Incision& cut = *wounds_[newest].incision;
+  if (relief_[newest].steps() > 1 && length == cut.path().length() * wounds_[newest].scale())
+    return relief_[newest];
   try {
     return cleft::relief_while_cut(first(newest + 1), length);
   } catch (const InputError&) {  // the field does not tell the tension: displacements add

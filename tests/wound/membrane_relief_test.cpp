@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "tests/incision/meshes.h"
-#include "tests/support/recorded.h"
+#include "tests/wound/fields.h"
 
 namespace cleft {
 namespace {
@@ -22,32 +22,7 @@ const CanonicalCut canonical{-15, 30, 3};
 constexpr double length = 30, piece = length / 24;  // mm
 
 /// Opens as an ellipse does, in proportion to the length that is cut: as in a sheet without springs.
-Field ellipses() {
-  const BSplineBasis u = BSplineBasis::uniform(3, 32, -25, 25), v = BSplineBasis::broken(3, 16, -25, 0, 25),
-                     w = BSplineBasis::uniform(3, 8, -6, 0), t = BSplineBasis::uniform(3, 12, 0, 30);
-  const auto greville = [](const BSplineBasis& b, int i) {
-    return (b.knots()[i + 1] + b.knots()[i + 2] + b.knots()[i + 3]) / 3;
-  };
-  std::vector<Vec3> c;
-  for (int i = 0; i < u.size(); ++i)
-    for (int j = 0; j < v.size(); ++j)
-      for (int k = 0; k < w.size(); ++k)
-        for (int l = 0; l < t.size(); ++l) {
-          const double x = greville(u, i) - canonical.start, y = greville(v, j);
-          const double height = std::max(0., 1 + greville(w, k) / canonical.depth);
-          const double g = 0.1 * std::sqrt(std::max(0., x * (greville(t, l) - x))) *
-                           std::exp(-0.06 * std::abs(y)) * height;
-          c.push_back({0, j < v.size() / 2 ? -g : g, 0});
-        }
-  Field field(u, v, w, t, std::move(c), canonical);
-  field.parameters = recorded({{"skin.prestress_v", 0.03},
-                               {"skin.thickness", 1.5},
-                               {"skin.young_modulus", 0.2},
-                               {"skin.poisson_ratio", 0.4},
-                               {"tissue.young_modulus", 0.2},
-                               {"tissue.poisson_ratio", 0.3}});
-  return field;
-}
+Field ellipses() { return in_tension(opening_field(canonical, 50, 50, 6, 3), {{"skin.prestress_v", 0.03}}); }
 
 /// Straight cuts in a flat mesh, one after the other.
 class Cuts {
@@ -75,6 +50,10 @@ class Cuts {
   std::vector<std::unique_ptr<Wound>> wounds_;
 };
 
+std::vector<std::vector<Amplitude>> relief_of(const Cuts& cuts, const std::vector<double>& blades) {
+  return membrane_relief(cuts.all(), meetings(cuts.all()), blades);
+}
+
 std::vector<Vec3> line(double x0, double y0, double x1, double y1) { return {{x0, y0, 0}, {x1, y1, 0}}; }
 
 /// The opening of one of two collinear cracks over that of it alone, at x between a and b.
@@ -96,7 +75,7 @@ TEST(MembraneRelief, OfCollinearCutsIsThatOfCollinearCracks) {
   for (const double a : {2., 5., 12.}) {  // half the distance of their ends
     const double b = a + length;
     const Cuts cuts(field, {line(-b, 0.1, -a, 0.1), line(a, 0.1, b, 0.1)});
-    const auto found = membrane_relief(cuts.all(), {length});
+    const auto found = relief_of(cuts, {length});
     ASSERT_EQ(found.size(), 1u);
     // The jump is constant over a piece: the nearer the ends, the more it matters where a piece ends.
     const double tolerance = 0.1 * piece / (2 * a);
@@ -113,7 +92,7 @@ TEST(MembraneRelief, WithHalfOfTheLastCutIsThatOfACutOfHalfTheLength) {
   const Field field = ellipses();
   const Cuts whole(field, {line(-15, -4, 15, -4), line(-15, 4, 15, 4)}),
       half(field, {line(-15, -4, 15, -4), line(-15, 4, 0, 4)});
-  const auto growing = membrane_relief(whole.all(), {0, 15, 30}), cut = membrane_relief(half.all(), {15});
+  const auto growing = relief_of(whole, {0, 15, 30}), cut = relief_of(half, {15});
   for (const double s : {1., 4., 9., 14.}) {
     EXPECT_NEAR(growing[1][0].at(s), cut[0][0].at(s), 1e-6) << s;
     EXPECT_NEAR(growing[1][1].at(s), cut[0][1].at(s), 1e-6) << s;
@@ -150,7 +129,7 @@ TEST(MembraneRelief, WithACutOfEitherKindIsTheProduct) {
       meeting(field, {line(-15, 0.1, 15, 0.1), line(0.1, -8, 0.1, 8)});
   const auto all = mutual_relief(three.all(), {length}).front();
   const auto met = relief_of_meeting_cuts(meeting.all(), 16);
-  const auto apart = membrane_relief(three.all(), {length}).front();
+  const auto apart = relief_of(three, {length}).front();
   for (const double s : {4., 10., 24.}) EXPECT_NEAR(all[0].at(s), met[0].at(s) * apart[0].at(s), 0.02) << s;
   EXPECT_LT(apart[0].at(15), 0.95);
 }
