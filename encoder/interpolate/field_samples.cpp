@@ -72,19 +72,21 @@ std::vector<Place> sample_places(const FieldGeometry& g, double spacing) {
   return places;
 }
 
-double node_spacing(const CommonCase& one) {
-  const RecordedParameters& p = one.parameters;
+double node_spacing(const RecordedParameters& p, const FieldGeometry& geometry) {
   if (p.has(p->mesh.element_size)) return p->mesh.element_size;
-  const auto [front, back] = one.geometry.domain[0];
-  return (one.geometry.cut.length > 0 ? one.geometry.cut.length : back - front) / 24;
+  const auto [front, back] = geometry.domain[0];
+  return (geometry.cut.length > 0 ? geometry.cut.length : back - front) / 24;
 }
 
 CommonPlaces places_in_common(const CommonCases& cases) {
-  const auto nodes = [](const CommonCase& one) { return one.geometry.cut.length / node_spacing(one); };
+  const auto nodes = [](const CommonCase& one) {
+    return one.geometry.cut.length / node_spacing(one.parameters, one.geometry);
+  };
   const CommonCase& coarsest =
       *std::min_element(cases.cases().begin(), cases.cases().end(),
                         [&](const CommonCase& a, const CommonCase& b) { return nodes(a) < nodes(b); });
-  return {coarsest.geometry, sample_places(coarsest.geometry, node_spacing(coarsest))};
+  return {coarsest.geometry,
+          sample_places(coarsest.geometry, node_spacing(coarsest.parameters, coarsest.geometry))};
 }
 
 Eigen::VectorXd sample(const CommonCases& cases, const std::vector<Vec3>& points, const CommonPlaces& at) {

@@ -14,7 +14,7 @@ namespace cleft {
 std::vector<Place> sample_places(const FieldGeometry& geometry, double spacing);
 
 /// mm: for meshes of the solver; a guess for other meshes.
-double node_spacing(const CommonCase& one);
+double node_spacing(const RecordedParameters& parameters, const FieldGeometry& geometry);
 
 /// Places that exist in the bodies of all cases: those of the case with the fewest nodes along its cut.
 struct CommonPlaces {

@@ -249,9 +249,10 @@ Field StudyInterpolator::at(const CaseParameters& values) const {
     summands.push_back({derivatives[d], cases_.derivative_points(static_cast<std::size_t>(d))});
 
   Field field = cases_.field_of(sum_of(summands), recipe.geometry);
+  const CommonCase& first = cases_.cases().front();
   tell(field, recipe,
-       largest_displacement(
-           field, sample_places(field.parametrization().geometry(), node_spacing(cases_.cases().front()))));
+       largest_displacement(field, sample_places(field.parametrization().geometry(),
+                                                 node_spacing(first.parameters, first.geometry))));
   return field;
 }
 

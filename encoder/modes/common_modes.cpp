@@ -19,6 +19,7 @@ namespace {
 
 // What the steps of all modes together may do to a case, over the error allowed.
 constexpr double share_of_steps = 0.25;
+constexpr double farthest_move = 0.65;      // steps, that a control point of a case moves
 constexpr double weights_per_unit = 1e5;    // modes are as large as the cases
 constexpr std::size_t bytes_of_weight = 3;  // deflated
 // Rows of samples that are in double precision at a time: of whole points.
@@ -198,21 +199,35 @@ Fit fit(const Eigen::MatrixXd& modes, const Eigen::MatrixXf& samples) {
   return fit;
 }
 
-/// The case with control points in coarser steps, if these need fewer bytes.
-StudyRecord in_coarser_steps(const StudyRecord& own, double error) {
-  const Field field = field_of(own.record);
-  const double largest = field.report.largest_displacement, bound = error * largest;
-  // Half a step each way is sqrt(3) / 2 steps together, and functions sum to 1.
-  const Field coarser = quantised(field, 2 / std::sqrt(3.) * bound, 0.5);
+/// The largest distance between two fields of a case where its mesh has nodes, mm.
+double farthest_apart(const Field& a, const Field& b, const std::vector<Place>& nodes) {
+  std::vector<Vec3> of_a(nodes.size()), of_b(nodes.size());
+  a.displacements(nodes, of_a), b.displacements(nodes, of_b);
   double farthest = 0;
-  for (std::size_t n = 0; n < field.coefficients().size(); ++n)
-    farthest = std::max(farthest, norm(coarser.coefficients()[n] - field.coefficients()[n]));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    farthest = std::max(farthest, squared_norm(of_a[n] - of_b[n]));
+  return std::sqrt(farthest);
+}
+
+/// The case with control points in the coarsest steps that move no node by more than the error, if these need
+/// fewer bytes.
+StudyRecord in_coarser_steps(const StudyRecord& own, double error) {
+  constexpr double times = 1.1;  // from one step to the next coarser one
+  const Field field = field_of(own.record);
+  const FieldGeometry& geometry = field.parametrization().geometry();
+  const std::vector<Place> nodes = sample_places(geometry, node_spacing(field.parameters, geometry));
+  const double largest = field.report.largest_displacement, bound = error * largest;
+  // With half a step each way, sqrt(3) / 2 steps together, control points would be off by half the bound;
+  // nodes are off by less, each being among several of them.
+  double step = bound / std::sqrt(3.);
   StudyRecord record = own;
-  record.record = record_of(coarser), record.modes_error = farthest / largest;
-  // Ties can move what they tie by more.
-  const bool good =
-      farthest <= (1 + 1e-9) * bound && record.record.coefficients.size() < own.record.coefficients.size();
-  return good ? record : own;
+  for (;; step *= times) {
+    const Field coarser = quantised(field, step, farthest_move);
+    const double off = farthest_apart(coarser, field, nodes);
+    if (off > bound) break;
+    record.record = record_of(coarser), record.modes_error = off / largest;
+  }
+  return record.record.coefficients.size() < own.record.coefficients.size() ? record : own;
 }
 
 /// The cases that are sums of modes where that is exact enough, all others as `own` has them.

@@ -35,15 +35,16 @@ SkinCoordinates coordinates_on(const SurfaceMesh& skin, const ScalpelPath& path,
       across = 0;
     else if (p < static_cast<int>(labels.size()) && labels[p].reached && labels[p].side != Side::both)
       across = Surroundings::across(at.v, labels[p].detour, labels[p].side);
-    result.canonical.push_back({at.s - path.length() / 2, across, 0});
-    const PathFrame frame = path.at(at.s);
+    const double along = across == 0 ? at.s : path.steady_place(skin.points[p], at);
+    result.canonical.push_back({along - path.length() / 2, across, 0});
+    const PathFrame frame = path.at(along);
     const SurfacePlace place = index.nearest(frame.position);
     const auto& corners = skin.triangles[place.triangle];
     Vec3 normal;
     for (int i = 0; i < 3; ++i) normal += place.weights[i] * normals[corners[i]];
     normal = normalized(normal);
-    const Vec3 along = normalized(frame.along - dot(frame.along, normal) * normal);
-    result.frames.push_back({along, cross(normal, along), normal});
+    const Vec3 forward = normalized(frame.along - dot(frame.along, normal) * normal);
+    result.frames.push_back({forward, cross(normal, forward), normal});
   }
   return result;
 }

@@ -16,7 +16,8 @@ struct SkinCoordinates {
   std::vector<std::array<Vec3, 3>> frames;  ///< unit vectors of u, v, w in space
 };
 
-/// As replays have them: of the surroundings of the path. `on_cut`: the points along it, where v = 0.
+/// As replays have them: of the surroundings of the path, u by its steady place, which does not jump inside
+/// bends. `on_cut`: the points along it, where v = 0.
 SkinCoordinates coordinates_on(const SurfaceMesh& skin, const ScalpelPath& path, const std::set<int>& on_cut);
 
 /// A direction in space within each triangle of the skin, unit; `asked`: none, or one direction; none: from

@@ -133,7 +133,9 @@ TEST(CommonModes, WhereTheyCostMoreCasesHaveCoarserSteps) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_GT(file.modes_error(i), 0.005);
     EXPECT_LE(file.modes_error(i), 0.01 * (1 + 1e-9));
-    EXPECT_LE(distance_of(file.field(i), members[i].field, nodes_of_millimetres()), file.modes_error(i));
+    const double off = distance_of(file.field(i), members[i].field, nodes_of_millimetres());
+    EXPECT_LE(off, 1.2 * file.modes_error(i));  // some of these nodes are not among those that are compared
+    EXPECT_GT(off, 0.5 * file.modes_error(i));
     EXPECT_EQ(file.report(i).spline_error, 1e-6 + file.modes_error(i));
     EXPECT_EQ(file.field(i).case_hash, members[i].field.case_hash);
     EXPECT_EQ(file.field(i).parameters, members[i].field.parameters);
