@@ -10,6 +10,15 @@ Eigen::Vector3d prestress(const Parameters& p) {
   return {p.skin.prestress.uu, p.skin.prestress.vv, p.skin.prestress.uv};
 }
 
+/// Of the largest load of an equal prestress in another direction: less is rounding, which moves nothing.
+constexpr double least_load = 1e-12;
+
+double largest_on_all_ranks(const Eigen::Ref<const Eigen::MatrixXd>& values, MPI_Comm communicator) {
+  double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return largest;
+}
+
 bool is_linear(const Parameters& p) { return !p.cut.contact; }
 
 }  // namespace
@@ -51,6 +60,7 @@ CaseLoads::CaseLoads(const PatchSystem& system, const std::vector<const Paramete
   loads.resize(system.owned(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) loads.col(static_cast<Eigen::Index>(i)) = columns[i];
   Eigen::Index own = static_cast<Eigen::Index>(units.size());
+  const double of_unit = largest_on_all_ranks(system.unit_loads(), system.communicator());
   for (std::size_t c = 0; c < cases.size(); ++c) {
     Case& member = cases[c];
     member.share = Eigen::VectorXd::Zero(loads.cols());
@@ -59,9 +69,9 @@ CaseLoads::CaseLoads(const PatchSystem& system, const std::vector<const Paramete
     else
       for (std::size_t i = 0; i < units.size(); ++i)
         member.share(static_cast<Eigen::Index>(i)) = prestress(*parameters[c])(units[i]);
-    const Eigen::VectorXd load = loads * member.share;
-    member.largest_load = load.size() > 0 ? load.cwiseAbs().maxCoeff() : 0;
-    MPI_Allreduce(MPI_IN_PLACE, &member.largest_load, 1, MPI_DOUBLE, MPI_MAX, system.communicator());
+    member.largest_load = largest_on_all_ranks(loads * member.share, system.communicator());
+    if (member.largest_load <= least_load * of_unit * prestress(*parameters[c]).cwiseAbs().maxCoeff())
+      member.largest_load = 0, member.share.setZero();
   }
 }
 

@@ -212,20 +212,24 @@ double farthest_apart(const Field& a, const Field& b, const std::vector<Place>& 
 /// The case with control points in the coarsest steps that move no node by more than the error, if these need
 /// fewer bytes.
 StudyRecord in_coarser_steps(const StudyRecord& own, double error) {
-  constexpr double times = 1.1;  // from one step to the next coarser one
+  constexpr double near_enough = 0.93;  // of the error, that nodes move by
+  constexpr int most_tries = 6;
   const Field field = field_of(own.record);
   const FieldGeometry& geometry = field.parametrization().geometry();
   const std::vector<Place> nodes = sample_places(geometry, node_spacing(field.parameters, geometry));
   const double largest = field.report.largest_displacement, bound = error * largest;
-  // With half a step each way, sqrt(3) / 2 steps together, control points would be off by half the bound;
-  // nodes are off by less, each being among several of them.
-  double step = bound / std::sqrt(3.);
   StudyRecord record = own;
-  for (;; step *= times) {
+  // Control points half a step off each way are off by sqrt(3) / 2 steps, and nodes, which are among several
+  // of them, by about half as much. That is nearly in proportion to the step.
+  double step = 2 * bound, kept = 0;
+  for (int i = 0; i < most_tries; ++i) {
     const Field coarser = quantised(field, step, farthest_move);
     const double off = farthest_apart(coarser, field, nodes);
-    if (off > bound) break;
-    record.record = record_of(coarser), record.modes_error = off / largest;
+    if (off <= bound && step > kept)
+      kept = step, record.record = record_of(coarser), record.modes_error = off / largest;
+    if (off > near_enough * bound && off <= bound) break;
+    step = std::clamp((1 + near_enough) / 2 * bound / off, 0.3, 2.) * step;
+    if (step <= kept) break;
   }
   return record.record.coefficients.size() < own.record.coefficients.size() ? record : own;
 }

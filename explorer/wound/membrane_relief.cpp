@@ -24,6 +24,12 @@ constexpr double turned_away = 0.1;
 /// 3 mm deep and 3 mm apart are off by 0.11 in the membrane and by 0.07 by their strains, 4 mm apart by 0.05
 /// and 0.07.
 constexpr double nearly_meeting = 7. / 6;
+/// Cosines between the paths of cuts that cross at a slant: from 80 to 25 degrees. And of the skin's normals
+/// along them against that where they cross, at least.
+constexpr double least_slant = 0.17, most_slant = 0.9, flat = 0.8;
+/// How far a cut that crosses another is taken to open at most, over what it opens alone: next to its ends,
+/// where it opens little alone, the field cannot open it otherwise.
+constexpr double most_of_crossing = 1.1;
 /// What is less of a cut's own opening, over the largest, is no measure of it.
 constexpr double least_opening = 1e-6;
 
@@ -115,7 +121,7 @@ Amplitude over_alone(const Cut& cut, const Eigen::VectorXd& opened, const Eigen:
 class Together {
  public:
   Together(const std::vector<const Wound*>& wounds, const Meetings& meets, const CutMembrane& membrane)
-      : feel_(wounds.size(), false) {
+      : feel_(wounds.size(), false), crosses_(wounds.size(), false) {
     std::vector<Eigen::Index> first = {0};
     for (const Wound* wound : wounds) {
       cuts_.emplace_back(*wound);
@@ -127,9 +133,9 @@ class Together {
     for (std::size_t i = 0; i < cuts_.size(); ++i) {
       tractions.segment(first[i], cuts_[i].rows()) = tractions_on(*wounds[i], cuts_[i]);
       for (std::size_t j = 0; j < cuts_.size(); ++j) {
-        if (i != j && meets[i][j]) continue;
+        if (i != j && meets[i][j] == Meeting::close) continue;
         all.block(first[i], first[j], cuts_[i].rows(), cuts_[j].rows()) = taken(membrane, cuts_[i], cuts_[j]);
-        if (i != j) feel_[i] = true;
+        if (i != j) feel_[i] = true, crosses_[i] = crosses_[i] || meets[i][j] == Meeting::at_a_slant;
       }
       if (i + 1 < cuts_.size())
         alone_.push_back(all.block(first[i], first[i], cuts_[i].rows(), cuts_[i].rows())
@@ -176,13 +182,16 @@ class Together {
     result.push_back(
         over_alone(cuts_.back(), opened,
                    last_alone_.topLeftCorner(rows, rows).partialPivLu().solve(last_tractions_.head(rows))));
-    for (std::size_t k = 0; k < result.size(); ++k)
+    for (std::size_t k = 0; k < result.size(); ++k) {
       if (!feel_[k]) result[k] = {};
+      if (crosses_[k])
+        for (double& value : result[k].values) value = std::min(value, most_of_crossing);
+    }
     return result;
   }
 
   std::vector<Cut> cuts_;
-  std::vector<bool> feel_;              // others
+  std::vector<bool> feel_, crosses_;    // others; at a slant
   std::vector<Eigen::VectorXd> alone_;  // of the complete ones
   Eigen::MatrixXd last_alone_, left_;   // of the last one, alone and with what the complete ones leave of it
   Eigen::MatrixXd by_last_;             // how far openings of the last one close the complete ones
@@ -191,25 +200,65 @@ class Together {
 
 }  // namespace
 
-bool meet(const Wound& a, const Wound& b) {
-  const ScalpelPath& other = b.incision->path();
-  const double end = b.complete() / b.scale();
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Cut::Piece& piece : Cut(a).pieces)
+namespace {
+
+/// Where a cut is nearest to another one.
+struct Nearest {
+  double distance = std::numeric_limits<double>::infinity();  // mm
+  double s = 0, other_s = 0;                                  // along their paths, mesh units
+};
+
+Nearest nearest_of(const Cut& cut, const Wound& other) {
+  const ScalpelPath& path = other.incision->path();
+  const double scale = other.scale(), end = other.complete() / scale;
+  Nearest nearest;
+  for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
+    const Cut::Piece& piece = cut.pieces[i];
+    double s = static_cast<double>(i) * cut.piece;
     for (const Vec3& place : {piece.begin, piece.middle, piece.end}) {
-      const Vec3 there = 1 / b.scale() * place;
-      const double s = std::clamp(other.coordinates(there, 0, end).s, 0., end);
-      nearest = std::min(nearest, b.scale() * norm(other.at(s).position - there));
+      const Vec3 there = 1 / scale * place;
+      const double other_s = std::clamp(path.coordinates(there, 0, end).s, 0., end);
+      if (const double distance = scale * norm(path.at(other_s).position - there);
+          distance < nearest.distance)
+        nearest = {distance, s, other_s};
+      s += cut.piece / 2;
     }
-  const double depth =
-      std::max(a.scale() * a.incision->path().largest_depth(), b.scale() * other.largest_depth());
-  return nearest < nearly_meeting * depth;
+  }
+  return nearest;
+}
+
+/// Whether cuts cross in flat skin, neither at a right angle nor nearly along each other.
+bool cross_at_a_slant(const Cut& a, const Cut& b, const Nearest& nearest, double b_scale) {
+  const auto piece_at = [](const Cut& cut, double s) -> const Cut::Piece& {
+    return cut.pieces[std::min(cut.pieces.size() - 1, static_cast<std::size_t>(s / cut.piece))];
+  };
+  const PathFrame &of_a = piece_at(a, nearest.s).frame, &of_b = piece_at(b, nearest.other_s * b_scale).frame;
+  const double cosine = std::abs(dot(of_a.along, of_b.along));
+  const auto is_flat = [&](const Cut& cut) {
+    return std::all_of(cut.pieces.begin(), cut.pieces.end(), [&](const Cut::Piece& piece) {
+      return dot(piece.frame.outward, of_a.outward) > flat;
+    });
+  };
+  return nearest.distance < a.piece && least_slant < cosine && cosine < most_slant && is_flat(a) &&
+         is_flat(b);
+}
+
+}  // namespace
+
+Meeting meeting(const Wound& a, const Wound& b) {
+  const Cut of_a(a);
+  const Nearest nearest = nearest_of(of_a, b);
+  const double depth = std::max(a.scale() * a.incision->path().largest_depth(),
+                                b.scale() * b.incision->path().largest_depth());
+  if (nearest.distance >= nearly_meeting * depth) return Meeting::apart;
+  const bool slant = a.field.turns() && b.field.turns() && cross_at_a_slant(of_a, Cut(b), nearest, b.scale());
+  return slant ? Meeting::at_a_slant : Meeting::close;
 }
 
 Meetings meetings(const std::vector<const Wound*>& cuts) {
-  Meetings result(cuts.size(), std::vector<bool>(cuts.size(), true));
+  Meetings result(cuts.size(), std::vector<Meeting>(cuts.size(), Meeting::close));
   for (std::size_t i = 0; i < cuts.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) result[i][j] = result[j][i] = meet(*cuts[i], *cuts[j]);
+    for (std::size_t j = 0; j < i; ++j) result[i][j] = result[j][i] = meeting(*cuts[i], *cuts[j]);
   return result;
 }
 

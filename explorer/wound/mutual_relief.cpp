@@ -42,6 +42,8 @@ constexpr int mean_of = 201;
 constexpr int steps = 48;
 /// Of the displacement across: lips shift along the cut by no more.
 constexpr double most_shift = 0.5;
+/// Parts of the other cut's depth from it over which leaning lips change sides where cuts cross.
+constexpr double lean_fades = 1. / 3;
 /// How far lips lean, for all of the tension across the cut that another takes: as simulated parallel cuts of
 /// 30 mm do, 4 to 20 mm apart. And over which part of its depth that falls by e.
 constexpr double leaning = 0.25, leaning_reach = 2. / 3;
@@ -165,7 +167,7 @@ Relief::At Relief::at(double part) const {
 
 namespace {
 
-Meetings all_meet(std::size_t cuts) { return Meetings(cuts, std::vector<bool>(cuts, true)); }
+Meetings all_meet(std::size_t cuts) { return Meetings(cuts, std::vector<Meeting>(cuts, Meeting::close)); }
 
 /// The amplitudes by the strains of the fields, at any place of the last cut's blade: what complete cuts do
 /// to each other is found once.
@@ -187,9 +189,12 @@ class ByStrains {
           if (!at) continue;
           const double tension = cut.field.prestress(&Prestress::vv, s);
           if (!(tension > 0)) continue;
-          const double toward = (at->uvw.y > 0 ? -1 : 1) * dot(at->across, normal);
-          places_.push_back(
-              {{i, j, own.stations.size() - 1, at->s, 0, toward, meets[i][j]}, *at, normal, tension});
+          const double lean_over = lean_fades * cuts[j]->field.shape().cut().depth;
+          const double toward = -std::clamp(at->uvw.y / lean_over, -1., 1.) * dot(at->across, normal);
+          places_.push_back({{i, j, own.stations.size() - 1, at->s, 0, toward, meets[i][j] == Meeting::close},
+                             *at,
+                             normal,
+                             tension});
           if (j + 1 < cuts.size())
             places_.back().influence.ratio = ratio(places_.back(), cuts[j]->complete());
         }

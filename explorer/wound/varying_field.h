@@ -56,6 +56,8 @@ class VaryingField {
   /// Whether the fields are for the local shape of the skin and the blade: its tilt is in their
   /// displacements.
   bool follows_shape() const { return along_ != nullptr; }
+  /// Whether the tension is that of the skin at each place of the path, not that of the field's case.
+  bool turns() const { return along_ || !weights_.empty(); }
   double contraction_tolerance() const;
 
   /// Field::contract at s mm of the path, to the last of the stops. Memory of `out` is reused from call to

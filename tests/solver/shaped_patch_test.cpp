@@ -138,6 +138,16 @@ TEST(ShapedPatch, TensionsShareAFactorAndSuperpose) {
     ASSERT_LT(norm(last[0][n] + last[1][n] - last[2][n]), 1e-9 * reports[2].gape);
 }
 
+/// A straight cut along the tension opens nothing. The loads on its lips are rounding, and so would be what
+/// they move.
+TEST(ShapedPatch, TensionAlongAStraightCutMovesNothing) {
+  Parameters p = of_shape();
+  p.skin.curvature_u = -0.0333, p.skin.curvature_v = 0.0333;
+  p.skin.prestress = {0.01, 0, 0};
+  for (const auto& frame : solved_shape(p).frames)
+    for (const Vec3& d : frame) ASSERT_EQ(d, Vec3{});
+}
+
 /// A companion has the same shape: elements twice as long change little, and the estimate says how much.
 TEST(ShapedPatch, ItsErrorIsEstimated) {
   Parameters p = of_shape();

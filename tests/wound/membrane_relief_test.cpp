@@ -21,13 +21,16 @@ using namespace testing;
 const CanonicalCut canonical{-15, 30, 3};
 constexpr double length = 30, piece = length / 24;  // mm
 
+/// The same in the tension at each place of the path.
+VaryingField turning(const Field& field) { return {{&field}, {0}, {{1}}}; }
+
 /// Opens as an ellipse does, in proportion to the length that is cut: as in a sheet without springs.
 Field ellipses() { return in_tension(opening_field(canonical, 50, 50, 6, 3), {{"skin.prestress_v", 0.03}}); }
 
 /// Straight cuts in a flat mesh, one after the other.
 class Cuts {
  public:
-  Cuts(const Field& field, const std::vector<std::vector<Vec3>>& paths)
+  Cuts(const VaryingField& field, const std::vector<std::vector<Vec3>>& paths)
       : mesh_(grid(60, 40, -60.3, -40.1, 2)) {
     IncisionOptions options;
     options.max_edge = 0;
@@ -113,7 +116,7 @@ TEST(MembraneRelief, IsNoneOfCutsThatMeetWhichRelieveEachOtherByTheirStrains) {
   for (const double gap : {-2., 0.5, 3., 4., 8.}) {  // between the end of one and the side of the other
     const double length_of_other = 15 - 0.1 - gap;
     const Cuts cuts(field, {line(-15, 0.1, 15, 0.1), line(0.1, 0.1 + gap, 0.1, 15)});
-    EXPECT_EQ(meet(*cuts.all()[0], *cuts.all()[1]), gap < 3.5) << gap;
+    EXPECT_EQ(meeting(*cuts.all()[0], *cuts.all()[1]), gap < 3.5 ? Meeting::close : Meeting::apart) << gap;
     const auto both = mutual_relief(cuts.all(), {length_of_other}).front(),
                met = relief_of_meeting_cuts(cuts.all(), length_of_other);
     for (const double s : {3., 12., 20.}) {
@@ -121,6 +124,41 @@ TEST(MembraneRelief, IsNoneOfCutsThatMeetWhichRelieveEachOtherByTheirStrains) {
       if (gap > 3.5) EXPECT_NE(both[0].at(s), met[0].at(s)) << gap;
     }
   }
+}
+
+/// Where they cross at a right angle their strains tell it, and no piece of skin draws back.
+TEST(MembraneRelief, IsThatOfCutsThatCrossAtASlantAndTurnWithTheTension) {
+  const Field field = ellipses();
+  const auto crossing = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180, c = 15 * std::cos(angle), s = 15 * std::sin(angle);
+    return std::vector{line(-15, 0.1, 15, 0.1), line(-c, 0.1 - s, c, 0.1 + s)};
+  };
+  for (const double degrees : {10., 30., 45., 60., 75., 89.}) {
+    const Cuts own(field, crossing(degrees)), turned(turning(field), crossing(degrees));
+    const bool slant = degrees > 25 && degrees < 80;
+    EXPECT_EQ(meeting(*own.all()[0], *own.all()[1]), Meeting::close) << degrees;
+    EXPECT_EQ(meeting(*turned.all()[0], *turned.all()[1]), slant ? Meeting::at_a_slant : Meeting::close)
+        << degrees;
+  }
+  const Cuts turned(turning(field), crossing(45));
+  const auto both = mutual_relief(turned.all(), {length}).front(), all = relief_of(turned, {length}).front();
+  for (const double s : {4., 10., 15., 24.}) {
+    EXPECT_NEAR(both[0].at(s), all[0].at(s), 1e-3) << s;
+    EXPECT_LE(both[0].at(s), 1.1) << s;
+  }
+}
+
+/// Lips lean away from the other cut on both of its sides, and where they cross not at all.
+TEST(MembraneRelief, LipsThatLeanChangeSidesWhereCutsCross) {
+  const Field field = ellipses();
+  const Cuts cuts(turning(field), {line(-15, 0.1, 15, 0.1), line(-10, -9.9, 10, 10.1)});
+  const Amplitude first = mutual_relief(cuts.all(), {20 * std::numbers::sqrt2}).front()[0];
+  const double lean = first(10).lean;
+  EXPECT_GT(std::abs(lean), 0.02);
+  EXPECT_NEAR(first(20).lean, -lean, 0.05 * std::abs(lean));
+  EXPECT_NEAR(first(15).lean, 0, 0.1 * std::abs(lean));
+  for (double s = 12; s < 18; s += 0.1)
+    EXPECT_LT(std::abs(first(s + 0.1).lean - first(s).lean), 0.2 * std::abs(lean)) << s;
 }
 
 TEST(MembraneRelief, WithACutOfEitherKindIsTheProduct) {
