@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "solver/snapshot/break_front.h"
 
@@ -42,6 +43,27 @@ std::vector<Vec3> whole_across(const Snapshot& s, const std::vector<std::int8_t>
   for (std::size_t n = 0; n < sides.size(); ++n)
     if (divided[n] == 0 && sides[n][0] && sides[n][1]) places.push_back(s.points[n]);
   return places;
+}
+
+/// The largest u below `end` of pairs that part; `end` where there is none.
+double column_before(const Snapshot& s, const std::vector<bool>& parted, double end) {
+  double before = -far;
+  for (std::size_t p = 0; p < parted.size(); ++p)
+    if (const double u = s.points[s.pairs[p][0]].x; parted[p] && u < end) before = std::max(before, u);
+  return before > -far ? before : end;
+}
+
+/// Moves the tip beyond `end`, where the body ends, from frame `leaves` on: as fast as it came, by a column
+/// of pairs at least and by the length of the cut at most.
+void leave_body(std::vector<double>& tip, std::size_t leaves, const std::vector<double>& times, double end,
+                double column, double length) {
+  if (leaves == 0) return;
+  std::size_t from = 0;  // the last frame before the tip moves
+  while (from + 1 < leaves && tip[from + 1] <= tip.front()) ++from;
+  const std::size_t to = from + 1 < leaves ? leaves - 1 : leaves;
+  const double speed = (tip[to] - tip[from]) / (times[to] - times[from]), last = tip[leaves - 1];
+  for (std::size_t j = leaves; j < tip.size(); ++j)
+    tip[j] = end + std::max(column, std::min(last + speed * (times[j] - times[leaves - 1]) - end, length));
 }
 
 }  // namespace
@@ -103,6 +125,7 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
   }
 
   // The tip that is recorded stands at an open pair where all open at once, or where nothing is whole ahead.
+  std::optional<std::size_t> leaves;
   double of_open = -far;
   for (std::size_t j = 0, p = 0; j < ends.tip.size(); ++j) {
     for (; p < (at_once ? open : static_cast<std::size_t>(s.released[j])); ++p)
@@ -114,9 +137,15 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
         if (ahead == far)
           for (const Vec3& at : *places)
             if (at.x > of_open + slack) ahead = std::min(ahead, at.x);
+      if (ahead == far && !leaves) leaves = j;
       tip = ahead < far ? ahead : domain[0].back;
     }
     if (tip > domain[0].back - slack) tip = domain[0].back;
+  }
+  if (leaves && !at_once && !joined.last) {
+    leave_body(ends.tip, *leaves, s.times, domain[0].back, last - column_before(s, parted, last - slack),
+               last - first);
+    ends.reach = ends.tip.back();
   }
   // Next to the edge of the domain there is no room for a front that comes from another arm.
   if (joined.first && first - domain[0].front < ends.cut.depth)

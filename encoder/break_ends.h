@@ -1,6 +1,7 @@
 // Where a cut begins, ends and has its bottom, by what is whole next to the pairs that part.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "encoder/field/parametrization.h"
@@ -11,6 +12,9 @@ namespace cleft {
 struct BreakEnds {
   CanonicalCut cut;
   std::vector<double> tip;  ///< F: u of the tip, mm
+  /// How far in u the field must reach at least: beyond the body where a growing cut divides it to its end,
+  /// since what is at the tip, or ahead of it, is whole.
+  double reach = -std::numeric_limits<double>::infinity();
 };
 
 /// Of a snapshot over (u, v, w) within `domain`. A simulation's cut reaches to where it is recorded. Where

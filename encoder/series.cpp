@@ -69,6 +69,7 @@ FieldGeometry geometry_of(const Snapshot& s, const std::vector<bool>& parts) {
   if (goes_on(s)) g.domain[0].back = std::max(g.domain[0].back, s.source->break_extent[1] + s.cut_depth);
   const BreakEnds ends = break_ends(s, parts, {g.domain[0], g.domain[1], g.domain[2]});
   g.cut = ends.cut;
+  g.domain[0].back = std::max(g.domain[0].back, ends.reach);
   // A closed cut ends where it begins, at nodes whose u is that of its start.
   if (!s.body.empty()) g.domain[0].back = std::max(g.domain[0].back, g.cut.start + g.cut.length);
   if (g.cut.length > 0 && !(g.domain[1].front < 0 && g.domain[1].back > 0))

@@ -61,10 +61,10 @@ std::vector<InCells> in_cells(const SourceMesh& m, const std::vector<Place>& nod
     const std::span corners(m.connectivity.begin() + m.cell_offsets[c],
                             m.connectivity.begin() + m.cell_offsets[c + 1]);
     Vec3 low = nodes[corners.front()].uvw, high = low;
-    double sum = 0;
+    double farthest = 0;  // of its nodes from the break: those of a lip may be on the wrong side of it
     for (const std::int64_t n : corners) {
       const Vec3& at = nodes[n].uvw;
-      sum += at.y;
+      if (std::abs(at.y) > std::abs(farthest)) farthest = at.y;
       for (int axis = 0; axis < 3; ++axis)
         low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
     }
@@ -73,7 +73,7 @@ std::vector<InCells> in_cells(const SourceMesh& m, const std::vector<Place>& nod
       for (int axis = 0; axis < 3; ++axis)
         node.extent[axis] = std::max(node.extent[axis], high[axis] - low[axis]);
       node.across = std::max({node.across, -low.y, high.y});
-      if (sum != 0) node.sides[sum > 0] = true;
+      if (farthest != 0) node.sides[farthest > 0] = true;
     }
   }
   return list;

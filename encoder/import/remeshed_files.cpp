@@ -174,10 +174,6 @@ std::optional<OnLip> lip_of(const MeshValues::At& at, const Vec3& place, const S
   return lip;
 }
 
-bool same_mesh(const SourceMesh& a, const SourceMesh& b) {
-  return a.points.size() == b.points.size() && same_cells(a, b);
-}
-
 }  // namespace
 
 bool is_remeshed(const FrameFiles& files, const SourceMesh& first) {

@@ -50,8 +50,9 @@ class ImportedSeries {
   /// that no cell has, unless there are no cells.
   const SourceMesh& mesh() const { return mesh_; }
 
-  /// Throws FileError if the frame has other nodes or cells than the first, lacks a field, or holds a value
-  /// that is not finite, or a tensor that is not symmetric: with the file, frame, node and field.
+  /// Cells may be in another order. Throws FileError if the frame has other nodes or cells than the first,
+  /// lacks a field, or holds a value that is not finite, or a tensor that is not symmetric: with the file,
+  /// frame, node and field.
   FieldValues frame(std::size_t frame) const;
   using UseFrame = std::function<void(std::size_t frame, FieldValues& values)>;
   /// Calls `use` with each frame, in their order.
@@ -81,6 +82,7 @@ class ImportedSeries {
   void leave_loose_nodes();
   void check_mesh(std::size_t frame, const SourceMesh& mesh) const;
   void check_values(std::size_t frame, SourceFrame& values) const;
+  void order_cells(SourceFrame& values) const;
   std::vector<double> at_nodes(std::size_t frame, std::size_t field, std::vector<double> values) const;
 
   std::string path_;

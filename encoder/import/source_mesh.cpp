@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "base/error.h"
 #include "encoder/import/frame_files.h"
@@ -35,6 +37,51 @@ void check_cells(const std::string& where, const SourceMesh& mesh) {
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     if (!std::isfinite(squared_norm(mesh.points[i])))
       refuse("the place of node " + std::to_string(i) + " is not finite");
+}
+
+namespace {
+
+std::span<const std::int64_t> corners_of(const SourceMesh& mesh, std::size_t cell) {
+  return {mesh.connectivity.data() + mesh.cell_offsets[cell],
+          mesh.connectivity.data() + mesh.cell_offsets[cell + 1]};
+}
+
+/// By type and corners; less than 0, 0 or more than 0.
+int compared(const SourceMesh& a, std::size_t i, const SourceMesh& b, std::size_t k) {
+  if (a.cell_types[i] != b.cell_types[k]) return a.cell_types[i] < b.cell_types[k] ? -1 : 1;
+  const auto x = corners_of(a, i), y = corners_of(b, k);
+  if (std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end())) return -1;
+  return std::equal(x.begin(), x.end(), y.begin(), y.end()) ? 0 : 1;
+}
+
+std::vector<std::size_t> sorted_cells(const SourceMesh& mesh) {
+  std::vector<std::size_t> cells(mesh.cell_types.size());
+  std::iota(cells.begin(), cells.end(), 0);
+  std::sort(cells.begin(), cells.end(), [&](std::size_t i, std::size_t k) {
+    const int order = compared(mesh, i, mesh, k);
+    return order != 0 ? order < 0 : i < k;
+  });
+  return cells;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::size_t>> same_cells_in_order_of(const SourceMesh& mesh, const SourceMesh& as) {
+  const std::size_t cells = as.cell_types.size();
+  if (mesh.cell_types.size() != cells || mesh.cell_offsets.size() != cells + 1 ||
+      as.cell_offsets.size() != cells + 1 || mesh.connectivity.size() != as.connectivity.size())
+    return {};
+  std::vector<std::size_t> order(cells);
+  const std::vector<std::size_t> here = sorted_cells(mesh), there = sorted_cells(as);
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (compared(mesh, here[i], as, there[i]) != 0) return {};
+    order[there[i]] = here[i];
+  }
+  return order;
+}
+
+bool same_mesh(const SourceMesh& a, const SourceMesh& b) {
+  return a.points.size() == b.points.size() && (same_cells(a, b) || same_cells_in_order_of(a, b));
 }
 
 double diagonal(const std::vector<Vec3>& points) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/vec3.h"
@@ -19,6 +20,13 @@ struct SourceMesh {
 inline bool same_cells(const SourceMesh& a, const SourceMesh& b) {
   return a.cell_types == b.cell_types && a.cell_offsets == b.cell_offsets && a.connectivity == b.connectivity;
 }
+
+/// Of each cell of `as` the number in `mesh` of the same cell, with the same corners in their order: filters
+/// that make the skin of a body may list its cells in another order each time. None where cells are others.
+std::optional<std::vector<std::size_t>> same_cells_in_order_of(const SourceMesh& mesh, const SourceMesh& as);
+
+/// Whether a mesh has the same nodes, by their number, and the same cells in any order.
+bool same_mesh(const SourceMesh& a, const SourceMesh& b);
 
 /// Length of the diagonal of the box around the points.
 double diagonal(const std::vector<Vec3>& points);

@@ -204,6 +204,16 @@ std::vector<CrackedBody> cracked_bodies() {
   plane.c = {0};
   rows.push_back(plane);
 
+  // The last columns open, and the front is nowhere in the body any more.
+  CrackedBody divided = named(edge_crack(), "through the body, whose halves part");
+  divided.a = planes(0, 24, 24), divided.times = planes(0, 16, 16);
+  divided.doubled = [](const Vec3&) { return true; };
+  divided.displacement = [](const Vec3& x, int side, double t) {
+    const double apart = 0.05 * std::max(0., t - 13) * (side != 0 ? side : x.y < 0 ? -1 : 1);
+    return 0.01 * t * beside_front(x.x - 2 * t, x.y, side) + Vec3{0, apart, 0};
+  };
+  rows.push_back(divided);
+
   CrackedBody slit = named(edge_crack(), "2D slit inside, a pulse past it");
   slit.a = planes(-20, 20, 40), slit.c = {0}, slit.times = planes(0, 12, 24);
   slit.doubled = [](const Vec3& x) { return std::abs(x.x) < 8; };

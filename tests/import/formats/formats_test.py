@@ -21,6 +21,7 @@ ALL = "displacement,stress,temperature,full,energy"
 # How each names the fields, and to which digits it keeps numbers.
 FORMATS = {
     "vtu": (ALL, 1e-12),
+    "vtu_in_any_order": (ALL, 1e-12),
     "several_vtu": (ALL, 1e-12),
     "vtm": (ALL, 1e-12),
     "pvtu": (ALL, 1e-12),

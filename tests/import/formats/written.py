@@ -108,6 +108,14 @@ def vtu(bar, folder):
                    each(folder, ".vtu", lambda j, path: write(vtk.vtkXMLUnstructuredGridWriter(), grid_of(bar, j), path)))
 
 
+def vtu_in_any_order(bar, folder):
+    """The same nodes and cells, but the cells in another order in all but the first and last frame."""
+    def one(j, path):
+        order = np.random.default_rng(j % (len(TIMES) - 1)).permutation(len(bar.cells))
+        write(vtk.vtkXMLUnstructuredGridWriter(), grid_of(bar, j, order), path)
+    return list_in(folder, "bar.pvd", each(folder, ".vtu", one))
+
+
 def several_vtu(bar, folder):
     """Each frame in two files."""
     files = []
