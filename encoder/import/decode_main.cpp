@@ -40,6 +40,11 @@ struct Task {
 
 using Use = std::function<void(const DecodedNodes&, const SourceMesh&)>;
 
+void use_with_loose(DecodedNodes decoded, const SourceMesh& mesh, const Use& use) {
+  decoded.loose = loose_nodes(mesh);
+  use(decoded, mesh);
+}
+
 void decode_pieces(const Task& task, const Use& use) {
   std::vector<FieldPiece> kept = read_pieces(task.file);
   SourceMesh mesh;
@@ -59,7 +64,7 @@ void decode_pieces(const Task& task, const Use& use) {
   }
   const PiecesAtNodes pieces(std::move(kept), std::move(nodes),
                              places_inside_cells(mesh.points, mesh.cell_offsets, mesh.connectivity), frames);
-  use(decoded_at(pieces), mesh);
+  use_with_loose(decoded_at(pieces), mesh, use);
 }
 
 void decode_field(const Task& task, const Use& use) {
@@ -84,7 +89,7 @@ void decode_field(const Task& task, const Use& use) {
     mesh = mesh_of(task.on);
     nodes = nodes_in_field(mesh, field);
   }
-  use(decoded_at(kept, nodes), mesh);
+  use_with_loose(decoded_at(kept, nodes), mesh, use);
 }
 
 void decode(const Task& task, const Use& use) {

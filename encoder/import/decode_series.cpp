@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "base/error.h"
 #include "base/output_file.h"
@@ -79,9 +80,9 @@ std::vector<InCells> in_cells(const SourceMesh& m, const std::vector<Place>& nod
   return list;
 }
 
-std::vector<char> doubled_nodes(const SourceMesh& mesh) {
+std::vector<char> doubled_nodes(const SourceMesh& mesh, double near) {
   std::vector<char> doubled(mesh.points.size());
-  for (const auto& group : coincident_groups(mesh.points, same_place(mesh)))
+  for (const auto& group : coincident_groups(mesh.points, near))
     for (const std::int32_t node : group) doubled[node] = 1;
   return doubled;
 }
@@ -120,18 +121,30 @@ void expect_inside(const Field& field, const Place& place, const InCells& cells,
 
 }  // namespace
 
+std::vector<std::size_t> loose_nodes(const SourceMesh& mesh) {
+  std::vector<char> has_cell(mesh.points.size(), mesh.cell_types.empty());
+  for (const std::int64_t n : mesh.connectivity) has_cell[n] = 1;
+  std::vector<std::size_t> loose;
+  for (std::size_t n = 0; n < has_cell.size(); ++n)
+    if (!has_cell[n]) loose.push_back(n);
+  return loose;
+}
+
 std::vector<Place> nodes_in_field(const SourceMesh& m, const Field& field, const std::vector<char>* asked) {
   const FieldSource source = source_of(field);
   std::vector<Place> nodes;
   nodes.reserve(m.points.size());
   for (const Vec3& p : m.points) nodes.push_back({source.canonical(p)});
   const std::vector<InCells> cells = in_cells(m, nodes);
-  const std::vector<char> doubled = doubled_nodes(m);
-  const double rounding = 100 * same_place(m);
+  std::vector<char> expected = asked ? *asked : std::vector<char>(nodes.size(), 1);
+  SourceMesh body{m.points, {}, {}, {}};  // loose nodes may be far from it
+  for (const std::size_t n : loose_nodes(m)) expected[n] = 0, body.points[n] = m.points[m.connectivity[0]];
+  const std::vector<char> doubled = doubled_nodes(m, same_place(body));
+  const double rounding = 100 * same_place(body);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Place& place = nodes[n];
     put_on_side(place, cells[n], doubled[n]);
-    if (!asked || (*asked)[n]) expect_inside(field, place, cells[n], rounding, n, m.points[n]);
+    if (expected[n]) expect_inside(field, place, cells[n], rounding, n, m.points[n]);
     for (int axis = 0; axis < 3; ++axis) place.uvw[axis] = clamped(field, axis, place.uvw[axis]);
   }
   return nodes;
@@ -227,6 +240,10 @@ std::vector<DecodedValues> values_at(const DecodedNodes& decoded, std::size_t fr
   const AxesInSpace to_source = axes_between(source.axes, same_axes);
   for (DecodedValues& values : all) {
     turn(values.numbers, values.components, to_source);
+    const auto components = static_cast<std::size_t>(values.components);
+    for (const std::size_t n : decoded.loose)
+      std::fill_n(values.numbers.begin() + static_cast<std::ptrdiff_t>(components * n), components,
+                  std::numeric_limits<double>::quiet_NaN());
     values.unit = field.source ? unit_of(source, values.name) : values.name == "displacement" ? "mm" : "";
     values.name = name_there(source, values.name);
   }

@@ -26,7 +26,10 @@ struct DecodedNodes {
   const Field* first = nullptr;  ///< the field, or the first of its pieces
   std::function<std::vector<Vec3>(double t, std::size_t frame)> displacement;
   std::function<std::vector<double>(std::size_t quantity, double t, std::size_t frame)> quantity;
+  std::vector<std::size_t> loose = {};  ///< nodes that get no numbers
 };
+/// Nodes that no cell has, which may be anywhere; none where there are no cells.
+std::vector<std::size_t> loose_nodes(const SourceMesh& mesh);
 
 /// A field as kept: the spline, and what a file keeps beside it at the nodes of its own snapshot.
 struct KeptField {
@@ -49,7 +52,7 @@ struct DecodedValues {
 /// Times of the frames, in the source.
 std::vector<double> times_of(const Field& field);
 /// All fields in a frame, in the source's axes: the displacement with what it was in frame 0, and all
-/// quantities.
+/// quantities. Loose nodes have NaN.
 std::vector<DecodedValues> values_at(const DecodedNodes& decoded, std::size_t frame);
 
 /// Throws InputError if there is such a file or folder.

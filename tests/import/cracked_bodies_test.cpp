@@ -152,6 +152,20 @@ TEST_F(FieldsOfASeries, NodesWithoutCellsAreLeftOut) {
   EXPECT_EQ(SnapshotReader(snapshot).snapshot().points.size(), nodes);
   encode();
   EXPECT_LE(read_field(file).report.spline_error, 0.01);
+
+  // On the mesh itself they have no numbers, and the others theirs, by their numbers.
+  const std::string out = folder / "on.pvd";
+  expect_success(run_cleft("decode", {file, "--on", folder / "series_0.vtu", "--out", out}));
+  const ImportedSeries decoded(out, parse_fields({"displacement"}));
+  EXPECT_EQ(decoded.loose_nodes(), 20u);
+  const std::vector<double> values = decoded.frame(series.times.size() - 1)[0];
+  ASSERT_EQ(values.size(), 3 * nodes);
+  double largest = 0, worst = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    largest = std::max(largest, std::abs(series.fields[0].frames.back()[i]));
+    worst = std::max(worst, std::abs(values[i] - series.fields[0].frames.back()[i]));
+  }
+  EXPECT_LE(worst, 0.01 * largest);
 }
 
 /// As FEniCSx writes from two processes: each its cells and their nodes, also those of the other's border.
