@@ -94,28 +94,29 @@ std::optional<BreakMap::Round> round_front(const BreakPlaces& places) {
                  of_pairs = range_of(places.pairs, 2);
   if (!(length(u) > 0 && length(w) > 0)) return {};
   const Interval pairs_u = range_of(places.pairs, 0);
-  const bool closed_beside =
-                 u.front < pairs_u.front - places.rounding && u.back > pairs_u.back + places.rounding,
+  const bool closed_first =
+      u.front<pairs_u.front - places.rounding, closed_last = u.back> pairs_u.back + places.rounding,
              closed_below = w.front<of_pairs.front - places.rounding, closed_above = w.back> of_pairs.back +
                             places.rounding;
-  if (!closed_beside || !closed_below) return {};
-  const double top = closed_above ? w.back : of_pairs.back;
-  std::size_t within = 0;
-  for (const Vec3& p : places.front) {
-    const double to_u = std::min(p.x - u.front, u.back - p.x) / length(u),
-                 to_w =
-                     (closed_above ? std::min(p.z - w.front, w.back - p.z) : p.z - w.front) / (top - w.front);
-    within += std::min(to_u, to_w) > 0.05;
-  }
-  if (3 * within < places.front.size()) return {};
+  const bool in_corner = closed_first != closed_last;  // of two faces, one above and one beside
+  if (!closed_below || !(closed_first || closed_last) || (in_corner && closed_above)) return {};
   constexpr double pi = std::numbers::pi;
   BreakMap::Round round;
-  round.u = (u.front + u.back) / 2, round.w = closed_above ? (w.front + w.back) / 2 : top;
-  const double high = closed_above ? length(w) / 2 : top - w.front;
-  round.stretch = length(u) / 2 / high;
-  round.last = closed_above ? pi + BreakMap::Round::overlap : pi / 2;
+  round.u = !in_corner ? (u.front + u.back) / 2 : closed_last ? pairs_u.front : pairs_u.back;
+  round.w = closed_above ? (w.front + w.back) / 2 : of_pairs.back;
+  const double wide = std::max(closed_first ? round.u - u.front : 0, closed_last ? u.back - round.u : 0),
+               high = round.w - w.front;
+  std::size_t within = 0;
+  for (const Vec3& p : places.front) {
+    const double to_u = wide - std::abs(p.x - round.u),
+                 to_w = high - (closed_above ? std::abs(p.z - round.w) : round.w - p.z);
+    within += std::min(to_u / wide / (in_corner ? 1 : 2), to_w / high / (closed_above ? 2 : 1)) > 0.05;
+  }
+  if (3 * within < places.front.size()) return {};
+  round.stretch = wide / high;
+  round.last = closed_above ? pi + BreakMap::Round::overlap : in_corner && closed_first ? 0 : pi / 2;
   // Parameters over which knots lie as densely as over a cut three times as long as deep.
-  round.radius = length(u) / 2 / 3 / (2 * round.last);
+  round.radius = wide / 3 / (in_corner ? pi / 2 : 2 * round.last);
   return round;
 }
 

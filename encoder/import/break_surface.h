@@ -23,8 +23,9 @@ Interval range_of(const std::vector<Vec3>& places, int axis);
 /// them. Constant along w where the places are. `farthest`: how far it is from one of them.
 BreakMap surface_through(const BreakPlaces& places, double& farthest);
 
-/// The centre and the shape of a front that closes the break on all sides, or on all sides but the upper one,
-/// and is no box: at least a third of its places are well within the box around it.
+/// The centre and the shape of a front that closes the break on all sides, on all sides but the upper one, or
+/// on two that meet (a crack in a corner), and is no box: at least a third of its places are well within the
+/// box around it.
 std::optional<BreakMap::Round> round_front(const BreakPlaces& places);
 
 }  // namespace cleft

@@ -200,6 +200,18 @@ std::vector<CrackedBody> cracked_bodies() {
   };
   rows.push_back(posed(with_body(elliptic), elliptic.name, Pose::random(4)));
 
+  CrackedBody corner = named(elliptic, "quarter elliptic crack in a corner");
+  corner.a = planes(0, 15, 12);
+  rows.push_back(posed(with_body(corner), corner.name, Pose::random(6)));
+
+  // As it lies, u points toward the corner.
+  CrackedBody at_once = named(elliptic, "quarter elliptic crack that opens at once");
+  at_once.a = planes(-15, 0, 12);
+  at_once.displacement = [](const Vec3& x, int side, double t) {
+    return Vec3{0, 0.1 * t * through_disc(disc(x.x, x.z, x.y, 11.25, 15), 8.75, side), 0};
+  };
+  rows.push_back(with_body(at_once));
+
   CrackedBody plane = named(edge_crack(), "2D edge crack, one plane of nodes");
   plane.c = {0};
   rows.push_back(plane);
