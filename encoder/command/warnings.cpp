@@ -75,7 +75,8 @@ std::string cause_of(const Field& field, const Series& series, const Place& plac
 std::string cause_of(const Quantity& quantity) {
   const std::string knots =
       "it has the knots of the displacement, which do not follow it there; ask for a "
-      "smaller error of that, which makes knots denser (--tolerance displacement=0.1%)";
+      "smaller error of that, which makes knots denser where nodes determine more (--tolerance "
+      "displacement=0.1%)";
   if (quantity.name == Series::at_start)
     return knots + ", or import the series from a frame on in which nothing has moved yet";
   return knots + ", or import " + quantity.name + " without it, for knots of its own";

@@ -29,6 +29,21 @@ void append(SourceFrame& all, const SourceFrame& piece, const std::string& path)
   join(all.arrays, piece.arrays), join(all.cell_arrays, piece.cell_arrays);
 }
 
+void order_cells(SourceFrame& frame, const SourceMesh& as) {
+  if (frame.cell_arrays.empty() || same_cells(frame.mesh, as)) return;
+  const std::vector<std::size_t> order = same_cells_in_order_of(frame.mesh, as).value();
+  for (SourceArray& array : frame.cell_arrays) {
+    const auto components = static_cast<std::size_t>(array.components);
+    std::vector<double> ordered;
+    ordered.reserve(array.values.size());
+    for (const std::size_t cell : order) {
+      const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(components * cell);
+      ordered.insert(ordered.end(), first, first + static_cast<std::ptrdiff_t>(components));
+    }
+    array.values = std::move(ordered);
+  }
+}
+
 namespace {
 
 class JoinedFiles : public FrameFiles {
@@ -66,7 +81,7 @@ class JoinedFiles : public FrameFiles {
       if (s == 0)
         all.mesh = std::move(one.mesh);
       else
-        check_mesh(s, frame, all.mesh, one.mesh);
+        check_mesh(s, frame, all.mesh, one);
       for (std::size_t a = 0; a < points.size(); ++a) all.arrays[points[a]] = std::move(one.arrays[a]);
       for (std::size_t a = 0; a < cells.size(); ++a)
         all.cell_arrays[cells[a]] = std::move(one.cell_arrays[a]);
@@ -124,14 +139,18 @@ class JoinedFiles : public FrameFiles {
                          "; series that are read together have the same times");
   }
 
-  void check_mesh(std::size_t s, std::size_t frame, const SourceMesh& a, const SourceMesh& b) const {
-    bool same = a.points.size() == b.points.size() && same_cells(a, b);
+  /// Brings values of the cells into the order of the first series', too.
+  void check_mesh(std::size_t s, std::size_t frame, const SourceMesh& a, SourceFrame& one) const {
+    const SourceMesh& b = one.mesh;
+    bool same = same_mesh(a, b);
     const double near = same ? same_place(a) : 0;
     for (std::size_t i = 0; same && i < a.points.size(); ++i) same = norm(a.points[i] - b.points[i]) <= near;
     if (!same)
       throw InputError(series_[s]->file(frame) + " (frame " + std::to_string(frame) +
                        "): has another mesh than " + series_[0]->file(frame) +
-                       "; series that are read together have the same nodes and cells, in the same order");
+                       "; series that are read together have the same cells, and the same nodes in the same "
+                       "order");
+    order_cells(one, a);
   }
 
   std::vector<std::unique_ptr<FrameFiles>> series_;

@@ -168,22 +168,6 @@ void ImportedSeries::check_values(std::size_t frame, SourceFrame& found) const {
   }
 }
 
-/// Values of the cells, in the order of the first frame's.
-void ImportedSeries::order_cells(SourceFrame& found) const {
-  if (found.cell_arrays.empty() || same_cells(found.mesh, mesh_as_read_)) return;
-  const std::vector<std::size_t> order = same_cells_in_order_of(found.mesh, mesh_as_read_).value();
-  for (SourceArray& array : found.cell_arrays) {
-    const auto components = static_cast<std::size_t>(array.components);
-    std::vector<double> ordered;
-    ordered.reserve(array.values.size());
-    for (const std::size_t cell : order) {
-      const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(components * cell);
-      ordered.insert(ordered.end(), first, first + static_cast<std::ptrdiff_t>(components));
-    }
-    array.values = std::move(ordered);
-  }
-}
-
 std::vector<double> mean_of_cells(const SourceMesh& mesh, const std::vector<double>& values,
                                   std::size_t components) {
   std::vector<double> sums(mesh.points.size() * components, 0);
@@ -246,7 +230,7 @@ FieldValues ImportedSeries::frame(std::size_t frame) const {
   SourceFrame found = files_->read(frame, sources_there(frame));
   check_mesh(frame, found.mesh);
   check_values(frame, found);
-  order_cells(found);
+  order_cells(found, mesh_as_read_);
   for (std::size_t i = 0; i < found.mesh.points.size(); ++i)
     farthest_moved_ = std::max(farthest_moved_, norm(found.mesh.points[i] - mesh_as_read_.points[i]));
   FieldValues values;

@@ -82,7 +82,6 @@ class ImportedSeries {
   void leave_loose_nodes();
   void check_mesh(std::size_t frame, const SourceMesh& mesh) const;
   void check_values(std::size_t frame, SourceFrame& values) const;
-  void order_cells(SourceFrame& values) const;
   std::vector<double> at_nodes(std::size_t frame, std::size_t field, std::vector<double> values) const;
 
   std::string path_;

@@ -159,10 +159,12 @@ def legacy(bar, folder):
 
 
 def two_pvd(bar, folder):
-    """Fields in two series, where `f` is in both."""
+    """Fields in two series, where `f` is in both, and whose cells are in another order."""
     def half(name, fields):
+        order = np.random.default_rng(len(name + fields[0])).permutation(len(bar.cells))
+
         def one(j, path):
-            grid = grid_of(bar, j, names=fields, energy="temperature" in fields)
+            grid = grid_of(bar, j, order, names=fields, energy="temperature" in fields)
             grid.GetPointData().GetArray(fields[0]).SetName("f")
             write(vtk.vtkXMLUnstructuredGridWriter(), grid, path)
         (folder / name).mkdir()
