@@ -112,8 +112,8 @@ class Encoder {
 
   std::vector<Rung> supported_rungs(double nodes_at_front = enough_nodes) const {
     const bool waiting = !series_.kinks.empty() && waits(series_.geometry.tip);
-    return supported(ladder_of(*parametrization_, {series_.round, waiting, series_.bends}), series_,
-                     *parametrization_, nodes_at_front);
+    return supported(ladder_of(*parametrization_, {series_.round, waiting, series_.bends, series_.winds}),
+                     series_, *parametrization_, nodes_at_front);
   }
 
   /// For single frames; if there is none, one that leaves little to a residual.

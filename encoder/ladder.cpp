@@ -17,6 +17,9 @@ const std::vector<double> after_order = {0.5, 0.75, 0.25};
 // Where the direction of the cut turns, what opens changes along all of it.
 const std::vector<double> bent_order = {0.5,   0.75,   0.25,   0.875,   0.125,  0.625,
                                         0.375, 0.9375, 0.0625, 0.96875, 0.03125};
+// Where it turns on and on, at even distances before those next to the ends, which nodes seldom determine.
+const std::vector<double> winding_order = {0.5,    0.75,   0.25,   0.875,  0.125,  0.625,  0.375, 0.9375,
+                                           0.0625, 0.5625, 0.4375, 0.6875, 0.3125, 0.8125, 0.1875};
 // Where lengths next to the front are measured as displacements grow.
 const std::vector<double> beyond_front_order = {0.25, 0.0625, 0.5, 0.75};
 const std::vector<double> across_order = {0.5, 0.25, 0.875, 0.625, 0.1875, 0.96875, 0.375, 0.75};
@@ -85,7 +88,10 @@ std::array<BSplineBasis, 4> following_tip(const Rung& rung, const Parametrizatio
   } else {
     along.repeat(1, degree + 1);
   }
-  for (const double s : first_of(rung.bends ? bent_order : along_order, rung.along - 1))
+  for (const double s : first_of(rung.winds   ? winding_order
+                                 : rung.bends ? bent_order
+                                              : along_order,
+                                 rung.along - 1))
     along.list.push_back(1 + s);
   if (geometry.tip.positions.front() < back) {
     along.repeat(2, degree);
@@ -153,7 +159,7 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization, const Ladder
     Rung r = front ? Rung{2, 4, 2, 3, 2, 1, 8} : Rung{1, 3, 2, 3, 2, 1, 8};
     constexpr int around = 3;  // spans of an angle for each of a height
     if (series.round) r.above *= around;
-    r.waits = series.waits, r.bends = series.bends;
+    r.waits = series.waits, r.bends = series.bends, r.winds = series.winds;
     if (series.waits) r.after = static_cast<int>(waiting_order.size()) + 1;
     rungs.push_back(r);
     using Steps = std::vector<int Rung::*>;
@@ -168,7 +174,8 @@ std::vector<Rung> ladder_of(const Parametrization& parametrization, const Ladder
                             &Rung::across, &Rung::across, &Rung::below,  &Rung::across, &Rung::across,
                             &Rung::along,  &Rung::after,  &Rung::above,  &Rung::before, &Rung::along};
     Steps steps = front ? of_front : of_tip;
-    if (front && series.bends) steps.insert(steps.begin(), {&Rung::along, &Rung::along});
+    // With its twelve steps a cut that winds has all sixteenths before nodes become too few for more.
+    if (front && series.bends) steps.insert(steps.begin(), series.winds ? 12 : 2, &Rung::along);
     for (int Rung::*const step : steps) {
       r.*step += series.round && step == &Rung::above ? around : 1;
       r.time = 8 + static_cast<int>(rungs.size()) / 2;

@@ -19,6 +19,7 @@ struct Rung {
   std::vector<TimeKink> kinks = {};  ///< ascending; of a parametrisation that follows the tip
   bool waits = false;                ///< whether knots ahead of the tip serve what happens far from it
   bool bends = false;                ///< whether knots in the middle of the cut come early
+  bool winds = false;                ///< whether all of its sixteenths come before what is next to the ends
 
   friend bool operator==(const Rung&, const Rung&) = default;
 };
@@ -38,6 +39,7 @@ struct LadderOf {
   bool round = false;  ///< the height is an angle around the front, over which the whole body changes
   bool waits = false;  ///< the front waits while others move
   bool bends = false;  ///< the direction of the cut turns, and what opens turns with it
+  bool winds = false;  ///< it turns so much that the middle of the cut needs as many knots as its ends
 };
 std::vector<Rung> ladder_of(const Parametrization& parametrization, const LadderOf& series = {});
 

@@ -52,6 +52,18 @@ OwnCoordinates::OwnCoordinates(const SnapshotReader& reader) {
     if (!domain || (within((*domain)[0], places[n].x) && within((*domain)[1], places[n].y)))
       kept.push_back(n), nodes += node[n] == n;
   if (domain && curve) fill_gaps(*domain);
+  if (!reader.snapshot().body.empty() && !beside_jumps(reader.snapshot()).empty()) fill_gaps(extent());
+}
+
+/// Of all places, along and across.
+std::array<Interval, 2> OwnCoordinates::extent() const {
+  std::array<Interval, 2> extent{{{places[0].x, places[0].x}, {places[0].y, places[0].y}}};
+  for (const Vec3& place : places)
+    for (int axis = 0; axis < 2; ++axis) {
+      extent[axis].front = std::min(extent[axis].front, place[axis]);
+      extent[axis].back = std::max(extent[axis].back, place[axis]);
+    }
+  return extent;
 }
 
 /// Around a front, the angle of a node near its ends is known with a turn more or less.
@@ -83,8 +95,9 @@ void OwnCoordinates::add_further_places(const CutCurve& cut) {
     }
 }
 
-/// Beyond the patch's edges, which are no lines of these coordinates, displacements are as at the nearest
-/// column of nodes: what a fit would have there is neither known nor bounded.
+/// Beyond the edges of a patch or a body, which are no lines of these coordinates, and within bends of a
+/// body, where no node is, displacements are as at the nearest column of nodes: what a fit would have there
+/// is neither known nor bounded.
 void OwnCoordinates::fill_gaps(const std::array<Interval, 2>& domain) {
   constexpr int gaps = 24;  // that the domain is divided into, along and across
   std::map<std::pair<double, double>, std::vector<std::size_t>> columns;
@@ -120,6 +133,22 @@ double OwnCoordinates::turning(const std::vector<std::array<std::int32_t, 2>>& p
   return greatest - least;
 }
 
+Bend OwnCoordinates::tightest_bend(const Snapshot& s) const {
+  constexpr std::size_t around = 2;  // columns of pairs on either side
+  std::map<double, std::int32_t> nodes;
+  for (const auto& [left, right] : s.pairs) nodes.emplace(places[left].x, left);
+  const std::vector<std::pair<double, std::int32_t>> along(nodes.begin(), nodes.end());
+  Bend tightest;
+  for (std::size_t i = around; i + around < along.size(); ++i) {
+    const auto [from, before] = along[i - around];
+    const auto [to, after] = along[i + around];
+    const double sine = dot(frames[after][0], frames[before][1]);
+    const double radius = (to - from) / std::max(std::abs(std::asin(std::clamp(sine, -1., 1.))), 1e-9);
+    if (radius < tightest.radius) tightest = {radius, s.points[along[i].second]};
+  }
+  return tightest;
+}
+
 /// Of the places among those that are kept, or -1.
 std::vector<std::int64_t> OwnCoordinates::numbers() const {
   std::vector<std::int64_t> number(places.size(), -1);
@@ -151,7 +180,7 @@ bool within(std::span<const std::int64_t> cell, const std::vector<std::int64_t>&
 std::vector<std::int32_t> OwnCoordinates::beside_jumps(const Snapshot& s) const {
   const std::vector<std::int64_t> number = numbers();
   std::vector<std::int32_t> beside;
-  for (std::size_t c = 0; s.coordinates && c + 1 < s.cell_offsets.size(); ++c)
+  for (std::size_t c = 0; s.has_own_coordinates() && c + 1 < s.cell_offsets.size(); ++c)
     if (const auto cell = cell_of(s, c); within(cell, number) && jumps(s, cell))
       for (const std::int64_t n : cell) beside.push_back(static_cast<std::int32_t>(number[n]));
   std::sort(beside.begin(), beside.end());
@@ -181,7 +210,7 @@ Snapshot OwnCoordinates::of(const Snapshot& s) const {
   for (const std::size_t n : kept) moved.points.push_back(places[n]);
   for (std::size_t c = 0; c + 1 < s.cell_offsets.size(); ++c) {
     const auto cell = cell_of(s, c);
-    if (!within(cell, number) || (s.coordinates && jumps(s, cell))) continue;
+    if (!within(cell, number) || (s.has_own_coordinates() && jumps(s, cell))) continue;
     for (const std::int64_t n : cell) moved.connectivity.push_back(number[n]);
     moved.cell_types.push_back(s.cell_types[c]);
     moved.cell_offsets.push_back(static_cast<std::int64_t>(moved.connectivity.size()));

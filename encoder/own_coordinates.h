@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +18,12 @@ namespace cleft {
 
 /// Of a patch along u and v: its grid's, whatever its shape; of others, what the nodes take up.
 std::optional<std::array<Interval, 2>> own_domain(const Snapshot& snapshot);
+
+/// A place of the cut in space, and the radius on which the cut turns there within the skin, mm.
+struct Bend {
+  double radius = std::numeric_limits<double>::infinity();
+  Vec3 at = {};
+};
 
 /// The nodes of a body or a shaped patch in the coordinates of its cut, and the directions of these there. A
 /// node beside a curved cut may have several places (curved_places.h): the first ones are those of all nodes.
@@ -37,6 +44,8 @@ struct OwnCoordinates {
   }
   /// Radians between the directions of the cut that differ most, as they turn within the skin.
   double turning(const std::vector<std::array<std::int32_t, 2>>& pairs) const;
+  /// Where the cut turns most tightly.
+  Bend tightest_bend(const Snapshot& s) const;
   /// The snapshot in these coordinates, of the nodes that are kept. Cells are left out where the coordinates
   /// jump, as they do beyond the middle of a curved cut's circle.
   Snapshot of(const Snapshot& s) const;
@@ -50,6 +59,7 @@ struct OwnCoordinates {
   bool jumps(const Snapshot& s, std::span<const std::int64_t> cell) const;
   void add_turned_places(const BreakMap& map);
   void add_further_places(const CutCurve& cut);
+  std::array<Interval, 2> extent() const;
   void fill_gaps(const std::array<Interval, 2>& domain);
 };
 

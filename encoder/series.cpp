@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t few_nodes = 1 << 16;  // above, cells alone determine a fit
 constexpr double bent = 0.3;                // radians from which the middle of a cut needs knots of its own
+constexpr double winding = 1;               // radians from which it needs as many as the ends
 
 using Pairs = std::vector<std::array<std::int32_t, 2>>;
 
@@ -265,10 +266,11 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     : block(storage.block), frames(storage.file) {
   std::shared_ptr<const OwnCoordinates> own;
   std::optional<Snapshot> moved;
-  if (!reader.snapshot().body.empty() || reader.snapshot().coordinates) {
+  if (reader.snapshot().has_own_coordinates()) {
     own = std::make_shared<OwnCoordinates>(reader);
     round = own->around.has_value();
-    turning = own->turning(reader.snapshot().pairs), bends = turning > bent;
+    turning = own->turning(reader.snapshot().pairs), bends = turning > bent, winds = turning > winding;
+    tightest = own->tightest_bend(reader.snapshot());
     moved = own->of(reader.snapshot());
   }
   const Snapshot& s = moved ? *moved : reader.snapshot();

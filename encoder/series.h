@@ -14,6 +14,7 @@
 #include "encoder/node_values.h"
 #include "encoder/node_work.h"
 #include "encoder/norms.h"
+#include "encoder/own_coordinates.h"
 #include "encoder/stored_frames.h"
 #include "solver/snapshot/snapshot.h"
 
@@ -86,7 +87,9 @@ struct Series {
   bool round = false;                              ///< whether w is an angle around a round front
   bool surface_only = false;                       ///< of imported data: no solid, and no plane
   double turning = 0;                              ///< of the direction of the break, radians
+  Bend tightest;                                   ///< where it does so most
   bool bends = false;                              ///< whether it turns much
+  bool winds = false;                              ///< or very much
   std::vector<std::array<std::int32_t, 2>> pairs;  ///< left and right node, in release order
   std::vector<std::int32_t> released;              ///< F: number of open pairs
 

@@ -47,8 +47,12 @@ std::string cause_in_series(const Series& series) {
   if (series.surface_only) return no_solid;
   if (series.turning <= folds) return "";
   return "the path of the cut turns by " + digits(std::round(series.turning * 180 / std::numbers::pi)) +
-         " degrees, and coordinates along it fold within its bends, so that no field is exact there; what "
-         "cleft cut --simulate and simulate on show is the simulation, and needs no field";
+         " degrees, most tightly on a radius of " + digits(series.tightest.radius) + " mm at (" +
+         digits(series.tightest.at.x) + ", " + digits(series.tightest.at.y) + ", " +
+         digits(series.tightest.at.z) +
+         "), and coordinates along it fold within its bends, so that no field is exact there between the "
+         "nodes; a path that bends less has one, and what cleft cut --simulate and simulate on show is the "
+         "simulation, and needs no field";
 }
 
 /// Why knots of its own do not follow a field there, and what helps.

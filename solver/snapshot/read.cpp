@@ -363,7 +363,7 @@ std::vector<SnapshotArray> SnapshotReader::point_arrays() const {
 }
 
 std::vector<Vec3> SnapshotReader::coordinates() const {
-  if (!snapshot_.coordinates && snapshot_.body.empty()) return snapshot_.points;
+  if (!snapshot_.has_own_coordinates()) return snapshot_.points;
   const std::vector<double> numbers = point_array(canonical_array, 0);
   std::vector<Vec3> places(snapshot_.points.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) places[i / 3][static_cast<int>(i % 3)] = numbers[i];

@@ -93,6 +93,8 @@ struct Snapshot {
   std::vector<SnapshotPiece> pieces;     ///< of imported data with several breaks: one for each
 
   std::size_t frames() const { return times.size(); }
+  /// Whether points are not (u, v, w), which the arrays `canonical` and `frame` hold.
+  bool has_own_coordinates() const { return coordinates || !body.empty(); }
   /// The points in the space of the source; of a simulation, as they are.
   std::vector<Vec3> points_in_source() const;
   /// The skin: all triangles, as indices into points.

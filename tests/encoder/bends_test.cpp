@@ -23,16 +23,19 @@ struct TurningSnapshot {
   TemporaryFolder folder;
   std::string file = folder / "case.h5";
 
-  explicit TurningSnapshot(const std::function<double(double)>& angle, const Motion& motion) {
+  /// `body`: as a true body has it, instead of a shaped patch. `narrow`: the width of its end over that
+  /// elsewhere.
+  explicit TurningSnapshot(const std::function<double(double)>& angle, const Motion& motion,
+                           bool body = false, double narrow = 1) {
     Snapshot s = cut_in(grid(along, across, deep), eight_times);
-    s.coordinates = true;
+    s.coordinates = !body, s.body = body ? "69debcb3fbba9d88" : "";
     add_cells(s);
     const std::vector<Sample> samples = samples_of(s);
     std::vector<double> places, frames;
     std::vector<Vec3> shown;
     for (const Vec3& p : s.points) {
       const double a = angle(p.x);
-      places.insert(places.end(), {p.x, p.y, p.z});
+      places.insert(places.end(), {p.x, p.x > 3 ? narrow * p.y : p.y, p.z});
       frames.insert(frames.end(), {std::cos(a), std::sin(a), 0, -std::sin(a), std::cos(a), 0, 0, 0, 1});
       // The path is a chain of short pieces; displacements do not depend on it.
       Vec3 at{0, 0, p.z};
@@ -91,6 +94,11 @@ TEST(Bends, AreTheAnglesBetweenDirectionsOfTheCut) {
   const double half = columns / 2;
   EXPECT_NEAR(TurningSnapshot([](double u) { return u * u / 30; }, straight).turning(), half * half / 30,
               1e-6);
+  // Curvature u / 15: most at the last column with two on either side.
+  const TurningSnapshot spiral([](double u) { return u * u / 30; }, straight);
+  const SnapshotReader reader(spiral.file);
+  const Bend tightest = OwnCoordinates(reader).tightest_bend(reader.snapshot());
+  EXPECT_NEAR(tightest.radius, 15 / 3.25, 0.5);
   // Directions that differ from the axes, but not from each other, are none.
   EXPECT_NEAR(TurningSnapshot([](double) { return 0.7; }, straight).turning(), 0, 1e-9);
 }
@@ -100,6 +108,17 @@ TEST(Bends, AreNoneOfASkinThatIsCurvedAndAreToldOfASeries) {
   EXPECT_FALSE(SyntheticSnapshot(straight).series().bends);
   EXPECT_FALSE(Series(SnapshotReader(TurningSnapshot([](double u) { return u / 40; }, straight).file)).bends);
   EXPECT_TRUE(Series(SnapshotReader(TurningSnapshot([](double u) { return -u / 9; }, straight).file)).bends);
+}
+
+void expect_nested(const std::vector<Rung>& ladder, const Parametrization& parametrization) {
+  for (std::size_t i = 0; i + 1 < ladder.size(); ++i) {
+    const auto few = bases_of(ladder[i], parametrization, 30),
+               more = bases_of(ladder[i + 1], parametrization, 30);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_TRUE(std::includes(more[axis].knots().begin(), more[axis].knots().end(),
+                                few[axis].knots().begin(), few[axis].knots().end()))
+          << "rung " << i << ", axis " << axis;
+  }
 }
 
 TEST(Bends, HaveKnotsInTheMiddleOfTheCut) {
@@ -121,14 +140,26 @@ TEST(Bends, HaveKnotsInTheMiddleOfTheCut) {
   EXPECT_LT(with, 0.5 * without) << with << ", " << without;
   // Each ladder is one of nested knots.
   const std::vector<Rung> ladder = ladder_of(*parametrization, {.bends = true});
-  for (std::size_t i = 0; i + 1 < ladder.size(); ++i) {
-    const auto few = bases_of(ladder[i], *parametrization, 30),
-               more = bases_of(ladder[i + 1], *parametrization, 30);
-    for (int axis = 0; axis < 3; ++axis)
-      EXPECT_TRUE(std::includes(more[axis].knots().begin(), more[axis].knots().end(),
-                                few[axis].knots().begin(), few[axis].knots().end()))
-          << "rung " << i << ", axis " << axis;
-  }
+  expect_nested(ladder, *parametrization);
+}
+
+/// Lips that part along one direction in space where the cut turns to and fro: as many knots in its middle as
+/// at its ends make the error smaller.
+TEST(Bends, HaveAllSixteenthsWhereTheCutWinds) {
+  const auto angle = [](double u) { return 1.2 * std::sin(1.6 * u); };
+  const TurningSnapshot turning(angle, [&](const Vec3& p, Side side, double t) {
+    const double gape = norm(opening_one_way(p, side, t, 0)) * sign_of(p, side), a = angle(p.x);
+    return Vec3{gape * std::sin(a), gape * std::cos(a), 0};
+  });
+  Series series{SnapshotReader(turning.file)};
+  ASSERT_TRUE(series.winds);
+  EXPECT_FALSE(Series(SnapshotReader(TurningSnapshot([](double u) { return u / 9; }, straight).file)).winds);
+  const double with = encoded_within(series, 0.01, "front").field.report.spline_error;
+  series.winds = false;
+  const double without = encoded_within(series, 0.01, "front").field.report.spline_error;
+  EXPECT_LT(with, 0.8 * without) << with << ", " << without;
+  expect_nested(ladder_of(*fit_store(series, {})->parametrization(), {.bends = true, .winds = true}),
+                *fit_store(series, {})->parametrization());
 }
 
 TEST(Bends, SpendNoKnotsWhereTheCoordinatesJump) {
@@ -152,6 +183,25 @@ TEST(Bends, SpendNoKnotsWhereTheCoordinatesJump) {
   const Encoded many = encoded_within(series, 0.03, "front");
   EXPECT_LT(size(few), size(many));
   EXPECT_LE(few.field.report.node_error, 0.03);  // by the residual
+}
+
+/// As of a shaped patch.
+TEST(Bends, OfABodyLeaveOutCellsWhereTheCoordinatesJump) {
+  const auto angle = [](double u) { return u / 5; };
+  const TurningSnapshot patch(angle, straight), body(angle, straight, true);
+  const Series of_patch{SnapshotReader(patch.file)}, of_body{SnapshotReader(body.file)};
+  EXPECT_FALSE(of_body.beside_jumps.empty());
+  EXPECT_EQ(of_body.beside_jumps, of_patch.beside_jumps);
+  EXPECT_EQ(of_body.centres.samples.size(), of_patch.centres.samples.size());
+  // Where no node is, at a corner of the domain, the fit is held too.
+  const auto in_corner = [](const Series& series) {
+    return std::count_if(series.samples.begin(), series.samples.end(),
+                         [](const Sample& sample) { return sample.uvw.x > 4 && sample.uvw.y < -4; });
+  };
+  const Series narrow{SnapshotReader(TurningSnapshot(angle, straight, true, 0.5).file)};
+  EXPECT_EQ(narrow.nodes, of_body.nodes);
+  EXPECT_GT(in_corner(of_body), 0);
+  EXPECT_GT(in_corner(narrow), 0);
 }
 
 }  // namespace
