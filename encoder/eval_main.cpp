@@ -120,7 +120,8 @@ void check_fit(const Field& field, const std::optional<NodeResidual>& residual, 
     if (!good)
       throw InputError(nodes + ": " + what + "; is it the snapshot that " + file + " was made from?");
   };
-  need(s.case_hash == field.case_hash,
+  // Between cases of one mesh any snapshot of it has the nodes.
+  need(field.interpolation || s.case_hash == field.case_hash,
        "is of case '" + s.case_hash + "', and the field of case '" + field.case_hash + "'");
   if (residual) {
     need(s.points.size() == static_cast<std::size_t>(residual->nodes),
@@ -148,7 +149,7 @@ std::string evaluate_nodes(const Field& field, const std::string& file, const st
 
   std::vector<Place> places;
   std::vector<double> axes;  // of the displacement, where nodes have their own
-  if (s.coordinates) axes = reader.point_array(frame_array, 0);
+  if (s.has_own_coordinates()) axes = reader.point_array(frame_array, 0);
   for (const Sample& sample : samples_in_field(reader)) {
     const std::string where = nodes + ", node " + std::to_string(places.size());
     for (int axis = 0; axis < 3; ++axis) inside(field, axis, sample.uvw[axis], where);

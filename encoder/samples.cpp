@@ -23,7 +23,7 @@ std::vector<Sample> samples_of(const Snapshot& snapshot) {
 }
 
 std::vector<Sample> samples_in_field(const SnapshotReader& reader) {
-  if (!reader.snapshot().coordinates) return samples_of(reader.snapshot());
+  if (!reader.snapshot().has_own_coordinates()) return samples_of(reader.snapshot());
   Snapshot moved = reader.snapshot();
   moved.points = reader.coordinates();
   return samples_of(moved);

@@ -20,8 +20,8 @@ Field compact(const Field& field, double bound) {
 Field compact_interpolated(const Field& field) {
   constexpr double share = 0.1, least_fit = 2e-3;
   CLEFT_CHECK(field.interpolation.has_value(), ==, true);
-  const double whole = field.interpolation->estimated_error,
-               between = field.interpolation->interpolation_error;
+  const double whole = field.report.node_error,  // of all that the file will hold
+      between = field.interpolation->interpolation_error;
   const double fit = std::sqrt(std::max(0., whole * whole - between * between));
   return compact(field,
                  share * std::min(whole, std::max(fit, least_fit)) * field.report.largest_displacement);

@@ -12,9 +12,9 @@ namespace cleft {
 Field compact(const Field& field, double bound);
 
 /// The same of a field that was interpolated, for its file: no point moves by more than a tenth of its
-/// estimated error, nor by more than a tenth of what the fits of the cases contribute to it (at least 2e-4 of
-/// the largest displacement). Between few cases the estimate of what they do not tell can exceed the
-/// displacement itself; a share of that would be an error that was not there.
+/// estimated error at the nodes (its report's node_error), nor by more than a tenth of what the fits of the
+/// cases contribute to it (at least 2e-4 of the largest displacement). Between few cases the estimate of what
+/// they do not tell can exceed the displacement itself; a share of that would be an error that was not there.
 Field compact_interpolated(const Field& field);
 
 }  // namespace cleft

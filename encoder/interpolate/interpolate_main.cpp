@@ -9,6 +9,7 @@
 #include "encoder/field/file/field_file.h"
 #include "encoder/field/file/study_file.h"
 #include "encoder/interpolate/compact.h"
+#include "encoder/interpolate/residual_between.h"
 #include "encoder/interpolate/study_interpolator.h"
 
 using namespace cleft;
@@ -20,6 +21,7 @@ Json figures_of(const Field& field, const StudyInterpolator& study, const std::s
   Json features = Json::array();
   for (const std::string& name : study.features().names()) features.push_back(name);
   return {{"estimated_error", made.estimated_error},
+          {"error_at_nodes", field.report.node_error},
           {"interpolation_error", made.interpolation_error},
           {"outside", made.outside},
           {"method", made.method},
@@ -62,8 +64,10 @@ int main(int argc, char** argv) {
         std::cerr << "cleft interpolate: warning: " << note_of_damaged(study, damaged) << "\n";
     }
     const StudyInterpolator interpolator(study);
-    const Field field = interpolator.at(values);
-    write_field(out, compact_interpolated(field));
+    Encoded between = between_with_nodes(interpolator, study, values);
+    between.field = compact_interpolated(between.field);
+    const Field& field = between.field;
+    write_field(out, between);
     if (const double outside = field.interpolation->outside; outside > 0)
       std::cerr << "cleft interpolate: warning: these parameters lie outside the study, by "
                 << shortest(std::round(1000 * outside) / 1000)

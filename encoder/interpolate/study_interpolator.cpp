@@ -121,12 +121,13 @@ DisplacementModel::Prediction StudyInterpolator::of_all(const std::vector<int>& 
 
 /// Neighbours are fitted alike, and so a field between them is as good as they are; where large weights of
 /// either sign make it from differences of cases, their errors grow with them.
-double StudyInterpolator::fit_error(const DisplacementModel::Prediction& prediction, double largest) const {
+double StudyInterpolator::fit_error(const DisplacementModel::Prediction& prediction, double largest,
+                                    double FitReport::*of_fit) const {
   std::vector<double> fits;
   double squares = 0;
   for (int i = 0; i < cases_.size(); ++i) {
     const FitReport& report = cases_.cases()[i].report;
-    fits.push_back(std::isfinite(report.spline_error) ? report.spline_error : 0);
+    fits.push_back(std::isfinite(report.*of_fit) ? report.*of_fit : 0);
     squares += std::pow(prediction.weights[i] * fits.back() * report.largest_displacement, 2);
   }
   for (Eigen::Index d = 0; d < prediction.derivatives.size(); ++d)
@@ -225,13 +226,18 @@ double StudyInterpolator::outside(const RecordedParameters& parameters) const {
   return outside;
 }
 
+double StudyInterpolator::estimated_error(const Recipe& recipe, double largest,
+                                          double FitReport::*of_fit) const {
+  const double error = largest > 0 ? recipe.prediction.error / largest : 0;
+  return std::hypot(error, fit_error(recipe.prediction, largest, of_fit));
+}
+
 void StudyInterpolator::tell(Field& field, const Recipe& recipe, double largest) const {
   const double error = largest > 0 ? recipe.prediction.error / largest : 0;
   field.parameters = recipe.parameters;
   name_bottom(field.parameters);
   field.interpolation = {regression().covariance().name, static_cast<double>(cases_.size()),
-                         std::hypot(error, fit_error(recipe.prediction, largest)), error,
-                         outside(recipe.parameters)};
+                         estimated_error(recipe, largest), error, outside(recipe.parameters)};
   const double none = std::nan("");
   field.report = {none, none, none, none, none, none, none, none,
                   none, none, none, none, none, none, none, none};

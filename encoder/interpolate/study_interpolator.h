@@ -58,6 +58,10 @@ class StudyInterpolator {
   Recipe recipe(const CaseParameters& values, bool meshable = true) const;
   /// Sets parameters, report and interpolation of a field that was made by a recipe.
   void tell(Field& field, const Recipe& recipe, double largest_displacement) const;
+  /// Of a field that was made by a recipe, over its largest displacement: of the interpolation, and of the
+  /// cases' fits as their reports have it.
+  double estimated_error(const Recipe& recipe, double largest_displacement,
+                         double FitReport::*of_fit = &FitReport::spline_error) const;
   /// What recipe() and the error in tell() are computed from (docs/formats.md, "Page for browsers").
   nlohmann::ordered_json data() const;
 
@@ -66,7 +70,8 @@ class StudyInterpolator {
   CaseParameters with_bottom(CaseParameters values) const;
   double outside(const RecordedParameters& parameters) const;
   /// Of the sum of the cases' fields, from their own errors, over its largest displacement.
-  double fit_error(const DisplacementModel::Prediction& prediction, double largest) const;
+  double fit_error(const DisplacementModel::Prediction& prediction, double largest,
+                   double FitReport::*of_fit) const;
   /// The parameters with base values of all but those of the group.
   RecordedParameters varied_in(const ParameterGroup& group, RecordedParameters parameters) const;
   /// The prediction of a model of some of the cases, for all of them.

@@ -222,7 +222,7 @@ TEST(StudyInterpolator, AFileAddsNoMoreThanTheFitsHoweverLargeTheEstimate) {
   const double fit = 0.01;
   for (const double between : {0., 0.05, 3.}) {
     field.interpolation->interpolation_error = between;
-    field.interpolation->estimated_error = std::hypot(fit, between);
+    field.interpolation->estimated_error = field.report.node_error = std::hypot(fit, between);
     const Field small = compact_interpolated(field);
     EXPECT_GT(small.quantum, 0.01 * fit * field.report.largest_displacement) << between;  // few bytes
     EXPECT_LE(distance_of(small, field), 0.1 * fit) << between;
