@@ -109,11 +109,15 @@ std::string warning_of_displacement(const Field& field, const Series& series, co
   const FitReport& report = field.report;
   const double scale = report.largest_displacement,
                limit = options.tolerance_of("displacement").limit(scale > 0 ? scale : 1);
-  if (report.spline_error * scale <= worth_a_warning * limit) return "";
+  const bool spline = report.spline_error * scale > worth_a_warning * limit;
+  if (!spline && report.gape_error * scale <= worth_a_warning * limit) return "";
+  const double error = spline ? report.spline_error : report.gape_error;
   const Place place{report.worst_node, report.worst_time};
-  return "the spline, which is what is drawn between the nodes, is off by " + percent(report.spline_error) +
-         " of the largest displacement, " + digits(report.spline_error * scale / limit) +
-         " times the tolerance," + told(series, place) + cause_of(field, series, place);
+  return (spline ? "the spline, which is what is drawn between the nodes, is off by "
+                 : "the opening of the break, as the spline has it between the nodes, is off by ") +
+         percent(error) + " of the largest displacement, " + digits(error * scale / limit) +
+         " times the tolerance" + (spline ? "," : "; the spline is worst") + told(series, place) +
+         cause_of(field, series, place);
 }
 
 /// `of`: "" for the displacement, else the quantity's name and a colon.

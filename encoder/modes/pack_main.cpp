@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   app.add_option("DIR", folder, "study folder")->required();
   app.add_option("--modes", error,
                  "make the cases of modes that they have in common, or of coarser steps, if that costs fewer "
-                 "bytes: no point of a case moves by more than this times its largest displacement (0.0001 "
+                 "bytes: no node of a case moves by more than this times its largest displacement (0.0001 "
                  "to 0.1)");
   app.add_flag("--json", json, "print the figures as JSON");
   return run_command(app, argc, argv, [&] {

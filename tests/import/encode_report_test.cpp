@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "encoder/command/warnings.h"
 #include "encoder/field/file/field_file.h"
 #include "encoder/samples.h"
 #include "tests/import/cracked_bodies.h"
@@ -125,6 +126,29 @@ TEST_F(EncodeReport, AQuantityDoesNotOvershootBetweenNodes) {
       }
     }
   EXPECT_LT(worst, 0.01);
+}
+
+/// Errors of both lips add up: an opening may be off by more than twice the tolerance where the spline is
+/// not.
+TEST_F(EncodeReport, AnOpeningThatIsOffIsToldWhereTheSplineIsNot) {
+  encode(edge_crack().series(), "displacement");
+  Field field = read_field(folder / "case.dffd");
+  const SnapshotReader reader(folder / "case.h5");
+  const Series series(reader);
+  const auto told = [&](double spline, double opening) {
+    field.report.spline_error = spline, field.report.gape_error = opening;
+    std::string all;
+    for (const std::string& one : warnings_of(field, {}, series, {})) all += one;
+    return all;
+  };
+  EXPECT_EQ(told(0.019, 0.0199), "");
+  const std::string warning = told(0.018, 0.036);
+  EXPECT_EQ(
+      warning.find("the opening of the break, as the spline has it between the nodes, is off by 3.6 % of "
+                   "the largest displacement, 3.6 times the tolerance; the spline is worst at node "),
+      0u)
+      << warning;
+  EXPECT_EQ(told(0.03, 0.05).find("the spline, which is what is drawn between the nodes, is off by 3 %"), 0u);
 }
 
 /// A displacement of frame 0 is larger than what follows, and has not the knots of a tip that has only begun

@@ -273,8 +273,9 @@ TEST(KernelRegression, TuningMakesNoMethodWorse) {
 }
 
 /// Of four features: five values of each alone, and the corners of each two; of what no polynomial of the
-/// second degree tells.
-TEST(KernelRegression, OnASparseGridAProcessPassesThroughTheCases) {
+/// second degree tells, with noise as fits have it. A process with long lengths that passes through the cases
+/// multiplies the noise.
+TEST(KernelRegression, OnASparseGridAProcessDoesNotMultiplyTheNoiseOfTheCases) {
   std::vector<Eigen::Vector4d> places = {Eigen::Vector4d::Zero()};
   const double inner = std::numbers::sqrt2 / 2;
   for (int a = 0; a < 4; ++a) {
@@ -287,17 +288,35 @@ TEST(KernelRegression, OnASparseGridAProcessPassesThroughTheCases) {
   const auto value = [](const Eigen::Vector4d& x) {
     return std::exp(0.4 * x[0] + 0.3 * x[1]) / (1 + 0.3 * x[2] * x[2]) + 0.2 * std::abs(x[3]);
   };
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 0.01);
+  std::uniform_real_distribution<double> place(-1, 1);
+  constexpr Eigen::Index rows = 40;  // values with the same course and other noise
   const auto n = static_cast<Eigen::Index>(places.size());
-  Problem p{{Eigen::MatrixXd(n, 4), Eigen::MatrixXd::Ones(n, 1), {}}, Eigen::MatrixXd(1, n)};
-  for (Eigen::Index i = 0; i < n; ++i) p.cases.features.row(i) = places[i], p.data(0, i) = value(places[i]);
-  p.cases.gram = p.data.transpose() * p.data;
-  for (const KernelRegression& method : all_methods(p.cases)) {
-    if (method.covariance().name != "Gaussian process") continue;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto weights = method.weights(p.cases.features.row(i), p.cases.loads.row(i));
-      EXPECT_NEAR(p.data.row(0).dot(weights.of_rows.col(0)), p.data(0, i), 2e-3) << p.cases.features.row(i);
-    }
+  Problem p{{Eigen::MatrixXd(n, 4), Eigen::MatrixXd::Ones(n, 1), {}}, Eigen::MatrixXd(rows, n)};
+  Eigen::MatrixXd noises(rows, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    p.cases.features.row(i) = places[i];
+    for (Eigen::Index k = 0; k < rows; ++k)
+      noises(k, i) = noise(random), p.data(k, i) = value(places[i]) + noises(k, i);
   }
+  p.cases.gram = p.data.transpose() * p.data;
+  const auto noise_between = [&](const KernelRegression& method) {
+    std::mt19937 same(2);
+    double sum = 0;
+    for (int i = 0; i < 200; ++i) {
+      Eigen::RowVector4d at;
+      for (double& x : at) x = place(same);
+      const auto weights = method.weights(at, Eigen::RowVectorXd::Ones(1));
+      sum += (noises * weights.of_rows.col(0)).squaredNorm() / rows;
+    }
+    return std::sqrt(sum / 200);
+  };
+  const KernelRegression through(p.cases, {"through the cases", 2, Covariance::Correlation::gaussian, 100,
+                                           1e-9, Eigen::VectorXd::Constant(4, 2.)});
+  EXPECT_GT(noise_between(through), 0.018);
+  for (const KernelRegression& method : all_methods(p.cases))
+    if (method.covariance().name == "Gaussian process") EXPECT_LT(noise_between(method), 0.012);
 }
 
 }  // namespace cleft
