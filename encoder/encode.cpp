@@ -24,15 +24,25 @@ constexpr double share_of_space = 0.9;      // of the tolerance, for fits of sin
 constexpr int most_tries = 6;               // of finer knots, where frames between the probes are off
 constexpr double far_off = 2;               // tolerances, of a spline that is worth more bytes
 constexpr double worth_of_more = 0.75;      // what kinks and denser knots must make of an error
+constexpr double worth_of_denser = 0.5;     // what denser knots must make of the errors of quantities
 constexpr double greatest_condition = 1e6;  // of what nodes determine well; mostly 1e3 to 1e5
 constexpr std::size_t most_fewer = 2;       // rungs, for a better condition
+
+/// What there is ahead of the front, far from it: little, or something that wants knots there.
+enum class Ahead { at_rest, moving };
 
 class Encoder {
  public:
   Encoder(const Series& series, const EncodeOptions& options,
           const std::function<void(const std::string&)>& progress, std::shared_ptr<FitStore> store,
-          SeriesFit::Start start = SeriesFit::Start::zero, const std::string& name = "displacement")
-      : series_(series), options_(options), progress_(progress), store_(std::move(store)), start_(start) {
+          SeriesFit::Start start = SeriesFit::Start::zero, const std::string& name = "displacement",
+          Ahead ahead = Ahead::at_rest)
+      : series_(series),
+        options_(options),
+        progress_(progress),
+        store_(std::move(store)),
+        start_(start),
+        ahead_(ahead) {
     parametrization_ = store_->parametrization();
     scale_ = series.largest_displacement > 0 ? series.largest_displacement : 1;
     limit_ = options.tolerance_of(name).limit(scale_);
@@ -46,13 +56,22 @@ class Encoder {
     return rungs[std::min(i, rungs.size() - 1)];
   }
 
-  Encoded run() {
+  /// The number of the rung that the search finds, if its spline is off by at most `most`, mm.
+  std::optional<std::size_t> rung_within(double most) const {
+    const std::vector<Rung> rungs = supported_rungs();
+    const std::size_t rung = sufficient(rungs);
+    if (fit_of(rungs[rung]).misfit(limit_).largest > most) return std::nullopt;
+    return rung;
+  }
+
+  /// On the rung of this number at least.
+  Encoded run(std::size_t least = 0) const {
     if (options_.rung) {
       const SeriesFit fit = fit_of(*options_.rung);
       return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit)};
     }
     const std::vector<Rung> rungs = supported_rungs();
-    std::size_t rung = sufficient(rungs);
+    std::size_t rung = std::max(sufficient(rungs), std::min(least, rungs.size() - 1));
     progress_("fitting all frames");
     auto fitted = fitted_on(rungs[rung]);
     // Where knots next to the front are nearer to each other than nodes, the spline is free between them.
@@ -111,7 +130,7 @@ class Encoder {
   }
 
   std::vector<Rung> supported_rungs(double nodes_at_front = enough_nodes) const {
-    const bool waiting = !series_.kinks.empty() && waits(series_.geometry.tip);
+    const bool waiting = ahead_ == Ahead::moving || (!series_.kinks.empty() && waits(series_.geometry.tip));
     return supported(ladder_of(*parametrization_, {series_.round, waiting, series_.bends, series_.winds}),
                      series_, *parametrization_, nodes_at_front);
   }
@@ -155,9 +174,12 @@ class Encoder {
   const std::function<void(const std::string&)>& progress_;
   std::shared_ptr<FitStore> store_;
   SeriesFit::Start start_;
+  Ahead ahead_;
   std::shared_ptr<const Parametrization> parametrization_;
   double scale_ = 1, limit_ = 0;
 };
+
+double scale_of(const SeriesQuantity& quantity) { return quantity.scale > 0 ? quantity.scale : 1; }
 
 /// If nothing moves, the knots are those of the further quantities.
 std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions& options,
@@ -177,6 +199,54 @@ std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions
   return largest;
 }
 
+Encoded with_quantities(Encoded encoded, const Series& series, const EncodeOptions& options,
+                        const std::function<void(const std::string&)>& progress) {
+  for (int number = 0; number < static_cast<int>(series.quantities.size()); ++number) {
+    const SeriesQuantity& data = series.quantities[number];
+    progress("fitting " + data.name);
+    std::optional<double> limit;
+    if (!options.rung) limit = options.tolerance_of(data.name).limit(scale_of(data));
+    FittedQuantity fitted = fit_quantity(series, number, encoded.field, limit);
+    encoded.field.quantities.push_back(std::move(fitted.quantity));
+    encoded.of_quantities.push_back(std::move(fitted.residual));
+  }
+  return encoded;
+}
+
+/// By how many tolerances the spline of a quantity is off.
+double off_by(const Encoded& encoded, const Series& series, const EncodeOptions& options, std::size_t q) {
+  const double scale = scale_of(series.quantities[q]);
+  return encoded.field.quantities[q].spline_error * scale /
+         options.tolerance_of(series.quantities[q].name).limit(scale);
+}
+
+double most_off(const Encoded& encoded, const Series& series, const EncodeOptions& options) {
+  double most = 0;
+  for (std::size_t q = 0; q < series.quantities.size(); ++q)
+    most = std::max(most, off_by(encoded, series, options, q));
+  return most;
+}
+
+/// The number of the rung that follows quantities far better than the displacement's knots do, of those that
+/// are far off; 0 where there is none.
+std::size_t rung_of_quantities_off(const Encoded& encoded, const Series& series, const EncodeOptions& options,
+                                   const std::function<void(const std::string&)>& progress) {
+  std::size_t wanted = 0;
+  for (std::size_t q = 0; q < series.quantities.size(); ++q) {
+    const SeriesQuantity& quantity = series.quantities[q];
+    const double off = off_by(encoded, series, options, q);
+    if (off <= far_off) continue;
+    const double limit = options.tolerance_of(quantity.name).limit(scale_of(quantity));
+    for (int first = 0; first < quantity.frames.front().cols(); first += 3) {
+      const Series part = series_of(series, quantity, first);
+      const Encoder encoder(part, options, progress, fit_store(part, options), SeriesFit::Start::any,
+                            quantity.name, Ahead::moving);
+      wanted = std::max(wanted, encoder.rung_within(worth_of_denser * off * limit).value_or(0));
+    }
+  }
+  return wanted;
+}
+
 }  // namespace
 
 std::shared_ptr<FitStore> fit_store(const Series& series, const EncodeOptions& options, double bytes) {
@@ -192,15 +262,15 @@ Encoded encode(const Series& series, const EncodeOptions& options,
   EncodeOptions chosen = options;
   if (series.largest_displacement == 0 && !options.rung)
     chosen.rung = rung_of_quantities(series, options, progress);
-  Encoded encoded = Encoder(series, chosen, progress, std::move(store)).run();
-  for (int number = 0; number < static_cast<int>(series.quantities.size()); ++number) {
-    const SeriesQuantity& data = series.quantities[number];
-    progress("fitting " + data.name);
-    std::optional<double> limit;
-    if (!options.rung) limit = options.tolerance_of(data.name).limit(data.scale > 0 ? data.scale : 1);
-    FittedQuantity fitted = fit_quantity(series, number, encoded.field, limit);
-    encoded.field.quantities.push_back(std::move(fitted.quantity));
-    encoded.of_quantities.push_back(std::move(fitted.residual));
+  Encoded encoded =
+      with_quantities(Encoder(series, chosen, progress, store).run(), series, options, progress);
+  if (const std::size_t rung = chosen.rung ? 0 : rung_of_quantities_off(encoded, series, options, progress);
+      rung > 0) {
+    const Encoder encoder(series, chosen, progress, store, SeriesFit::Start::zero, "displacement",
+                          Ahead::moving);
+    Encoded denser = with_quantities(encoder.run(rung), series, options, progress);
+    if (most_off(denser, series, options) <= worth_of_denser * most_off(encoded, series, options))
+      encoded = std::move(denser);
   }
   encoded.field.report.fit_seconds = watch.seconds();
   return encoded;

@@ -10,8 +10,9 @@ Eigen::Vector3d prestress(const Parameters& p) {
   return {p.skin.prestress.uu, p.skin.prestress.vv, p.skin.prestress.uv};
 }
 
-/// Of the largest load of an equal prestress in another direction: less is rounding, which moves nothing.
-constexpr double least_load = 1e-12;
+/// Of the largest load of an equal prestress in another direction: less is rounding, and of the places of
+/// nodes, and moves nothing.
+constexpr double least_load = 1e-6;
 
 double largest_on_all_ranks(const Eigen::Ref<const Eigen::MatrixXd>& values, MPI_Comm communicator) {
   double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;

@@ -104,6 +104,10 @@ std::optional<BreakMap::Round> round_front(const BreakPlaces& places) {
   BreakMap::Round round;
   round.u = !in_corner ? (u.front + u.back) / 2 : closed_last ? pairs_u.front : pairs_u.back;
   round.w = closed_above ? (w.front + w.back) / 2 : of_pairs.back;
+  // An arm of breaks that cross begins at the others, far from the body's faces.
+  const double to_face = closed_last ? round.u - places.u.front : places.u.back - round.u;
+  constexpr double near_face = 0.1;  // of the length of the front
+  if (in_corner && to_face > near_face * length(u)) return {};
   const double wide = std::max(closed_first ? round.u - u.front : 0, closed_last ? u.back - round.u : 0),
                high = round.w - w.front;
   std::size_t within = 0;
