@@ -56,11 +56,11 @@ class Encoder {
     return rungs[std::min(i, rungs.size() - 1)];
   }
 
-  /// The number of the rung that the search finds, if its spline is off by at most `most`, mm.
-  std::optional<std::size_t> rung_within(double most) const {
+  /// The number of the rung that the search finds, if its spline is off by at most `bound`, mm.
+  std::optional<std::size_t> rung_within(double bound) const {
     const std::vector<Rung> rungs = supported_rungs();
     const std::size_t rung = sufficient(rungs);
-    if (fit_of(rungs[rung]).misfit(limit_).largest > most) return std::nullopt;
+    if (fit_of(rungs[rung]).misfit(limit_).largest > bound) return std::nullopt;
     return rung;
   }
 
@@ -221,10 +221,10 @@ double off_by(const Encoded& encoded, const Series& series, const EncodeOptions&
 }
 
 double most_off(const Encoded& encoded, const Series& series, const EncodeOptions& options) {
-  double most = 0;
+  double largest = 0;
   for (std::size_t q = 0; q < series.quantities.size(); ++q)
-    most = std::max(most, off_by(encoded, series, options, q));
-  return most;
+    largest = std::max(largest, off_by(encoded, series, options, q));
+  return largest;
 }
 
 /// The number of the rung that follows quantities far better than the displacement's knots do, of those that

@@ -134,14 +134,14 @@ double OwnCoordinates::turning(const std::vector<std::array<std::int32_t, 2>>& p
 }
 
 Bend OwnCoordinates::tightest_bend(const Snapshot& s) const {
-  constexpr std::size_t around = 2;  // columns of pairs on either side
-  std::map<double, std::int32_t> nodes;
-  for (const auto& [left, right] : s.pairs) nodes.emplace(places[left].x, left);
-  const std::vector<std::pair<double, std::int32_t>> along(nodes.begin(), nodes.end());
+  constexpr std::size_t beside = 2;  // columns of pairs on either side
+  std::map<double, std::int32_t> columns;
+  for (const auto& [left, right] : s.pairs) columns.emplace(places[left].x, left);
+  const std::vector<std::pair<double, std::int32_t>> along(columns.begin(), columns.end());
   Bend tightest;
-  for (std::size_t i = around; i + around < along.size(); ++i) {
-    const auto [from, before] = along[i - around];
-    const auto [to, after] = along[i + around];
+  for (std::size_t i = beside; i + beside < along.size(); ++i) {
+    const auto [from, before] = along[i - beside];
+    const auto [to, after] = along[i + beside];
     const double sine = dot(frames[after][0], frames[before][1]);
     const double radius = (to - from) / std::max(std::abs(std::asin(std::clamp(sine, -1., 1.))), 1e-9);
     if (radius < tightest.radius) tightest = {radius, s.points[along[i].second]};

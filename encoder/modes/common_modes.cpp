@@ -212,8 +212,8 @@ double farthest_apart(const Field& a, const Field& b, const std::vector<Place>& 
 /// The case with control points in the coarsest steps that move no node by more than the error, if these need
 /// fewer bytes.
 StudyRecord in_coarser_steps(const StudyRecord& own, double error) {
-  constexpr double near_enough = 0.93;  // of the error, that nodes move by
-  constexpr int most_tries = 6;
+  constexpr double near_enough = 0.98;  // of the error, that nodes move by
+  constexpr int most_tries = 10;
   const Field field = field_of(own.record);
   const FieldGeometry& geometry = field.parametrization().geometry();
   const std::vector<Place> nodes = sample_places(geometry, node_spacing(field.parameters, geometry));
