@@ -179,8 +179,6 @@ class Encoder {
   double scale_ = 1, limit_ = 0;
 };
 
-double scale_of(const SeriesQuantity& quantity) { return quantity.scale > 0 ? quantity.scale : 1; }
-
 /// If nothing moves, the knots are those of the further quantities.
 std::optional<Rung> rung_of_quantities(const Series& series, const EncodeOptions& options,
                                        const std::function<void(const std::string&)>& progress) {

@@ -19,15 +19,6 @@ bool equal(const CellCentres& a, const CellCentres& b) {
          a.first == b.first;
 }
 
-bool equal(const FieldGeometry& a, const FieldGeometry& b) {
-  const auto same = [](const Interval& one, const Interval& other) {
-    return one.front == other.front && one.back == other.back;
-  };
-  return std::equal(a.domain.begin(), a.domain.end(), b.domain.begin(), same) && a.cut.start == b.cut.start &&
-         a.cut.length == b.cut.length && a.cut.depth == b.cut.depth && a.tip.times == b.tip.times &&
-         a.tip.positions == b.tip.positions;
-}
-
 template <class Bases>
 std::vector<double> knots_of(const Bases& bases, std::initializer_list<double> further) {
   std::vector<double> key;
@@ -47,7 +38,7 @@ FitStore::FitStore(const Series& series, std::shared_ptr<const Parametrization> 
 bool FitStore::serves(const Series& series) const {
   return series.nodes == series_.nodes && series.times == series_.times && series.arm == series_.arm &&
          series.round == series_.round && series.quadratic == series_.quadratic &&
-         equal(series.geometry, series_.geometry) && equal(series.samples, series_.samples) &&
+         series.geometry == series_.geometry && equal(series.samples, series_.samples) &&
          equal(series.centres, series_.centres) && equal(series.middles, series_.middles);
 }
 

@@ -158,7 +158,7 @@ FittedQuantity fit_quantity(const Series& series, int number, const Field& field
                             std::optional<double> limit_of_data) {
   const SeriesQuantity& data = series.quantities[number];
   NodeSpline exact = fitted(series, number, field, field.shared_parametrization());
-  const double scale = data.scale > 0 ? data.scale : 1, limit = limit_of_data.value_or(0);
+  const double scale = scale_of(data), limit = limit_of_data.value_or(0);
   double misfit = worst_of(exact, series).error;
   std::optional<double> time;
   if (limit_of_data && misfit > limit && field.parametrization().moves() && never_changes(data)) {

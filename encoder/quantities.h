@@ -13,6 +13,9 @@ namespace cleft {
 /// beyond its last are 0; only nodes are used. largest_displacement is the quantity's scale.
 Series series_of(const Series& series, const SeriesQuantity& quantity, int component);
 
+/// What its errors are relative to, in its own unit: 1 where the quantity is 0.
+inline double scale_of(const SeriesQuantity& quantity) { return quantity.scale > 0 ? quantity.scale : 1; }
+
 struct FittedQuantity {
   Quantity quantity;
   std::optional<CodedResidual> residual;  ///< if the spline alone does not satisfy the tolerance

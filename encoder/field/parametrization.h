@@ -17,6 +17,8 @@ namespace cleft {
 /// last frame. mm; length 0: there is no cut, and the field has no break.
 struct CanonicalCut {
   double start = 0, length = 0, depth = 0;
+
+  friend bool operator==(const CanonicalCut&, const CanonicalCut&) = default;
 };
 
 /// u of the tip over t, both mm: piecewise linear and never decreasing.
@@ -28,10 +30,14 @@ struct TipPath {
   double speed(double t) const;  ///< of the piece that begins at t or contains it
   double passes(
       double u) const;  ///< first time at which the tip is at u or beyond; infinity if it never does
+
+  friend bool operator==(const TipPath&, const TipPath&) = default;
 };
 
 struct Interval {
   double front = 0, back = 0;
+
+  friend bool operator==(const Interval&, const Interval&) = default;
 };
 
 /// The data of a parametrisation, which a field file holds together with its name.
@@ -39,6 +45,8 @@ struct FieldGeometry {
   std::array<Interval, 4> domain;  ///< u, v, w (mm) and t
   CanonicalCut cut;
   TipPath tip;
+
+  friend bool operator==(const FieldGeometry&, const FieldGeometry&) = default;
 };
 
 class Parametrization {

@@ -13,15 +13,6 @@ namespace cleft {
 
 namespace {
 
-bool same_frames(const FieldGeometry& a, const FieldGeometry& b) {
-  const auto same = [](const Interval& x, const Interval& y) {
-    return x.front == y.front && x.back == y.back;
-  };
-  return std::equal(a.domain.begin(), a.domain.end(), b.domain.begin(), same) && a.cut.start == b.cut.start &&
-         a.cut.length == b.cut.length && a.cut.depth == b.cut.depth && a.tip.times == b.tip.times &&
-         a.tip.positions == b.tip.positions;
-}
-
 /// Materials and loads vary alone, so that all cases have the nodes of one mesh.
 bool of_one_mesh(const StudyInterpolator& interpolator) {
   const auto shapes = [](const StudyInterpolator::Range& range) {
@@ -31,9 +22,8 @@ bool of_one_mesh(const StudyInterpolator& interpolator) {
   const auto& varying = interpolator.varying();
   const auto& cases = interpolator.cases().cases();
   return std::none_of(varying.begin(), varying.end(), shapes) &&
-         std::all_of(cases.begin(), cases.end(), [&](const CommonCase& one) {
-           return same_frames(one.geometry, cases.front().geometry);
-         });
+         std::all_of(cases.begin(), cases.end(),
+                     [&](const CommonCase& one) { return one.geometry == cases.front().geometry; });
 }
 
 /// The sum of residuals, each times a weight.
@@ -86,8 +76,8 @@ std::optional<CodedResidual> residual_between(const StudyInterpolator& interpola
 
 Encoded between_with_nodes(const StudyInterpolator& interpolator, const std::string& study,
                            const CaseParameters& values) {
-  Encoded between{interpolator.at(values)};
   const StudyInterpolator::Recipe recipe = interpolator.recipe(values);
+  Encoded between{interpolator.field_of(recipe)};
   between.residual = residual_between(interpolator, study, recipe.prediction.weights);
   if (between.residual)
     between.field.report.node_error = interpolator.estimated_error(

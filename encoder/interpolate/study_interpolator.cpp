@@ -245,8 +245,9 @@ void StudyInterpolator::tell(Field& field, const Recipe& recipe, double largest)
   field.report.largest_displacement = largest;
 }
 
-Field StudyInterpolator::at(const CaseParameters& values) const {
-  const Recipe recipe = this->recipe(values);
+Field StudyInterpolator::at(const CaseParameters& values) const { return field_of(recipe(values)); }
+
+Field StudyInterpolator::field_of(const Recipe& recipe) const {
   const auto& [weights, derivatives, error] = recipe.prediction;
   std::vector<Summand> summands;
   summands.reserve(static_cast<std::size_t>(weights.size() + derivatives.size()));

@@ -56,6 +56,8 @@ class StudyInterpolator {
   /// Throws as at() does. `meshable`: a patch of these parameters could be meshed and solved. A shape that
   /// varies along a path need not be one all along a cut.
   Recipe recipe(const CaseParameters& values, bool meshable = true) const;
+  /// As at() makes it.
+  Field field_of(const Recipe& recipe) const;
   /// Sets parameters, report and interpolation of a field that was made by a recipe.
   void tell(Field& field, const Recipe& recipe, double largest_displacement) const;
   /// Of a field that was made by a recipe, over its largest displacement: of the interpolation, and of the

@@ -199,13 +199,16 @@ Fit fit(const Eigen::MatrixXd& modes, const Eigen::MatrixXf& samples) {
   return fit;
 }
 
-/// The largest distance between two fields of a case where its mesh has nodes, mm.
-double farthest_apart(const Field& a, const Field& b, const std::vector<Place>& nodes) {
-  std::vector<Vec3> of_a(nodes.size()), of_b(nodes.size());
-  a.displacements(nodes, of_a), b.displacements(nodes, of_b);
+std::vector<Vec3> displacements(const Field& field, const std::vector<Place>& places) {
+  std::vector<Vec3> values(places.size());
+  field.displacements(places, values);
+  return values;
+}
+
+/// The largest distance between two lists of displacements, mm.
+double farthest_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double farthest = 0;
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    farthest = std::max(farthest, squared_norm(of_a[n] - of_b[n]));
+  for (std::size_t n = 0; n < a.size(); ++n) farthest = std::max(farthest, squared_norm(a[n] - b[n]));
   return std::sqrt(farthest);
 }
 
@@ -217,6 +220,7 @@ StudyRecord in_coarser_steps(const StudyRecord& own, double error) {
   const Field field = field_of(own.record);
   const FieldGeometry& geometry = field.parametrization().geometry();
   const std::vector<Place> nodes = sample_places(geometry, node_spacing(field.parameters, geometry));
+  const std::vector<Vec3> exact = displacements(field, nodes);
   const double largest = field.report.largest_displacement, bound = error * largest;
   StudyRecord record = own;
   // Control points half a step off each way are off by sqrt(3) / 2 steps, and nodes, which are among several
@@ -224,7 +228,7 @@ StudyRecord in_coarser_steps(const StudyRecord& own, double error) {
   double step = 2 * bound, kept = 0;
   for (int i = 0; i < most_tries; ++i) {
     const Field coarser = quantised(field, step, farthest_move);
-    const double off = farthest_apart(coarser, field, nodes);
+    const double off = farthest_apart(displacements(coarser, nodes), exact);
     if (off <= bound && step > kept)
       kept = step, record.record = record_of(coarser), record.modes_error = off / largest;
     if (off > near_enough * bound && off <= bound) break;

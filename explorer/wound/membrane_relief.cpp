@@ -205,7 +205,7 @@ namespace {
 /// Where a cut is nearest to another one.
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();  // mm
-  double s = 0, other_s = 0;                                  // along their paths, mesh units
+  double s = 0, other_s = 0;                                  // along their paths, mm
 };
 
 Nearest nearest_of(const Cut& cut, const Wound& other) {
@@ -220,7 +220,7 @@ Nearest nearest_of(const Cut& cut, const Wound& other) {
       const double other_s = std::clamp(path.coordinates(there, 0, end).s, 0., end);
       if (const double distance = scale * norm(path.at(other_s).position - there);
           distance < nearest.distance)
-        nearest = {distance, s, other_s};
+        nearest = {distance, s, scale * other_s};
       s += cut.piece / 2;
     }
   }
@@ -228,11 +228,11 @@ Nearest nearest_of(const Cut& cut, const Wound& other) {
 }
 
 /// Whether cuts cross in flat skin, neither at a right angle nor nearly along each other.
-bool cross_at_a_slant(const Cut& a, const Cut& b, const Nearest& nearest, double b_scale) {
+bool cross_at_a_slant(const Cut& a, const Cut& b, const Nearest& nearest) {
   const auto piece_at = [](const Cut& cut, double s) -> const Cut::Piece& {
     return cut.pieces[std::min(cut.pieces.size() - 1, static_cast<std::size_t>(s / cut.piece))];
   };
-  const PathFrame &of_a = piece_at(a, nearest.s).frame, &of_b = piece_at(b, nearest.other_s * b_scale).frame;
+  const PathFrame &of_a = piece_at(a, nearest.s).frame, &of_b = piece_at(b, nearest.other_s).frame;
   const double cosine = std::abs(dot(of_a.along, of_b.along));
   const auto is_flat = [&](const Cut& cut) {
     return std::all_of(cut.pieces.begin(), cut.pieces.end(), [&](const Cut::Piece& piece) {
@@ -243,22 +243,27 @@ bool cross_at_a_slant(const Cut& a, const Cut& b, const Nearest& nearest, double
          is_flat(b);
 }
 
-}  // namespace
-
-Meeting meeting(const Wound& a, const Wound& b) {
-  const Cut of_a(a);
+Meeting meeting(const Wound& a, const Cut& of_a, const Wound& b, const Cut& of_b) {
   const Nearest nearest = nearest_of(of_a, b);
   const double depth = std::max(a.scale() * a.incision->path().largest_depth(),
                                 b.scale() * b.incision->path().largest_depth());
   if (nearest.distance >= nearly_meeting * depth) return Meeting::apart;
-  const bool slant = a.field.turns() && b.field.turns() && cross_at_a_slant(of_a, Cut(b), nearest, b.scale());
+  const bool slant = a.field.turns() && b.field.turns() && cross_at_a_slant(of_a, of_b, nearest);
   return slant ? Meeting::at_a_slant : Meeting::close;
 }
 
+}  // namespace
+
+Meeting meeting(const Wound& a, const Wound& b) { return meeting(a, Cut(a), b, Cut(b)); }
+
 Meetings meetings(const std::vector<const Wound*>& cuts) {
   Meetings result(cuts.size(), std::vector<Meeting>(cuts.size(), Meeting::close));
+  std::vector<Cut> pieces;
+  pieces.reserve(cuts.size());
+  for (const Wound* cut : cuts) pieces.emplace_back(*cut);
   for (std::size_t i = 0; i < cuts.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) result[i][j] = result[j][i] = meeting(*cuts[i], *cuts[j]);
+    for (std::size_t j = 0; j < i; ++j)
+      result[i][j] = result[j][i] = meeting(*cuts[i], pieces[i], *cuts[j], pieces[j]);
   return result;
 }
 
