@@ -122,7 +122,7 @@ class Encoder {
  private:
   SeriesFit fit_of(const Rung& rung) const {
     return {series_, store_, bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())),
-            start_};
+            start_, options_.regularisation};
   }
 
   std::unique_ptr<SeriesFit> fitted_on(const Rung& rung) const {
@@ -163,6 +163,7 @@ class Encoder {
     for (int halvings = 0;; ++halvings, step /= 1.5) {
       Field field = quantised(exact, step, farthest_move);
       field.report.condition = fit.condition();
+      field.report.regularisation = options_.regularisation.value_or(0);
       progress_("measuring");
       field.report = measure(field, series_);
       if (field.report.spline_error * scale_ <= bound || halvings == 12) return field;

@@ -39,6 +39,8 @@ struct EncodeOptions {
   /// Instead of a tolerance: spans of the bases. Rounding of the coefficients then costs about a hundredth of
   /// the error.
   std::optional<Rung> rung;
+  /// The strength of the regularisation on that rung (SeriesFit); by default the one that the data allow.
+  std::optional<double> regularisation = {};
 };
 
 /// Fits cubic B-splines over a parametrisation of (u, v, w, t), with a break across the cut, to the

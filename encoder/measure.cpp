@@ -94,7 +94,8 @@ Frame measure_frame(const Field& field, const Series& series, std::size_t j) {
 FitReport measure(const Field& field, const Series& series) {
   const Stopwatch watch;
   FitReport report;
-  report.condition = field.report.condition, report.fit_seconds = field.report.fit_seconds;
+  report.condition = field.report.condition, report.regularisation = field.report.regularisation;
+  report.fit_seconds = field.report.fit_seconds;
   report.nodes = static_cast<double>(series.node_samples().size());
   report.frames = static_cast<double>(series.times.size());
   const double scale = report.largest_displacement = series.largest_displacement;

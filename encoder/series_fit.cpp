@@ -61,11 +61,12 @@ SpaceMisfit space_misfit(const Series& series, FitStore& store, const std::array
 }
 
 SeriesFit::SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
-                     const std::array<BSplineBasis, 4>& bases, Start start)
-    : SeriesFit(series, std::make_shared<FitStore>(series, std::move(parametrization)), bases, start) {}
+                     const std::array<BSplineBasis, 4>& bases, Start start, std::optional<double> strength)
+    : SeriesFit(series, std::make_shared<FitStore>(series, std::move(parametrization)), bases, start,
+                strength) {}
 
 SeriesFit::SeriesFit(const Series& series, std::shared_ptr<FitStore> store,
-                     const std::array<BSplineBasis, 4>& bases, Start start)
+                     const std::array<BSplineBasis, 4>& bases, Start start, std::optional<double> strength)
     : series_(series),
       store_(std::move(store)),
       parametrization_(store_->parametrization()),
@@ -81,9 +82,12 @@ SeriesFit::SeriesFit(const Series& series, std::shared_ptr<FitStore> store,
     for (int l = 0; l <= time.degree(); ++l)
       if (b.first + l >= first_) in_time_(j - first_, b.first + l - first_) = b.value[l];
   }
-  choose_strength();
+  if (strength)
+    strength_ = *strength, reached_ = 1;
+  else
+    choose_strength();
   solve();
-  refine();
+  if (!strength) refine();
 }
 
 /// The strongest regularisation that costs the last, the first and an early frame next to nothing. The last

@@ -34,12 +34,15 @@ class SeriesFit {
   /// Data in frame 0: zero (the spline is then exactly 0 at t = 0) or any values.
   enum class Start { zero, any };
 
-  /// Keeps references to `series`. `bases` over along, across, height and time.
+  /// Keeps references to `series`. `bases` over along, across, height and time. `strength`: of the
+  /// regularisation; by default the strongest that costs the fit next to nothing. With a given one the
+  /// control points are the same linear function of the data in all cases of a study.
   SeriesFit(const Series& series, std::shared_ptr<const Parametrization> parametrization,
-            const std::array<BSplineBasis, 4>& bases, Start start = Start::zero);
+            const std::array<BSplineBasis, 4>& bases, Start start = Start::zero,
+            std::optional<double> strength = {});
   /// With matrices of a store that serves the series.
   SeriesFit(const Series& series, std::shared_ptr<FitStore> store, const std::array<BSplineBasis, 4>& bases,
-            Start start = Start::zero);
+            Start start = Start::zero, std::optional<double> strength = {});
 
   /// Control points in t of every unknown, column axis n + unknown: T x 3 n, or (T - 1) x 3 n where the first
   /// are 0 and left out.

@@ -14,6 +14,12 @@ constexpr double most_control_points = 2e7;  // a file of 240 MB: no summary any
 
 }  // namespace
 
+void check_regularisation(double strength, const std::string& where) {
+  if (!(strength >= least_regularisation && strength <= greatest_regularisation))
+    throw InputError(where + " = " + shortest(strength) + ": must be between " +
+                     shortest(least_regularisation) + " and " + shortest(greatest_regularisation));
+}
+
 void check_control_points(const std::array<int, 4>& counts, const std::string& parametrization,
                           const std::string& where) {
   const auto& least = parametrization == "fixed" ? least_fixed : least_following_tip;

@@ -215,7 +215,8 @@ class StudyReader {
   }
 
   void read_encode(const toml::table& table) {
-    static const std::vector<std::string> known = {"control_points", "parametrization", "tolerance"};
+    static const std::vector<std::string> known = {"control_points", "parametrization", "regularisation",
+                                                   "tolerance"};
     EncodeSettings& encode = study_.base.encode;
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
@@ -233,6 +234,13 @@ class StudyReader {
                       ": encode.control_points and encode.tolerance: give one of them, as the tolerance "
                       "chooses the control points");
     }
+    if (const toml::node* node = table.get("regularisation")) {
+      mistakes_.collect([&] { encode.regularisation = regularisation(*node); });
+      if (!table.contains("control_points"))
+        mistakes_.add(where(*node) +
+                      ": encode.regularisation needs encode.control_points: with a tolerance the knots and "
+                      "the regularisation are chosen together");
+    }
   }
 
   std::string parametrization(const toml::node& node) const {
@@ -249,6 +257,13 @@ class StudyReader {
     if (!(*value >= least_tolerance && *value < 1))
       throw InputError(where(node) + ": encode.tolerance = " + shortest(*value) + ": must be at least " +
                        shortest(least_tolerance) + " and less than 1");
+    return *value;
+  }
+
+  double regularisation(const toml::node& node) const {
+    const auto value = node.value<double>();
+    if (!value) throw InputError(where(node) + ": encode.regularisation: must be a number");
+    check_regularisation(*value, where(node) + ": encode.regularisation");
     return *value;
   }
 
@@ -273,9 +288,11 @@ class StudyReader {
 }  // namespace
 
 std::vector<std::string> EncodeSettings::arguments() const {
-  if (control_points)
-    return {"--parametrization", parametrization, "--control-points", control_points_text(*control_points)};
-  return {"--parametrization", parametrization, "--tolerance", shortest(tolerance)};
+  if (!control_points) return {"--parametrization", parametrization, "--tolerance", shortest(tolerance)};
+  std::vector<std::string> list = {"--parametrization", parametrization, "--control-points",
+                                   control_points_text(*control_points)};
+  if (regularisation) list.insert(list.end(), {"--regularisation", shortest(*regularisation)});
+  return list;
 }
 
 std::string Case::snapshot_hash() const {
@@ -371,6 +388,7 @@ std::string case_file_text(const Case& a_case) {
     text += "control_points = [" + control_points_text(*encode.control_points) + "]\n";
   else
     text += "tolerance = " + shortest(encode.tolerance) + "\n";
+  if (encode.regularisation) text += "regularisation = " + shortest(*encode.regularisation) + "\n";
   return text;
 }
 
@@ -390,6 +408,7 @@ std::string with_settings(const Study& study, const std::vector<std::pair<std::s
   }
   toml::table& encode = section(file, "encode");
   encode.erase("control_points");
+  encode.erase("regularisation");
   encode.insert_or_assign("tolerance", tolerance);
   std::ostringstream text;
   text << file << "\n";

@@ -16,9 +16,11 @@ struct EncodeSettings {
   std::string parametrization = "front";  ///< or "tip" or "fixed"
   double tolerance = 0.01;  ///< largest error at any node and frame over the largest displacement
   std::optional<std::array<int, 4>>
-      control_points;  ///< along u, v (both sides together), w, t, instead of the tolerance
+      control_points;                    ///< along u, v (both sides together), w, t, instead of the tolerance
+  std::optional<double> regularisation;  ///< with these control points; else as strong as the data allow
 
-  /// The options of cleft encode: --parametrization, and --tolerance or --control-points.
+  /// The options of cleft encode: --parametrization, and --tolerance, or --control-points and perhaps
+  /// --regularisation.
   std::vector<std::string> arguments() const;
 };
 

@@ -138,6 +138,7 @@ py::dict dict_of(const FitReport& r) {
                                                  {"false_gap", r.false_gap},
                                                  {"largest_displacement", r.largest_displacement},
                                                  {"frame_error", r.frame_error},
+                                                 {"regularisation", r.regularisation},
                                                  {"crease", r.crease},
                                                  {"overlap", r.overlap},
                                                  {"least_volume", r.least_volume},

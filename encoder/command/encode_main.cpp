@@ -304,10 +304,18 @@ int main(int argc, char** argv) {
              "T=0.5K, in the field's own; for all fields, or for one (default: 0.01)")
           ->delimiter(',')
           ->allow_extra_args(false);
-  app.add_option("--control-points", counts,
-                 "U,V,W,T: control points along each axis instead of a tolerance, V for both sides together")
-      ->delimiter(',')
-      ->excludes(tolerance);
+  auto* control_points =
+      app.add_option(
+             "--control-points", counts,
+             "U,V,W,T: control points along each axis instead of a tolerance, V for both sides together")
+          ->delimiter(',')
+          ->excludes(tolerance);
+  app.add_option(
+         "--regularisation", options.regularisation,
+         "with --control-points: the strength of the regularisation, the same for all cases of a study, "
+         "so that what the nodes leave free changes smoothly from case to case, such as 3e-5 (default: "
+         "for each case the strongest of 1e-4, 1e-5, ... 1e-8 that costs its fit next to nothing)")
+      ->needs(control_points);
   app.add_option(
          "--parametrization", options.parametrization,
          "front: knots follow the front of the cut, dense as the lips close there; tip: evenly dense; fixed: "
@@ -323,6 +331,7 @@ int main(int argc, char** argv) {
 
   return run_command(app, argc, argv, [&] {
     for (const std::string& text : tolerances) parse_tolerance(text, options);
+    if (options.regularisation) check_regularisation(*options.regularisation, "--regularisation");
     if (!counts.empty()) options.rung = rung_of(counts, options.parametrization != "fixed");
     Task task{snapshots, outputs_of(snapshots, out, ".dffd", "snapshot"),
               options,   memory > 0 ? 1e9 * memory : 0.9 * available_memory(),

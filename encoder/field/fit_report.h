@@ -19,6 +19,7 @@ struct FitReport {
   double worst_node = 0;            ///< node of spline_error, and its time
   double worst_time = 0;            ///<
   double condition = 0;             ///< of the fit's normal matrices, estimated
+  double regularisation = 0;        ///< its strength, if it was given; 0: it was chosen by the data
   double crease = 0;                ///< degrees: largest kink of uncut skin across v = 0
   double overlap = 0;               ///< mm: by how much lips overlap further than those of the data
   double least_volume = 1;  ///< least det(I + grad d) at the nodes: ratio of a small volume to that at rest

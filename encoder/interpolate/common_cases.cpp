@@ -251,6 +251,9 @@ CommonCases::CommonCases(std::vector<Own> all) : bases_(common_bases(all)) {
                                  : floats_of(insert_knots(points_of(points), own.bases, bases_));
     };
     cases_.push_back(own.kept);
+    const double strength = own.kept.report.regularisation;
+    fitted_alike_ = fitted_alike_ && own.bases == bases_ && strength > 0 &&
+                    strength == cases_.front().report.regularisation;
     points_.push_back(raised(own.points));
     for (Own::Derivative& one : own.derivatives) {
       derivatives_.push_back({size() - 1, one.parameter, one.error});

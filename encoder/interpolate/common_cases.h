@@ -65,6 +65,9 @@ class CommonCases {
   const std::vector<CommonCase>& cases() const { return cases_; }
   int size() const { return static_cast<int>(cases_.size()); }
   const std::string& parametrization() const { return parametrization_; }
+  /// Whether all of them are fitted on the same knots with the same given regularisation: what nodes leave
+  /// free then changes smoothly from case to case.
+  bool fitted_alike() const { return fitted_alike_; }
 
   /// Bases in parameters that are the same in all cases: "fixed" has them scaled to -1 .. 1 across and 0
   /// .. 1.
@@ -92,6 +95,7 @@ class CommonCases {
 
   std::vector<CommonCase> cases_;
   std::string parametrization_;
+  bool fitted_alike_ = true;
   std::array<BSplineBasis, 4> bases_;
   std::vector<std::vector<float>> points_;
   std::vector<CommonDerivative> derivatives_;

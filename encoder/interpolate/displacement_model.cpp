@@ -75,7 +75,9 @@ std::vector<Loading> loadings_of(const RecordedParameters& p) {
 
 DisplacementModel::DisplacementModel(const std::vector<RecordedParameters>& cases, const CaseSamples& samples,
                                      Loading loading)
-    : features_(cases, loading), derivatives_(samples.derivatives.cols()) {
+    : features_(cases, loading),
+      derivatives_(samples.derivatives.cols()),
+      fitted_alike_(samples.fitted_alike) {
   const auto n = static_cast<Eigen::Index>(cases.size());
   places_.resize(n, features_.size()), loads_.resize(n, features_.load(cases[0]).size()), scales_.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -129,6 +131,7 @@ void DisplacementModel::add_ways(const std::vector<RecordedParameters>& cases, c
 
 TrainingCases DisplacementModel::training(const std::vector<int>& cases, bool with_ways) const {
   TrainingCases training{places_(cases, Eigen::all), loads_(cases, Eigen::all), {}};
+  training.fitted_alike = fitted_alike_;
   if (!with_ways) return training;
   const auto q = static_cast<Eigen::Index>(ways_.size());
   auto& slopes = training.slopes;

@@ -16,6 +16,7 @@ namespace cleft {
 struct CaseSamples {
   /// Of cases: all, or where there are many some that stand for all (representative_cases).
   std::vector<int> cases;
+  bool fitted_alike = false;  ///< CommonCases::fitted_alike()
   /// A column for each, x, y, z of displacements, mm.
   Eigen::MatrixXd displacements;
   /// The same of derivatives by parameters, mm per unit: of a case, by a name.
@@ -119,6 +120,7 @@ class DisplacementModel {
   Eigen::VectorXd scales_;          // n, mm: what displacements are divided by
   std::vector<Way> ways_;
   Eigen::Index derivatives_ = 0;
+  bool fitted_alike_;
   std::optional<KernelRegression> regression_;
   Eigen::VectorXd errors_;
   double left_out_error_ = 0;

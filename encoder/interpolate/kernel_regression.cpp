@@ -102,6 +102,15 @@ bool scattered(const Distinct& distinct) {
   return std::ranges::all_of(distinct.values, [&](Eigen::Index n) { return 2 * n >= distinct.places; });
 }
 
+/// Whether cases take few values of each feature, but only a few of their combinations: a sparse grid. Left
+/// out, a case there leaves the end of an axis, or a corner, to what is beyond: the errors of that are least
+/// with nuggets and lengths that miss the cases themselves.
+bool on_sparse_grid(const Distinct& distinct) {
+  double combinations = 1;
+  for (const Eigen::Index n : distinct.values) combinations *= static_cast<double>(n);
+  return !scattered(distinct) && combinations > 2 * static_cast<double>(distinct.places);
+}
+
 /// By which hyperparameters of a Gaussian process are chosen. Where cases are scattered, from six a feature
 /// on, the likelihood counts as much as left_out_error(), which is often least at lengths that are far too
 /// great; of fewer cases it is often greatest at lengths that are far too short. Lengths that scattered cases
@@ -302,11 +311,12 @@ std::vector<KernelRegression> all_methods(const TrainingCases& cases) {
     methods.emplace_back(cases, Covariance{"quadratic polynomial" + with, 2, none, 1, 1e-9, lengths});
   methods.emplace_back(
       cases, tuned(cases, {"radial basis functions" + with, 1, matern, 100, 1e-9, lengths}, true, false));
+  const bool as_it_is = cases.fitted_alike && on_sparse_grid(Distinct(cases.features));
   std::optional<KernelRegression> process;
   for (const int degree : {1, 2}) {
     if (degree == 2 && !squares) continue;
-    KernelRegression one(
-        cases, tuned(cases, {"Gaussian process" + with, degree, gaussian, 100, 1e-6, lengths}, false, true));
+    const Covariance start{"Gaussian process" + with, degree, gaussian, 100, as_it_is ? 1e-8 : 1e-6, lengths};
+    KernelRegression one(cases, as_it_is ? start : tuned(cases, start, false, true));
     if (!process || one.left_out_error() < process->left_out_error()) process.emplace(std::move(one));
   }
   methods.push_back(std::move(*process));

@@ -31,6 +31,9 @@ struct TrainingCases {
     std::vector<Eigen::Index> of;     ///< case
     Eigen::MatrixXd features, loads;  ///< q x d, q x k
   } slopes = {};
+  /// Whether the data of cases are without noise of their own: what a fit leaves of them is a smooth function
+  /// of the parameters.
+  bool fitted_alike = false;
 };
 
 /// k(x, y) = load_x . load_y (trend (1 + x . y)^degree + correlation(|(x - y) / lengths|)), and on
@@ -106,7 +109,8 @@ class KernelRegression {
 
 /// All methods, with lengths and nuggets of least left_out_error(): polynomials, radial basis functions, and
 /// a Gaussian process with a length for each feature, of which the likelihood counts too where there are six
-/// scattered cases a feature. If there are slopes, all methods use them.
+/// scattered cases a feature. Of cases on a sparse grid that are fitted alike, the process passes through all
+/// of them, with lengths of whole ranges. If there are slopes, all methods use them.
 std::vector<KernelRegression> all_methods(const TrainingCases& cases);
 
 }  // namespace cleft

@@ -59,6 +59,7 @@ SampledCases sampled(const CommonCases& cases, const std::vector<RecordedParamet
   samples.cases = representative_cases(sampled.parameters, most_compared);
   std::vector<int> compared;
   for (const int i : samples.cases) compared.push_back(some[static_cast<std::size_t>(i)]);
+  samples.fitted_alike = cases.fitted_alike();
   samples.displacements = sample_cases(cases, places, compared);
   const std::size_t derivatives = cases.derivatives().size();
   if (derivatives == 0 || some.size() > most_compared || some.size() + derivatives > most_rows)

@@ -165,6 +165,38 @@ TEST(LeastSquares, ContinuesAStraightLineWhereThereAreNoData) {
             0.05 * norm(line(far, Side::both, 8)));
 }
 
+/// What nodes leave free must not jump from case to case of a study: with one strength for all of them
+/// control points are a linear function of the data. Left to each of these two, it is not the same.
+TEST(LeastSquares, WithAGivenStrengthFitsSuperpose) {
+  const auto smooth = [](const Vec3& p, Side, double t) { return t / 8 * Vec3{0, p.x * p.x / 36, 0}; };
+  const auto rough = [](const Vec3& p, Side side, double t) {
+    return t / 8 * Vec3{std::sin(3 * p.x + p.y), side == Side::left ? 1. : -1., 0};
+  };
+  const auto both = [&](const Vec3& p, Side side, double t) {
+    return smooth(p, side, t) + rough(p, side, t);
+  };
+  const std::vector<Vec3> points = grid(24, 8, 5);
+  struct Fitted {
+    Eigen::MatrixXd points;
+    double strength;
+  };
+  const auto fitted = [&](const auto& function, std::optional<double> strength) {
+    const Series series = SyntheticSnapshot(cut_in(points, eight_times), function).series();
+    const auto parametrization = make_parametrization("fixed", series.geometry);
+    const SeriesFit fit(series, parametrization, bases_of(small, *parametrization, 8), SeriesFit::Start::zero,
+                        strength);
+    return Fitted{fit.control_points(), fit.strength()};
+  };
+  const auto off = [&](std::optional<double> strength) {
+    const Eigen::MatrixXd sum = fitted(both, strength).points;
+    return (fitted(smooth, strength).points + fitted(rough, strength).points - sum).norm() / sum.norm();
+  };
+  EXPECT_EQ(fitted(rough, 3e-5).strength, 3e-5);
+  EXPECT_LT(off(3e-5), 1e-9);
+  ASSERT_NE(fitted(smooth, {}).strength, fitted(rough, {}).strength);
+  EXPECT_GT(off({}), 1e-6);
+}
+
 // A spline that lies in the space comes back to rounding: at its nodes, and, where those determine it,
 // between them.
 TEST(LeastSquares, ReproducesASplineOfTheSpace) {

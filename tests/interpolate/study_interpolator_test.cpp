@@ -311,6 +311,20 @@ TEST(CommonCases, WhatCannotBeCombinedIsRefused) {
   refuses(other, "no common knots in height");
 }
 
+TEST(CommonCases, AreFittedAlikeWithTheSameKnotsAndTheSameGivenRegularisation) {
+  const std::vector<StudyMember> all = made_study(three_varied(4));
+  std::vector<StudyMember> members = {all[0], all[3]};  // every third is on the same knots
+  EXPECT_FALSE(CommonCases{members}.fitted_alike()) << "each chose its own";
+  for (StudyMember& one : members) one.field.report.regularisation = 3e-5;
+  EXPECT_TRUE(CommonCases{members}.fitted_alike());
+  members.push_back(all[1]);
+  members.back().field.report.regularisation = 3e-5;
+  EXPECT_FALSE(CommonCases{members}.fitted_alike()) << "other knots";
+  members.pop_back();
+  members.back().field.report.regularisation = 1e-5;
+  EXPECT_FALSE(CommonCases{members}.fitted_alike());
+}
+
 TEST(CommonCases, FixedBodiesOfOtherSizesShareTheirKnots) {
   // A field that is the same in parts of its body's length, width and height.
   std::vector<StudyMember> members;

@@ -127,6 +127,29 @@ TEST(Study, EncodeTakesEitherAToleranceOrControlPoints) {
       << text;
 }
 
+TEST(Study, ControlPointsMayComeWithARegularisation) {
+  const TemporaryFolder folder;
+  const std::string points = "[encode]\ncontrol_points = [20, 12, 8, 10]\n";
+  const Case plain = read_study(folder.write("p.toml", points)).base,
+             held = read_study(folder.write("s.toml", points + "regularisation = 3e-5\n")).base;
+  EXPECT_FALSE(plain.encode.regularisation);
+  EXPECT_EQ(held.encode.regularisation, 3e-5);
+  EXPECT_EQ(held.encode.arguments(),
+            (std::vector<std::string>{"--parametrization", "front", "--control-points", "20,12,8,10",
+                                      "--regularisation", "3e-05"}));
+  EXPECT_NE(plain.hash(), held.hash());
+  EXPECT_EQ(plain.snapshot_hash(), held.snapshot_hash());
+  EXPECT_EQ(read_study(folder.write("c.toml", case_file_text(held))).base.hash(), held.hash());
+  for (const char* value : {"0", "-1", "1", "1e-11", "nan"})
+    EXPECT_NE(
+        message_of(points + "regularisation = " + value + "\n").find("line 3: encode.regularisation = "),
+        std::string::npos)
+        << value;
+  EXPECT_NE(message_of(points + "regularisation = 'weak'\n").find("must be a number"), std::string::npos);
+  EXPECT_NE(message_of("[encode]\nregularisation = 3e-5\n").find("line 2: encode.regularisation needs"),
+            std::string::npos);
+}
+
 TEST(Study, TheLeastControlPointsDependOnTheParametrization) {
   const std::string tip = "[encode]\nparametrization = 'tip'\n",
                     fixed = "[encode]\nparametrization = 'fixed'\n";

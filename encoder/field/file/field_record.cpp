@@ -20,16 +20,21 @@ constexpr double most_control_points = 1e8;
 constexpr int digits = 7;  // of a figure of the report, more than it means
 
 /// The report's figures: their names in the file, and the unit that commands add where they show them.
+enum class Stored {
+  always,
+  of_late,  // earlier files lack it
+  if_not_zero
+};
 struct Figure {
   const char *name, *unit;
   double FitReport::*value;
-  bool always = true;  // earlier files lack the others
+  Stored stored = Stored::always;
 };
 constexpr Figure figures[] = {
     {"relative_l2", "", &FitReport::relative_l2},
     {"node_error", "", &FitReport::node_error},
     {"spline_error", "", &FitReport::spline_error},
-    {"between_nodes", "", &FitReport::between_nodes, false},
+    {"between_nodes", "", &FitReport::between_nodes, Stored::of_late},
     {"gape_error", "", &FitReport::gape_error},
     {"false_gap", "", &FitReport::false_gap},
     {"largest_displacement", "_mm", &FitReport::largest_displacement},
@@ -37,11 +42,16 @@ constexpr Figure figures[] = {
     {"worst_node", "", &FitReport::worst_node},
     {"worst_time", "", &FitReport::worst_time},
     {"condition", "", &FitReport::condition},
+    {"regularisation", "", &FitReport::regularisation, Stored::if_not_zero},
     {"crease", "_degrees", &FitReport::crease},
     {"overlap", "_mm", &FitReport::overlap},
     {"least_volume", "", &FitReport::least_volume},
-    {"nodes", "", &FitReport::nodes, false},
-    {"frames", "", &FitReport::frames, false}};  // no times: equal fields, equal files
+    {"nodes", "", &FitReport::nodes, Stored::of_late},
+    {"frames", "", &FitReport::frames, Stored::of_late}};  // no times: equal fields, equal files
+
+bool is_stored(const Figure& figure, const FitReport& report) {
+  return figure.stored != Stored::if_not_zero || report.*figure.value != 0;
+}
 
 /// The same of an interpolation.
 struct InterpolationFigure {
@@ -147,7 +157,8 @@ Json header_of(const Field& field, int slices) {
   header["parameters"] = Json::object();
   for (const auto& [name, value] : field.parameters.numbers()) header["parameters"][name] = value;
   for (const auto& [name, value] : field.parameters.texts()) header["choices"][name] = value;
-  for (const Figure& figure : figures) header["report"][figure.name] = field.report.*figure.value;
+  for (const Figure& figure : figures)
+    if (is_stored(figure, field.report)) header["report"][figure.name] = field.report.*figure.value;
   if (field.source) put_source(header, *field.source);
   if (field.tissue) {
     header["tissue"]["foundation"] = field.tissue->foundation;
@@ -373,7 +384,7 @@ FitReport report_of(const Json& header) {
     FitReport report;
     report.between_nodes = std::nan("");  // of earlier files it is not known
     for (const Figure& figure : figures)
-      if (figure.always || header.at("report").contains(figure.name))
+      if (figure.stored == Stored::always || header.at("report").contains(figure.name))
         report.*figure.value = number(header.at("report").at(figure.name));
     return report;
   });
@@ -386,7 +397,8 @@ FitReport rounded_report(FitReport report) {
 
 Json shown(const FitReport& report) {
   Json list = Json::object();
-  for (const Figure& figure : figures) list[std::string(figure.name) + figure.unit] = report.*figure.value;
+  for (const Figure& figure : figures)
+    if (is_stored(figure, report)) list[std::string(figure.name) + figure.unit] = report.*figure.value;
   return list;
 }
 
