@@ -104,7 +104,7 @@ bool scattered(const Distinct& distinct) {
 
 /// Whether cases take few values of each feature, but only a few of their combinations: a sparse grid. Left
 /// out, a case there leaves the end of an axis, or a corner, to what is beyond: the errors of that are least
-/// with nuggets and lengths that miss the cases themselves.
+/// by methods, and with nuggets and lengths, that miss the cases themselves.
 bool on_sparse_grid(const Distinct& distinct) {
   double combinations = 1;
   for (const Eigen::Index n : distinct.values) combinations *= static_cast<double>(n);
@@ -304,6 +304,10 @@ std::vector<KernelRegression> all_methods(const TrainingCases& cases) {
   const Eigen::VectorXd lengths = Eigen::VectorXd::Constant(cases.features.cols(), 2.0);
   const std::string with = cases.slopes.of.empty() ? "" : " with derivatives";
   std::vector<KernelRegression> methods;
+  if (cases.fitted_alike && on_sparse_grid(Distinct(cases.features))) {
+    methods.emplace_back(cases, Covariance{"Gaussian process" + with, 1, gaussian, 100, 1e-8, lengths});
+    return methods;
+  }
   methods.emplace_back(cases, Covariance{"linear polynomial" + with, 1, none, 1, 1e-9, lengths});
   if (cases.features.cols() == 0) return methods;
   const bool squares = !cases.slopes.of.empty() || sees_squares(cases.features);
@@ -311,12 +315,11 @@ std::vector<KernelRegression> all_methods(const TrainingCases& cases) {
     methods.emplace_back(cases, Covariance{"quadratic polynomial" + with, 2, none, 1, 1e-9, lengths});
   methods.emplace_back(
       cases, tuned(cases, {"radial basis functions" + with, 1, matern, 100, 1e-9, lengths}, true, false));
-  const bool as_it_is = cases.fitted_alike && on_sparse_grid(Distinct(cases.features));
   std::optional<KernelRegression> process;
   for (const int degree : {1, 2}) {
     if (degree == 2 && !squares) continue;
-    const Covariance start{"Gaussian process" + with, degree, gaussian, 100, as_it_is ? 1e-8 : 1e-6, lengths};
-    KernelRegression one(cases, as_it_is ? start : tuned(cases, start, false, true));
+    KernelRegression one(
+        cases, tuned(cases, {"Gaussian process" + with, degree, gaussian, 100, 1e-6, lengths}, false, true));
     if (!process || one.left_out_error() < process->left_out_error()) process.emplace(std::move(one));
   }
   methods.push_back(std::move(*process));

@@ -109,8 +109,8 @@ class KernelRegression {
 
 /// All methods, with lengths and nuggets of least left_out_error(): polynomials, radial basis functions, and
 /// a Gaussian process with a length for each feature, of which the likelihood counts too where there are six
-/// scattered cases a feature. Of cases on a sparse grid that are fitted alike, the process passes through all
-/// of them, with lengths of whole ranges. If there are slopes, all methods use them.
+/// scattered cases a feature. Of cases on a sparse grid that are fitted alike there is one, a process with
+/// lengths of whole ranges that passes through all of them. If there are slopes, all methods use them.
 std::vector<KernelRegression> all_methods(const TrainingCases& cases);
 
 }  // namespace cleft
