@@ -248,6 +248,10 @@ TEST_F(BadInput, Usage) {
   expect_encode_refused({"--control-points", "3,8,4,4", "--parametrization", "fixed"}, "3 control points");
   expect_encode_refused({"--control-points", "1000,1000,100,4"}, "at most");
   expect_encode_refused({"--control-points", "10,8,7,4", "--tolerance", "0.01"}, "--tolerance");
+  expect_encode_refused({"--regularisation", "3e-5"}, "requires --control-points");
+  for (const char* wrong : {"0", "1", "nan"})
+    expect_encode_refused({"--control-points", "10,8,7,4", "--regularisation", wrong},
+                          std::string("--regularisation = ") + wrong + ": must be between 1e-10 and 0.1");
   for (const char* tolerance : {"0", "1", "nan", "-1"})
     expect_encode_refused({"--tolerance", tolerance}, "--tolerance");
   expect_encode_refused({"--parametrization", "tips"}, "--parametrization");
