@@ -5,11 +5,11 @@
 #include <limits>
 #include <vector>
 
+#include "params/parameters/springs_of_bone.h"
+
 namespace cleft {
 
 namespace {
-
-constexpr double bone_firm = 1e3;  // docs/formats.md, body: springs of bone
 
 Vec3 mean(const std::vector<Vec3>& places, auto first, auto last) {
   Vec3 sum;
@@ -100,8 +100,7 @@ std::optional<TissueBelow> tissue_below(const SnapshotReader& reader) {
   TissueBelow below{layers_over(s, places, face, p.tissue), p.foundation.stiffness};
   if (!(height > 0) || below.layers.empty()) return {};
   for (TissueLayerBelow& layer : below.layers) layer.height *= height;
-  if (!s.support.empty() && s.support[face] == 1)
-    below.foundation = bone_firm * p.tissue.young_modulus / p.patch.height;
+  if (!s.support.empty() && s.support[face] == 1) below.foundation = springs_of_bone(p);
   return below;
 }
 

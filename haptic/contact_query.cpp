@@ -39,6 +39,20 @@ bool ContactReader::corners_of(int triangle, Corners& corners, ContactTriangle& 
   return true;
 }
 
+double ContactReader::firmness(int triangle, const Vec3& place) const {
+  Corners c;
+  ContactTriangle t;
+  if (!surface_.firmness_differs_ || triangle < 0 || !corners_of(triangle, c, t)) return 1;
+  const Vec3 normal = scaled_normal(c);
+  double sum = 0, weights = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double weight = std::max(0., dot(cross(c[(i + 1) % 3] - place, c[(i + 2) % 3] - place), normal));
+    sum += weight * surface_.firmness_[t.vertex[i]].load(std::memory_order_relaxed);
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : surface_.firmness_[t.vertex[0]].load(std::memory_order_relaxed);
+}
+
 void ContactReader::meet(const CellList& list, const Vec3& from, const Vec3& to, Facing facing,
                          SurfaceHit& best) const {
   const double rounding = StoredTriangle::of_rounding(from, to);

@@ -51,6 +51,8 @@ class ContactReader {
 
   SurfaceHit first_contact(const Vec3& from, const Vec3& to, Facing facing) const;
   NearestPoint nearest(const Vec3& x, double radius) const;
+  /// Of a place on a triangle, linear between the corners: ContactSurface::Moved.
+  double firmness(int triangle, const Vec3& place) const;
   /// The proxy of x, searched near the previous proxy; a proxy on skin stays on skin.
   SurfaceProxy proxy(const Vec3& x, const SurfaceProxy& before) const;
 

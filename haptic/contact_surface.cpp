@@ -46,13 +46,16 @@ ContactSurface::ContactSurface(std::span<const Vec3> points, std::span<const std
       positions_(points.size() + options.spare),
       normals_(points.size() + options.spare),
       triangles_(triangles.size() + options.spare),
+      firmness_differs_(!options.firmness.empty()),
+      firmness_(firmness_differs_ ? points.size() + options.spare : 1),
       first_corner_(points.size() + options.spare),
       next_corner_(triangles.size() + options.spare),
       triangle_touched_(triangles.size() + options.spare),
       vertex_touched_(points.size() + options.spare) {
   std::vector<Moved> moved;
   moved.reserve(points.size());
-  for (std::size_t v = 0; v < points.size(); ++v) moved.push_back({static_cast<int>(v), points[v]});
+  for (std::size_t v = 0; v < points.size(); ++v)
+    moved.push_back({static_cast<int>(v), points[v], firmness_differs_ ? options.firmness[v] : 0});
   std::vector<Changed> changed;
   changed.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) changed.push_back({static_cast<int>(t), {triangles[t]}});
@@ -66,6 +69,7 @@ void ContactSurface::prepare() {
   positions_.prepare(ahead), normals_.prepare(ahead), triangles_.prepare(ahead);
   first_corner_.prepare(ahead), next_corner_.prepare(ahead);
   triangle_touched_.prepare(ahead), vertex_touched_.prepare(ahead);
+  if (firmness_differs_) firmness_.prepare(ahead);
   cells_.prepare();
 }
 
@@ -89,7 +93,7 @@ void ContactSurface::update(std::span<const Moved> moved, std::span<const Change
   wait_for_readers();
   leave_old_voxels();
   const std::uint64_t next = version_.load(std::memory_order_relaxed) + 1;
-  for (const Moved& m : moved) set_vertex(m.vertex, m.position, next);
+  for (const Moved& m : moved) set_vertex(m, next);
   for (const Changed& c : changed) set_triangle(c.triangle, c.now, next);
   renew_normals(next);
   for (const int t : touched_) rebin(t, next);
@@ -133,16 +137,18 @@ void ContactSurface::touch(int triangle) {
   touched_.push_back(triangle);
 }
 
-void ContactSurface::set_vertex(int id, const Vec3& position, std::uint64_t version) {
-  const std::size_t v = id;
+void ContactSurface::set_vertex(const Moved& moved, std::uint64_t version) {
+  const std::size_t v = moved.vertex;
   if (v >= positions_.size()) {
     positions_.grow_to(v + 1);
     normals_.grow_to(v + 1);
     first_corner_.grow_to(v + 1, none);
     vertex_touched_.grow_to(v + 1);
+    if (firmness_differs_) firmness_.grow_to(v + 1, 1.F);
   }
-  if (position == positions_[v].last()) return;
-  positions_[v].set(position, version);
+  if (firmness_differs_ && moved.firmness > 0) firmness_[v].store(moved.firmness, std::memory_order_relaxed);
+  if (moved.position == positions_[v].last()) return;
+  positions_[v].set(moved.position, version);
   for (int corner = first_corner_[v]; corner != none; corner = next_corner(corner)) touch(corner / 3);
 }
 

@@ -29,7 +29,8 @@ struct ContactSurfaceOptions {
   double cell = 0;  ///< voxel's edge; 0: three quarters of the triangles' mean edge
   double margin =
       -1;  ///< distance by which the surface may grow beyond its box; -1: a quarter of its diagonal
-  std::size_t spare = 1 << 20;  ///< vertices and triangles that may be added
+  std::size_t spare = 1 << 20;       ///< vertices and triangles that may be added
+  std::vector<float> firmness = {};  ///< of each point: Moved; empty: 1 everywhere
 };
 
 class ContactSurface {
@@ -37,6 +38,8 @@ class ContactSurface {
   struct Moved {
     int vertex;
     Vec3 position;
+    /// Stiffness there over that of ForceParameters, of a surface that was made with such; 0: as it was.
+    float firmness = 0;
   };
   struct Changed {
     int triangle;
@@ -70,7 +73,7 @@ class ContactSurface {
   void rebin(int id, std::uint64_t next);
   void leave_old_voxels();
   void set_triangle(int id, const ContactTriangle& now, std::uint64_t version);
-  void set_vertex(int id, const Vec3& position, std::uint64_t version);
+  void set_vertex(const Moved& moved, std::uint64_t version);
   void touch(int triangle);
   void unlink(int triangle, int corner, int vertex);
   void renew_normal(int vertex, std::uint64_t version);
@@ -80,6 +83,8 @@ class ContactSurface {
   SlotArray<TwoStates<Vec3>> positions_;
   SlotArray<TwoStates<Vec3>> normals_;  // of the triangles around a vertex, weighted by area; unit, or 0
   SlotArray<TwoStates<StoredTriangle>> triangles_;
+  bool firmness_differs_;
+  SlotArray<std::atomic<float>> firmness_;  // of a vertex, if it differs
   std::atomic<std::uint64_t> version_{1};
   mutable std::array<std::atomic<std::uint64_t>, most_readers> readers_{};
 

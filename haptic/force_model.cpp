@@ -19,9 +19,8 @@ double smooth_step(double x) {
 ForceModel::ForceModel(const ContactSurface& surface, const ForceParameters& parameters,
                        const DeviceLimits& limits, double period)
     : p_(parameters),
-      stiffness_(std::min(parameters.stiffness, limits.max_stiffness)),
-      // A force held for a tick, late by the latency, is a spring with negative damping of this size.
-      damping_(std::min(stiffness_ * (period / 2 + limits.latency), limits.max_damping)),
+      limits_(limits),
+      period_(period),
       drag_(std::min(parameters.drag, limits.max_damping)),
       reader_(surface) {}
 
@@ -57,10 +56,17 @@ void ForceModel::begin(const ScalpelPose& pose) {
   depth_ = stored_ = 0;
 }
 
-Vec3 ForceModel::elastic(double depth, const Vec3& normal) {
+/// N/mm, as it can be rendered, at a place of a triangle.
+double ForceModel::stiffness_at(int triangle, const Vec3& place) const {
+  return std::min(p_.stiffness * reader_.firmness(triangle, place), limits_.max_stiffness);
+}
+
+Vec3 ForceModel::elastic(double stiffness, double depth, const Vec3& normal) {
+  // A force held for a tick, late by the latency, is a spring with negative damping of this size.
+  const double damping = std::min(stiffness * (period_ / 2 + limits_.latency), limits_.max_damping);
   // The damping never pulls the hand into the surface.
-  const double size = std::max(0., stiffness_ * depth - damping_ * dot(velocity_, normal));
-  stored_ += stiffness_ * depth * depth / 2;
+  const double size = std::max(0., stiffness * depth - damping * dot(velocity_, normal));
+  stored_ += stiffness * depth * depth / 2;
   return size * normal;
 }
 
@@ -97,7 +103,8 @@ Vec3 ForceModel::side_contact(const ScalpelPose& pose) {
   if (p && p.distance >= 0) return {};
   proxy_ = {-1, p ? -p.distance : most_side_depth, p ? p.position : middle, p ? p.normal : in.normal,
             in.wall};
-  return elastic(proxy_.depth, proxy_.normal);
+  const double stiffness = p ? stiffness_at(p.triangle, p.position) : stiffness_at(in.triangle, in.position);
+  return elastic(stiffness, proxy_.depth, proxy_.normal);
 }
 
 Vec3 ForceModel::in_contact(const ScalpelPose& pose) {
@@ -115,13 +122,18 @@ Vec3 ForceModel::in_contact(const ScalpelPose& pose) {
   }
   proxy_ = proxy;
   depth_ = std::max(0., proxy.depth);
-  const Vec3 force = elastic(depth_, proxy.normal);
-  if (!pose.cutting || stiffness_ * depth_ < p_.puncture_force) return force;
+  const double stiffness = stiffness_at(proxy.triangle, proxy.position);
+  const Vec3 force = elastic(stiffness, depth_, proxy.normal);
+  if (!pose.cutting || stiffness * depth_ < p_.puncture_force) return force;
   phase_ = Phase::cutting;
   ++punctures_;
   since_puncture_ = 0;
   engaged_ = 1;
-  puncture_force_ = stiffness_ * depth_;
+  puncture_force_ = stiffness * depth_;
+  puncture_stiffness_ = stiffness;
+  auto& [softest, firmest] = softest_and_firmest_;
+  softest = punctures_ == 1 ? stiffness : std::min(softest, stiffness);
+  firmest = std::max(firmest, stiffness);
   at_puncture_ = force;
   return force;
 }
@@ -170,7 +182,7 @@ Vec3 ForceModel::in_tissue(const ScalpelPose& pose, double dt) {
   follow_skin(pose.tip);
   engaged_ = engagement(pose.tip);
   const double given = smooth_step(since_puncture_ / p_.puncture_time);
-  stored_ = (1 - given) * (1 - given) * squared_norm(at_puncture_) / (2 * stiffness_);
+  stored_ = (1 - given) * (1 - given) * squared_norm(at_puncture_) / (2 * puncture_stiffness_);
   if (engaged_ == 0 && given == 1) {
     phase_ = Phase::free;
     depth_ = 0;

@@ -7,6 +7,9 @@
 //   again
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "haptic/contact_query.h"
 #include "haptic/force_parameters.h"
 #include "haptic/pose.h"
@@ -32,7 +35,10 @@ class ForceModel {
   double stored() const { return stored_; }           ///< N mm, energy of the elastic forces
   int punctures() const { return punctures_; }
   double last_puncture_force() const { return puncture_force_; }  ///< N, elastic force at the last puncture
-  double stiffness() const { return stiffness_; }
+  /// N/mm, as rendered where the surface's firmness is 1, and of the softest and the firmest puncture; 0 if
+  /// there was none.
+  double stiffness() const { return std::min(p_.stiffness, limits_.max_stiffness); }
+  const std::array<double, 2>& puncture_stiffness() const { return softest_and_firmest_; }
 
  private:
   void begin(const ScalpelPose& pose);
@@ -40,14 +46,16 @@ class ForceModel {
   Vec3 side_contact(const ScalpelPose& pose);
   Vec3 in_contact(const ScalpelPose& pose);
   Vec3 in_tissue(const ScalpelPose& pose, double dt);
-  Vec3 elastic(double depth, const Vec3& normal);
+  double stiffness_at(int triangle, const Vec3& place) const;
+  Vec3 elastic(double stiffness, double depth, const Vec3& normal);
   bool find_contact(const Vec3& tip);
   void follow_skin(const Vec3& tip);
   double engagement(const Vec3& tip);
   double after_leap(const Vec3& tip) const;
 
   ForceParameters p_;
-  double stiffness_, damping_, drag_;
+  DeviceLimits limits_;
+  double period_, drag_;
   ContactReader reader_;
   Phase phase_ = Phase::free;
   bool started_ = false;
@@ -55,7 +63,8 @@ class ForceModel {
   Vec3 last_tip_, velocity_;
   SurfaceProxy proxy_;
   double depth_ = 0, stored_ = 0;
-  double since_puncture_ = 0, puncture_force_ = 0, engaged_ = 1;
+  double since_puncture_ = 0, puncture_force_ = 0, puncture_stiffness_ = 0, engaged_ = 1;
+  std::array<double, 2> softest_and_firmest_{};
   Vec3 at_puncture_;
   int punctures_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <span>
 
+#include "params/parameters/springs_of_bone.h"
 #include "solver/bending.h"
 #include "solver/element_rules.h"
 #include "solver/material/regions.h"
@@ -158,8 +159,7 @@ void distribute_face_stiffness(FullMatrix<double>& matrix) {
 }  // namespace
 
 double spring_of(types::boundary_id boundary, const Parameters& p) {
-  constexpr double firm = 1e3;
-  if (boundary == BoundaryId::bone) return firm * p.tissue.young_modulus / p.patch.height;
+  if (boundary == BoundaryId::bone) return springs_of_bone(p);
   return boundary == BoundaryId::bottom ? p.foundation.stiffness : p.foundation.side_stiffness;
 }
 

@@ -5,12 +5,11 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "haptic/surface_stiffness.h"
+#include "params/parameters/springs_of_bone.h"
 
 namespace cleft {
 
 namespace {
-
-constexpr double bone_over_tissue = 1000;  // springs of bone: docs/formats.md
 
 /// Whether it is told so: files from before there were such patches tell nothing.
 bool told_shaped(const RecordedParameters& p) {
@@ -29,8 +28,7 @@ double of_punch(const RecordedParameters& p, double dent, double radius) {
   if (p.value_or(p->skin.bending_stiffness, 0.) > 0) refuse("skin.bending_stiffness above 0");
   if (told_shaped(p)) refuse("a patch that is bent or slopes");
   Parameters known = *p;
-  if (known.patch.bottom == PatchBottom::bone)
-    known.foundation.stiffness = bone_over_tissue * known.tissue.young_modulus / known.patch.height;
+  if (known.patch.bottom == PatchBottom::bone) known.foundation.stiffness = springs_of_bone(known);
   const auto layer = skin_layer(known);
   if (!layer)
     refuse("no springs below it, or whose files do not tell skin, tissue, foundation and patch.height");

@@ -8,6 +8,7 @@
 #include "explorer/scalpel/hand_script.h"
 #include "explorer/wound/path_file.h"
 #include "haptic/devices/list.h"
+#include "haptic/firmness_above_bone.h"
 #include "haptic/surface_stiffness.h"
 
 namespace cleft {
@@ -79,11 +80,11 @@ void DeviceControl::begin() {
   ScalpelCutting::Setup setup;
   setup.made = session_.cut_paths();
   setup.fields = session_.cut_fields(session_.state().shown);
+  const auto field = session_.field();
+  if (field) setup.firmness = firmness_above_bone(*field, session_.distance_to_bone());
   timer_.stop();
   scalpel_.reset();
-  scalpel_ =
-      std::make_unique<LiveScalpel>(*session_.mesh(), std::move(setup), *device_, forces(session_.field()));
-  const auto field = session_.field();
+  scalpel_ = std::make_unique<LiveScalpel>(*session_.mesh(), std::move(setup), *device_, forces(field));
   dent_ = field ? std::make_shared<const SurfaceDent>(*field) : std::make_shared<const SurfaceDent>();
   scene_.reset();
   ticks_ = 0;

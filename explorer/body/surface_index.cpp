@@ -125,4 +125,10 @@ std::function<double(const Vec3&, const Vec3&)> distance_to(std::shared_ptr<cons
   };
 }
 
+std::function<double(const Vec3&)> least_distance_to(std::shared_ptr<const SurfaceIndex> surface) {
+  return [surface = std::move(surface)](const Vec3& place) {
+    return norm(surface->nearest(place).position - place);
+  };
+}
+
 }  // namespace cleft

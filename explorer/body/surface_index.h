@@ -44,4 +44,7 @@ class SurfaceIndex {
 std::function<double(const Vec3& place, const Vec3& direction)> distance_to(
     std::shared_ptr<const SurfaceIndex> surface);
 
+/// Tells how far from a place the nearest place of the surface is. Keeps the surface.
+std::function<double(const Vec3& place)> least_distance_to(std::shared_ptr<const SurfaceIndex> surface);
+
 }  // namespace cleft

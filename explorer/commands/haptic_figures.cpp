@@ -31,6 +31,7 @@ Json figures_of(const HapticLoop& loop, const ScalpelCutting& cutting) {
           {"energy_created_Nmm", loop.passivity().created()},
           {"punctures", loop.state().punctures},
           {"last_puncture_N", loop.model().last_puncture_force()},
+          {"puncture_stiffness_N_per_mm", loop.model().puncture_stiffness()},
           {"cuts", cutting.cut_length() > 0 ? cutting.incisions() : 0},
           {"cut_mm", cutting.cut_length()},
           {"triangles_cut", cutting.figures().triangles_cut},

@@ -23,6 +23,7 @@
 #include "explorer/wound/path_file.h"
 #include "haptic/devices/list.h"
 #include "haptic/devices/recorded.h"
+#include "haptic/firmness_above_bone.h"
 #include "haptic/real_time.h"
 #include "haptic/surface_stiffness.h"
 #include "params/run/signal_handler.h"
@@ -160,7 +161,8 @@ void haptic(const Options& o) {
   check_files(o);
   std::optional<CutFields> fields;
   if (!o.field.empty()) fields = read_cut_fields(o.field, o.tension.direction, o.tension.prestresses);
-  if (fields && !o.bone.empty()) fields = fields->above_bone(distance_to(bone_below(o.bone, o.scale, {})));
+  const auto bone = o.bone.empty() ? nullptr : bone_below(o.bone, o.scale, {});
+  if (bone) fields = fields->above_bone(distance_to(bone));
   const Field* field = fields ? &fields->shape() : nullptr;
   const SurfaceMesh mesh = read_mesh(o.mesh);
   warn_of_size(mesh, o.scale, field, "cleft haptic");
@@ -183,7 +185,9 @@ void haptic(const Options& o) {
   std::optional<double> seconds;  // none: as long as the device moves
   if (o.seconds > 0 || !std::isfinite(device->duration())) seconds = o.seconds > 0 ? o.seconds : 10;
 
-  ScalpelCutting cutting(mesh, {path, {}, fields, o.scale, o.depth, o.clock != "wall"});
+  ScalpelCutting::Setup setup{path, {}, fields, o.scale, o.depth, o.clock != "wall"};
+  if (bone && o.stiffness == 0) setup.firmness = firmness_above_bone(*field, least_distance_to(bone));
+  ScalpelCutting cutting(mesh, std::move(setup));
   LoopOptions options;
   options.rate = o.rate;
   options.measure = true;
@@ -238,8 +242,10 @@ int main(int argc, char** argv) {
                  "with its report")
       ->check(above(0));
   app.add_option("--snapshot", o.snapshot, "simulation case.h5 whose compliance tells the stiffness");
-  app.add_option("--stiffness", o.stiffness,
-                 "of the skin, N/mm [the snapshot's, else the field's tissue's, else 0.3]")
+  app.add_option(
+         "--stiffness", o.stiffness,
+         "of the skin, N/mm, everywhere [the snapshot's, else the field's tissue's, firmer above --bone, "
+         "else 0.3]")
       ->check(above(0));
   app.add_option("--trajectory", o.trajectory, "recording that the recorded device plays");
   app.add_option("--record", o.record, "write the poses as a recording");

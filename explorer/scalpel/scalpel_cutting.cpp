@@ -50,7 +50,10 @@ ScalpelCutting::ScalpelCutting(const SurfaceMesh& mesh, Setup setup)
     displacements_[v] = wounds_.displacement(static_cast<int>(v));
     felt.points[v] = setup_.scale * felt.points[v] + displacements_[v];
   }
-  surface_ = std::make_unique<ContactSurface>(felt.points, felt.triangles);
+  ContactSurfaceOptions options;
+  for (std::size_t v = 0; setup_.firmness && v < felt.points.size(); ++v)
+    options.firmness.push_back(firmness_at(static_cast<int>(v)));
+  surface_ = std::make_unique<ContactSurface>(felt.points, felt.triangles, options);
   for (std::size_t t = 0; t < felt.triangles.size(); ++t)
     if (mesh_.is_wall(static_cast<int>(t)))
       changed_.push_back({static_cast<int>(t), {felt.triangles[t], true}});
@@ -67,6 +70,11 @@ void ScalpelCutting::add_cut(const ScalpelPath& path, const IncisionOptions& opt
                       : setup_.fields->wound(*cut, setup_.scale),
                 entering);
   cuts_.push_back(std::move(cut));
+}
+
+/// As ContactSurface::Moved has it.
+float ScalpelCutting::firmness_at(int vertex) const {
+  return setup_.firmness ? static_cast<float>(setup_.firmness(setup_.scale * mesh_.position(vertex))) : 0;
 }
 
 double ScalpelCutting::cut_length() const {
@@ -243,7 +251,8 @@ void ScalpelCutting::collect_changes() {
   }
   std::sort(vertices_.begin(), vertices_.end());
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-  for (const int v : vertices_) moved_.push_back({v, setup_.scale * mesh_.position(v) + displacements_[v]});
+  for (const int v : vertices_)
+    moved_.push_back({v, setup_.scale * mesh_.position(v) + displacements_[v], firmness_at(v)});
   Stopwatch watch;
   surface_->update(moved_, changed_);
   figures_.update.add(watch.lap());

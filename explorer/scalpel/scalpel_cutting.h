@@ -5,6 +5,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,8 @@ class ScalpelCutting {
     /// by the next one, which waits for it, so that a virtual clock gives the same on every machine; or by
     /// the first one after it is found.
     bool wait_for_guard = true;
+    /// Of a place of the skin at rest, mm: its stiffness over that of the force's parameters; null: 1.
+    std::function<double(const Vec3& place)> firmness = {};
   };
   /// Throws InputError if a path does not meet the mesh.
   ScalpelCutting(const SurfaceMesh& mesh, Setup setup);
@@ -82,6 +85,7 @@ class ScalpelCutting {
   static constexpr std::size_t most_moved = 4000;
 
   void add_cut(const ScalpelPath& path, const IncisionOptions& options, std::size_t entering);
+  float firmness_at(int vertex) const;
   double reached(const HapticState& scalpel) const;
   std::optional<ScalpelPath::Point> contact(const HapticState& scalpel);
   void follow_path(const HapticState& scalpel, double least);

@@ -74,6 +74,8 @@ class Session {
   double cut_length_of_fields();  ///< mm: of the shown case's cut, by which meshes are judged
   /// The cuts' paths, with the depth of the shown case if they have none.
   std::vector<ScalpelPath> cut_paths() { return cut_paths(depth_of_case(state().shown)); }
+  /// Tells how far the bone is from a place, mm; null where none is known.
+  std::function<double(const Vec3& place)> distance_to_bone() const;
   /// Of the mesh. Throws InputError if there is none.
   const Skin& skin();
   /// Of the cut whose handles are shown; none where no cut's are.

@@ -163,6 +163,10 @@ std::optional<CutFields> Session::cut_fields(int i) {
   return opened_.bone ? fields.above_bone(distance_to(opened_.bone)) : fields;
 }
 
+std::function<double(const Vec3&)> Session::distance_to_bone() const {
+  return opened_.bone ? least_distance_to(opened_.bone) : std::function<double(const Vec3&)>();
+}
+
 /// Where the study has three cases that differ in their prestress alone, the tension of the shown case, as it
 /// is along and across the first cut, turns against every cut, even if no tension has been said.
 std::optional<CutFields> Session::turning_fields(int i) {

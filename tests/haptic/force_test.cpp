@@ -77,6 +77,36 @@ TEST(Force, StaticStiffnessIsTheModels) {
   }
 }
 
+TEST(Force, IsThatOfThePlace) {
+  // Firmness grows along x from 1 at -5 to 2 at 5, and is 3 on a far corner that is never felt.
+  const auto s = testing::flat(20, 1);
+  ContactSurfaceOptions options;
+  for (const Vec3& p : s.points)
+    options.firmness.push_back(static_cast<float>(std::clamp(1.5 + p.x / 10, 1., 2.)));
+  options.firmness.back() = 3;
+  ContactSurface surface(s.points, s.triangles, options);
+  ForceParameters p;
+  p.stiffness = 0.1;
+  Led led(surface, p);
+  for (const double x : {-7.2, -2.3, 0.4, 3.7, 6.1}) {
+    led.go({x, 0.2, 1}, 50);
+    led.go({x, 0.2, -1.2}, 10);
+    const double expected = 0.1 * std::clamp(1.5 + x / 10, 1., 2.) * 1.2;
+    EXPECT_NEAR(led.rest(300).force.z, expected, 0.05 * expected) << x;
+  }
+  EXPECT_LE(led.loop.statistics().excess_change, 0);
+  // It stays with its vertices while they move, and goes to new ones.
+  const std::vector<ContactSurface::Moved> moved{{0, {-10, -10, 0.5}},
+                                                 {static_cast<int>(s.points.size()), {0, 0, 3}, 2.F}};
+  surface.update(moved, {});
+  led.go({6.1, 0.2, 1}, 50);
+  led.go({6.1, 0.2, -1.2}, 10);
+  EXPECT_NEAR(led.rest(300).force.z, 0.24, 0.012);
+  led.go({6.1, 0.2, -4.5}, 10);
+  EXPECT_NEAR(led.loop.model().puncture_stiffness()[1], 0.2, 1e-9);
+  EXPECT_NEAR(led.loop.model().stiffness(), 0.1, 1e-12);
+}
+
 TEST(Force, TremorDoesNotWearTheStiffnessDown) {
   // A minute of 8 Hz, 0.3 mm: a force held through each tick would give K T / 2 v^2 back to the hand all the
   // time, and empty the tank that pays for it: the model's damping of that size takes it away again.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "haptic/firmness_above_bone.h"
 #include "haptic/surface_dent.h"
 #include "haptic/surface_stiffness.h"
 #include "tests/support/recorded.h"
@@ -67,6 +68,36 @@ TEST(Stiffness, OfABodyIsThatOfItsTissue) {
   EXPECT_NEAR(surface_stiffness(field), of_case, 1e-9);
   field.tissue = TissueBelow{{{0.02, 0.4, 5}}, 2.5};  // on bone
   EXPECT_GT(surface_stiffness(field), 1.2 * of_case);
+}
+
+TEST(Stiffness, AboveBoneIsThatOfABodyThere) {
+  Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
+  EXPECT_EQ(FirmnessAboveBone(field).at(1), 1) << "nothing is known of it";
+  field.parameters = recorded({{"tissue.young_modulus", 0.02},
+                               {"tissue.poisson_ratio", 0.4},
+                               {"patch.height", 8},
+                               {"foundation.stiffness", 0.005},
+                               {"skin.young_modulus", 0.13},
+                               {"skin.poisson_ratio", 0.4},
+                               {"skin.thickness", 1.5}});
+  const double of_case = surface_stiffness(field);
+  const FirmnessAboveBone firmness(field);
+  EXPECT_NEAR(firmness.at(8), 1, 1e-12);
+  EXPECT_NEAR(firmness.at(INFINITY), 1, 1e-12);
+  const double bone = 1000 * 0.02 / 8;
+  for (const double tissue : {0.7, 2.2, 5., 7.9}) {
+    field.tissue = TissueBelow{{{0.02, 0.4, tissue}}, bone};
+    EXPECT_NEAR(firmness.at(tissue) * of_case / surface_stiffness(field), 1, 2e-3) << tissue;
+  }
+  EXPECT_GT(firmness.at(2.2), 2);
+  EXPECT_EQ(firmness.at(0), firmness.at(0.4));
+  // A body on bone itself: layers, and where there is none, thicker and on springs.
+  field.tissue = TissueBelow{{{0.08, 0.4, 1}, {0.02, 0.4, 3}}, bone};
+  const double of_body = surface_stiffness(field);
+  const FirmnessAboveBone layered(field);
+  EXPECT_NEAR(layered.at(4), 1, 2e-3);
+  field.tissue = TissueBelow{{{0.08, 0.4, 2}, {0.02, 0.4, 6}}, 0.005};
+  EXPECT_NEAR(layered.at(9) * of_body / surface_stiffness(field), 1, 1e-9);
 }
 
 TEST(Stiffness, OfAFieldGrowsWithTheSkinAndTheBed) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "explorer/session/command_table.h"
 #include "haptic/devices/list.h"
 #include "haptic/devices/mouse.h"
+#include "haptic/surface_stiffness.h"
 #include "tests/incision/meshes.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/recorded.h"
@@ -50,14 +52,15 @@ class HapticCommand : public ::testing::Test {
     return std::count_if(warnings.begin(), warnings.end(),
                          [&](const std::string& warning) { return warning.find(what) != std::string::npos; });
   }
-  std::string field() {
+  std::string field(std::map<std::string, double> more = {}) {
     Field opening = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
-    opening.parameters = recorded({{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}});
+    more.insert({{"tissue.young_modulus", 0.05}, {"tissue.poisson_ratio", 0.5}});
+    opening.parameters = recorded(more);
     write_field(in / "case.dffd", opening);
     return in / "case.dffd";
   }
-  /// Poses of two straight cuts, 12 mm and 8 mm long, 5 mm deep; between them the blade is out.
-  std::string two_cuts(double apart) {
+  /// Poses of two straight cuts, 12 mm and 8 mm long; between them the blade is out.
+  std::string two_cuts(double apart, double depth = 5) {
     std::string poses = "time,x,y,z,ax,ay,az,ex,ey,ez,cutting,present\n";
     double time = 0;
     const auto go = [&](double x0, double z0, double x1, double z1, double y, int ticks) {
@@ -71,9 +74,9 @@ class HapticCommand : public ::testing::Test {
     };
     for (const double y : {-5.3, apart - 5.3}) {
       const double length = y == -5.3 ? 12 : 8;
-      go(-6, 3, -6, -5, y, 300);
-      go(-6, -5, -6 + length, -5, y, 600);
-      go(-6 + length, -5, -6 + length, 4, y, 300);
+      go(-6, 3, -6, -depth, y, 300);
+      go(-6, -depth, -6 + length, -depth, y, 600);
+      go(-6 + length, -depth, -6 + length, 4, y, 300);
     }
     return in.write("poses.csv", poses);
   }
@@ -172,6 +175,40 @@ TEST_F(HapticCommand, CutsWithoutAPathAreWarnedOfWhereTheyLieTooNear) {
       {"--clock", "virtual", "--device", "recorded", "--trajectory", two_cuts(3), "--field", field()});
   ASSERT_TRUE(cut.is_object());
   EXPECT_EQ(told(cut, "another cut is"), 2) << cut["warnings"];
+}
+
+TEST_F(HapticCommand, EachCutIsFeltAsTheTissueBelowItIs) {
+  // The second cut is above a plate of bone, 4 mm below, whose edge is 10 mm from the first one.
+  const std::string bone = in / "bone.stl";
+  SurfaceMesh plate = testing::grid(30, 7, -30, 4, 2);
+  for (Vec3& p : plate.points) p.z = -4;
+  write_mesh(bone, plate);
+  const std::string opening = field({{"tissue.young_modulus", 0.02},
+                                     {"tissue.poisson_ratio", 0.4},
+                                     {"patch.height", 8},
+                                     {"foundation.stiffness", 0.005},
+                                     {"skin.young_modulus", 0.13},
+                                     {"skin.poisson_ratio", 0.4},
+                                     {"skin.thickness", 1.5}});
+  Field above = read_field(opening);
+  const double soft = surface_stiffness(above);
+  above.tissue = TissueBelow{{{0.02, 0.4, 4}}, 1000 * 0.02 / 8};
+  const double firm = surface_stiffness(above);
+  ASSERT_GT(firm, 1.3 * soft);
+  const std::vector<std::string> blade = {"--clock",      "virtual",        "--device", "recorded",
+                                          "--trajectory", two_cuts(12, 10), "--field",  opening};
+  const auto with = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), blade.begin(), blade.end());
+    const auto told = figures(arguments);
+    EXPECT_EQ(told["cuts"], 2);
+    EXPECT_LE(told["change_beyond_permitted_N"], 0);
+    return told["puncture_stiffness_N_per_mm"].get<std::array<double, 2>>();
+  };
+  const auto [softest, firmest] = with({"--bone", bone});
+  EXPECT_NEAR(softest, soft, 1e-3 * soft);
+  EXPECT_NEAR(firmest, firm, 3e-3 * firm);
+  EXPECT_NEAR(with({})[1], soft, 1e-9);
+  EXPECT_NEAR(with({"--bone", bone, "--stiffness", "0.1"})[1], 0.1, 1e-9) << "it holds everywhere";
 }
 
 TEST_F(HapticCommand, AlongAPathItWarnsAsCutDoes) {
