@@ -1,5 +1,7 @@
 // cleft cut: cuts through one mesh, one after the other, without a window.
 #include <algorithm>
+#include <cmath>
+#include <iostream>
 #include <memory>
 #include <optional>
 
@@ -15,6 +17,7 @@
 #include "explorer/commands/mesh_options.h"
 #include "explorer/commands/tension_options.h"
 #include "explorer/incision/local_coordinates.h"
+#include "explorer/incision/near_ends.h"
 #include "explorer/io/formats/mesh_formats.h"
 #include "explorer/io/mesh_file.h"
 #include "explorer/wound/cut_fields.h"
@@ -85,13 +88,29 @@ std::vector<ScalpelPath> read_paths(const Options& options, std::optional<double
   return paths;
 }
 
+Json figures_of(const std::vector<JoinedEnd>& ends, double scale) {
+  Json list = Json::array();
+  for (const JoinedEnd& one : ends) {
+    list.push_back({{"cut", one.cut + 1},
+                    {"other", one.other + 1},
+                    {"end", one.start ? "start" : "end"},
+                    {"gap_mm", one.gap * scale}});
+    std::cerr << "cleft cut: note: cut " << one.cut + 1 << (one.start ? " begins " : " ends ")
+              << shortest(std::round(1e3 * one.gap * scale) / 1e3) << " mm from cut " << one.other + 1
+              << ": it is led on to it\n";
+  }
+  return list;
+}
+
 /// A surface far from the origin is cut in coordinates from its cut.
 std::unique_ptr<MeshCuts> make_cuts(const Options& options, const Skin& skin, const Field* field,
-                                    const std::optional<BodyRequest>& simulated) {
+                                    const std::optional<BodyRequest>& simulated,
+                                    std::vector<JoinedEnd>& joined_ends) {
   std::optional<double> depth;
   if (simulated) depth = simulated->parameters.cut.depth;
   if (field) depth = field->cut().depth;
-  const std::vector<ScalpelPath> paths = read_paths(options, depth);
+  auto [paths, ends] = with_near_ends_joined(read_paths(options, depth), narrowest_bridge / options.scale);
+  joined_ends = std::move(ends);
   MeshCutsOptions how{options.scale, {}, options.max_edge};
   if (options.progress >= 0) how.progress = options.progress;
   const Vec3 origin = skin.volume ? Vec3{} : local_origin(skin.surface, paths.front());
@@ -145,11 +164,13 @@ void cut(const Options& options) {
   if (options.simulate) request = body_to_simulate(options.body, options.tension, fields);
   warn_of_size(skin.surface, options.scale, shape, "cleft cut");
   tell_note(skin.surface, options.mesh, "cleft cut");
-  const auto made = make_cuts(options, skin, shape, request);
+  std::vector<JoinedEnd> joined;
+  const auto made = make_cuts(options, skin, shape, request, joined);
   const MeshCuts& cuts = *made;
   SurfaceMesh result = cuts.mesh().surface();
   Json figures = figures_of(cuts.cuts(), cuts.uncut(), options.scale);
   figures["mesh"] = figures_of(skin.report);
+  figures["joined_ends"] = figures_of(joined, options.scale);
   figures["cut_ms"] = 1e3 * cuts.seconds();
   figures["us_per_step"] = 1e6 * cuts.stepping_seconds() / figures["steps"].get<double>();
   for (const Incision* one : cuts.cuts()) figures["cuts"].push_back(figures_of(*one, options.scale));

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "explorer/incision/near_ends.h"
 #include "explorer/scene/body_scene.h"
 #include "explorer/scene/mesh_scene.h"
 #include "explorer/scene/patch_scene.h"
@@ -133,7 +134,7 @@ std::vector<ScalpelPath> Session::cut_paths(double depth) const {
       if (p.depth <= 0) p.depth = depth;
     paths.emplace_back(cut.points);
   }
-  return paths;
+  return with_near_ends_joined(std::move(paths), narrowest_bridge).paths;
 }
 
 std::shared_ptr<const CutSurface> Session::cut_surface(double depth) {

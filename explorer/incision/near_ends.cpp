@@ -1,0 +1,57 @@
+#include "explorer/incision/near_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cleft {
+
+namespace {
+
+constexpr double least_approach = 0.2;  // of the way that an end goes: flatter, it runs beside the other path
+constexpr double beyond = 0.2;          // of `near`: how far an end is moved over the other path
+
+/// How much farther an end has to go to be just beyond the other path, if it ends just before it.
+std::optional<double> way_over(const ScalpelPath& path, bool start, const ScalpelPath& other, double near) {
+  const double s = start ? 0 : path.length(), back = std::min(4 * near, path.length() / 2);
+  const PathCoordinates end = other.coordinates(path.at(s).position),
+                        before = other.coordinates(path.at(start ? back : s - back).position);
+  const double gap = std::abs(end.v);
+  if (end.s < 0 || end.s > other.length() || gap > near || std::abs(end.w) > near) return std::nullopt;
+  const double approach = (before.v * (end.v < 0 ? -1 : 1) - gap) / back;
+  if (approach < least_approach || gap == 0) return std::nullopt;
+  return (gap + beyond * near) / approach;
+}
+
+ScalpelPath with_end_moved(const ScalpelPath& path, bool start, double way) {
+  std::vector<ScalpelPath::Point> points;
+  for (const double s : path.given()) {
+    const PathFrame at = path.at(s);
+    points.push_back({at.position, at.outward, path.depth(s)});
+  }
+  ScalpelPath::Point& end = start ? points.front() : points.back();
+  end.position += way * (start ? -1. * path.at(0).along : path.at(path.length()).along);
+  return ScalpelPath(points);
+}
+
+}  // namespace
+
+JoinedPaths with_near_ends_joined(std::vector<ScalpelPath> paths, double near) {
+  JoinedPaths joined{std::move(paths), {}};
+  for (std::size_t i = 0; i < joined.paths.size(); ++i)
+    for (const bool start : {true, false})
+      for (std::size_t j = 0; j < joined.paths.size(); ++j) {
+        ScalpelPath& path = joined.paths[i];
+        if (i == j) continue;
+        const auto way = way_over(path, start, joined.paths[j], near);
+        if (!way) continue;
+        const Vec3 at = path.at(start ? 0 : path.length()).position;
+        joined.ends.push_back({static_cast<int>(i), static_cast<int>(j), start,
+                               std::abs(joined.paths[j].coordinates(at).v), at});
+        path = with_end_moved(path, start, *way);
+        break;
+      }
+  return joined;
+}
+
+}  // namespace cleft
