@@ -205,6 +205,9 @@ class ConsistencyCheck {
     need(p_.tissue.poisson_ratio <= 0.49 || p_.tissue.formulation == TissueFormulation::mean_dilatation,
          named(p_.tissue.poisson_ratio) +
              ": above 0.49 linear wedges lock; set tissue.formulation = \"mean-dilatation\"");
+    need(!(p_.skin.turning_stiffness && p_.skin.initial_stress_stiffness),
+         "skin.turning_stiffness = true: is a part of skin.initial_stress_stiffness = true; set one of them "
+         "to false");
     const auto [uu, vv, uv] = p_.skin.prestress;
     need(uu * vv >= uv * uv && uu >= 0 && vv >= 0,
          "skin.prestress_u, _v, _uv = " + shortest(uu) + ", " + shortest(vv) + ", " + shortest(uv) +
@@ -216,6 +219,9 @@ class ConsistencyCheck {
     const std::string finite = " with model = \"finite\"";
     need(!p_.skin.initial_stress_stiffness,
          "skin.initial_stress_stiffness = true: the prestress stiffens the skin anyway" + finite +
+             "; set it to false");
+    need(!p_.skin.turning_stiffness,
+         "skin.turning_stiffness = true: skin under tension resists turning anyway" + finite +
              "; set it to false");
     need(p_.tissue.formulation == TissueFormulation::displacement || p_.tissue.law == TissueLaw::neo_hookean,
          "tissue.formulation = \"mean-dilatation\", tissue.law = " + text_of(p_, p_.tissue.law) +

@@ -23,7 +23,7 @@ std::string text_of_all(const Parameters& p) {
 std::string stiffness_key(Parameters p) {
   const Parameters defaults;
   if (p.model == Model::small) {
-    if (!p.skin.initial_stress_stiffness) p.skin.prestress = {};
+    if (!is_stiffened_by_prestress(p)) p.skin.prestress = {};
     p.skin.law = defaults.skin.law, p.skin.stiffening = defaults.skin.stiffening;
     p.skin.fibre_share = defaults.skin.fibre_share, p.skin.fibre_angle = defaults.skin.fibre_angle;
     p.skin.fibre_dispersion = defaults.skin.fibre_dispersion, p.tissue.law = defaults.tissue.law;
@@ -88,8 +88,11 @@ void check_linear(const Parameters& p, const std::string& where) {
   if (p.cut.contact)
     refuse(row_of(p, p.cut.contact).name + " = true", "forces of contact are not known without solving",
            solve + ", or set it to false");
-  if (p.skin.initial_stress_stiffness)
-    refuse(row_of(p, p.skin.initial_stress_stiffness).name + " = true",
+  if (is_stiffened_by_prestress(p))
+    refuse((p.skin.turning_stiffness ? row_of(p, p.skin.turning_stiffness)
+                                     : row_of(p, p.skin.initial_stress_stiffness))
+                   .name +
+               " = true",
            "the stiffness may have negative parts, so that no ratio of moduli bounds it", solve);
 }
 

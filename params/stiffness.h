@@ -25,7 +25,7 @@ Parameters with_moduli_of(const Parameters& parameters, const Parameters& other)
 ///
 ///     least u . K(other) u  <=  u . K(one) u  <=  greatest u . K(other) u .
 ///
-/// In the small model without initial_stress_stiffness K is a sum of matrices without negative eigenvalues,
+/// In the small model without the skin's prestress in it K is a sum of matrices without negative eigenvalues,
 /// each times a modulus: of shear and of the change of volume, of the skin's shear and of its change of area,
 /// of its bending, and of the springs. The bounds are the least and the greatest ratio of these moduli
 /// (min-theta: Patera and Rozza, Reduced Basis Approximation, 2007).
@@ -35,7 +35,7 @@ struct StiffnessRatios {
 StiffnessRatios stiffness_ratios(const Parameters& one, const Parameters& other);
 
 /// Throws InputError with the remedy if the equations of a case are not linear with such a stiffness: with
-/// finite strains, contact, or initial_stress_stiffness.
+/// finite strains, contact, or a stiffness of the skin's prestress.
 void check_linear(const Parameters& parameters, const std::string& where);
 
 }  // namespace cleft

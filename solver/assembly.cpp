@@ -5,6 +5,7 @@
 #include <deal.II/fe/fe_wedge_p.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "params/parameters/springs_of_bone.h"
@@ -76,8 +77,17 @@ SkinTriangle triangle_of(const Cell& cell, const std::array<int, 3>& corner, con
   return {at[0], at[1], at[2], direction};
 }
 
-void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const SkinTriangle& triangle,
-              const std::array<int, 3>& corner, FullMatrix<double>& cell_matrix,
+/// In which directions, as a projection, displacements of skin are stiffened by its prestress: in all, along
+/// the normal of the plane that the axes span, or in none.
+std::optional<Eigen::Matrix3d> stiffened(const Parameters& p, const Eigen::Matrix<double, 3, 2>& axes) {
+  if (p.skin.initial_stress_stiffness) return Eigen::Matrix3d::Identity();
+  if (!p.skin.turning_stiffness) return {};
+  const Eigen::Vector3d normal = axes.col(0).cross(axes.col(1));
+  return normal * normal.transpose();
+}
+
+void add_skin(const SkinMaterial& skin, const std::optional<Eigen::Matrix3d>& stiffened,
+              const SkinTriangle& triangle, const std::array<int, 3>& corner, FullMatrix<double>& cell_matrix,
               FullMatrix<double>& cell_loads) {
   const SkinTriangle::Matrix9 k = triangle.stiffness(skin);
   const SkinTriangle::Matrix93 f = triangle.unit_loads(skin);
@@ -86,15 +96,16 @@ void add_skin(const SkinMaterial& skin, bool initial_stress_stiffness, const Ski
     for (unsigned d = 0; d < 3; ++d) cell_loads(row, d) += f(a, d);
     for (unsigned b = 0; b < 9; ++b) cell_matrix(row, 3 * corner[b / 3] + b % 3) += k(a, b);
   }
-  if (!initial_stress_stiffness) return;
+  if (!stiffened) return;
   const Eigen::Matrix3d geometric = triangle.initial_stress_stiffness(skin);
-  for (unsigned a = 0; a < 3; ++a)
-    for (unsigned b = 0; b < 3; ++b)
-      for (unsigned d = 0; d < 3; ++d) cell_matrix(3 * corner[a] + d, 3 * corner[b] + d) += geometric(a, b);
+  for (unsigned a = 0; a < 9; ++a)
+    for (unsigned b = 0; b < 9; ++b)
+      cell_matrix(3 * corner[a / 3] + a % 3, 3 * corner[b / 3] + b % 3) +=
+          geometric(a / 3, b / 3) * (*stiffened)(a % 3, b % 3);
 }
 
 /// The same of a triangle in which displacements are quadratic, with the gradients at the points of a face.
-void add_quadratic_skin(const SkinMaterial& skin, bool initial_stress_stiffness,
+void add_quadratic_skin(const SkinMaterial& skin, const std::optional<Eigen::Matrix3d>& stiffened,
                         const Eigen::Matrix<double, 3, 2>& axes, const FEFaceValues<3>& values,
                         FullMatrix<double>& cell_matrix, FullMatrix<double>& cell_loads) {
   const unsigned unknowns = values.dofs_per_cell;
@@ -114,10 +125,11 @@ void add_quadratic_skin(const SkinMaterial& skin, bool initial_stress_stiffness,
       for (unsigned d = 0; d < 3; ++d) cell_loads(a, d) -= volume * strain(d, a);
       for (unsigned b = 0; b < unknowns; ++b) cell_matrix(a, b) += k(a, b);
     }
-    if (!initial_stress_stiffness) continue;
+    if (!stiffened) continue;
     const Eigen::MatrixXd geometric = volume * gradients.transpose() * skin.prestress * gradients;
     for (unsigned a = 0; a < unknowns; ++a)
-      for (unsigned b = a % 3; b < unknowns; b += 3) cell_matrix(a, b) += geometric(a / 3, b / 3);
+      for (unsigned b = 0; b < unknowns; ++b)
+        cell_matrix(a, b) += geometric(a / 3, b / 3) * (*stiffened)(a % 3, b % 3);
   }
 }
 
@@ -173,7 +185,6 @@ void Assembly::add(const PatchElements& elements, const Parameters& p, double fa
                    const Eigen::Matrix3Xd& combination) {
   const Materials materials(p, elements.mesh.materials);
   const bool mean_dilatation = p.tissue.formulation == TissueFormulation::mean_dilatation;
-  const bool initial_stress_stiffness = p.skin.initial_stress_stiffness;
   const bool quadratic = elements.order() == ElementOrder::quadratic;
   FEValues<3> values(elements.mapping, elements.element,
                      wedge_rule(elements.discretization.rule, elements.order()),
@@ -218,10 +229,10 @@ void Assembly::add(const PatchElements& elements, const Parameters& p, double fa
             cell, corner, elements.mesh.tension_of(static_cast<int>(cell->id().get_coarse_cell_id())));
         if (quadratic) {
           face_values.reinit(cell, f);
-          add_quadratic_skin(skin, initial_stress_stiffness, triangle.axes(), face_values, cell_matrix,
+          add_quadratic_skin(skin, stiffened(p, triangle.axes()), triangle.axes(), face_values, cell_matrix,
                              cell_loads);
         } else {
-          add_skin(skin, initial_stress_stiffness, triangle, corner, cell_matrix, cell_loads);
+          add_skin(skin, stiffened(p, triangle.axes()), triangle, corner, cell_matrix, cell_loads);
         }
         add_loads();
       } else {

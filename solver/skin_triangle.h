@@ -52,7 +52,7 @@ class SkinTriangle {
     return -skin.thickness * area_ * strain().transpose();
   }
 
-  /// Geometric stiffness of the prestress between the corners, equal for the three directions:
+  /// Geometric stiffness of the prestress between the corners, equal for all directions that it stiffens:
   /// t A grad N_a . sigma_0 . grad N_b.
   Eigen::Matrix3d initial_stress_stiffness(const SkinMaterial& skin) const {
     return skin.thickness * area_ * gradients_.transpose() * skin.prestress * gradients_;

@@ -73,10 +73,13 @@ void solve_group(SolveJob& job, const std::vector<std::size_t>& group, KeptPatch
 }  // namespace
 
 void check_options(const Parameters& p, const SolveOptions& options, const std::string& where) {
-  const bool contact = p.cut.contact, tense = p.skin.initial_stress_stiffness;
-  if (options.unit_prestress && (contact || tense))
+  const bool contact = p.cut.contact;
+  if (options.unit_prestress && (contact || is_stiffened_by_prestress(p)))
     throw InputError(where + ": --unit-prestress: the series is not linear in the prestress with " +
-                     (contact ? row_of(p, p.cut.contact) : row_of(p, p.skin.initial_stress_stiffness)).name +
+                     (contact                    ? row_of(p, p.cut.contact)
+                      : p.skin.turning_stiffness ? row_of(p, p.skin.turning_stiffness)
+                                                 : row_of(p, p.skin.initial_stress_stiffness))
+                         .name +
                      " = true; set it to false");
   if (options.method == Method::iterative && contact)
     throw InputError(where +

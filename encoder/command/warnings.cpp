@@ -42,22 +42,25 @@ constexpr const char* no_solid =
     "too; "
     "give the solid's cells (tetrahedra, hexahedra), not its skin";
 
-/// Why no field of the series is exact, whatever its knots, and what helps; empty if one may be.
-std::string cause_in_series(const Series& series) {
+/// Why no field of the series is exact so far across the cut, whatever its knots, and what helps; empty if
+/// one may be.
+std::string cause_in_series(const Series& series, double across) {
   if (series.surface_only) return no_solid;
-  if (series.turning <= folds) return "";
+  const bool beyond_bend = series.bends && std::abs(across) > series.tightest.radius;
+  if (series.turning <= folds && !beyond_bend) return "";
   return "the path of the cut turns by " + digits(std::round(series.turning * 180 / std::numbers::pi)) +
          " degrees, most tightly on a radius of " + digits(series.tightest.radius) + " mm at (" +
          digits(series.tightest.at.x) + ", " + digits(series.tightest.at.y) + ", " +
-         digits(series.tightest.at.z) +
-         "), and coordinates along it fold within its bends, so that no field is exact there between the "
-         "nodes; a path that bends less has one, and what cleft cut --simulate and simulate on show is the "
+         digits(series.tightest.at.z) + "), and coordinates along it fold within its bends" +
+         (series.turning <= folds ? " beyond the middle of their circle," : ",") +
+         " so that no field is exact there between the nodes; a path that bends less has one, and what cleft "
+         "cut --simulate and simulate on show is the "
          "simulation, and needs no field";
 }
 
 /// Why knots of its own do not follow a field there, and what helps.
 std::string cause_of(const Field& field, const Series& series, const Place& place) {
-  if (std::string cause = cause_in_series(series); !cause.empty()) return cause;
+  if (std::string cause = cause_in_series(series, at(series, place).y); !cause.empty()) return cause;
   const CanonicalCut& cut = field.cut();
   if (cut.length == 0)
     return "the field has no break; where the data jump, import them with the plane of the jump (cleft "
@@ -124,7 +127,7 @@ std::string warning_of_displacement(const Field& field, const Series& series, co
 std::string warning_between(const std::string& of, const BetweenNodes& between, double scale, double limit,
                             const Series& series) {
   if (between.error <= worth_a_warning * limit) return "";
-  const std::string cause = cause_in_series(series);
+  const std::string cause = cause_in_series(series, between.at.y);
   return of + "between the nodes the spline goes astray by " + percent(between.error / scale) +
          (of.empty() ? " of the largest displacement" : " of its largest value or range") +
          ", beyond what the values of the cell's nodes span (at u = " + digits(between.at.x) +

@@ -1,7 +1,6 @@
 #include "explorer/body/body_warnings.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/text.h"
 #include "explorer/body/skin_coordinates.h"
@@ -11,7 +10,6 @@ namespace cleft {
 namespace {
 
 constexpr double least_angle = 5, most_turn = 10;  // degrees
-constexpr double degrees = 180 / std::numbers::pi;
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 std::string hundredths(double x) { return shortest(std::round(100 * x) / 100); }
@@ -56,13 +54,6 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
                          " mm of its path: there is no skin below the rest of it");
   }
   return warnings;
-}
-
-std::string warning_of_turn(double angle, const Vec3& at) {
-  return "in small strains the skin at " + place_text(at) + " mm would turn by " +
-         shortest(std::round(angle * degrees)) +
-         " degrees: it is simulated with the stiffness that its tension gives it "
-         "(skin.initial_stress_stiffness = true), with which wounds open less";
 }
 
 std::string warning_of_turned(const CutMesh& mesh, const std::vector<int>& turned, double scale) {

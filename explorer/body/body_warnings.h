@@ -12,9 +12,6 @@ namespace cleft {
 /// A sentence for each place where the body is not as the skin and the paths are, or is badly meshed.
 std::vector<std::string> warnings_of(const BodyReport& report);
 
-/// That in small strains skin would turn by this angle, radians, and is simulated otherwise.
-std::string warning_of_turn(double angle, const Vec3& at);
-
 /// Of turned_triangles(); empty if there are none. `scale`: mm per mesh unit.
 std::string warning_of_turned(const CutMesh& mesh, const std::vector<int>& turned, double scale);
 

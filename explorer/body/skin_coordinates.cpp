@@ -16,6 +16,19 @@ namespace {
 
 constexpr double least_within = 0.02;  // of a direction of the tension: its part within the skin at a cut
 
+/// Skin beside the path may be reached around an end of it, as the other face of an organ's edge is.
+Side side_of(Side reached_from, const PathCoordinates& at, const ScalpelPath& path) {
+  if (reached_from != Side::both || at.s < 0 || at.s > path.length()) return reached_from;
+  return at.v < 0 ? Side::left : Side::right;
+}
+
+/// How many times as far skin ahead of an end is from it as its coordinates along the tangent plane tell,
+/// where it bends away.
+double times_as_far(double beyond, const PathCoordinates& at) {
+  const double seen = std::hypot(beyond, at.v);
+  return beyond != 0 && seen > 0 ? std::hypot(seen, at.w) / seen : 1;
+}
+
 }  // namespace
 
 SkinCoordinates coordinates_on(const SurfaceMesh& skin, const ScalpelPath& path,
@@ -30,12 +43,15 @@ SkinCoordinates coordinates_on(const SurfaceMesh& skin, const ScalpelPath& path,
   SkinCoordinates result;
   for (int p = 0; p < static_cast<int>(skin.points.size()); ++p) {
     const PathCoordinates at = path.coordinates(skin.points[p]);
-    double across = at.v;
+    const double beyond = std::min(at.s, 0.) + std::max(at.s - path.length(), 0.);
+    const double times = times_as_far(beyond, at);
+    double across = times * at.v;
     if (on_cut.contains(p))
       across = 0;
-    else if (p < static_cast<int>(labels.size()) && labels[p].reached && labels[p].side != Side::both)
-      across = Surroundings::across(at.v, labels[p].detour, labels[p].side);
-    const double along = across == 0 ? at.s : path.steady_place(skin.points[p], at);
+    else if (p < static_cast<int>(labels.size()) && labels[p].reached)
+      if (const auto side = side_of(labels[p].side, at, path); side != Side::both)
+        across = Surroundings::across(at.v, labels[p].detour, side);
+    const double along = (across == 0 ? at.s : path.steady_place(skin.points[p], at)) + (times - 1) * beyond;
     result.canonical.push_back({along - path.length() / 2, across, 0});
     const PathFrame frame = path.at(along);
     const SurfacePlace place = index.nearest(frame.position);

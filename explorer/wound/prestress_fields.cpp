@@ -113,7 +113,8 @@ PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
                      " = finite; interpolate the tension's own field from a study (cleft interpolate)");
   if (!is_linear_in_prestress(*own))
     throw InputError(study.path() + ": fields do not superpose with " + own.name_of(own->cut.contact) +
-                     " or " + own.name_of(own->skin.initial_stress_stiffness));
+                     ", " + own.name_of(own->skin.initial_stress_stiffness) +
+                     " or " + own.name_of(own->skin.turning_stiffness));
   Vec3 p[3];
   for (int i = 0; i < study.size() && fields_.size() < 3; ++i) {
     if (!difference(study, like, i).empty()) continue;

@@ -61,7 +61,7 @@ struct Parameters {
     Prestress prestress{0.01, 0.03, 0};
     double curvature_u = 0, curvature_v = 0, curvature_uv = 0;
     SkinEdges edges = SkinEdges::held;
-    bool initial_stress_stiffness = false;
+    bool initial_stress_stiffness = false, turning_stiffness = false;
     double bending_stiffness = 0;
     SkinLaw law = SkinLaw::st_venant_kirchhoff;
     double stiffening = 5;
@@ -78,10 +78,15 @@ struct Parameters {
   } foundation;
 };
 
+/// Whether the skin's prestress is a part of the stiffness of the small model.
+inline bool is_stiffened_by_prestress(const Parameters& p) {
+  return p.skin.initial_stress_stiffness || p.skin.turning_stiffness;
+}
+
 /// Whether displacements are linear in the skin's prestress, so that those under several prestresses
 /// superpose.
 inline bool is_linear_in_prestress(const Parameters& p) {
-  return p.model == Model::small && !p.cut.contact && !p.skin.initial_stress_stiffness;
+  return p.model == Model::small && !p.cut.contact && !is_stiffened_by_prestress(p);
 }
 
 /// Whether the cut curves in a patch that bends with it.

@@ -148,7 +148,7 @@ class SamplingReader {
     if (!is_linear_in_prestress(study_.base.parameters))
       mistakes_.add(where(table) +
                     ": sampling.unit_tensions: tensions are sums of others in the small model alone, without "
-                    "cut.contact and skin.initial_stress_stiffness");
+                    "cut.contact, skin.initial_stress_stiffness and skin.turning_stiffness");
   }
 
   void check_keys(const toml::table& table, const std::vector<std::string>& known, const std::string& prefix,

@@ -20,7 +20,7 @@ Turn most_turned_skin(const Body& body, const std::vector<Vec3>& displacement) {
 
 bool lacks_stiffness_of_tension(const Parameters& p) {
   const Prestress& s = p.skin.prestress;
-  return p.model == Model::small && !p.skin.initial_stress_stiffness && std::min(s.uu, s.vv) >= 0 &&
+  return p.model == Model::small && !is_stiffened_by_prestress(p) && std::min(s.uu, s.vv) >= 0 &&
          s.uu * s.vv >= s.uv * s.uv;
 }
 

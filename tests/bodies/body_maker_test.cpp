@@ -229,6 +229,34 @@ TEST(MakeBody, APathMayBeginAtTheOutline) {
 }
 
 /// The tension lies in the triangles, along the given direction as it is seen there.
+/// The other face of a thin organ is reached around the ends of a cut, too, and is as far from it in its
+/// coordinates as it is in space.
+TEST(MakeBody, CoordinatesBehindAnEdgeAreFar) {
+  const testing::Bend edge = testing::lamella(10, 4);
+  for (const auto& places : {std::vector<std::pair<double, double>>{{-4, -6}, {3, 10}},
+                             {{-9, 4}, {-3, 7}, {3, 7}, {9, 4}},
+                             {{-8, 8}, {8, 8.5}}}) {
+    BodyRequest r = request(edge, {});
+    r.skin = sheet(edge, 30, 26, 1, 0.25);
+    r.paths = {path_on(edge, places, 0.5)}, r.reach = 25;
+    r.parameters.patch.height = 2;
+    const Body body = make_body(r);
+    const ScalpelPath& path = r.paths.front();
+    double behind = 0;
+    for (const auto& triangle : body.skin)
+      for (const int n : triangle) {
+        double straight = std::numeric_limits<double>::infinity();
+        for (int i = 0; i <= 200; ++i)
+          straight = std::min(straight, norm(body.points[n] - path.at(path.length() * i / 200).position));
+        const Vec3& at = body.canonical[n];
+        const double told = std::hypot(at.y, std::max(0., std::abs(at.x) - path.length() / 2));
+        EXPECT_GE(told, 0.8 * straight - 0.3) << at.x << ' ' << at.y << ' ' << body.points[n].z;
+        behind = std::min(behind, body.points[n].z);
+      }
+    EXPECT_LT(behind, -3.9);
+  }
+}
+
 TEST(MakeBody, TheTensionLiesInTheSkin) {
   BodyRequest r = request(testing::cylinder_along(40), {along});
   r.tension = {{1, 1, 0.2}};

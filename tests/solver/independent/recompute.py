@@ -29,7 +29,7 @@ def balance(patch, springs, displacement):
     forces = springs @ displacement
     size = np.abs(forces).sum()
     left_over = np.abs(forces.sum(axis=0)).max() / size
-    if patch["skin.initial_stress_stiffness"] == "true":
+    if "true" in (patch["skin.initial_stress_stiffness"], patch["skin.turning_stiffness"]):
         return left_over
     reach = np.ptp(patch.points, axis=0).max()
     return max(left_over, np.abs(np.cross(patch.points, forces).sum(axis=0)).max() / (size * reach))
