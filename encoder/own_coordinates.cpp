@@ -8,17 +8,18 @@
 #include <numeric>
 
 #include "encoder/curved_places.h"
+#include "params/meshed_cut.h"
 
 namespace cleft {
 
 namespace {
 
-/// Of a cut that curves; none where its snapshot does not say that it does.
+/// Of a cut that curves; none where its snapshot does not say that it does, and how long it is.
 std::optional<CutCurve> curve_of(const RecordedParameters& recorded) {
   Parameters parameters = *recorded;
   for (double* member : {&parameters.cut.curvature, &parameters.cut.curvature_rate})
     if (std::isnan(*member)) *member = 0;  // not recorded
-  if (!is_curved(parameters)) return std::nullopt;
+  if (!is_curved(parameters) || !(meshed_cut(parameters).length > 0)) return std::nullopt;
   return CutCurve(parameters);
 }
 

@@ -6,6 +6,7 @@
 #include "encoder/ladder.h"
 #include "encoder/own_coordinates.h"
 #include "tests/encoder/bent_snapshot.h"
+#include "tests/support/recorded.h"
 
 namespace cleft {
 namespace {
@@ -24,11 +25,21 @@ struct TurningSnapshot {
   std::string file = folder / "case.h5";
 
   /// `body`: as a true body has it, instead of a shaped patch. `narrow`: the width of its end over that
-  /// elsewhere.
+  /// elsewhere. `curvature`: what a patch records of its cut; 0: nothing.
   explicit TurningSnapshot(const std::function<double(double)>& angle, const Motion& motion,
-                           bool body = false, double narrow = 1) {
+                           bool body = false, double narrow = 1, double curvature = 0) {
     Snapshot s = cut_in(grid(along, across, deep), eight_times);
     s.coordinates = !body, s.body = body ? "69debcb3fbba9d88" : "";
+    if (curvature != 0)
+      s.parameters = recorded({{"patch.length", 12},
+                               {"patch.width", 10},
+                               {"cut.curvature", curvature},
+                               {"cut.length", 8},
+                               {"cut.depth", 1.5},
+                               {"cut.branch", 0},
+                               {"mesh.cut_length", 8},
+                               {"mesh.cut_depth", 1.5},
+                               {"mesh.element_size", 0.25}});
     add_cells(s);
     const std::vector<Sample> samples = samples_of(s);
     std::vector<double> places, frames;
@@ -185,6 +196,27 @@ TEST(Bends, SpendNoKnotsWhereTheCoordinatesJump) {
   EXPECT_LE(few.field.report.node_error, 0.03);  // by the residual
 }
 
+long in_corner(const Series& series) {
+  return std::count_if(series.samples.begin(), series.samples.end(),
+                       [](const Sample& sample) { return sample.uvw.x > 4 && sample.uvw.y < -4; });
+}
+
+/// The edges of a patch are no lines of its cut's coordinates: where these have no node, at a corner of the
+/// domain, displacements are held to those of the nearest column of nodes.
+TEST(Bends, OfAPatchAreHeldWhereNoNodeIs) {
+  constexpr double curvature = 0.12;
+  const auto angle = [](double u) { return curvature * u; };
+  const TurningSnapshot narrow(angle, straight, false, 0.5, curvature);
+  const Series series{SnapshotReader(narrow.file)};
+  EXPECT_GT(in_corner(series), 0);
+  EXPECT_EQ(in_corner(Series{SnapshotReader(TurningSnapshot(angle, straight, false, 0.5).file)}), 0)
+      << "it does not say that its cut curves";
+  for (const Sample& sample : series.samples) {
+    EXPECT_LE(std::abs(sample.uvw.x), 6 + 1e-9);
+    EXPECT_LE(std::abs(sample.uvw.y), 5 + 1e-9);
+  }
+}
+
 /// As of a shaped patch.
 TEST(Bends, OfABodyLeaveOutCellsWhereTheCoordinatesJump) {
   const auto angle = [](double u) { return u / 5; };
@@ -194,10 +226,6 @@ TEST(Bends, OfABodyLeaveOutCellsWhereTheCoordinatesJump) {
   EXPECT_EQ(of_body.beside_jumps, of_patch.beside_jumps);
   EXPECT_EQ(of_body.centres.samples.size(), of_patch.centres.samples.size());
   // Where no node is, at a corner of the domain, the fit is held too.
-  const auto in_corner = [](const Series& series) {
-    return std::count_if(series.samples.begin(), series.samples.end(),
-                         [](const Sample& sample) { return sample.uvw.x > 4 && sample.uvw.y < -4; });
-  };
   const Series narrow{SnapshotReader(TurningSnapshot(angle, straight, true, 0.5).file)};
   EXPECT_EQ(narrow.nodes, of_body.nodes);
   EXPECT_GT(in_corner(of_body), 0);
