@@ -205,9 +205,9 @@ class ConsistencyCheck {
     need(p_.tissue.poisson_ratio <= 0.49 || p_.tissue.formulation == TissueFormulation::mean_dilatation,
          named(p_.tissue.poisson_ratio) +
              ": above 0.49 linear wedges lock; set tissue.formulation = \"mean-dilatation\"");
-    need(!(p_.skin.turning_stiffness && p_.skin.initial_stress_stiffness),
-         "skin.turning_stiffness = true: is a part of skin.initial_stress_stiffness = true; set one of them "
-         "to false");
+    need(p_.skin.turning_stiffness == 0 || !p_.skin.initial_stress_stiffness,
+         named(p_.skin.turning_stiffness) +
+             ": is a part of skin.initial_stress_stiffness = true; set it to 0, or that to false");
     const auto [uu, vv, uv] = p_.skin.prestress;
     need(uu * vv >= uv * uv && uu >= 0 && vv >= 0,
          "skin.prestress_u, _v, _uv = " + shortest(uu) + ", " + shortest(vv) + ", " + shortest(uv) +
@@ -220,9 +220,9 @@ class ConsistencyCheck {
     need(!p_.skin.initial_stress_stiffness,
          "skin.initial_stress_stiffness = true: the prestress stiffens the skin anyway" + finite +
              "; set it to false");
-    need(!p_.skin.turning_stiffness,
-         "skin.turning_stiffness = true: skin under tension resists turning anyway" + finite +
-             "; set it to false");
+    need(p_.skin.turning_stiffness == 0, named(p_.skin.turning_stiffness) +
+                                             ": skin under tension resists turning anyway" + finite +
+                                             "; set it to 0");
     need(p_.tissue.formulation == TissueFormulation::displacement || p_.tissue.law == TissueLaw::neo_hookean,
          "tissue.formulation = \"mean-dilatation\", tissue.law = " + text_of(p_, p_.tissue.law) +
              ": this law has no part of the change of volume alone; set tissue.law to \"neo-hookean\"");

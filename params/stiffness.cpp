@@ -89,10 +89,9 @@ void check_linear(const Parameters& p, const std::string& where) {
     refuse(row_of(p, p.cut.contact).name + " = true", "forces of contact are not known without solving",
            solve + ", or set it to false");
   if (is_stiffened_by_prestress(p))
-    refuse((p.skin.turning_stiffness ? row_of(p, p.skin.turning_stiffness)
-                                     : row_of(p, p.skin.initial_stress_stiffness))
-                   .name +
-               " = true",
+    refuse(p.skin.turning_stiffness > 0
+               ? row_of(p, p.skin.turning_stiffness).name + " = " + shortest(p.skin.turning_stiffness)
+               : row_of(p, p.skin.initial_stress_stiffness).name + " = true",
            "the stiffness may have negative parts, so that no ratio of moduli bounds it", solve);
 }
 

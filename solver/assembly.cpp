@@ -77,13 +77,13 @@ SkinTriangle triangle_of(const Cell& cell, const std::array<int, 3>& corner, con
   return {at[0], at[1], at[2], direction};
 }
 
-/// In which directions, as a projection, displacements of skin are stiffened by its prestress: in all, along
-/// the normal of the plane that the axes span, or in none.
+/// In which directions displacements of skin are stiffened by its prestress, and by which share of it: in
+/// all, along the normal of the plane that the axes span, or in none.
 std::optional<Eigen::Matrix3d> stiffened(const Parameters& p, const Eigen::Matrix<double, 3, 2>& axes) {
   if (p.skin.initial_stress_stiffness) return Eigen::Matrix3d::Identity();
-  if (!p.skin.turning_stiffness) return {};
+  if (p.skin.turning_stiffness == 0) return {};
   const Eigen::Vector3d normal = axes.col(0).cross(axes.col(1));
-  return normal * normal.transpose();
+  return p.skin.turning_stiffness * normal * normal.transpose();
 }
 
 void add_skin(const SkinMaterial& skin, const std::optional<Eigen::Matrix3d>& stiffened,

@@ -76,9 +76,9 @@ void check_options(const Parameters& p, const SolveOptions& options, const std::
   const bool contact = p.cut.contact;
   if (options.unit_prestress && (contact || is_stiffened_by_prestress(p)))
     throw InputError(where + ": --unit-prestress: the series is not linear in the prestress with " +
-                     (contact                    ? row_of(p, p.cut.contact)
-                      : p.skin.turning_stiffness ? row_of(p, p.skin.turning_stiffness)
-                                                 : row_of(p, p.skin.initial_stress_stiffness))
+                     (contact                        ? row_of(p, p.cut.contact)
+                      : p.skin.turning_stiffness > 0 ? row_of(p, p.skin.turning_stiffness)
+                                                     : row_of(p, p.skin.initial_stress_stiffness))
                          .name +
                      " = true; set it to false");
   if (options.method == Method::iterative && contact)

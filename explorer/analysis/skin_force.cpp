@@ -25,7 +25,7 @@ double of_punch(const RecordedParameters& p, double dent, double radius) {
   };
   if (p->model == Model::finite) refuse("model = \"finite\"");
   if (p->skin.initial_stress_stiffness) refuse("skin.initial_stress_stiffness = true");
-  if (p->skin.turning_stiffness) refuse("skin.turning_stiffness = true");
+  if (p->skin.turning_stiffness > 0) refuse("skin.turning_stiffness > 0");
   if (p.value_or(p->skin.bending_stiffness, 0.) > 0) refuse("skin.bending_stiffness above 0");
   if (told_shaped(p)) refuse("a patch that is bent or slopes");
   Parameters known = *p;

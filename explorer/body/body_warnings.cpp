@@ -1,6 +1,7 @@
 #include "explorer/body/body_warnings.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "base/text.h"
 #include "explorer/body/skin_coordinates.h"
@@ -9,7 +10,8 @@ namespace cleft {
 
 namespace {
 
-constexpr double least_angle = 5, most_turn = 10;  // degrees
+constexpr double least_angle = 5, most_off_blade = 10;  // degrees
+constexpr double degrees = 180 / std::numbers::pi;
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 std::string hundredths(double x) { return shortest(std::round(100 * x) / 100); }
@@ -30,7 +32,7 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
   if (r.least_depth > 0)
     warnings.push_back("the cut is only " + shortest(rounded(r.least_depth)) +
                        " mm deep where the tissue is thin");
-  if (r.blade_turn > most_turn)
+  if (r.blade_turn > most_off_blade)
     warnings.push_back(
         "the cut's wall at " + place_text(r.blade_turned_at) + " mm is turned by " +
         hundredths(r.blade_turn) +
@@ -54,6 +56,14 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
                          " mm of its path: there is no skin below the rest of it");
   }
   return warnings;
+}
+
+std::string warning_of_turn(const Turn& most, double share) {
+  return "in small strains the skin at " + place_text(most.at) + " mm would turn by " +
+         shortest(std::round(most.angle * degrees)) + " degrees: it is simulated with " +
+         (share < 1 ? hundredths(share) + " of " : "") +
+         "the stiffness against that which its tension gives it (skin.turning_stiffness = " +
+         hundredths(share) + "), with which wounds open less";
 }
 
 std::string warning_of_turned(const CutMesh& mesh, const std::vector<int>& turned, double scale) {

@@ -67,11 +67,6 @@ Parameters parameters_of_body(const RecordedParameters& of_case) {
   return parameters;
 }
 
-Parameters as_wounds_are_simulated(Parameters parameters) {
-  if (lacks_stiffness_of_tension(parameters)) parameters.skin.turning_stiffness = true;
-  return parameters;
-}
-
 void thin_frames(Body& body, std::size_t most) {
   const std::size_t frames = body.times.size();
   if (frames <= most) return;
@@ -105,8 +100,16 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   write_body(folder / "body.h5", result.body);
   Parameters parameters = request.parameters;
   parameters.cut.contact = true;  // of cuts that meet lips would pass through each other
-  tell("solving " + std::to_string(result.report.nodes) + " nodes");
-  const std::vector<Vec3> open = solve(result, parameters, folder, stop);
+  const std::string solving = "solving " + std::to_string(result.report.nodes) + " nodes";
+  tell(solving);
+  std::vector<Vec3> open = solve(result, parameters, folder, stop);
+  if (const Turn most = most_turned_skin(result.body, open);
+      most.angle > much_turn && lacks_stiffness_of_tension(parameters)) {
+    parameters.skin.turning_stiffness = std::min(1., (most.angle - much_turn) / (most_turn - much_turn));
+    tell(solving + " again");
+    open = solve(result, parameters, folder, stop);
+    result.warnings.push_back(warning_of_turn(most, parameters.skin.turning_stiffness));
+  }
   for (const BodyPair& pair : result.body.pairs)
     result.gape = std::max(result.gape, dot(pair.normal, open[pair.right] - open[pair.left]));
   result.seconds = watch.seconds();

@@ -24,18 +24,15 @@ struct BodySimulation {
 /// Those of a case as far as a body has them, and the defaults where its file lacks them.
 Parameters parameters_of_body(const RecordedParameters& of_case);
 
-/// Small strains leave out that skin under tension resists turning, without which lips rise twice too far
-/// and wounds on edges of an organ open three times too wide: with that stiffness (skin.turning_stiffness),
-/// unless there are finite strains or skin.initial_stress_stiffness.
-Parameters as_wounds_are_simulated(Parameters parameters);
-
 /// Leaves out frames until there are about `most`, but the first one and those in which a cut ends.
 void thin_frames(Body& body, std::size_t most);
 
 /// Meshes the body and solves it, with contact of the lips, in files of a temporary folder, which is removed.
-/// `progress` is called with the current step. When *stop is 1 the solver is asked to end. Throws InputError
-/// for what cannot be meshed or solved, std::runtime_error, with the solver's message, if it fails or was
-/// stopped.
+/// Small strains leave out that skin under tension resists turning, without which wounds on edges of an organ
+/// open up to three times too wide: where skin would turn by more than much_turn, the body is solved again
+/// with a share of that stiffness (skin.turning_stiffness) that grows to 1 at most_turn. `progress` is called
+/// with the current step. When *stop is 1 the solver is asked to end. Throws InputError for what cannot be
+/// meshed or solved, std::runtime_error, with the solver's message, if it fails or was stopped.
 BodySimulation simulate(const BodyRequest& request,
                         const std::function<void(const std::string&)>& progress = {},
                         const StopCount* stop = nullptr);

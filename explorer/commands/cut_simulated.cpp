@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -87,7 +86,6 @@ Json move_as_simulated(BodyRequest request, const MeshCuts& cuts, const std::opt
   const double scale = cuts.scale();
   request.skin = scaled(cuts.uncut(), scale);
   for (const Incision* one : cuts.cuts()) request.paths.push_back(one->path().scaled(scale));
-  const Parameters asked = std::exchange(request.parameters, as_wounds_are_simulated(request.parameters));
   Progress progress("simulating");
   static StopCount stop = 0;
   const BodySimulation simulation = [&] {
@@ -108,7 +106,7 @@ Json move_as_simulated(BodyRequest request, const MeshCuts& cuts, const std::opt
   if (!turned.empty()) told["warnings"].push_back(warning_of_turned(mesh, turned, scale));
   if (fields) {
     told["replay"] = figures_of(replay_off(cuts.cuts(), positions, simulated, wounds.reach_of_ends()), scale);
-    if (const std::string other = differences(*fields, asked); !other.empty())
+    if (const std::string other = differences(*fields, request.parameters); !other.empty())
       told["warnings"].push_back("the field of the replay is of another body than is simulated: " + other);
   }
   print_warnings(told["warnings"], "cleft cut");

@@ -30,7 +30,7 @@ BodyRequest request_of(Session& session) {
   BodyRequest request;
   request.skin = *session.mesh();
   request.paths = session.cut_paths();
-  request.parameters = as_wounds_are_simulated(parameters_of_shown(session));
+  request.parameters = parameters_of_shown(session);
   if (const auto& tension = session.state().tension) {
     if (tension->lines)
       throw InputError("simulations take one direction of the tension, not lines (say: tension X,Y,Z L,S)");

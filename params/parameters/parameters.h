@@ -61,7 +61,8 @@ struct Parameters {
     Prestress prestress{0.01, 0.03, 0};
     double curvature_u = 0, curvature_v = 0, curvature_uv = 0;
     SkinEdges edges = SkinEdges::held;
-    bool initial_stress_stiffness = false, turning_stiffness = false;
+    bool initial_stress_stiffness = false;
+    double turning_stiffness = 0;
     double bending_stiffness = 0;
     SkinLaw law = SkinLaw::st_venant_kirchhoff;
     double stiffening = 5;
@@ -80,7 +81,7 @@ struct Parameters {
 
 /// Whether the skin's prestress is a part of the stiffness of the small model.
 inline bool is_stiffened_by_prestress(const Parameters& p) {
-  return p.skin.initial_stress_stiffness || p.skin.turning_stiffness;
+  return p.skin.initial_stress_stiffness || p.skin.turning_stiffness > 0;
 }
 
 /// Whether displacements are linear in the skin's prestress, so that those under several prestresses

@@ -133,9 +133,10 @@ std::vector<Parameter> make_table() {
           "free: a piece that was cut out"),
       choice(CLEFT_MEMBER(skin.initial_stress_stiffness), no_or_yes,
              "true: the prestress stiffens the skin against bending and stretching (geometric stiffness)"),
-      later(choice(CLEFT_MEMBER(skin.turning_stiffness), no_or_yes,
-                   "true: the prestress stiffens the skin against turning out of its plane alone, which "
-                   "comes near to finite strains")),
+      between(
+          later(CLEFT_MEMBER(skin.turning_stiffness)), "", 0, 1,
+          "share of the stiffness against turning out of its plane that its prestress gives to the skin; 1 "
+          "comes near to finite strains"),
       not_negative(CLEFT_MEMBER(skin.bending_stiffness), "N mm",
                    "resistance of the skin to bending: E t^3 / (12 (1 - nu^2)) of a sheet; 0: a membrane"),
       choice(CLEFT_MEMBER(skin.law), {"st-venant-kirchhoff", "neo-hookean", "fung"},

@@ -16,8 +16,9 @@ struct Turn {
 };
 Turn most_turned_skin(const Body& body, const std::vector<Vec3>& displacement);
 
-/// More than all bodies of tests/truth; beyond it wounds open up to three times too wide in small strains.
-constexpr double much_turn = 0.9;
+/// More than all bodies of tests/truth, radians; beyond it wounds open up to three times too wide in small
+/// strains. And the angle from which on skin has the whole stiffness of its tension against that.
+constexpr double much_turn = 0.9, most_turn = 1.4;
 
 /// Whether skin could resist turning by its tension, and does not.
 bool lacks_stiffness_of_tension(const Parameters& parameters);

@@ -42,9 +42,8 @@ TEST(BodyStudy, ItsCasesAreSimulatedEncodedAndReplayedOnThatBody) {
   const std::string mesh = folder / "cylinder.obj", path = folder / "path.csv", out = folder / "out";
   expect_success(run_cleft("body", {"--mesh", mesh, "--path", path, "--out", folder / "wrist.h5", "--set",
                                     "mesh.element_size=1"}));
-  const std::string study = folder.write("study.toml",
-                                         "[body]\nfile = 'wrist.h5'\n[case]\nskin.turning_stiffness = true\n"
-                                         "[vary]\n'skin.prestress_v' = [0.02, 0.03]\n");
+  const std::string study =
+      folder.write("study.toml", "[body]\nfile = 'wrist.h5'\n[vary]\n'skin.prestress_v' = [0.02, 0.03]\n");
   expect_success(run_cleft("run", {study, "--out", out}));
   // The folder stands for itself.
   std::filesystem::remove(folder / "wrist.h5");

@@ -142,7 +142,7 @@ inline std::vector<DenseCase> dense_cases() {
   add("EffectiveFront",
       [](Parameters& p) { p.mesh.front = MeshFront::effective, p.patch.length = 9, p.cut.depth = 1.5; });
   add("InitialStressStiffness", [](Parameters& p) { p.skin.initial_stress_stiffness = true; });
-  add("TurningStiffness", [](Parameters& p) { p.skin.turning_stiffness = true; });
+  add("TurningStiffness", [](Parameters& p) { p.skin.turning_stiffness = 0.7; });
   return cases;
 }
 

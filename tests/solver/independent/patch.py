@@ -18,7 +18,7 @@ TRIANGLE, WEDGE = 5, 13  # VTK's cell types
 BEFORE_THEY_CAME = {
     "tissue.formulation": "displacement",
     "skin.initial_stress_stiffness": "false",
-    "skin.turning_stiffness": "false",
+    "skin.turning_stiffness": 0.0,
     "cut.contact": "false",
     "model": "small",
     "skin.bending_stiffness": 0.0,
@@ -198,10 +198,11 @@ def skin_stiffness(patch):
     if patch["skin.initial_stress_stiffness"] == "true" or patch["model"] == "finite":
         tension = np.einsum("eak,kl,ebl->eab", gradient, patch.prestress(), gradient)
         blocks += np.einsum("e,eab,ij->eaibj", area * thickness, tension, np.eye(3))
-    if patch["skin.turning_stiffness"] == "true":
+    if patch["skin.turning_stiffness"] > 0:
         tension = np.einsum("eak,kl,ebl->eab", gradient, patch.prestress(), gradient)
         normal = np.cross(axes[:, 0], axes[:, 1])
-        blocks += np.einsum("e,eab,ei,ej->eaibj", area * thickness, tension, normal, normal)
+        share = patch["skin.turning_stiffness"] * area * thickness
+        blocks += np.einsum("e,eab,ei,ej->eaibj", share, tension, normal, normal)
     return scatter(patch.skin, blocks, len(patch.points))
 
 

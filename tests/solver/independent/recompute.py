@@ -29,7 +29,7 @@ def balance(patch, springs, displacement):
     forces = springs @ displacement
     size = np.abs(forces).sum()
     left_over = np.abs(forces.sum(axis=0)).max() / size
-    if "true" in (patch["skin.initial_stress_stiffness"], patch["skin.turning_stiffness"]):
+    if patch["skin.initial_stress_stiffness"] == "true" or patch["skin.turning_stiffness"] > 0:
         return left_over
     reach = np.ptp(patch.points, axis=0).max()
     return max(left_over, np.abs(np.cross(patch.points, forces).sum(axis=0)).max() / (size * reach))
