@@ -12,6 +12,7 @@
 #include "encoder/field/at_time.h"
 #include "encoder/field/quantity_fields.h"
 #include "encoder/import/coincident.h"
+#include "encoder/import/components.h"
 #include "encoder/import/decoded_vtkhdf.h"
 
 namespace cleft {
@@ -117,6 +118,22 @@ void expect_inside(const Field& field, const Place& place, const InCells& cells,
                        "; the mesh must lie in the space of the series that the field was made from, within "
                        "its body: move it there, or leave out what is beyond");
   }
+}
+
+/// Fields whose components were arrays of their own are such again.
+std::vector<DecodedValues> as_they_were(std::vector<DecodedValues> all) {
+  std::vector<DecodedValues> apart;
+  for (DecodedValues& values : all) {
+    const auto written = written_components(values.name, values.components);
+    const auto components = static_cast<std::size_t>(values.components);
+    for (const auto& [array, place] : written) {
+      DecodedValues& one = apart.emplace_back(DecodedValues{array, 1, {}, values.unit});
+      for (auto i = static_cast<std::size_t>(place); i < values.numbers.size(); i += components)
+        one.numbers.push_back(values.numbers[i]);
+    }
+    if (written.empty()) apart.push_back(std::move(values));
+  }
+  return apart;
 }
 
 }  // namespace
@@ -247,7 +264,7 @@ std::vector<DecodedValues> values_at(const DecodedNodes& decoded, std::size_t fr
     values.unit = field.source ? unit_of(source, values.name) : values.name == "displacement" ? "mm" : "";
     values.name = name_there(source, values.name);
   }
-  return all;
+  return as_they_were(std::move(all));
 }
 
 void refuse_existing(const std::string& path) {

@@ -64,7 +64,8 @@ int main(int argc, char** argv) {
          "--field", o.fields,
          "SOURCE[:NAME[UNIT]],...: arrays of the points, or of the cells, whose mean a node gets, their "
          "names here, and their units, with which legends show them, as S:stress[MPa]; one named "
-         "displacement is what fields are fitted to. May be repeated")
+         "displacement is what fields are fitted to. Where components are arrays, SOURCE is what their names "
+         "begin with (disp of disp_x, disp_y, disp_z) or their sum (u+v+w). May be repeated")
       ->required()
       ->delimiter(',')
       ->allow_extra_args(false);

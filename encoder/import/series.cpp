@@ -77,6 +77,7 @@ ImportedSeries::ImportedSeries(const std::vector<std::string>& paths, const std:
     for (SeriesField& field : fields_) field.of_cells = false;
     first = files_->read(0, sources_there(0));
   }
+  compose_fields(first);
   check_cells(where(0), first.mesh);
   describe_fields(first);
   mesh_ = mesh_as_read_ = std::move(first.mesh);
@@ -90,24 +91,51 @@ std::string ImportedSeries::where(std::size_t frame) const {
 /// Among the arrays of the points of frame 0, or else among those of its cells.
 void ImportedSeries::find_fields() {
   const std::vector<std::string> points = files_->point_arrays(0), cells = files_->cell_arrays(0);
-  for (SeriesField& field : fields_)
-    field.of_cells = field.of_means = !among(points, field.source) && among(cells, field.source);
+  const auto all_there = [](const std::vector<Component>& arrays, const std::vector<std::string>& there) {
+    return std::all_of(arrays.begin(), arrays.end(),
+                       [&](const Component& one) { return one.is_zero() || among(there, one.array); });
+  };
+  for (SeriesField& field : fields_) {
+    std::string of_points = field.source, of_cells = field.source;
+    const std::vector<Component> at_points = components_of(of_points, points),
+                                 in_cells = components_of(of_cells, cells);
+    field.of_cells = field.of_means = !all_there(at_points, points) && all_there(in_cells, cells);
+    field.arrays = field.of_cells ? in_cells : at_points;
+    field.source = field.of_cells ? of_cells : of_points;
+  }
 }
 
 WantedArrays ImportedSeries::sources_there(std::size_t frame) const {
   const std::vector<std::string> points = files_->point_arrays(frame), cells = files_->cell_arrays(frame);
   WantedArrays wanted;
-  for (const SeriesField& field : fields_) {
-    if (!among(field.of_cells ? cells : points, field.source)) {
-      std::vector<std::string> all = points;
-      all.insert(all.end(), cells.begin(), cells.end());
-      throw InputError("--field " + field.source + ": " + where(frame) + " holds no such array" +
-                       did_you_mean(field.source, all) + "; there are: " + listed(points) +
-                       (cells.empty() ? "" : "; and of cells: " + listed(cells)));
+  for (const SeriesField& field : fields_)
+    for (const auto& [array, column] : field.arrays) {
+      if (array.empty()) continue;
+      if (!among(field.of_cells ? cells : points, array)) {
+        std::vector<std::string> all = points;
+        all.insert(all.end(), cells.begin(), cells.end());
+        throw InputError("--field " + field.source + ": " + where(frame) + " holds no " +
+                         (array == field.source ? "such array" : "array '" + array + "'") +
+                         did_you_mean(array, all) + "; there are: " + listed(points) +
+                         (cells.empty() ? "" : "; and of cells: " + listed(cells)));
+      }
+      (field.of_cells ? wanted.cells : wanted.points).push_back(array);
     }
-    (field.of_cells ? wanted.cells : wanted.points).push_back(field.source);
-  }
   return wanted;
+}
+
+/// Then there is one array of each field, in their order among those of points, or of cells.
+void ImportedSeries::compose_fields(SourceFrame& frame) const {
+  auto at_points = frame.arrays.begin(), in_cells = frame.cell_arrays.begin();
+  std::vector<SourceArray> points, cells;
+  for (const SeriesField& field : fields_) {
+    auto& next = field.of_cells ? in_cells : at_points;
+    std::vector<SourceArray> arrays;
+    for (const Component& one : field.arrays)
+      if (!one.is_zero()) arrays.push_back(std::move(*next++));
+    (field.of_cells ? cells : points).push_back(composed(field.arrays, std::move(arrays), field.source));
+  }
+  frame.arrays = std::move(points), frame.cell_arrays = std::move(cells);
 }
 
 SourceArray& ImportedSeries::array_of(SourceFrame& frame, std::size_t field) const {
@@ -126,8 +154,8 @@ void ImportedSeries::describe_fields(SourceFrame& first) {
     field.all_nine = field.components == 9;
     if (field.all_nine) field.components = 6;
     if (field.components != 1 && field.components != 3 && field.components != 6)
-      throw InputError(has +
-                       "; only scalars (1), vectors (3) and symmetric tensors (6, or 9) can be imported");
+      throw InputError(
+          has + "; only scalars (1), vectors (3, or 2) and symmetric tensors (6, or 9) can be imported");
     if (field.name == "displacement" && field.components != 3)
       throw InputError(has + "; a displacement has 3");
   }
@@ -228,6 +256,7 @@ std::vector<double> ImportedSeries::at_nodes(std::size_t frame, std::size_t f,
 
 FieldValues ImportedSeries::frame(std::size_t frame) const {
   SourceFrame found = files_->read(frame, sources_there(frame));
+  compose_fields(found);
   check_mesh(frame, found.mesh);
   check_values(frame, found);
   order_cells(found, mesh_as_read_);

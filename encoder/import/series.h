@@ -6,19 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "encoder/import/components.h"
 #include "encoder/import/frame_files.h"
 
 namespace cleft {
 
 /// A field and its name in the snapshot.
 struct SeriesField {
-  std::string source, name;  ///< in the files, in the snapshot
-  std::string unit = {};     ///< "" where it is not told
-  int components = 1;        ///< 1, 3 (a vector) or 6 (a symmetric tensor: XX YY ZZ XY YZ XZ)
-  bool single = false;       ///< stored in single precision
-  bool of_cells = false;     ///< values of cells; a node gets the mean of its cells
-  bool of_means = false;     ///< of such means, which part nowhere exactly
-  bool all_nine = false;     ///< stored as the nine components of a tensor, row by row
+  std::string source, name;            ///< in the files, in the snapshot
+  std::string unit = {};               ///< "" where it is not told
+  std::vector<Component> arrays = {};  ///< that hold its components
+  int components = 1;                  ///< 1, 3 (a vector) or 6 (a symmetric tensor: XX YY ZZ XY YZ XZ)
+  bool single = false;                 ///< stored in single precision
+  bool of_cells = false;               ///< values of cells; a node gets the mean of its cells
+  bool of_means = false;               ///< of such means, which part nowhere exactly
+  bool all_nine = false;               ///< stored as the nine components of a tensor, row by row
 };
 
 /// At every node the mean over its cells; 0 where it has none.
@@ -35,7 +37,7 @@ using FieldValues = std::vector<std::vector<double>>;
 class ImportedSeries {
  public:
   /// One file that open_series reads, or several of one mesh. Throws InputError if it has fewer than 2
-  /// frames, times that do not increase, no such fields, or fields of other than 1, 3, 6 or 9 components.
+  /// frames, times that do not increase, no such fields, or fields of other than 1, 2, 3, 6 or 9 components.
   ImportedSeries(const std::vector<std::string>& paths, const std::vector<SeriesField>& fields);
   ImportedSeries(const std::string& path, const std::vector<SeriesField>& fields)
       : ImportedSeries(std::vector<std::string>{path}, fields) {}
@@ -77,6 +79,7 @@ class ImportedSeries {
   std::string where(std::size_t frame) const;
   void find_fields();
   WantedArrays sources_there(std::size_t frame) const;
+  void compose_fields(SourceFrame& frame) const;
   SourceArray& array_of(SourceFrame& frame, std::size_t field) const;
   void describe_fields(SourceFrame& first);
   void leave_loose_nodes();

@@ -30,7 +30,7 @@ FORMATS = {
     "exodus": ("displacement,temperature,energy", 1e-12),
     "exodus_in_pieces": ("displacement,temperature,energy", 1e-12),
     "ensight": ("displacement,temperature", 1e-5),
-    "cgns": ("displacement,temperature", 1e-12),
+    "cgns": ("displacement,stress,temperature", 1e-12),
     "xdmf": (ALL, 1e-12),
     "xdmf_in_text": (ALL, 1e-12),
     "vtkhdf_in_parts": (ALL, 1e-12),

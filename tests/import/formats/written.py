@@ -277,6 +277,7 @@ def cgns(bar, folder):
         fields = bar.fields(j)
         columns = {"displacement" + a: fields["displacement"][:, i] for i, a in enumerate("XYZ")}
         columns["temperature"] = fields["temperature"]
+        columns |= {"stress" + c: fields["stress"][:, i] for i, c in enumerate(("XX", "YY", "ZZ", "XY", "YZ", "XZ"))}
         for name, values in columns.items():
             call("cg_field_write", file, base, zone, solution, real_double, text(name), doubles(values.copy()),
                  ctypes.byref(number))
