@@ -2,27 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 
+#include "solver/snapshot/cell_types.h"
+
 namespace cleft {
-
-namespace {
-
-using Edges = std::vector<std::array<std::size_t, 2>>;
-
-/// Of VTK's linear cells, by their type.
-const std::map<std::uint8_t, Edges> edges_of_types = {
-    {5, {{0, 1}, {1, 2}, {2, 0}}},
-    {8, {{0, 1}, {1, 3}, {3, 2}, {2, 0}}},
-    {9, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
-    {10, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}},
-    {11, {{0, 1}, {1, 3}, {3, 2}, {2, 0}, {4, 5}, {5, 7}, {7, 6}, {6, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
-    {12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
-    {13, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}},
-    {14, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}}};
-
-}  // namespace
 
 CellCentres cell_centres(const Snapshot& snapshot, const std::vector<Sample>& samples) {
   CellCentres centres;
@@ -54,10 +38,8 @@ CellCentres edge_middles(const Snapshot& snapshot, const std::vector<Sample>& sa
   middles.first = {0};
   std::set<std::array<std::int64_t, 2>> known;
   for (std::size_t c = 0; c < snapshot.cell_types.size(); ++c) {
-    const auto edges = edges_of_types.find(snapshot.cell_types[c]);
-    if (edges == edges_of_types.end()) continue;
     const std::int64_t* corners = &snapshot.connectivity[static_cast<std::size_t>(snapshot.cell_offsets[c])];
-    for (const auto& [from, to] : edges->second) {
+    for (const auto& [from, to] : edges_of_type(snapshot.cell_types[c])) {
       const auto [a, b] = std::minmax(corners[from], corners[to]);
       const Sample &one = samples[static_cast<std::size_t>(a)], &other = samples[static_cast<std::size_t>(b)];
       const Vec3 middle = 0.5 * (one.uvw + other.uvw);

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <set>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "encoder/break_ends.h"
 #include "encoder/own_coordinates.h"
 #include "encoder/series_samples.h"
+#include "solver/snapshot/cell_types.h"
 
 namespace cleft {
 
@@ -24,11 +24,7 @@ using Pairs = std::vector<std::array<std::int32_t, 2>>;
 
 /// Whether the cells are surfaces and lines that are in no plane, such as the skin of a solid.
 bool is_curved_surface(const Snapshot& s) {
-  // VTK's types of less than three dimensions.
-  static const std::set<int> flat_types = {1,  2,  3,  4,  5,  6,  7,  8,  9,  21, 22,
-                                           23, 28, 34, 35, 36, 68, 69, 70, 75, 76, 77};
-  return std::all_of(s.cell_types.begin(), s.cell_types.end(),
-                     [](int type) { return flat_types.contains(type); }) &&
+  return std::all_of(s.cell_types.begin(), s.cell_types.end(), is_flat_type) &&
          std::any_of(s.points.begin(), s.points.end(), [](const Vec3& p) { return p.z != 0; });
 }
 

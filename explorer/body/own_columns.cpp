@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/wedge.h"
 #include "explorer/body/skin_coordinates.h"
+#include "solver/snapshot/cell_types.h"
 
 namespace cleft {
 
@@ -23,14 +24,6 @@ constexpr int poly_line = 4, triangle = 5, quad = 9, tetrahedron = 10, hexahedro
 
 constexpr double same_place = 1e-6;  // of the shortest edge
 constexpr double too_near = 0.25;    // of the shortest edge: no two nodes of a sound mesh are so near
-
-const std::vector<std::array<int, 2>>& edges_of(int type) {
-  static const std::vector<std::array<int, 2>> of_wedge = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
-                                                           {5, 3}, {0, 3}, {1, 4}, {2, 5}};
-  static const std::vector<std::array<int, 2>> of_hexahedron = {
-      {0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-  return type == vtk::wedge ? of_wedge : of_hexahedron;
-}
 
 template <class Nodes>
 std::vector<int> key_of(const Nodes& nodes) {
@@ -131,7 +124,7 @@ class Columns {
     double shortest_edge = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < m_.types.size(); ++c)
       if (is_volume(m_.types[c]))
-        for (const auto& [a, b] : edges_of(m_.types[c])) {
+        for (const auto& [a, b] : edges_of_type(m_.types[c])) {
           const double length = norm(m_.points[m_.nodes[c][a]] - m_.points[m_.nodes[c][b]]);
           if (length == 0) refuse(static_cast<int>(c), "has two corners at one place");
           shortest_edge = std::min(shortest_edge, length);
@@ -201,7 +194,7 @@ class Columns {
     std::vector<int> result;
     const auto in_face = [&](int n) { return std::find(face.begin(), face.end(), n) != face.end(); };
     for (const int n : face)
-      for (const auto& [i, j] : edges_of(m_.types[cell])) {
+      for (const auto& [i, j] : edges_of_type(m_.types[cell])) {
         const int a = m_.nodes[cell][i], b = m_.nodes[cell][j];
         if ((a == n && !in_face(b)) || (b == n && !in_face(a))) result.push_back(a == n ? b : a);
       }
