@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "base/error.h"
@@ -28,6 +29,10 @@ double rounded(double x) {
 
 using Distance = std::function<double(const Vec3&)>;  // of a point from the break, with a sign
 
+/// Corners that are nearer to a break are in it. A surface through places is as near to others of the break
+/// as its curvature between them lets it be.
+double near_break(const Break& found, double tolerance) { return (found.curved ? 100 : 1) * tolerance; }
+
 /// Of the nodes of groups: the sum of their cells' centroids' distances from the break. Where arms meet,
 /// cells between other arms are on no side of this one.
 std::vector<double> sides(const SourceMesh& mesh, const Groups& groups, const Break& found, double tolerance,
@@ -35,21 +40,25 @@ std::vector<double> sides(const SourceMesh& mesh, const Groups& groups, const Br
   std::vector<char> asked(mesh.points.size());
   for (const auto& group : groups)
     for (const std::int32_t node : group) asked[node] = 1;
-  std::vector<double> side(mesh.points.size());
+  std::vector<double> side(mesh.points.size()), distances;
+  FacesInBreak faces(mesh, asked);
   for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {
     const auto* first = mesh.connectivity.data() + mesh.cell_offsets[c];
     const auto* last = mesh.connectivity.data() + mesh.cell_offsets[c + 1];
     if (std::none_of(first, last, [&](std::int64_t i) { return asked[i]; })) continue;
     if (!kept.empty() && !std::all_of(first, last, [&](std::int64_t i) { return kept[i]; })) continue;
-    double sum = 0;
-    for (const auto* i = first; i != last; ++i) sum += found.distance(mesh.points[*i]);
-    const double centroid = sum / static_cast<double>(last - first);
+    distances.clear();
+    for (const auto* i = first; i != last; ++i) distances.push_back(found.distance(mesh.points[*i]));
+    if (faces.take(c, distances, near_break(found, tolerance))) continue;
+    const double centroid =
+        std::accumulate(distances.begin(), distances.end(), 0.) / static_cast<double>(last - first);
     if (std::abs(centroid) <= tolerance) continue;  // an interface element, between the two sides
     const auto is = [&](InArm part) { return [&, part](std::int64_t i) { return found.in_arm[i] == part; }; };
     const bool beside = found.in_arm.empty() || std::any_of(first, last, is(InArm::between_junctions));
     for (const auto* i = first; i != last; ++i)
       if (beside || !is(InArm::at_junction)(*i)) side[*i] += centroid;
   }
+  faces.spread(side);
   return side;
 }
 
@@ -228,8 +237,7 @@ class Search {
   void pair_where(Break& found, Distance distance, std::vector<std::string>& notes) const {
     found.distance = std::move(distance);
     const std::vector<double> side = sides(mesh_, groups_, found, tolerance_);
-    // A surface through places is as near to others of the break as its curvature between them lets it be.
-    const double near = found.curved ? 100 * tolerance_ : tolerance_;
+    const double near = near_break(found, tolerance_);
     for (std::size_t p = 0; p < partings_.pairs.size(); ++p)
       found.parting[partings_.pairs[p]] = partings_.first_frame[p];
     std::size_t elsewhere = 0, one_sided = 0, crowded = 0;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 #include "encoder/import/jumps.h"
+#include "solver/snapshot/cell_types.h"
 
 namespace cleft {
 
@@ -49,6 +51,43 @@ Groups coincident_groups(const std::vector<Vec3>& points, double tolerance) {
   for (auto& group : members)
     if (group.size() > 1) groups.push_back(std::move(group));
   return groups;
+}
+
+bool FacesInBreak::take(std::size_t cell, const std::vector<double>& distances, double near) {
+  constexpr double flat = 0.05, apart = 1e-3;  // of the cell's extent
+  if (!is_flat_type(mesh_.cell_types[cell]) || distances.size() < 3) return false;
+  const auto* first = mesh_.connectivity.data() + mesh_.cell_offsets[cell];
+  const auto* last = mesh_.connectivity.data() + mesh_.cell_offsets[cell + 1];
+  double farthest = 0, extent = 0;
+  for (const double distance : distances) farthest = std::max(farthest, std::abs(distance));
+  for (const auto* i = first; i != last; ++i)
+    extent = std::max(extent, norm(mesh_.points[*i] - mesh_.points[*first]));
+  if (farthest > std::min(near, flat * extent)) return false;
+  for (const auto* i = first; i != last; ++i)
+    for (const auto* k = first; k != i; ++k)
+      if (norm(mesh_.points[*i] - mesh_.points[*k]) <= apart * extent) return false;  // between the lips
+  std::optional<std::int32_t> one;
+  for (const auto* i = first; i != last; ++i) {
+    if (!doubled_[*i]) continue;
+    if (one) together_.join(*one, static_cast<std::int32_t>(*i));
+    one = static_cast<std::int32_t>(*i);
+  }
+  if (one) cells_.push_back(cell);
+  return one.has_value();
+}
+
+void FacesInBreak::spread(std::vector<double>& side) {
+  std::vector<double> of_all(side.size());
+  const auto for_each_node = [&](const auto& use) {
+    for (const std::size_t c : cells_)
+      for (auto i = mesh_.cell_offsets[c]; i < mesh_.cell_offsets[c + 1]; ++i)
+        if (const auto node = static_cast<std::int32_t>(mesh_.connectivity[i]); doubled_[node])
+          use(node, together_.root(node));
+  };
+  for_each_node([&](std::int32_t node, std::int32_t root) { of_all[root] += side[node]; });
+  for_each_node([&](std::int32_t node, std::int32_t root) {
+    if (side[node] == 0 && of_all[root] != 0) side[node] = of_all[root] < 0 ? -1 : 1;
+  });
 }
 
 bool is_unwelded(const SourceMesh& mesh, const Groups& groups) {

@@ -14,6 +14,7 @@
 #include "encoder/import/coincident.h"
 #include "encoder/import/components.h"
 #include "encoder/import/decoded_vtkhdf.h"
+#include "solver/snapshot/cell_types.h"
 
 namespace cleft {
 
@@ -57,35 +58,48 @@ struct InCells {
   std::array<bool, 2> sides = {false, false};  ///< whether there are such on the left, and on the right
 };
 
-std::vector<InCells> in_cells(const SourceMesh& m, const std::vector<Place>& nodes) {
-  std::vector<InCells> list(nodes.size());
-  for (std::size_t c = 0; c < m.cell_types.size(); ++c) {
-    const std::span corners(m.connectivity.begin() + m.cell_offsets[c],
-                            m.connectivity.begin() + m.cell_offsets[c + 1]);
-    Vec3 low = nodes[corners.front()].uvw, high = low;
-    double farthest = 0;  // of its nodes from the break: those of a lip may be on the wrong side of it
-    for (const std::int64_t n : corners) {
-      const Vec3& at = nodes[n].uvw;
-      if (std::abs(at.y) > std::abs(farthest)) farthest = at.y;
-      for (int axis = 0; axis < 3; ++axis)
-        low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
-    }
-    for (const std::int64_t n : corners) {
-      InCells& node = list[n];
-      for (int axis = 0; axis < 3; ++axis)
-        node.extent[axis] = std::max(node.extent[axis], high[axis] - low[axis]);
-      node.across = std::max({node.across, -low.y, high.y});
-      if (farthest != 0) node.sides[farthest > 0] = true;
-    }
-  }
-  return list;
-}
-
 std::vector<char> doubled_nodes(const SourceMesh& mesh, double near) {
   std::vector<char> doubled(mesh.points.size());
   for (const auto& group : coincident_groups(mesh.points, near))
     for (const std::int32_t node : group) doubled[node] = 1;
   return doubled;
+}
+
+std::vector<InCells> in_cells(const SourceMesh& m, const std::vector<Place>& nodes,
+                              const std::vector<char>& doubled) {
+  std::vector<InCells> list(nodes.size());
+  FacesInBreak faces(m, doubled);
+  std::vector<double> side(nodes.size()), distances;
+  for (std::size_t c = 0; c < m.cell_types.size(); ++c) {
+    const std::span corners(m.connectivity.begin() + m.cell_offsets[c],
+                            m.connectivity.begin() + m.cell_offsets[c + 1]);
+    distances.clear();
+    Vec3 low = nodes[corners.front()].uvw, high = low;
+    double farthest = 0;  // of its nodes from the break: those of a lip may be on the wrong side of it
+    for (const std::int64_t n : corners) {
+      const Vec3& at = nodes[n].uvw;
+      distances.push_back(at.y);
+      if (std::abs(at.y) > std::abs(farthest)) farthest = at.y;
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
+    }
+    const bool in_break = faces.take(c, distances, std::numeric_limits<double>::infinity());
+    const bool flat = is_flat_type(m.cell_types[c]);  // the skin of a body bulges across its cells
+    const double width = norm(high - low);
+    for (const std::int64_t n : corners) {
+      InCells& node = list[n];
+      for (int axis = 0; axis < 3; ++axis)
+        node.extent[axis] = std::max(node.extent[axis], flat ? width : high[axis] - low[axis]);
+      node.across = std::max({node.across, -low.y, high.y, in_break ? width : 0});
+      if (farthest != 0 && !in_break) node.sides[farthest > 0] = true;
+    }
+  }
+  for (std::size_t n = 0; n < list.size(); ++n)
+    side[n] = (list[n].sides[1] ? 1 : 0) - (list[n].sides[0] ? 1 : 0);
+  faces.spread(side);
+  for (std::size_t n = 0; n < list.size(); ++n)
+    if (side[n] != 0) list[n].sides = {side[n]<0, side[n]> 0};
+  return list;
 }
 
 /// Puts a node at the break on the side of its cells. A mesh whose nodes are others than the source's has
@@ -152,11 +166,11 @@ std::vector<Place> nodes_in_field(const SourceMesh& m, const Field& field, const
   std::vector<Place> nodes;
   nodes.reserve(m.points.size());
   for (const Vec3& p : m.points) nodes.push_back({source.canonical(p)});
-  const std::vector<InCells> cells = in_cells(m, nodes);
   std::vector<char> expected = asked ? *asked : std::vector<char>(nodes.size(), 1);
   SourceMesh body{m.points, {}, {}, {}};  // loose nodes may be far from it
   for (const std::size_t n : loose_nodes(m)) expected[n] = 0, body.points[n] = m.points[m.connectivity[0]];
   const std::vector<char> doubled = doubled_nodes(m, same_place(body));
+  const std::vector<InCells> cells = in_cells(m, nodes, doubled);
   const double rounding = 100 * same_place(body);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Place& place = nodes[n];

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/text.h"
+#include "encoder/import/frame_files.h"
 #include "tests/import/cracked_bodies.h"
 #include "tests/pipeline/commands.h"
 
@@ -96,10 +97,10 @@ class FinerMesh : public testing::Test {
   const TemporaryFolder folder;
   const std::string field = folder / "case.dffd";
 
-  void encode(const CrackedBody& body) {
+  void encode(const CrackedBody& body) { encode(body.series()); }
+  void encode(const SourceSeries& series) {
     const std::string snapshot = folder / "case.h5";
-    expect_success(
-        run_cleft("import", {body.series().write(folder), "--field", "displacement", "--out", snapshot}));
+    expect_success(run_cleft("import", {series.write(folder), "--field", "displacement", "--out", snapshot}));
     expect_success(run_cleft("encode", {snapshot, "--tolerance", shortest(tolerance), "--out", field}));
   }
   Outcome decode(const SourceSeries& on, const std::string& name) {
@@ -156,6 +157,40 @@ TEST_F(FinerMesh, OfACurvedBreakOpensAsThatOfTheSeries) {
       }
       std::printf("%s, %s: %.4f\n", name, nodes_are.c_str(), worst / largest);
       EXPECT_LE(worst, 2.1 * tolerance * largest) << name << ", " << nodes_are;
+    }
+  }
+}
+
+/// The faces of the crack are part of the skin, and lie in the break: they are on the side of the skin with
+/// which they hang together.
+TEST_F(FinerMesh, OfASkinHasTheFacesOfACrackOnBothSides) {
+  std::vector<CrackedBody> bodies = {edge_crack(), body_with_curved_break("curved, radius 60")};
+  bodies.front() = posed(bodies.front(), "turned", Pose::random(3));
+  for (CrackedBody& body : bodies) {
+    for (const auto* file : {"case.h5", "case.dffd"}) std::filesystem::remove(folder / file);
+    body.c = planes(-6, 0, 3);
+    encode(skin_of(body.series()));
+    CrackedBody fine = body;
+    for (auto* planes : {&fine.a, &fine.b, &fine.c}) *planes = halved(*planes);
+    for (const bool finer : {false, true}) {
+      const CrackedBody& on = finer ? fine : body;
+      const std::string mesh = body.name + (finer ? ", finer" : ", as it is");
+      const SourceSeries skin = skin_of(on.series());
+      expect_success(decode(skin, mesh));
+      const std::vector<CrackedBody::Node> nodes = on.nodes();
+      const auto decoded = open_series({folder / (mesh + "_on.pvd")});
+      double worst = 0, largest = 0;
+      for (std::size_t j = 0; j < body.times.size(); ++j) {
+        const std::vector<double> d = decoded->read(j, {{"displacement"}, {}}).arrays.at(0).values;
+        for (const std::int64_t n : skin.mesh.connectivity) {
+          const Vec3 exact = body.displacement(nodes[n].abc, nodes[n].side, body.times[j]);
+          largest = std::max(largest, norm(exact));
+          worst = std::max(worst, norm(Vec3{d[3 * n], d[3 * n + 1], d[3 * n + 2]} - exact));
+        }
+      }
+      std::printf("%s: %.4f\n", mesh.c_str(), worst / largest);
+      // The finer one has nodes beside the front, where the series knows only what is linear between its own.
+      EXPECT_LE(worst, (finer ? 3.5 : 2) * tolerance * largest) << mesh;
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <sstream>
 
 #include "base/text.h"
@@ -72,6 +73,25 @@ std::string SourceSeries::write(const TemporaryFolder& folder, const std::string
     list += "<DataSet timestep=\"" + shortest(times[j]) + "\" part=\"0\" file=\"" + file + "\"/>\n";
   }
   return folder.write(name + ".pvd", list + "</Collection>\n</VTKFile>\n");
+}
+
+SourceSeries skin_of(SourceSeries series) {
+  constexpr int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                               {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  std::map<std::vector<std::int64_t>, std::vector<std::vector<std::int64_t>>> by_corners;
+  for (std::size_t c = 0; c < series.mesh.cell_types.size(); ++c)
+    for (const auto& face : faces) {
+      std::vector<std::int64_t> corners, sorted;
+      for (const int k : face)
+        corners.push_back(series.mesh.connectivity[8 * c + static_cast<std::size_t>(k)]);
+      sorted = corners;
+      std::sort(sorted.begin(), sorted.end());
+      by_corners[sorted].push_back(corners);
+    }
+  series.mesh.cell_types.clear(), series.mesh.cell_offsets.clear(), series.mesh.connectivity.clear();
+  for (const auto& [sorted, all] : by_corners)
+    if (all.size() == 1) series.add_cell(quad, all.front());
+  return series;
 }
 
 Pose Pose::random(unsigned seed) {

@@ -33,6 +33,9 @@ struct SourceSeries {
   std::string write(const TemporaryFolder& folder, const std::string& name = "series") const;
 };
 
+/// The skin of a body of hexahedra: quads, the faces that only one of them has.
+SourceSeries skin_of(SourceSeries series);
+
 /// A rigid map, as a program may have placed the body in its own space.
 struct Pose {
   Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< where (u, v, w) point there
