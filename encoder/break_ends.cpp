@@ -102,10 +102,15 @@ BreakEnds break_ends(const Snapshot& s, const std::vector<bool>& parted,
   }
   const bool imported = s.source && !s.cell_types.empty();
   std::vector<Vec3> beyond;  // the holes in which the break begins or ends, or beside it
+  double below_hollow = -far;
   if (imported)
-    for (const Vec3& at : whole_across(s, sides))
+    for (const Vec3& at : whole_across(s, sides)) {
       if (lowest - slack < at.z && at.z < highest + slack && !(joined.last && at.x > last - slack))
         beyond.push_back(at);
+      if (first - slack < at.x && at.x < last + slack && at.z < lowest - slack)
+        below_hollow = std::max(below_hollow, at.z);
+    }
+  if (below == -far && below_hollow > -far) below = (lowest + below_hollow) / 2;  // where no node is
   if (before == -far)
     for (const Vec3& at : beyond)
       if (at.x < first - slack) before = std::max(before, at.x);

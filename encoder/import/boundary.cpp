@@ -13,6 +13,8 @@
 #include <numeric>
 #include <set>
 
+#include "solver/snapshot/cell_types.h"
+
 namespace cleft {
 
 namespace {
@@ -153,6 +155,21 @@ class Faces {
 };
 
 }  // namespace
+
+std::optional<Vec3> normal_of_shell(const SourceMesh& mesh, const std::vector<char>& at) {
+  if (!std::all_of(mesh.cell_types.begin(), mesh.cell_types.end(), is_flat_type)) return {};
+  Vec3 sum;
+  for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {
+    const auto first = mesh.connectivity.begin() + mesh.cell_offsets[c],
+               last = mesh.connectivity.begin() + mesh.cell_offsets[c + 1];
+    if (last - first < 3 || std::none_of(first, last, [&](std::int64_t n) { return at[n]; })) continue;
+    const Vec3& corner = mesh.points[*first];
+    const Vec3 normal = cross(mesh.points[first[1]] - corner, mesh.points[first[2]] - corner);
+    sum += (dot(normal, sum) < 0 ? -1 : 1) * normal;
+  }
+  if (sum == Vec3{}) return {};
+  return normalized(sum);
+}
 
 std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int32_t>& nodes) {
   std::vector<char> asked(mesh.points.size());

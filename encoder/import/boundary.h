@@ -8,6 +8,9 @@
 
 namespace cleft {
 
+/// The mean normal of a shell at some of its nodes, up to its sign; none where the mesh has solid cells.
+std::optional<Vec3> normal_of_shell(const SourceMesh& mesh, const std::vector<char>& at);
+
 /// Unit normals, outward, of the faces of solid cells that no other cell has and that have one of the nodes.
 std::vector<Vec3> outward_at(const SourceMesh& mesh, const std::vector<std::int32_t>& nodes);
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "encoder/import/boundary.h"
 #include "encoder/import/break_components.h"
 #include "encoder/import/break_surface.h"
 
@@ -151,7 +152,8 @@ class Search {
       return {};
     }
     if (const auto plane = common_plane(parting, tolerance_, flat_)) return plane;
-    return common_plane(all, tolerance_, flat_);
+    if (const auto plane = common_plane(all, tolerance_, flat_)) return plane;
+    return upright_on_shell(parting);
   }
 
   /// The pairs of a break that is no plane, and its best plane: over it, the break is a surface.
@@ -232,6 +234,16 @@ class Search {
       if (partings_.first_frame[p] < frames && node_asked[partings_.pairs[p][0]])
         parting.push_back(place_of(partings_.pairs[p]));
     return parting;
+  }
+
+  /// The plane through a straight slit in a shell that is no plane, upright on it.
+  std::optional<Plane> upright_on_shell(const std::vector<Vec3>& slit) const {
+    if (flat_ || slit.size() < 2 || spread_of(slit).deviation[1] > tolerance_) return {};
+    std::vector<char> on_slit(mesh_.points.size());
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (const std::int32_t node : groups_[g]) on_slit[node] = asked_[g];
+    const auto normal = normal_of_shell(mesh_, on_slit);
+    return normal ? common_plane(slit, tolerance_, normal) : std::nullopt;
   }
 
   void pair_where(Break& found, Distance distance, std::vector<std::string>& notes) const {

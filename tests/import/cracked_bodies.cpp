@@ -216,6 +216,10 @@ std::vector<CrackedBody> cracked_bodies() {
   plane.c = {0};
   rows.push_back(plane);
 
+  CrackedBody shell = named(plane, "straight slit along a curved shell");
+  shell.place = [](const Vec3& x) { return Vec3{x.x, 20 * std::sin(x.y / 20), 20 * std::cos(x.y / 20)}; };
+  rows.push_back(posed(shell, shell.name, Pose::random(7)));
+
   // The last columns open, and the front is nowhere in the body any more.
   CrackedBody divided = named(edge_crack(), "through the body, whose halves part");
   divided.a = planes(0, 24, 24), divided.times = planes(0, 16, 16);

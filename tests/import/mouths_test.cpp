@@ -2,6 +2,7 @@
 // behind what is not there.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/import/cracked_bodies.h"
@@ -84,8 +85,23 @@ CrackedBody corner_with_a_bent_face(bool flat) {
   return body;
 }
 
+/// Through the upper wall of a hollow body, whose lower one, in the same plane, is whole.
+CrackedBody through_a_wall() {
+  CrackedBody body = edge_crack();
+  body.name = "through a wall of a hollow body";
+  body.a = planes(0, 30, 30), body.b = planes(-10, 10, 20), body.c = planes(-16, 0, 16);
+  body.solid = [](const Vec3& x) { return std::abs(x.y) > 7 || x.z < -13 || x.z >= -3; };
+  body.doubled = [](const Vec3& x) { return x.x < 24 && x.z >= -3; };
+  body.displacement = [](const Vec3& x, int side, double t) {
+    const double below = std::clamp((-3 - x.z) / 10, 0., 1.), share = 1 - below * below * (3 - 2 * below);
+    return 0.01 * t * share * beside_front(x.x - 2 * t, x.y, side);
+  };
+  return body;
+}
+
 std::vector<CrackedBody> bodies() {
-  std::vector<CrackedBody> list;
+  std::vector<CrackedBody> list = {through_a_wall(),
+                                   posed(through_a_wall(), "the same, turned", Pose::random(8))};
   for (const bool flat : {false, true})
     for (const CrackedBody& body :
          {corner_with_a_bent_face(flat), one_sided_notch(flat), curved(one_sided_notch(flat)), corner(flat),
@@ -101,6 +117,9 @@ class Mouths : public testing::TestWithParam<std::size_t> {};
 }  // namespace
 
 TEST_P(Mouths, OpenWhereThePairsBegin) { expect_exact(bodies()[GetParam()]); }
+
+/// The break ends between the walls: its field takes no knots for the wall that is whole.
+TEST(HollowBody, IsCutThroughOneWallOnly) { EXPECT_LT(measured(through_a_wall()).bytes, 8000); }
 
 INSTANTIATE_TEST_SUITE_P(, Mouths, testing::Range(std::size_t{0}, bodies().size()));
 
