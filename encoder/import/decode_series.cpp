@@ -102,14 +102,50 @@ std::vector<InCells> in_cells(const SourceMesh& m, const std::vector<Place>& nod
   return list;
 }
 
+/// How far from the break, over the extent of its cells across it, a node may be that is on it: in any case,
+/// where all its cells are on the other side, and where it is on a lip of which most nodes are nearer.
+constexpr double at_break = 1e-3, single = 0.05, of_lip = 0.5;
+
+/// Whether all cells of a node are on one side of the break, and the node, by its place, on the other.
+bool is_on_wrong_side(const Place& place, const InCells& cells) {
+  const auto [left, right] = cells.sides;
+  return left != right && (right ? place.uvw.y < 0 : place.uvw.y > 0);
+}
+
+/// Nodes of the lips: those that are doubled and, in a mesh with one lip alone, those that hang together,
+/// most of them at the break.
+std::vector<char> nodes_of_lips(const SourceMesh& m, const std::vector<Place>& nodes,
+                                const std::vector<InCells>& cells, const std::vector<char>& doubled) {
+  const auto is_within = [&](std::size_t n, double share) {
+    return cells[n].sides[0] != cells[n].sides[1] && std::abs(nodes[n].uvw.y) <= share * cells[n].across;
+  };
+  std::vector<char> lips = doubled, near(nodes.size());
+  for (std::size_t n = 0; n < near.size(); ++n)
+    near[n] = is_within(n, is_on_wrong_side(nodes[n], cells[n]) ? of_lip : single);
+  Sets together(nodes.size());
+  for (std::size_t c = 0; c < m.cell_types.size(); ++c) {
+    std::optional<std::int32_t> one;
+    for (auto i = m.cell_offsets[c]; i < m.cell_offsets[c + 1]; ++i) {
+      const auto n = static_cast<std::int32_t>(m.connectivity[i]);
+      if (!near[n]) continue;
+      if (one) together.join(*one, n);
+      one = n;
+    }
+  }
+  std::vector<int> surplus(nodes.size());  // of those at the break
+  for (std::size_t n = 0; n < near.size(); ++n)
+    if (near[n]) surplus[together.root(static_cast<std::int32_t>(n))] += is_within(n, single) ? 1 : -1;
+  for (std::size_t n = 0; n < near.size(); ++n)
+    if (near[n] && surplus[together.root(static_cast<std::int32_t>(n))] > 0) lips[n] = 1;
+  return lips;
+}
+
 /// Puts a node at the break on the side of its cells. A mesh whose nodes are others than the source's has
 /// chords where the break is curved: its lips are beside v = 0 then, and may be on the wrong side.
-void put_on_side(Place& place, const InCells& cells, bool doubled) {
-  constexpr double at_break = 1e-3, single_lip = 0.05, lip = 0.5;  // of the extent of cells across the break
+void put_on_side(Place& place, const InCells& cells, bool on_lip) {
   const auto [left, right] = cells.sides;
-  const double distance = std::abs(place.uvw.y);
-  const bool on_wrong_side = left != right && (right ? place.uvw.y < 0 : place.uvw.y > 0);
-  if (distance <= (on_wrong_side ? (doubled ? lip : single_lip) : at_break) * cells.across) {
+  const double near = !is_on_wrong_side(place, cells) ? at_break : on_lip ? of_lip : single;
+  if (std::abs(place.uvw.y) <= near * cells.across) {
     place.uvw.y = 0;
     place.side = left == right ? Side::both : left ? Side::left : Side::right;
   } else {
@@ -171,10 +207,11 @@ std::vector<Place> nodes_in_field(const SourceMesh& m, const Field& field, const
   for (const std::size_t n : loose_nodes(m)) expected[n] = 0, body.points[n] = m.points[m.connectivity[0]];
   const std::vector<char> doubled = doubled_nodes(m, same_place(body));
   const std::vector<InCells> cells = in_cells(m, nodes, doubled);
+  const std::vector<char> lips = nodes_of_lips(m, nodes, cells, doubled);
   const double rounding = 100 * same_place(body);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Place& place = nodes[n];
-    put_on_side(place, cells[n], doubled[n]);
+    put_on_side(place, cells[n], lips[n]);
     if (expected[n]) expect_inside(field, place, cells[n], rounding, n, m.points[n]);
     for (int axis = 0; axis < 3; ++axis) place.uvw[axis] = clamped(field, axis, place.uvw[axis]);
   }
