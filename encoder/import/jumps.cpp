@@ -35,6 +35,19 @@ class Size {
 };
 
 constexpr double nearly_closed = 5e-3;  // of the largest jump
+constexpr double of_gradients = 2;      // times the largest difference within a cell
+
+/// The largest difference between the first and another corner of a cell.
+double largest_in_cells(const SourceMesh& mesh, const std::vector<double>& values, int components) {
+  double largest = 0;
+  for (std::size_t c = 0; c < mesh.cell_types.size(); ++c) {
+    const auto first = static_cast<std::int32_t>(mesh.connectivity[mesh.cell_offsets[c]]);
+    for (auto i = mesh.cell_offsets[c] + 1; i < mesh.cell_offsets[c + 1]; ++i)
+      largest = std::max(largest,
+                         jump_of(values, components, first, static_cast<std::int32_t>(mesh.connectivity[i])));
+  }
+  return largest;
+}
 
 /// The jumps of pairs, frame after frame.
 class Jumps {
@@ -174,16 +187,23 @@ Partings partings(const ImportedSeries& series, const Groups& groups, const std:
   const std::size_t field = telling_field(series);
   Jumps jumps(result.pairs, series.fields()[field].components);
   Size size;
+  const int components = series.fields()[field].components;
+  const bool of_means = series.fields()[field].of_means;
+  std::vector<double> in_cells;  // of each frame
   series.for_each_frame([&](std::size_t j, const FieldValues& values) {
     if (progress) progress(j);
-    size.see(values[field], series.fields()[field].components);
+    size.see(values[field], components);
     jumps.see(values[field]);
+    if (of_means) in_cells.push_back(largest_in_cells(series.mesh(), values[field], components));
   });
-  const double rounding = series.fields()[field].of_means ? std::numeric_limits<double>::infinity()
-                                                          : size.rounding(series.fields()[field]);
+  const double rounding = size.rounding(series.fields()[field]);
   result.open_at = rounding, result.largest_jump = jumps.largest();
   if (given) {
     result.open_at = std::max(rounding, given->is_share ? given->value * jumps.largest() : given->value);
+  } else if (of_means) {
+    result.open_at = of_gradients * *std::max_element(in_cells.begin(), in_cells.end());
+    if (jumps.largest() > result.open_at)
+      result.because = "means of cells jump by as much where all is closed";
   } else if (const double noise = jumps.noise(rounding); noise > rounding) {
     result.open_at = noise, result.because = "the jumps of closed pairs are noise up to about this";
   } else if (jumps.nearly_close(rounding)) {
@@ -191,9 +211,11 @@ Partings partings(const ImportedSeries& series, const Groups& groups, const std:
     result.because = "no pair is ever closed, and many are nearly closed";
   }
   result.first_frame.assign(result.pairs.size(), static_cast<std::int32_t>(series.frames()));
-  for (std::size_t j = series.frames(); j-- > 0;)
+  for (std::size_t j = series.frames(); j-- > 0;) {
+    const double open = of_means && !given ? std::max(rounding, of_gradients * in_cells[j]) : result.open_at;
     for (std::size_t p = 0; p < result.pairs.size(); ++p)
-      if (jumps.size(j, p) > result.open_at) result.first_frame[p] = static_cast<std::int32_t>(j);
+      if (jumps.size(j, p) > open) result.first_frame[p] = static_cast<std::int32_t>(j);
+  }
   return result;
 }
 

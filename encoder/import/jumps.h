@@ -46,7 +46,8 @@ struct Partings {
 /// Without `given`, `open_at` is rounding (rounding_of), or more where the data say so. Pairs are closed in
 /// frame 0: what they jump there is noise. So are jumps that turn around from frame to frame as often as not.
 /// Where no pair is ever closed and many are nearly closed, as with cohesive elements, it is 0.5 % of the
-/// largest jump.
+/// largest jump. Means of cells jump where all is closed, too: it is twice the largest difference of two
+/// corners of a cell.
 Partings partings(const ImportedSeries& series, const Groups& groups, const std::optional<OpenAt>& given = {},
                   const std::function<void(std::size_t)>& progress = {});
 

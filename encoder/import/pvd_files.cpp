@@ -28,11 +28,9 @@ namespace {
 
 std::string ending_of(const std::string& path) { return fs::path(path).extension().string(); }
 
-/// Files of pieces, each with its own nodes where they meet.
-bool is_of_pieces(const std::string& ending) { return ending == ".pvtu" || ending == ".vtm"; }
-
 bool is_frame(const std::string& ending) {
-  return is_of_pieces(ending) || ending == ".vtu" || ending == ".vtp" || ending == ".vtk" || ending == ".frd";
+  return ending == ".pvtu" || ending == ".vtm" || ending == ".vtu" || ending == ".vtp" || ending == ".vtk" ||
+         ending == ".frd";
 }
 
 vtkSmartPointer<vtkXMLReader> reader_of(const std::string& ending) {
@@ -80,6 +78,12 @@ class FrameFile {
   std::vector<std::string> cell_arrays() {
     if (results_) return {};
     return in_part() ? names_of(xml_->GetCellDataArraySelection()) : cell_array_names(data());
+  }
+
+  /// Pieces have their own nodes where they meet; a grid and its patches are one.
+  bool in_pieces() {
+    const std::string ending = ending_of(path_);
+    return ending == ".pvtu" || (ending == ".vtm" && has_pieces(data()));
   }
 
   SourceFrame read(const WantedArrays& wanted) {
@@ -130,7 +134,9 @@ class ListedFiles : public FrameFiles {
     return all;
   }
   const std::vector<double>& times() const override { return times_; }
-  bool in_pieces() const override { return in_pieces_; }
+  bool in_pieces() const override {
+    return in_parts_ || (!frames_.empty() && FrameFile(file(0)).in_pieces());
+  }
   const std::string& file(std::size_t frame) const override { return frames_[frame].front(); }
   std::vector<std::string> point_arrays(std::size_t frame) const override {
     return FrameFile(file(frame)).point_arrays();
@@ -158,10 +164,9 @@ class ListedFiles : public FrameFiles {
                        "' is no .vtu file, nor a .pvtu, .vtp, .vtm, .vtk or .frd; write unstructured grids "
                        "or surfaces (in "
                        "ParaView: Merge Blocks, then Save Data as .pvd)");
-    in_pieces_ = in_pieces_ || is_of_pieces(ending);
     if (!fs::is_regular_file(file)) throw InputError(where + ": there is no file '" + file + "'");
     if (part && !times_.empty() && times_.back() == time) {
-      frames_.back().push_back(file), in_pieces_ = true;
+      frames_.back().push_back(file), in_parts_ = true;
       return;
     }
     frames_.push_back({file});
@@ -173,7 +178,7 @@ class ListedFiles : public FrameFiles {
  private:
   std::vector<std::vector<std::string>> frames_;
   std::vector<double> times_;
-  bool in_pieces_ = false;
+  bool in_parts_ = false;  // files that are parts of one frame
 };
 
 class PvdFiles : public ListedFiles {

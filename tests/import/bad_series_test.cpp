@@ -67,7 +67,8 @@ TEST_F(BadSeries, FieldsThatAreNotThere) {
   SourceSeries odd = good;
   for (auto& values : odd.fields[1].frames) values.resize(odd.mesh.points.size() * 4);
   odd.fields[1].components = 4;
-  expect_refused({odd.write(in), "--field", "stress"}, {"has 4 components", "scalars (1), vectors (3, or 2)"});
+  expect_refused({odd.write(in), "--field", "stress"},
+                 {"has 4 components", "scalars (1), vectors (3, or 2)"});
 
   in.write("series_2.vtu", [&] {
     SourceSeries less = good;

@@ -52,10 +52,18 @@ std::string SourceSeries::vtu(std::size_t frame) const {
   std::ostringstream text;
   text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
           "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-       << mesh.points.size() << "\" NumberOfCells=\"" << mesh.cell_types.size() << "\">\n<PointData>\n";
-  for (const Field& field : fields)
-    text << data_array(single ? "Float32" : "Float64", field.name, field.components, field.frames[frame]);
-  text << "</PointData>\n<Points>\n"
+       << mesh.points.size() << "\" NumberOfCells=\"" << mesh.cell_types.size() << "\">\n";
+  for (const bool of_cells : {false, true}) {
+    const std::string element = of_cells ? "CellData>\n" : "PointData>\n";
+    if (of_cells && std::none_of(fields.begin(), fields.end(), [](const Field& f) { return f.of_cells; }))
+      continue;
+    text << "<" << element;
+    for (const Field& field : fields)
+      if (field.of_cells == of_cells)
+        text << data_array(single ? "Float32" : "Float64", field.name, field.components, field.frames[frame]);
+    text << "</" << element;
+  }
+  text << "<Points>\n"
        << data_array("Float64", "Points", 3, places) << "</Points>\n<Cells>\n"
        << data_array("Int64", "connectivity", 1, mesh.connectivity)
        << data_array("Int64", "offsets", 1,

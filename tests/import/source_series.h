@@ -18,7 +18,8 @@ struct SourceSeries {
   struct Field {
     std::string name;
     int components;
-    std::vector<std::vector<double>> frames;  ///< point by point
+    std::vector<std::vector<double>> frames;  ///< point by point, or cell by cell
+    bool of_cells = false;
   };
 
   SourceMesh mesh;

@@ -24,6 +24,7 @@ FORMATS = {
     "vtu_in_any_order": (ALL, 1e-12),
     "several_vtu": (ALL, 1e-12),
     "vtm": (ALL, 1e-12),
+    "vtm_of_a_body_and_its_boundary": ("energy", 1e-12),  # of cells alone: nodes that part are not welded
     "pvtu": (ALL, 1e-12),
     "legacy": (ALL, 1e-8),
     "two_pvd": ("u/f:displacement,s/f:stress,temperature,full,energy", 1e-12),

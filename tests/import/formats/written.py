@@ -138,6 +138,17 @@ def vtm(bar, folder):
     return list_in(folder, "bar.pvd", each(folder, ".vtm", one))
 
 
+def vtm_of_a_body_and_its_boundary(bar, folder):
+    def one(j, path):
+        body, blocks, surface = grid_of(bar, j), vtk.vtkMultiBlockDataSet(), vtk.vtkDataSetSurfaceFilter()
+        surface.SetInputData(body)
+        surface.Update()
+        blocks.SetBlock(0, body)
+        blocks.SetBlock(1, surface.GetOutput())
+        write(vtk.vtkXMLMultiBlockDataWriter(), blocks, path)
+    return list_in(folder, "bar.pvd", each(folder, ".vtm", one))
+
+
 def pvtu(bar, folder):
     def one(j, path):
         for p, cells in enumerate(bar.parts()):
