@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "base/error.h"
@@ -26,6 +27,22 @@ using Pairs = std::vector<std::array<std::int32_t, 2>>;
 bool is_curved_surface(const Snapshot& s) {
   return std::all_of(s.cell_types.begin(), s.cell_types.end(), is_flat_type) &&
          std::any_of(s.points.begin(), s.points.end(), [](const Vec3& p) { return p.z != 0; });
+}
+
+/// Whether there are cells that no others connect with the first one, also where all pairs are closed.
+bool has_parts(const Snapshot& s) {
+  std::vector<std::int32_t> up(s.points.size());
+  std::iota(up.begin(), up.end(), 0);
+  const auto root = [&](std::int64_t n) {
+    while (up[n] != n) n = up[n] = up[up[n]];
+    return static_cast<std::int32_t>(n);
+  };
+  for (std::size_t c = 0; c < s.cell_types.size(); ++c)
+    for (auto i = s.cell_offsets[c] + 1; i < s.cell_offsets[c + 1]; ++i)
+      up[root(s.connectivity[i])] = root(s.connectivity[i - 1]);
+  for (const auto& [left, right] : s.pairs) up[root(left)] = root(right);
+  return std::any_of(s.connectivity.begin(), s.connectivity.end(),
+                     [&](std::int64_t n) { return root(n) != root(s.connectivity.front()); });
 }
 
 /// Whether each pair parts in some frame.
@@ -319,6 +336,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     }
   }
   surface_only = s.source && is_curved_surface(reader.snapshot());
+  in_parts = s.source && has_parts(reader.snapshot());
   quadratic = s.parameters->mesh.elements == ElementOrder::quadratic;
   if (s.source && s.source->break_extent.size() >= 8)
     arm = std::any_of(s.source->break_extent.begin() + 4, s.source->break_extent.begin() + 8,

@@ -86,6 +86,7 @@ struct Series {
   std::vector<TimeKink> kinks;                     ///< and those of all, once they are shared
   bool round = false;                              ///< whether w is an angle around a round front
   bool surface_only = false;                       ///< of imported data: no solid, and no plane
+  bool in_parts = false;                           ///< of imported data: bodies that share no nodes
   double turning = 0;                              ///< of the direction of the break, radians
   Bend tightest;                                   ///< where it does so most
   bool bends = false;                              ///< whether it turns much

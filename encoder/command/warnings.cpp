@@ -75,6 +75,9 @@ std::string cause_of(const Field& field, const Series& series, const Place& plac
   if (p.y == 0)
     return "on the break, away from its ends; see whether all of it opens as one (cleft info, cleft import "
            "--open-at)";
+  if (series.in_parts)
+    return "the mesh has parts that share no nodes, and the field goes on smoothly from one to the other; "
+           "import each part by itself";
   return "away from the break the nodes do not determine more knots; refine the mesh there";
 }
 

@@ -271,6 +271,18 @@ TEST_F(EncodeReport, ASolidsSkinIsNamedAsTheCause) {
   EXPECT_EQ(said.find("refine the mesh"), std::string::npos) << said;
 }
 
+/// One body has a crack; beside it is another that moves away.
+TEST_F(EncodeReport, PartsThatMoveApartAreNamedAsTheCause) {
+  CrackedBody body = edge_crack();
+  body.solid = [](const Vec3& x) { return x.y < 8 || x.y > 9; };
+  body.displacement = [](const Vec3& x, int side, double t) {
+    return x.y > 8.5 ? Vec3{0, 0.2 * t, 0} : 0.01 * t * beside_front(x.x - 2 * t, x.y, side);
+  };
+  const std::string said = encode(body.series(), "displacement").output;
+  for (const char* told : {"warning: the spline", "parts that share no nodes", "import each part by itself"})
+    EXPECT_NE(said.find(told), std::string::npos) << told << "\n" << said;
+}
+
 TEST_F(EncodeReport, EveryFieldsSplineErrorIsToldAndWarnedOf) {
   const Plate plate(Plate::Cells::hexahedra, Pose());
   const Outcome outcome = encode(hot_and_moved(plate), "displacement,hot:heat[K],temperature");
