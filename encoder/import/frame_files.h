@@ -45,8 +45,8 @@ class FrameFiles {
 /// Throws InputError about `where` if a mesh is damaged, has no cells, or cells that snapshots cannot hold.
 void check_cells(const std::string& where, const SourceMesh& mesh);
 
-/// Brings values of the cells into the order of the same cells of `as`.
-void order_cells(SourceFrame& frame, const SourceMesh& as);
+/// Brings values of the cells into an order (order_as).
+void order_cells(SourceFrame& frame, const CellOrder& order);
 
 /// Appends another piece of the mesh, and the values there. Throws FileError about `path` if an array has
 /// other components there.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -29,9 +30,8 @@ void append(SourceFrame& all, const SourceFrame& piece, const std::string& path)
   join(all.arrays, piece.arrays), join(all.cell_arrays, piece.cell_arrays);
 }
 
-void order_cells(SourceFrame& frame, const SourceMesh& as) {
-  if (frame.cell_arrays.empty() || same_cells(frame.mesh, as)) return;
-  const std::vector<std::size_t> order = same_cells_in_order_of(frame.mesh, as).value();
+void order_cells(SourceFrame& frame, const CellOrder& order) {
+  if (order.empty()) return;
   for (SourceArray& array : frame.cell_arrays) {
     const auto components = static_cast<std::size_t>(array.components);
     std::vector<double> ordered;
@@ -142,7 +142,8 @@ class JoinedFiles : public FrameFiles {
   /// Brings values of the cells into the order of the first series', too.
   void check_mesh(std::size_t s, std::size_t frame, const SourceMesh& a, SourceFrame& one) const {
     const SourceMesh& b = one.mesh;
-    bool same = same_mesh(a, b);
+    const std::optional<CellOrder> order = order_as(b, a);
+    bool same = order.has_value();
     const double near = same ? same_place(a) : 0;
     for (std::size_t i = 0; same && i < a.points.size(); ++i) same = norm(a.points[i] - b.points[i]) <= near;
     if (!same)
@@ -150,7 +151,7 @@ class JoinedFiles : public FrameFiles {
                        "): has another mesh than " + series_[0]->file(frame) +
                        "; series that are read together have the same cells, and the same nodes in the same "
                        "order");
-    order_cells(one, a);
+    order_cells(one, *order);
   }
 
   std::vector<std::unique_ptr<FrameFiles>> series_;

@@ -161,7 +161,7 @@ void ImportedSeries::describe_fields(SourceFrame& first) {
   }
 }
 
-void ImportedSeries::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
+CellOrder ImportedSeries::check_mesh(std::size_t frame, const SourceMesh& mesh) const {
   const auto refuse = [&](const std::string& what) {
     throw InputError(where(frame) + ": " + what +
                      "; all frames must have the mesh of the first, or the last one another, too");
@@ -169,7 +169,9 @@ void ImportedSeries::check_mesh(std::size_t frame, const SourceMesh& mesh) const
   if (mesh.points.size() != mesh_as_read_.points.size())
     refuse("has " + std::to_string(mesh.points.size()) + " nodes, where frame 0 has " +
            std::to_string(mesh_as_read_.points.size()));
-  if (!same_mesh(mesh, mesh_as_read_)) refuse("has other cells than frame 0");
+  std::optional<CellOrder> order = order_as(mesh, mesh_as_read_);
+  if (!order) refuse("has other cells than frame 0");
+  return std::move(order).value();
 }
 
 void ImportedSeries::check_values(std::size_t frame, SourceFrame& found) const {
@@ -257,9 +259,9 @@ std::vector<double> ImportedSeries::at_nodes(std::size_t frame, std::size_t f,
 FieldValues ImportedSeries::frame(std::size_t frame) const {
   SourceFrame found = files_->read(frame, sources_there(frame));
   compose_fields(found);
-  check_mesh(frame, found.mesh);
+  const CellOrder order = check_mesh(frame, found.mesh);
   check_values(frame, found);
-  order_cells(found, mesh_as_read_);
+  order_cells(found, order);
   for (std::size_t i = 0; i < found.mesh.points.size(); ++i)
     farthest_moved_ = std::max(farthest_moved_, norm(found.mesh.points[i] - mesh_as_read_.points[i]));
   FieldValues values;

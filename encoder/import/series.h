@@ -83,7 +83,7 @@ class ImportedSeries {
   SourceArray& array_of(SourceFrame& frame, std::size_t field) const;
   void describe_fields(SourceFrame& first);
   void leave_loose_nodes();
-  void check_mesh(std::size_t frame, const SourceMesh& mesh) const;
+  CellOrder check_mesh(std::size_t frame, const SourceMesh& mesh) const;
   void check_values(std::size_t frame, SourceFrame& values) const;
   std::vector<double> at_nodes(std::size_t frame, std::size_t field, std::vector<double> values) const;
 

@@ -54,8 +54,8 @@ int compared(const SourceMesh& a, std::size_t i, const SourceMesh& b, std::size_
   return std::equal(x.begin(), x.end(), y.begin(), y.end()) ? 0 : 1;
 }
 
-std::vector<std::size_t> sorted_cells(const SourceMesh& mesh) {
-  std::vector<std::size_t> cells(mesh.cell_types.size());
+CellOrder sorted_cells(const SourceMesh& mesh) {
+  CellOrder cells(mesh.cell_types.size());
   std::iota(cells.begin(), cells.end(), 0);
   std::sort(cells.begin(), cells.end(), [&](std::size_t i, std::size_t k) {
     const int order = compared(mesh, i, mesh, k);
@@ -66,13 +66,15 @@ std::vector<std::size_t> sorted_cells(const SourceMesh& mesh) {
 
 }  // namespace
 
-std::optional<std::vector<std::size_t>> same_cells_in_order_of(const SourceMesh& mesh, const SourceMesh& as) {
+std::optional<CellOrder> order_as(const SourceMesh& mesh, const SourceMesh& as) {
   const std::size_t cells = as.cell_types.size();
+  if (mesh.points.size() != as.points.size()) return {};
+  if (same_cells(mesh, as)) return CellOrder();
   if (mesh.cell_types.size() != cells || mesh.cell_offsets.size() != cells + 1 ||
       as.cell_offsets.size() != cells + 1 || mesh.connectivity.size() != as.connectivity.size())
     return {};
-  std::vector<std::size_t> order(cells);
-  const std::vector<std::size_t> here = sorted_cells(mesh), there = sorted_cells(as);
+  CellOrder order(cells);
+  const CellOrder here = sorted_cells(mesh), there = sorted_cells(as);
   for (std::size_t i = 0; i < cells; ++i) {
     if (compared(mesh, here[i], as, there[i]) != 0) return {};
     order[there[i]] = here[i];
@@ -80,9 +82,7 @@ std::optional<std::vector<std::size_t>> same_cells_in_order_of(const SourceMesh&
   return order;
 }
 
-bool same_mesh(const SourceMesh& a, const SourceMesh& b) {
-  return a.points.size() == b.points.size() && (same_cells(a, b) || same_cells_in_order_of(a, b));
-}
+bool same_mesh(const SourceMesh& a, const SourceMesh& b) { return order_as(a, b).has_value(); }
 
 double diagonal(const std::vector<Vec3>& points) {
   if (points.empty()) return 0;

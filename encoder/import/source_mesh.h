@@ -21,9 +21,13 @@ inline bool same_cells(const SourceMesh& a, const SourceMesh& b) {
   return a.cell_types == b.cell_types && a.cell_offsets == b.cell_offsets && a.connectivity == b.connectivity;
 }
 
-/// Of each cell of `as` the number in `mesh` of the same cell, with the same corners in their order: filters
-/// that make the skin of a body may list its cells in another order each time. None where cells are others.
-std::optional<std::vector<std::size_t>> same_cells_in_order_of(const SourceMesh& mesh, const SourceMesh& as);
+/// Of each cell of one mesh its number in another; empty where they are in the same order.
+using CellOrder = std::vector<std::size_t>;
+
+/// Where the cells of `as` are in a mesh with as many nodes and the same cells, with the same corners in
+/// their order; none of another mesh. Filters that make the skin of a body may list its cells in another
+/// order each time.
+std::optional<CellOrder> order_as(const SourceMesh& mesh, const SourceMesh& as);
 
 /// Whether a mesh has the same nodes, by their number, and the same cells in any order.
 bool same_mesh(const SourceMesh& a, const SourceMesh& b);
