@@ -96,6 +96,11 @@ TEST_F(SolveRefuses, WhatTheFiniteModelDoesNotHave) {
                        {"--sensitivities skin.bending_stiffness", "0", "set it above 0"});
   expect_refused({"--set", "model=finite", "--set", "skin.initial_stress_stiffness=true"},
                  {"skin.initial_stress_stiffness = true", "set it to false"});
+  expect_refused({"--set", "model=finite", "--set", "skin.turning_stiffness=1"},
+                 {"skin.turning_stiffness = 1", "set it to 0"});
+  expect_refused({"--set", "skin.initial_stress_stiffness=true", "--set", "skin.turning_stiffness=0.5"},
+                 {"skin.turning_stiffness = 0.5", "set it to 0, or that to false"});
+  expect_refused({"--set", "skin.turning_stiffness=1.5"}, {"skin.turning_stiffness = 1.5", "1"});
   expect_refused({"--set", "model=finite", "--set", "tissue.law=st-venant-kirchhoff", "--set",
                   "tissue.formulation=mean-dilatation"},
                  {"tissue.law = st-venant-kirchhoff", "set tissue.law to \"neo-hookean\""});
