@@ -16,13 +16,13 @@ namespace cleft {
 struct CaseSamples {
   /// Of cases: all, or where there are many some that stand for all (representative_cases).
   std::vector<int> cases;
-  bool fitted_alike = false;  ///< CommonCases::fitted_alike()
   /// A column for each, x, y, z of displacements, mm.
   Eigen::MatrixXd displacements;
   /// The same of derivatives by parameters, mm per unit: of a case, by a name.
   std::vector<int> derivative_of;
   std::vector<std::string> parameter;
   Eigen::MatrixXd derivatives;
+  bool fitted_alike = false;  ///< CommonCases::fitted_alike()
 };
 
 /// At most `most` cases that are farthest from one another; in order.
