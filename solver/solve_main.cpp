@@ -157,7 +157,9 @@ void warn_of_turn(const Body& body, const CaseToSolve& one) {
             << shortest(std::round(most.angle * 180 / std::numbers::pi)) << " degrees, at ("
             << rounded(most.at.x) << ", " << rounded(most.at.y) << ", " << rounded(most.at.z)
             << ") mm, for which strains are not small, and the wound is too wide: set "
-               "skin.turning_stiffness = 1, or model = finite\n";
+               "skin.turning_stiffness = "
+            << shortest(std::max(0.01, std::round(100 * turning_share(most.angle)) / 100))
+            << ", as simulated wounds have, or model = finite\n";
 }
 
 /// Of cases that are not solved.

@@ -34,7 +34,7 @@ ModelError model_error(const Parameters& parameters, const std::string& work,
     Parameters p =
         applied({.element_size = length / elements, .margin = compared_margin * length}, parameters);
     p.model = model, p.mesh.cut_length = p.mesh.cut_depth = 0;
-    if (model == Model::finite) p.skin.initial_stress_stiffness = false;
+    if (model == Model::finite) p.skin.initial_stress_stiffness = false, p.skin.turning_stiffness = 0;
     check_consistency(p, "model = \"finite\"");
     progress("solving with " + std::string(model == Model::small ? "small" : "finite") + " strains and " +
              shortest(elements) + " elements along the cut");

@@ -312,7 +312,8 @@ int main(int argc, char** argv) {
           ->excludes(tolerance);
   app.add_option(
          "--regularisation", options.regularisation,
-         "with --control-points: the strength of the regularisation, the same for all cases of a study, "
+         "with --control-points: the strength of the displacement's regularisation, the same for all cases "
+         "of a study, "
          "so that what the nodes leave free changes smoothly from case to case, such as 3e-5 (default: "
          "for each case the strongest of 1e-4, 1e-5, ... 1e-8 that costs its fit next to nothing)")
       ->needs(control_points);

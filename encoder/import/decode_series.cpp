@@ -170,13 +170,16 @@ void expect_inside(const Field& field, const Place& place, const InCells& cells,
   }
 }
 
-/// Fields whose components were arrays of their own are such again.
+/// Fields whose components were arrays of their own are such again; an array that stands in several fields,
+/// or twice in one, is written once.
 std::vector<DecodedValues> as_they_were(std::vector<DecodedValues> all) {
   std::vector<DecodedValues> apart;
   for (DecodedValues& values : all) {
     const auto written = written_components(values.name, values.components);
     const auto components = static_cast<std::size_t>(values.components);
     for (const auto& [array, place] : written) {
+      if (std::ranges::any_of(apart, [&, &name = array](const auto& one) { return one.name == name; }))
+        continue;
       DecodedValues& one = apart.emplace_back(DecodedValues{array, 1, {}, values.unit});
       for (auto i = static_cast<std::size_t>(place); i < values.numbers.size(); i += components)
         one.numbers.push_back(values.numbers[i]);

@@ -106,9 +106,11 @@ bool scattered(const Distinct& distinct) {
 /// out, a case there leaves the end of an axis, or a corner, to what is beyond: the errors of that are least
 /// by methods, and with nuggets and lengths, that miss the cases themselves.
 bool on_sparse_grid(const Distinct& distinct) {
+  const auto few = [&](Eigen::Index n) { return 2 * n < distinct.places; };
   double combinations = 1;
   for (const Eigen::Index n : distinct.values) combinations *= static_cast<double>(n);
-  return !scattered(distinct) && combinations > 2 * static_cast<double>(distinct.places);
+  return std::ranges::all_of(distinct.values, few) &&
+         combinations > 2 * static_cast<double>(distinct.places);
 }
 
 /// By which hyperparameters of a Gaussian process are chosen. Where cases are scattered, from six a feature

@@ -1,5 +1,6 @@
 #include "explorer/body/body_warnings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -60,10 +61,10 @@ std::vector<std::string> warnings_of(const BodyReport& r) {
 
 std::string warning_of_turn(const Turn& most, double share) {
   return "in small strains the skin at " + place_text(most.at) + " mm would turn by " +
-         shortest(std::round(most.angle * degrees)) + " degrees: it is simulated with " +
-         (share < 1 ? hundredths(share) + " of " : "") +
-         "the stiffness against that which its tension gives it (skin.turning_stiffness = " +
-         hundredths(share) + "), with which wounds open less";
+         shortest(std::round(most.angle * degrees)) +
+         " degrees: it is simulated with a share of the stiffness against turning that its tension gives it "
+         "(skin.turning_stiffness = " +
+         shortest(std::max(0.01, std::round(100 * share) / 100)) + "), with which wounds open less";
 }
 
 std::string warning_of_turned(const CutMesh& mesh, const std::vector<int>& turned, double scale) {

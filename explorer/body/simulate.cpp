@@ -105,7 +105,7 @@ BodySimulation simulate(const BodyRequest& request, const std::function<void(con
   std::vector<Vec3> open = solve(result, parameters, folder, stop);
   if (const Turn most = most_turned_skin(result.body, open);
       most.angle > much_turn && lacks_stiffness_of_tension(parameters)) {
-    parameters.skin.turning_stiffness = std::min(1., (most.angle - much_turn) / (most_turn - much_turn));
+    parameters.skin.turning_stiffness = turning_share(most.angle);
     tell(solving + " again");
     open = solve(result, parameters, folder, stop);
     result.warnings.push_back(warning_of_turn(most, parameters.skin.turning_stiffness));

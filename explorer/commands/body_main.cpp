@@ -82,12 +82,16 @@ Body make_below(const Options& options, Json& figures) {
   warn_of_size(request.skin, options.scale, nullptr, "cleft body");
   request.skin = scaled(std::move(request.skin), options.scale);
   request.bone = options.body.read_bone(options.scale, {});
-  request.paths = read_paths(options, request.parameters.cut.depth);
+  auto [paths, ends] =
+      with_near_ends_joined(read_paths(options, request.parameters.cut.depth), narrowest_bridge);
+  const Json joined_ends = told_of(ends, 1, "cleft body");
+  request.paths = std::move(paths);
   if (!options.materials.empty()) request.layers = layers_of(read_region_file(options.materials));
   BodyReport report;
   Body body = make_body(request, &report);
   figures = cleft::figures_of(report);
   figures["mesh"] = cleft::figures_of(mesh);
+  figures["joined_ends"] = joined_ends;
   print_warnings(figures["warnings"], "cleft body");
   return body;
 }

@@ -110,6 +110,19 @@ Json figures_of(const Validity& v) {
           {"junction_tension", v.junction_tension ? finite(*v.junction_tension) : Json()}};
 }
 
+Json told_of(const std::vector<JoinedEnd>& ends, double scale, const char* command) {
+  Json list = Json::array();
+  for (const JoinedEnd& one : ends) {
+    list.push_back({{"cut", one.cut + 1},
+                    {"other", one.other + 1},
+                    {"end", one.start ? "start" : "end"},
+                    {"gap_mm", one.gap * scale}});
+    std::fprintf(stderr, "%s: note: cut %d %s %.3g mm from cut %d: it is led on to it\n", command,
+                 one.cut + 1, one.start ? "begins" : "ends", one.gap * scale, one.other + 1);
+  }
+  return list;
+}
+
 void print_warnings(const Json& warnings, const char* command) {
   for (const Json& warning : warnings)
     std::fprintf(stderr, "%s: warning: %s\n", command, warning.get<std::string>().c_str());

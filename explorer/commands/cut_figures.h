@@ -7,6 +7,7 @@
 #include "encoder/field/field.h"
 #include "explorer/incision/incision.h"
 #include "explorer/incision/mesh_repair.h"
+#include "explorer/incision/near_ends.h"
 #include "explorer/wound/validity.h"
 
 namespace cleft {
@@ -19,6 +20,10 @@ Json figures_of(const std::vector<const Incision*>& cuts, const SurfaceMesh& bef
 /// Of one cut.
 Json figures_of(const Incision& cut, double scale);
 Json figures_of(const Validity& validity);
+
+/// Of ends of paths that were led on to another cut, with lengths of `scale` mm; also told on stderr as notes
+/// of `command`.
+Json told_of(const std::vector<JoinedEnd>& ends, double scale, const char* command);
 
 /// On stderr, as those of `command`.
 void print_warnings(const Json& warnings, const char* command);

@@ -88,29 +88,14 @@ std::vector<ScalpelPath> read_paths(const Options& options, std::optional<double
   return paths;
 }
 
-Json figures_of(const std::vector<JoinedEnd>& ends, double scale) {
-  Json list = Json::array();
-  for (const JoinedEnd& one : ends) {
-    list.push_back({{"cut", one.cut + 1},
-                    {"other", one.other + 1},
-                    {"end", one.start ? "start" : "end"},
-                    {"gap_mm", one.gap * scale}});
-    std::cerr << "cleft cut: note: cut " << one.cut + 1 << (one.start ? " begins " : " ends ")
-              << shortest(std::round(1e3 * one.gap * scale) / 1e3) << " mm from cut " << one.other + 1
-              << ": it is led on to it\n";
-  }
-  return list;
-}
-
 /// A surface far from the origin is cut in coordinates from its cut.
 std::unique_ptr<MeshCuts> make_cuts(const Options& options, const Skin& skin, const Field* field,
-                                    const std::optional<BodyRequest>& simulated,
-                                    std::vector<JoinedEnd>& joined_ends) {
+                                    const std::optional<BodyRequest>& simulated, Json& joined_ends) {
   std::optional<double> depth;
   if (simulated) depth = simulated->parameters.cut.depth;
   if (field) depth = field->cut().depth;
   auto [paths, ends] = with_near_ends_joined(read_paths(options, depth), narrowest_bridge / options.scale);
-  joined_ends = std::move(ends);
+  joined_ends = told_of(ends, options.scale, "cleft cut");
   MeshCutsOptions how{options.scale, {}, options.max_edge};
   if (options.progress >= 0) how.progress = options.progress;
   const Vec3 origin = skin.volume ? Vec3{} : local_origin(skin.surface, paths.front());
@@ -164,13 +149,13 @@ void cut(const Options& options) {
   if (options.simulate) request = body_to_simulate(options.body, options.tension, fields);
   warn_of_size(skin.surface, options.scale, shape, "cleft cut");
   tell_note(skin.surface, options.mesh, "cleft cut");
-  std::vector<JoinedEnd> joined;
-  const auto made = make_cuts(options, skin, shape, request, joined);
+  Json joined_ends;
+  const auto made = make_cuts(options, skin, shape, request, joined_ends);
   const MeshCuts& cuts = *made;
   SurfaceMesh result = cuts.mesh().surface();
   Json figures = figures_of(cuts.cuts(), cuts.uncut(), options.scale);
   figures["mesh"] = figures_of(skin.report);
-  figures["joined_ends"] = figures_of(joined, options.scale);
+  figures["joined_ends"] = std::move(joined_ends);
   figures["cut_ms"] = 1e3 * cuts.seconds();
   figures["us_per_step"] = 1e6 * cuts.stepping_seconds() / figures["steps"].get<double>();
   for (const Incision* one : cuts.cuts()) figures["cuts"].push_back(figures_of(*one, options.scale));

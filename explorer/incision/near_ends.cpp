@@ -46,8 +46,8 @@ JoinedPaths with_near_ends_joined(std::vector<ScalpelPath> paths, double near) {
         const auto way = way_over(path, start, joined.paths[j], near);
         if (!way) continue;
         const Vec3 at = path.at(start ? 0 : path.length()).position;
-        joined.ends.push_back({static_cast<int>(i), static_cast<int>(j), start,
-                               std::abs(joined.paths[j].coordinates(at).v), at});
+        joined.ends.push_back(
+            {static_cast<int>(i), static_cast<int>(j), start, std::abs(joined.paths[j].coordinates(at).v)});
         path = with_end_moved(path, start, *way);
         break;
       }

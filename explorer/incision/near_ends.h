@@ -14,7 +14,6 @@ struct JoinedEnd {
   int cut, other;  ///< of the paths
   bool start;      ///< of the cut; else its end
   double gap;      ///< that there was between them
-  Vec3 at;
 };
 
 /// Paths of one mesh, whose ends have been moved on, the way that they go, over other paths that they end

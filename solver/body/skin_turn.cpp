@@ -18,6 +18,8 @@ Turn most_turned_skin(const Body& body, const std::vector<Vec3>& displacement) {
   return most;
 }
 
+double turning_share(double angle) { return std::clamp(10 * (angle - much_turn), 0., 1.); }
+
 bool lacks_stiffness_of_tension(const Parameters& p) {
   const Prestress& s = p.skin.prestress;
   return p.model == Model::small && !is_stiffened_by_prestress(p) && std::min(s.uu, s.vv) >= 0 &&

@@ -16,9 +16,12 @@ struct Turn {
 };
 Turn most_turned_skin(const Body& body, const std::vector<Vec3>& displacement);
 
-/// More than all bodies of tests/truth, radians; beyond it wounds open up to three times too wide in small
-/// strains. And the angle from which on skin has the whole stiffness of its tension against that.
-constexpr double much_turn = 0.9, most_turn = 1.4;
+/// Radians. More than all bodies of tests/truth; beyond it wounds open up to three times too wide in small
+/// strains.
+constexpr double much_turn = 0.9;
+/// The skin.turning_stiffness that is advised where skin turns so far: 0 up to much_turn, so that no answer
+/// jumps, and 1 from a tenth of a radian beyond it.
+double turning_share(double angle);
 
 /// Whether skin could resist turning by its tension, and does not.
 bool lacks_stiffness_of_tension(const Parameters& parameters);

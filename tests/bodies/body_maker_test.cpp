@@ -228,9 +228,8 @@ TEST(MakeBody, APathMayBeginAtTheOutline) {
     }
 }
 
-/// The tension lies in the triangles, along the given direction as it is seen there.
-/// The other face of a thin organ is reached around the ends of a cut, too, and is as far from it in its
-/// coordinates as it is in space.
+/// The other face of a thin organ is reached around the ends of a cut, too, and is at least as far from it in
+/// its coordinates as it is in space.
 TEST(MakeBody, CoordinatesBehindAnEdgeAreFar) {
   const testing::Bend edge = testing::lamella(10, 4);
   for (const auto& places : {std::vector<std::pair<double, double>>{{-4, -6}, {3, 10}},
@@ -257,6 +256,7 @@ TEST(MakeBody, CoordinatesBehindAnEdgeAreFar) {
   }
 }
 
+/// The tension lies in the triangles, along the given direction as it is seen there.
 TEST(MakeBody, TheTensionLiesInTheSkin) {
   BodyRequest r = request(testing::cylinder_along(40), {along});
   r.tension = {{1, 1, 0.2}};

@@ -229,7 +229,7 @@ TEST(SimulatedWounds, OfAnotherBodyAreRefused) {
 }
 
 /// On an edge of a body the skin under tension is held by little else than its own stiffness against turning:
-/// with it openings on a cylinder of 12 mm are 6 % less than in finite strains, and without it 27 % greater.
+/// a cylinder of 7 mm opens half as far again without it as in finite strains.
 TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
   const auto request_for = [](const testing::Bend& bend) {
     BodyRequest request;
@@ -242,23 +242,32 @@ TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
   const auto share_of = [](const BodySimulation& simulation) {
     return simulation.series->snapshot().parameters->skin.turning_stiffness;
   };
+  const auto warned = [](const BodySimulation& simulation) {
+    for (const std::string& warning : simulation.warnings)
+      if (warning.find("skin.turning_stiffness = ") != std::string::npos) return true;
+    return false;
+  };
   setenv("CLEFT_BIN", CLEFT_BIN, 1);
   std::vector<BodySimulation> simulations;
-  for (const double radius : {1e6, 12.})
-    simulations.push_back(simulate(request_for(testing::cylinder_along(radius))));
+  simulations.push_back(simulate(request_for(testing::flat)));
+  BodyRequest request = request_for(testing::cylinder_along(7));
+  simulations.push_back(simulate(request));
   const BodySimulation &flat = simulations.front(), &edge = simulations.back();
   EXPECT_EQ(share_of(flat), 0);
-  EXPECT_EQ(share_of(edge), 1);
-  ASSERT_FALSE(edge.warnings.empty());
-  EXPECT_NE(edge.warnings.back().find("skin.turning_stiffness = 1"), std::string::npos)
-      << edge.warnings.back();
-  BodyRequest finite = request_for(testing::cylinder_along(12));
-  finite.parameters.model = Model::finite;
-  const BodySimulation true_edge = simulate(finite);
-  EXPECT_EQ(share_of(true_edge), 0);
-  EXPECT_NEAR(edge.gape / true_edge.gape, 1, 0.08);
+  EXPECT_FALSE(warned(flat));
+  EXPECT_GT(share_of(edge), 0.5);
+  EXPECT_TRUE(warned(edge));
+  request.parameters.skin.turning_stiffness = share_of(edge);
+  const BodySimulation same = simulate(request);
+  EXPECT_FALSE(warned(same)) << "was asked for";
+  EXPECT_NEAR(edge.gape, same.gape, 1e-6 * same.gape);
+  request.parameters.skin.turning_stiffness = 0, request.parameters.model = Model::finite;
+  const BodySimulation true_edge = simulate(request);
+  EXPECT_FALSE(warned(true_edge));
+  EXPECT_NEAR(edge.gape / true_edge.gape, 1, 0.1);
 
   // Nothing jumps where it begins: the plate under tensions with which its skin turns as far, or hardly more.
+  // (The whole geometric stiffness makes openings 17 % smaller, that against turning 6 %.)
   const auto open = flat.series->displacement(flat.series->snapshot().frames() - 1);
   const auto turn = [&](double times) {
     std::vector<Vec3> scaled = open;
@@ -268,14 +277,14 @@ TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
   double less = 1, more = 10;
   while (more - less > 1e-3) (turn((less + more) / 2) < much_turn ? less : more) = (less + more) / 2;
   const auto gape_under = [&](double times) {
-    BodyRequest request = request_for(testing::cylinder_along(1e6));
-    Prestress& prestress = request.parameters.skin.prestress;
+    BodyRequest plate = request_for(testing::flat);
+    Prestress& prestress = plate.parameters.skin.prestress;
     prestress.uu *= times, prestress.vv *= times;
-    const BodySimulation one = simulate(request);
+    const BodySimulation one = simulate(plate);
     EXPECT_EQ(share_of(one) > 0, times > less);
     return one.gape;
   };
-  EXPECT_NEAR(gape_under(1.01 * less) / gape_under(0.99 * less), 1.02, 0.01);
+  EXPECT_NEAR(gape_under(1.01 * less) / gape_under(0.99 * less), 1.02, 0.03);
 
   TemporaryFolder folder;  // by itself the solver leaves it to the case, and warns
   folder.write("case.toml", "[case]\npatch.height = 6\n");
@@ -285,7 +294,7 @@ TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
     const Outcome alone = run_cleft("solve", {folder / "case.toml", "--mesh", folder / "body.h5", "--out",
                                               folder / "case.h5", "--no-estimate"});
     expect_success(alone);
-    const bool told = alone.output.find("skin.turning_stiffness = 1") != std::string::npos;
+    const bool told = alone.output.find("skin.turning_stiffness = ") != std::string::npos;
     EXPECT_EQ(told, simulation == &simulations.back()) << alone.output;
   }
 }

@@ -1,6 +1,8 @@
 // Fields whose components are arrays of their own, and vectors of two components.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "encoder/import/frame_files.h"
 #include "tests/import/plate.h"
 #include "tests/pipeline/commands.h"

@@ -6,8 +6,8 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <numeric>
+#include <optional>
 #include <random>
 
 namespace cleft {
@@ -370,6 +370,15 @@ TEST(KernelRegression, OnASparseGridAProcessPassesThroughCasesThatAreFittedAlike
   EXPECT_LT(grid.off_cases(through), 1e-3);
   EXPECT_GT(grid.off_cases(tuned), 10 * grid.off_cases(through));
   EXPECT_LT(grid.error_between(through), grid.error_between(tuned));
+}
+
+/// Nor are scattered cases a sparse grid because one feature takes two values in them.
+TEST(KernelRegression, CasesThatAreFittedAlikeHaveAllMethodsElsewhere) {
+  Problem p = random_problem(30, 4, 1, 4);
+  p.cases.fitted_alike = true;
+  EXPECT_GT(all_methods(p.cases).size(), 2u);
+  for (Eigen::Index i = 0; i < 30; ++i) p.cases.features(i, 3) = i % 2 == 0 ? -1 : 1;
+  EXPECT_GT(all_methods(p.cases).size(), 2u);
 }
 
 }  // namespace cleft
