@@ -99,6 +99,7 @@ TEST(SkinForce, OfAPunchGrowsWithTheDentAndIsRefusedWhereItIsNotKnown) {
   EXPECT_GT(punch(1).of(on_bone), punch(1).of(p));
   for (const auto& [name, value] : std::map<std::string, Value>{{"model", "finite"},
                                                                 {"skin.initial_stress_stiffness", "true"},
+                                                                {"skin.turning_stiffness", 0.5},
                                                                 {"skin.bending_stiffness", 0.1},
                                                                 {"patch.slope", 3.},
                                                                 {"foundation.stiffness", 0.}}) {

@@ -144,9 +144,10 @@ TEST(ResidualBound, IsRefusedWhereItWouldNotHold) {
     const std::string file = solve_into(folder, {changed}, {.estimate = false})[0].out;
     EXPECT_THROW(parameters_to_bound(SnapshotReader(file).snapshot(), file), InputError);
   };
-  Parameters contact = p, tense = p;
+  Parameters contact = p, tense = p, turning = p;
   contact.cut.contact = true, tense.skin.initial_stress_stiffness = true;
-  refused(contact), refused(tense);
+  turning.skin.turning_stiffness = 0.5;
+  for (const Parameters& changed : {contact, tense, turning}) refused(changed);
   const std::string file = solve_into(folder, {p}, {.estimate = false})[0].out;
   Parameters longer = p;
   longer.patch.length += 1;

@@ -158,11 +158,11 @@ TEST(Advice, SaysWhyAModelCannotBeChosen) {
   const TemporaryFolder folder;
   const std::string stiffened = folder.write("stiffened.toml",
                                              "[case]\ncut = { length = 12, depth = 2 }\n"
-                                             "skin.initial_stress_stiffness = true\npatch.height = 5\n"),
+                                             "skin.turning_stiffness = 0.5\npatch.height = 5\n"),
                     out = folder / "out.toml";
   const std::string said =
       expect_success(run_cleft("advise", {stiffened, "--error", "0.2", "--out", out})).output;
-  for (const char* part : {"the prestress stiffens the skin anyway", "small strains are off by another",
+  for (const char* part : {"skin under tension resists turning anyway", "small strains are off by another",
                            "which is not in the error of 0.2"})
     EXPECT_NE(said.find(part), said.npos) << said;
   EXPECT_EQ(read_study(out).base.parameters.model, Model::small);

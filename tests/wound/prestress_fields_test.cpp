@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "base/error.h"
 #include "encoder/field/file/field_file.h"
 #include "tests/support/temporary_folder.h"
@@ -74,8 +76,10 @@ TEST(PrestressFields, ThoseOfFiniteStrainsAreRefused) {
 }
 
 TEST(PrestressFields, ThoseOfContactOrAStiffeningTensionAreRefused) {
-  for (const char* name : {"cut.contact", "skin.initial_stress_stiffness"}) {
-    const ThreeCases cases({{name, std::string("true")}});
+  for (const auto& [name, value] : std::map<std::string, Value>{{"cut.contact", "true"},
+                                                                {"skin.initial_stress_stiffness", "true"},
+                                                                {"skin.turning_stiffness", 0.5}}) {
+    const ThreeCases cases({{name, value}});
     EXPECT_NE(cases.refusal().find(name), std::string::npos);
   }
 }
