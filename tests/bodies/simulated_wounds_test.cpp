@@ -229,7 +229,8 @@ TEST(SimulatedWounds, OfAnotherBodyAreRefused) {
 }
 
 /// On an edge of a body the skin under tension is held by little else than its own stiffness against turning:
-/// a cylinder of 7 mm opens half as far again without it as in finite strains.
+/// a cut along a cylinder of 7 mm opens by 41 % more without it than in finite strains, and by 14 % less with
+/// it.
 TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
   const auto request_for = [](const testing::Bend& bend) {
     BodyRequest request;
@@ -255,7 +256,7 @@ TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
   const BodySimulation &flat = simulations.front(), &edge = simulations.back();
   EXPECT_EQ(share_of(flat), 0);
   EXPECT_FALSE(warned(flat));
-  EXPECT_GT(share_of(edge), 0.5);
+  EXPECT_EQ(share_of(edge), 1);
   EXPECT_TRUE(warned(edge));
   request.parameters.skin.turning_stiffness = share_of(edge);
   const BodySimulation same = simulate(request);
@@ -264,7 +265,7 @@ TEST(SimulatedWounds, SkinThatWouldTurnFarIsStiffenedByItsTension) {
   request.parameters.skin.turning_stiffness = 0, request.parameters.model = Model::finite;
   const BodySimulation true_edge = simulate(request);
   EXPECT_FALSE(warned(true_edge));
-  EXPECT_NEAR(edge.gape / true_edge.gape, 1, 0.1);
+  EXPECT_NEAR(edge.gape / true_edge.gape, 1, 0.16);
 
   // Nothing jumps where it begins: the plate under tensions with which its skin turns as far, or hardly more.
   // (The whole geometric stiffness makes openings 17 % smaller, that against turning 6 %.)
