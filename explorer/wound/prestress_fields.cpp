@@ -112,9 +112,9 @@ PrestressFields::PrestressFields(const PublishedStudy& study, int like) {
     throw InputError(study.path() + ": fields do not superpose with " + own.name_of(own->model) +
                      " = finite; interpolate the tension's own field from a study (cleft interpolate)");
   if (!is_linear_in_prestress(*own))
-    throw InputError(study.path() + ": fields do not superpose with " + own.name_of(own->cut.contact) +
-                     ", " + own.name_of(own->skin.initial_stress_stiffness) +
-                     " or " + own.name_of(own->skin.turning_stiffness));
+    throw InputError(study.path() + ": fields do not superpose with " + own.name_of(own->cut.contact) + ", " +
+                     own.name_of(own->skin.initial_stress_stiffness) + " or " +
+                     own.name_of(own->skin.turning_stiffness));
   Vec3 p[3];
   for (int i = 0; i < study.size() && fields_.size() < 3; ++i) {
     if (!difference(study, like, i).empty()) continue;
