@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "params/material/isotropic.h"
 #include "params/parameters/table.h"
 

@@ -31,7 +31,7 @@ class Components : public testing::Test {
     }
     return all;
   }
-  SourceSeries with(std::vector<std::vector<SourceSeries::Field>> fields) const {
+  SourceSeries with(const std::vector<std::vector<SourceSeries::Field>>& fields) const {
     SourceSeries series = whole;
     series.fields.clear();
     for (const auto& some : fields) series.fields.insert(series.fields.end(), some.begin(), some.end());
