@@ -202,7 +202,8 @@ TEST_F(HapticCommand, EachCutIsFeltAsTheTissueBelowItIs) {
     const auto told = figures(arguments);
     EXPECT_EQ(told["cuts"], 2);
     EXPECT_LE(told["change_beyond_permitted_N"], 0);
-    return told["puncture_stiffness_N_per_mm"].get<std::array<double, 2>>();
+    return std::array{told["softest_puncture_N_per_mm"].get<double>(),
+                      told["firmest_puncture_N_per_mm"].get<double>()};
   };
   const auto [softest, firmest] = with({"--bone", bone});
   EXPECT_NEAR(softest, soft, 1e-3 * soft);
