@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "base/error.h"
+#include "base/sets.h"
 #include "base/text.h"
 #include "encoder/break_ends.h"
 #include "encoder/own_coordinates.h"
@@ -31,18 +31,14 @@ bool is_curved_surface(const Snapshot& s) {
 
 /// Whether there are cells that no others connect with the first one, also where all pairs are closed.
 bool has_parts(const Snapshot& s) {
-  std::vector<std::int32_t> up(s.points.size());
-  std::iota(up.begin(), up.end(), 0);
-  const auto root = [&](std::int64_t n) {
-    while (up[n] != n) n = up[n] = up[up[n]];
-    return static_cast<std::int32_t>(n);
-  };
+  Sets joined(s.points.size());
+  const auto node = [&](std::int64_t i) { return static_cast<std::int32_t>(s.connectivity[i]); };
   for (std::size_t c = 0; c < s.cell_types.size(); ++c)
-    for (auto i = s.cell_offsets[c] + 1; i < s.cell_offsets[c + 1]; ++i)
-      up[root(s.connectivity[i])] = root(s.connectivity[i - 1]);
-  for (const auto& [left, right] : s.pairs) up[root(left)] = root(right);
-  return std::any_of(s.connectivity.begin(), s.connectivity.end(),
-                     [&](std::int64_t n) { return root(n) != root(s.connectivity.front()); });
+    for (auto i = s.cell_offsets[c] + 1; i < s.cell_offsets[c + 1]; ++i) joined.join(node(i - 1), node(i));
+  for (const auto& [left, right] : s.pairs) joined.join(left, right);
+  return std::any_of(s.connectivity.begin(), s.connectivity.end(), [&](std::int64_t n) {
+    return joined.root(static_cast<std::int32_t>(n)) != joined.root(node(0));
+  });
 }
 
 /// Whether each pair parts in some frame.

@@ -79,6 +79,12 @@ StiffnessRatios stiffness_ratios(const Parameters& one, const Parameters& other)
   return ratios;
 }
 
+PrestressSetting prestress_setting(const Parameters& p) {
+  if (p.skin.turning_stiffness > 0)
+    return {row_of(p, p.skin.turning_stiffness).name + " = " + shortest(p.skin.turning_stiffness), "0"};
+  return {row_of(p, p.skin.initial_stress_stiffness).name + " = true", "false"};
+}
+
 void check_linear(const Parameters& p, const std::string& where) {
   const auto refuse = [&](const std::string& setting, const std::string& why, const std::string& remedy) {
     throw InputError(where + ": " + setting + ": " + why + "; " + remedy);
@@ -90,9 +96,7 @@ void check_linear(const Parameters& p, const std::string& where) {
     refuse(row_of(p, p.cut.contact).name + " = true", "forces of contact are not known without solving",
            solve + ", or set it to false");
   if (is_stiffened_by_prestress(p))
-    refuse(p.skin.turning_stiffness > 0
-               ? row_of(p, p.skin.turning_stiffness).name + " = " + shortest(p.skin.turning_stiffness)
-               : row_of(p, p.skin.initial_stress_stiffness).name + " = true",
+    refuse(prestress_setting(p).text,
            "the stiffness may have negative parts, so that no ratio of moduli bounds it", solve);
 }
 

@@ -34,6 +34,13 @@ struct StiffnessRatios {
 };
 StiffnessRatios stiffness_ratios(const Parameters& one, const Parameters& other);
 
+/// How the skin's prestress is a part of the stiffness (is_stiffened_by_prestress): "NAME = VALUE", and the
+/// value without it.
+struct PrestressSetting {
+  std::string text, without;
+};
+PrestressSetting prestress_setting(const Parameters& parameters);
+
 /// Throws InputError with the remedy if the equations of a case are not linear with such a stiffness: with
 /// finite strains, contact, or a stiffness of the skin's prestress.
 void check_linear(const Parameters& parameters, const std::string& where);

@@ -74,13 +74,12 @@ void solve_group(SolveJob& job, const std::vector<std::size_t>& group, KeptPatch
 
 void check_options(const Parameters& p, const SolveOptions& options, const std::string& where) {
   const bool contact = p.cut.contact;
-  if (options.unit_prestress && (contact || is_stiffened_by_prestress(p)))
+  if (options.unit_prestress && (contact || is_stiffened_by_prestress(p))) {
+    const PrestressSetting setting =
+        contact ? PrestressSetting{row_of(p, p.cut.contact).name + " = true", "false"} : prestress_setting(p);
     throw InputError(where + ": --unit-prestress: the series is not linear in the prestress with " +
-                     (contact                        ? row_of(p, p.cut.contact)
-                      : p.skin.turning_stiffness > 0 ? row_of(p, p.skin.turning_stiffness)
-                                                     : row_of(p, p.skin.initial_stress_stiffness))
-                         .name +
-                     " = true; set it to false");
+                     setting.text + "; set it to " + setting.without);
+  }
   if (options.method == Method::iterative && contact)
     throw InputError(where +
                      ": --method iterative: contact is found with the factor; set cut.contact to false, or "

@@ -313,9 +313,9 @@ int main(int argc, char** argv) {
   app.add_option(
          "--regularisation", options.regularisation,
          "with --control-points: the strength of the displacement's regularisation, the same for all cases "
-         "of a study, "
-         "so that what the nodes leave free changes smoothly from case to case, such as 3e-5 (default: "
-         "for each case the strongest of 1e-4, 1e-5, ... 1e-8 that costs its fit next to nothing)")
+         "of "
+         "a study, so that what the nodes leave free changes smoothly from case to case, such as 3e-5 "
+         "(default: for each case the strongest of 1e-4, 1e-5, ... 1e-8 that costs its fit next to nothing)")
       ->needs(control_points);
   app.add_option(
          "--parametrization", options.parametrization,

@@ -1,7 +1,5 @@
 // cleft cut: cuts through one mesh, one after the other, without a window.
 #include <algorithm>
-#include <cmath>
-#include <iostream>
 #include <memory>
 #include <optional>
 

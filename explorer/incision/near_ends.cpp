@@ -11,8 +11,13 @@ namespace {
 constexpr double least_approach = 0.2;  // of the way that an end goes: flatter, it runs beside the other path
 constexpr double beyond = 0.2;          // of `near`: how far an end is moved over the other path
 
-/// How much farther an end has to go to be just beyond the other path, if it ends just before it.
-std::optional<double> way_over(const ScalpelPath& path, bool start, const ScalpelPath& other, double near) {
+/// Of an end just before the other path: how far from it, and how much farther it has to go to be just
+/// beyond.
+struct Approach {
+  double gap, way;
+};
+std::optional<Approach> approach_of(const ScalpelPath& path, bool start, const ScalpelPath& other,
+                                    double near) {
   const double s = start ? 0 : path.length(), back = std::min(4 * near, path.length() / 2);
   const PathCoordinates end = other.coordinates(path.at(s).position),
                         before = other.coordinates(path.at(start ? back : s - back).position);
@@ -20,7 +25,7 @@ std::optional<double> way_over(const ScalpelPath& path, bool start, const Scalpe
   if (end.s < 0 || end.s > other.length() || gap > near || std::abs(end.w) > near) return std::nullopt;
   const double approach = (before.v * (end.v < 0 ? -1 : 1) - gap) / back;
   if (approach < least_approach || gap == 0) return std::nullopt;
-  return (gap + beyond * near) / approach;
+  return Approach{gap, (gap + beyond * near) / approach};
 }
 
 ScalpelPath with_end_moved(const ScalpelPath& path, bool start, double way) {
@@ -43,12 +48,10 @@ JoinedPaths with_near_ends_joined(std::vector<ScalpelPath> paths, double near) {
       for (std::size_t j = 0; j < joined.paths.size(); ++j) {
         ScalpelPath& path = joined.paths[i];
         if (i == j) continue;
-        const auto way = way_over(path, start, joined.paths[j], near);
-        if (!way) continue;
-        const Vec3 at = path.at(start ? 0 : path.length()).position;
-        joined.ends.push_back(
-            {static_cast<int>(i), static_cast<int>(j), start, std::abs(joined.paths[j].coordinates(at).v)});
-        path = with_end_moved(path, start, *way);
+        const auto approach = approach_of(path, start, joined.paths[j], near);
+        if (!approach) continue;
+        joined.ends.push_back({static_cast<int>(i), static_cast<int>(j), start, approach->gap});
+        path = with_end_moved(path, start, approach->way);
         break;
       }
   return joined;

@@ -56,13 +56,7 @@ TEST(Stiffness, OfThinLayersOnARigidBedIsTheirSum) {
 
 TEST(Stiffness, OfABodyIsThatOfItsTissue) {
   Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
-  field.parameters = recorded(std::map<std::string, double>{{"tissue.young_modulus", 0.02},
-                                                            {"tissue.poisson_ratio", 0.4},
-                                                            {"patch.height", 8},
-                                                            {"foundation.stiffness", 0.005},
-                                                            {"skin.young_modulus", 0.13},
-                                                            {"skin.poisson_ratio", 0.4},
-                                                            {"skin.thickness", 1.5}});
+  field.parameters = recorded(testing::skin_on_springs());
   const double of_case = surface_stiffness(field);
   field.tissue = TissueBelow{{{0.02, 0.4, 8}}, 0.005};
   EXPECT_NEAR(surface_stiffness(field), of_case, 1e-9);
@@ -73,13 +67,7 @@ TEST(Stiffness, OfABodyIsThatOfItsTissue) {
 TEST(Stiffness, AboveBoneIsThatOfABodyThere) {
   Field field = testing::opening_field({-10, 20, 4}, 40, 30, 8, 4);
   EXPECT_EQ(FirmnessAboveBone(field).at(1), 1) << "nothing is known of it";
-  field.parameters = recorded({{"tissue.young_modulus", 0.02},
-                               {"tissue.poisson_ratio", 0.4},
-                               {"patch.height", 8},
-                               {"foundation.stiffness", 0.005},
-                               {"skin.young_modulus", 0.13},
-                               {"skin.poisson_ratio", 0.4},
-                               {"skin.thickness", 1.5}});
+  field.parameters = recorded(testing::skin_on_springs());
   const double of_case = surface_stiffness(field);
   const FirmnessAboveBone firmness(field);
   EXPECT_NEAR(firmness.at(8), 1, 1e-12);

@@ -183,13 +183,7 @@ TEST_F(HapticCommand, EachCutIsFeltAsTheTissueBelowItIs) {
   SurfaceMesh plate = testing::grid(30, 7, -30, 4, 2);
   for (Vec3& p : plate.points) p.z = -4;
   write_mesh(bone, plate);
-  const std::string opening = field({{"tissue.young_modulus", 0.02},
-                                     {"tissue.poisson_ratio", 0.4},
-                                     {"patch.height", 8},
-                                     {"foundation.stiffness", 0.005},
-                                     {"skin.young_modulus", 0.13},
-                                     {"skin.poisson_ratio", 0.4},
-                                     {"skin.thickness", 1.5}});
+  const std::string opening = field(testing::skin_on_springs());
   Field above = read_field(opening);
   const double soft = surface_stiffness(above);
   above.tissue = TissueBelow{{{0.02, 0.4, 4}}, 1000 * 0.02 / 8};

@@ -85,6 +85,8 @@ TEST_F(SolveRefuses, UnitSeriesOfWhatIsNotLinear) {
                  {"case.toml", "--unit-prestress", "cut.contact = true", "set it to false"});
   expect_wrong_options({.unit_prestress = true, .sensitivities = {}}, {"skin.initial_stress_stiffness=true"},
                        {"--unit-prestress", "skin.initial_stress_stiffness = true", "set it to false"});
+  expect_refused({"--unit-prestress", "--set", "skin.turning_stiffness=0.5"},
+                 {"--unit-prestress", "skin.turning_stiffness = 0.5", "set it to 0"});
 }
 
 TEST_F(SolveRefuses, WhatTheFiniteModelDoesNotHave) {

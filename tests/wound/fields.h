@@ -12,6 +12,13 @@
 
 namespace cleft::testing {
 
+/// What is known of skin on tissue on springs.
+inline std::map<std::string, double> skin_on_springs() {
+  return {{"tissue.young_modulus", 0.02},  {"tissue.poisson_ratio", 0.4}, {"patch.height", 8},
+          {"foundation.stiffness", 0.005}, {"skin.young_modulus", 0.13},  {"skin.poisson_ratio", 0.4},
+          {"skin.thickness", 1.5}};
+}
+
 /// Control points stand at Greville abscissae with the values of
 ///   d = (0.1 g, side g, 0.2 g),   g = gape * half ellipse over [start, start + t] * decay(v) * (1 + w /
 ///   depth)
