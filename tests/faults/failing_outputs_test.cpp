@@ -23,7 +23,7 @@ using Words = std::vector<std::string>;
 
 struct Writer {
   std::string name;
-  Words command;  ///< "IN/" and "OUT/" are the folders of inputs and of outputs
+  Words command;  ///< "IN/" and "OUT/" at the start of a word are the folders of inputs and of outputs
   /// Without one the outputs are a folder, or several files, that may not exist before.
   std::string output = {};
   friend void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
@@ -64,9 +64,12 @@ const Writer writers[] = {
      "n.dffd"},
 };
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  if (const std::size_t at = text.find(what); at != std::string::npos) text.replace(at, what.size(), by);
-  return text;
+/// A word of a command with the folder that its first letters name; the folder's own name may hold any
+/// letters.
+std::string in_folder(const std::string& word, const std::string& inputs, const std::string& outputs) {
+  if (word.starts_with("OUT/")) return outputs + word.substr(3);
+  if (word.starts_with("IN/")) return inputs + word.substr(2);
+  return word;
 }
 
 /// All files of a folder, hidden ones too, by their names in it.
@@ -132,9 +135,9 @@ class FailingOutput : public testing::TestWithParam<Writer> {
     run.place.write("save.txt", "save " + run.out.path() + "/x.json\n");
     Words argv{CLEFT_BIN "/cleft-" + writer.command[0]};
     for (std::size_t i = 1; i < writer.command.size(); ++i) {
-      const std::string word = replaced(writer.command[i], "OUT", run.out.path());
+      const std::string& word = writer.command[i];
       const bool script = word.ends_with(".txt");
-      argv.push_back(replaced(word, "IN", script ? run.place.path() : in_->path()));
+      argv.push_back(in_folder(word, script ? run.place.path() : in_->path(), run.out.path()));
     }
     auto environment = failure;
     environment["LD_PRELOAD"] = CLEFT_FAILING_WRITES;
