@@ -12,6 +12,8 @@ namespace cleft {
 namespace {
 
 constexpr double furthest_end = 2;                   // mm: of a body's end from that of the mesh
+constexpr double furthest_pass = 0.3;                // mm: of a body's crossing from that of the mesh
+constexpr double least_loop = 2;                     // mm: of a path that comes back to where it was
 constexpr double least_reach = 1.5, most_reach = 2;  // of a shift, in its lengths: it folds nothing
 
 }  // namespace
@@ -36,6 +38,7 @@ BodyLips::BodyLips(const Body& body, int number, const Incision& cut, double sca
     stations_[s] = {reversed ? pair.right : pair.left, reversed ? pair.left : pair.right,
                     body.points[pair.left], pairs_at[place[pair.left]] == 1};
   }
+  add_earlier_passes(cut);
   for (const Incision::ChainVertex& c : cut.chain()) {
     const auto after = stations_.lower_bound(scale * c.s);
     if (after == stations_.begin() || after == stations_.end()) continue;
@@ -45,6 +48,21 @@ BodyLips::BodyLips(const Body& body, int number, const Incision& cut, double sca
     offset_.push_back(before->second.at + part * (after->second.at - before->second.at) -
                       scale * cut.mesh().position(c.left));
   }
+}
+
+/// Where a path crosses itself the pairs tell of its last pass alone.
+void BodyLips::add_earlier_passes(const Incision& cut) {
+  std::map<double, Station> earlier;
+  for (const auto& [s, station] : stations_) {
+    if (station.alone) continue;
+    double nearest = furthest_pass, at = 0;
+    for (const Incision::ChainVertex& c : cut.chain())
+      if (const double apart = norm(scale_ * cut.mesh().position(c.left) - station.at);
+          std::abs(scale_ * c.s - s) > least_loop && apart < nearest)
+        nearest = apart, at = scale_ * c.s;
+    if (nearest < furthest_pass) earlier.emplace(at, station);
+  }
+  stations_.merge(earlier);
 }
 
 int BodyLips::node(double s, bool right) const {

@@ -31,6 +31,8 @@ class BodyLips {
     Vec3 at;     // mm
     bool alone;  // on this cut alone
   };
+  void add_earlier_passes(const Incision& cut);
+
   double scale_;
   std::map<double, Station> stations_;  // by mm of the path
   std::vector<double> s_;               // increasing

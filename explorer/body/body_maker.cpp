@@ -337,7 +337,8 @@ class Maker {
     return best;
   }
 
-  /// Faces at the rim, where the body goes on; the mesh's own outlines are free.
+  /// Faces at the rim, where the body goes on, and at the mesh's own outlines, where it is held alike: the
+  /// skin's tension is balanced there, and a strip between a cut and an outline is not pulled away by it.
   void add_sides() {
     std::map<std::pair<int, int>, int> count;
     for (const auto& t : s_.mesh.triangles)
@@ -346,7 +347,7 @@ class Maker {
       for (int i = 0; i < 3; ++i) {
         const auto& corners = s_.mesh.triangles[t];
         const int a = corners[i], b = corners[(i + 1) % 3];
-        if (count[std::minmax(a, b)] != 1 || (s_.outline[a] && s_.outline[b])) continue;
+        if (count[std::minmax(a, b)] != 1) continue;
         for (int k = 0; k + 1 < layers(); ++k) {
           const auto& wedge = body_.wedges[static_cast<std::size_t>(k) * s_.mesh.triangles.size() + t];
           const int j = (i + 1) % 3;

@@ -12,6 +12,7 @@ namespace cleft {
 namespace {
 
 constexpr double least_angle = 5, most_off_blade = 10;  // degrees
+constexpr double least_held = 0.02;                     // of the opening, that is told
 constexpr double degrees = 180 / std::numbers::pi;
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
@@ -65,6 +66,20 @@ std::string warning_of_turn(const Turn& most, double share) {
          " degrees: it is simulated with a share of the stiffness against turning that its tension gives it "
          "(skin.turning_stiffness = " +
          shortest(std::max(0.01, std::round(100 * share) / 100)) + "), with which wounds open less";
+}
+
+std::string warning_of_guard(const CutMesh& mesh, const Guard& guard, double gape, double scale) {
+  const auto& changes = guard.changes();
+  const auto most = std::max_element(changes.begin(), changes.end(),
+                                     [](const auto& a, const auto& b) { return a.by < b.by; });
+  if (most == changes.end() || scale * most->by < least_held * gape) return "";
+  return std::to_string(changes.size()) +
+         (changes.size() == 1 ? " vertex of the skin moves" : " vertices of the skin move") +
+         " otherwise than in this simulation, by up to " + hundredths(scale * most->by) + " mm at " +
+         place_text(scale * mesh.position(most->vertex)) +
+         " mm, so that no triangle turns over: the skin is bent or thin there, or strains are too large to "
+         "be "
+         "small";
 }
 
 std::string warning_of_turned(const CutMesh& mesh, const std::vector<int>& turned, double scale) {

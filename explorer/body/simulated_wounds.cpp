@@ -5,8 +5,16 @@
 
 #include "base/error.h"
 #include "explorer/body/body_lips.h"
+#include "explorer/guard/guard_search.h"
 
 namespace cleft {
+
+namespace {
+/// At how many frames of the series the guard looks at the skin.
+constexpr std::size_t most_looks = 48;
+/// Of the vertices that move: a guard that changes more of them is not taken.
+constexpr double most_changed = 0.05;
+}  // namespace
 
 SimulatedWounds::SimulatedWounds(const std::vector<const Incision*>& cuts, double scale, const Body& body,
                                  const SnapshotReader& series)
@@ -24,6 +32,31 @@ SimulatedWounds::SimulatedWounds(const std::vector<const Incision*>& cuts, doubl
   }
   for (const CutMesh::Vertex& v : cuts.front()->mesh().vertices()) rest_.push_back(v.position);
   places_ = places_in(body, cuts, scale);
+  find_guard(cuts.front()->mesh());
+}
+
+/// Skin may be stretched, and lips may press, as far as the simulation has them. Where no triangle turns over
+/// nothing is changed, nor where the guard would hold back the wound itself.
+void SimulatedWounds::find_guard(const CutMesh& mesh) {
+  const auto excused = [](int, int, double) { return true; };
+  GuardSearch search(mesh, GuardSearch::least_jump_mm / scale_,
+                     {[](int, std::size_t) { return false; }, excused, excused, {}});
+  const std::size_t last = times_.size() - 1, count = std::min(most_looks, last);
+  std::vector<Vec3> now(rest_.size());
+  bool turns = false;
+  for (std::size_t i = 1; i <= count; ++i) {
+    bare_positions(times_[i * last / count], now);
+    turns = turns || !turned_triangles(mesh, now).empty();
+    std::vector<std::pair<int, Vec3>> moved;
+    moved.reserve(places_.size());
+    for (const Place& place : places_)
+      moved.emplace_back(place.vertex, now[place.vertex] - rest_[place.vertex]);
+    search.add(std::move(moved), true);
+  }
+  if (!turns || !search.find()) return;
+  Guard guard = search.result();
+  if (static_cast<double>(guard.changes().size()) < most_changed * static_cast<double>(places_.size()))
+    guard_ = std::move(guard);
 }
 
 SimulatedWounds::Moment SimulatedWounds::moment(double t) const {
@@ -55,20 +88,24 @@ double SimulatedWounds::gape(double t) const {
 }
 
 void SimulatedWounds::positions(double t, std::span<Vec3> out) const {
+  bare_positions(t, out);
+  guard_.apply(0, t, rest_.data(), out.data());
+}
+
+void SimulatedWounds::bare_positions(double t, std::span<Vec3> out) const {
   CLEFT_CHECK(out.size(), ==, rest_.size());
   std::copy(rest_.begin(), rest_.end(), out.begin());
   for (const Place& place : places_) out[place.vertex] += 1 / scale_ * displacement(place, t);
 }
 
 std::vector<int> turned_triangles(const CutMesh& mesh, std::span<const Vec3> positions) {
-  constexpr double least_part = 0.2;
   std::vector<int> turned;
   for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t) {
     if (!mesh.is_skin(t)) continue;
     const auto [a, b, c] = mesh.triangle(t).vertex;
-    const Vec3 rest = cross(mesh.position(b) - mesh.position(a), mesh.position(c) - mesh.position(a));
-    const Vec3 now = cross(positions[b] - positions[a], positions[c] - positions[a]);
-    if (dot(now, rest) < least_part * squared_norm(rest)) turned.push_back(t);
+    if (is_turned_over({mesh.position(a), mesh.position(b), mesh.position(c)},
+                       {positions[a], positions[b], positions[c]}))
+      turned.push_back(t);
   }
   return turned;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "explorer/body/vertex_places.h"
+#include "explorer/guard/guard.h"
 #include "explorer/incision/incision.h"
 #include "solver/body/body.h"
 #include "solver/snapshot/snapshot.h"
@@ -27,9 +28,14 @@ class SimulatedWounds {
   double reach_of_ends() const { return reach_of_ends_; }
   int active() const { return static_cast<int>(places_.size()); }
 
-  /// Positions of all vertices at t, mesh units: between two frames of the series in proportion. Allocates
-  /// no memory.
+  /// Positions of all vertices at t, mesh units: between two frames of the series in proportion, and with the
+  /// guard. Allocates no memory.
   void positions(double t, std::span<Vec3> out) const;
+  /// The same without the guard: nothing but the simulation.
+  void bare_positions(double t, std::span<Vec3> out) const;
+  /// What keeps triangles of this mesh from turning over where the simulated skin folds, or where they are
+  /// too large or too slender for it. Empty where none turns over, and where most of the wound does.
+  const Guard& guard() const { return guard_; }
 
   /// The largest opening at t, mm.
   double gape(double t) const;
@@ -45,6 +51,7 @@ class SimulatedWounds {
   };
   Moment moment(double t) const;
   Vec3 of_node(int node, const Moment& at) const;  // displacement, mm
+  void find_guard(const CutMesh& mesh);
 
   double scale_, reach_of_ends_;
   std::vector<double> times_;
@@ -52,10 +59,10 @@ class SimulatedWounds {
   std::vector<BodyPair> pairs_;
   std::vector<Vec3> rest_;
   std::vector<Place> places_;  // in the order of vertices, of those that move
+  Guard guard_;
 };
 
-/// Triangles of the skin that would be seen to be turned over, or hardly at all: of whose area, seen along
-/// their normal at rest, less than a fifth is left. `positions`: of all vertices.
+/// Triangles of the skin that are turned over (guard_search.h). `positions`: of all vertices.
 std::vector<int> turned_triangles(const CutMesh& mesh, std::span<const Vec3> positions);
 
 /// How far replayed positions are from simulated ones: of the displacement of any vertex, over the largest

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
 #include <queue>
 #include <set>
@@ -18,29 +17,15 @@ namespace cleft {
 namespace {
 
 constexpr double furthest = 2;      // mm: of a vertex from the body's skin, whose triangles are larger
-constexpr double faded_part = 0.3;  // of the way from the cuts to the rim: there displacements fade out
+constexpr double faded_part = 0.3;  // of the way from what stays to the cuts: there displacements fade out
 // A vertex on a cut, or next to one, is first sought where the skin around it, so many mm and triangles, is:
 // there it is on one side of all cuts. A body's straight pieces of a path are off those of the mesh.
 constexpr double around = 0.5;
 constexpr std::size_t most_around = 64;
-constexpr double aside = 0.2;    // mm: the same on a wall, and at the end of a cut
-constexpr double as_near = 0.1;  // mm: of two places, one reached from a lip of the body
+constexpr double aside = 0.2;       // mm: the same on a wall, and at the end of a cut
+constexpr double as_near = 0.1;     // mm: of two places, one reached from a lip of the body
+constexpr double most_winding = 2;  // of a path from vertex to vertex, over their distance
 constexpr double least_of_end = 1.3 * std::numbers::pi;  // radians, of the skin around the end of a cut
-
-/// Distances over the skin from its rim, by node: infinite without a rim.
-std::vector<double> from_rim(const Body& body) {
-  const std::vector<int> root = first_at_place(body);
-  std::vector<std::array<int, 3>> whole = body.skin;
-  for (auto& t : whole)
-    for (int& n : t) n = root[n];
-  std::vector<int> rim;
-  for (const auto& side : body.sides)
-    std::copy_if(side.begin(), side.end(), std::back_inserter(rim),
-                 [&](int n) { return body.skin_above[n] == n; });
-  std::vector<double> distance = edge_distances(body.points, whole, rim);
-  for (std::size_t n = 0; n < distance.size(); ++n) distance[n] = distance[root[body.skin_above[n]]];
-  return distance;
-}
 
 class Locator {
  public:
@@ -53,13 +38,6 @@ class Locator {
         ends_(body, cuts, scale) {
     for (std::size_t k = 0; k < cuts.size(); ++k)
       lips_.emplace_back(body, static_cast<int>(k), *cuts[k], scale);
-    const std::vector<double> rim = from_rim(body);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const BodyPair& pair : body.pairs) nearest = std::min(nearest, rim[pair.left]);
-    for (const double d : rim) {
-      const double x = std::isinf(d) ? 1 : std::clamp(d / (faded_part * nearest), 0., 1.);
-      share_.push_back(x * x * (3 - 2 * x));
-    }
   }
 
   std::vector<VertexPlace> run() {
@@ -73,6 +51,7 @@ class Locator {
       for (int i = 0; i < 3; ++i)
         around[t.vertex[i]].push_back(t.vertex[(i + 1) % 3]),
             around[t.vertex[(i + 1) % 3]].push_back(t.vertex[i]);
+    triangle_.assign(count, -1);
     // Only what is connected with the cuts over places of the body.
     while (!next.empty()) {
       const int v = next.front();
@@ -83,6 +62,7 @@ class Locator {
       for (const int w : around[v])
         if (!seen[w]) seen[w] = true, next.push(w);
     }
+    fade();
     std::sort(places_.begin(), places_.end(),
               [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
     return std::move(places_);
@@ -189,6 +169,8 @@ class Locator {
     const bool on_lip = mesh_.vertex(v).kind != VertexKind::skin;
     SurfacePlace found = surface.nearest(x + way, normal, furthest);
     if (found.triangle >= 0) found = surface.nearest_from(found.triangle, x);
+    // Beyond a fold of the body's skin: as far from where a neighbour is.
+    if (found.triangle < 0 && start < 0 && &surface == &skin_) start = start_beside(triangles);
     if (start >= 0) {
       const SurfacePlace other = surface.nearest_from(start, x);
       if (norm(other.position - x) <
@@ -196,11 +178,47 @@ class Locator {
         found = other;
     }
     if (found.triangle < 0) return;
+    if (&surface == &skin_) triangle_[v] = found.triangle;
     VertexPlace place{v, surface.nodes(found.triangle), {}};
-    double weights = 0;
-    for (int i = 0; i < 3; ++i)
-      place.weights[i] = share * share_[place.nodes[i]] * found.weights[i], weights += place.weights[i];
-    if (weights > 0) places_.push_back(place);
+    for (int i = 0; i < 3; ++i) place.weights[i] = share * found.weights[i];
+    places_.push_back(place);
+  }
+
+  /// Toward vertices that have no place in the body, and stay, where others next to them have one.
+  void fade() {
+    std::vector<int> number(mesh_.vertices().size(), -1), cut, staying;
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+    for (int t = 0; t < static_cast<int>(mesh_.triangles().size()); ++t) {
+      const auto& corners = mesh_.triangle(t).vertex;
+      if (!mesh_.is_skin(t) ||
+          std::all_of(corners.begin(), corners.end(), [&](int v) { return triangle_[v] < 0; }))
+        continue;
+      for (const int v : corners)
+        if (number[v] < 0) {
+          number[v] = static_cast<int>(points.size());
+          points.push_back(at(v));
+          if (mesh_.vertex(v).kind != VertexKind::skin) cut.push_back(number[v]);
+          if (triangle_[v] < 0) staying.push_back(number[v]);
+        }
+      triangles.push_back({number[corners[0]], number[corners[1]], number[corners[2]]});
+    }
+    const std::vector<double> to_cut = edge_distances(points, triangles, cut),
+                              to_staying = edge_distances(points, triangles, staying);
+    for (VertexPlace& place : places_) {
+      const int n = number[place.vertex];
+      if (n < 0 || std::isinf(to_staying[n]) || !(to_cut[n] > 0)) continue;
+      const double x = std::min(1., to_staying[n] / (faded_part * (to_staying[n] + to_cut[n])));
+      for (double& weight : place.weights) weight *= x * x * (3 - 2 * x);
+    }
+  }
+
+  /// A triangle of the body's skin at which a neighbour is; -1: none is known.
+  int start_beside(const std::vector<int>& skin) const {
+    for (const int t : skin)
+      for (const int w : mesh_.triangle(t).vertex)
+        if (triangle_[w] >= 0) return triangle_[w];
+    return -1;
   }
 
   void locate(int v) {
@@ -232,8 +250,26 @@ class Locator {
   int start_of(int v) const {
     const CutMesh::Vertex& vertex = mesh_.vertex(v);
     if (vertex.kind != VertexKind::left_lip && vertex.kind != VertexKind::right_lip) return -1;
-    const int node = lips_[vertex.cut].node(vertex.s, vertex.kind == VertexKind::right_lip);
+    const double s = middle_of_own_lip(v);
+    const int node = lips_[vertex.cut].node(s, vertex.kind == VertexKind::right_lip);
     return node < 0 ? -1 : skin_.triangle_at(node);
+  }
+
+  /// Where cuts cross a lip is divided: in the middle between the next vertices of the same lip that are next
+  /// to the same skin, at which the path is there, mesh units. A lip that goes on in both directions is there
+  /// itself.
+  double middle_of_own_lip(int v) const {
+    const CutMesh::Vertex& vertex = mesh_.vertex(v);
+    double first = vertex.s, last = vertex.s;
+    for (const int t : mesh_.fan(v))
+      for (const int w : mesh_.triangle(t).vertex) {
+        const CutMesh::Vertex& other = mesh_.vertex(w);
+        if (mesh_.is_skin(t) && other.kind == vertex.kind && other.cut == vertex.cut &&
+            scale_ * std::abs(other.s - vertex.s) < most_winding * norm(at(w) - at(v)))
+          first = std::min(first, other.s), last = std::max(last, other.s);
+      }
+    if (first < vertex.s && last > vertex.s) return vertex.s;
+    return (first + last) / 2;
   }
 
   /// Of a vertex of the skin: away from the lips next to it, if there are any.
@@ -252,7 +288,7 @@ class Locator {
   const PartedSurface skin_, walls_;
   std::vector<BodyLips> lips_;  // by cut
   const EndShift ends_;
-  std::vector<double> share_;  // of a node's displacement, by node
+  std::vector<int> triangle_;  // by vertex: of the body's skin, at which it is; -1: none
   std::vector<VertexPlace> places_;
 };
 

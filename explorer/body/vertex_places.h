@@ -13,7 +13,7 @@ namespace cleft {
 struct VertexPlace {
   int vertex;
   std::array<int, 3> nodes;
-  std::array<double, 3> weights;  ///< those of the nodes, less toward the rim of the body
+  std::array<double, 3> weights;  ///< those of the nodes, less toward vertices that stay
 };
 
 /// Of all vertices that move with the body, in their order. `scale` is mm per mesh unit.

@@ -102,8 +102,15 @@ Json move_as_simulated(BodyRequest request, const MeshCuts& cuts, const std::opt
   told["gape_mm"] = wounds.gape(cuts.progress());
   told["seconds"] = simulation.seconds;
   told["moved_vertices"] = wounds.active();
+  double most = 0;
+  for (const Guard::Change& change : wounds.guard().changes()) most = std::max(most, change.by * scale);
+  told["guarded_vertices"] = wounds.guard().changes().size();
+  told["guarded_mm"] = most;
   told["unsound_triangles"] = turned.size();
-  if (!turned.empty()) told["warnings"].push_back(warning_of_turned(mesh, turned, scale));
+  for (const std::string& warning :
+       {warning_of_guard(mesh, wounds.guard(), wounds.gape(cuts.progress()), scale),
+        warning_of_turned(mesh, turned, scale)})
+    if (!warning.empty()) told["warnings"].push_back(warning);
   if (fields) {
     told["replay"] = figures_of(replay_off(cuts.cuts(), positions, simulated, wounds.reach_of_ends()), scale);
     if (const std::string other = differences(*fields, request.parameters); !other.empty())

@@ -107,9 +107,11 @@ void finish_simulation(Session& session) {
     simulated.note = "simulated, " + std::to_string(result.report.nodes) + " nodes";
     std::vector<Vec3> moved(cuts.front()->mesh().vertices().size());
     simulated.wounds->positions(simulated.wounds->duration(), moved);
+    const CutMesh& mesh = cuts.front()->mesh();
     std::vector<std::string> warnings = result.warnings;
-    warnings.push_back(
-        warning_of_turned(cuts.front()->mesh(), turned_triangles(cuts.front()->mesh(), moved), 1));
+    warnings.push_back(warning_of_guard(mesh, simulated.wounds->guard(),
+                                        simulated.wounds->gape(simulated.wounds->duration()), 1));
+    warnings.push_back(warning_of_turned(mesh, turned_triangles(mesh, moved), 1));
     for (const std::string& warning : warnings)
       if (!warning.empty()) session.answer("the simulation: " + warning);
     if (const auto scene = std::dynamic_pointer_cast<const MeshScene>(session.scene()))

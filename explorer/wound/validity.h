@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "explorer/wound/guard.h"
+#include "explorer/guard/guard.h"
 #include "explorer/wound/opening_error.h"
 #include "explorer/wound/wound.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "explorer/wound/guard_search.h"
+#include "explorer/guard/guard_search.h"
 #include "explorer/wound/mutual_relief.h"
 #include "explorer/wound/validity.h"
 #include "explorer/wound/wound.h"
@@ -81,8 +81,6 @@ class Wounds {
 
  private:
   class GuardLooks;
-  /// mm: neighbours that move apart by no more are never torn.
-  static constexpr double least_jump = 0.05;
   Vec3 changed_by_guard(int vertex, const Blade& blade) const;
   /// A displacement by one cut alone, mm, as the others leave it.
   Vec3 relieved(std::size_t cut, const ActiveVertex& at, const Vec3& alone, const Blade& blade) const;

@@ -126,7 +126,7 @@ bool Wounds::closed_by_field(int lip, const Blade& blade) const {
     const auto moved = [&](Side side) {
       return wound.field.displacement({at->uvw.x, 0, at->uvw.z}, side, t, at->s).y;
     };
-    if (moved(Side::right) - moved(Side::left) < -least_jump * part_closed) return true;
+    if (moved(Side::right) - moved(Side::left) < -GuardSearch::least_jump_mm * part_closed) return true;
   }
   return false;
 }

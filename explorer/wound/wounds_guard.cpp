@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "explorer/wound/guard_hold.h"
+#include "explorer/guard/guard_hold.h"
 #include "explorer/wound/guard_passage.h"
 #include "explorer/wound/wounds.h"
 
@@ -46,7 +46,7 @@ class Wounds::GuardLooks {
         moved_(moved),
         alone_(alone),
         poll_(poll),
-        search_(mesh_, Wounds::least_jump / wounds[0].scale(),
+        search_(mesh_, GuardSearch::least_jump_mm / wounds[0].scale(),
                 {[this](int t, std::size_t time) { return wounds_.turned_by_field(t, blades_[time]); },
                  [this](int a, int b, double jump) { return wounds_.stretched_by_field(a, b, jump); },
                  [this](int a, int b, double jump) { return wounds_.drawn_apart_by_field(a, b, jump); },

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <optional>
+#include <random>
 #include <utility>
 
 #include "base/error.h"
@@ -14,6 +16,8 @@
 #include "explorer/body/simulate.h"
 #include "solver/body/skin_turn.h"
 #include "tests/bodies/subjects.h"
+#include "tests/incision/stress/random_path.h"
+#include "tests/incision/stress/subjects.h"
 #include "tests/pipeline/commands.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,6 +26,13 @@ namespace cleft {
 namespace {
 
 using testing::path_on, testing::sheet;
+
+std::vector<ScalpelPath> paths_on(const testing::Bend& bend,
+                                  const std::vector<std::vector<std::pair<double, double>>>& paths) {
+  std::vector<ScalpelPath> all;
+  for (const auto& places : paths) all.push_back(path_on(bend, places, 2.5));
+  return all;
+}
 
 /// A body that was made and solved, and its cuts made in a mesh.
 struct Simulated {
@@ -33,9 +44,10 @@ struct Simulated {
   std::vector<std::unique_ptr<Incision>> cuts;
   std::vector<const Incision*> list;
 
-  Simulated(const testing::Bend& bend, const std::vector<std::vector<std::pair<double, double>>>& paths) {
-    request.skin = sheet(bend, 30, 30, 2, 0.25);
-    for (const auto& places : paths) request.paths.push_back(path_on(bend, places, 2.5));
+  Simulated(const testing::Bend& bend, const std::vector<std::vector<std::pair<double, double>>>& paths)
+      : Simulated(sheet(bend, 30, 30, 2, 0.25), paths_on(bend, paths)) {}
+  Simulated(SurfaceMesh skin, std::vector<ScalpelPath> paths) {
+    request.skin = std::move(skin), request.paths = std::move(paths);
     request.parameters.mesh.element_size = 1.5, request.parameters.mesh.grading = 1.5;
     request.parameters.patch.height = 6;
     request.reach = 15;
@@ -71,8 +83,19 @@ const std::vector<std::pair<double, double>> along = {{-8, 0}, {0, 0}, {8, 0}},
 
 std::vector<Vec3> positions_at(const SimulatedWounds& wounds, const CutMesh& mesh, double t) {
   std::vector<Vec3> positions(mesh.vertices().size());
-  wounds.positions(t, positions);
+  wounds.bare_positions(t, positions);
   return positions;
+}
+
+/// Of the skin, over its length at rest and a fifth of a millimetre.
+double longest_edge(const CutMesh& mesh, const std::vector<Vec3>& now) {
+  double longest = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles().size()); ++t)
+    for (int i = 0; i < 3 && mesh.is_skin(t); ++i) {
+      const int a = mesh.triangle(t).vertex[i], b = mesh.triangle(t).vertex[(i + 1) % 3];
+      longest = std::max(longest, norm(now[a] - now[b]) / (norm(mesh.position(a) - mesh.position(b)) + 0.2));
+    }
+  return longest;
 }
 
 }  // namespace
@@ -181,15 +204,63 @@ TEST(SimulatedWounds, VerticesStayWithTheirPieceOfSkin) {
       const SimulatedWounds wounds = s.wounds(sheet(testing::sphere_cap(60), 30, 30, 1.1, 0.24, seed));
       const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
       EXPECT_TRUE(turned_triangles(*s.mesh, now).empty()) << seed;
-      double longest = 0;  // of an edge, in lengths at rest and fifths of a millimetre
-      for (int t = 0; t < static_cast<int>(s.mesh->triangles().size()); ++t)
-        for (int i = 0; i < 3 && s.mesh->is_skin(t); ++i) {
-          const int a = s.mesh->triangle(t).vertex[i], b = s.mesh->triangle(t).vertex[(i + 1) % 3];
-          longest = std::max(longest,
-                             norm(now[a] - now[b]) / (norm(s.mesh->position(a) - s.mesh->position(b)) + 0.2));
-        }
-      EXPECT_LT(longest, 2) << seed;
+      EXPECT_LT(longest_edge(*s.mesh, now), 2) << seed;
     }
+}
+
+/// Where a path crosses itself, at any angle and place of a mesh of any triangles, each of the four corners
+/// of the crossing moves with its own piece of skin.
+TEST(SimulatedWounds, CornersOfAPathThatCrossesItselfStayWithTheirSkin) {
+  SurfaceMesh ball;
+  for (stress::Subject& subject : stress::generated_subjects(true))
+    if (subject.name == "jittered sphere") ball = std::move(subject.mesh);
+  ASSERT_FALSE(ball.points.empty());
+  for (Vec3& p : ball.points) p *= 6;
+  const stress::Ground ground(ball);
+  for (const unsigned seed : {2U, 9U}) {
+    std::mt19937_64 random(seed);
+    std::optional<ScalpelPath> path;
+    while (!path || path->length() < 20 || path->length() > 60)
+      path = random_path(ground, stress::PathKind::eight, {}, random);
+    path->set_depth(3);
+    Simulated s(ball, {*path});
+    const SimulatedWounds wounds = s.wounds(s.request.skin);
+    const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
+    EXPECT_TRUE(turned_triangles(*s.mesh, now).empty()) << seed;
+  }
+}
+
+/// Where a mesh folds under and its vertices have no place in the body, displacements end gradually.
+TEST(SimulatedWounds, TheSkinIsNotTornWhereItFolds) {
+  const auto folded = [](double x, double y) { return y < 4 ? Vec3{x, y, 0} : Vec3{x, 8 - y, 2 - y / 2}; };
+  Simulated s(testing::flat, {along});
+  const SimulatedWounds wounds = s.wounds(sheet(folded, 30, 30, 1.3, 0.24, 2));
+  const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
+  double jump = 0;  // over the length of an edge
+  for (int t = 0; t < static_cast<int>(s.mesh->triangles().size()); ++t)
+    for (int i = 0; i < 3 && s.mesh->is_skin(t); ++i) {
+      const int a = s.mesh->triangle(t).vertex[i], b = s.mesh->triangle(t).vertex[(i + 1) % 3];
+      const Vec3 edge = s.mesh->position(b) - s.mesh->position(a);
+      jump = std::max(jump, norm(now[b] - now[a] - edge) / (norm(edge) + 0.05));
+    }
+  EXPECT_LT(jump, 1);
+}
+
+/// A zigzag in skin that is bent too strongly for small strains folds triangles of the mesh: the guard keeps
+/// all of them, and changes few vertices.
+TEST(SimulatedWounds, TheGuardKeepsTrianglesFromTurningOver) {
+  const testing::Bend pipe = testing::cylinder_along(14);
+  Simulated s(pipe, {{{-9, -2}, {-5, 3}, {-1, -3}, {3, 3}, {7, -2}}});
+  const SimulatedWounds wounds = s.wounds(sheet(pipe, 30, 20, 0.4, 0.4));
+  std::size_t turned = 0;
+  for (const double t : s.series->snapshot().times) {
+    std::vector<Vec3> now = positions_at(wounds, *s.mesh, t);
+    turned += turned_triangles(*s.mesh, now).size();
+    wounds.positions(t, now);
+    EXPECT_TRUE(turned_triangles(*s.mesh, now).empty()) << t;
+  }
+  EXPECT_GT(turned, 0u);
+  EXPECT_LT(wounds.guard().changes().size(), wounds.places().size() / 20);
 }
 
 /// A body is cut beyond the ends of a path, so that there the mesh takes what is elsewhere in the body: that

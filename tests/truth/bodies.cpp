@@ -97,7 +97,7 @@ Off compare(const BodyRequest& request, const CutFields& fields, const BodySimul
   Off off;
   off.seconds = watch.seconds();
   const SimulatedWounds truth(cuts, 1, simulation.body, *simulation.series);
-  truth.positions(truth.duration(), simulated);
+  truth.bare_positions(truth.duration(), simulated);
   const ReplayOff all = replay_off(cuts, replayed, simulated, 0);
   off.opening = all.relative_opening(), off.skin = all.gape > 0 ? all.displacement / all.gape : 0;
   for (const Validity& v : wounds.validity(fields.turning())) {

@@ -172,7 +172,7 @@ TEST_F(TruthInTension, APathThatWindsOpensAsTheMembraneSays) {
   const SimulatedWounds truth({&cut}, 1, simulation.body, *simulation.series);
   std::vector<Vec3> replayed(wounds.vertex_count()), simulated(wounds.vertex_count());
   wounds.positions(wounds.duration(), replayed);
-  truth.positions(truth.duration(), simulated);
+  truth.bare_positions(truth.duration(), simulated);
   const ReplayOff off = replay_off({&cut}, replayed, simulated, 0);
   EXPECT_GT(off.gape, 1);
   EXPECT_LT(off.opening, 2 * promised * off.gape)

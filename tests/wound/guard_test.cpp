@@ -1,5 +1,5 @@
 // The guard of the skin: what it replaces, that nothing turns over or tears with it, and that the rest stays.
-#include "explorer/wound/guard.h"
+#include "explorer/guard/guard.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <random>
 
 #include "explorer/wound/guard_passage.h"
-#include "explorer/wound/guard_search.h"
+#include "explorer/guard/guard_search.h"
 #include "explorer/wound/live_wounds.h"
-#include "explorer/wound/mean_value.h"
+#include "explorer/guard/mean_value.h"
 #include "explorer/wound/replayed_wounds.h"
 #include "tests/incision/meshes.h"
 #include "tests/wound/fields.h"

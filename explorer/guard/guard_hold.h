@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "explorer/wound/guard_search.h"
+#include "explorer/guard/guard_search.h"
 
 namespace cleft {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "explorer/wound/guard_search.h"
-#include "explorer/wound/mean_value.h"
+#include "explorer/guard/guard_search.h"
+#include "explorer/guard/mean_value.h"
 
 namespace cleft {
 

@@ -1,4 +1,4 @@
-#include "explorer/wound/guard.h"
+#include "explorer/guard/guard.h"
 
 #include <algorithm>
 #include <tuple>

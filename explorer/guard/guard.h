@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "explorer/wound/guard_moments.h"
+#include "explorer/guard/guard_moments.h"
 
 namespace cleft {
 

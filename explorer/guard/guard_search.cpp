@@ -1,4 +1,4 @@
-#include "explorer/wound/guard_search.h"
+#include "explorer/guard/guard_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +32,12 @@ constexpr double little = 0.6;
 constexpr int join_rounds = 4;
 
 }  // namespace
+
+bool is_turned_over(const std::array<Vec3, 3>& rest, const std::array<Vec3, 3>& now) {
+  const Vec3 before = cross(rest[1] - rest[0], rest[2] - rest[0]),
+             after = cross(now[1] - now[0], now[2] - now[0]);
+  return dot(before, after) < 0 || norm(after) < turned_area * norm(before);
+}
 
 bool GuardSearch::find() {
   number_vertices();
@@ -217,11 +223,10 @@ bool GuardSearch::is_kept(int t, const std::array<Vec3, 3>& moved) const {
 }
 
 bool GuardSearch::is_turned(int t, const std::array<Vec3, 3>& moved) const {
-  const auto& corner = mesh_.triangle(t).vertex;
-  const Vec3 a = mesh_.position(corner[1]) - mesh_.position(corner[0]),
-             b = mesh_.position(corner[2]) - mesh_.position(corner[0]);
-  const Vec3 before = cross(a, b), after = cross(a + (moved[1] - moved[0]), b + (moved[2] - moved[0]));
-  return dot(before, after) < 0 || norm(after) < turned_area * norm(before);
+  std::array<Vec3, 3> rest, now;
+  for (std::size_t i = 0; i < 3; ++i)
+    rest[i] = mesh_.position(mesh_.triangle(t).vertex[i]), now[i] = rest[i] + moved[i];
+  return is_turned_over(rest, now);
 }
 
 double GuardSearch::left_of(int t, const std::array<Vec3, 3>& moved) const {

@@ -1,4 +1,4 @@
-#include "explorer/wound/guard_moments.h"
+#include "explorer/guard/guard_moments.h"
 
 #include <limits>
 

@@ -15,10 +15,13 @@
 #include <utility>
 #include <vector>
 
+#include "explorer/guard/guard.h"
 #include "explorer/incision/cut_mesh.h"
-#include "explorer/wound/guard.h"
 
 namespace cleft {
+
+/// Whether the normal of a triangle turns by more than a right angle or its area falls below a fifth.
+bool is_turned_over(const std::array<Vec3, 3>& rest, const std::array<Vec3, 3>& now);
 
 class GuardSearch {
  public:
@@ -30,6 +33,9 @@ class GuardSearch {
     std::function<bool(int a, int b, double jump)> draws_apart;  ///< by nearly as much, where it lies alike
     std::function<bool(int left, std::size_t time)> closes;      ///< lips: moves them into each other
   };
+
+  /// mm: neighbours that move apart by no more are never torn, and lips pass each other by no more.
+  static constexpr double least_jump_mm = 0.05;
 
   /// The mesh must outlive it. Neighbours may always move apart by `least_jump`, mesh units. `poll`, if any,
   /// is called for each triangle that is looked at.
@@ -76,8 +82,7 @@ class GuardSearch {
   /// from 0, before the call numbered `first`, where nothing moves if that is 0.
   std::array<Vec3, 3> moved(int triangle, std::size_t first, double at) const;
 
-  /// Whether its normal turns by more than a right angle or its area falls below a fifth; and whether an edge
-  /// tears.
+  /// Whether it is_turned_over(); and whether an edge tears.
   bool is_turned(int triangle, const std::array<Vec3, 3>& moved) const;
   bool is_torn(int triangle, const std::array<Vec3, 3>& moved) const;
   /// Triangles of the skin, and pairs of lips, that ever were not sound, sorted.

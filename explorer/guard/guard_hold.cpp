@@ -1,4 +1,4 @@
-#include "explorer/wound/guard_hold.h"
+#include "explorer/guard/guard_hold.h"
 
 #include <algorithm>
 

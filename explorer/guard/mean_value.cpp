@@ -1,4 +1,4 @@
-#include "explorer/wound/mean_value.h"
+#include "explorer/guard/mean_value.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <queue>
 
-#include "explorer/wound/guard_search.h"
+#include "explorer/guard/guard_search.h"
 
 namespace cleft {
 
