@@ -44,14 +44,19 @@ class Locator {
     const auto count = static_cast<int>(mesh_.vertices().size());
     std::vector<bool> seen(count, false);
     std::queue<int> next;
-    for (int v = 0; v < count; ++v)
-      if (mesh_.vertex(v).kind != VertexKind::skin) seen[v] = true, next.push(v);
+    // Lips first, where cuts meet after the others, which tell them their side; then the walls below them.
+    const auto order = [this](int v) { return fan(v).skin.empty() ? 2 : start_of(v) < 0 ? 1 : 0; };
+    for (const int now : {0, 1, 2})
+      for (int v = 0; v < count; ++v)
+        if (!seen[v] && mesh_.vertex(v).kind != VertexKind::skin && order(v) == now)
+          seen[v] = true, next.push(v);
     std::vector<std::vector<int>> around(count);
     for (const CutMesh::Triangle& t : mesh_.triangles())
       for (int i = 0; i < 3; ++i)
         around[t.vertex[i]].push_back(t.vertex[(i + 1) % 3]),
             around[t.vertex[(i + 1) % 3]].push_back(t.vertex[i]);
     triangle_.assign(count, -1);
+    for (auto& walls : wall_) walls.assign(count, -1);
     // Only what is connected with the cuts over places of the body.
     while (!next.empty()) {
       const int v = next.front();
@@ -160,10 +165,10 @@ class Locator {
   }
 
   /// At x, by some of the triangles around a vertex. From `start`, a triangle, if it leads there; else from
-  /// where x + way is, on one side of all cuts.
-  void add(int v, const std::vector<int>& triangles, const PartedSurface& surface, double share,
-           const Vec3& x, const Vec3& way, int start = -1) {
-    if (triangles.empty()) return;
+  /// where x + way is, on one side of all cuts. Returns the triangle, -1 if there is none.
+  int add(int v, const std::vector<int>& triangles, const PartedSurface& surface, double share, const Vec3& x,
+          const Vec3& way, int start = -1) {
+    if (triangles.empty()) return -1;
     Vec3 normal;
     for (const int t : triangles) normal += twice_area(t);
     const bool on_lip = mesh_.vertex(v).kind != VertexKind::skin;
@@ -177,11 +182,12 @@ class Locator {
           (found.triangle < 0 ? furthest : norm(found.position - x) + (on_lip ? around : as_near)))
         found = other;
     }
-    if (found.triangle < 0) return;
+    if (found.triangle < 0) return -1;
     if (&surface == &skin_) triangle_[v] = found.triangle;
     VertexPlace place{v, surface.nodes(found.triangle), {}};
     for (int i = 0; i < 3; ++i) place.weights[i] = share * found.weights[i];
     places_.push_back(place);
+    return found.triangle;
   }
 
   /// Toward vertices that have no place in the body, and stay, where others next to them have one.
@@ -232,7 +238,9 @@ class Locator {
       const double share = sides[0].empty() || sides[1].empty() ? 1 : 0.5;
       for (const int side : {0, 1}) add(v, sides[side], skin_, share, x, (side ? aside : -aside) * across);
     } else if (vertex.kind != VertexKind::skin && !skin.empty()) {
-      add(v, skin, skin_, 1, x, to_middle_of_skin(v, skin, inward(v, skin)), start_of(v));
+      const int start = start_of(v) < 0 ? start_beside(skin) : start_of(v);
+      const int t = add(v, skin, skin_, 1, x, to_middle_of_skin(v, skin, inward(v, skin)), start);
+      if (t >= 0) start_walls_below(v);
     } else if (!skin.empty()) {
       int start = -1;
       for (const int t : skin)
@@ -241,9 +249,26 @@ class Locator {
       add(v, skin, skin_, 1, x, from_lips(v, skin), start);
     } else {  // walls; the bottom is shared by both
       const double share = left.empty() || right.empty() ? 1 : 0.5;
-      add(v, left, walls_, share, x, to_middle(v, left));
-      add(v, right, walls_, share, x, to_middle(v, right));
+      for (const auto& [side, triangles] : {std::pair(0, &left), std::pair(1, &right)})
+        wall_[side][v] =
+            add(v, *triangles, walls_, share, x, to_middle(v, *triangles), start_on_wall(side, *triangles));
     }
+  }
+
+  /// The walls below a lip are where its node is.
+  void start_walls_below(int v) {
+    const VertexPlace& place = places_.back();
+    const auto most = std::max_element(place.weights.begin(), place.weights.end());
+    const int t = walls_.triangle_at(place.nodes[most - place.weights.begin()]);
+    for (auto& walls : wall_) walls[v] = t;
+  }
+
+  /// A triangle of the body's walls at which a neighbour on the same wall is; -1: none is known.
+  int start_on_wall(int side, const std::vector<int>& triangles) const {
+    for (const int t : triangles)
+      for (const int w : mesh_.triangle(t).vertex)
+        if (wall_[side][w] >= 0) return wall_[side][w];
+    return -1;
   }
 
   /// A triangle of the body's skin on the lip that a vertex is on, nearby; -1: none is known.
@@ -288,7 +313,8 @@ class Locator {
   const PartedSurface skin_, walls_;
   std::vector<BodyLips> lips_;  // by cut
   const EndShift ends_;
-  std::vector<int> triangle_;  // by vertex: of the body's skin, at which it is; -1: none
+  std::vector<int> triangle_;             // by vertex: of the body's skin, at which it is; -1: none
+  std::array<std::vector<int>, 2> wall_;  // likewise of its walls, of the left and the right one
   std::vector<VertexPlace> places_;
 };
 

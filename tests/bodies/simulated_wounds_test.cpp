@@ -227,6 +227,7 @@ TEST(SimulatedWounds, CornersOfAPathThatCrossesItselfStayWithTheirSkin) {
     const SimulatedWounds wounds = s.wounds(s.request.skin);
     const std::vector<Vec3> now = positions_at(wounds, *s.mesh, wounds.duration());
     EXPECT_TRUE(turned_triangles(*s.mesh, now).empty()) << seed;
+    EXPECT_LT(longest_edge(*s.mesh, now), 2) << seed;
   }
 }
 
