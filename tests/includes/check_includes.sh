@@ -34,8 +34,9 @@ explorer/incision:base|encoder/field
 explorer/study:base|base/h5|params|params/parameters|solver/snapshot|encoder/field|encoder/field/file|encoder/interpolate
 explorer/web:base|params|params/parameters|encoder/field|encoder/field/file|encoder/interpolate|explorer/incision|explorer/study|explorer/wound
 explorer/analysis:base|encoder/field|encoder/interpolate|explorer/study|haptic|params/parameters
-explorer/body:base|params|params/parameters|solver/body|solver/snapshot|haptic|explorer/incision
-explorer/wound:base|base/h5|params/material|encoder/field|encoder/field/file|explorer/incision|explorer/study|params/parameters
+explorer/guard:base|explorer/incision
+explorer/body:base|params|params/parameters|solver/body|solver/snapshot|haptic|explorer/incision|explorer/guard
+explorer/wound:base|base/h5|params/material|encoder/field|encoder/field/file|explorer/incision|explorer/guard|explorer/study|params/parameters
 explorer/scalpel:base|encoder/field|haptic|haptic/devices|explorer/incision|explorer/wound
 explorer/scene:base|encoder/field|haptic|explorer/incision|explorer/body|explorer/study|explorer/wound|explorer/scalpel
 explorer/session:base|params|params/parameters|params/run|encoder/field|haptic/devices|explorer/incision|explorer/body|explorer/study|explorer/wound|explorer/scene|explorer/io/formats
