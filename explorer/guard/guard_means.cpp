@@ -11,8 +11,10 @@ namespace {
 
 /// The height of a sliver over its longest edge at most.
 constexpr double sliver = 0.2;
-/// Of the displacements of its corners: a sliver that little of them turns over is tied in any case.
-constexpr double delicate = 0.01;
+/// Of the displacements of its corners: a sliver that little of them turns over is tied even if it is sound
+/// whenever it is looked at, unless it then always keeps this part of its area: it moves as what is around
+/// it.
+constexpr double delicate = 0.01, unbent = 0.75;
 /// How often the vertices that means move are found anew, and how many may hang together.
 constexpr int mean_rounds = 6;
 constexpr std::size_t most_together = 150;
@@ -158,6 +160,15 @@ void GuardSearch::move_joined() {
   check_all();
 }
 
+/// Whether a triangle ever loses much of its area, or tears.
+bool GuardSearch::bends(int triangle) const {
+  for (std::size_t k = 0; k < times(); ++k) {
+    const std::array<Vec3, 3> now = moved(triangle, k);
+    if (left_of(triangle, now) < unbent || is_torn(triangle, now)) return true;
+  }
+  return false;
+}
+
 /// Slivers so flat that they turn over whenever displacements bend.
 void GuardSearch::find_delicate() {
   std::vector<double> largest(vertex_.size());  // squared
@@ -166,7 +177,8 @@ void GuardSearch::find_delicate() {
       largest[n] = std::max(largest[n], squared_norm(own(static_cast<int>(n), k)));
   for (std::size_t n = 0; n < around_.size(); ++n)
     for (const int one : around_[n])
-      if (one >= 0 && harmless_[one] < delicate * delicate * largest[n]) delicate_.push_back(one);
+      if (one >= 0 && harmless_[one] < delicate * delicate * largest[n] && bends(one))
+        delicate_.push_back(one);
   std::sort(delicate_.begin(), delicate_.end());
   delicate_.erase(std::unique(delicate_.begin(), delicate_.end()), delicate_.end());
 }

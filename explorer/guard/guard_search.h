@@ -141,6 +141,7 @@ class GuardSearch {
   void spread_means();
   void move_as_means(const std::vector<int>& group);
   bool tie(int triangle, std::vector<int>& group);
+  bool bends(int triangle) const;
   void find_delicate();
   bool grow(std::vector<int>& group);
   void solve(const std::vector<int>& group, const std::vector<std::vector<Part>>& means);

@@ -1,5 +1,5 @@
 // How far replays on bodies of all shapes are from simulations of these very bodies:
-//   cleft-truth-bodies [--field NAME=FILE]... [--csv FILE] [SUBJECT]...
+//   cleft-truth-bodies [--field NAME=FILE]... [--csv FILE] [--lips FILE] [SUBJECT]...
 // prints a table in Markdown; each body is simulated once (minutes in all).
 #include <algorithm>
 #include <cstdio>
@@ -27,7 +27,7 @@ constexpr double end = 1;  // mm of a cut
 
 struct Options {
   std::vector<std::string> subjects, fields, assignments;
-  std::string csv;
+  std::string csv, lips;
   double reach = 40;
   bool list = false;
 };
@@ -75,8 +75,16 @@ struct Off {
   double seconds = 0;            ///< to cut and to prepare the replay
 };
 
+/// The vectors from lip to lip at a place of a cut, along the path, across it and out of the skin, mm.
+struct LipPair {
+  std::size_t cut;
+  double s;  ///< mm along the path
+  Vec3 simulated, replayed;
+};
+
 /// One body, cut and opened by fields as cleft cut does, against its simulation.
-Off compare(const BodyRequest& request, const CutFields& fields, const BodySimulation& simulation) {
+Off compare(const BodyRequest& request, const CutFields& fields, const BodySimulation& simulation,
+            std::vector<LipPair>& lips) {
   const Stopwatch watch;
   CutMesh mesh(request.skin);
   std::vector<std::unique_ptr<Incision>> made;
@@ -105,11 +113,17 @@ Off compare(const BodyRequest& request, const CutFields& fields, const BodySimul
     off.expected = std::max(off.expected, v.expected_error.largest);
   }
   double worst = 0;
-  for (const Incision* cut : cuts)
-    for (const auto& c : cut->chain()) {
-      const double s = mesh.vertex(c.left).s, length = cut->path().length();
-      const double error =
-          norm((simulated[c.right] - simulated[c.left]) - (replayed[c.right] - replayed[c.left]));
+  for (std::size_t k = 0; k < cuts.size(); ++k)
+    for (const auto& c : cuts[k]->chain()) {
+      const double s = mesh.vertex(c.left).s, length = cuts[k]->path().length();
+      const Vec3 in_simulation = simulated[c.right] - simulated[c.left],
+                 in_replay = replayed[c.right] - replayed[c.left];
+      const PathFrame frame = cuts[k]->path().at(s);
+      const auto in_frame = [&](const Vec3& x) {
+        return Vec3{dot(x, frame.along), dot(x, frame.across), dot(x, frame.outward)};
+      };
+      lips.push_back({k, s, in_frame(in_simulation), in_frame(in_replay)});
+      const double error = norm(in_simulation - in_replay);
       if (error > worst) worst = error, off.where = s / length;
       if (all.gape > 0 && std::min(s, length - s) > end) off.inner = std::max(off.inner, error / all.gape);
     }
@@ -127,7 +141,9 @@ SkinTension tension_of(const BodyRequest& request) {
 
 class Table {
  public:
-  Table(const std::vector<Source>& sources, std::string csv) : csv_(std::move(csv)) {
+  Table(const std::vector<Source>& sources, std::string csv, std::string lips)
+      : csv_(std::move(csv)), lips_(std::move(lips)) {
+    for (const Source& source : sources) names_.push_back(source.name);
     std::string head = "| body | mm |", line = "|---|---|";
     text_ = "body,opening_mm,nodes,simulation_s,thinned_columns,cut_depth_mm";
     for (const auto& [name, fields] : sources) {
@@ -159,11 +175,29 @@ class Table {
     if (!csv_.empty()) write_text_file(csv_, text_ + "\n");
   }
 
+  void add_lips(const std::string& name, const std::vector<std::vector<LipPair>>& of_fields) {
+    if (lips_.empty()) return;
+    char line[200];
+    for (std::size_t k = 0; k < of_fields.size(); ++k)
+      for (const LipPair& pair : of_fields[k]) {
+        const auto& [sx, sy, sz] = pair.simulated;
+        const auto& [rx, ry, rz] = pair.replayed;
+        std::snprintf(line, sizeof line, ",%zu,%.4f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f\n", pair.cut + 1, pair.s,
+                      sx, sy, sz, rx, ry, rz);
+        lips_text_ += "\"" + name + "\"," + names_[k] + line;
+      }
+    write_text_file(lips_, lips_text_);
+  }
+
   /// Of how many replays the error is within twice what is expected.
   void end() const { std::printf("\nWithin twice the expected error: %d of %d.\n", within_, all_); }
 
  private:
-  std::string csv_, text_;
+  std::string csv_, text_, lips_;
+  std::string lips_text_ =
+      "body,field,cut,mm,simulated_along,simulated_across,simulated_outward,replayed_along,replayed_across,"
+      "replayed_outward\n";
+  std::vector<std::string> names_;
   int within_ = 0, all_ = 0;
 };
 
@@ -188,7 +222,7 @@ void run(const Options& options) {
   std::vector<Source> sources;
   for (const std::string& named : options.fields) sources.push_back(from_file(named));
   if (sources.empty()) sources = default_sources();
-  Table table(sources, options.csv);
+  Table table(sources, options.csv, options.lips);
   for (const auto& [name, make] : subjects) {
     try {
       const testing::Subject subject = make();
@@ -198,13 +232,15 @@ void run(const Options& options) {
       const SkinTension tension = tension_of(request);
       const BodySimulation simulation = simulate(request);
       std::vector<Off> offs;
+      std::vector<std::vector<LipPair>> lips(sources.size());
       offs.reserve(sources.size());
       for (const Source& source : sources) {
         CutFields fields = source.fields(tension);
         if (request.bone) fields = fields.above_bone(distance_to(request.bone));
-        offs.push_back(compare(request, fields, simulation));
+        offs.push_back(compare(request, fields, simulation, lips[offs.size()]));
       }
       table.add(name, simulation, offs);
+      table.add_lips(name, lips);
     } catch (const InputError& e) {
       std::fprintf(stderr, "cleft-truth-bodies: %s: %s\n", name.c_str(), e.what());
     }
@@ -227,6 +263,8 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_option("--reach", o.reach, "how far bodies go around the cuts, mm")->capture_default_str();
   app.add_option("--csv", o.csv, "the table too, with the place of the largest error and times");
+  app.add_option("--lips", o.lips,
+                 "CSV: the vectors from lip to lip along all cuts, simulated and replayed, mm");
   app.add_flag("--list", o.list, "the names of the bodies");
   return run_command(app, argc, argv, [&] { run(o); });
 }

@@ -180,6 +180,34 @@ TEST(Guard, KeepsSliversWithoutHoldingTheLips) {
   EXPECT_GT(v.guarded, 0);
 }
 
+/// A vertex 0.04 mm beside an edge makes a sliver, in skin that bends; once the vertex nears the edge, too.
+TEST(GuardSearch, LeavesSliversThatHardlyBend) {
+  SurfaceMesh plate = grid(10, 10, 0, 0, 1);
+  constexpr int middle = 60;
+  Vec3 edge;
+  for (const auto& t : plate.triangles)
+    if (t[0] == middle) {
+      edge = 0.5 * (plate.points[t[1]] + plate.points[t[2]]);
+      plate.points[middle] = edge + 0.04 * normalized(plate.points[middle] - edge);
+      break;
+    }
+  const CutMesh mesh(plate);
+  for (const bool nears : {false, true}) {
+    GuardSearch search(mesh, 0.05,
+                       {[](int, std::size_t) { return false; }, [](int, int, double) { return true; },
+                        [](int, int, double) { return true; }, [](int, std::size_t) { return false; }});
+    std::vector<std::pair<int, Vec3>> moved;
+    for (int v = 0; v < 121; ++v) {
+      const Vec3 p = mesh.position(v) - mesh.position(middle);
+      moved.push_back({v, {0, 0, 3 + 0.02 * squared_norm(p)}});
+    }
+    if (nears) moved[middle].second += 0.5 * (edge - mesh.position(middle));
+    search.add(moved, true);
+    ASSERT_TRUE(search.find());
+    EXPECT_EQ(search.result().moves(middle), nears);
+  }
+}
+
 /// As at an X, where the second cut's lips beside the first one move into each other for a moment.
 TEST(GuardSearch, HoldsLipsForGoodOnlyIfTheyPassEachOtherForGood) {
   const CutMesh mesh(grid(10, 10, 0, 0, 1));
