@@ -165,6 +165,30 @@ OwnCut FamilyFields::own_cut(const LocalShape& local, double u_from_middle) cons
           local.curvature_rate};
 }
 
+double FamilyFields::AlongPath::at(double s) const {
+  const auto [a, b, part] = between(stations, s);
+  return std::lerp(values[a], values[b], part);
+}
+
+/// How far the cuts that stand for places of a path would open if they were straight, when `t` mm are cut,
+/// mm.
+FamilyFields::AlongPath FamilyFields::ease(const PathShape& shapes, double t) const {
+  std::vector<CaseShape> cases;
+  std::vector<std::vector<double>> numbers;
+  for (LocalShape local : shapes.values) {
+    local.curvature = local.curvature_rate = 0;
+    cases.push_back(case_of(local, {}, {0, 1, 0}, 0));
+    numbers.push_back(normalised(cases.back(), {}, *family_, 1));
+  }
+  AlongPath result;
+  for (const std::size_t i : bends_of(shapes.stations, numbers)) {
+    const auto field = family_->at(cases[i].shapes, cases[i].prestress).field;
+    result.stations.push_back(shapes.stations[i]);
+    result.values.push_back(middle_opening(*field, t));
+  }
+  return result;
+}
+
 VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume& volume,
                                  const PathPrestress& prestress, double known) const {
   const double scale = volume.scale();
@@ -188,8 +212,10 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
   }
   const auto membrane = length <= known ? membrane_of(family_->middle()) : std::nullopt;
   const PathPrestress added =
-      membrane ? tension_of_winding(*membrane, cut, volume, length, prestress,
-                                    [&](double s) { return between_cuts(shapes.stations, own, s); })
+      membrane ? tension_of_winding(
+                     *membrane, cut, volume, length, prestress,
+                     [&](double s) { return between_cuts(shapes.stations, own, s); },
+                     [ease = ease(shapes, std::min(length, cut.length))](double s) { return ease.at(s); })
                : PathPrestress{{0}, {{}}};
   std::vector<CaseShape> cases;
   std::vector<Prestress> local;

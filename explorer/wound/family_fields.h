@@ -51,6 +51,12 @@ class FamilyFields {
   Smoothing smoothing() const;
   LocalShape known_to_family(LocalShape local, const Incision& incision, double scale, double s) const;
 
+  /// Values at stations of a path, linear between them.
+  struct AlongPath {
+    std::vector<double> stations, values;
+    double at(double s) const;
+  };
+  AlongPath ease(const PathShape& shapes, double t) const;
   OwnCut own_cut(const LocalShape& local, double u_from_middle) const;
 
   std::shared_ptr<const Family> family_;

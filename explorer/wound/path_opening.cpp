@@ -82,12 +82,6 @@ const HalfOpenings& half_openings(double poisson_ratio) {
   return known.try_emplace(poisson_ratio, poisson_ratio).first->second;
 }
 
-double field_opening(const VaryingField& field, double length, double s) {
-  const Vec3 middle{field.shape().cut().start + length / 2, 0, 0};
-  return field.displacement(middle, Side::right, length, s).y -
-         field.displacement(middle, Side::left, length, s).y;
-}
-
 /// Whether a path comes back to itself: so near, pieces feel each other's ends.
 bool comes_back(const Corners& corners) {
   constexpr std::size_t next = 5;    // corners that are near each other anyway
@@ -169,10 +163,15 @@ class OwnOpening {
 
 }  // namespace
 
+double middle_opening(const VaryingField& field, double t, double s) {
+  const Vec3 middle{field.shape().cut().start + t / 2, 0, 0};
+  return field.displacement(middle, Side::right, t, s).y - field.displacement(middle, Side::left, t, s).y;
+}
+
 std::optional<CutMembrane> membrane_of(const VaryingField& field, double s) {
   const Field& shape = field.shape();
   const double length = shape.cut().length;
-  const double whole = field_opening(field, length, s), half = field_opening(field, length / 2, s);
+  const double whole = middle_opening(field, length, s), half = middle_opening(field, length / 2, s);
   if (!(whole > 0) || !(half > 0)) return std::nullopt;
   const double poisson = shape.parameters.value_or(shape.parameters->skin.poisson_ratio, usual_poisson_ratio);
   const HalfOpenings& known = half_openings(poisson);
@@ -181,16 +180,20 @@ std::optional<CutMembrane> membrane_of(const VaryingField& field, double s) {
 
 PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut& cut,
                                  const IncisionVolume& volume, double length, const PathPrestress& prestress,
-                                 const std::function<OwnCut(double s)>& own) {
+                                 const std::function<OwnCut(double s)>& own,
+                                 const std::function<double(double s)>& ease) {
   const int pieces =
       std::clamp(static_cast<int>(std::lround(own_pieces * length / cut.length)), fewest_pieces, most_pieces);
   std::vector<Prestress> local;
+  std::vector<double> eases;
   Eigen::MatrixXd tractions(2 * pieces, 1);
   PathPrestress result;
   for (int i = 0; i < pieces; ++i) {
     result.stations.push_back((i + 0.5) * length / pieces);
     local.push_back(prestress.at(result.stations.back()));
-    tractions(2 * i, 0) = local.back().uv, tractions(2 * i + 1, 0) = local.back().vv;
+    eases.push_back(ease(result.stations.back()));
+    tractions(2 * i, 0) = eases.back() * local.back().uv,
+                     tractions(2 * i + 1, 0) = eases.back() * local.back().vv;
   }
   const Corners path = unrolled(volume, length, pieces);
   if (comes_back(path)) return {{0}, {{}}};
@@ -202,7 +205,7 @@ PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut
     const double t = std::clamp(length + time_offset, 0., cut.length);
     const OwnCut at = own(s);
     if (!of_own_cut || !of_own_cut->is_of(at, t)) of_own_cut.emplace(membrane, at, cut.length, t);
-    const Eigen::Matrix<double, 2, 3> unit = of_own_cut->at(u - cut.start);
+    const Eigen::Matrix<double, 2, 3> unit = eases[i] * of_own_cut->at(u - cut.start);
     const auto there = turned({local[i].uu, local[i].vv, local[i].uv}, -at.ahead);
     const Eigen::Rotation2Dd back(-at.ahead);
     const Eigen::Vector2d own_opening = unit * Eigen::Vector3d(there[0], there[1], there[2]);

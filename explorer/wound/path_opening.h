@@ -29,10 +29,16 @@ struct OwnCut {
   }
 };
 
+/// How far a field's cut opens in its middle when `t` mm of it are cut, mm. Of the fields at s mm of a path.
+double middle_opening(const VaryingField& field, double t, double s = 0);
+
 /// What is to be added to the prestress at places of a path, MPa, in the frame of the field's u there; none
-/// along it, and none at all of a path that comes back to itself.
+/// along it, and none at all of a path that comes back to itself. `ease` tells how far a straight cut with
+/// the depth, the tilt, the skin and the bone of a place opens, in any unit: where it changes, the path's
+/// parts open each other.
 PathPrestress tension_of_winding(const CutMembrane& membrane, const CanonicalCut& cut,
                                  const IncisionVolume& volume, double length, const PathPrestress& prestress,
-                                 const std::function<OwnCut(double s)>& own);
+                                 const std::function<OwnCut(double s)>& own,
+                                 const std::function<double(double s)>& ease);
 
 }  // namespace cleft

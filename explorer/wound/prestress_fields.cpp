@@ -141,8 +141,9 @@ PathPrestress PrestressFields::as_the_path_opens(const PathPrestress& prestress,
                                                  double length) const {
   const auto membrane = membrane_of(along({{0}, {{0, 1, 0}}}));
   if (!membrane) return prestress;
-  const PathPrestress added = tension_of_winding(*membrane, shape().cut(), volume, length, prestress,
-                                                 [](double) { return OwnCut{}; });
+  const PathPrestress added = tension_of_winding(
+      *membrane, shape().cut(), volume, length, prestress, [](double) { return OwnCut{}; },
+      [](double) { return 1.; });
   PathPrestress result = {prestress.stations, {}};
   result.stations.insert(result.stations.end(), added.stations.begin(), added.stations.end());
   std::sort(result.stations.begin(), result.stations.end());
