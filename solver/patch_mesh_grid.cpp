@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace cleft {
 
 namespace {
+
+/// An edge of 45 degrees gets elements of an eighth: with a half, a quarter and a tenth the opening is 6, 3
+/// and 1 % less than with a twentieth.
+constexpr double lip_power = 6;
+/// From one to the next they grow by this to the size of those next to an upright cut.
+constexpr double lip_growth = 1.2;
 
 enum class Cut { before, after, both };  // the side of a range of lines on which the cut is
 
@@ -24,6 +31,15 @@ void add_stretch(std::vector<double>& lines, double to, double step, Cut cut = C
     lines.push_back(from + length * part / sums[count]);
   }
   lines.push_back(to);
+}
+
+/// Sizes of elements that grow from `lip` to less than `step`, in no more than `room`, in which as much as
+/// the last of them remains.
+std::vector<double> lip_sizes(double lip, double step, double room) {
+  std::vector<double> sizes;
+  for (double size = lip, sum = 0; size < step && sum + 2 * size <= room; sum += size, size *= lip_growth)
+    sizes.push_back(size);
+  return sizes;
 }
 
 /// Size of the mesh's cut, which ends beyond its fronts, and how far its nodes are moved.
@@ -46,6 +62,11 @@ struct Shape {
     const double s = std::sin(angle / 2);
     return 2 * radius * s * s;
   }
+
+  /// Of elements next to the lips, in the size of those next to an upright cut. The lip over a tilted blade
+  /// ends in a thin edge, which the skin bends the more the thinner it is. Not on an arc, whose chords would
+  /// be as far from it as such an element is wide.
+  double lip_part() const { return half_angle > 0 ? 1 : std::pow(std::cos(tilt), lip_power); }
 
   /// The tilted plane continues below the cut's bottom and becomes upright over `tilt_reach`.
   double tilt_shift(double below_skin) const {
@@ -90,30 +111,47 @@ class GridMaker {
   /// The elements next to the outermost cuts are reduced by the factor by which moving the nodes stretches
   /// them.
   void add_v_lines() {
-    const double half = p_.patch.width / 2, step = p_.mesh.element_size;
+    const double half = p_.patch.width / 2, step = p_.mesh.element_size, lip = shape_.lip_part();
     const double first = (1 - p_.cut.count) / 2 * p_.cut.spacing;
     const double last = p_.cut.branch > 0 ? shape_.cut.branch : -first;
     const double tilted = shape_.tilt_shift(p_.patch.height);
     const double most = shape_.arc_rise + std::max(tilted, 0.0), least = std::min(tilted, 0.0);
+    const double before = step / (1 + most / (half + first)), after = step / (1 - least / (half - last));
     const int count = static_cast<int>(p_.cut.count);
     grid_.v = {-half};
     for (int n = 0; n < count; ++n) {
-      if (n == 0)
-        add_stretch(grid_.v, first, step / (1 + most / (half + first)), Cut::after, p_.mesh.grading);
-      else
-        add_stretch(grid_.v, first + n * p_.cut.spacing, step);
+      if (n == 0) {
+        const std::vector<double> sizes = lip_sizes(lip * before, before, half + first);
+        double from = first - std::accumulate(sizes.begin(), sizes.end(), 0.);
+        add_stretch(grid_.v, from, before, Cut::after, p_.mesh.grading);
+        for (auto size = sizes.rbegin(); size != sizes.rend(); ++size) grid_.v.push_back(from += *size);
+        grid_.v.back() = first;
+      } else {
+        add_stretch(grid_.v, first + n * p_.cut.spacing, lip * step);
+      }
       grid_.planes.push_back(static_cast<int>(grid_.v.size()) - 1);
     }
-    if (p_.cut.branch > 0) add_stretch(grid_.v, last, step);
+    if (p_.cut.branch > 0) add_stretch(grid_.v, last, lip * step);
     grid_.branch_v = static_cast<int>(grid_.v.size()) - 1;
-    add_stretch(grid_.v, half, step / (1 - least / (half - last)), Cut::before, p_.mesh.grading);
+    for (const double size : lip_sizes(lip * after, after, half - last))
+      grid_.v.push_back(grid_.v.back() + size);
+    add_stretch(grid_.v, half, after, Cut::before, p_.mesh.grading);
   }
 
   void add_w_lines() {
+    const double step = p_.mesh.element_size, lip = shape_.lip_part();
     grid_.w = {0};
-    add_stretch(grid_.w, -shape_.depth, p_.mesh.element_size);
+    add_stretch(grid_.w, -shape_.depth, step);
+    // The last one above the bottom remains: it is a part of it that the cut ends above its closed nodes.
+    const double last = grid_.w[grid_.w.size() - 2];
+    if (const std::vector<double> sizes = lip_sizes(lip * step, step, -last); !sizes.empty()) {
+      grid_.w = {0};
+      for (const double size : sizes) grid_.w.push_back(grid_.w.back() - size);
+      add_stretch(grid_.w, last, step);
+      grid_.w.push_back(-shape_.depth);
+    }
     grid_.bottom = static_cast<int>(grid_.w.size()) - 1;
-    add_stretch(grid_.w, -p_.patch.height, p_.mesh.element_size, Cut::before, p_.mesh.grading);
+    add_stretch(grid_.w, -p_.patch.height, step, Cut::before, p_.mesh.grading);
   }
 
   /// All v lines from the first cut to the last (or the branch's end) move alike, the others ever less toward

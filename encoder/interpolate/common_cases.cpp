@@ -170,6 +170,8 @@ std::vector<CommonCases::Own> CommonCases::made_alike(std::vector<Own> all) {
     for (RecordedParameters* p : {&own.parameters, &own.kept.parameters}) {
       if (p->has((*p)->cut.curvature) && !p->has((*p)->cut.curvature_rate))
         p->set((*p)->cut.curvature_rate, 0);
+      if (p->has((*p)->skin.bending_stiffness) && !p->has((*p)->skin.turning_stiffness))
+        p->set((*p)->skin.turning_stiffness, 0);
       if (p->has((*p)->patch.bottom)) ((*p)->patch.bottom == PatchBottom::bone ? bone : springs) = true;
     }
   if (springs && bone)

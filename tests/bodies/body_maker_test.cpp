@@ -205,6 +205,31 @@ TEST(MakeBody, FramesFollowTheBlade) {
 }
 
 /// Beyond the skin the blade opens nothing more; its time goes on.
+/// Where it leans across the path, and not where along it: half as long at 45 degrees.
+TEST(MakeBody, LipsOverATiltedBladeHaveSmallElements) {
+  const auto longest = [](const Vec3& blade) {
+    BodyRequest r = request(testing::flat, {along});
+    std::vector<ScalpelPath::Point> points;
+    for (const auto& [x, y] : along) points.push_back({{x, y, 0}, blade, 2});
+    r.paths = {ScalpelPath(points)};
+    const Body body = make_body(r);
+    std::set<int> lips;
+    for (const auto& pair : body.pairs)
+      if (pair.depth == 0) lips.insert(pair.left);
+    double most = 0;
+    for (const auto& t : body.skin)
+      for (int i = 0; i < 3; ++i)
+        if (lips.contains(t[i]) && lips.contains(t[(i + 1) % 3]))
+          most = std::max(most, norm(body.points[t[i]] - body.points[t[(i + 1) % 3]]));
+    return most;
+  };
+  const double upright = longest({0, 0, 1});
+  EXPECT_NEAR(longest({0, 1, 1}) / upright, 0.5, 0.1);
+  EXPECT_NEAR(longest({0, -1, 1}) / upright, 0.5, 0.1);
+  EXPECT_NEAR(longest({0, 0.1, 1}) / upright, 1, 1e-6);
+  EXPECT_NEAR(longest({0.5, 0, 1}) / upright, 1, 0.1);
+}
+
 TEST(MakeBody, APathMayLeaveTheSkin) {
   BodyRequest r = request(testing::flat, {{{30, 0}, {50, 0}}});
   const Body body = make_body(r);

@@ -282,6 +282,13 @@ TEST(StudyInterpolator, CasesAreCheckedWithTheFormulationOfTheStudy) {
   }
 }
 
+TEST(CommonCases, OlderCasesAreThoseWithoutWhatIsZeroByDefault) {
+  auto members = made_study(three_varied(2));
+  for (StudyMember& member : members) member.field.parameters.set("skin.bending_stiffness", 0.);
+  members[1].field.parameters.set("skin.turning_stiffness", 0.);
+  EXPECT_NO_THROW(CommonCases{members});
+}
+
 TEST(CommonCases, WhatCannotBeCombinedIsRefused) {
   const auto refuses = [](const std::vector<StudyMember>& members, const std::string& part) {
     try {

@@ -50,6 +50,30 @@ TEST(PatchMesh, ElementsAtTheCutAreNoLongerThanTheElementSize) {
   }
 }
 
+/// The skin bends the thin edge of a lip over a tilted blade the more the thinner it is. Fronts are parts of
+/// the elements at the bottom and the ends of the cut, which remain.
+TEST(PatchMesh, LipsOverATiltedBladeHaveSmallElements) {
+  Parameters p = awkward_patch();
+  p.cut.count = 1, p.mesh.element_size = 0.9;
+  const PatchMesh upright = make_patch_mesh(p);
+  p.cut.tilt = 45;
+  const PatchMesh tilted = make_patch_mesh(p);
+  const auto beside = [](const PatchMesh& mesh) {
+    double nearest = 1e9;
+    for (const Vec3& x : mesh.points)
+      if (x.z == 0 && std::abs(x.y) > 1e-9) nearest = std::min(nearest, std::abs(x.y));
+    return nearest;
+  };
+  EXPECT_GT(beside(upright), 0.7 * p.mesh.element_size);
+  EXPECT_LE(beside(tilted), p.mesh.element_size / 8 + 1e-9);
+  const auto& depth = tilted.lines_depth;
+  const auto layers = upright.lines_depth.size(), finer = depth.size();
+  EXPECT_LE(depth[1], p.mesh.element_size / 8 + 1e-9);
+  EXPECT_GT(finer, layers);
+  EXPECT_EQ(depth[finer - 2], upright.lines_depth[layers - 2]);
+  EXPECT_EQ(tilted.lines_along, upright.lines_along);
+}
+
 TEST(PatchMesh, ElementsGrowByTheGradingAwayFromTheCut) {
   Parameters p = awkward_patch();
   p.mesh.grading = 1.3;
