@@ -210,6 +210,7 @@ TEST(MakeBody, LipsOverATiltedBladeHaveSmallElements) {
   const auto longest = [](const Vec3& blade) {
     BodyRequest r = request(testing::flat, {along});
     std::vector<ScalpelPath::Point> points;
+    points.reserve(along.size());
     for (const auto& [x, y] : along) points.push_back({{x, y, 0}, blade, 2});
     r.paths = {ScalpelPath(points)};
     const Body body = make_body(r);

@@ -197,6 +197,7 @@ TEST(GuardSearch, LeavesSliversThatHardlyBend) {
                        {[](int, std::size_t) { return false; }, [](int, int, double) { return true; },
                         [](int, int, double) { return true; }, [](int, std::size_t) { return false; }});
     std::vector<std::pair<int, Vec3>> moved;
+    moved.reserve(121);
     for (int v = 0; v < 121; ++v) {
       const Vec3 p = mesh.position(v) - mesh.position(middle);
       moved.push_back({v, {0, 0, 3 + 0.02 * squared_norm(p)}});
