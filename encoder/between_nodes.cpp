@@ -32,13 +32,26 @@ Eigen::VectorXd spread_of(const CellCentres& cells, const Eigen::MatrixXd& value
 /// Of a field at samples, one a row.
 using Evaluate = std::function<Eigen::MatrixXd(const std::vector<Place>&)>;
 
+std::vector<Place> places_at(const CellCentres& centres, double t) {
+  std::vector<Place> places;
+  places.reserve(centres.samples.size());
+  for (const Sample& sample : centres.samples) places.push_back({sample.uvw, sample.side, t});
+  return places;
+}
+
+Eigen::MatrixXd displacements_at(const Field& field, const std::vector<Place>& places) {
+  std::vector<Vec3> values(places.size());
+  field.displacements(places, values);
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), 3);
+  for (std::size_t n = 0; n < values.size(); ++n)
+    rows.row(static_cast<Eigen::Index>(n)) << values[n].x, values[n].y, values[n].z;
+  return rows;
+}
+
 void add(BetweenNodes& worst, const CellCentres& places, const Evaluate& evaluate,
          const Eigen::MatrixXd& values, const Eigen::VectorXd& spread, double t) {
   if (places.samples.empty()) return;
-  std::vector<Place> at;
-  at.reserve(places.samples.size());
-  for (const Sample& sample : places.samples) at.push_back({sample.uvw, sample.side, t});
-  const Eigen::VectorXd off = norms_of(evaluate(at) - places.mean(values));
+  const Eigen::VectorXd off = norms_of(evaluate(places_at(places, t)) - places.mean(values));
   for (std::size_t i = 0; i < places.samples.size(); ++i) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = places.first[i]; k < places.first[i + 1]; ++k)
@@ -58,7 +71,8 @@ CellCentres some_of(const CellCentres& all) {
 
 template <class Frames>
 BetweenNodes worst_of(const Frames& frames, const Series& series, const Evaluate& evaluate) {
-  const CellCentres centres = some_of(series.centres), middles = some_of(series.middles);
+  const CellCentres centres = some_of(series.centres),
+                    middles = series.middles_hold ? some_of(series.middles) : CellCentres{};
   std::vector<BetweenNodes> worst(series.times.size());
   parallel_for(static_cast<int>(worst.size()), [&](int j) {
     const auto frame = static_cast<std::size_t>(j);
@@ -74,16 +88,24 @@ BetweenNodes worst_of(const Frames& frames, const Series& series, const Evaluate
 
 }  // namespace
 
+double error_at_centres(const Field& field, const Series& series) {
+  const CellCentres centres = some_of(series.centres);
+  std::vector<double> errors(series.times.size(), 0.);
+  parallel_for(static_cast<int>(errors.size()), [&](int j) {
+    if (centres.samples.empty()) return;
+    const auto frame = static_cast<std::size_t>(j);
+    const Eigen::MatrixXd means = centres.mean(series.frames[frame]);
+    series.frames.forget(frame);
+    errors[frame] =
+        norms_of(displacements_at(field, places_at(centres, series.times[frame])) - means).maxCoeff();
+  });
+  return *std::max_element(errors.begin(), errors.end());
+}
+
 std::vector<BetweenNodes> add_between_nodes(Field& field, const Series& series) {
   std::vector<BetweenNodes> all;
-  all.push_back(worst_of(series.frames, series, [&](const std::vector<Place>& places) {
-    std::vector<Vec3> values(places.size());
-    field.displacements(places, values);
-    Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), 3);
-    for (std::size_t n = 0; n < values.size(); ++n)
-      rows.row(static_cast<Eigen::Index>(n)) << values[n].x, values[n].y, values[n].z;
-    return rows;
-  }));
+  all.push_back(worst_of(series.frames, series,
+                         [&](const std::vector<Place>& places) { return displacements_at(field, places); }));
   if (series.largest_displacement > 0)
     field.report.between_nodes = all.front().error / series.largest_displacement;
   for (std::size_t q = 0; q < field.quantities.size(); ++q) {

@@ -24,4 +24,7 @@ struct BetweenNodes {
 /// scale. Gives where it is: of the displacement, then of each quantity.
 std::vector<BetweenNodes> add_between_nodes(Field& field, const Series& series);
 
+/// The largest distance of the displacement from the mean of the nodes at centroids of cells, mm.
+double error_at_centres(const Field& field, const Series& series);
+
 }  // namespace cleft

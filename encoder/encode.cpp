@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "encoder/between_nodes.h"
+#include "encoder/field/file/coded_points.h"
 #include "encoder/field/unknowns.h"
 #include "encoder/knot_search.h"
 #include "encoder/lips.h"
@@ -27,6 +29,29 @@ constexpr double worth_of_more = 0.75;      // what kinks and denser knots must 
 constexpr double worth_of_denser = 0.5;     // what denser knots must make of the errors of quantities
 constexpr double greatest_condition = 1e6;  // of what nodes determine well; mostly 1e3 to 1e5
 constexpr std::size_t most_fewer = 2;       // rungs, for a better condition
+
+// Tolerances on close knots: of a frame that is fitted alone, beyond which no fit keeps one, and of the fit.
+constexpr double most_on_close_knots = 3, share_of_close_fit = 0.8;
+constexpr double least_volume = 0.5;      // that no one need mind
+constexpr std::size_t of_residual = 350;  // bytes of a file, beside the code
+
+/// How steps of coefficients are chosen. Rounding seldom costs as much as large ones may, nor do lips.
+struct Steps {
+  double share = share_of_steps;  // of the tolerance, for rounding in the worst case
+  double smaller = 1.5;           // each is, than the one before
+  bool with_lips = false;         // whether the lips' distance follows them
+};
+constexpr Steps close_steps = {share_of_close_steps, 1.2, true};
+constexpr int most_steps = 12;  // that are tried beside the first
+
+/// Of a file, those that depend on how the displacement is encoded.
+std::size_t bytes_of(const Encoded& encoded) {
+  const Field& field = encoded.field;
+  const std::array<BSplineBasis, 4> bases{field.basis(0), field.basis(1), field.basis(2), field.basis(3)};
+  const ControlTies ties = ties_of(field.parametrization().name(), bases);
+  const std::size_t bytes = coded_points(field.coefficients(), ties, bases, field.quantum).bytes.size();
+  return encoded.residual ? bytes + encoded.residual->bytes() + of_residual : bytes;
+}
 
 /// What there is ahead of the front, far from it: little, or something that wants knots there.
 enum class Ahead { at_rest, moving };
@@ -68,7 +93,7 @@ class Encoder {
   Encoded run(std::size_t least = 0) const {
     if (options_.rung) {
       const SeriesFit fit = fit_of(*options_.rung);
-      return {with_derivatives(with_steps(fit, above(fit.misfit(0))), fit)};
+      return {with_derivatives(with_steps(fit, above(fit.misfit(0)), {}), fit)};
     }
     const std::vector<Rung> rungs = supported_rungs();
     std::size_t rung = std::max(sufficient(rungs), std::min(least, rungs.size() - 1));
@@ -93,7 +118,7 @@ class Encoder {
     };
     // What other arms do passes the ends of an arm in few frames, between those that the search for knots has
     // looked at; a single break may begin to open there, too.
-    const bool single = !series_.arm && !series_.middles.samples.empty();
+    const bool single = !series_.arm && series_.middles_hold;
     for (int more = 0;
          (series_.arm || single) && more < most_tries && misfit.largest > limit_ && rung + 1 < rungs.size();
          ++more)
@@ -103,26 +128,69 @@ class Encoder {
       bent.kinks = series_.kinks;
       try_instead(bent, worth_of_more);
     }
-    if (!series_.middles.samples.empty() && misfit.largest > far_off * limit_) {
+    if (series_.middles_hold && misfit.largest > far_off * limit_) {
       const std::vector<Rung> dense = supported_rungs(nodes_held_between);
       Rung denser = dense[sufficient(dense)];
       denser.kinks = chosen.kinks;
       try_instead(denser, worth_of_more);
     }
-    const SeriesFit& fit = *fitted;
-    Encoded encoded{with_steps(fit, misfit.beyond == 0 ? limit_ : above(misfit))};
-    if (encoded.field.report.spline_error * scale_ > limit_) {
-      progress_("coding what the spline leaves");
-      encoded.residual = residual_of(encoded.field, series_, limit_);
-    }
-    encoded.field = with_derivatives(std::move(encoded.field), fit);
+    Encoded encoded = coded(*fitted, misfit, {});
+    if (auto close = on_close_knots(*fitted, misfit, chosen.kinks))
+      if (Encoded other = coded(*close, close->misfit(share_of_fit * limit_), close_steps);
+          is_better(other, encoded))
+        encoded = std::move(other), fitted = std::move(close);
+    encoded.field = with_derivatives(std::move(encoded.field), *fitted);
     return encoded;
   }
 
  private:
+  /// The field of a fit, and what it leaves of the tolerance.
+  Encoded coded(const SeriesFit& fit, const Misfit& misfit, const Steps& steps) const {
+    Encoded encoded{with_steps(fit, misfit.beyond == 0 ? limit_ : above(misfit), steps)};
+    if (encoded.field.report.spline_error * scale_ > limit_) {
+      progress_("coding what the spline leaves");
+      encoded.residual = residual_of(encoded.field, series_, limit_);
+    }
+    return encoded;
+  }
+
+  /// As `fit`, with knots beside the cut that are as close as nodes of coarse meshes, between which edges
+  /// hold the spline; none if there are no such knots, if they are no remedy, or if other quantities need
+  /// knots too.
+  std::unique_ptr<SeriesFit> on_close_knots(const SeriesFit& fit, const Misfit& misfit,
+                                            const std::vector<TimeKink>& kinks) const {
+    if (misfit.largest <= limit_ || !parametrization_->resolves_front() || series_.middles.samples.empty() ||
+        !series_.quantities.empty())
+      return nullptr;
+    Rung rung =
+        supported(close_rungs_of(ladder_of_series()), series_, *parametrization_, nodes_held_firmly).back();
+    rung.kinks = kinks;
+    const auto bases = bases_on(rung);
+    const auto store = store_->firm();
+    const std::size_t last = series_.times.size() - 1;
+    progress_("trying knots");
+    if (space_misfit(series_, *store, {bases[0], bases[1], bases[2]}, last, limit_).largest >
+        most_on_close_knots * limit_)
+      return nullptr;
+    progress_("fitting all frames");
+    auto close = std::make_unique<SeriesFit>(series_, store, bases, start_, fit.strength());
+    close->keep(share_of_close_fit * limit_);
+    return close->misfit(limit_).largest < worth_of_more * misfit.largest ? std::move(close) : nullptr;
+  }
+
+  /// Whether it needs no more bytes, and goes astray no more between the nodes.
+  bool is_better(const Encoded& other, const Encoded& encoded) const {
+    return bytes_of(other) <= bytes_of(encoded) &&
+           other.field.report.least_volume >= std::min(least_volume, encoded.field.report.least_volume) &&
+           error_at_centres(other.field, series_) <= error_at_centres(encoded.field, series_);
+  }
+
+  std::array<BSplineBasis, 4> bases_on(const Rung& rung) const {
+    return bases_of(rung, *parametrization_, static_cast<int>(series_.times.size()));
+  }
+
   SeriesFit fit_of(const Rung& rung) const {
-    return {series_, store_, bases_of(rung, *parametrization_, static_cast<int>(series_.times.size())),
-            start_, options_.regularisation};
+    return {series_, store_, bases_on(rung), start_, options_.regularisation};
   }
 
   std::unique_ptr<SeriesFit> fitted_on(const Rung& rung) const {
@@ -130,9 +198,13 @@ class Encoder {
   }
 
   std::vector<Rung> supported_rungs(double nodes_at_front = enough_nodes) const {
+    return supported(ladder_of(*parametrization_, ladder_of_series()), series_, *parametrization_,
+                     nodes_at_front);
+  }
+
+  LadderOf ladder_of_series() const {
     const bool waiting = ahead_ == Ahead::moving || (!series_.kinks.empty() && waits(series_.geometry.tip));
-    return supported(ladder_of(*parametrization_, {series_.round, waiting, series_.bends, series_.winds}),
-                     series_, *parametrization_, nodes_at_front);
+    return {series_.round, waiting, series_.bends, series_.winds};
   }
 
   /// For single frames; if there is none, one that leaves little to a residual.
@@ -150,23 +222,26 @@ class Encoder {
   static double above(const Misfit& misfit) { return 1.02 * misfit.largest; }
 
   /// The field and its report, with steps of its coefficients that keep `bound`, mm.
-  Field with_steps(const SeriesFit& fit, double bound) const {
+  Field with_steps(const SeriesFit& fit, double bound, const Steps& steps) const {
     progress_("choosing the coefficients' steps");
     bound = std::max(bound, finest_bound * scale_);
     // Functions sum to 1: coefficients off by half a step each way put no point off by more than sqrt(3) / 2
     // steps.
-    double step = share_of_steps * 2 / std::sqrt(3.) * bound_of_steps(bound, options_.rung ? 0 : limit_);
-    const Field exact =
-        with_lips_apart(fit.field(fit.control_points()), series_, 2 * farthest_move * step, bound);
+    double step = steps.share * 2 / std::sqrt(3.) * bound_of_steps(bound, options_.rung ? 0 : limit_);
+    const Field fitted = fit.field(fit.control_points());
+    const auto apart = [&] { return with_lips_apart(fitted, series_, 2 * farthest_move * step, bound); };
+    Field exact = apart();
     // At nodes that were not fitted the spline may be off by more.
     if (series_.all_nodes) bound = std::max(bound, above({scale_ * measure(exact, series_).spline_error, 0}));
-    for (int halvings = 0;; ++halvings, step /= 1.5) {
+    for (int tried = 0;; ++tried) {
       Field field = quantised(exact, step, farthest_move);
       field.report.condition = fit.condition();
       field.report.regularisation = options_.regularisation.value_or(0);
       progress_("measuring");
       field.report = measure(field, series_);
-      if (field.report.spline_error * scale_ <= bound || halvings == 12) return field;
+      if (field.report.spline_error * scale_ <= bound || tried == most_steps) return field;
+      step /= steps.smaller;
+      if (steps.with_lips) exact = apart();
     }
   }
 

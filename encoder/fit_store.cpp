@@ -32,14 +32,25 @@ std::vector<double> knots_of(const Bases& bases, std::initializer_list<double> f
 
 }  // namespace
 
-FitStore::FitStore(const Series& series, std::shared_ptr<const Parametrization> parametrization, double bytes)
-    : series_(series), parametrization_(std::move(parametrization)), left_(bytes) {}
+FitStore::FitStore(const Series& series, std::shared_ptr<const Parametrization> parametrization, double bytes,
+                   FrameFit::Hold hold)
+    : series_(series), parametrization_(std::move(parametrization)), hold_(hold), left_(bytes) {}
+
+std::shared_ptr<FitStore> FitStore::firm() {
+  const std::lock_guard lock(mutex_);
+  if (!firm_) {
+    left_ /= 2;
+    firm_ = std::make_shared<FitStore>(series_, parametrization_, left_, FrameFit::Hold::firm);
+  }
+  return firm_;
+}
 
 bool FitStore::serves(const Series& series) const {
   return series.nodes == series_.nodes && series.times == series_.times && series.arm == series_.arm &&
          series.round == series_.round && series.quadratic == series_.quadratic &&
          series.geometry == series_.geometry && equal(series.samples, series_.samples) &&
-         equal(series.centres, series_.centres) && equal(series.middles, series_.middles);
+         equal(series.centres, series_.centres) && equal(series.middles, series_.middles) &&
+         series.middles_hold == series_.middles_hold;
 }
 
 template <class Matrix, class Make>
@@ -55,7 +66,7 @@ std::shared_ptr<const Matrix> FitStore::find(Kept<Matrix>& kept, const Key& key,
 }
 
 std::shared_ptr<const FrameFit> FitStore::fit(const std::array<BSplineBasis, 3>& bases) {
-  return find(fits_, knots_of(bases, {}), [&] { return FrameFit(series_, *parametrization_, bases); });
+  return find(fits_, knots_of(bases, {}), [&] { return FrameFit(series_, *parametrization_, bases, hold_); });
 }
 
 std::shared_ptr<const SpaceFit::Factor> FitStore::factor(const std::array<BSplineBasis, 3>& bases,

@@ -20,11 +20,14 @@ class FitStore {
  public:
   /// Of the places and times of `series`, to which it keeps a reference; its displacements, quantities and
   /// derivatives may be cleared. At most `bytes` of factors are kept, none of them for 0.
-  FitStore(const Series& series, std::shared_ptr<const Parametrization> parametrization, double bytes = 0);
+  FitStore(const Series& series, std::shared_ptr<const Parametrization> parametrization, double bytes = 0,
+           FrameFit::Hold hold = FrameFit::Hold::as_usual);
 
   /// Whether another series has the same places, times and geometry, bit for bit.
   bool serves(const Series& series) const;
   const std::shared_ptr<const Parametrization>& parametrization() const { return parametrization_; }
+  /// A store of fits that edges hold firmly, made once; it takes half of the bytes that are left.
+  std::shared_ptr<FitStore> firm();
 
   std::shared_ptr<const FrameFit> fit(const std::array<BSplineBasis, 3>& bases);
   /// The Cholesky factor of the normal matrix of a frame, which `make` makes.
@@ -45,7 +48,9 @@ class FitStore {
 
   const Series& series_;
   std::shared_ptr<const Parametrization> parametrization_;
+  FrameFit::Hold hold_;
   double left_;  // bytes that may be kept in addition
+  std::shared_ptr<FitStore> firm_;
   std::mutex mutex_;
   Kept<FrameFit> fits_;
   Kept<SpaceFit::Factor> factors_;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double of_middles = 0.03;  // the weight of edges: more bends the opening next to a front
 constexpr double of_middles_open = 0.01, of_middles_at_front = 0.003;  // of lips
+constexpr double of_middles_firm = 0.2;                                // where knots are as close as nodes
 constexpr int enough = 8;  // nodes a control point, in any piece along the cut
 
 /// Where the basis along interpolates: pieces between such knots share no function but at their ends.
@@ -34,7 +35,7 @@ std::vector<Piece> pieces_of(const BSplineBasis& along) {
 }  // namespace
 
 FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
-                   const std::array<BSplineBasis, 3>& bases)
+                   const std::array<BSplineBasis, 3>& bases, Hold hold)
     : series_(series),
       parametrization_(parametrization),
       bases_(bases),
@@ -49,7 +50,7 @@ FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
            std::lower_bound(places.begin(), places.end(), front);
   };
   std::vector<bool> sparse(series.times.size(), false), inside(series.centres.samples.size(), false),
-      held(series.middles.samples.size(), false);
+      held(hold == Hold::firm || series.middles_hold ? series.middles.samples.size() : 0, false);
   const int section = bases[1].size() * bases[2].size();
   const double tiny = 1e-8 * (u.back() - u.front());
   for (std::size_t j = series.from_zero ? 1 : 0; j < series.times.size(); ++j)
@@ -78,7 +79,7 @@ FrameFit::FrameFit(const Series& series, const Parametrization& parametrization,
   if (series.geometry.cut.length > 0)
     add_group(series.centres, at_plane, std::vector<bool>(sparse.size(), true));
   add_group(series.centres, others, sparse);
-  add_group(series.middles, middles, sparse, of_middles);
+  add_group(series.middles, middles, sparse, hold == Hold::firm ? of_middles_firm : of_middles);
   add_group(series.middles, on_lips, sparse, of_middles_at_front);
   add_lips(on_lips, sparse);
 }

@@ -19,10 +19,13 @@ namespace cleft {
 /// with a weight that bends it little at the nodes.
 class FrameFit {
  public:
+  /// Whether edges hold the spline as much as close knots need, whatever the data are.
+  enum class Hold { as_usual, firm };
+
   /// Of the places and times of `series`, not of its displacements. Keeps references to `series` and
   /// `parametrization`.
   FrameFit(const Series& series, const Parametrization& parametrization,
-           const std::array<BSplineBasis, 3>& bases);
+           const std::array<BSplineBasis, 3>& bases, Hold hold = Hold::as_usual);
 
   const ControlTies& ties() const { return nodes_.ties(); }
   const SpaceFit& space() const { return nodes_; }

@@ -20,6 +20,7 @@ struct Rung {
   bool waits = false;                ///< whether knots ahead of the tip serve what happens far from it
   bool bends = false;                ///< whether knots in the middle of the cut come early
   bool winds = false;                ///< whether all of its sixteenths come before what is next to the ends
+  bool close = false;                ///< whether knots beside the cut come as close as nodes of coarse meshes
 
   friend bool operator==(const Rung&, const Rung&) = default;
 };
@@ -42,5 +43,10 @@ struct LadderOf {
   bool winds = false;  ///< it turns so much that the middle of the cut needs as many knots as its ends
 };
 std::vector<Rung> ladder_of(const Parametrization& parametrization, const LadderOf& series = {});
+
+/// Rungs of close knots, for a parametrisation that resolves the front: where elements are as large as a
+/// third of the cut's depth and more, these need fewer control points than the ladder. Edges must hold the
+/// spline between the nodes.
+std::vector<Rung> close_rungs_of(const LadderOf& series = {});
 
 }  // namespace cleft

@@ -324,7 +324,7 @@ Series::Series(const SnapshotReader& reader, const SeriesStorage& storage)
     centres = cell_centres(taken.cells_of(s), samples);
   } else {
     centres = cell_centres(s, samples);
-    if (s.source && samples.size() <= few_nodes) middles = edge_middles(s, samples);
+    if (samples.size() <= few_nodes) middles = edge_middles(s, samples), middles_hold = s.source.has_value();
     if (own) {
       own->place_around_front(reader.snapshot(), centres);
       own->place_around_front(reader.snapshot(), middles);

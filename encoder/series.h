@@ -70,8 +70,9 @@ struct Series {
   std::vector<double> largest;      ///< F: largest displacement of the frame, mm
   double largest_displacement = 0;  ///< mm, of all
   CellCentres centres;
-  /// Of imported data with few nodes: middles of edges, which hold fits and show errors between nodes.
+  /// With few nodes: middles of edges, which hold fits on close knots.
   CellCentres middles;
+  bool middles_hold = false;               ///< all fits, and show errors between nodes: of imported data
   bool from_zero = true;                   ///< whether frame 0 is no part of the fit
   std::vector<std::int32_t> beside_jumps;  ///< samples next to which the cut's coordinates jump
   bool quadratic = false;                  ///< simulated with quadratic elements, of which cells are parts

@@ -1,6 +1,8 @@
 #include "encoder/series_fit.h"
 
 #include <algorithm>
+#include <limits>
+#include <map>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -25,6 +27,10 @@ constexpr double residual_bound = 1e-6;  // of the right-hand side, where iterat
 // residual is at most `found`.
 constexpr double nearly = 1e-3, next_to_nothing = 1e-5, found = 1e-11;
 constexpr int most_refinements = 40;
+// To keep a bound: steps, for which convergence is sure below 2, hardly more than preconditioned; how near is
+// near enough; and a step's least gain.
+constexpr double keeping_step = 1.9, keeping_residual = 0.1, kept = 1.03, least_gain = 1e-3;
+constexpr int most_keeping_steps = 8;
 
 std::array<BSplineBasis, 3> in_space(const std::array<BSplineBasis, 4>& bases) {
   return {bases[0], bases[1], bases[2]};
@@ -213,6 +219,46 @@ void SeriesFit::refine() {
     misfit = now;
   }
   control_points_ = misfit <= found ? best : regularised;
+}
+
+/// Uzawa's method: the multiplier of a node is a displacement that is added to its data, and grows by what
+/// the node's residual exceeds.
+void SeriesFit::keep(double bound) {
+  const int frames = static_cast<int>(in_time_.rows());
+  const SpaceFit& space = fit_->space();
+  const auto nodes = static_cast<Eigen::Index>(series_.nodes);
+  std::vector<std::map<Eigen::Index, Eigen::RowVector3d>> multipliers(static_cast<std::size_t>(frames));
+  std::vector<Eigen::MatrixXd> changes(static_cast<std::size_t>(frames));
+  Eigen::MatrixXd best = control_points_;
+  double least = std::numeric_limits<double>::infinity();
+  for (int steps = 0;; ++steps) {
+    Eigen::VectorXd largest(frames);
+    parallel_for(frames, [&](int j) {
+      const Eigen::MatrixX3d left = -errors(j);
+      series_.frames.forget(frame_of(j));
+      largest(j) = left.topRows(nodes).rowwise().norm().maxCoeff();
+      Eigen::MatrixX3d change = Eigen::MatrixX3d::Zero(left.rows(), 3);
+      auto& of_frame = multipliers[j];
+      for (Eigen::Index n = 0; n < nodes; ++n) {
+        const auto known = of_frame.find(n);
+        if (known == of_frame.end() && left.row(n).squaredNorm() <= bound * bound) continue;
+        Eigen::RowVector3d& multiplier = of_frame[n];  // 0 if it is new
+        if (known == of_frame.end()) multiplier.setZero();
+        const Eigen::RowVector3d moved = multiplier + keeping_step * left.row(n);
+        const double length = moved.norm();
+        const Eigen::RowVector3d next =
+            moved * (std::max(0., length - keeping_step * bound) / std::max(length, 1e-300));
+        change.row(n) = next - multiplier;
+        multiplier = next;
+      }
+      changes[j] = space.project(change, series_.times[frame_of(j)]);
+    });
+    const double before = least;
+    if (largest.maxCoeff() < least) least = largest.maxCoeff(), best = control_points_;
+    if (least <= kept * bound || least > (1 - least_gain) * before || steps == most_keeping_steps) break;
+    add(system_->solve(system_->over_frames(changes), keeping_residual));
+  }
+  control_points_ = std::move(best);
 }
 
 bool SeriesFit::same_in_all_frames() const {

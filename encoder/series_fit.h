@@ -48,6 +48,9 @@ class SeriesFit {
   /// are 0 and left out.
   const Eigen::MatrixXd& control_points() const { return control_points_; }
   Misfit misfit(double limit) const;
+  /// Of the splines that are off by `bound` at most, mm, at any node, takes the one of least squares, or what
+  /// a few steps toward it find.
+  void keep(double bound);
   /// The control points for other data that are 0 in frame 0, by the same factorised normal matrices: F
   /// frames, N x 3.
   Eigen::MatrixXd control_points_of(const std::vector<Eigen::MatrixX3d>& frames) const;

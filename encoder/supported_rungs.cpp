@@ -41,6 +41,9 @@ std::vector<Rung> supported(const std::vector<Rung>& ladder, const Series& serie
     places[2].push_back(parametrization.height(uvw.z).value);
   };
   for (const Sample& sample : series.samples) add(sample.uvw);
+  if (ladder.front().close)  // edges hold the spline
+    for (const Sample& sample : series.middles.samples)
+      places[1].push_back(parametrization.across(sample.uvw.y).value);
   for (std::vector<double>& on_axis : places) {
     std::sort(on_axis.begin(), on_axis.end());
     on_axis.erase(std::unique(on_axis.begin(), on_axis.end()), on_axis.end());

@@ -11,6 +11,8 @@ namespace cleft {
 /// Nodes for each control point in space, where it follows the front: with fewer, matrices are up to a
 /// hundred times worse conditioned. And where edges hold the spline between the nodes, too.
 inline constexpr double enough_nodes = 3.4, nodes_held_between = 1.5;
+/// And where edges hold it firmly, on close knots.
+inline constexpr double nodes_held_firmly = 0.5;
 
 /// The ladder, limited to the spans that the positions of the nodes in the last frame determine on each axis
 /// (Schoenberg and Whitney), and further limited if nodes are few for the control points in space (with a

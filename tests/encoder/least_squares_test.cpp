@@ -131,6 +131,23 @@ TEST(LeastSquares, EqualsTheJointFourDimensionalOne) {
   }
 }
 
+TEST(LeastSquares, KeepsABoundAtAllNodesForLittleMore) {
+  const SyntheticSnapshot data(opening);
+  const Series series = data.series();
+  const auto parametrization = make_parametrization("tip", series.geometry);
+  const auto bases = bases_of(small, *parametrization, 8);
+  SeriesFit fit(series, parametrization, bases);
+  const Joint joint(series, *parametrization, bases, fit.ties(), fit.strength());
+  const double least = joint.data_cost(stacked(fit.control_points())), off = fit.misfit(0).largest;
+  // Within reach: nothing moves.
+  const Eigen::MatrixXd before = fit.control_points();
+  fit.keep(1.01 * off);
+  EXPECT_EQ(fit.control_points(), before);
+  fit.keep(0.8 * off);
+  EXPECT_LT(fit.misfit(0).largest, 0.85 * off);
+  EXPECT_LT(joint.data_cost(stacked(fit.control_points())), 1.1 * least);
+}
+
 /// Few nodes in the hole of a cloud, and few frames for each control point in t: what a fit says there comes
 /// late in the iterations.
 TEST(LeastSquares, ConvergesSoonWhereLittleIsKnown) {

@@ -78,6 +78,24 @@ TEST_P(Tolerance, TighterOnesDoNotCostFewerBytes) {
   }
 }
 
+TEST(CloseKnots, AreNested) {
+  const FieldGeometry geometry{{{{-6, 6}, {-5, 4}, {-2.5, 0}, {0, 8}}}, {-4, 8, 1.5}, {{0, 8}, {-4, 4}}};
+  const auto parametrization = make_parametrization("front", geometry);
+  for (const bool bends : {false, true}) {
+    const std::vector<Rung> rungs = close_rungs_of({.bends = bends});
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+      EXPECT_TRUE(rungs[i].close);
+      const auto bases = bases_of(rungs[i], *parametrization, 21),
+                 fewer = bases_of(rungs[i > 0 ? i - 1 : 0], *parametrization, 21);
+      for (std::size_t axis = 0; axis < 4; ++axis) {
+        const auto &few = fewer[axis].knots(), &many = bases[axis].knots();
+        EXPECT_TRUE(std::includes(many.begin(), many.end(), few.begin(), few.end()))
+            << i << ", axis " << axis;
+      }
+    }
+  }
+}
+
 TEST_P(Tolerance, RungsAreSortedAndNested) {
   FieldGeometry within{{{{-6, 6}, {-5, 4}, {-2.5, 0}, {0, 8}}}, {-4, 8, 1.5}, {{0, 8}, {-4, 4}}};
   FieldGeometry through = within, uncut = within;
