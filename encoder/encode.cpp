@@ -32,8 +32,9 @@ constexpr std::size_t most_fewer = 2;       // rungs, for a better condition
 
 // Tolerances on close knots: of a frame that is fitted alone, beyond which no fit keeps one, and of the fit.
 constexpr double most_on_close_knots = 3, share_of_close_fit = 0.8;
-constexpr double least_volume = 0.5;      // that no one need mind
-constexpr std::size_t of_residual = 350;  // bytes of a file, beside the code
+constexpr double most_to_keep = 1.5;                      // of a fit on the ladder's knots
+constexpr double least_volume = 0.5, hardly_less = 0.05;  // volumes that no one need mind
+constexpr std::size_t of_residual = 350;                  // bytes of a file, beside the code
 
 /// How steps of coefficients are chosen. Rounding seldom costs as much as large ones may, nor do lips.
 struct Steps {
@@ -135,6 +136,12 @@ class Encoder {
       try_instead(denser, worth_of_more);
     }
     Encoded encoded = coded(*fitted, misfit, {});
+    if (misfit.largest > limit_ && misfit.largest <= most_to_keep * limit_) {
+      fitted->keep(share_of_close_fit * limit_);
+      if (const Misfit kept = fitted->misfit(share_of_fit * limit_); kept.largest <= limit_)
+        if (Encoded other = coded(*fitted, kept, close_steps); is_better(other, encoded))
+          encoded = std::move(other), misfit = kept;
+    }
     if (auto close = on_close_knots(*fitted, misfit, chosen.kinks))
       if (Encoded other = coded(*close, close->misfit(share_of_fit * limit_), close_steps);
           is_better(other, encoded))
@@ -178,11 +185,14 @@ class Encoder {
     return close->misfit(limit_).largest < worth_of_more * misfit.largest ? std::move(close) : nullptr;
   }
 
-  /// Whether it needs no more bytes, and goes astray no more between the nodes.
+  /// Whether it needs no more bytes, and goes astray between the nodes no more than it may, or than the other
+  /// does.
   bool is_better(const Encoded& other, const Encoded& encoded) const {
     return bytes_of(other) <= bytes_of(encoded) &&
-           other.field.report.least_volume >= std::min(least_volume, encoded.field.report.least_volume) &&
-           error_at_centres(other.field, series_) <= error_at_centres(encoded.field, series_);
+           other.field.report.least_volume >=
+               std::min(least_volume, encoded.field.report.least_volume - hardly_less) &&
+           error_at_centres(other.field, series_) <=
+               std::max(limit_, error_at_centres(encoded.field, series_));
   }
 
   std::array<BSplineBasis, 4> bases_on(const Rung& rung) const {
