@@ -9,10 +9,10 @@
 #include <numbers>
 #include <random>
 
-#include "explorer/wound/guard_passage.h"
 #include "explorer/guard/guard_search.h"
-#include "explorer/wound/live_wounds.h"
 #include "explorer/guard/mean_value.h"
+#include "explorer/wound/guard_passage.h"
+#include "explorer/wound/live_wounds.h"
 #include "explorer/wound/replayed_wounds.h"
 #include "tests/incision/meshes.h"
 #include "tests/wound/fields.h"
