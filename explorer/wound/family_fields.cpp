@@ -27,6 +27,8 @@ constexpr double station_in_smoothing = 0.25, behind_tip_in_smoothing = 0.5;
 /// Of the family's ranges: shapes at stations differ from straight lines between others by no more, and from
 /// station to station.
 constexpr double straight_enough = 0.005, near_enough = 0.1;
+/// Likewise of shapes of which only how far they open is asked: the openings are linear in between.
+constexpr double straight_to_open = 0.03, near_to_open = 0.25;
 /// Of the path's length: its start and its end are apart by more, or it is a loop.
 constexpr double least_chord = 1e-3;
 
@@ -101,15 +103,16 @@ std::vector<double> normalised(const CaseShape& one, const Prestress& local, con
 
 /// Places of a list, the first and the last among them, between which the others are on straight lines that
 /// are not too long: fields are no linear functions of what is linear along the path.
-std::vector<std::size_t> bends_of(const std::vector<double>& s, const std::vector<std::vector<double>>& x) {
+std::vector<std::size_t> bends_of(const std::vector<double>& s, const std::vector<std::vector<double>>& x,
+                                  double most_bent, double farthest) {
   std::vector<std::size_t> kept{0};
   const auto straight = [&](std::size_t a, std::size_t b) {
     for (std::size_t k = 0; k < x[a].size(); ++k)
-      if (std::abs(x[b][k] - x[a][k]) > near_enough) return false;
+      if (std::abs(x[b][k] - x[a][k]) > farthest) return false;
     for (std::size_t i = a + 1; i < b; ++i)
       for (std::size_t k = 0; k < x[i].size(); ++k) {
         const double line = std::lerp(x[a][k], x[b][k], (s[i] - s[a]) / (s[b] - s[a]));
-        if (std::abs(x[i][k] - line) > straight_enough) return false;
+        if (std::abs(x[i][k] - line) > most_bent) return false;
       }
     return true;
   };
@@ -181,7 +184,7 @@ FamilyFields::AlongPath FamilyFields::ease(const PathShape& shapes, double t) co
     numbers.push_back(normalised(cases.back(), {}, *family_, 1));
   }
   AlongPath result;
-  for (const std::size_t i : bends_of(shapes.stations, numbers)) {
+  for (const std::size_t i : bends_of(shapes.stations, numbers, straight_to_open, near_to_open)) {
     const auto field = family_->at(cases[i].shapes, cases[i].prestress).field;
     result.stations.push_back(shapes.stations[i]);
     result.values.push_back(middle_opening(*field, t));
@@ -232,7 +235,7 @@ VaryingField FamilyFields::along(const Incision& incision, const IncisionVolume&
     for (int c = 0; c < 3; ++c) numbers.back().push_back(along[c]);
   }
   std::vector<StationField> stations;
-  for (const std::size_t i : bends_of(shapes.stations, numbers)) {
+  for (const std::size_t i : bends_of(shapes.stations, numbers, straight_enough, near_enough)) {
     const double s = shapes.stations[i];
     const auto [field, outside] = family_->at(cases[i].shapes, cases[i].prestress);
     stations.push_back({s, field, local[i], shapes.values[i].along, outside});
